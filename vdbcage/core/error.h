@@ -1,0 +1,46 @@
+#pragma once
+
+#include <stdexcept>
+#include <string>
+
+#include <vdbcage/core/export.h>
+
+namespace vdbcage {
+
+/// Base of every exception that the library throws on purpose. `what()` is one line for a person to read.
+class VDBCAGE_API Error : public std::runtime_error {
+public:
+    using std::runtime_error::runtime_error;
+    ~Error() override;
+};
+
+/// A value handed in is not acceptable; the message names what, its value and what is allowed. Thrown before any
+/// work is done.
+class VDBCAGE_API InputError : public Error {
+public:
+    using Error::Error;
+    ~InputError() override;
+};
+
+/// A file could not be read or written; the message starts with its path.
+class VDBCAGE_API IoError : public Error {
+public:
+    using Error::Error;
+    ~IoError() override;
+};
+
+/// A device (an OpenGL context, say) is missing or failed; the message carries the driver's own words.
+class VDBCAGE_API DeviceError : public Error {
+public:
+    using Error::Error;
+    ~DeviceError() override;
+};
+
+/// The interrupter asked to stop. Nothing was written and no partial result exists.
+class VDBCAGE_API Cancelled : public Error {
+public:
+    Cancelled();
+    ~Cancelled() override;
+};
+
+} // namespace vdbcage

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <chrono>
+#include <string>
+#include <vector>
+
+#include <openvdb/util/NullInterrupter.h>
+#include <vdbcage/core/export.h>
+
+namespace vdbcage {
+
+/// OpenVDB's interrupter: `start(name)` and `end()` bracket a stage (called from the caller's thread, never nested),
+/// `wasInterrupted(percent)` may be called from any thread at any time and answers true to cancel. Every function of
+/// the library takes one as its last pointer; null means nobody watches.
+using Interrupter = openvdb::util::NullInterrupter;
+
+/// Asks `interrupter` (may be null) whether to stop; `percent` in [0, 100] is the progress of the stage, -1 unknown.
+/// \throw Cancelled
+VDBCAGE_API void throwIfInterrupted(Interrupter* interrupter, int percent = -1);
+
+/// Brackets one stage of work: `start` now, `end` when the scope is left, also by an exception.
+class VDBCAGE_API Stage {
+public:
+    /// `interrupter` may be null; `name` must outlive the stage (a literal). \throw Cancelled if asked to stop.
+    Stage(Interrupter* interrupter, const char* name);
+    ~Stage();
+    Stage(const Stage&) = delete;
+    Stage& operator=(const Stage&) = delete;
+
+private:
+    Interrupter* interrupter_;
+};
+
+/// How long one stage took.
+struct StageTime {
+    std::string name;
+    double seconds = 0; ///< wall clock
+};
+
+/// An interrupter that records what each stage took and passes everything on to another one (or to nobody).
+class VDBCAGE_API StageClock : public Interrupter {
+public:
+    explicit StageClock(Interrupter* next = nullptr) : next_(next) {}
+    ~StageClock() override;
+
+    void start(const char* name = nullptr) override;
+    void end() override;
+    bool wasInterrupted(int percent = -1) override;
+
+    /// The stages that ended, in order; a name that ran more than once is listed once, with its times added up.
+    const std::vector<StageTime>& stages() const { return stages_; }
+
+private:
+    Interrupter* next_;
+    std::vector<StageTime> stages_;
+    std::string name_;
+    std::chrono::steady_clock::time_point began_;
+};
+
+} // namespace vdbcage

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <openvdb/openvdb.h>
+#include <vdbcage/core/export.h>
+#include <vdbcage/core/interrupter.h>
+#include <vdbcage/mesh/mesh.h>
+
+namespace vdbcage {
+
+/// `solid` made well-composed by adding voxels only: where two active voxels meet in nothing but an edge or a corner,
+/// a voxel between them is added, repeated until there is no such place. The boundary of the result is a 2-manifold.
+/// \throw Cancelled
+/// Based on: Latecki, 3D Well-Composed Pictures, 1997.
+VDBCAGE_API openvdb::MaskGrid::Ptr makeWellComposed(const openvdb::MaskGrid& solid, Interrupter* interrupter = nullptr);
+
+/// The boundary of makeWellComposed(solid) as quads, one for each face between an active and an inactive voxel, in
+/// world space: closed, 2-manifold at edges and vertices, facing outward. Deterministic order; empty for an empty
+/// grid. \throw InputError (transform is not linear), Cancelled
+VDBCAGE_API Mesh extractSurface(const openvdb::MaskGrid& solid, Interrupter* interrupter = nullptr);
+
+} // namespace vdbcage

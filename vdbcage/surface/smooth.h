@@ -1,0 +1,21 @@
+#pragma once
+
+#include <vdbcage/core/export.h>
+#include <vdbcage/core/interrupter.h>
+#include <vdbcage/mesh/mesh.h>
+
+namespace vdbcage {
+
+struct SmoothOptions {
+    int iterations = 3; ///< 0 to 100
+    double alpha = 0;   ///< pull towards the original position, 0 to 1
+    double beta = 0.5;  ///< weight of a vertex's own correction against its neighbours', 0 to 1
+};
+
+/// HC Laplacian smoothing: rounds a surface without shrinking it. Connectivity and vertex order stay; vertices that no
+/// face uses stay where they are. TBB-parallel, same result for any number of threads. O(iterations * edges).
+/// \throw InputError, Cancelled
+/// Based on: Vollmer, Mencl, Muller, Improved Laplacian Smoothing of Noisy Surface Meshes, 1999.
+VDBCAGE_API Mesh smooth(const Mesh& surface, const SmoothOptions& options = {}, Interrupter* interrupter = nullptr);
+
+} // namespace vdbcage
