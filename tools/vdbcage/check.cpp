@@ -41,7 +41,10 @@ int runCheck(std::vector<std::string> words)
     progress.reset();
     if (!quiet) {
         std::cout << cagePath.string() << ": "
-                  << (check.bounding() ? "bounding" : check.valid() ? "NOT bounding" : "NOT a valid cage") << '\n'
+                  << (check.bounding() ? "bounding"
+                      : check.valid()  ? "NOT bounding"
+                                       : "NOT a valid cage")
+                  << '\n'
                   << describe(check);
     }
     return check.bounding() ? exitGood : exitNotBounding;

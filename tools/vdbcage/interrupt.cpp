@@ -37,7 +37,9 @@ bool signalled()
     return signalCame != 0;
 }
 
-Progress::Progress(bool quiet) : visible_(!quiet && ::isatty(STDERR_FILENO) == 1) {}
+Progress::Progress(bool quiet) : visible_(!quiet && ::isatty(STDERR_FILENO) == 1)
+{
+}
 
 Progress::~Progress()
 {

@@ -90,7 +90,9 @@ void printSummary(const MakeArguments& arguments, const Pipeline& pipeline, cons
     std::cerr << std::fixed << std::setprecision(2);
     std::cerr << arguments.cage.string() << ": " << check.triangles << " triangles";
     if (check.quads > 0) std::cerr << " and " << check.quads << " quads";
-    std::cerr << (check.bounding() ? ", certified bounding" : check.valid() ? ", NOT bounding" : ", NOT a valid cage")
+    std::cerr << (check.bounding() ? ", certified bounding"
+                  : check.valid()  ? ", NOT bounding"
+                                   : ", NOT a valid cage")
               << ", mean distance " << 100 * check.meanDistance << " % of the diagonal, " << seconds << " s\n";
     if (report.isBox) {
         std::cerr << "  this is the model's bounding box: nothing tighter with so few faces was certified\n";
@@ -150,8 +152,7 @@ int runMake(std::vector<std::string> words)
     outputs.add(arguments.cage, [&](const fs::path& path) { writeMesh(cage, path); });
     if (!arguments.stages.empty()) addStages(pipeline, arguments, &clock, outputs);
     if (!arguments.picture.empty()) {
-        outputs.add(arguments.picture,
-                    [&](const fs::path& path) { writePng(drawCage(pipeline.model(), cage), path); });
+        outputs.add(arguments.picture, [&](const fs::path& path) { writePng(drawCage(pipeline.model(), cage), path); });
     }
     writing.reset();
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();

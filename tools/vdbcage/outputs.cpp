@@ -24,8 +24,8 @@ void Outputs::addFolder(const fs::path& path)
     std::error_code error;
     if (fs::is_directory(path, error)) return;
     if (!fs::create_directory(path, error)) {
-        throw IoError(path.string() + ": the folder cannot be made: " +
-                      (error ? error.message() : "something else has that name"));
+        throw IoError(path.string() +
+                      ": the folder cannot be made: " + (error ? error.message() : "something else has that name"));
     }
     folders_.push_back(path);
 }
@@ -34,8 +34,8 @@ void Outputs::add(const fs::path& path, const Writer& write)
 {
     requireWritable(path);
     // Unique among processes by its number, within this one by the count of files.
-    const fs::path temporary = path.parent_path() / ("." + path.stem().string() + "." + std::to_string(::getpid()) + "." +
-                                                     std::to_string(files_.size()) + path.extension().string());
+    const fs::path temporary = path.parent_path() / ("." + path.stem().string() + "." + std::to_string(::getpid()) +
+                                                     "." + std::to_string(files_.size()) + path.extension().string());
     files_.emplace_back(temporary, path);
     try {
         write(temporary);

@@ -43,7 +43,8 @@ int runRepair(std::vector<std::string> words)
     app.add_option("--report", reportPath, "what was done and what could not be, as JSON")->type_name("FILE.json");
     app.add_flag("-q,--quiet", quiet, "print nothing but errors");
     if (!parse(app, std::move(words))) return exitGood;
-    if (!hasRepair()) throw InputError("this vdbcage was built without its GPL part (VDBCAGE_WITH_CGAL_GPL), and so without repair");
+    if (!hasRepair())
+        throw InputError("this vdbcage was built without its GPL part (VDBCAGE_WITH_CGAL_GPL), and so without repair");
     requireMeshExtension(outputPath);
     requireWritable(outputPath);
     if (!reportPath.empty()) requireWritable(reportPath);

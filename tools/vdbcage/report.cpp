@@ -40,14 +40,10 @@ Json toJson(const CageCheck& check)
 
 Json toJson(const CageReport& report)
 {
-    return {{"float_safe", report.floatSafe},
-            {"offset_voxels", report.offsetVoxels},
-            {"attempts", report.attempts},
-            {"is_box", report.isBox},
-            {"repaired", report.repaired},
-            {"cavities_filled", report.cavitiesFilled},
-            {"solid_voxels", report.solidVoxels},
-            {"closed_voxels", report.closedVoxels}};
+    return {{"float_safe", report.floatSafe},     {"offset_voxels", report.offsetVoxels},
+            {"attempts", report.attempts},        {"is_box", report.isBox},
+            {"repaired", report.repaired},        {"cavities_filled", report.cavitiesFilled},
+            {"solid_voxels", report.solidVoxels}, {"closed_voxels", report.closedVoxels}};
 }
 
 Json toJson(const ReadSummary& summary, const Mesh& mesh, const std::filesystem::path& path)
@@ -85,9 +81,8 @@ double peakMemory()
 void writeJson(const Json& report, const std::filesystem::path& path)
 {
     // A path is any bytes; JSON is UTF-8: what is not gets the replacement character.
-    writeFileAtomically(path, [&](std::ostream& out) {
-        out << report.dump(2, ' ', false, Json::error_handler_t::replace) << '\n';
-    });
+    writeFileAtomically(
+        path, [&](std::ostream& out) { out << report.dump(2, ' ', false, Json::error_handler_t::replace) << '\n'; });
 }
 
 std::string describe(const CageCheck& check)

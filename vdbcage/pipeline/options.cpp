@@ -28,10 +28,8 @@ const std::vector<std::pair<const char*, CageFaces>>& names(CageFaces /*type*/)
 
 const std::vector<std::pair<const char*, Voxelizer>>& names(Voxelizer /*type*/)
 {
-    static const std::vector<std::pair<const char*, Voxelizer>> list{{"auto", Voxelizer::automatic},
-                                                                     {"cpu", Voxelizer::cpu},
-                                                                     {"gl", Voxelizer::gl},
-                                                                     {"cgal", Voxelizer::cgal}};
+    static const std::vector<std::pair<const char*, Voxelizer>> list{
+        {"auto", Voxelizer::automatic}, {"cpu", Voxelizer::cpu}, {"gl", Voxelizer::gl}, {"cgal", Voxelizer::cgal}};
     return list;
 }
 
@@ -167,8 +165,8 @@ std::vector<OptionText> describeOptions()
     const CageOptions defaults;
     visitOptions(defaults, [&](const OptionInfo& info, const auto& field) {
         const bool isNumber = info.symbol[0] != '\0';
-        list.push_back({info.name, Placeholder{info}(field), info.help, isNumber ? rangeText(info) : "",
-                        ToText{}(field)});
+        list.push_back(
+            {info.name, Placeholder{info}(field), info.help, isNumber ? rangeText(info) : "", ToText{}(field)});
     });
     return list;
 }
@@ -176,7 +174,8 @@ std::vector<OptionText> describeOptions()
 std::vector<std::pair<std::string, std::string>> optionValues(const CageOptions& options)
 {
     std::vector<std::pair<std::string, std::string>> list;
-    visitOptions(options, [&](const OptionInfo& info, const auto& field) { list.emplace_back(info.name, ToText{}(field)); });
+    visitOptions(options,
+                 [&](const OptionInfo& info, const auto& field) { list.emplace_back(info.name, ToText{}(field)); });
     return list;
 }
 

@@ -18,16 +18,16 @@ enum class CageFaces {
 
 /// Everything that decides how a cage comes out. Lengths are fractions of the model's longest side.
 struct CageOptions {
-    int faces = 400;                                ///< faces of the cage, at most; a quad counts once
-    int resolution = 128;                           ///< voxels along the model's longest side
-    double closeRadius = 0.03;                      ///< gaps up to twice this wide are bridged
-    std::optional<double> erodeRadius;              ///< at most the close radius; unset: equal to it
-    Element element = Element::sphere;              ///< structuring element of the closing
-    int smooth = 3;                                 ///< smoothing iterations: rounder with more
-    CageFaces mesh = CageFaces::triangles;          ///< triangles only, or quads too
-    double mergeAngle = 10;                         ///< degrees: flatter pairs of triangles become quads (triquad)
-    Voxelizer voxelizer = Voxelizer::automatic;     ///< what turns the model into voxels
-    bool bounding = true;                           ///< only ever give a cage certified to bound the model
+    int faces = 400;                            ///< faces of the cage, at most; a quad counts once
+    int resolution = 128;                       ///< voxels along the model's longest side
+    double closeRadius = 0.03;                  ///< gaps up to twice this wide are bridged
+    std::optional<double> erodeRadius;          ///< at most the close radius; unset: equal to it
+    Element element = Element::sphere;          ///< structuring element of the closing
+    int smooth = 3;                             ///< smoothing iterations: rounder with more
+    CageFaces mesh = CageFaces::triangles;      ///< triangles only, or quads too
+    double mergeAngle = 10;                     ///< degrees: flatter pairs of triangles become quads (triquad)
+    Voxelizer voxelizer = Voxelizer::automatic; ///< what turns the model into voxels
+    bool bounding = true;                       ///< only ever give a cage certified to bound the model
 };
 
 /// The stages of the pipeline in order; each option belongs to the first stage that depends on it.
@@ -48,12 +48,10 @@ void visitOptions(Options& options, Visit&& visit)
 {
     using In = PipelineStage;
     visit(OptionInfo{"faces", "N", "faces of the cage, at most", In::decimate, 12, 1000000}, options.faces);
-    visit(OptionInfo{"resolution", "N", "voxels along the longest side", In::voxelize, 8, 2048},
-          options.resolution);
+    visit(OptionInfo{"resolution", "N", "voxels along the longest side", In::voxelize, 8, 2048}, options.resolution);
     visit(OptionInfo{"close-radius", "F", "closes gaps up to twice this wide", In::close, 0, 0.25},
           options.closeRadius);
-    visit(OptionInfo{"erode-radius", "F", "less than that leaves an offset", In::close, 0, 0.25},
-          options.erodeRadius);
+    visit(OptionInfo{"erode-radius", "F", "less than that leaves an offset", In::close, 0, 0.25}, options.erodeRadius);
     visit(OptionInfo{"element", "", "shape of the closing", In::close}, options.element);
     visit(OptionInfo{"smooth", "K", "smoothing iterations", In::smooth, 0, 100}, options.smooth);
     visit(OptionInfo{"mesh", "", "faces of the cage", In::merge}, options.mesh);

@@ -71,7 +71,8 @@ Mesh boxMesh(const openvdb::BBoxd& box)
         mesh.points.emplace_back((corner & 1 ? box.max() : box.min()).x(), (corner & 2 ? box.max() : box.min()).y(),
                                  (corner & 4 ? box.max() : box.min()).z());
     }
-    const openvdb::Vec4I sides[6] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
+    const openvdb::Vec4I sides[6] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4},
+                                     {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
     for (const openvdb::Vec4I& side : sides) {
         mesh.triangles.emplace_back(side[0], side[1], side[2]);
         mesh.triangles.emplace_back(side[0], side[2], side[3]);
@@ -308,7 +309,9 @@ private:
     CageReport report_;
 };
 
-Pipeline::Pipeline(Mesh model) : stages_(std::make_unique<Stages>(std::move(model))) {}
+Pipeline::Pipeline(Mesh model) : stages_(std::make_unique<Stages>(std::move(model)))
+{
+}
 Pipeline::~Pipeline() = default;
 Pipeline::Pipeline(Pipeline&&) noexcept = default;
 Pipeline& Pipeline::operator=(Pipeline&&) noexcept = default;
