@@ -27,6 +27,7 @@ public:
     {
         if (!in_.skipToWord()) in_.fail("the file ends before a header");
         header();
+        in_.skipToWord();
         const char* counts = in_.position();
         points_ = count("the number of points");
         faces_ = count("the number of faces");
@@ -55,7 +56,8 @@ private:
         const char* start = in_.position();
         const auto take = [&](char c) { return in_.skipCharacter(c); };
         const auto fail = [&](const std::string& problem) { in_.fail(start, in_.quoted(start) + problem); };
-        if ((*start >= '0' && *start <= '9') || *start == '+' || *start == '-') return; // the counts
+        const std::string_view word = TextCursor(in_).word();
+        if (word.find_first_not_of("+-0123456789") == std::string_view::npos) return; // the counts
         if (take('S') && !take('T')) fail(" is not the header of an OFF file");
         take('C');
         take('N');

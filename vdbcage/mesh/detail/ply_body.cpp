@@ -212,7 +212,10 @@ enum class Use { x, y, z, face, strips, none };
 template <typename Source>
 class BodyParser {
 public:
-    BodyParser(const PlyHeader& header, Source source) : header_(header), in_(source) {}
+    BodyParser(const PlyHeader& header, const std::string& name, Source source)
+        : header_(header), name_(name), in_(std::move(source))
+    {
+    }
 
     PolygonSoup parse()
     {
@@ -248,9 +251,9 @@ private:
         }
         // Before anything is stored: a header can announce more than any memory holds.
         if (element.count > in_.room() / least) {
-            fail("the header announces " + std::to_string(element.count) + " elements " + quote(element.name) +
-                 " of at least " + std::to_string(least) + " bytes, but only " + std::to_string(in_.room()) +
-                 " bytes are left");
+            throw IoError(name_ + ": line " + std::to_string(element.line) + ": the header announces " +
+                          std::to_string(element.count) + " elements " + quote(element.name) + " of at least " +
+                          std::to_string(least) + " bytes, but only " + std::to_string(in_.room()) + " bytes are left");
         }
         const std::size_t count = static_cast<std::size_t>(element.count);
         if (hasPoints) soup_.points.reserve(count);
@@ -321,9 +324,8 @@ private:
         face_.clear();
     }
 
-    [[noreturn]] void fail(const std::string& problem) { in_.fail(problem); }
-
     const PlyHeader& header_;
+    const std::string& name_;
     Source in_;
     PolygonSoup soup_;
     std::uint64_t points_ = 0;
@@ -377,12 +379,11 @@ Mesh parsePly(std::string_view bytes, const std::string& name, ReadSummary* summ
 {
     const PlyHeader header = parsePlyHeader(bytes, name);
     requireGeometry(header, name);
-    if (header.format == PlyFormat::ascii) {
-        return toMesh(BodyParser<AsciiSource>(header, AsciiSource(bytes, header.size, name)).parse(), name, summary);
-    }
-    const bool reversed = header.format == PlyFormat::binaryBigEndian;
-    return toMesh(BodyParser<BinarySource>(header, BinarySource(bytes, header.size, name, reversed)).parse(), name,
-                  summary);
+    const auto parse = [&](auto source) {
+        return toMesh(BodyParser(header, name, std::move(source)).parse(), name, summary);
+    };
+    if (header.format == PlyFormat::ascii) return parse(AsciiSource(bytes, header.size, name));
+    return parse(BinarySource(bytes, header.size, name, header.format == PlyFormat::binaryBigEndian));
 }
 
 void writePly(const Mesh& mesh, const std::string&, std::ostream& out)

@@ -102,6 +102,7 @@ private:
         const std::int64_t count = in_.integer("the number of elements");
         if (count < 0) in_.fail(where, "the number of elements is " + in_.quoted(where) + ", which is below 0");
         element.count = static_cast<std::uint64_t>(count);
+        element.line = in_.lineOf(where);
         header_.elements.push_back(std::move(element));
     }
 

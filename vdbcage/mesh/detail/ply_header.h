@@ -26,6 +26,7 @@ struct PlyElement {
     std::string name;
     std::uint64_t count = 0;
     std::vector<PlyProperty> properties;
+    std::size_t line = 0; ///< of the header, from 1
 };
 
 struct PlyHeader {

@@ -48,7 +48,7 @@ bool isTooSmall(const char* first, const char* last)
 
 std::string quote(std::string_view piece)
 {
-    constexpr std::size_t longest = 40;
+    constexpr std::size_t longest = 24;
     std::string text = "\"";
     for (const char c : piece.substr(0, longest)) {
         const unsigned char byte = static_cast<unsigned char>(c);
@@ -199,13 +199,18 @@ void TextCursor::failMissing(const char* what) const
     fail(std::string(what) + " is missing");
 }
 
-void TextCursor::fail(const char* where, const std::string& problem) const
+std::size_t TextCursor::lineOf(const char* where) const
 {
     std::size_t line = 1;
     for (const char* c = begin_; c < where; ++c) {
         if (*c == '\n' || (*c == '\r' && (c + 1 == end_ || c[1] != '\n'))) ++line;
     }
-    throw IoError(name_ + ": line " + std::to_string(line) + ": " + problem);
+    return line;
+}
+
+void TextCursor::fail(const char* where, const std::string& problem) const
+{
+    throw IoError(name_ + ": line " + std::to_string(lineOf(where)) + ": " + problem);
 }
 
 std::string TextCursor::quoted(const char* where) const

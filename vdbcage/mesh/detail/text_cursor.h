@@ -59,6 +59,8 @@ public:
     /// True between two words: at a blank, a comment, or the end of the line or file.
     bool atWordEnd() const { return endsWord(at_); }
 
+    /// Counted from 1.
+    std::size_t lineOf(const char* where) const;
     /// \throw IoError for the line of `where`
     [[noreturn]] void fail(const char* where, const std::string& problem) const;
     [[noreturn]] void fail(const std::string& problem) const { fail(at_, problem); }
