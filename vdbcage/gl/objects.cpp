@@ -77,7 +77,7 @@ Framebuffer makeFramebuffer(const Api& api, const Texture& colour, const Texture
     GLuint name = 0;
     api.CreateFramebuffers(1, &name);
     Framebuffer framebuffer(api, name);
-    api.NamedFramebufferTexture(name, GL_COLOR_ATTACHMENT0, colour.name(), 0);
+    if (colour.name() != 0) api.NamedFramebufferTexture(name, GL_COLOR_ATTACHMENT0, colour.name(), 0);
     if (depthStencil.name() != 0) {
         api.NamedFramebufferTexture(name, GL_DEPTH_STENCIL_ATTACHMENT, depthStencil.name(), 0);
     }

@@ -70,7 +70,7 @@ template <typename Value>
 /// \throw DeviceError (too large, out of memory)
 [[nodiscard]] Texture makeTexture2D(const Api& api, GLenum format, int width, int height, int samples = 1);
 
-/// Draws into `colour` and, unless that is empty, `depthStencil`; both must outlive it. \throw DeviceError
+/// Draws into `colour` and `depthStencil`, of which one may be empty; both must outlive it. \throw DeviceError
 [[nodiscard]] Framebuffer makeFramebuffer(const Api& api, const Texture& colour, const Texture& depthStencil);
 
 } // namespace vdbcage::gl
