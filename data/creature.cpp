@@ -55,10 +55,10 @@ void addHoof(Clay& clay, const Vec3& fetlock)
         clay.addTube({{fetlock + Vec3{0.9 * side, -1.5, 0.6}, 2.3},
                       {{fetlock.x + 1.6 * side, 3.2, fetlock.z + 2.6}, 2.5},
                       {{fetlock.x + 1.95 * side, 0.6, fetlock.z + 4.4}, 2.6}},
-                     0.6);
+                     1.2);
     }
     for (const double side : {-1.0, 1.0}) // dew claws
-        clay.addTube({{fetlock + Vec3{1.4 * side, -0.6, -2.2}, 1.4}, {fetlock + Vec3{1.7 * side, -2.0, -3.0}, 1.2}}, 1);
+        clay.addTube({{fetlock + Vec3{1.3 * side, -0.4, -1.8}, 1.7}, {fetlock + Vec3{1.5 * side, -1.6, -2.6}, 1.5}}, 1.5);
 }
 
 /// `x` is the place across, `step` moves the hoof along the stride.
@@ -117,10 +117,10 @@ void addEar(Clay& clay, double s)
     const Vec3 along{1.0 * s, 0.18, -0.35};
     const Vec3 flat{0, 0.45, 0.9};
     const auto axes = posedAxes(center, flat, along);
-    clay.addEllipsoid(pose(center), {2.3, 3.6, 7.6}, 2, axes);
+    clay.addEllipsoid(pose(center), {2.4, 3.7, 7.8}, 2, axes);
     // The cup: the side that looks forward is hollow.
-    const Vec3 front = pose(center) + 2.0 * axes[0];
-    clay.carveEllipsoid(front + 0.3 * axes[2], {1.9, 2.4, 6.0}, 1, axes);
+    const Vec3 front = pose(center) + 2.6 * axes[0];
+    clay.carveEllipsoid(front + 0.3 * axes[2], {2.2, 2.6, 6.2}, 2, axes);
 }
 
 /// Most of a circle that leans outward; its rings are thicker than what is between them.
@@ -152,13 +152,17 @@ void addHead(Clay& clay)
     for (const double s : {-1.0, 1.0}) {
         addHorn(clay, s);
         addEar(clay, s);
-        // Eye: a ball in a socket, below a brow.
-        clay.carveEllipsoid(pose({6.6 * s, 100.2, 66.4}), {1.6, 1.8, 2.4}, 1.2, posedAxes({6 * s, 100, 66}, {1, 0, 0}, {0, -0.4, 1}));
-        clay.addTube(posed({{{3.6 * s, 103.6, 65.5}, 1.4}, {{5.9 * s, 102.3, 65.0}, 1.1}, {{6.6 * s, 101.0, 62.5}, 0.9}}), 1.2);
-        addHeadEllipsoid(clay, {5.3 * s, 100.2, 66.2}, {1.5, 1.5, 1.7}, 0.4, {0, -0.4, 1});
+        // Eye: a ball in a shallow socket, below a brow.
+        clay.carveEllipsoid(pose({7.0 * s, 99.8, 66.8}), {1.7, 2.4, 3.2}, 2, posedAxes({6 * s, 100, 66}, {1, 0, 0}, {0, -0.4, 1}));
+        clay.addTube(posed({{{3.8 * s, 103.2, 66.0}, 1.4}, {{5.9 * s, 102.3, 65.2}, 1.3}, {{6.3 * s, 101.3, 62.5}, 1.1}}), 1.6);
+        addHeadEllipsoid(clay, {5.2 * s, 99.9, 66.0}, {1.7, 1.6, 2.0}, 0.5, {0, -0.4, 1});
         // Nostril and mouth.
-        clay.carveTube(posed({{{1.7 * s, 92.0, 82.8}, 0.55}, {{2.9 * s, 93.1, 81.4}, 0.65}}), 0.6);
-        clay.carveTube(posed({{{0, 88.9, 82.0}, 0.45}, {{2.7 * s, 88.9, 80.4}, 0.5}, {{4.1 * s, 89.9, 75}, 0.45}, {{4.6 * s, 90.6, 71.5}, 0.35}}), 0.7);
+        clay.carveTube(posed({{{1.6 * s, 92.4, 82.6}, 0.7}, {{3.0 * s, 93.5, 81.2}, 0.8}}), 1.2);
+        clay.carveTube(posed({{{0, 88.6, 82.4}, 0.5},
+                              {{2.7 * s, 88.6, 80.8}, 0.55},
+                              {{4.3 * s, 89.6, 75}, 0.5},
+                              {{5.0 * s, 90.6, 71}, 0.3}}),
+                       1.3);
     }
 }
 
@@ -171,7 +175,7 @@ Field makeField()
     addForeleg(clay, -9.5, -3);
     addHindLeg(clay, 9.5, -5);
     addHindLeg(clay, -9.5, 4);
-    return [clay](const Vec3& p) { return smoothMax(clay(p), -p.y, 0.6); };
+    return [clay](const Vec3& p) { return smoothMax(clay(p), -p.y, 1.8); };
 }
 
 Model makeNet(const Field& field)
