@@ -25,11 +25,11 @@ using Vertex = OpenTriMesh::VertexHandle;
 using HalfEdge = OpenTriMesh::HalfedgeHandle;
 using Edge = OpenTriMesh::EdgeHandle;
 
-constexpr double spreadWeight = 2e-3;    // of the spread beside the planes, in the cost
-constexpr double stiffness = 1e-2;       // below this the planes leave a direction open
-constexpr double boundaryWeight = 10;    // of the planes that keep a boundary in place
-constexpr double goodQuality = 0.5;      // triangles at least this good cost nothing extra
-constexpr std::size_t goodValence = 8;   // so do vertices of at most this valence
+constexpr double spreadWeight = 2e-3; // of the spread beside the planes, in the cost
+constexpr double stiffness = 1e-3;    // below this the planes leave a direction open
+constexpr double boundaryWeight = 10; // of the planes that keep a boundary in place
+constexpr double goodQuality = 0.5;   // triangles at least this good cost nothing extra
+constexpr unsigned goodValence = 8;   // so do vertices of at most this valence
 
 /// What a collapse may do to the triangles around it. Each level is tried until nothing moves any more.
 struct Limits {
@@ -46,6 +46,29 @@ double quality(const Vec3d& a, const Vec3d& b, const Vec3d& c, double doubledAre
     const double edges = (b - a).lengthSqr() + (c - b).lengthSqr() + (a - c).lengthSqr();
     return edges > 0 ? 2 * std::sqrt(3.0) * doubledArea / edges : 0;
 }
+
+/// The least cosine between the normals of each triangle and the next of a fan.
+struct Fold {
+    double sharpest = 1;
+
+    void add(const Vec3d& normal, double length)
+    {
+        if (!(length > 0)) return;
+        if (lastLength_ > 0) sharpest = std::min(sharpest, normal.dot(last_) / (length * lastLength_));
+        if (!(firstLength_ > 0)) {
+            first_ = normal;
+            firstLength_ = length;
+        }
+        last_ = normal;
+        lastLength_ = length;
+    }
+    void restart() { lastLength_ = 0; } // the next triangle does not share an edge with the last
+    void close() { add(first_, firstLength_); }
+
+private:
+    Vec3d first_{0.0}, last_{0.0};
+    double firstLength_ = 0, lastLength_ = 0;
+};
 
 /// A way to collapse an edge: its two ends become one vertex at `place`.
 struct Collapse {
@@ -75,13 +98,15 @@ private:
         }
     };
 
+    void addQuadrics(Quadric& sum, HalfEdge outgoing) const;
     void initQuadrics(Interrupter* interrupter);
     void initQueue(Interrupter* interrupter);
     void enqueue(Edge edge, double cost, State state);
-    double lowerBound(Edge edge) const;
+    void reconsider(Edge edge);
+    bool lowerBound(Edge edge, Collapse& optimum) const;
     bool keepsTopology(HalfEdge halfEdge);
-    bool price(Edge edge, Collapse& best);
-    bool allowed(Collapse& collapse, const Quadric& quadric);
+    bool price(Collapse& collapse, bool hasOptimum);
+    bool allowed(Collapse& collapse, const Quadric& sum) const;
     bool shapeAround(HalfEdge halfEdge, const Vec3d& place, double& worstBefore, double& worstAfter) const;
     void apply(const Collapse& collapse);
 
@@ -89,6 +114,21 @@ private:
     {
         Quadric sum = quadrics_[index(mesh_.from_vertex_handle(halfEdge))];
         return sum += quadrics_[index(mesh_.to_vertex_handle(halfEdge))];
+    }
+    /// Calls visit(half-edge) for those that leave the same vertex as `first`, counter-clockwise from there.
+    template <typename Visit>
+    void forEachOutgoing(HalfEdge first, const Visit& visit) const
+    {
+        HalfEdge outgoing = first;
+        do {
+            visit(outgoing);
+            outgoing = mesh_.opposite_halfedge_handle(mesh_.prev_halfedge_handle(outgoing));
+        } while (outgoing != first);
+    }
+    template <typename Visit>
+    void forEachOutgoing(Vertex vertex, const Visit& visit) const
+    {
+        if (!mesh_.is_isolated(vertex)) forEachOutgoing(mesh_.halfedge_handle(vertex), visit);
     }
     const Vec3d& at(Vertex vertex) const { return places_[index(vertex)]; }
     template <typename Handle>
@@ -98,13 +138,17 @@ private:
     }
 
     Interrupter* interrupter_;
-    OpenTriMesh mesh_;           // its points are those of the input, until the result is asked for
+    OpenTriMesh mesh_; // its points are those of the input, until the result is asked for
     std::size_t faces_;
-    Vec3d centre_;               // the coordinates below are (point - centre_) / scale_
+    Vec3d centre_; // the coordinates below are (point - centre_) / scale_
     double scale_;
     std::vector<Vec3d> places_;
     std::vector<char> moved_;
     std::vector<Quadric> quadrics_;
+    std::vector<unsigned> valences_;
+    std::vector<std::size_t> marks_; // of vertices, by the last of `mark_`
+    std::size_t mark_ = 0;
+    std::vector<double> bounds_;          // of edges: what they cost at least
     std::vector<State> states_;           // of edges
     std::vector<std::uint32_t> versions_; // of edges: an entry of another version is void
     std::priority_queue<Entry> queue_;
@@ -121,8 +165,36 @@ Decimation::Decimation(const Mesh& surface, Interrupter* interrupter)
     places_.reserve(surface.points.size());
     for (const Vec3d& point : surface.points) places_.push_back((point - centre_) / scale_);
     moved_.assign(places_.size(), 0);
+    marks_.assign(places_.size(), 0);
+    for (const auto vertex : mesh_.vertices()) valences_.push_back(mesh_.valence(vertex));
     initQuadrics(interrupter);
     initQueue(interrupter);
+}
+
+/// Adds what the face on the left of the half-edge means to its origin; at a boundary, what the boundary does.
+void Decimation::addQuadrics(Quadric& sum, HalfEdge outgoing) const
+{
+    const Vec3d& p = at(mesh_.from_vertex_handle(outgoing));
+    if (!mesh_.is_boundary(outgoing)) {
+        const Vec3d& a = at(mesh_.to_vertex_handle(outgoing));
+        const Vec3d& b = at(mesh_.to_vertex_handle(mesh_.next_halfedge_handle(outgoing)));
+        const Vec3d normal = (a - p).cross(b - p);
+        const double area = normal.length() / 2;
+        if (area > 0) {
+            sum.addPlane(normal / (2 * area), p, area / 3);
+            sum.addSpread(p, area / 3);
+        }
+        return;
+    }
+    // Both boundary edges at the vertex hold it by the plane through them, upright on their face.
+    for (const HalfEdge side : {outgoing, mesh_.prev_halfedge_handle(outgoing)}) {
+        const HalfEdge inner = mesh_.opposite_halfedge_handle(side);
+        const Vec3d& start = at(mesh_.from_vertex_handle(inner));
+        const Vec3d along = at(mesh_.to_vertex_handle(inner)) - start;
+        const Vec3d& apex = at(mesh_.to_vertex_handle(mesh_.next_halfedge_handle(inner)));
+        Vec3d upright = along.cross((apex - start).cross(along));
+        if (upright.normalize(0)) sum.addPlane(upright, start, boundaryWeight * along.lengthSqr());
+    }
 }
 
 void Decimation::initQuadrics(Interrupter* interrupter)
@@ -132,54 +204,42 @@ void Decimation::initQuadrics(Interrupter* interrupter)
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, places_.size(), 1024), [&](const auto& range) {
         throwIfInterrupted(interrupter, 0);
         for (std::size_t i = range.begin(); i != range.end(); ++i) {
-            const Vertex vertex{int(i)};
-            for (auto outgoing = mesh_.cvoh_iter(vertex); outgoing.is_valid(); ++outgoing) {
-                const HalfEdge next = mesh_.next_halfedge_handle(*outgoing);
-                const Vec3d& a = places_[i];
-                const Vec3d& b = at(mesh_.to_vertex_handle(*outgoing));
-                if (!mesh_.is_boundary(*outgoing)) {
-                    Vec3d normal = (b - a).cross(at(mesh_.to_vertex_handle(next)) - a);
-                    const double area = normal.length() / 2;
-                    if (!(area > 0)) continue;
-                    quadrics_[i].addPlane(normal / (2 * area), a, area / 3);
-                    quadrics_[i].addSpread(a, area / 3);
-                }
-                // Both edges of a boundary at the vertex hold it by the plane through them, upright on their face.
-                for (const HalfEdge side : {*outgoing, mesh_.prev_halfedge_handle(*outgoing)}) {
-                    const HalfEdge inner = mesh_.opposite_halfedge_handle(side);
-                    if (!mesh_.is_boundary(side) || mesh_.is_boundary(inner)) continue;
-                    const Vec3d& p = at(mesh_.from_vertex_handle(inner));
-                    const Vec3d along = at(mesh_.to_vertex_handle(inner)) - p;
-                    const Vec3d& apex = at(mesh_.to_vertex_handle(mesh_.next_halfedge_handle(inner)));
-                    Vec3d upright = along.cross((apex - p).cross(along));
-                    if (upright.normalize(0)) quadrics_[i].addPlane(upright, p, boundaryWeight * along.lengthSqr());
-                }
-            }
+            forEachOutgoing(Vertex(int(i)), [&](HalfEdge outgoing) { addQuadrics(quadrics_[i], outgoing); });
         }
     });
 }
 
-double Decimation::lowerBound(Edge edge) const
+/// The least cost that the edge can have, and the place for it; false if there is no such place.
+bool Decimation::lowerBound(Edge edge, Collapse& optimum) const
 {
-    const HalfEdge halfEdge = mesh_.halfedge_handle(edge, 0);
-    const Quadric sum = quadric(halfEdge);
-    Vec3d place;
-    if (!sum.bestPlace(stiffness, place)) return 0;
-    return sum.cost(place, spreadWeight);
+    optimum.halfEdge = mesh_.halfedge_handle(edge, 0);
+    const Quadric sum = quadric(optimum.halfEdge);
+    if (!sum.bestPlace(stiffness, optimum.place)) return false;
+    optimum.cost = sum.cost(optimum.place, spreadWeight);
+    return true;
 }
 
 void Decimation::initQueue(Interrupter* interrupter)
 {
     std::vector<Entry> entries(mesh_.n_edges());
+    bounds_.resize(entries.size());
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, entries.size(), 1024), [&](const auto& range) {
         throwIfInterrupted(interrupter, 0);
         for (std::size_t i = range.begin(); i != range.end(); ++i) {
-            entries[i] = {lowerBound(Edge(int(i))), std::uint32_t(i), 0};
+            Collapse optimum;
+            lowerBound(Edge(int(i)), optimum);
+            bounds_[i] = optimum.cost;
+            entries[i] = {optimum.cost, std::uint32_t(i), 0};
         }
     });
     states_.assign(entries.size(), State::bounded);
     versions_.assign(entries.size(), 0);
     queue_ = std::priority_queue<Entry>(std::less<Entry>(), std::move(entries));
+}
+
+void Decimation::reconsider(Edge edge)
+{
+    if (states_[index(edge)] != State::bounded) enqueue(edge, bounds_[index(edge)], State::bounded);
 }
 
 void Decimation::enqueue(Edge edge, double cost, State state)
@@ -191,14 +251,20 @@ void Decimation::enqueue(Edge edge, double cost, State state)
 /// The link condition: the collapse leaves a 2-manifold of the same topology.
 bool Decimation::keepsTopology(HalfEdge halfEdge)
 {
-    if (!mesh_.is_collapse_ok(halfEdge)) return false;
-    // OpenMesh asks about the vertices of the links; this is about their edges (a tetrahedron has all in common).
+    const Vertex origin = mesh_.from_vertex_handle(halfEdge), target = mesh_.to_vertex_handle(halfEdge);
+    unsigned common = 0, sides = 0;
+    ++mark_;
+    forEachOutgoing(origin, [&](HalfEdge outgoing) { marks_[index(mesh_.to_vertex_handle(outgoing))] = mark_; });
+    forEachOutgoing(target,
+                    [&](HalfEdge outgoing) { common += marks_[index(mesh_.to_vertex_handle(outgoing))] == mark_; });
     for (const HalfEdge side : {halfEdge, mesh_.opposite_halfedge_handle(halfEdge)}) {
         if (mesh_.is_boundary(side)) continue;
+        ++sides;
+        // The apex loses an edge. A tetrahedron, or a triangle at the boundary, would fold up.
         const Vertex apex = mesh_.to_vertex_handle(mesh_.next_halfedge_handle(side));
-        if (!mesh_.is_boundary(apex) && mesh_.valence(apex) <= 3) return false;
+        if (valences_[index(apex)] <= (mesh_.is_boundary(apex) ? 2U : 3U)) return false;
     }
-    return true;
+    return common == sides && (sides == 1 || !mesh_.is_boundary(origin) || !mesh_.is_boundary(target));
 }
 
 /// The worst quality of the triangles that a collapse changes, before and after it. False if one turns, folds or
@@ -206,41 +272,52 @@ bool Decimation::keepsTopology(HalfEdge halfEdge)
 bool Decimation::shapeAround(HalfEdge halfEdge, const Vec3d& place, double& worstBefore, double& worstAfter) const
 {
     const Limits& limits = levels[level_];
-    const Vertex origin = mesh_.from_vertex_handle(halfEdge), target = mesh_.to_vertex_handle(halfEdge);
     worstBefore = worstAfter = 1;
-    for (const Vertex end : {origin, target}) {
-        const Vertex other = end == origin ? target : origin;
-        const Vec3d& p = at(end);
-        for (auto outgoing = mesh_.cvoh_iter(end); outgoing.is_valid(); ++outgoing) {
-            if (mesh_.is_boundary(*outgoing)) continue;
-            const HalfEdge rim = mesh_.next_halfedge_handle(*outgoing);
-            const Vertex left = mesh_.from_vertex_handle(rim), right = mesh_.to_vertex_handle(rim);
-            if (left == other || right == other) continue;
+    bool good = true;
+    // Around the origin from one apex of the edge to the other, and back around the target: this is the order of the
+    // triangles in the star that the collapse makes, so each shares an edge with the one before.
+    Fold spokesBefore, spokesAfter;
+    for (const HalfEdge first : {halfEdge, mesh_.opposite_halfedge_handle(halfEdge)}) {
+        const Vertex other = mesh_.to_vertex_handle(first);
+        const Vec3d& p = at(mesh_.from_vertex_handle(first));
+        forEachOutgoing(first, [&](HalfEdge outgoing) {
+            if (!good) return;
+            if (mesh_.is_boundary(outgoing)) {
+                spokesBefore.restart();
+                spokesAfter.restart();
+                return;
+            }
+            const HalfEdge rim = mesh_.next_halfedge_handle(outgoing);
+            const Vertex left = mesh_.to_vertex_handle(outgoing), right = mesh_.to_vertex_handle(rim);
             const Vec3d &a = at(left), &b = at(right);
-            const Vec3d before = (a - p).cross(b - p), after = (a - place).cross(b - place);
-            const double areaBefore = before.length(), areaAfter = after.length();
+            const Vec3d before = (a - p).cross(b - p);
+            const double areaBefore = before.length();
+            spokesBefore.add(before, areaBefore);
+            if (left == other || right == other) return; // this one vanishes
+            const Vec3d after = (a - place).cross(b - place);
+            const double areaAfter = after.length();
+            spokesAfter.add(after, areaAfter);
             const double qualityBefore = quality(p, a, b, areaBefore), qualityAfter = quality(place, a, b, areaAfter);
-            if (before.dot(after) < limits.turn * areaBefore * areaAfter) return false;
-            if (qualityAfter < limits.quality && qualityAfter <= qualityBefore) return false;
             worstBefore = std::min(worstBefore, qualityBefore);
             worstAfter = std::min(worstAfter, qualityAfter);
+            good = before.dot(after) >= limits.turn * areaBefore * areaAfter &&
+                   (qualityAfter >= limits.quality || qualityAfter > qualityBefore);
             // The neighbour across the rim stays; the triangle must not fold onto it.
             const HalfEdge outer = mesh_.opposite_halfedge_handle(rim);
-            if (mesh_.is_boundary(outer)) continue;
+            if (!good || mesh_.is_boundary(outer)) return;
             const Vec3d& c = at(mesh_.to_vertex_handle(mesh_.next_halfedge_handle(outer)));
-            const Vec3d beyond = (a - c).cross(b - c) * -1.0;
-            const double areaBeyond = beyond.length();
-            if (beyond.dot(after) < limits.fold * areaBeyond * areaAfter &&
-                beyond.dot(after) * areaBefore < beyond.dot(before) * areaAfter) {
-                return false;
-            }
-        }
+            const Vec3d beyond = (b - c).cross(a - c);
+            good = beyond.dot(after) >= limits.fold * beyond.length() * areaAfter ||
+                   beyond.dot(after) * areaBefore >= beyond.dot(before) * areaAfter;
+        });
+        if (!good) return false;
     }
-    return true;
+    spokesAfter.close();
+    return spokesAfter.sharpest >= std::min(limits.fold, spokesBefore.sharpest);
 }
 
 /// Whether the collapse to collapse.place is permitted at this level; works out its cost. Every veto belongs here.
-bool Decimation::allowed(Collapse& collapse, const Quadric& sum)
+bool Decimation::allowed(Collapse& collapse, const Quadric& sum) const
 {
     double worstBefore, worstAfter;
     if (!shapeAround(collapse.halfEdge, collapse.place, worstBefore, worstAfter)) return false;
@@ -249,26 +326,25 @@ bool Decimation::allowed(Collapse& collapse, const Quadric& sum)
         const double excess = goodQuality / std::max(worstAfter, 1e-3);
         collapse.cost *= excess * excess;
     }
-    const std::size_t valence = mesh_.valence(mesh_.from_vertex_handle(collapse.halfEdge)) +
-                                mesh_.valence(mesh_.to_vertex_handle(collapse.halfEdge)) - 4;
+    const unsigned valence = valences_[index(mesh_.from_vertex_handle(collapse.halfEdge))] +
+                             valences_[index(mesh_.to_vertex_handle(collapse.halfEdge))] - 4;
     if (valence > goodValence) collapse.cost *= double(valence) / double(goodValence);
     return true;
 }
 
-/// The cheapest permitted collapse of the edge: at the optimum, else in the middle or at an end.
-bool Decimation::price(Edge edge, Collapse& best)
+/// Makes of an edge's optimum the cheapest permitted collapse of the edge: there, else in the middle or at an end.
+bool Decimation::price(Collapse& collapse, bool hasOptimum)
 {
-    const HalfEdge halfEdge = mesh_.halfedge_handle(edge, 0);
-    if (!keepsTopology(halfEdge)) return false;
-    const Quadric sum = quadric(halfEdge);
-    best.halfEdge = halfEdge;
-    if (sum.bestPlace(stiffness, best.place) && allowed(best, sum)) return true;
+    if (!keepsTopology(collapse.halfEdge)) return false;
+    const Quadric sum = quadric(collapse.halfEdge);
+    if (hasOptimum && allowed(collapse, sum)) return true;
     bool found = false;
-    const Vec3d &a = at(mesh_.from_vertex_handle(halfEdge)), &b = at(mesh_.to_vertex_handle(halfEdge));
+    const Vec3d& a = at(mesh_.from_vertex_handle(collapse.halfEdge));
+    const Vec3d& b = at(mesh_.to_vertex_handle(collapse.halfEdge));
     for (const Vec3d& place : {(a + b) * 0.5, a, b}) {
-        Collapse candidate{halfEdge, place, 0};
-        if (!allowed(candidate, sum) || (found && candidate.cost >= best.cost)) continue;
-        best = candidate;
+        Collapse candidate{collapse.halfEdge, place, 0};
+        if (!allowed(candidate, sum) || (found && candidate.cost >= collapse.cost)) continue;
+        collapse = candidate;
         found = true;
     }
     return found;
@@ -278,16 +354,21 @@ void Decimation::apply(const Collapse& collapse)
 {
     const Vertex gone = mesh_.from_vertex_handle(collapse.halfEdge), kept = mesh_.to_vertex_handle(collapse.halfEdge);
     faces_ -= mesh_.is_boundary(mesh_.edge_handle(collapse.halfEdge)) ? 1 : 2;
+    for (const HalfEdge side : {collapse.halfEdge, mesh_.opposite_halfedge_handle(collapse.halfEdge)}) {
+        if (mesh_.is_boundary(side)) continue;
+        --valences_[index(mesh_.to_vertex_handle(mesh_.next_halfedge_handle(side)))];
+        --valences_[index(kept)]; // the apex counted twice
+    }
+    valences_[index(kept)] += valences_[index(gone)] - 2;
     quadrics_[index(kept)] += quadrics_[index(gone)];
     places_[index(kept)] = collapse.place;
     moved_[index(kept)] = 1;
     mesh_.collapse(collapse.halfEdge);
     // Bounds of edges near by still hold: quadrics only grow. What was priced or blocked gets another chance.
-    for (auto ring = mesh_.cvv_iter(kept); ring.is_valid(); ++ring) {
-        for (auto edge = mesh_.cve_iter(*ring); edge.is_valid(); ++edge) {
-            if (states_[index(*edge)] != State::bounded) enqueue(*edge, lowerBound(*edge), State::bounded);
-        }
-    }
+    forEachOutgoing(kept, [&](HalfEdge spoke) {
+        forEachOutgoing(mesh_.to_vertex_handle(spoke),
+                        [&](HalfEdge outgoing) { reconsider(mesh_.edge_handle(outgoing)); });
+    });
 }
 
 void Decimation::reduceTo(std::size_t faces)
@@ -300,7 +381,7 @@ void Decimation::reduceTo(std::size_t faces)
         if (queue_.empty()) {
             if (++level_ == levels.size()) return;
             for (const auto edge : mesh_.edges()) {
-                if (states_[index(edge)] == State::blocked) enqueue(edge, lowerBound(edge), State::bounded);
+                reconsider(edge);
             }
             if (queue_.empty()) return;
         }
@@ -308,10 +389,18 @@ void Decimation::reduceTo(std::size_t faces)
         queue_.pop();
         const Edge edge{int(entry.edge)};
         if (versions_[entry.edge] != entry.version || mesh_.status(edge).deleted()) continue;
+        // First the bound, cheap to bring up to date, then the true cost: is it still this edge's turn?
+        const auto mustWait = [&](double cost) {
+            return cost > entry.cost && !queue_.empty() && cost > queue_.top().cost;
+        };
         Collapse collapse;
-        if (!price(edge, collapse)) {
+        const bool hasOptimum = lowerBound(edge, collapse);
+        bounds_[entry.edge] = collapse.cost;
+        if (mustWait(collapse.cost)) {
+            enqueue(edge, collapse.cost, State::bounded);
+        } else if (!price(collapse, hasOptimum)) {
             states_[entry.edge] = State::blocked;
-        } else if (!queue_.empty() && collapse.cost > entry.cost && collapse.cost > queue_.top().cost) {
+        } else if (mustWait(collapse.cost)) {
             enqueue(edge, collapse.cost, State::priced);
         } else {
             apply(collapse);

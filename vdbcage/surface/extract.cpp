@@ -66,8 +66,8 @@ Window readWindow(const Accessor& tree, const Coord& block)
                     for (int y = first(dy); y <= last(dy); ++y) {
                         const unsigned bits = unsigned(slab >> (blockSide * y)) & 0xffU;
                         const unsigned row = dz == 0 ? bits << 1 : dz < 0 ? bits >> 7 : (bits & 1U) << 9;
-                        auto& target = window.rows[std::size_t(x + dx * blockSide + 1)]
-                                                  [std::size_t(y + dy * blockSide + 1)];
+                        auto& target =
+                            window.rows[std::size_t(x + dx * blockSide + 1)][std::size_t(y + dy * blockSide + 1)];
                         target = std::uint16_t(target | row);
                     }
                 }
@@ -118,9 +118,8 @@ std::vector<Coord> surfaceBlocks(const Tree& tree, Interrupter* interrupter)
         }
     }
     std::vector<char> keep(blocks.size());
-    forEach(blocks.size(), tree, interrupter, [&](std::size_t i, const Accessor& accessor) {
-        keep[i] = !readWindow(accessor, blocks[i]).uniform();
-    });
+    forEach(blocks.size(), tree, interrupter,
+            [&](std::size_t i, const Accessor& accessor) { keep[i] = !readWindow(accessor, blocks[i]).uniform(); });
     std::size_t kept = 0;
     for (std::size_t i = 0; i < blocks.size(); ++i) {
         if (keep[i]) blocks[kept++] = blocks[i];
@@ -141,9 +140,10 @@ Coord voxelToAdd(const Accessor& tree, const Coord& low, const Coord& sides)
             for (int z = 0; z < sides.z(); ++z) {
                 const Coord voxel = low.offsetBy(x, y, z);
                 if (tree.isValueOn(voxel)) continue;
-                const int neighbours = tree.isValueOn(voxel.offsetBy(-1, 0, 0)) + tree.isValueOn(voxel.offsetBy(1, 0, 0)) +
-                                       tree.isValueOn(voxel.offsetBy(0, -1, 0)) + tree.isValueOn(voxel.offsetBy(0, 1, 0)) +
-                                       tree.isValueOn(voxel.offsetBy(0, 0, -1)) + tree.isValueOn(voxel.offsetBy(0, 0, 1));
+                const int neighbours =
+                    tree.isValueOn(voxel.offsetBy(-1, 0, 0)) + tree.isValueOn(voxel.offsetBy(1, 0, 0)) +
+                    tree.isValueOn(voxel.offsetBy(0, -1, 0)) + tree.isValueOn(voxel.offsetBy(0, 1, 0)) +
+                    tree.isValueOn(voxel.offsetBy(0, 0, -1)) + tree.isValueOn(voxel.offsetBy(0, 0, 1));
                 if (neighbours > bestNeighbours) {
                     bestNeighbours = neighbours;
                     best = voxel;
@@ -237,9 +237,12 @@ void forEachFace(const Window& window, const Visit& visit)
         for (std::size_t y = 1; y <= blockSide; ++y) {
             const unsigned row = window.rows[x][y];
             if (!(row & 0x1feU)) continue;
-            const std::array<unsigned, 6> beside = {window.rows[x - 1][y], window.rows[x + 1][y],
-                                                    window.rows[x][y - 1], window.rows[x][y + 1],
-                                                    row << 1U,             row >> 1U};
+            const std::array<unsigned, 6> beside = {window.rows[x - 1][y],
+                                                    window.rows[x + 1][y],
+                                                    window.rows[x][y - 1],
+                                                    window.rows[x][y + 1],
+                                                    row << 1U,
+                                                    row >> 1U};
             for (std::size_t face = 0; face < faces.size(); ++face) {
                 const unsigned exposed = row & ~beside[face] & 0x1feU;
                 for (int z = 0; exposed >> (z + 1); ++z) {
@@ -281,9 +284,8 @@ openvdb::MaskGrid::Ptr makeWellComposed(const openvdb::MaskGrid& solid, Interrup
     // Voxels are added inside the box of those that are there, so this ends.
     for (std::vector<Coord> blocks = surfaceBlocks(tree, interrupter); !blocks.empty();) {
         std::vector<std::vector<Coord>> found(blocks.size());
-        forEach(blocks.size(), tree, interrupter, [&](std::size_t i, const Accessor& accessor) {
-            findCritical(accessor, blocks[i], found[i]);
-        });
+        forEach(blocks.size(), tree, interrupter,
+                [&](std::size_t i, const Accessor& accessor) { findCritical(accessor, blocks[i], found[i]); });
         // What is found depends on the state before the round alone: the order does not matter.
         blocks.clear();
         openvdb::tree::ValueAccessor<Tree> accessor(tree);
@@ -345,7 +347,8 @@ Mesh extractSurface(const openvdb::MaskGrid& solid, Interrupter* interrupter)
 
         std::array<const SurfaceBlock*, 8> around;
         for (int n = 0; n < 8; ++n) {
-            const Coord origin = origins[i].offsetBy(blockSide * (n >> 2), blockSide * (n >> 1 & 1), blockSide * (n & 1));
+            const Coord origin =
+                origins[i].offsetBy(blockSide * (n >> 2), blockSide * (n >> 1 & 1), blockSide * (n & 1));
             const auto place = std::lower_bound(origins.begin(), origins.end(), origin);
             around[std::size_t(n)] = &blocks[std::size_t(place - origins.begin())];
         }

@@ -53,7 +53,8 @@ public:
         for (std::size_t s = 0; s < order.size(); ++s) order[s] = s;
         const auto ends = [&](std::size_t s) { return std::minmax(sides_[s].a, sides_[s].b); };
         std::sort(order.begin(), order.end(), [&](std::size_t s, std::size_t t) {
-            return std::make_tuple(ends(s).first, ends(s).second, s) < std::make_tuple(ends(t).first, ends(t).second, t);
+            return std::make_tuple(ends(s).first, ends(s).second, s) <
+                   std::make_tuple(ends(t).first, ends(t).second, t);
         });
         opposite_.assign(sides_.size(), none);
         for (std::size_t i = 0; i < order.size();) {

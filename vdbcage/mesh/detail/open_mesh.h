@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 #include <OpenMesh/Core/Mesh/Traits.hh>
+#include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 #include <vdbcage/core/error.h>
 #include <vdbcage/mesh/mesh.h>
 
@@ -158,9 +158,10 @@ inline Mesh fromOpenMesh(const OpenTriMesh& mesh)
     }
     for (const auto face : mesh.faces()) {
         openvdb::Vec3I triangle;
-        int i = 0;
-        for (auto vertex = mesh.cfv_iter(face); vertex.is_valid(); ++vertex) {
-            triangle[i++] = number[std::size_t((*vertex).idx())];
+        OpenTriMesh::HalfedgeHandle side = mesh.halfedge_handle(face);
+        for (int i = 0; i < 3; ++i) {
+            triangle[i] = number[std::size_t(mesh.from_vertex_handle(side).idx())];
+            side = mesh.next_halfedge_handle(side);
         }
         result.triangles.push_back(triangle);
     }

@@ -67,8 +67,8 @@ public:
     {
         if (!(weight_ > 0)) return false;
         place = first_ / weight_;
-        // Proximal point iteration: each step keeps open directions and shrinks the error in stiff ones by a factor
-        // of at least two. The matrix planes + stiffness * identity is positive definite: Cholesky.
+        // Proximal point iteration: each step keeps open directions and at least halves the error in stiff ones. The
+        // matrix planes + stiffness * identity is positive definite: Cholesky.
         const double add = stiffness * weight_;
         const double l00 = std::sqrt(xx_ + add), l10 = xy_ / l00, l20 = xz_ / l00;
         const double l11 = std::sqrt(yy_ + add - l10 * l10), l21 = (yz_ - l20 * l10) / l11;
@@ -80,12 +80,14 @@ public:
             const double y2 = (slope.z() - l20 * y0 - l21 * y1) / l22;
             const double z = y2 / l22, y = (y1 - l21 * z) / l11, x = (y0 - l10 * y - l20 * z) / l00;
             place -= openvdb::Vec3d(x, y, z);
+            if (std::abs(x) + std::abs(y) + std::abs(z) < rounding) break;
         }
         return std::isfinite(place.x()) && std::isfinite(place.y()) && std::isfinite(place.z());
     }
 
 private:
-    static constexpr int steps = 6;
+    static constexpr double rounding = 1e-14; // of coordinates, which are about 1
+    static constexpr int steps = 8;           // enough to put the corner of a box where it is to 12 digits
 
     openvdb::Vec3d times(const openvdb::Vec3d& p) const
     {
