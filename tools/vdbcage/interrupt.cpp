@@ -30,6 +30,12 @@ void catchSignals()
     sigemptyset(&action.sa_mask);
     ::sigaction(SIGINT, &action, nullptr);
     ::sigaction(SIGTERM, &action, nullptr);
+    // Whoever started us may have had them blocked.
+    sigset_t ours;
+    sigemptyset(&ours);
+    sigaddset(&ours, SIGINT);
+    sigaddset(&ours, SIGTERM);
+    ::sigprocmask(SIG_UNBLOCK, &ours, nullptr);
 }
 
 bool signalled()

@@ -14,7 +14,7 @@
 #include "commands.h"
 #include "interrupt.h"
 #include "outputs.h"
-#include "render.h"
+#include "drawing.h"
 #include "report.h"
 
 namespace vdbcage::tool {

@@ -87,14 +87,9 @@ private:
 
 } // namespace
 
-const std::vector<std::string>& meshExtensions()
+void requireMeshExtension(const std::filesystem::path& path)
 {
-    static const std::vector<std::string> extensions = [] {
-        std::vector<std::string> list;
-        for (const Format& format : formats) list.emplace_back(format.extension);
-        return list;
-    }();
-    return extensions;
+    formatOf(path);
 }
 
 Mesh readMesh(const std::filesystem::path& path, ReadSummary* summary)
