@@ -12,9 +12,9 @@
 #include <vdbcage/volume/vdb_io.h>
 
 #include "commands.h"
+#include "drawing.h"
 #include "interrupt.h"
 #include "outputs.h"
-#include "drawing.h"
 #include "report.h"
 
 namespace vdbcage::tool {
