@@ -10,7 +10,7 @@ namespace data {
 
 namespace {
 
-constexpr int segments = 72;     // around the axis; an even number
+constexpr int segments = 72;      // around the axis; an even number
 constexpr double spacing = 0.075; // of the lines on the slot's wall
 
 struct ProfilePoint {
@@ -37,7 +37,8 @@ public:
         const ProfilePoint start = points_.back();
         for (int i = 1; i <= steps; ++i) {
             const double t = static_cast<double>(i) / steps;
-            const double w[4] = {(1 - t) * (1 - t) * (1 - t), 3 * t * (1 - t) * (1 - t), 3 * t * t * (1 - t), t * t * t};
+            const double w[4] = {(1 - t) * (1 - t) * (1 - t), 3 * t * (1 - t) * (1 - t), 3 * t * t * (1 - t),
+                                 t * t * t};
             points_.push_back({w[0] * start.r + w[1] * a.r + w[2] * b.r + w[3] * end.r,
                                w[0] * start.y + w[1] * a.y + w[2] * b.y + w[3] * end.y});
         }
@@ -94,7 +95,7 @@ Profile makeProfile()
 /// The slot: what lies within `halfWidth` of a half plane that opens to the upper side and is level along Z.
 struct Slot {
     double halfWidth = 0.092;
-    Vec3 end = {-0.02, 6.26, 0};         // a point of the half plane's edge
+    Vec3 end = {-0.02, 6.26, 0};              // a point of the half plane's edge
     Vec3 opening = {0.7880108, 0.6156615, 0}; // from there to the outside; a unit vector
 
     /// Distance of `p` to the slot, negative within.
@@ -125,7 +126,7 @@ public:
 
 private:
     struct Corner {
-        double s, t; // along the profile and around, whole numbers on the unchanged grid
+        double s, t;     // along the profile and around, whole numbers on the unchanged grid
         double distance; // to the slot
         int point;
     };
@@ -146,8 +147,7 @@ private:
     void findCorners()
     {
         for (int i = 0; i < profile_.size(); ++i)
-            for (int j = 0; j <= segments / 2; ++j)
-                corners_.push_back({1.0 * i, 1.0 * j, slot_(place(i, j)), -1});
+            for (int j = 0; j <= segments / 2; ++j) corners_.push_back({1.0 * i, 1.0 * j, slot_(place(i, j)), -1});
     }
 
     /// Where the slot's edge crosses the line between two corners, as a part of that line.

@@ -56,9 +56,9 @@ Field makeField()
     clay.addEllipsoid({0, 13.5, 0}, {10.2, 9.6, 10.2}, 1); // belly
     clay.addEllipsoid({0, 8.0, 0}, {7.2, 6.4, 7.2}, 4);
     clay.addTube({{{0, 3.2, 0}, 3.4}, {{0, 2.4, 0}, 3.8}}, 3);
-    clay.addTube(hoop({0, 1.1, 0}, {0, 1, 0}, 4.8, 1.5), 2.5);      // foot
-    clay.addTube(hoop({0, 18.8, 0}, {0, 1, 0}, 7.9, 0.9), 2);   // shoulder
-    std::vector<Knot> ring; // stands on the top of the belly, across
+    clay.addTube(hoop({0, 1.1, 0}, {0, 1, 0}, 4.8, 1.5), 2.5); // foot
+    clay.addTube(hoop({0, 18.8, 0}, {0, 1, 0}, 7.9, 0.9), 2);  // shoulder
+    std::vector<Knot> ring;                                    // stands on the top of the belly, across
     for (int i = 0; i <= 40; ++i) {
         const double t = i / 40.0;
         double s = 0;
@@ -78,12 +78,15 @@ Field makeField()
                             8),
                      1.5);
     }
-    const Neck mouth{{{{0, 19.0, -5.4}, 3.2}, {{0, 22.2, -7.6}, 2.6}, {{0, 24.0, -8.9}, 2.7}, {{0, 25.2, -9.8}, 2.95}}, 1.1, 0.9};
-    const Neck spout{{{{0, 18.6, 5.6}, 2.6}, {{0, 21.2, 8.1}, 2.05}, {{0, 24.2, 10.4}, 1.8}, {{0, 27.0, 11.9}, 1.7}}, 0.95, 0.75};
+    const Neck mouth{
+        {{{0, 19.0, -5.4}, 3.2}, {{0, 22.2, -7.6}, 2.6}, {{0, 24.0, -8.9}, 2.7}, {{0, 25.2, -9.8}, 2.95}}, 1.1, 0.9};
+    const Neck spout{
+        {{{0, 18.6, 5.6}, 2.6}, {{0, 21.2, 8.1}, 2.05}, {{0, 24.2, 10.4}, 1.8}, {{0, 27.0, 11.9}, 1.7}}, 0.95, 0.75};
     mouth.add(clay);
     spout.add(clay);
-    clay.addTube(spline({{{0, 25.0, 10.4}, 0.9}, {{0, 26.4, 7.0}, 0.85}, {{0, 25.4, 3.6}, 0.9}, {{0, 22.4, 1.8}, 1.0}}, 6),
-                 1.2); // strut
+    clay.addTube(
+        spline({{{0, 25.0, 10.4}, 0.9}, {{0, 26.4, 7.0}, 0.85}, {{0, 25.4, 3.6}, 0.9}, {{0, 22.4, 1.8}, 1.0}}, 6),
+        1.2); // strut
 
     // The inside: the belly with a wall of more than a centimetre, and the two ways out.
     Clay hollow;
@@ -101,7 +104,8 @@ Field makeField()
 
 Model makeBotijo()
 {
-    const Model quads = contour(makeField(), {{-22.713, -5.813, -22.313}, {23, 45, 23}, 0.745, {0, 26, 1}, 1.35, 50}, 12);
+    const Model quads =
+        contour(makeField(), {{-22.713, -5.813, -22.313}, {23, 45, 23}, 0.745, {0, 26, 1}, 1.35, 50}, 12);
     Model triangles;
     triangles.points = quads.points;
     for (const Face& q : quads.faces) {

@@ -58,7 +58,8 @@ void addHoof(Clay& clay, const Vec3& fetlock)
                      1.2);
     }
     for (const double side : {-1.0, 1.0}) // dew claws
-        clay.addTube({{fetlock + Vec3{1.3 * side, -0.4, -1.8}, 1.7}, {fetlock + Vec3{1.5 * side, -1.6, -2.6}, 1.5}}, 1.5);
+        clay.addTube({{fetlock + Vec3{1.3 * side, -0.4, -1.8}, 1.7}, {fetlock + Vec3{1.5 * side, -1.6, -2.6}, 1.5}},
+                     1.5);
 }
 
 /// `x` is the place across, `step` moves the hoof along the stride.
@@ -102,13 +103,13 @@ void addHindLeg(Clay& clay, double x, double step)
 
 void addTorso(Clay& clay)
 {
-    clay.addEllipsoid({0, 60, 17}, {14, 19.5, 24}, 8);       // rib cage
-    clay.addEllipsoid({0, 59, -6}, {15, 15.5, 26}, 12);      // belly
-    clay.addEllipsoid({0, 63, -26}, {12.5, 15, 18}, 12);     // rump
+    clay.addEllipsoid({0, 60, 17}, {14, 19.5, 24}, 8);   // rib cage
+    clay.addEllipsoid({0, 59, -6}, {15, 15.5, 26}, 12);  // belly
+    clay.addEllipsoid({0, 63, -26}, {12.5, 15, 18}, 12); // rump
     clay.addTube(spline({{{0, 75, 22}, 6.5}, {{0, 72.5, 2}, 7}, {{0, 72, -20}, 7}, {{0, 67.5, -38}, 5}}, 4), 9); // back
-    clay.addEllipsoid({0, 54, 33}, {9.5, 12, 10}, 8);        // breast
+    clay.addEllipsoid({0, 54, 33}, {9.5, 12, 10}, 8); // breast
     clay.addTube(spline({{{0, 69, -42}, 3.8}, {{0, 69.8, -47}, 3.1}, {{0, 67, -52}, 2.6}, {{0, 61, -54.5}, 1.5}}, 4),
-                 3);                                         // tail
+                 3); // tail
 }
 
 void addEar(Clay& clay, double s)
@@ -143,7 +144,8 @@ void addHorn(Clay& clay, double s)
 
 void addHead(Clay& clay)
 {
-    clay.addTube(posed(spline({{{0, 64, 27}, 14}, {{0, 75, 39}, 11.4}, {{0, 86, 48.5}, 9.0}, {{0, 97, 55}, 7.2}}, 4)), 9);
+    clay.addTube(posed(spline({{{0, 64, 27}, 14}, {{0, 75, 39}, 11.4}, {{0, 86, 48.5}, 9.0}, {{0, 97, 55}, 7.2}}, 4)),
+                 9);
     addHeadEllipsoid(clay, {0, 99.5, 60}, {6.3, 6.8, 8.6}, 4, {0, -0.25, 1});                                // skull
     clay.addTube(posed(spline({{{0, 98.5, 63}, 5.4}, {{0, 95, 71}, 4.3}, {{0, 91.8, 78.5}, 3.5}}, 4)), 4);   // nose
     clay.addTube(posed(spline({{{0, 92.5, 59}, 4.8}, {{0, 90, 67}, 3.8}, {{0, 87.6, 75.5}, 2.7}}, 4)), 3);   // jaw
@@ -153,8 +155,10 @@ void addHead(Clay& clay)
         addHorn(clay, s);
         addEar(clay, s);
         // Eye: a ball in a shallow socket, below a brow.
-        clay.carveEllipsoid(pose({7.0 * s, 99.8, 66.8}), {1.7, 2.4, 3.2}, 2, posedAxes({6 * s, 100, 66}, {1, 0, 0}, {0, -0.4, 1}));
-        clay.addTube(posed({{{3.8 * s, 103.2, 66.0}, 1.4}, {{5.9 * s, 102.3, 65.2}, 1.3}, {{6.3 * s, 101.3, 62.5}, 1.1}}), 1.6);
+        clay.carveEllipsoid(pose({7.0 * s, 99.8, 66.8}), {1.7, 2.4, 3.2}, 2,
+                            posedAxes({6 * s, 100, 66}, {1, 0, 0}, {0, -0.4, 1}));
+        clay.addTube(
+            posed({{{3.8 * s, 103.2, 66.0}, 1.4}, {{5.9 * s, 102.3, 65.2}, 1.3}, {{6.3 * s, 101.3, 62.5}, 1.1}}), 1.6);
         addHeadEllipsoid(clay, {5.2 * s, 99.9, 66.0}, {1.7, 1.6, 2.0}, 0.5, {0, -0.4, 1});
         // Nostril and mouth.
         clay.carveTube(posed({{{1.6 * s, 92.4, 82.6}, 0.7}, {{3.0 * s, 93.5, 81.2}, 0.8}}), 1.2);

@@ -77,7 +77,8 @@ std::array<int, 12> sheets(int inside)
     std::array<int, 12> sheet{};
     for (int axis = 0; axis < 3; ++axis)
         for (int c = 0; c < 8; ++c)
-            sheet[edgeOf(axis, c)] = (inside >> c & 1) == (inside >> (c ^ 1 << axis) & 1) ? -1 : static_cast<int>(edgeOf(axis, c));
+            sheet[edgeOf(axis, c)] =
+                (inside >> c & 1) == (inside >> (c ^ 1 << axis) & 1) ? -1 : static_cast<int>(edgeOf(axis, c));
     const auto join = [&](std::size_t a, std::size_t b) {
         const int from = sheet[a];
         const int to = sheet[b];
@@ -188,9 +189,9 @@ double Clay::operator()(const Vec3& p) const
         const double bound = length(p - part.center) - part.reach;
         if (bound > (part.carve ? -clay : clay) + part.fillet) continue;
         // No nearer than the ball around it: else leaving a part out would be seen.
-        const double distance = std::max(bound, part.knots.empty()
-                                                    ? ellipsoidDistance(part.center, part.axes, part.radii, p)
-                                                    : tubeDistance(part.knots, p));
+        const double distance =
+            std::max(bound, part.knots.empty() ? ellipsoidDistance(part.center, part.axes, part.radii, p)
+                                               : tubeDistance(part.knots, p));
         clay = part.carve ? smoothMax(clay, -distance, part.fillet) : smoothMin(clay, distance, part.fillet);
     }
     return clay;

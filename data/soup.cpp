@@ -49,7 +49,9 @@ Model makeBox(int n, double round)
                 const double b = 2.0 * j / n - 1;
                 const double c = side < 3 ? 1 : -1;
                 // The negative side runs the other way round, so that both look outward.
-                const Vec3 p = side % 3 == 0 ? Vec3{c, c * a, b} : side % 3 == 1 ? Vec3{b, c, c * a} : Vec3{c * a, b, c};
+                const Vec3 p = side % 3 == 0   ? Vec3{c, c * a, b}
+                               : side % 3 == 1 ? Vec3{b, c, c * a}
+                                               : Vec3{c * a, b, c};
                 model.addPoint(lerp(p, normalized(p), round));
             }
         }
@@ -132,12 +134,24 @@ Model makeSoup()
     for (int i = 0; i < 48; ++i) {
         Model part;
         switch (i % 6) {
-        case 0: part = makeBox(2, 0); break;
-        case 1: part = makeTetrahedron(); break;
-        case 2: part = makeFan(3 + i % 4); break;
-        case 3: part = makeSheet(3); break;
-        case 4: part = makeBox(3, 0.8); break;
-        default: part = makeBox(1, 0); break;
+        case 0:
+            part = makeBox(2, 0);
+            break;
+        case 1:
+            part = makeTetrahedron();
+            break;
+        case 2:
+            part = makeFan(3 + i % 4);
+            break;
+        case 3:
+            part = makeSheet(3);
+            break;
+        case 4:
+            part = makeBox(3, 0.8);
+            break;
+        default:
+            part = makeBox(1, 0);
+            break;
         }
         scatter(part, random, 4.6);
         if (random.oneIn(4)) // inside out
