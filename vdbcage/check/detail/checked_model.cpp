@@ -14,23 +14,25 @@ namespace vdbcage::detail {
 
 void requireSound(const Mesh& mesh, const char* what)
 {
-    const auto requireCorners = [&](const auto& corners, int size) {
-        for (int i = 0; i < size; ++i) {
-            std::ostringstream problem;
-            if (corners[i] >= mesh.points.size()) {
-                problem << "a face uses point " << corners[i] << "; there are " << mesh.points.size()
-                        << " points, counted from 0";
-            } else if (const Vec3d& p = mesh.points[corners[i]]; !p.isFinite()) {
-                problem << "point " << corners[i] << " is (" << p[0] << ", " << p[1] << ", " << p[2]
-                        << "); coordinates must be finite";
-            } else {
-                continue;
-            }
-            throw InputError(std::string(what) + ": " + problem.str());
+    const auto requirePoint = [&](std::uint32_t index) {
+        if (index < mesh.points.size() && mesh.points[index].isFinite()) return;
+        std::ostringstream problem;
+        if (index >= mesh.points.size()) {
+            problem << what << ": a face uses point " << index << "; there are " << mesh.points.size()
+                    << " points, counted from 0";
+        } else {
+            const Vec3d& p = mesh.points[index];
+            problem << what << ": point " << index << " is (" << p[0] << ", " << p[1] << ", " << p[2]
+                    << "); coordinates must be finite";
         }
+        throw InputError(problem.str());
     };
-    for (const Vec3I& triangle : mesh.triangles) requireCorners(triangle, 3);
-    for (const openvdb::Vec4I& quad : mesh.quads) requireCorners(quad, 4);
+    for (const Vec3I& triangle : mesh.triangles) {
+        for (int i = 0; i < 3; ++i) requirePoint(triangle[i]);
+    }
+    for (const openvdb::Vec4I& quad : mesh.quads) {
+        for (int i = 0; i < 4; ++i) requirePoint(quad[i]);
+    }
 }
 
 CheckedModel::CheckedModel(const Mesh& mesh, Interrupter* interrupter)
