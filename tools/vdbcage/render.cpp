@@ -26,6 +26,10 @@ constexpr int samples = 4;
 constexpr int tileSize = 1024;
 constexpr double creaseDegrees = 40;
 constexpr Colour voxelEdgeColour{0.25F, 0.17F, 0.08F};
+constexpr float voxelEdgeOpacity = 0.35F;
+constexpr float hiddenLineOpacity = 0.16F;
+// The part of the way to the eye by which lines stand out of the faces that they lie in.
+constexpr float lineLift = 0.0005F;
 
 /// A rectangle of a picture, y from the top.
 struct Rectangle {
@@ -187,6 +191,7 @@ public:
                    const Colour& background, const Rectangle& panel, Picture& picture) const
     {
         std::vector<Shape> shapes;
+        shapes.reserve(geometries.size());
         for (const Geometry& geometry : geometries) shapes.push_back(upload(api_, geometry));
         // So wide that lines look alike whatever the panel's size, but neither thin nor fat.
         const double lineWidth = std::clamp(std::min(panel.width, panel.height) / 600.0, 1.1, 6.0);
@@ -229,7 +234,7 @@ private:
         set(surface_, "toView", viewMatrix(eye));
         api_.ProgramUniform4f(line_.name(), gl::uniformLocation(api_, line_, "eye"),
                               static_cast<float>(eye.position.x()), static_cast<float>(eye.position.y()),
-                              static_cast<float>(eye.position.z()), 0.0005F);
+                              static_cast<float>(eye.position.z()), lineLift);
         api_.ProgramUniform2f(line_.name(), gl::uniformLocation(api_, line_, "viewport"),
                               static_cast<float>(tile.width * supersampling),
                               static_cast<float>(tile.height * supersampling));
@@ -253,7 +258,8 @@ private:
             const bool edges = layers[i].style == LayerStyle::voxels;
             drawFaces(surface_, shapes[i], layers[i].colour, 1, GL_LESS, edges ? supersampling : 0);
             if (edges) {
-                drawLines(canvas, shapes[i], voxelEdgeColour, 0.35F, 0.7 * lineWidth, GL_LEQUAL, 6 * lineWidth);
+                drawLines(canvas, shapes[i], voxelEdgeColour, voxelEdgeOpacity, 0.7 * lineWidth, GL_LEQUAL,
+                          6 * lineWidth);
             }
         }
         // A wireframe is hidden by solid layers and by itself, not by other wireframes.
@@ -282,7 +288,7 @@ private:
         if (layer.tint > 0) {
             once(canvas, [&] { drawFaces(tint_, shape, layer.colour, layer.tint, GL_LEQUAL, 0); });
         }
-        drawLines(canvas, shape, layer.colour, 0.16F, lineWidth, GL_GREATER, 0);
+        drawLines(canvas, shape, layer.colour, hiddenLineOpacity, lineWidth, GL_GREATER, 0);
         drawLines(canvas, shape, layer.colour, 1, lineWidth, GL_LEQUAL, 0);
     }
 

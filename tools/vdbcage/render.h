@@ -61,7 +61,7 @@ struct Scene {
 constexpr int maximumPictureSize = 16384;
 
 /// Draws the scene in mild perspective, fitted to all points of its layers, whatever their size and place; needs no
-/// display. The same scene gives the same bytes on one machine. Some 0.5 s for a megapixel and 100,000 faces in
+/// display. The same scene gives the same bytes on one machine. About 1 s for a megapixel and 100,000 faces in
 /// software.
 /// \throw InputError if the scene is empty, a mesh cannot be worked on (see `requireUsable`) or a value is out of
 /// range; DeviceError if there is no OpenGL 4.5

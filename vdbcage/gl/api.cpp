@@ -61,7 +61,7 @@ void enableDebugMessages(const Api& api)
     api.Enable(GL_DEBUG_OUTPUT_SYNCHRONOUS);
     // The log is short (ten entries in Mesa): keep advice about speed out of it.
     api.DebugMessageControl(GL_DONT_CARE, GL_DONT_CARE, GL_DONT_CARE, 0, nullptr, GL_FALSE);
-    for (const GLenum type : {GL_DEBUG_TYPE_ERROR, GL_DEBUG_TYPE_UNDEFINED_BEHAVIOR}) {
+    for (const GLenum type : std::array<GLenum, 2>{GL_DEBUG_TYPE_ERROR, GL_DEBUG_TYPE_UNDEFINED_BEHAVIOR}) {
         api.DebugMessageControl(GL_DONT_CARE, type, GL_DONT_CARE, 0, nullptr, GL_TRUE);
     }
 }
