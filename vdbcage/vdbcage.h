@@ -16,6 +16,8 @@
 #include <vdbcage/surface/repair.h>
 #include <vdbcage/surface/smooth.h>
 #include <vdbcage/surface/triquad.h>
+#include <vdbcage/volume/cavities.h>
+#include <vdbcage/volume/contour.h>
 #include <vdbcage/volume/morphology.h>
 #include <vdbcage/volume/vdb_io.h>
 #include <vdbcage/voxelize/voxelize.h>

@@ -8,6 +8,7 @@
 #include <vdbcage/core/version.h>
 #include <vdbcage/mesh/mesh_io.h>
 #include <vdbcage/pipeline/pipeline.h>
+#include <vdbcage/volume/contour.h>
 #include <vdbcage/volume/morphology.h>
 #include <vdbcage/volume/vdb_io.h>
 

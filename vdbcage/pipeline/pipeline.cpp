@@ -16,6 +16,7 @@
 #include <vdbcage/surface/repair.h>
 #include <vdbcage/surface/smooth.h>
 #include <vdbcage/surface/triquad.h>
+#include <vdbcage/volume/cavities.h>
 #include <vdbcage/volume/morphology.h>
 
 namespace vdbcage {

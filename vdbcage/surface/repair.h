@@ -21,11 +21,14 @@ struct RepairReport {
     bool reoriented = false;                 ///< some faces were turned to face outward
 };
 
+/// Whether this build has repair(): it was made with VDBCAGE_WITH_CGAL_GPL.
+VDBCAGE_API bool hasRepair();
+
 /// Mends a cage made elsewhere: merges coincident points, removes degenerate and duplicate faces, orients, stitches,
 /// fills holes and removes self-intersections, by CGAL's Polygon_mesh_processing. The result is triangles, closed and
 /// outward where that could be reached; `report`, if not null, says what was done and what was not.
 /// Only in builds with VDBCAGE_WITH_CGAL_GPL (GPL when distributed).
-/// \throw InputError (no usable face), Cancelled
+/// \throw InputError (no usable face; a build without it), Cancelled
 VDBCAGE_API Mesh repair(const Mesh& cage, RepairReport* report = nullptr, Interrupter* interrupter = nullptr);
 
 } // namespace vdbcage
