@@ -211,15 +211,28 @@ private:
         return point;
     }
 
+    void addFace(const std::vector<Corner*>& corners)
+    {
+        std::vector<int> points;
+        for (Corner* c : corners) points.push_back(pointOf(*c)); // numbers new points in this order
+        addFace(points);
+    }
+
+    void addFace(const std::vector<int>& points)
+    {
+        if (points.size() == 3) model_.addTriangle(points[0], points[1], points[2]);
+        if (points.size() == 4) model_.addQuad(points[0], points[1], points[2], points[3]);
+    }
+
     void addCell(int i, int j)
     {
         Corner* c[4] = {&corner(i, j), &corner(i + 1, j), &corner(i + 1, j + 1), &corner(i, j + 1)};
         if (i == 0) { // the pole below, then the pole on top
-            model_.addTriangle(pointOf(corner(0, 0)), pointOf(*c[1]), pointOf(*c[2]));
+            addFace({&corner(0, 0), c[1], c[2]});
         } else if (i + 2 == profile_.size()) {
-            model_.addTriangle(pointOf(*c[0]), pointOf(corner(i + 1, 0)), pointOf(*c[3]));
+            addFace({c[0], &corner(i + 1, 0), c[3]});
         } else if (std::all_of(c, c + 4, [](const Corner* q) { return q->distance > 0; })) {
-            model_.addQuad(pointOf(*c[0]), pointOf(*c[1]), pointOf(*c[2]), pointOf(*c[3]));
+            addFace({c[0], c[1], c[2], c[3]});
         } else if (!std::all_of(c, c + 4, [](const Corner* q) { return q->distance <= 0; })) {
             // By the diagonal that the slot's edge does not cross, if there is one.
             const bool turn = c[0]->distance * c[2]->distance < 0;
@@ -241,8 +254,7 @@ private:
             if (a.distance * b.distance < 0) kept.push_back(cut(a, b));
         }
         if (!outside) return;
-        if (kept.size() == 3) model_.addTriangle(kept[0], kept[1], kept[2]);
-        if (kept.size() == 4) model_.addQuad(kept[0], kept[1], kept[2], kept[3]);
+        addFace(kept);
     }
 
     /// Lines along Z from the slot's edge to the middle plane, and triangles between one line and the next.

@@ -182,23 +182,23 @@ Field makeField()
     return [clay](const Vec3& p) { return smoothMax(clay(p), -p.y, 1.8); };
 }
 
-Model makeNet(const Field& field)
+Model makeNet(const Field& field, double cell)
 {
     // Not round numbers: no point of the grid lies on the animal's middle plane or on the ground.
-    return contour(field, {{-70.37, -4.63, -64.41}, {80, 180, 150}, 1.42, {8, 96, 68}, 2, 110}, 12);
+    return contour(field, {{-70.37, -4.63, -64.41}, {80, 180, 150}, cell, {8, 96, 68}, 2, 110}, 12);
 }
 
 } // namespace
 
 Model makeCreature()
 {
-    return makeNet(makeField());
+    return makeNet(makeField(), 1.42);
 }
 
 Model makeCreature2m()
 {
     const Field field = makeField();
-    return subdivide(subdivide(subdivide(makeNet(field), field), field), field);
+    return subdivide(subdivide(subdivide(makeNet(field, 1.54), field), field), field);
 }
 
 } // namespace data

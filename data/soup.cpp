@@ -169,11 +169,15 @@ Model makeSoup()
         if (random.oneIn(40)) soup.addTriangle(face[0], face[1], face[1]); // a corner twice
         if (random.oneIn(40)) {                                            // a spike: three points of a line
             const Vec3 a = soup.points[static_cast<std::size_t>(face[0])];
-            soup.addTriangle(face[0], soup.addPoint(a + Vec3{0.25, 0.5, 0}), soup.addPoint(a + Vec3{0.5, 1, 0}));
+            const int b = soup.addPoint(a + Vec3{0.25, 0.5, 0});
+            const int c = soup.addPoint(a + Vec3{0.5, 1, 0});
+            soup.addTriangle(face[0], b, c);
         }
         if (random.oneIn(40)) { // three points in one place
             const Vec3 a = soup.points[static_cast<std::size_t>(face[2])];
-            soup.addTriangle(face[2], soup.addPoint(a), soup.addPoint(a));
+            const int b = soup.addPoint(a);
+            const int c = soup.addPoint(a);
+            soup.addTriangle(face[2], b, c);
         }
     }
     for (int i = 0; i < 12; ++i) soup.addPoint(5.0 * random.inBall() + Vec3{0, 7, 0}); // points of no face
