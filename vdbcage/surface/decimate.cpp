@@ -81,7 +81,7 @@ class Decimation {
 public:
     Decimation(const Mesh& surface, Interrupter* interrupter);
     void reduceTo(std::size_t faces);
-    Mesh result() const;
+    Mesh result() const { return detail::fromOpenMesh(mesh_); }
 
 private:
     enum class State : std::uint8_t {
@@ -138,12 +138,11 @@ private:
     }
 
     Interrupter* interrupter_;
-    OpenTriMesh mesh_; // its points are those of the input, until the result is asked for
+    OpenTriMesh mesh_;
     std::size_t faces_;
     Vec3d centre_; // the coordinates below are (point - centre_) / scale_
     double scale_;
     std::vector<Vec3d> places_;
-    std::vector<char> moved_;
     std::vector<Quadric> quadrics_;
     std::vector<unsigned> valences_;
     std::vector<std::size_t> marks_; // of vertices, by the last of `mark_`
@@ -162,9 +161,9 @@ Decimation::Decimation(const Mesh& surface, Interrupter* interrupter)
     centre_ = box.min() + (box.max() - box.min()) * 0.5;
     const Vec3d sides = box.max() - box.min();
     scale_ = std::max({sides.x(), sides.y(), sides.z()});
+    if (!std::isfinite(scale_)) throw InputError("the surface to decimate: its coordinates are too large to subtract");
     places_.reserve(surface.points.size());
     for (const Vec3d& point : surface.points) places_.push_back((point - centre_) / scale_);
-    moved_.assign(places_.size(), 0);
     marks_.assign(places_.size(), 0);
     for (const auto vertex : mesh_.vertices()) valences_.push_back(mesh_.valence(vertex));
     initQuadrics(interrupter);
@@ -362,7 +361,7 @@ void Decimation::apply(const Collapse& collapse)
     valences_[index(kept)] += valences_[index(gone)] - 2;
     quadrics_[index(kept)] += quadrics_[index(gone)];
     places_[index(kept)] = collapse.place;
-    moved_[index(kept)] = 1;
+    mesh_.set_point(kept, detail::fromVec3d(collapse.place * scale_ + centre_));
     mesh_.collapse(collapse.halfEdge);
     // Bounds of edges near by still hold: quadrics only grow. What was priced or blocked gets another chance.
     forEachOutgoing(kept, [&](HalfEdge spoke) {
@@ -380,9 +379,7 @@ void Decimation::reduceTo(std::size_t faces)
         }
         if (queue_.empty()) {
             if (++level_ == levels.size()) return;
-            for (const auto edge : mesh_.edges()) {
-                reconsider(edge);
-            }
+            for (const auto edge : mesh_.edges()) reconsider(edge);
             if (queue_.empty()) return;
         }
         const Entry entry = queue_.top();
@@ -406,16 +403,6 @@ void Decimation::reduceTo(std::size_t faces)
             apply(collapse);
         }
     }
-}
-
-Mesh Decimation::result() const
-{
-    OpenTriMesh mesh = mesh_;
-    for (const auto vertex : mesh.vertices()) {
-        const std::size_t i = index(vertex);
-        if (moved_[i]) mesh.set_point(vertex, detail::fromVec3d(places_[i] * scale_ + centre_));
-    }
-    return detail::fromOpenMesh(mesh);
 }
 
 } // namespace

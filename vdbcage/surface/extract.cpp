@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <cstdint>
 #include <limits>
 
@@ -310,14 +309,9 @@ Mesh extractSurface(const openvdb::MaskGrid& solid, Interrupter* interrupter)
 
     // A corner of voxels belongs to the block whose voxel has it as its low end, which need not hold active voxels.
     std::vector<Coord> origins = surfaceBlocks(tree, interrupter);
-    for (const int axis : {0, 1, 2}) {
+    for (const Coord& step : {Coord(blockSide, 0, 0), Coord(0, blockSide, 0), Coord(0, 0, blockSide)}) {
         const std::size_t count = origins.size();
-        origins.resize(2 * count);
-        for (std::size_t i = 0; i < count; ++i) {
-            Coord next = origins[i];
-            next[axis] += blockSide;
-            origins[count + i] = next;
-        }
+        for (std::size_t i = 0; i < count; ++i) origins.push_back(origins[i] + step);
         sortUnique(origins);
     }
 

@@ -8,7 +8,9 @@
 namespace vdbcage {
 
 /// `solid` made well-composed by adding voxels only: where two active voxels meet in nothing but an edge or a corner,
-/// a voxel between them is added, repeated until there is no such place. The boundary of the result is a 2-manifold.
+/// or two inactive ones in an active neighbourhood do, a voxel between them is added, repeated until there is no such
+/// place. The boundary of the result is a 2-manifold. Tiles stay tiles where nothing is added. Does not depend on the
+/// order of voxels or threads.
 /// \throw Cancelled
 /// Based on: Latecki, 3D Well-Composed Pictures, 1997.
 VDBCAGE_API openvdb::MaskGrid::Ptr makeWellComposed(const openvdb::MaskGrid& solid, Interrupter* interrupter = nullptr);

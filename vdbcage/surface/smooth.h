@@ -14,7 +14,7 @@ struct SmoothOptions {
 
 /// HC Laplacian smoothing: rounds a surface without shrinking it. Connectivity and vertex order stay; vertices that no
 /// face uses stay where they are. TBB-parallel, same result for any number of threads. O(iterations * edges).
-/// \throw InputError, Cancelled
+/// \throw InputError (an option out of range; no usable face), Cancelled
 /// Based on: Vollmer, Mencl, Muller, Improved Laplacian Smoothing of Noisy Surface Meshes, 1999.
 VDBCAGE_API Mesh smooth(const Mesh& surface, const SmoothOptions& options = {}, Interrupter* interrupter = nullptr);
 

@@ -11,10 +11,12 @@ struct TriquadOptions {
     double mergeAngleDegrees = 10; ///< largest dihedral angle between two triangles that become a quad, 0 to 180
 };
 
-/// Merges pairs of triangles into quads, flattest and squarest pairs first; concave and folded quads are never made,
-/// and no two faces come to share two edges. `accept`, if set, has the last word on each pair: it is given the quad's
-/// corners (the merged edge runs from corner 0 to corner 2). Points keep their order. O(n log n).
-/// \throw InputError
+/// Merges pairs of triangles into quads, flattest and squarest pairs first. Quads are convex under both diagonals, with
+/// no corner above 160 degrees; no two faces come to share two edges, no inner point is left with fewer than three.
+/// `accept`, if set, has the last word on each pair: it is given the quad's corners (the merged edge runs from corner 0
+/// to corner 2). Points keep their order; quads of the input stay and come first. Any soup will do: edges that are not
+/// between two faces in opposite directions are left alone. O(n log n).
+/// \throw InputError (an angle out of range; no usable face)
 VDBCAGE_API Mesh triquad(const Mesh& triangles, const TriquadOptions& options = {},
                          const std::function<bool(const openvdb::Vec4I&)>& accept = {});
 
