@@ -4,12 +4,21 @@
 #include <vdbcage/core/export.h>
 #include <vdbcage/core/interrupter.h>
 
+/// Mathematical morphology on sparse masks. What holds for all of it:
+/// - Masks are sets of active voxels on the unbounded integer lattice: outside of a grid is empty, there is no border.
+///   Active tiles of every level count as their voxels, and are never made dense. The grid's transform plays no part.
+/// - Results are exact, have the input's transform (copied) and no other metadata, and depend on the set of active
+///   voxels alone: equal sets give equal trees, the smallest there are, for any number of threads (TBB).
+/// - Active voxels have coordinates in [-2^30, 2^30); others are an InputError.
+/// - Cost: time grows with the number of contour leaves (8^3 nodes that hold a boundary voxel), for the sphere also
+/// with
+///   about the square of the radius; memory beyond the two trees is about 100 bytes for each contour leaf.
 namespace vdbcage {
 
-/// The structuring element of radius r, a set of voxel offsets d (integer lattice, Outside of a grid is empty):
+/// The structuring element of radius r, a set of voxel offsets d on the integer lattice.
 enum class Element {
-    sphere, ///< |d|^2 <= r^2, any real r >= 0
-    cube    ///< max |d_i| <= r, r is rounded down to an integer
+    sphere, ///< |d|^2 <= r^2, any real r
+    cube    ///< max |d_i| <= r, so that r counts rounded down
 };
 
 struct CloseOptions {
@@ -18,30 +27,21 @@ struct CloseOptions {
     Element element = Element::sphere;
 };
 
-/// Every voxel within the element's reach of an active voxel of `mask`. Same transform; exact; no border.
-/// \throw InputError radius negative, not finite or above 512; Cancelled
+/// Every voxel within the element's reach of an active voxel of `mask`.
+/// \throw InputError (radius negative, not finite or above 512 voxels; coordinates), Cancelled
 VDBCAGE_API openvdb::MaskGrid::Ptr dilate(const openvdb::MaskGrid& mask, double radiusVoxels,
                                           Element element = Element::sphere, Interrupter* interrupter = nullptr);
 
-/// Every voxel whose element lies wholly in the active voxels of `mask`. Same transform; exact; outside is empty.
-/// \throw InputError, Cancelled as dilate
+/// Every voxel whose element lies wholly in the active voxels of `mask`. \throw InputError, Cancelled as dilate
 VDBCAGE_API openvdb::MaskGrid::Ptr erode(const openvdb::MaskGrid& mask, double radiusVoxels,
                                          Element element = Element::sphere, Interrupter* interrupter = nullptr);
 
-/// The closing of `solid`: solid, united with the erosion (by the erode radius) of its dilation (by the close
-/// radius). Extensive by construction; idempotent and increasing for equal radii. Gaps, notches and handles narrower
-/// than twice the close radius fill up. An erode radius below the close radius leaves an offset of the difference.
-/// \throw InputError, Cancelled as dilate
+/// The closing of `solid`: the erosion (by the erode radius) of its dilation (by the close radius). Extensive, it
+/// never loses a voxel of `solid`; idempotent and increasing for equal radii. Gaps, notches and handles narrower than
+/// twice the close radius fill up. An erode radius below the close radius leaves an offset of the difference.
+/// \throw InputError (a radius out of range, the erode radius above the close radius; coordinates), Cancelled
 /// Based on: Calderon and Boubekeur, Bounding Proxies for Shape Approximation, 2017 (asymmetric closing).
 VDBCAGE_API openvdb::MaskGrid::Ptr closeMask(const openvdb::MaskGrid& solid, const CloseOptions& options = {},
                                              Interrupter* interrupter = nullptr);
-
-/// `mask` with every cavity filled: all voxels that no path of face-connected empty voxels joins to the outside.
-/// `cavities`, if not null, gets the number of separate cavities filled. \throw Cancelled
-VDBCAGE_API openvdb::MaskGrid::Ptr fillCavities(const openvdb::MaskGrid& mask, std::size_t* cavities = nullptr,
-                                                Interrupter* interrupter = nullptr);
-
-/// The contour of `mask`: its voxels with a face neighbour that is not active. \throw Cancelled
-VDBCAGE_API openvdb::MaskGrid::Ptr contour(const openvdb::MaskGrid& mask, Interrupter* interrupter = nullptr);
 
 } // namespace vdbcage

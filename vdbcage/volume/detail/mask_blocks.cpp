@@ -1,0 +1,205 @@
+#include <vdbcage/volume/detail/mask_blocks.h>
+
+#include <algorithm>
+#include <map>
+#include <sstream>
+
+#include <vdbcage/core/error.h>
+
+namespace vdbcage::detail {
+
+namespace {
+
+constexpr int blocksPerRegionAxis = regionSize / blockSize;
+
+template <class Visit>
+void forEachNode(const MaskTree& tree, const Visit& visit)
+{
+    for (auto region = tree.root().cbeginChildOn(); region; ++region) {
+        for (auto block = region->cbeginChildOn(); block; ++block) visit(*block);
+    }
+}
+
+template <class Visit>
+void forEachFullBlockTile(const MaskTree& tree, const Visit& visit)
+{
+    for (auto region = tree.root().cbeginChildOn(); region; ++region) {
+        for (auto tile = region->cbeginValueOn(); tile; ++tile) visit(tile.getCoord());
+    }
+}
+
+bool isUniformlyFull(const MaskBlock& node)
+{
+    const Block block(&node);
+    for (int n = 0; n < slotsPerBlock; ++n) {
+        const std::uint64_t* const words = block.slot(n);
+        if (!std::equal(fullWords.begin(), fullWords.end(), words)) return false;
+    }
+    return true;
+}
+
+bool isFullRegion(const MaskTree& tree, const Coord& origin)
+{
+    return tree.getValueDepth(origin) == 0 && tree.isValueOn(origin);
+}
+
+// The blocks along the face of a region on one side of one axis.
+template <class Visit>
+void forEachFaceBlock(const Coord& region, int axis, bool upper, const Visit& visit)
+{
+    for (int i = 0; i < blocksPerRegionAxis; ++i) {
+        for (int j = 0; j < blocksPerRegionAxis; ++j) {
+            Coord block = region;
+            block[axis] += upper ? regionSize - blockSize : 0;
+            block[(axis + 1) % 3] += i * blockSize;
+            block[(axis + 2) % 3] += j * blockSize;
+            visit(block);
+        }
+    }
+}
+
+} // namespace
+
+Block blockAt(const MaskTree& tree, const Coord& origin)
+{
+    if (const auto* node = tree.root().probeConstNode<MaskBlock>(origin)) return Block(node);
+    return Block(tree.isValueOn(origin));
+}
+
+std::vector<Coord> shellBlocks(const MaskTree& tree)
+{
+    std::vector<Coord> blocks;
+    forEachNode(tree, [&](const MaskBlock& node) { blocks.push_back(node.origin()); });
+    forEachFullBlockTile(tree, [&](const Coord& origin) { blocks.push_back(origin); });
+    for (auto tile = tree.root().cbeginValueOn(); tile; ++tile) {
+        for (int axis = 0; axis < 3; ++axis) {
+            for (const bool upper : {false, true}) {
+                Coord neighbour = tile.getCoord();
+                neighbour[axis] += upper ? regionSize : -regionSize;
+                if (isFullRegion(tree, neighbour)) continue;
+                forEachFaceBlock(tile.getCoord(), axis, upper, [&](const Coord& c) { blocks.push_back(c); });
+            }
+        }
+    }
+    std::sort(blocks.begin(), blocks.end());
+    blocks.erase(std::unique(blocks.begin(), blocks.end()), blocks.end());
+    return blocks;
+}
+
+FullParts fullParts(const MaskTree& tree)
+{
+    FullParts parts;
+    for (auto tile = tree.root().cbeginValueOn(); tile; ++tile) parts.regions.push_back(tile.getCoord());
+    forEachFullBlockTile(tree, [&](const Coord& origin) { parts.blocks.push_back(origin); });
+    forEachNode(tree, [&](const MaskBlock& node) {
+        if (isUniformlyFull(node)) parts.blocks.push_back(node.origin());
+    });
+    return parts;
+}
+
+void BlockBuilder::set(int n, const std::uint64_t* words)
+{
+    std::uint64_t any = 0, all = ~0ULL;
+    for (int x = 0; x < leafSize; ++x) {
+        any |= words[x];
+        all &= words[x];
+    }
+    const auto i = static_cast<std::size_t>(n);
+    if (all == ~0ULL) {
+        full_[i] = 1;
+    } else if (any != 0) {
+        leaves_[i] = std::make_unique<MaskLeaf>(origin_ + slotOffset(n));
+        std::copy(words, words + leafSize, leaves_[i]->buffer().data());
+    }
+}
+
+BuiltBlock BlockBuilder::finish()
+{
+    BuiltBlock built{origin_, nullptr, false};
+    const auto tiles = std::count(full_.begin(), full_.end(), 1);
+    const bool hasLeaf = std::any_of(leaves_.begin(), leaves_.end(), [](const auto& leaf) { return leaf != nullptr; });
+    if (tiles == slotsPerBlock) built.full = true;
+    if (!hasLeaf && (tiles == 0 || tiles == slotsPerBlock)) return built;
+    built.node = std::make_unique<MaskBlock>(origin_, false, false);
+    for (std::size_t i = 0; i < leaves_.size(); ++i) {
+        if (leaves_[i]) {
+            built.node->addChild(leaves_[i].release());
+        } else if (full_[i] != 0) {
+            built.node->addTile(static_cast<openvdb::Index>(i), true, true);
+        }
+    }
+    return built;
+}
+
+MaskTree::Ptr assemble(const FullParts& full, std::vector<BuiltBlock> built)
+{
+    std::map<Coord, std::unique_ptr<MaskRegion>> regions; // null: full
+    for (const Coord& origin : full.regions) regions[origin] = nullptr;
+    const auto regionOf = [&](const Coord& origin) -> MaskRegion& {
+        const Coord key = alignedTo(origin, regionSize);
+        const auto [place, isNew] = regions.try_emplace(key);
+        if (!place->second) place->second = std::make_unique<MaskRegion>(key, !isNew, !isNew);
+        return *place->second;
+    };
+    const auto addTile = [](MaskRegion& region, const Coord& origin, bool on) {
+        region.addTile(MaskRegion::coordToOffset(origin), on, on);
+    };
+    for (const Coord& origin : full.blocks) addTile(regionOf(origin), origin, true);
+    for (BuiltBlock& block : built) {
+        if (block.node) {
+            regionOf(block.origin).addChild(block.node.release());
+        } else if (block.full || regions.count(alignedTo(block.origin, regionSize)) > 0) {
+            addTile(regionOf(block.origin), block.origin, block.full);
+        }
+    }
+    auto tree = std::make_shared<MaskTree>(false);
+    for (auto& [origin, region] : regions) {
+        if (!region || (region->isChildMaskOff() && region->isValueMaskOn())) {
+            tree->root().addTile(origin, true, true);
+        } else if (!region->isEmpty()) {
+            tree->root().addChild(region.release());
+        }
+    }
+    return tree;
+}
+
+void requireSupportedCoordinates(const MaskTree& tree)
+{
+    constexpr int limit = 1 << 30;
+    const auto outside = [](const Coord& c) {
+        const auto beyond = [](int v) { return v < -limit || v >= limit; };
+        return beyond(c.x()) || beyond(c.y()) || beyond(c.z());
+    };
+    const auto require = [&](bool isSupported, const Coord& origin) {
+        if (isSupported) return;
+        std::ostringstream text;
+        text << "the mask has active voxels near " << origin << "; coordinates must be in [-2^30, 2^30)";
+        throw InputError(text.str());
+    };
+    // The limit is at a border of regions, so the origins tell.
+    for (auto tile = tree.root().cbeginValueOn(); tile; ++tile) require(!outside(tile.getCoord()), tile.getCoord());
+    for (auto region = tree.root().cbeginChildOn(); region; ++region) {
+        require(!outside(region->origin()) || region->onVoxelCount() == 0, region->origin());
+    }
+}
+
+BitBox bitBox(const std::uint64_t* words)
+{
+    std::uint64_t any = 0;
+    int first = -1, last = 0;
+    for (int x = 0; x < leafSize; ++x) {
+        if (words[x] == 0) continue;
+        if (first < 0) first = x;
+        last = x;
+        any |= words[x];
+    }
+    std::uint64_t z = any | (any >> 32);
+    z |= z >> 16;
+    z |= z >> 8;
+    const auto byte = static_cast<unsigned>(z & 0xFF);
+    const auto narrow = [](int v) { return static_cast<std::int8_t>(v); };
+    return {{narrow(first), narrow(__builtin_ctzll(any) / 8), narrow(__builtin_ctz(byte))},
+            {narrow(last), narrow(7 - __builtin_clzll(any) / 8), narrow(31 - __builtin_clz(byte))}};
+}
+
+} // namespace vdbcage::detail

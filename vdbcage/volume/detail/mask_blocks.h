@@ -1,0 +1,124 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include <openvdb/openvdb.h>
+
+/// A sparse mask seen as the nodes of its tree, the view that every algorithm of this room works on.
+///
+/// A *region* is 4096^3 voxels (a child of the root), a *block* 128^3 (the node above the leaves), a *slot* one of the
+/// 4096 places of 8^3 voxels in a block: empty, full or a leaf. The bits of a slot are 8 words, word x holding voxel
+/// (x, y, z) in bit 8 y + z, as OpenVDB stores them. Regions and blocks are named by their origin. Only active states
+/// count; the values of a mask tree's tiles are not looked at.
+namespace vdbcage::detail {
+
+using openvdb::Coord;
+using openvdb::MaskTree;
+using MaskRegion = MaskTree::RootNodeType::ChildNodeType;
+using MaskBlock = MaskRegion::ChildNodeType;
+using MaskLeaf = MaskTree::LeafNodeType;
+
+constexpr int leafSize = 8, blockSize = 128, regionSize = 4096;
+constexpr int slotsPerAxis = 16, slotsPerBlock = 4096;
+
+using Words = std::array<std::uint64_t, 8>;
+inline constexpr Words emptyWords{};
+inline constexpr Words fullWords{~0ULL, ~0ULL, ~0ULL, ~0ULL, ~0ULL, ~0ULL, ~0ULL, ~0ULL};
+
+inline constexpr int slotIndex(int x, int y, int z)
+{
+    return (x << 8) | (y << 4) | z;
+}
+/// The corner of slot n, relative to its block.
+inline Coord slotOffset(int n)
+{
+    return {(n >> 8) * leafSize, ((n >> 4) & 15) * leafSize, (n & 15) * leafSize};
+}
+
+/// One block of a mask: a node of the tree, or uniformly empty or full.
+class Block {
+public:
+    Block() = default;
+    explicit Block(const MaskBlock* node) : node_(node) {}
+    explicit Block(bool full) : full_(full) {}
+
+    bool isNode() const { return node_ != nullptr; }
+    /// Uniform, and so without a node. (A node can be full or empty too, where nobody pruned it.)
+    bool isFull() const { return full_; }
+    bool isEmpty() const { return !node_ && !full_; }
+
+    /// The 8 words of slot n: those of the leaf, or exactly emptyWords or fullWords.
+    const std::uint64_t* slot(int n) const
+    {
+        const auto i = static_cast<openvdb::Index>(n);
+        if (!node_) return full_ ? fullWords.data() : emptyWords.data();
+        if (node_->isChildMaskOn(i)) return node_->getTable()[i].getChild()->buffer().data();
+        return node_->isValueMaskOn(i) ? fullWords.data() : emptyWords.data();
+    }
+
+private:
+    const MaskBlock* node_ = nullptr;
+    bool full_ = false;
+};
+
+/// The block of `tree` with this origin. O(log regions).
+Block blockAt(const MaskTree& tree, const Coord& origin);
+
+/// The blocks that can hold a boundary voxel of the mask, sorted: the nodes, the full blocks, and of a full region
+/// those at the faces where its neighbour is not a full region.
+std::vector<Coord> shellBlocks(const MaskTree& tree);
+
+/// Where a tree is full without a leaf or slot tile saying so.
+struct FullParts {
+    std::vector<Coord> regions;
+    std::vector<Coord> blocks; ///< outside the regions
+};
+FullParts fullParts(const MaskTree& tree);
+
+/// A finished block, on its way into a tree: a node, or uniform.
+struct BuiltBlock {
+    Coord origin;
+    std::unique_ptr<MaskBlock> node; ///< null: uniform
+    bool full = false;
+};
+
+/// Collects the slots of one block. Different slots may be set by different threads.
+class BlockBuilder {
+public:
+    explicit BlockBuilder(const Coord& origin) : origin_(origin), leaves_(slotsPerBlock), full_(slotsPerBlock, 0) {}
+
+    /// Slot n becomes `words`; each slot at most once, empty where never set.
+    void set(int n, const std::uint64_t* words);
+    BuiltBlock finish();
+
+private:
+    Coord origin_;
+    std::vector<std::unique_ptr<MaskLeaf>> leaves_;
+    std::vector<char> full_;
+};
+
+/// The tree of the full parts with the built blocks put in their place (each origin once). It is the smallest tree of
+/// its set: no empty node, no full one, so equal sets give equal trees.
+MaskTree::Ptr assemble(const FullParts& full, std::vector<BuiltBlock> built);
+
+/// Checks that there is room around the active voxels for the arithmetic on coordinates: all within [-2^30, 2^30).
+/// \throw InputError
+void requireSupportedCoordinates(const MaskTree& tree);
+
+/// The box of the set bits, as offsets 0 to 7; `words` must not be empty.
+struct BitBox {
+    std::array<std::int8_t, 3> lower, upper; // inclusive
+};
+BitBox bitBox(const std::uint64_t* words);
+
+/// Rounds down to a multiple of a power of two.
+inline Coord alignedTo(const Coord& c, int size)
+{
+    return {c.x() & ~(size - 1), c.y() & ~(size - 1), c.z() & ~(size - 1)};
+}
+
+} // namespace vdbcage::detail

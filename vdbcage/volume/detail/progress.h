@@ -1,0 +1,27 @@
+#pragma once
+
+#include <cstddef>
+
+#include <vdbcage/core/interrupter.h>
+
+namespace vdbcage::detail {
+
+/// The stretch of a stage's progress bar that one pass of several fills.
+struct Progress {
+    Interrupter* interrupter = nullptr;
+    int from = 0, to = 100; ///< percent
+
+    /// The `index`-th of `count` equal parts of this stretch.
+    Progress part(int index, int count) const
+    {
+        return {interrupter, from + (to - from) * index / count, from + (to - from) * (index + 1) / count};
+    }
+    /// \throw Cancelled
+    void check(std::size_t done, std::size_t total) const
+    {
+        const double fraction = total > 0 ? static_cast<double>(done) / static_cast<double>(total) : 0;
+        throwIfInterrupted(interrupter, from + static_cast<int>((to - from) * fraction));
+    }
+};
+
+} // namespace vdbcage::detail

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <cstdint>
+
+#include <vdbcage/volume/detail/mask_blocks.h>
+#include <vdbcage/volume/detail/progress.h>
+
+namespace vdbcage::detail {
+
+/// The voxels p with a voxel q of `mask` such that |p - q|^2 <= squaredRadius.
+MaskTree::Ptr dilateBySphere(const MaskTree& mask, std::int64_t squaredRadius, const Progress& progress);
+
+/// The voxels p such that every q with |p - q|^2 <= squaredRadius is in `mask`. `keep`, if not null, are voxels known
+/// to be in the result: no work is done on them.
+MaskTree::Ptr erodeBySphere(const MaskTree& mask, const MaskTree* keep, std::int64_t squaredRadius,
+                            const Progress& progress);
+
+} // namespace vdbcage::detail

@@ -1,0 +1,84 @@
+#include <vdbcage/volume/morphology.h>
+
+#include <cmath>
+#include <cstdint>
+#include <sstream>
+#include <utility>
+
+#include <vdbcage/core/error.h>
+#include <vdbcage/volume/detail/cube_pass.h>
+#include <vdbcage/volume/detail/mask_grid.h>
+#include <vdbcage/volume/detail/sphere_pass.h>
+
+namespace vdbcage {
+
+namespace {
+
+using openvdb::MaskGrid;
+using openvdb::MaskTree;
+
+constexpr double maximumRadius = 512;
+
+void requireRadius(double radius, const char* name, double maximum)
+{
+    if (radius >= 0 && radius <= maximum) return; // false for NaN
+    std::ostringstream text;
+    text << name << " is " << radius << " voxels; it must be between 0 and " << maximum;
+    throw InputError(text.str());
+}
+
+// The largest integer that is not above radius^2; the product may have been rounded up to one.
+std::int64_t squared(double radius)
+{
+    const double square = std::floor(radius * radius);
+    return static_cast<std::int64_t>(std::fma(radius, radius, -square) < 0 ? square - 1 : square);
+}
+
+int wholeVoxels(double radius)
+{
+    return static_cast<int>(std::floor(radius));
+}
+
+MaskTree::Ptr dilateTree(const MaskTree& mask, double radius, Element element, const detail::Progress& progress)
+{
+    if (element == Element::cube) return detail::dilateByCube(mask, wholeVoxels(radius), progress);
+    return detail::dilateBySphere(mask, squared(radius), progress);
+}
+
+// `keep` may be null; it must be a subset of the result.
+MaskTree::Ptr erodeTree(const MaskTree& mask, const MaskTree* keep, double radius, Element element,
+                        const detail::Progress& progress)
+{
+    if (element == Element::cube) return detail::erodeByCube(mask, wholeVoxels(radius), progress);
+    return detail::erodeBySphere(mask, keep, squared(radius), progress);
+}
+
+} // namespace
+
+MaskGrid::Ptr dilate(const MaskGrid& mask, double radiusVoxels, Element element, Interrupter* interrupter)
+{
+    requireRadius(radiusVoxels, "the dilation radius", maximumRadius);
+    detail::requireSupportedCoordinates(mask.tree());
+    return detail::maskGridLike(mask, dilateTree(mask.tree(), radiusVoxels, element, {interrupter}));
+}
+
+MaskGrid::Ptr erode(const MaskGrid& mask, double radiusVoxels, Element element, Interrupter* interrupter)
+{
+    requireRadius(radiusVoxels, "the erosion radius", maximumRadius);
+    detail::requireSupportedCoordinates(mask.tree());
+    return detail::maskGridLike(mask, erodeTree(mask.tree(), nullptr, radiusVoxels, element, {interrupter}));
+}
+
+MaskGrid::Ptr closeMask(const MaskGrid& solid, const CloseOptions& options, Interrupter* interrupter)
+{
+    requireRadius(options.closeRadiusVoxels, "the close radius", maximumRadius);
+    requireRadius(options.erodeRadiusVoxels, "the erode radius", options.closeRadiusVoxels);
+    detail::requireSupportedCoordinates(solid.tree());
+    const detail::Progress progress{interrupter};
+    const auto dilated = dilateTree(solid.tree(), options.closeRadiusVoxels, options.element, progress.part(0, 2));
+    // As the erode radius is not above the close radius, no voxel of the solid can be lost.
+    return detail::maskGridLike(
+        solid, erodeTree(*dilated, &solid.tree(), options.erodeRadiusVoxels, options.element, progress.part(1, 2)));
+}
+
+} // namespace vdbcage
