@@ -2,9 +2,9 @@
 
 #include <vector>
 
+#include <openvdb/Types.h>
 #include <openvdb/math/Coord.h>
 #include <openvdb/math/Transform.h>
-#include <openvdb/Types.h>
 #include <vdbcage/mesh/mesh.h>
 
 namespace vdbcage::detail {
