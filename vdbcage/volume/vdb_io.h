@@ -10,14 +10,18 @@
 namespace vdbcage {
 
 /// Writes `mask` as a .vdb that Blender, Houdini and others open as a volume: one FloatGrid named `density`, 1 in the
-/// active voxels (sparse tiles kept), background 0, class fog volume, the mask's transform, creator "vdbcage VERSION".
-/// Each entry of `metadata` becomes a string named `vdbcage_KEY`. Written atomically (see core/atomic_file.h).
-/// \throw IoError
+/// active voxels (tiles stay tiles), background 0, class fog volume, the mask's transform, creator "vdbcage VERSION",
+/// compressed as OpenVDB does by default. Each entry of `metadata` becomes a string of the grid named `vdbcage_KEY`.
+/// The file appears whole or not at all (see core/atomic_file.h); equal grids need not give equal bytes (each file gets
+/// a UUID). Cost: 2 KiB of memory for each leaf node while it is written. \throw IoError naming the path
 VDBCAGE_API void writeVdb(const openvdb::MaskGrid& mask, const std::filesystem::path& path,
                           const std::map<std::string, std::string>& metadata = {});
 
-/// Reads a mask back: the grid named `density` (or the only grid of the file); float grids are active where the value
-/// is above 0.5 (level sets: below 0), bool and mask grids where it is true and active. \throw IoError
+/// Reads a mask from a .vdb: its grid named `density` (the first of them) or else its only grid. A voxel is active
+/// where a float or double grid is above 0.5 (where its class is level set: below 0), whatever its active state, and
+/// where a bool or mask grid is both true and active. The grid's transform is kept, metadata is not.
+/// \throw IoError naming the path: cannot be read, not a .vdb, truncated or damaged, no grid `density` among several
+///        or none at all, a grid of another type, a grid whose background is inside (it fills all of space)
 VDBCAGE_API openvdb::MaskGrid::Ptr readVdb(const std::filesystem::path& path);
 
 } // namespace vdbcage
