@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include <vdbcage/core/export.h>
@@ -10,8 +11,10 @@
 
 namespace vdbcage {
 
-/// The verdict on a cage. Yes/no answers and counts are exact on the coordinates given (a quad counts under both
-/// diagonals); measures are rounded. Faces are numbered triangles first, then quads.
+/// The verdict on a cage. Yes/no answers and counts are exact on the coordinates given; measures are rounded. A quad
+/// stands for all four triangles of its two diagonals: a defect under one of them counts. All sets are closed: a touch
+/// is a contact, and points are the same only if their index is, so two at one place touch. Faces are numbered
+/// triangles first, then quads.
 struct CageCheck {
     // The cage by itself
     std::size_t points = 0, triangles = 0, quads = 0;
@@ -21,24 +24,30 @@ struct CageCheck {
     std::size_t nonManifoldEdges = 0;    ///< edges with more than two faces
     std::size_t nonManifoldVertices = 0; ///< vertices whose faces form more than one fan
     std::size_t misorientedEdges = 0;    ///< edges whose two faces run along them in the same direction
-    std::size_t inwardComponents = 0;    ///< components whose volume is not positive under either diagonal
-    std::size_t degenerateFaces = 0;     ///< faces with a repeated corner or a triangle of zero area
-    std::size_t selfIntersections = 0;   ///< pairs of faces that meet in more than the corners and edges they share
+    /// Components whose volume is not positive for some choice of diagonals; those with a boundary or a misoriented
+    /// edge have no volume and are not counted.
+    std::size_t inwardComponents = 0;
+    std::size_t degenerateFaces = 0; ///< faces with a repeated corner or a triangle of zero area
+    /// Pairs of faces that meet in more than the corners and edges they share, and quads folded over a diagonal.
+    /// Degenerate triangles are not tested.
+    std::size_t selfIntersections = 0;
 
     // The cage against the model
-    std::size_t contactFaces = 0;         ///< cage faces that touch or cross the model
-    std::size_t modelVerticesOutside = 0; ///< model vertices (used by faces) not strictly inside, for any diagonal
-    std::vector<std::uint32_t> badFaces;  ///< sorted: cage faces in a self-intersection or contact, degenerate, or with
-                                          ///< a model vertex between the two diagonals of the quad
+    std::size_t contactFaces = 0; ///< cage faces that touch or cross the model
+    /// Model vertices (used by faces) not strictly inside: their winding number is not 1 for every choice of diagonals,
+    /// or they lie on the cage. All of them if the cage has no inside (see MeshTopology::isCycle).
+    std::size_t modelVerticesOutside = 0;
+    std::vector<std::uint32_t> badFaces; ///< sorted: cage faces in a self-intersection or contact, degenerate, folded,
+                                         ///< or with a model vertex between the two diagonals of the quad
 
     // Measures; lengths are fractions of the diagonal of the model's bounding box
     double meanDistance = 0;    ///< from the cage to the model, over an even sample of the cage's area
-    double maxDistance = 0;     ///< the largest of these
+    double maxDistance = 0;     ///< the largest of these and of the distances of the cage's corners
     double minDistance = 0;     ///< the smallest of these (sampled, not exact)
-    double cageVolume = 0;      ///< in world units cubed
-    double volumeRatio = 0;     ///< cage volume / model volume; 0 if the model is not closed
+    double cageVolume = 0;      ///< in world units cubed, the mean over the diagonals; 0 if the cage has no inside
+    double volumeRatio = 0;     ///< cage volume / model volume; 0 if the model or the cage has no inside
     double minAngleDegrees = 0; ///< the smallest triangle angle (quads: under both diagonals)
-    double angle1stPercentileDegrees = 0;
+    double angle1stPercentileDegrees = 0; ///< 1 % of these angles are smaller
 
     bool closed() const { return triangles + quads > 0 && boundaryEdges == 0; }
     bool manifold() const { return nonManifoldEdges == 0 && nonManifoldVertices == 0; }
@@ -57,10 +66,26 @@ struct CheckOptions {
     std::size_t samples = 20000; ///< points on the cage for the distances
 };
 
-/// Examines `cage` against `model`, both any polygon soup with valid indices and finite points; never throws for a bad
-/// cage. Exact predicates (CGAL's filtered kernel) decide every yes/no. O((n + m) log n) for ordinary meshes.
-/// \throw InputError (a mesh with an index out of range or a point that is not finite, a model without faces),
-///        Cancelled
+/// Checks cages against one model, which is examined once. A value: copies share what was found out, and any number of
+/// threads may check at the same time.
+class VDBCAGE_API CageChecker {
+public:
+    /// `model` is any polygon soup; degenerate faces count as the segments or points that they are. O(m log m) in its
+    /// faces, in parallel.
+    /// \throw InputError (no faces, an index out of range, a point of a face that is not finite), Cancelled
+    explicit CageChecker(const Mesh& model, Interrupter* interrupter = nullptr);
+
+    /// Examines `cage`, any polygon soup; never throws for a bad one. Exact predicates (CGAL's filtered kernel) decide
+    /// every yes/no. O(n log m) for ordinary meshes, in parallel; the same for any number of threads.
+    /// \throw InputError (an index out of range, a point of a face that is not finite), Cancelled
+    CageCheck check(const Mesh& cage, const CheckOptions& options = {}, Interrupter* interrupter = nullptr) const;
+
+private:
+    class Model;
+    std::shared_ptr<const Model> model_;
+};
+
+/// The same in one step, for a single cage: `CageChecker(model).check(cage, options)`.
 VDBCAGE_API CageCheck checkCage(const Mesh& cage, const Mesh& model, const CheckOptions& options = {},
                                 Interrupter* interrupter = nullptr);
 

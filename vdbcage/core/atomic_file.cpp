@@ -22,21 +22,18 @@ std::string reason(int error)
     return std::generic_category().message(error);
 }
 
+fs::path folderOf(const fs::path& file)
+{
+    return file.has_parent_path() ? file.parent_path() : fs::path(".");
+}
+
 /// A file of its own in the folder of `target`, removed unless it was committed.
 class TemporaryFile {
 public:
     explicit TemporaryFile(const fs::path& target) : target_(target)
     {
-        std::error_code error;
-        if (fs::is_directory(target, error)) throw IoError(target.string() + ": is a directory; a file is needed");
-        fs::path folder = target.parent_path();
-        if (folder.empty()) folder = ".";
-        if (!fs::is_directory(folder, error)) {
-            throw IoError(target.string() + ": the folder " + folder.string() + " does not exist");
-        }
-        if (fs::exists(target, error) && ::access(target.c_str(), W_OK) != 0) {
-            throw IoError(target.string() + ": cannot be replaced: " + reason(errno));
-        }
+        requireWritable(target);
+        const fs::path folder = folderOf(target);
         // mkstemps creates the file exclusively; the extension is kept for writers that look at it.
         const std::string extension = target.extension().string();
         std::string name = (folder / ("." + target.stem().string() + ".XXXXXX" + extension)).string();
@@ -80,6 +77,23 @@ private:
 };
 
 } // namespace
+
+void requireWritable(const fs::path& path)
+{
+    std::error_code error;
+    const fs::path folder = folderOf(path);
+    if (path.filename().empty() || fs::is_directory(path, error)) {
+        throw IoError(path.string() + ": is a directory; a file is needed");
+    }
+    if (!fs::is_directory(folder, error)) {
+        throw IoError(path.string() + ": the folder " + folder.string() + " does not exist");
+    }
+    if (fs::exists(path, error)) {
+        if (!fs::is_regular_file(path, error)) throw IoError(path.string() + ": is not an ordinary file");
+        if (::access(path.c_str(), W_OK) != 0) throw IoError(path.string() + ": cannot be replaced: " + reason(errno));
+    }
+    if (::access(folder.c_str(), W_OK) != 0) throw IoError(path.string() + ": cannot be written: " + reason(errno));
+}
 
 void writeFileAtomically(const fs::path& path, const std::function<void(std::ostream&)>& write)
 {

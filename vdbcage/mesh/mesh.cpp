@@ -1,17 +1,15 @@
 #include <vdbcage/mesh/mesh.h>
 
 #include <cmath>
-#include <sstream>
 #include <string>
 
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <vdbcage/core/error.h>
+#include <vdbcage/mesh/detail/degenerate.h>
+#include <vdbcage/mesh/detail/number_text.h>
 
 namespace vdbcage {
 
 namespace {
-
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 
 template <typename Visit>
 void forEachCorner(const Mesh& mesh, const Visit& visit)
@@ -22,15 +20,6 @@ void forEachCorner(const Mesh& mesh, const Visit& visit)
     for (const openvdb::Vec4I& quad : mesh.quads) {
         for (int i = 0; i < 4; ++i) visit(quad[i]);
     }
-}
-
-bool isDegenerate(const Mesh& mesh, const openvdb::Vec3I& triangle)
-{
-    const auto point = [&](int i) {
-        const openvdb::Vec3d& p = mesh.points[triangle[i]];
-        return Kernel::Point_3(p.x(), p.y(), p.z());
-    };
-    return CGAL::collinear(point(0), point(1), point(2));
 }
 
 } // namespace
@@ -64,19 +53,17 @@ void requireUsable(const Mesh& mesh, const char* what)
         }
         const openvdb::Vec3d& p = mesh.points[corner];
         if (!std::isfinite(p.x()) || !std::isfinite(p.y()) || !std::isfinite(p.z())) {
-            std::ostringstream text;
-            text << "point " << corner << " is (" << p.x() << ", " << p.y() << ", " << p.z()
-                 << "); coordinates must be finite";
-            fail(text.str());
+            fail("point " + std::to_string(corner) + " is (" + detail::numberText(p.x()) + ", " +
+                 detail::numberText(p.y()) + ", " + detail::numberText(p.z()) + "); coordinates must be finite");
         }
     });
     for (const openvdb::Vec3I& triangle : mesh.triangles) {
-        if (!isDegenerate(mesh, triangle)) return;
+        if (!detail::isDegenerate(mesh, triangle)) return;
     }
     for (const openvdb::Vec4I& quad : mesh.quads) {
         for (const openvdb::Vec3I& half :
              {openvdb::Vec3I(quad[0], quad[1], quad[2]), openvdb::Vec3I(quad[0], quad[2], quad[3])}) {
-            if (!isDegenerate(mesh, half)) return;
+            if (!detail::isDegenerate(mesh, half)) return;
         }
     }
     fail("every face is degenerate (its corners are on a line); at least one must have an area");

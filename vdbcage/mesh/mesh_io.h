@@ -17,8 +17,9 @@ struct ReadSummary {
     std::size_t ignoredElements = 0; ///< lines, points, curves and other elements that are not faces
 };
 
-/// The file name extensions that readMesh and writeMesh take, lower case with the dot: .obj .off .ply .stl.
-VDBCAGE_API const std::vector<std::string>& meshExtensions();
+/// Checks that readMesh and writeMesh know the format of `path` by its extension: .obj .off .ply .stl in any case.
+/// \throw IoError naming the path and the extensions
+VDBCAGE_API void requireMeshExtension(const std::filesystem::path& path);
 
 /// Reads a model or cage: OBJ, OFF (also COFF, NOFF, STOFF), PLY (ascii, binary of both byte orders) or STL (ascii,
 /// binary), told apart by the file name's extension in any case. Points keep their order and exact values; corners

@@ -1,0 +1,79 @@
+# cmake -P cmake/CheckLayers.cmake: fails, naming every offender, unless the floors of the house hold:
+#   core < mesh < gl < voxelize | volume | surface | check < pipeline < tools, tests
+# A room includes only itself and rooms of lower floors; those of one floor do not know each other. Public headers
+# include no private ones. Third-party libraries stay in their files.
+cmake_minimum_required(VERSION 3.25)
+get_filename_component(root ${CMAKE_CURRENT_LIST_DIR}/.. ABSOLUTE)
+
+set(floor_core 0)
+set(floor_mesh 1)
+set(floor_gl 2)
+foreach(room voxelize volume surface check deform)
+    set(floor_${room} 3)
+endforeach()
+set(floor_pipeline 4)
+
+set(gpl "CGAL/(Surface_mesh|AABB_|Side_of_triangle_mesh|Polygon_mesh_processing|Polyhedron_3|convex_hull_3|Nef_)")
+# library header pattern | files that may include it
+set(confined
+    "OpenMesh/|^vdbcage/(mesh/detail/open_mesh\\.h|surface/[a-z_]+\\.cpp)$"
+    "GL/osmesa|^vdbcage/gl/offscreen\\.cpp$"
+    "EGL/|^vdbcage/gl/offscreen\\.cpp$"
+    "GLFW/|^tools/view/window\\.cpp$"
+    "png\\.h|^(tools/vdbcage/png\\.cpp|tests/.*)$"
+    "CGAL/|^(vdbcage/.*\\.cpp|tests/.*)$")
+
+set(problems "")
+set(checked 0)
+file(GLOB_RECURSE files RELATIVE ${root} ${root}/vdbcage/*.h ${root}/vdbcage/*.cpp ${root}/tools/*.h ${root}/tools/*.cpp
+    ${root}/tests/*.h ${root}/tests/*.cpp)
+foreach(file IN LISTS files)
+    math(EXPR checked "${checked} + 1")
+    file(STRINGS ${root}/${file} lines REGEX "^#[ ]*include")
+    set(room "")
+    if(file MATCHES "^vdbcage/([a-z]+)/")
+        set(room ${CMAKE_MATCH_1})
+        if(NOT DEFINED floor_${room})
+            list(APPEND problems "${file}: the room ${room} is on no floor")
+            continue()
+        endif()
+    endif()
+    foreach(line IN LISTS lines)
+        if(NOT line MATCHES "[<\"]([^>\"]+)[>\"]")
+            continue()
+        endif()
+        set(header ${CMAKE_MATCH_1})
+        if(room AND header MATCHES "^(support|tools|tests)/")
+            list(APPEND problems "${file}: the library includes ${header}")
+        endif()
+        if(room AND header MATCHES "^vdbcage/([a-z]+)/")
+            set(other ${CMAKE_MATCH_1})
+            if(NOT other STREQUAL room AND NOT floor_${other} LESS floor_${room})
+                list(APPEND problems "${file}: ${room} must not include ${header}")
+            endif()
+            if(file MATCHES "^vdbcage/[a-z]+/[a-z_]+\\.h$" AND NOT room STREQUAL gl AND header MATCHES "/detail/|^vdbcage/gl/")
+                list(APPEND problems "${file}: a public header includes the private ${header}")
+            endif()
+        endif()
+        foreach(rule IN LISTS confined)
+            string(FIND "${rule}" "|" bar)
+            string(SUBSTRING "${rule}" 0 ${bar} pattern)
+            math(EXPR bar "${bar} + 1")
+            string(SUBSTRING "${rule}" ${bar} -1 allowed)
+            if(header MATCHES "^${pattern}" AND NOT file MATCHES "${allowed}")
+                list(APPEND problems "${file}: ${header} does not belong here")
+            endif()
+        endforeach()
+        if(room AND header MATCHES "^${gpl}" AND NOT file MATCHES "^vdbcage/(surface/repair|voxelize/detail/cgal)\\.cpp$")
+            list(APPEND problems "${file}: ${header} is GPL; it belongs to the optional part only")
+        endif()
+    endforeach()
+endforeach()
+if(checked LESS 20)
+    list(APPEND problems "only ${checked} files were found below ${root}")
+endif()
+if(problems)
+    list(JOIN problems "\n  " text)
+    message(FATAL_ERROR "The layers do not hold:\n  ${text}")
+endif()
+message(STATUS "the layers hold in ${checked} files")

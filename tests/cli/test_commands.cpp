@@ -1,0 +1,176 @@
+#include <boost/test/unit_test.hpp>
+
+#include <csignal>
+#include <cstdio>
+
+#include <nlohmann/json.hpp>
+#include <openvdb/openvdb.h>
+#include <support/run_command.h>
+#include <support/shapes.h>
+#include <vdbcage/check/check.h>
+#include <vdbcage/mesh/mesh_io.h>
+#include <vdbcage/volume/vdb_io.h>
+
+using namespace vdbcage;
+using nlohmann::json;
+using test::runCommand;
+using test::TemporaryFolder;
+
+namespace {
+
+const std::string command = VDBCAGE_COMMAND;
+const std::string bishop = VDBCAGE_MODELS "/bishop.obj";
+
+json readJson(const std::filesystem::path& path)
+{
+    return json::parse(test::readText(path));
+}
+
+} // namespace
+
+BOOST_AUTO_TEST_SUITE(commands)
+
+BOOST_AUTO_TEST_CASE(make_leaves_cage_stages_report_and_picture)
+{
+    const TemporaryFolder folder;
+    const auto result = runCommand({command, "make", bishop, "-o", folder / "cage.obj", "--faces", "200",
+                                    "--resolution", "64", "--stages", folder / "stages", "--report",
+                                    folder / "report.json", "--picture", folder / "picture.png"});
+    BOOST_TEST(result.status == 0, result.err);
+    BOOST_TEST(result.out.empty());
+    BOOST_TEST(result.err.find("certified bounding") != std::string::npos, result.err);
+    BOOST_TEST(result.err.find('\r') == std::string::npos, "a progress bar where there is no terminal");
+    BOOST_TEST(folder.entries() == 4U);
+
+    const Mesh cage = readMesh(folder / "cage.obj");
+    BOOST_TEST(faceCount(cage) <= 200U);
+    BOOST_TEST(checkCage(cage, readMesh(bishop)).bounding());
+
+    const auto stages = folder / "stages";
+    for (const char* name : {"solid", "dilated", "closed", "contour"}) {
+        openvdb::io::File file((stages / (std::string(name) + ".vdb")).string());
+        file.open();
+        const auto grids = file.getGrids();
+        BOOST_REQUIRE(grids->size() == 1U);
+        const auto grid = openvdb::gridPtrCast<openvdb::FloatGrid>(grids->front());
+        BOOST_TEST(grid->getName() == "density");
+        BOOST_CHECK(grid->getGridClass() == openvdb::GRID_FOG_VOLUME);
+        BOOST_TEST(grid->metaValue<std::string>("vdbcage_stage") == name);
+        BOOST_TEST(grid->metaValue<std::string>("vdbcage_option_faces") == "200");
+        BOOST_TEST(grid->metaValue<std::string>("vdbcage_source") == "bishop.obj");
+    }
+    const auto solid = readVdb(stages / "solid.vdb"), dilated = readVdb(stages / "dilated.vdb"),
+               closed = readVdb(stages / "closed.vdb"), border = readVdb(stages / "contour.vdb");
+    BOOST_TEST(solid->activeVoxelCount() <= closed->activeVoxelCount());
+    BOOST_TEST(closed->activeVoxelCount() < dilated->activeVoxelCount());
+    BOOST_TEST(border->activeVoxelCount() < closed->activeVoxelCount());
+    for (const char* name : {"surface", "smoothed", "decimated"}) {
+        BOOST_TEST(faceCount(readMesh(stages / (std::string(name) + ".obj"))) > 0U);
+    }
+
+    const json report = readJson(folder / "report.json");
+    BOOST_TEST(report["check"]["bounding"] == true);
+    BOOST_TEST(report["options"]["faces"] == "200");
+    BOOST_TEST(report["model"]["triangles"].get<long>() + 2 * report["model"]["quads"].get<long>() > 10000);
+    BOOST_TEST(report["seconds"].get<double>() > 0);
+    BOOST_TEST(report["memory_peak_mib"].get<double>() > 1);
+    std::vector<std::string> names;
+    for (const json& stage : report["stages"]) names.push_back(stage["name"]);
+    for (const char* name : {"read", "voxelize", "close", "surface", "smooth", "decimate", "certify", "write"}) {
+        BOOST_TEST(std::count(names.begin(), names.end(), name) == 1);
+    }
+}
+
+BOOST_AUTO_TEST_CASE(every_format_goes_in_and_out)
+{
+    const TemporaryFolder folder;
+    writeMesh(test::sphere({0, 0, 0}, 1, 12), folder / "ball.ply");
+    std::string model = folder / "ball.ply";
+    for (const char* name : {"cage.obj", "cage.off", "cage.ply", "cage.stl"}) {
+        const std::string cage = folder / name;
+        BOOST_TEST(runCommand({command, "make", model, "-o", cage, "--resolution", "32", "-q"}).status == 0);
+        const auto check = runCommand({command, "check", cage, model});
+        BOOST_TEST(check.status == 0, check.out);
+        model = cage; // a cage around the cage, in the next format
+    }
+}
+
+BOOST_AUTO_TEST_CASE(check_tells_good_from_bad)
+{
+    const TemporaryFolder folder;
+    const std::string model = folder / "model.obj", good = folder / "good.obj", cutting = folder / "cutting.obj",
+                      open = folder / "open.obj";
+    writeMesh(test::sphere({0, 0, 0}, 1, 12), model);
+    writeMesh(test::box({-2, -2, -2}, {2, 2, 2}), good);
+    writeMesh(test::box({-2, -2, -2}, {2, 2, 0.5}), cutting);
+    Mesh lid = test::box({-2, -2, -2}, {2, 2, 2});
+    lid.quads.pop_back();
+    writeMesh(lid, open);
+    const auto report = folder / "report.json";
+    BOOST_TEST(runCommand({command, "check", good, model, "--report", report}).status == 0);
+    BOOST_TEST(readJson(report)["check"]["bounding"] == true);
+    const auto bad = runCommand({command, "check", cutting, model, "--report", report});
+    BOOST_TEST(bad.status == 2);
+    BOOST_TEST(bad.out.find("NOT bounding") != std::string::npos);
+    BOOST_TEST(readJson(report)["check"]["bounding"] == false);
+    BOOST_TEST(readJson(report)["check"]["contact_faces"].get<int>() > 0);
+    BOOST_TEST(runCommand({command, "check", open, model}).status == 2);
+    BOOST_TEST(runCommand({command, "check", open, model, "-q"}).out.empty());
+}
+
+BOOST_AUTO_TEST_CASE(render_draws_models_cages_and_volumes)
+{
+    const TemporaryFolder folder;
+    BOOST_TEST(runCommand({command, "make", bishop, "-o", folder / "cage.obj", "--resolution", "32", "--stages",
+                           folder / "stages", "-q"})
+                   .status == 0);
+    const std::string picture = folder / "picture.png";
+    const auto result = runCommand({command, "render", bishop, folder / "cage.obj", "/", folder / "stages/solid.vdb",
+                                    "/", bishop, "-o", picture, "--size", "600x200"});
+    BOOST_TEST(result.status == 0, result.err);
+    const std::string bytes = test::readText(picture);
+    BOOST_TEST(bytes.substr(1, 3) == "PNG");
+    // Width and height stand in the header, big endian.
+    BOOST_TEST(bytes.substr(16, 8) == std::string("\0\0\x02\x58\0\0\0\xc8", 8));
+}
+
+BOOST_AUTO_TEST_CASE(repair_mends_a_cage)
+{
+    if (runCommand({command, "repair", "--help"}).status != 0) return;
+    const TemporaryFolder folder;
+    Mesh open = test::sphere({0, 0, 0}, 1, 12);
+    open.quads.resize(open.quads.size() - 3);
+    writeMesh(open, folder / "open.obj");
+    const auto result = runCommand(
+        {command, "repair", folder / "open.obj", "-o", folder / "mended.obj", "--report", folder / "report.json"});
+    BOOST_TEST(result.status == 0, result.err);
+    BOOST_TEST(readJson(folder / "report.json")["repair"]["filled_holes"] == 1);
+    const Mesh mended = readMesh(folder / "mended.obj");
+    BOOST_TEST(checkCage(mended, test::sphere({0, 0, 0}, 0.5, 8)).bounding());
+}
+
+BOOST_AUTO_TEST_CASE(ctrl_c_stops_cleanly)
+{
+    const TemporaryFolder folder;
+    const std::string err = folder / "err", cage = folder / "cage.obj", stages = folder / "stages";
+    const pid_t child = ::fork();
+    BOOST_REQUIRE(child >= 0);
+    if (child == 0) {
+        // The signal is there before the command starts, so nothing depends on how fast it is: a blocked signal stays
+        // pending across exec, and the command unblocks it.
+        ::freopen(err.c_str(), "w", stderr);
+        sigset_t interrupt;
+        sigemptyset(&interrupt);
+        sigaddset(&interrupt, SIGINT);
+        ::sigprocmask(SIG_BLOCK, &interrupt, nullptr);
+        ::raise(SIGINT);
+        ::execl(command.c_str(), command.c_str(), "make", bishop.c_str(), "-o", cage.c_str(), "--stages",
+                stages.c_str(), nullptr);
+        ::_exit(99);
+    }
+    BOOST_TEST(test::waitFor(child) == 130);
+    BOOST_TEST(test::readText(err) == "vdbcage: error: cancelled\n");
+    BOOST_TEST(folder.entries() == 1U);
+}
+
+BOOST_AUTO_TEST_SUITE_END()

@@ -1,0 +1,112 @@
+#include <boost/test/unit_test.hpp>
+
+#include <algorithm>
+#include <regex>
+#include <set>
+#include <sstream>
+
+#include <support/run_command.h>
+#include <vdbcage/pipeline/options.h>
+
+using namespace vdbcage;
+using test::runCommand;
+
+namespace {
+
+const std::string command = VDBCAGE_COMMAND;
+
+std::vector<std::string> linesOf(const std::string& text)
+{
+    std::vector<std::string> lines;
+    std::istringstream stream(text);
+    for (std::string line; std::getline(stream, line);) lines.push_back(line);
+    return lines;
+}
+
+/// The long flags that a text mentions at the start of a line (help) or of a table row (README).
+std::set<std::string> flagsOf(const std::vector<std::string>& lines, const std::string& start)
+{
+    std::set<std::string> flags;
+    const std::regex pattern(start + "(-[a-z]`?,? `?)?(--[a-z-]+)");
+    for (const std::string& line : lines) {
+        std::smatch match;
+        if (std::regex_search(line, match, pattern, std::regex_constants::match_continuous)) {
+            flags.insert(match[2]);
+        }
+    }
+    return flags;
+}
+
+} // namespace
+
+BOOST_AUTO_TEST_SUITE(help)
+
+BOOST_AUTO_TEST_CASE(help_fits_a_screen)
+{
+    for (const char* name : {"make", "check", "render", "repair"}) {
+        const auto result = runCommand({command, name, "--help"});
+        BOOST_TEST(result.status == 0);
+        BOOST_TEST(result.err.empty());
+        const auto lines = linesOf(result.out);
+        BOOST_TEST(lines.size() > 3U);
+        BOOST_TEST(lines.size() <= 24U);
+        for (const std::string& line : lines) BOOST_TEST(line.size() <= 80U, line);
+    }
+}
+
+BOOST_AUTO_TEST_CASE(help_tells_range_and_default_of_every_option)
+{
+    const std::string text = runCommand({command, "make", "--help"}).out;
+    for (const OptionText& option : describeOptions()) {
+        const auto lines = linesOf(text);
+        const auto line = std::find_if(lines.begin(), lines.end(), [&](const std::string& candidate) {
+            return candidate.find("--" + option.name + " ") != std::string::npos;
+        });
+        BOOST_REQUIRE(line != lines.end());
+        for (const std::string& part : {option.value, option.range, "[" + option.defaultValue + "]", option.help}) {
+            BOOST_TEST(line->find(part) != std::string::npos, *line + " lacks " + part);
+        }
+    }
+}
+
+BOOST_AUTO_TEST_CASE(the_readme_lists_the_same_options_with_the_same_defaults)
+{
+    const auto readme = linesOf(test::readText(VDBCAGE_SOURCE_DIR "/README.md"));
+    const auto help = linesOf(runCommand({command, "make", "--help"}).out);
+    auto inHelp = flagsOf(help, "  ");
+    inHelp.erase("--help");
+    BOOST_TEST(inHelp.size() > 10U);
+    BOOST_TEST(flagsOf(readme, "\\| `") == inHelp, boost::test_tools::per_element());
+    for (const OptionText& option : describeOptions()) {
+        std::string values = option.value;
+        for (std::size_t at = values.find('|'); at != std::string::npos; at = values.find('|', at + 2)) {
+            values.insert(at, "\\");
+        }
+        std::string row = "| `--" + option.name + " " + values + "` | " + option.help;
+        if (!option.range.empty()) row += ", " + option.range;
+        row += " | " + option.defaultValue + " |";
+        BOOST_TEST(std::count(readme.begin(), readme.end(), row) == 1, "README lacks the row: " + row);
+    }
+}
+
+BOOST_AUTO_TEST_CASE(without_arguments_there_is_a_short_help)
+{
+    const auto result = runCommand({command});
+    BOOST_TEST(result.status == 1);
+    for (const char* name : {"make", "check", "render", "repair"}) {
+        BOOST_TEST(result.err.find(name) != std::string::npos);
+    }
+    BOOST_TEST(runCommand({command, "--version"}).out.rfind("vdbcage ", 0) == 0U);
+}
+
+BOOST_AUTO_TEST_CASE(slips_get_a_hint)
+{
+    const auto option = runCommand({command, "make", "a.obj", "-o", "b.obj", "--facs", "100"});
+    BOOST_TEST(option.status == 1);
+    BOOST_TEST(option.err.find("did you mean --faces?") != std::string::npos, option.err);
+    const auto name = runCommand({command, "mak"});
+    BOOST_TEST(name.status == 1);
+    BOOST_TEST(name.err.find("did you mean make?") != std::string::npos, name.err);
+}
+
+BOOST_AUTO_TEST_SUITE_END()

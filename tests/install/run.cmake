@@ -1,0 +1,47 @@
+cmake_minimum_required(VERSION 3.25)
+set(work ${build}/install_${kind})
+file(REMOVE_RECURSE ${work}/prefix ${work}/consumer)
+
+function(run)
+    execute_process(COMMAND ${ARGN} RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE output)
+    if(NOT status EQUAL 0)
+        message(FATAL_ERROR "failed (${status}): ${ARGN}\n${output}")
+    endif()
+endfunction()
+
+set(library ${build})
+if(kind STREQUAL "shared")
+    set(library ${work}/build)
+    run(${CMAKE_COMMAND} -S ${source} -B ${library} -G Ninja -DCMAKE_BUILD_TYPE=Release -DBUILD_SHARED_LIBS=ON
+        -DCMAKE_CXX_COMPILER=${compiler} -DCMAKE_CXX_COMPILER_LAUNCHER=${launcher} -DVDBCAGE_BUILD_TESTS=OFF
+        -DVDBCAGE_BUILD_TOOLS=OFF -DVDBCAGE_WITH_CGAL_GPL=OFF)
+    run(${CMAKE_COMMAND} --build ${library})
+    # Ninja keeps what every object was compiled from.
+    execute_process(COMMAND ninja -C ${library} -t deps OUTPUT_VARIABLE dependencies RESULT_VARIABLE status)
+    if(NOT status EQUAL 0 OR NOT dependencies MATCHES "vdbcage/mesh/mesh\\.h")
+        message(FATAL_ERROR "ninja -t deps told nothing")
+    endif()
+    # Every CGAL header names its licence: the kernel's is LGPL, the optional part's would be GPL.
+    string(REGEX MATCHALL "/[^\n ]*/CGAL/[^\n ]*" headers "${dependencies}")
+    list(REMOVE_DUPLICATES headers)
+    list(LENGTH headers count)
+    if(count LESS 100)
+        message(FATAL_ERROR "only ${count} CGAL headers were found in the dependencies")
+    endif()
+    foreach(header IN LISTS headers)
+        file(STRINGS ${header} licence REGEX "SPDX-License-Identifier: GPL" LIMIT_COUNT 1)
+        if(licence)
+            message(FATAL_ERROR "VDBCAGE_WITH_CGAL_GPL=OFF, but ${header} was compiled: ${licence}")
+        endif()
+    endforeach()
+endif()
+
+run(${CMAKE_COMMAND} --install ${library} --prefix ${work}/prefix)
+file(GLOB_RECURSE private ${work}/prefix/include/*/detail/* ${work}/prefix/include/vdbcage/gl/*)
+if(private)
+    message(FATAL_ERROR "private headers were installed: ${private}")
+endif()
+run(${CMAKE_COMMAND} -S ${source}/tests/install/consumer -B ${work}/consumer -G Ninja -DCMAKE_BUILD_TYPE=Release
+    -DCMAKE_PREFIX_PATH=${work}/prefix -DCMAKE_CXX_COMPILER=${compiler})
+run(${CMAKE_COMMAND} --build ${work}/consumer)
+run(${work}/consumer/consumer ${source}/data/bishop.obj ${work}/cage.obj)

@@ -1,0 +1,88 @@
+#include <boost/test/unit_test.hpp>
+
+#include <limits>
+
+#include <vdbcage/core/error.h>
+#include <vdbcage/pipeline/options.h>
+
+using namespace vdbcage;
+
+namespace {
+
+bool names(const InputError& error, const std::string& text)
+{
+    return std::string(error.what()).find(text) != std::string::npos;
+}
+
+} // namespace
+
+BOOST_AUTO_TEST_SUITE(options)
+
+BOOST_AUTO_TEST_CASE(every_option_is_described_and_valid_by_default)
+{
+    const auto described = describeOptions();
+    const auto values = optionValues(CageOptions{});
+    BOOST_REQUIRE(described.size() == values.size());
+    for (std::size_t i = 0; i < described.size(); ++i) {
+        BOOST_TEST(described[i].name == values[i].first);
+        BOOST_TEST(described[i].defaultValue == values[i].second);
+        BOOST_TEST(!described[i].help.empty());
+    }
+    BOOST_CHECK_NO_THROW(requireValid(CageOptions{}));
+}
+
+BOOST_AUTO_TEST_CASE(text_goes_in_and_comes_out)
+{
+    CageOptions options;
+    const std::vector<std::pair<std::string, std::string>> wanted{
+        {"faces", "100"},     {"resolution", "64"}, {"close-radius", "0.125"}, {"erode-radius", "0.0625"},
+        {"element", "cube"},  {"smooth", "7"},      {"mesh", "triquad"},       {"merge-angle", "22.5"},
+        {"voxelizer", "cpu"}, {"bounding", "off"}};
+    for (const auto& option : wanted) setOption(options, option.first, option.second);
+    BOOST_CHECK(optionValues(options) == wanted);
+    BOOST_CHECK(optionValues(CageOptions{}) != wanted);
+    BOOST_TEST(options.faces == 100);
+    BOOST_TEST(options.erodeRadius.value() == 0.0625);
+    BOOST_CHECK(options.element == Element::cube);
+    BOOST_CHECK(options.mesh == CageFaces::triquad);
+    BOOST_TEST(!options.bounding);
+    setOption(options, "erode-radius", "auto");
+    BOOST_TEST(!options.erodeRadius.has_value());
+}
+
+BOOST_AUTO_TEST_CASE(what_is_not_allowed_is_refused_by_name_value_and_range)
+{
+    const std::vector<std::pair<std::string, std::string>> bad{
+        {"faces", "11"},        {"faces", "1000001"},    {"faces", "4.5"},         {"faces", ""},
+        {"faces", "12x"},       {"faces", " 12"},        {"resolution", "7"},      {"resolution", "2049"},
+        {"close-radius", "-1"}, {"close-radius", "nan"}, {"close-radius", "inf"},  {"close-radius", "0,03"},
+        {"erode-radius", "x"},  {"element", "Cube"},     {"mesh", "quads!"},       {"merge-angle", "181"},
+        {"voxelizer", ""},      {"bounding", "maybe"},   {"smooth", "99999999999"}};
+    for (const auto& entry : bad) {
+        CageOptions options;
+        BOOST_CHECK_EXCEPTION(setOption(options, entry.first, entry.second), InputError, [&](const InputError& error) {
+            return names(error, "--" + entry.first) && names(error, "'" + entry.second + "'") &&
+                   names(error, "must be");
+        });
+        BOOST_CHECK(optionValues(options) == optionValues(CageOptions{}));
+    }
+    CageOptions options;
+    BOOST_CHECK_EXCEPTION(setOption(options, "facs", "400"), InputError,
+                          [](const InputError& error) { return names(error, "facs") && names(error, "faces"); });
+}
+
+BOOST_AUTO_TEST_CASE(fields_set_directly_are_checked_too)
+{
+    CageOptions options;
+    options.closeRadius = std::numeric_limits<double>::quiet_NaN();
+    BOOST_CHECK_THROW(requireValid(options), InputError);
+    options = {};
+    options.erodeRadius = 0.2;
+    BOOST_CHECK_EXCEPTION(requireValid(options), InputError,
+                          [](const InputError& error) { return names(error, "close radius"); });
+    options = {};
+    options.faces = 0;
+    BOOST_CHECK_THROW(requireValid(options), InputError);
+}
+
+BOOST_AUTO_TEST_SUITE_END()

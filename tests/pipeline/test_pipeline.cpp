@@ -1,0 +1,238 @@
+#include <boost/test/unit_test.hpp>
+
+#include <atomic>
+#include <map>
+
+#include <support/shapes.h>
+#include <tbb/global_control.h>
+#include <vdbcage/core/error.h>
+#include <vdbcage/pipeline/pipeline.h>
+
+using namespace vdbcage;
+
+namespace {
+
+/// Counts the stages that ran; asks to stop at the n-th check.
+class Watcher : public Interrupter {
+public:
+    explicit Watcher(long stopAt = -1) : stopAt_(stopAt) {}
+    void start(const char* name) override
+    {
+        ++runs[name];
+        ++open_;
+    }
+    void end() override { --open_; }
+    bool wasInterrupted(int) override { return stopAt_ >= 0 && checks++ >= stopAt_; }
+    long open() const { return open_; }
+
+    std::map<std::string, int> runs;
+    std::atomic<long> checks{0};
+
+private:
+    long stopAt_, open_ = 0;
+};
+
+CageOptions coarse()
+{
+    CageOptions options;
+    options.resolution = 32;
+    options.faces = 200;
+    return options;
+}
+
+/// A ball with a ring around it: two parts, one with a handle.
+Mesh saturn()
+{
+    return test::joined(test::sphere({0, 0, 0}, 1, 16), test::torus(2, 0.2, 48, 12));
+}
+
+bool sameMesh(const Mesh& a, const Mesh& b)
+{
+    return a.points == b.points && a.triangles == b.triangles && a.quads == b.quads;
+}
+
+} // namespace
+
+BOOST_AUTO_TEST_SUITE(pipeline)
+
+BOOST_AUTO_TEST_CASE(every_cage_is_certified_and_has_no_more_faces_than_asked)
+{
+    const std::vector<Mesh> models{test::sphere({0, 0, 0}, 1, 12), test::box({0, 0, 0}, {1, 2, 3}),
+                                   test::torus(1, 0.3, 40, 16), saturn()};
+    for (const Mesh& model : models) {
+        for (const int faces : {12, 50, 400}) {
+            for (const CageFaces kind : {CageFaces::triangles, CageFaces::triquad}) {
+                CageOptions options = coarse();
+                options.faces = faces;
+                options.mesh = kind;
+                Pipeline made(model);
+                const Mesh& cage = made.run(options);
+                BOOST_TEST(faceCount(cage) <= static_cast<std::size_t>(faces));
+                BOOST_TEST((kind == CageFaces::triquad || cage.quads.empty()));
+                // Examined again here, by a check of its own.
+                BOOST_TEST(checkCage(cage, model).bounding());
+                BOOST_TEST(made.report().check.bounding());
+                BOOST_TEST(made.report().floatSafe);
+                for (const openvdb::Vec3d& p : cage.points) {
+                    BOOST_TEST(p.x() == static_cast<double>(static_cast<float>(p.x())));
+                }
+            }
+        }
+    }
+}
+
+BOOST_AUTO_TEST_CASE(models_that_are_no_solids_get_cages_too)
+{
+    Mesh triangle;
+    triangle.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+    triangle.triangles = {{0, 1, 2}};
+    Mesh sheet = test::box({0, 0, 0}, {1, 1, 1});
+    sheet.quads.resize(1);
+    Mesh bowl = test::sphere({0, 0, 0}, 1, 12);
+    bowl.quads.resize(bowl.quads.size() / 2);
+    Mesh partlyDegenerate = test::box({0, 0, 0}, {1, 1, 1});
+    partlyDegenerate.triangles = {{0, 0, 0}, {1, 1, 2}};
+    for (const Mesh& model : {triangle, sheet, bowl, partlyDegenerate}) {
+        BOOST_TEST(checkCage(makeCage(model, coarse()), model).bounding());
+    }
+}
+
+BOOST_AUTO_TEST_CASE(only_stale_stages_run_again)
+{
+    Pipeline made(saturn());
+    CageOptions options = coarse();
+    Watcher first;
+    made.run(options, &first);
+    BOOST_TEST(first.runs["voxelize"] == 1);
+    BOOST_TEST(first.runs["close"] == 1);
+    const auto solid = made.solid();
+
+    Watcher same;
+    made.run(options, &same);
+    BOOST_TEST(same.runs.empty());
+
+    for (const auto& change : std::vector<std::pair<std::string, std::string>>{
+             {"smooth", "5"}, {"faces", "150"}, {"mesh", "triquad"}, {"merge-angle", "20"}}) {
+        setOption(options, change.first, change.second);
+        Watcher watcher;
+        made.run(options, &watcher);
+        BOOST_TEST(watcher.runs["voxelize"] == 0);
+        BOOST_TEST(watcher.runs["close"] == 0);
+        BOOST_TEST(watcher.runs["decimate"] > 0);
+        BOOST_CHECK(sameMesh(made.cage(), makeCage(saturn(), options)));
+    }
+
+    setOption(options, "close-radius", "0.05");
+    Watcher closing;
+    made.run(options, &closing);
+    BOOST_TEST(closing.runs["voxelize"] == 0);
+    BOOST_TEST(closing.runs["close"] == 1);
+    BOOST_CHECK(made.solid() == solid);
+
+    setOption(options, "resolution", "24");
+    Watcher voxels;
+    made.run(options, &voxels);
+    BOOST_TEST(voxels.runs["voxelize"] == 1);
+    BOOST_CHECK(sameMesh(made.cage(), makeCage(saturn(), options)));
+}
+
+BOOST_AUTO_TEST_CASE(scaled_and_moved_models_get_the_scaled_and_moved_cage)
+{
+    const Mesh model = saturn();
+    const std::size_t faces = faceCount(makeCage(model, coarse()));
+    const std::vector<std::pair<double, openvdb::Vec3d>> maps{
+        {1e-6, {0, 0, 0}}, {1e6, {0, 0, 0}}, {1, {-1000, -1000, -1000}}, {1e-6, {-1000, 0, 0}}, {1e6, {-1000, 5, 1e7}}};
+    for (const auto& map : maps) {
+        const Mesh changed = test::transformed(model, map.first, map.second);
+        Pipeline made(changed);
+        const Mesh& cage = made.run(coarse());
+        BOOST_TEST(faceCount(cage) == faces);
+        BOOST_TEST(checkCage(cage, changed).bounding());
+    }
+    // A power of two and no move round nothing: the very same cage.
+    BOOST_CHECK(sameMesh(test::transformed(makeCage(model, coarse()), 8, {0, 0, 0}),
+                         makeCage(test::transformed(model, 8, {0, 0, 0}), coarse())));
+}
+
+BOOST_AUTO_TEST_CASE(the_number_of_threads_does_not_matter)
+{
+    CageOptions options = coarse();
+    options.mesh = CageFaces::triquad;
+    const Mesh many = makeCage(saturn(), options);
+    const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
+    BOOST_CHECK(sameMesh(many, makeCage(saturn(), options)));
+}
+
+BOOST_AUTO_TEST_CASE(cancelling_throws_and_the_pipeline_runs_again)
+{
+    const Mesh model = saturn();
+    CageOptions options = coarse();
+    options.resolution = 16;
+    options.faces = 100;
+    Watcher whole(1L << 40);
+    const Mesh expected = [&] {
+        Pipeline made(model);
+        return made.run(options, &whole);
+    }();
+    const long checks = whole.checks;
+    BOOST_TEST(checks > 20);
+    Pipeline made(model);
+    for (int i = 0; i < 40; ++i) {
+        Pipeline fresh(model);
+        Watcher watcher(checks * i / 40);
+        BOOST_CHECK_THROW(fresh.run(options, &watcher), Cancelled);
+        BOOST_TEST(watcher.open() == 0);
+        Watcher again(checks * i / 80);
+        try {
+            made.run(options, &again);
+        } catch (const Cancelled&) {
+        }
+    }
+    BOOST_CHECK(sameMesh(made.run(options), expected));
+}
+
+BOOST_AUTO_TEST_CASE(without_bounding_the_cage_is_tight_and_reported_as_it_is)
+{
+    CageOptions options = coarse();
+    options.bounding = false;
+    const Mesh model = test::sphere({0, 0, 0}, 1, 24);
+    Pipeline made(model);
+    made.run(options);
+    BOOST_TEST(made.report().offsetVoxels == 0);
+    BOOST_TEST(made.report().check.valid());
+    const double free = made.report().check.meanDistance;
+    options.bounding = true;
+    made.run(options);
+    BOOST_TEST(made.report().check.bounding());
+    BOOST_TEST(free < made.report().check.meanDistance);
+}
+
+BOOST_AUTO_TEST_CASE(more_smoothing_is_rounder)
+{
+    CageOptions options = coarse();
+    options.bounding = false;
+    options.faces = 100000;
+    const Mesh model = test::box({0, 0, 0}, {1, 1, 1});
+    std::vector<double> volumes;
+    for (const int iterations : {0, 3, 9}) {
+        options.smooth = iterations;
+        Pipeline made(model);
+        made.run(options);
+        volumes.push_back(made.report().check.cageVolume);
+    }
+    BOOST_TEST(volumes[0] > volumes[1]);
+    BOOST_TEST(volumes[1] > volumes[2]);
+}
+
+BOOST_AUTO_TEST_CASE(unusable_models_and_options_are_refused_before_any_work)
+{
+    BOOST_CHECK_THROW(Pipeline(Mesh{}), InputError);
+    Mesh bad = test::box({0, 0, 0}, {1, 1, 1});
+    bad.points[3].x() = std::nan("");
+    BOOST_CHECK_THROW(makeCage(bad), InputError);
+    CageOptions options;
+    options.faces = 3;
+    BOOST_CHECK_THROW(makeCage(test::box({0, 0, 0}, {1, 1, 1}), options), InputError);
+}
+
+BOOST_AUTO_TEST_SUITE_END()

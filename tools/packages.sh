@@ -1,0 +1,30 @@
+# Sourced by tools/demo and tools/test: installs the Debian packages that the build, the command and the tests need.
+
+packages=(
+    g++ cmake ninja-build
+    libopenvdb-dev libtbb-dev libblosc-dev libboost-dev libboost-iostreams-dev # volumes
+    libopenmesh-dev libcgal-dev libgmp-dev libmpfr-dev                         # surfaces
+    libosmesa6-dev libgl-dev libpng-dev                                        # pictures
+    libcli11-dev nlohmann-json3-dev                                            # the command
+)
+
+# install_packages NAME...: by apt-get, as root or through sudo; silent and quick when nothing is missing.
+install_packages() {
+    local missing=() name
+    for name in "$@"; do
+        dpkg-query -W -f='${Status}' "$name" 2>/dev/null | grep -q 'ok installed' || missing+=("$name")
+    done
+    [ ${#missing[@]} -eq 0 ] && return 0
+    local root=()
+    if [ "$(id -u)" -ne 0 ]; then
+        if ! command -v sudo >/dev/null; then
+            echo "These packages are missing and neither root rights nor sudo are here to install them:" >&2
+            echo "  apt-get install ${missing[*]}" >&2
+            return 1
+        fi
+        root=(sudo)
+    fi
+    echo "Installing: ${missing[*]}"
+    "${root[@]}" apt-get update -qq
+    "${root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${missing[@]}" >/dev/null
+}

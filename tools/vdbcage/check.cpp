@@ -1,0 +1,53 @@
+#include <iostream>
+#include <optional>
+
+#include <vdbcage/check/check.h>
+#include <vdbcage/core/atomic_file.h>
+#include <vdbcage/core/version.h>
+#include <vdbcage/mesh/mesh_io.h>
+
+#include "commands.h"
+#include "interrupt.h"
+#include "report.h"
+
+namespace vdbcage::tool {
+
+int runCheck(std::vector<std::string> words)
+{
+    std::filesystem::path cagePath, modelPath, reportPath;
+    bool quiet = false;
+    CLI::App app("vdbcage check CAGE MODEL [OPTIONS]\n"
+                 "Examines a cage against its model; exit status 2 if it is not a valid cage or does not bound it.",
+                 "check");
+    app.add_option("cage", cagePath)->required()->type_name("CAGE");
+    app.add_option("model", modelPath)->required()->type_name("MODEL");
+    app.add_option("--report", reportPath, "the verdict as JSON")->type_name("FILE.json");
+    app.add_flag("-q,--quiet", quiet, "print nothing, only exit");
+    if (!parse(app, std::move(words))) return exitGood;
+    if (!reportPath.empty()) requireWritable(reportPath);
+
+    std::optional<Progress> progress(quiet);
+    const Mesh cage = readMesh(cagePath);
+    ReadSummary summary;
+    const Mesh model = readMesh(modelPath, &summary);
+    const CageCheck check = checkCage(cage, model, {}, &*progress);
+    if (!reportPath.empty()) {
+        writeJson({{"vdbcage", VDBCAGE_VERSION},
+                   {"cage", cagePath.string()},
+                   {"model", toJson(summary, model, modelPath)},
+                   {"check", toJson(check)}},
+                  reportPath);
+    }
+    progress.reset();
+    if (!quiet) {
+        std::cout << cagePath.string() << ": "
+                  << (check.bounding() ? "bounding"
+                      : check.valid()  ? "NOT bounding"
+                                       : "NOT a valid cage")
+                  << '\n'
+                  << describe(check);
+    }
+    return check.bounding() ? exitGood : exitNotBounding;
+}
+
+} // namespace vdbcage::tool

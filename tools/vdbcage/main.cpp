@@ -1,0 +1,162 @@
+// The command `vdbcage`: words to standard error, data to files and standard output.
+
+#include <cstdio>
+#include <exception>
+#include <iostream>
+#include <new>
+
+#include <vdbcage/core/error.h>
+#include <vdbcage/core/version.h>
+
+#include "commands.h"
+#include "interrupt.h"
+
+namespace vdbcage::tool {
+
+namespace {
+
+struct Command {
+    const char* name;
+    const char* help;
+    int (*run)(std::vector<std::string>);
+};
+
+constexpr Command commands[] = {
+    {"make", "make a cage for a model", runMake},
+    {"check", "examine a cage against its model", runCheck},
+    {"render", "draw models, cages and volumes into a picture", runRender},
+    {"repair", "mend a cage that was made elsewhere", runRepair},
+};
+
+void printHelp(std::ostream& out)
+{
+    out << "vdbcage " VDBCAGE_VERSION ": coarse, tight, strictly bounding cages for any model\n\n"
+           "  vdbcage COMMAND ARGUMENTS\n\n";
+    for (const Command& command : commands) {
+        out << "  " << command.name << std::string(10 - std::char_traits<char>::length(command.name), ' ')
+            << command.help << '\n';
+    }
+    out << "\nvdbcage COMMAND --help tells more. Try: vdbcage make model.obj -o cage.obj\n";
+}
+
+class HelpFormatter : public CLI::Formatter {
+public:
+    std::string make_help(const CLI::App* app, std::string /*name*/, CLI::AppFormatMode /*mode*/) const override
+    {
+        std::string text = app->get_description() + "\n\n";
+        for (const CLI::Option* option : app->get_options()) {
+            std::string left;
+            for (const std::string& name : option->get_snames()) left += "-" + name + " ";
+            for (const std::string& name : option->get_lnames()) left += "--" + name + " ";
+            if (left.empty()) continue; // positionals are in the usage line of the description
+            if (option->get_expected_max() > 0) left += option->get_type_name();
+            left.resize(std::max<std::size_t>(left.size() + 1, 31), ' ');
+            text += "  " + left + option->get_description() + '\n';
+        }
+        return text + app->get_footer();
+    }
+};
+
+std::size_t editDistance(const std::string& a, const std::string& b)
+{
+    std::vector<std::size_t> row(b.size() + 1);
+    for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
+    for (std::size_t i = 1; i <= a.size(); ++i) {
+        std::size_t diagonal = row[0];
+        row[0] = i;
+        for (std::size_t j = 1; j <= b.size(); ++j) {
+            const std::size_t replaced = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
+            diagonal = row[j];
+            row[j] = std::min({replaced, row[j] + 1, row[j - 1] + 1});
+        }
+    }
+    return row[b.size()];
+}
+
+std::string didYouMean(const std::string& word, const std::vector<std::string>& known)
+{
+    std::size_t least = 3; // further away is no likely slip
+    std::string nearest;
+    for (const std::string& candidate : known) {
+        const std::size_t distance = editDistance(word, candidate);
+        if (distance < least && distance < word.size()) {
+            least = distance;
+            nearest = candidate;
+        }
+    }
+    return nearest.empty() ? "" : "; did you mean " + nearest + "?";
+}
+
+int run(const std::vector<std::string>& arguments)
+{
+    if (arguments.empty()) {
+        printHelp(std::cerr);
+        return exitError;
+    }
+    const std::string& name = arguments.front();
+    if (name == "--help" || name == "-h" || name == "help") {
+        printHelp(std::cout);
+        return exitGood;
+    }
+    if (name == "--version") {
+        std::cout << "vdbcage " VDBCAGE_VERSION "\n";
+        return exitGood;
+    }
+    std::vector<std::string> known;
+    for (const Command& command : commands) {
+        if (name == command.name) return command.run({arguments.begin() + 1, arguments.end()});
+        known.emplace_back(command.name);
+    }
+    throw InputError("there is no command '" + name + "'" + didYouMean(name, known) + " (see vdbcage --help)");
+}
+
+} // namespace
+
+bool parse(CLI::App& app, std::vector<std::string> arguments)
+{
+    app.formatter(std::make_shared<HelpFormatter>());
+    app.set_help_flag("-h,--help", "print this");
+    std::vector<std::string> known;
+    for (const CLI::Option* option : app.get_options()) {
+        for (const std::string& name : option->get_lnames()) known.push_back("--" + name);
+    }
+    for (const std::string& argument : arguments) {
+        const std::string flag = argument.substr(0, argument.find('='));
+        if (flag.size() > 2 && flag.compare(0, 2, "--") == 0 &&
+            std::find(known.begin(), known.end(), flag) == known.end()) {
+            throw InputError("there is no option '" + flag + "'" + didYouMean(flag, known) + " (see vdbcage " +
+                             app.get_name() + " --help)");
+        }
+    }
+    std::reverse(arguments.begin(), arguments.end()); // CLI11 takes them from the back
+    try {
+        app.parse(std::move(arguments));
+    } catch (const CLI::CallForHelp&) {
+        std::cout << app.help();
+        return false;
+    }
+    return true;
+}
+
+} // namespace vdbcage::tool
+
+int main(int argc, char** argv)
+{
+    using namespace vdbcage;
+    const auto fail = [](const std::string& text, int status) {
+        std::fprintf(stderr, "vdbcage: error: %s\n", text.c_str());
+        return status;
+    };
+    tool::catchSignals();
+    try {
+        return tool::run({argv + 1, argv + argc});
+    } catch (const Cancelled&) {
+        return fail("cancelled", tool::exitCancelled);
+    } catch (const CLI::Error& error) {
+        return fail(error.what(), tool::exitError);
+    } catch (const std::bad_alloc&) {
+        return fail("not enough memory", tool::exitError);
+    } catch (const std::exception& error) {
+        return fail(error.what(), tool::exitError);
+    }
+}

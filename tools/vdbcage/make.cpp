@@ -1,0 +1,178 @@
+#include <iomanip>
+#include <iostream>
+#include <map>
+#include <optional>
+
+#include <vdbcage/core/atomic_file.h>
+#include <vdbcage/core/error.h>
+#include <vdbcage/core/version.h>
+#include <vdbcage/mesh/mesh_io.h>
+#include <vdbcage/pipeline/pipeline.h>
+#include <vdbcage/volume/morphology.h>
+#include <vdbcage/volume/vdb_io.h>
+
+#include "commands.h"
+#include "drawing.h"
+#include "interrupt.h"
+#include "outputs.h"
+#include "report.h"
+
+namespace vdbcage::tool {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct MakeArguments {
+    fs::path model, cage, stages, report, picture;
+    CageOptions options;
+    bool quiet = false, verbose = false;
+};
+
+/// Refuses what cannot work before any work is done: formats, folders, permissions, one file under two names.
+void requireSensible(const MakeArguments& arguments)
+{
+    requireMeshExtension(arguments.cage);
+    std::vector<fs::path> written{arguments.cage};
+    if (!arguments.report.empty()) written.push_back(arguments.report);
+    if (!arguments.picture.empty()) {
+        requirePngExtension(arguments.picture);
+        written.push_back(arguments.picture);
+    }
+    std::map<fs::path, fs::path> seen{{fs::weakly_canonical(arguments.model), arguments.model}};
+    for (const fs::path& path : written) {
+        requireWritable(path);
+        if (!seen.emplace(fs::weakly_canonical(path), path).second) {
+            throw InputError(path.string() + ": this file is named twice; model and outputs must be different files");
+        }
+        std::error_code error;
+        if (fs::equivalent(path, arguments.model, error)) {
+            throw InputError(path.string() + ": is the model itself; it would be overwritten");
+        }
+    }
+    requireValid(arguments.options);
+}
+
+void addStages(const Pipeline& pipeline, const MakeArguments& arguments, Interrupter* interrupter, Outputs& outputs)
+{
+    const fs::path& folder = arguments.stages;
+    outputs.addFolder(folder);
+    std::map<std::string, std::string> metadata{{"source", arguments.model.filename().string()}};
+    for (const auto& option : optionValues(arguments.options)) {
+        std::string key = option.first;
+        std::replace(key.begin(), key.end(), '-', '_');
+        metadata["option_" + key] = option.second;
+    }
+    const auto volume = [&](const char* stage, const openvdb::MaskGrid& mask) {
+        metadata["stage"] = stage;
+        outputs.add(folder / (std::string(stage) + ".vdb"),
+                    [&](const fs::path& path) { writeVdb(mask, path, metadata); });
+    };
+    const auto surface = [&](const char* stage, const Mesh& mesh) {
+        outputs.add(folder / (std::string(stage) + ".obj"), [&](const fs::path& path) { writeMesh(mesh, path); });
+    };
+    const CageOptions& options = arguments.options;
+    volume("solid", *pipeline.solid());
+    volume("dilated",
+           *dilate(*pipeline.solid(), options.closeRadius * options.resolution, options.element, interrupter));
+    volume("closed", *pipeline.closed());
+    volume("contour", *contour(*pipeline.closed(), interrupter));
+    surface("surface", pipeline.surface());
+    surface("smoothed", pipeline.smoothed());
+    surface("decimated", pipeline.decimated());
+}
+
+void printSummary(const MakeArguments& arguments, const Pipeline& pipeline, const std::vector<StageTime>& stages,
+                  double seconds)
+{
+    const CageReport& report = pipeline.report();
+    const CageCheck& check = report.check;
+    std::cerr << std::fixed << std::setprecision(2);
+    std::cerr << arguments.cage.string() << ": " << check.triangles << " triangles";
+    if (check.quads > 0) std::cerr << " and " << check.quads << " quads";
+    std::cerr << (check.bounding() ? ", certified bounding"
+                  : check.valid()  ? ", NOT bounding"
+                                   : ", NOT a valid cage")
+              << ", mean distance " << 100 * check.meanDistance << " % of the diagonal, " << seconds << " s\n";
+    if (report.isBox) {
+        std::cerr << "  this is the model's bounding box: nothing tighter with so few faces was certified\n";
+    }
+    if (!arguments.verbose) return;
+    for (const StageTime& stage : stages) {
+        std::cerr << "  " << std::left << std::setw(10) << stage.name << std::right << std::setw(8) << stage.seconds
+                  << " s\n";
+    }
+    std::cerr << "  offset " << report.offsetVoxels << " voxels after " << report.attempts << " attempts, memory peak "
+              << peakMemory() << " MiB\n"
+              << describe(check);
+}
+
+} // namespace
+
+int runMake(std::vector<std::string> words)
+{
+    MakeArguments arguments;
+    CLI::App app("vdbcage make MODEL -o CAGE [OPTIONS]\n"
+                 "Makes a coarse closed mesh that bounds MODEL. Files: .obj .off .ply .stl",
+                 "make");
+    app.add_option("model", arguments.model)->required()->type_name("MODEL");
+    app.add_option("-o,--output", arguments.cage, "the cage to write")->required()->type_name("CAGE");
+    for (const OptionText& option : describeOptions()) {
+        app.add_option_function<std::string>(
+               "--" + option.name,
+               [&arguments, name = option.name](const std::string& value) {
+                   setOption(arguments.options, name, value);
+               },
+               option.help + (option.range.empty() ? "" : ", " + option.range) + " [" + option.defaultValue + "]")
+            ->type_name(option.value);
+    }
+    app.add_option("--stages", arguments.stages, "leave every stage there (.vdb, .obj)")->type_name("DIR");
+    app.add_option("--report", arguments.report, "options, times, memory, verdict as JSON")->type_name("FILE.json");
+    app.add_option("--picture", arguments.picture, "the model with its cage")->type_name("FILE.png");
+    app.add_flag("-q,--quiet", arguments.quiet, "print nothing but errors");
+    app.add_flag("-v,--verbose", arguments.verbose, "print stage times and the whole verdict");
+    if (!parse(app, std::move(words))) return exitGood;
+    requireSensible(arguments);
+
+    const auto began = std::chrono::steady_clock::now();
+    Outputs outputs;
+    std::optional<Progress> progress(arguments.quiet);
+    StageClock clock(&*progress);
+
+    ReadSummary summary;
+    std::optional<Stage> reading(std::in_place, &clock, "read");
+    Mesh model = readMesh(arguments.model, &summary);
+    const Json modelReport = toJson(summary, model, arguments.model);
+    reading.reset();
+
+    Pipeline pipeline(std::move(model));
+    const Mesh& cage = pipeline.run(arguments.options, &clock);
+
+    std::optional<Stage> writing(std::in_place, &clock, "write");
+    outputs.add(arguments.cage, [&](const fs::path& path) { writeMesh(cage, path); });
+    if (!arguments.stages.empty()) addStages(pipeline, arguments, &clock, outputs);
+    if (!arguments.picture.empty()) {
+        outputs.add(arguments.picture, [&](const fs::path& path) { writePng(drawCage(pipeline.model(), cage), path); });
+    }
+    writing.reset();
+    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+    if (!arguments.report.empty()) {
+        Json report{{"vdbcage", VDBCAGE_VERSION},
+                    {"model", modelReport},
+                    {"cage", arguments.cage.string()},
+                    {"options", toJson(arguments.options)},
+                    {"seconds", seconds},
+                    {"stages", toJson(clock.stages())},
+                    {"memory_peak_mib", peakMemory()},
+                    {"result", toJson(pipeline.report())},
+                    {"check", toJson(pipeline.report().check)}};
+        outputs.add(arguments.report, [&](const fs::path& path) { writeJson(report, path); });
+    }
+    throwIfInterrupted(&clock);
+    outputs.commit();
+    progress.reset();
+    if (!arguments.quiet) printSummary(arguments, pipeline, clock.stages(), seconds);
+    return exitGood;
+}
+
+} // namespace vdbcage::tool

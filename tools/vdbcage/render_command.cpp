@@ -1,0 +1,105 @@
+#include <charconv>
+#include <deque>
+
+#include <vdbcage/core/atomic_file.h>
+#include <vdbcage/core/error.h>
+#include <vdbcage/mesh/mesh_io.h>
+#include <vdbcage/surface/extract.h>
+#include <vdbcage/volume/vdb_io.h>
+
+#include "commands.h"
+#include "drawing.h"
+#include "interrupt.h"
+
+namespace vdbcage::tool {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Size {
+    int width, height;
+};
+
+Size parseSize(const std::string& text)
+{
+    Size size{};
+    const char* const end = text.data() + text.size();
+    const auto width = std::from_chars(text.data(), end, size.width);
+    const bool separated = width.ec == std::errc() && width.ptr != end && *width.ptr == 'x';
+    const auto height = separated ? std::from_chars(width.ptr + 1, end, size.height) : width;
+    if (!separated || height.ec != std::errc() || height.ptr != end || size.width < 1 || size.height < 1 ||
+        size.width > maximumPictureSize || size.height > maximumPictureSize) {
+        throw InputError("--size: '" + text + "' is not allowed; it must be WIDTHxHEIGHT, each 1 to " +
+                         std::to_string(maximumPictureSize));
+    }
+    return size;
+}
+
+} // namespace
+
+void requirePngExtension(const fs::path& path)
+{
+    if (path.extension() != ".png") {
+        throw InputError(path.string() + ": pictures are written as .png; the name must end so");
+    }
+}
+
+Picture drawCage(const Mesh& model, const Mesh& cage)
+{
+    Scene scene;
+    scene.panels = {{shadedLayer(model), wireframeLayer(cage)}};
+    return renderScene(scene, 1200, 900);
+}
+
+int runRender(std::vector<std::string> words)
+{
+    std::vector<std::string> files;
+    fs::path picture;
+    std::string sizeText = "1200x900";
+    Scene scene;
+    CLI::App app("vdbcage render FILE... [/ FILE...] -o PICTURE.png [OPTIONS]\n"
+                 "Draws models shaded, cages as wireframes over them, .vdb volumes as voxels.\n"
+                 "In each panel the first file is the model; a lone / begins the next panel.",
+                 "render");
+    app.add_option("files", files)->required()->type_name("FILE...");
+    app.add_option("-o,--output", picture, "the picture to write")->required()->type_name("PICTURE.png");
+    app.add_option("--size", sizeText, "in pixels [1200x900]")->type_name("WIDTHxHEIGHT");
+    app.add_option("--columns", scene.columns, "panels side by side, 0 to 100 [0: as fits]")
+        ->type_name("N")
+        ->check(CLI::Range(0, 100));
+    app.add_option("--azimuth", scene.view.azimuthDegrees, "to the right of the front, -360 to 360 [35]")
+        ->type_name("DEG")
+        ->check(CLI::Range(-360, 360));
+    app.add_option("--elevation", scene.view.elevationDegrees, "above the horizon, -90 to 90 [18]")
+        ->type_name("DEG")
+        ->check(CLI::Range(-90, 90));
+    app.add_flag("--same-view", scene.sameView, "one scale and place for all panels");
+    if (!parse(app, std::move(words))) return exitGood;
+    requirePngExtension(picture);
+    requireWritable(picture);
+    const Size size = parseSize(sizeText);
+
+    std::deque<Mesh> meshes; // layers point at them
+    scene.panels.emplace_back();
+    for (const std::string& file : files) {
+        if (signalled()) throw Cancelled();
+        if (file == "/") {
+            scene.panels.emplace_back();
+        } else if (fs::path(file).extension() == ".vdb") {
+            meshes.push_back(extractSurface(*readVdb(file)));
+            scene.panels.back().push_back(voxelsLayer(meshes.back()));
+        } else {
+            meshes.push_back(readMesh(file));
+            scene.panels.back().push_back(scene.panels.back().empty() ? shadedLayer(meshes.back())
+                                                                      : wireframeLayer(meshes.back()));
+        }
+    }
+    for (const auto& panel : scene.panels) {
+        if (panel.empty()) throw InputError("a panel has no file; write FILE... / FILE...");
+    }
+    writePng(renderScene(scene, size.width, size.height), picture);
+    return exitGood;
+}
+
+} // namespace vdbcage::tool

@@ -1,0 +1,70 @@
+#include <iostream>
+#include <optional>
+
+#include <vdbcage/check/check.h>
+#include <vdbcage/core/atomic_file.h>
+#include <vdbcage/core/error.h>
+#include <vdbcage/core/version.h>
+#include <vdbcage/mesh/mesh_io.h>
+#include <vdbcage/surface/repair.h>
+
+#include "commands.h"
+#include "interrupt.h"
+#include "report.h"
+
+namespace vdbcage::tool {
+
+namespace {
+
+Json toJson(const RepairReport& report)
+{
+    return {{"merged_points", report.mergedPoints},
+            {"removed_faces", report.removedFaces},
+            {"split_vertices", report.splitVertices},
+            {"stitched_edges", report.stitchedEdges},
+            {"filled_holes", report.filledHoles},
+            {"unfilled_holes", report.unfilledHoles},
+            {"self_intersections_before", report.selfIntersectionsBefore},
+            {"self_intersections_after", report.selfIntersectionsAfter},
+            {"reoriented", report.reoriented}};
+}
+
+} // namespace
+
+int runRepair(std::vector<std::string> words)
+{
+    std::filesystem::path cagePath, outputPath, reportPath;
+    bool quiet = false;
+    CLI::App app("vdbcage repair CAGE -o OUT [OPTIONS]\n"
+                 "Stitches, orients, fills holes and removes self-intersections; the result is triangles.",
+                 "repair");
+    app.add_option("cage", cagePath)->required()->type_name("CAGE");
+    app.add_option("-o,--output", outputPath, "the mended cage to write")->required()->type_name("OUT");
+    app.add_option("--report", reportPath, "what was done and what could not be, as JSON")->type_name("FILE.json");
+    app.add_flag("-q,--quiet", quiet, "print nothing but errors");
+    if (!parse(app, std::move(words))) return exitGood;
+    if (!hasRepair())
+        throw InputError("this vdbcage was built without its GPL part (VDBCAGE_WITH_CGAL_GPL), and so without repair");
+    requireMeshExtension(outputPath);
+    requireWritable(outputPath);
+    if (!reportPath.empty()) requireWritable(reportPath);
+
+    std::optional<Progress> progress(quiet);
+    RepairReport report;
+    const Mesh mended = repair(readMesh(cagePath), &report, &*progress);
+    writeMesh(mended, outputPath);
+    if (!reportPath.empty()) {
+        writeJson({{"vdbcage", VDBCAGE_VERSION},
+                   {"cage", cagePath.string()},
+                   {"repaired", outputPath.string()},
+                   {"repair", toJson(report)}},
+                  reportPath);
+    }
+    progress.reset();
+    if (!quiet) {
+        for (const auto& fact : toJson(report).items()) std::cerr << "  " << fact.key() << ": " << fact.value() << '\n';
+    }
+    return exitGood;
+}
+
+} // namespace vdbcage::tool

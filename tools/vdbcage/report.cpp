@@ -1,0 +1,121 @@
+#include "report.h"
+
+#include <cstdio>
+
+#include <sys/resource.h>
+
+#include <vdbcage/core/atomic_file.h>
+
+namespace vdbcage::tool {
+
+Json toJson(const CageCheck& check)
+{
+    return {{"valid", check.valid()},
+            {"bounding", check.bounding()},
+            {"closed", check.closed()},
+            {"manifold", check.manifold()},
+            {"oriented", check.oriented()},
+            {"points", check.points},
+            {"triangles", check.triangles},
+            {"quads", check.quads},
+            {"components", check.components},
+            {"genus", check.genus},
+            {"boundary_edges", check.boundaryEdges},
+            {"non_manifold_edges", check.nonManifoldEdges},
+            {"non_manifold_vertices", check.nonManifoldVertices},
+            {"misoriented_edges", check.misorientedEdges},
+            {"inward_components", check.inwardComponents},
+            {"degenerate_faces", check.degenerateFaces},
+            {"self_intersections", check.selfIntersections},
+            {"contact_faces", check.contactFaces},
+            {"model_vertices_outside", check.modelVerticesOutside},
+            {"mean_distance", check.meanDistance},
+            {"max_distance", check.maxDistance},
+            {"min_distance", check.minDistance},
+            {"cage_volume", check.cageVolume},
+            {"volume_ratio", check.volumeRatio},
+            {"min_angle_degrees", check.minAngleDegrees},
+            {"angle_1st_percentile_degrees", check.angle1stPercentileDegrees}};
+}
+
+Json toJson(const CageReport& report)
+{
+    return {{"float_safe", report.floatSafe},     {"offset_voxels", report.offsetVoxels},
+            {"attempts", report.attempts},        {"is_box", report.isBox},
+            {"repaired", report.repaired},        {"cavities_filled", report.cavitiesFilled},
+            {"solid_voxels", report.solidVoxels}, {"closed_voxels", report.closedVoxels}};
+}
+
+Json toJson(const ReadSummary& summary, const Mesh& mesh, const std::filesystem::path& path)
+{
+    return {{"file", path.string()},
+            {"points", mesh.points.size()},
+            {"triangles", mesh.triangles.size()},
+            {"quads", mesh.quads.size()},
+            {"polygons_split", summary.polygons},
+            {"degenerate_faces", summary.degenerateFaces},
+            {"ignored_elements", summary.ignoredElements}};
+}
+
+Json toJson(const std::vector<StageTime>& stages)
+{
+    Json list = Json::array();
+    for (const StageTime& stage : stages) list.push_back({{"name", stage.name}, {"seconds", stage.seconds}});
+    return list;
+}
+
+Json toJson(const CageOptions& options)
+{
+    Json object = Json::object();
+    for (const auto& option : optionValues(options)) object[option.first] = option.second;
+    return object;
+}
+
+double peakMemory()
+{
+    rusage usage{};
+    ::getrusage(RUSAGE_SELF, &usage);
+    return static_cast<double>(usage.ru_maxrss) / 1024;
+}
+
+void writeJson(const Json& report, const std::filesystem::path& path)
+{
+    // A path is any bytes; JSON is UTF-8: what is not gets the replacement character.
+    writeFileAtomically(
+        path, [&](std::ostream& out) { out << report.dump(2, ' ', false, Json::error_handler_t::replace) << '\n'; });
+}
+
+std::string describe(const CageCheck& check)
+{
+    std::string text;
+    const auto fact = [&](const char* name, const std::string& value) {
+        text += std::string("  ") + name + std::string(26 - std::char_traits<char>::length(name), ' ') + value + '\n';
+    };
+    const auto count = [&](const char* name, std::size_t value) { fact(name, std::to_string(value)); };
+    const auto percent = [&](const char* name, double fraction) {
+        char buffer[64];
+        std::snprintf(buffer, sizeof buffer, "%.3f %% of the model's diagonal", 100 * fraction);
+        fact(name, buffer);
+    };
+    fact("faces", std::to_string(check.triangles) + " triangles, " + std::to_string(check.quads) + " quads");
+    fact("components, genus", std::to_string(check.components) + ", " + std::to_string(check.genus));
+    count("boundary edges", check.boundaryEdges);
+    count("non-manifold edges", check.nonManifoldEdges);
+    count("non-manifold vertices", check.nonManifoldVertices);
+    count("misoriented edges", check.misorientedEdges);
+    count("inward components", check.inwardComponents);
+    count("degenerate faces", check.degenerateFaces);
+    count("self-intersections", check.selfIntersections);
+    count("faces touching the model", check.contactFaces);
+    count("model vertices outside", check.modelVerticesOutside);
+    percent("mean distance", check.meanDistance);
+    percent("largest distance", check.maxDistance);
+    char buffer[64];
+    std::snprintf(buffer, sizeof buffer, "%.3f", check.volumeRatio);
+    fact("cage volume / model's", check.volumeRatio > 0 ? buffer : "- (the model is not closed)");
+    std::snprintf(buffer, sizeof buffer, "%.1f degrees", check.minAngleDegrees);
+    fact("smallest angle", buffer);
+    return text;
+}
+
+} // namespace vdbcage::tool

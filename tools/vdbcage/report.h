@@ -1,0 +1,32 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include <nlohmann/json.hpp>
+#include <vdbcage/check/check.h>
+#include <vdbcage/core/interrupter.h>
+#include <vdbcage/mesh/mesh_io.h>
+#include <vdbcage/pipeline/pipeline.h>
+
+namespace vdbcage::tool {
+
+using Json = nlohmann::ordered_json;
+
+/// JSON forms of what the commands report; lengths are fractions of the model's bounding-box diagonal.
+Json toJson(const CageCheck& check);
+Json toJson(const CageReport& report);
+Json toJson(const ReadSummary& summary, const Mesh& mesh, const std::filesystem::path& path);
+Json toJson(const std::vector<StageTime>& stages);
+Json toJson(const CageOptions& options);
+
+/// Largest amount of memory this process has held, in MiB.
+double peakMemory();
+
+/// Writes `report` as indented text with a last line break. \throw IoError
+void writeJson(const Json& report, const std::filesystem::path& path);
+
+/// The verdict in words, one line a finding, for a person.
+std::string describe(const CageCheck& check);
+
+} // namespace vdbcage::tool

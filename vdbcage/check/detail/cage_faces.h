@@ -1,0 +1,54 @@
+#pragma once
+
+#include <algorithm>
+#include <atomic>
+#include <cstddef>
+#include <vector>
+
+#include <vdbcage/check/detail/face_triangles.h>
+#include <vdbcage/check/detail/predicates.h>
+#include <vdbcage/core/interrupter.h>
+#include <vdbcage/mesh/detail/triangle_tree.h>
+
+namespace vdbcage::detail {
+
+/// Flags that are only ever set, by any thread.
+using Flags = std::vector<std::atomic<bool>>;
+
+inline void set(std::atomic<bool>& flag)
+{
+    flag.store(true, std::memory_order_relaxed);
+}
+
+inline bool isSet(const std::atomic<bool>& flag)
+{
+    return flag.load(std::memory_order_relaxed);
+}
+
+/// The cage as its examinations need it. The mesh must outlive it; it must be sound (see requireSound).
+struct CageFaces {
+    CageFaces(const Mesh& cage, Interrupter* interrupter)
+        : mesh(cage), faces(cage), tree(mesh.points, faces.triangles(), interrupter), degenerate(faces.size()),
+          bad(faces.faces())
+    {
+        for (std::size_t t = 0; t < faces.size(); ++t) degenerate[t] = isDegenerate(corners(t)) ? 1 : 0;
+    }
+
+    Corners corners(std::size_t triangle) const
+    {
+        const Vec3I& t = faces[triangle];
+        return {mesh.points[t[0]], mesh.points[t[1]], mesh.points[t[2]]};
+    }
+
+    const Mesh& mesh;
+    FaceTriangles faces;
+    TriangleTree tree;
+    std::vector<char> degenerate; ///< by triangle
+    Flags bad;                    ///< by face
+};
+
+/// Counts the pairs of faces that meet in more than the corners and edges they share, and folded quads; marks them bad.
+/// O(n log n + candidates), in parallel. \throw Cancelled
+std::size_t countSelfIntersections(CageFaces& cage, Interrupter* interrupter);
+
+} // namespace vdbcage::detail

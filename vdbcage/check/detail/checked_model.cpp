@@ -1,0 +1,81 @@
+#include <vdbcage/check/detail/checked_model.h>
+
+#include <cmath>
+#include <sstream>
+#include <string>
+
+#include <tbb/parallel_invoke.h>
+#include <vdbcage/check/detail/measures.h>
+#include <vdbcage/core/error.h>
+#include <vdbcage/mesh/detail/union_find.h>
+#include <vdbcage/mesh/topology.h>
+
+namespace vdbcage::detail {
+
+void requireSound(const Mesh& mesh, const char* what)
+{
+    const auto requirePoint = [&](std::uint32_t index) {
+        if (index < mesh.points.size() && mesh.points[index].isFinite()) return;
+        std::ostringstream problem;
+        if (index >= mesh.points.size()) {
+            problem << what << ": a face uses point " << index << "; there are " << mesh.points.size()
+                    << " points, counted from 0";
+        } else {
+            const Vec3d& p = mesh.points[index];
+            problem << what << ": point " << index << " is (" << p[0] << ", " << p[1] << ", " << p[2]
+                    << "); coordinates must be finite";
+        }
+        throw InputError(problem.str());
+    };
+    for (const Vec3I& triangle : mesh.triangles) {
+        for (int i = 0; i < 3; ++i) requirePoint(triangle[i]);
+    }
+    for (const openvdb::Vec4I& quad : mesh.quads) {
+        for (int i = 0; i < 4; ++i) requirePoint(quad[i]);
+    }
+}
+
+CheckedModel::CheckedModel(const Mesh& mesh, Interrupter* interrupter)
+{
+    if (faceCount(mesh) == 0) throw InputError("model: it has no faces; at least one is needed");
+    requireSound(mesh, "model");
+    const FaceTriangles faces(mesh);
+    tbb::parallel_invoke([&] { tree = TriangleTree(mesh.points, faces.triangles(), interrupter); },
+                         [&] { findParts(mesh, faces, interrupter); },
+                         [&] {
+                             if (analyzeTopology(mesh, interrupter).isCycle()) {
+                                 volume = std::abs(detail::volume(mesh.points, faces));
+                             }
+                         });
+    diagonal = (tree.box().hi - tree.box().lo).length();
+}
+
+void CheckedModel::findParts(const Mesh& mesh, const FaceTriangles& faces, Interrupter* interrupter)
+{
+    constexpr std::uint32_t none = ~std::uint32_t(0);
+    UnionFind sets(mesh.points.size());
+    partOfPoint.assign(mesh.points.size(), none);
+    for (std::size_t t = 0; t < faces.size(); ++t) {
+        if (t % 65536 == 0) throwIfInterrupted(interrupter);
+        sets.unite(faces[t][0], faces[t][1]);
+        sets.unite(faces[t][0], faces[t][2]);
+        for (int i = 0; i < 3; ++i) partOfPoint[faces[t][i]] = 0;
+    }
+    partFirst.push_back(0);
+    for (std::uint32_t p = 0; p < mesh.points.size(); ++p) { // the root of a set is its first vertex
+        if (partOfPoint[p] == none) continue;
+        ++usedVertices;
+        const std::uint32_t root = sets.find(p);
+        if (root == p) partFirst.push_back(0);
+        partOfPoint[p] = root == p ? static_cast<std::uint32_t>(partFirst.size() - 2) : partOfPoint[root];
+        ++partFirst[partOfPoint[p] + 1];
+    }
+    for (std::size_t part = 0; part < parts(); ++part) partFirst[part + 1] += partFirst[part];
+    partVertices.resize(usedVertices);
+    std::vector<std::size_t> next(partFirst.begin(), partFirst.end() - 1);
+    for (std::uint32_t p = 0; p < mesh.points.size(); ++p) {
+        if (partOfPoint[p] != none) partVertices[next[partOfPoint[p]]++] = p;
+    }
+}
+
+} // namespace vdbcage::detail

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include <vdbcage/check/detail/face_triangles.h>
+#include <vdbcage/core/interrupter.h>
+#include <vdbcage/mesh/detail/triangle_tree.h>
+
+namespace vdbcage::detail {
+
+/// \throw InputError unless all indices are below the number of points and all points of faces are finite
+void requireSound(const Mesh& mesh, const char* what);
+
+/// What is found out about a model once: its triangles in a tree, and its parts. A part is what hangs together over
+/// shared vertices (by index).
+struct CheckedModel {
+    /// \throw InputError (no faces, not sound), Cancelled
+    CheckedModel(const Mesh& mesh, Interrupter* interrupter);
+
+    std::size_t parts() const { return partFirst.size() - 1; }
+
+    TriangleTree tree;                       ///< all four triangles of a quad
+    std::size_t usedVertices = 0;            ///< points that faces use
+    std::vector<std::uint32_t> partOfPoint;  ///< only for these
+    std::vector<std::uint32_t> partVertices; ///< the vertices of part k are partVertices[partFirst[k]] ...
+    std::vector<std::size_t> partFirst;      ///< ... partVertices[partFirst[k + 1] - 1]
+    double diagonal = 0;                     ///< of the bounding box
+    double volume = 0;                       ///< 0 if the model has no inside
+
+private:
+    void findParts(const Mesh& mesh, const FaceTriangles& faces, Interrupter* interrupter);
+};
+
+} // namespace vdbcage::detail

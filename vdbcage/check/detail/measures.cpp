@@ -1,0 +1,144 @@
+#include <vdbcage/check/detail/measures.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include <tbb/parallel_for.h>
+
+namespace vdbcage::detail {
+
+namespace {
+
+double area(const std::vector<Vec3d>& points, const Vec3I& t)
+{
+    return 0.5 * (points[t[1]] - points[t[0]]).cross(points[t[2]] - points[t[0]]).length();
+}
+
+// The k-th point of a sequence that fills the triangle evenly: the plastic number's lattice (Roberts, 2018), folded
+// from the square onto the triangle.
+Vec3d pointWithin(const std::vector<Vec3d>& points, const Vec3I& t, std::size_t k)
+{
+    const double n = static_cast<double>(k);
+    double u = 0.5 + n * 0.7548776662466927, v = 0.5 + n * 0.5698402909980532;
+    u -= std::floor(u);
+    v -= std::floor(v);
+    if (u + v > 1) {
+        u = 1 - u;
+        v = 1 - v;
+    }
+    const Vec3d& a = points[t[0]];
+    return a + u * (points[t[1]] - a) + v * (points[t[2]] - a);
+}
+
+// Systematic sampling: `samples` equal strips of area, a sample in the middle of each, so that every triangle gets its
+// share to within one sample.
+std::vector<Vec3d> spreadSamples(const std::vector<Vec3d>& points, const FaceTriangles& faces, std::size_t samples)
+{
+    std::vector<double> areaUpTo;
+    double total = 0;
+    for (std::size_t t = 0; t < faces.size(); ++t) {
+        total += area(points, faces[t]) * (faces.ofQuad(t) ? 0.5 : 1.0);
+        areaUpTo.push_back(total);
+    }
+    std::vector<Vec3d> result;
+    if (!(total > 0) || !std::isfinite(total)) return result;
+    result.reserve(samples);
+    std::size_t triangle = 0, within = 0;
+    for (std::size_t i = 0; i < samples; ++i) {
+        const double target = (static_cast<double>(i) + 0.5) / static_cast<double>(samples) * total;
+        while (triangle + 1 < faces.size() && areaUpTo[triangle] < target) {
+            ++triangle;
+            within = 0;
+        }
+        result.push_back(pointWithin(points, faces[triangle], within++));
+    }
+    return result;
+}
+
+std::vector<double> distancesOf(const std::vector<Vec3d>& from, const TriangleTree& tree, Interrupter* interrupter)
+{
+    std::vector<double> result(from.size());
+    // Blocks of fixed size: each answer is the next one's seed, and a seed may change the last bit.
+    constexpr std::size_t block = 64;
+    tbb::parallel_for(std::size_t(0), (from.size() + block - 1) / block, [&](std::size_t b) {
+        throwIfInterrupted(interrupter);
+        std::uint32_t seed = TriangleTree::none;
+        for (std::size_t i = b * block; i < std::min(from.size(), (b + 1) * block); ++i) {
+            const TriangleTree::Closest closest = tree.closest(from[i], seed);
+            seed = closest.item;
+            result[i] = std::sqrt(closest.squaredDistance);
+        }
+    });
+    return result;
+}
+
+// The points that faces use, in order.
+std::vector<Vec3d> usedPoints(const std::vector<Vec3d>& points, const FaceTriangles& faces)
+{
+    std::vector<char> used(points.size(), 0);
+    for (const Vec3I& t : faces.triangles()) used[t[0]] = used[t[1]] = used[t[2]] = 1;
+    std::vector<Vec3d> result;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        if (used[i]) result.push_back(points[i]);
+    }
+    return result;
+}
+
+double angleDegrees(const Vec3d& at, const Vec3d& b, const Vec3d& c)
+{
+    Vec3d u = b - at, v = c - at;
+    u.normalize(); // leaves a zero vector as it is
+    v.normalize();
+    return std::atan2(u.cross(v).length(), u.dot(v)) * (180 / 3.14159265358979323846);
+}
+
+} // namespace
+
+double volume(const std::vector<Vec3d>& points, const FaceTriangles& faces)
+{
+    if (faces.size() == 0) return 0;
+    const Vec3d origin = points[faces[0][0]];
+    double sum = 0;
+    for (std::size_t t = 0; t < faces.size(); ++t) {
+        const Vec3I& corners = faces[t];
+        const Vec3d a = points[corners[0]] - origin, b = points[corners[1]] - origin, c = points[corners[2]] - origin;
+        sum += a.dot(b.cross(c)) * (faces.ofQuad(t) ? 0.5 : 1.0);
+    }
+    return sum / 6;
+}
+
+Angles angles(const std::vector<Vec3d>& points, const FaceTriangles& faces)
+{
+    if (faces.size() == 0) return {};
+    std::vector<double> all;
+    all.reserve(3 * faces.size());
+    for (const Vec3I& t : faces.triangles()) {
+        for (int i = 0; i < 3; ++i) {
+            all.push_back(angleDegrees(points[t[i]], points[t[(i + 1) % 3]], points[t[(i + 2) % 3]]));
+        }
+    }
+    const auto percentile = all.begin() + static_cast<std::ptrdiff_t>(all.size() / 100);
+    std::nth_element(all.begin(), percentile, all.end());
+    return {*std::min_element(all.begin(), percentile + 1), *percentile};
+}
+
+Distances distances(const std::vector<Vec3d>& points, const FaceTriangles& faces, const TriangleTree& tree,
+                    std::size_t samples, Interrupter* interrupter)
+{
+    if (faces.size() == 0) return {};
+    const std::vector<double> even = distancesOf(spreadSamples(points, faces, samples), tree, interrupter);
+    const std::vector<double> corners = distancesOf(usedPoints(points, faces), tree, interrupter);
+    Distances result;
+    const auto [least, most] = std::minmax_element(corners.begin(), corners.end());
+    result.least = *least;
+    result.most = *most;
+    for (const double distance : even) {
+        result.mean += distance;
+        result.least = std::min(result.least, distance);
+        result.most = std::max(result.most, distance);
+    }
+    if (!even.empty()) result.mean /= static_cast<double>(even.size());
+    return result;
+}
+
+} // namespace vdbcage::detail

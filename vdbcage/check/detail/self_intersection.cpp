@@ -1,0 +1,111 @@
+#include <array>
+#include <atomic>
+#include <cstdint>
+
+#include <tbb/blocked_range.h>
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+#include <vdbcage/check/detail/cage_faces.h>
+
+namespace vdbcage::detail {
+
+namespace {
+
+using Index = std::uint32_t;
+
+bool isEdge(const Mesh& mesh, std::size_t face, Index a, Index b)
+{
+    const auto follows = [&](const auto& corners, int size) {
+        for (int i = 0; i < size; ++i) {
+            const Index c = corners[i], d = corners[(i + 1) % size];
+            if ((c == a && d == b) || (c == b && d == a)) return true;
+        }
+        return false;
+    };
+    return face < mesh.triangles.size() ? follows(mesh.triangles[face], 3)
+                                        : follows(mesh.quads[face - mesh.triangles.size()], 4);
+}
+
+// Two triangles of different faces, not degenerate, share more than the corners and edges that their faces share.
+bool collide(const CageFaces& cage, std::size_t s, std::size_t t)
+{
+    const Vec3I &a = cage.faces[s], &b = cage.faces[t];
+    std::array<int, 3> inA{}, inB{}; // places of the shared corners
+    int shared = 0;
+    for (int i = 0; i < 3; ++i) {
+        for (int k = 0; k < 3; ++k) {
+            if (a[i] != b[k]) continue;
+            inA[static_cast<std::size_t>(shared)] = i;
+            inB[static_cast<std::size_t>(shared)] = k;
+            ++shared;
+        }
+    }
+    const std::vector<Vec3d>& p = cage.mesh.points;
+    const auto turned = [&](const Vec3I& triangle, int first) {
+        return Corners{p[triangle[first]], p[triangle[(first + 1) % 3]], p[triangle[(first + 2) % 3]]};
+    };
+    switch (shared) {
+    case 0:
+        return trianglesMeet(turned(a, 0), turned(b, 0));
+    case 1:
+        return meetBeyondCorner(turned(a, inA[0]), turned(b, inB[0]));
+    case 2: {
+        // Two corners that are no edge of both faces: a diagonal lies on the other face.
+        const Index u = a[inA[0]], v = a[inA[1]];
+        if (!isEdge(cage.mesh, cage.faces.face(s), u, v) || !isEdge(cage.mesh, cage.faces.face(t), u, v)) return true;
+        return foldOver(p[u], p[v], p[a[3 - inA[0] - inA[1]]], p[b[3 - inB[0] - inB[1]]]);
+    }
+    default:
+        return true;
+    }
+}
+
+bool isFolded(const CageFaces& cage, std::size_t quad)
+{
+    const openvdb::Vec4I& q = cage.mesh.quads[quad];
+    const std::vector<Vec3d>& p = cage.mesh.points;
+    return foldOver(p[q[0]], p[q[2]], p[q[1]], p[q[3]]) || foldOver(p[q[1]], p[q[3]], p[q[0]], p[q[2]]);
+}
+
+} // namespace
+
+std::size_t countSelfIntersections(CageFaces& cage, Interrupter* interrupter)
+{
+    std::atomic<std::size_t> result{0};
+    // For each face the last one that counted a pair with it: a pair of quads has up to 16 chances to collide.
+    tbb::enumerable_thread_specific<std::vector<Index>> counted(
+        [&] { return std::vector<Index>(cage.faces.faces(), ~Index(0)); });
+    tbb::parallel_for(
+        tbb::blocked_range<std::size_t>(0, cage.faces.faces(), 4), [&](const tbb::blocked_range<std::size_t>& range) {
+            throwIfInterrupted(interrupter);
+            std::vector<Index>& countedBy = counted.local();
+            for (std::size_t face = range.begin(); face < range.end(); ++face) {
+                std::size_t pairs = 0;
+                bool whole = true;
+                for (std::size_t t = cage.faces.first(face); t < cage.faces.first(face + 1); ++t) {
+                    if (cage.degenerate[t]) {
+                        whole = false;
+                        continue;
+                    }
+                    const Corners corners = cage.corners(t);
+                    const Box box = Box::of(corners);
+                    cage.tree.traverse(TriangleFilter(corners), [&](const TriangleTree::Item& item) {
+                        const Index other = cage.faces.face(item.triangle);
+                        if (other <= face || countedBy[other] == face || cage.degenerate[item.triangle]) return true;
+                        if (!box.meets(Box::of(cage.tree.corners(item))) || !collide(cage, t, item.triangle))
+                            return true;
+                        countedBy[other] = static_cast<Index>(face);
+                        set(cage.bad[other]);
+                        ++pairs;
+                        return true;
+                    });
+                }
+                if (whole && cage.faces.isQuad(face) && isFolded(cage, face - cage.mesh.triangles.size())) ++pairs;
+                if (pairs > 0) set(cage.bad[face]);
+                result += pairs;
+            }
+        });
+    return result;
+}
+
+} // namespace vdbcage::detail

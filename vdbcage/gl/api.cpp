@@ -1,0 +1,88 @@
+#include <vdbcage/gl/api.h>
+
+#include <array>
+#include <string>
+
+#include <vdbcage/core/error.h>
+
+namespace vdbcage::gl {
+
+namespace {
+
+template <typename Function>
+void load(GetProc getProc, const char* name, Function& function)
+{
+    function = reinterpret_cast<Function>(getProc(name));
+    if (!function) throw DeviceError(std::string("OpenGL: this context has no ") + name);
+}
+
+std::string errorName(GLenum error)
+{
+    switch (error) {
+    case GL_INVALID_ENUM:
+        return "GL_INVALID_ENUM";
+    case GL_INVALID_VALUE:
+        return "GL_INVALID_VALUE";
+    case GL_INVALID_OPERATION:
+        return "GL_INVALID_OPERATION";
+    case GL_INVALID_FRAMEBUFFER_OPERATION:
+        return "GL_INVALID_FRAMEBUFFER_OPERATION";
+    case GL_OUT_OF_MEMORY:
+        return "GL_OUT_OF_MEMORY";
+    case GL_CONTEXT_LOST:
+        return "GL_CONTEXT_LOST";
+    default:
+        return "error " + std::to_string(error);
+    }
+}
+
+} // namespace
+
+Api::Api(GetProc getProc)
+{
+#define VDBCAGE_GL_LOAD(Type, name) load(getProc, "gl" #name, this->name);
+    VDBCAGE_GL_ENTRY_POINTS(VDBCAGE_GL_LOAD)
+#undef VDBCAGE_GL_LOAD
+
+    // Drivers hand out entry points of versions that they do not have.
+    GLint major = 0;
+    GLint minor = 0;
+    GetIntegerv(GL_MAJOR_VERSION, &major);
+    GetIntegerv(GL_MINOR_VERSION, &minor);
+    if (major < 4 || (major == 4 && minor < 5)) {
+        throw DeviceError("OpenGL: this context has version " + std::to_string(major) + "." + std::to_string(minor) +
+                          "; 4.5 is needed");
+    }
+}
+
+void enableDebugMessages(const Api& api)
+{
+    api.Enable(GL_DEBUG_OUTPUT);
+    api.Enable(GL_DEBUG_OUTPUT_SYNCHRONOUS);
+    // The log is short (ten entries in Mesa): keep advice about speed out of it.
+    api.DebugMessageControl(GL_DONT_CARE, GL_DONT_CARE, GL_DONT_CARE, 0, nullptr, GL_FALSE);
+    for (const GLenum type : {GL_DEBUG_TYPE_ERROR, GL_DEBUG_TYPE_UNDEFINED_BEHAVIOR}) {
+        api.DebugMessageControl(GL_DONT_CARE, type, GL_DONT_CARE, 0, nullptr, GL_TRUE);
+    }
+}
+
+void throwIfFailed(const Api& api, const char* what)
+{
+    std::string problems;
+    const auto add = [&](const std::string& problem) { problems += (problems.empty() ? "" : "; ") + problem; };
+    // A lost context may report errors for ever.
+    for (int i = 0; i < 16; ++i) {
+        const GLenum error = api.GetError();
+        if (error == GL_NO_ERROR) break;
+        add(errorName(error));
+    }
+    std::array<char, 4096> text{};
+    GLsizei length = 0;
+    while (api.GetDebugMessageLog(1, static_cast<GLsizei>(text.size()), nullptr, nullptr, nullptr, nullptr, &length,
+                                  text.data()) == 1) {
+        add(text.data());
+    }
+    if (!problems.empty()) throw DeviceError("OpenGL failed while " + std::string(what) + ": " + problems);
+}
+
+} // namespace vdbcage::gl

@@ -1,0 +1,95 @@
+#pragma once
+
+#include <GL/glcorearb.h>
+
+/// Every OpenGL entry point that the project calls: its type in GL/glcorearb.h and its name without "gl".
+#define VDBCAGE_GL_ENTRY_POINTS(X)                                                                                     \
+    X(PFNGLATTACHSHADERPROC, AttachShader)                                                                             \
+    X(PFNGLBINDFRAMEBUFFERPROC, BindFramebuffer)                                                                       \
+    X(PFNGLBINDVERTEXARRAYPROC, BindVertexArray)                                                                       \
+    X(PFNGLBLENDFUNCPROC, BlendFunc)                                                                                   \
+    X(PFNGLBLITNAMEDFRAMEBUFFERPROC, BlitNamedFramebuffer)                                                             \
+    X(PFNGLCHECKNAMEDFRAMEBUFFERSTATUSPROC, CheckNamedFramebufferStatus)                                               \
+    X(PFNGLCLEARNAMEDFRAMEBUFFERFIPROC, ClearNamedFramebufferfi)                                                       \
+    X(PFNGLCLEARNAMEDFRAMEBUFFERFVPROC, ClearNamedFramebufferfv)                                                       \
+    X(PFNGLCLEARNAMEDFRAMEBUFFERIVPROC, ClearNamedFramebufferiv)                                                       \
+    X(PFNGLCOLORMASKPROC, ColorMask)                                                                                   \
+    X(PFNGLCOMPILESHADERPROC, CompileShader)                                                                           \
+    X(PFNGLCREATEBUFFERSPROC, CreateBuffers)                                                                           \
+    X(PFNGLCREATEFRAMEBUFFERSPROC, CreateFramebuffers)                                                                 \
+    X(PFNGLCREATEPROGRAMPROC, CreateProgram)                                                                           \
+    X(PFNGLCREATESHADERPROC, CreateShader)                                                                             \
+    X(PFNGLCREATETEXTURESPROC, CreateTextures)                                                                         \
+    X(PFNGLCREATEVERTEXARRAYSPROC, CreateVertexArrays)                                                                 \
+    X(PFNGLCULLFACEPROC, CullFace)                                                                                     \
+    X(PFNGLDEBUGMESSAGECONTROLPROC, DebugMessageControl)                                                               \
+    X(PFNGLDELETEBUFFERSPROC, DeleteBuffers)                                                                           \
+    X(PFNGLDELETEFRAMEBUFFERSPROC, DeleteFramebuffers)                                                                 \
+    X(PFNGLDELETEPROGRAMPROC, DeleteProgram)                                                                           \
+    X(PFNGLDELETESHADERPROC, DeleteShader)                                                                             \
+    X(PFNGLDELETETEXTURESPROC, DeleteTextures)                                                                         \
+    X(PFNGLDELETEVERTEXARRAYSPROC, DeleteVertexArrays)                                                                 \
+    X(PFNGLDEPTHFUNCPROC, DepthFunc)                                                                                   \
+    X(PFNGLDEPTHMASKPROC, DepthMask)                                                                                   \
+    X(PFNGLDISABLEPROC, Disable)                                                                                       \
+    X(PFNGLDRAWARRAYSPROC, DrawArrays)                                                                                 \
+    X(PFNGLDRAWARRAYSINSTANCEDPROC, DrawArraysInstanced)                                                               \
+    X(PFNGLENABLEPROC, Enable)                                                                                         \
+    X(PFNGLENABLEVERTEXARRAYATTRIBPROC, EnableVertexArrayAttrib)                                                       \
+    X(PFNGLGETDEBUGMESSAGELOGPROC, GetDebugMessageLog)                                                                 \
+    X(PFNGLGETERRORPROC, GetError)                                                                                     \
+    X(PFNGLGETINTEGERVPROC, GetIntegerv)                                                                               \
+    X(PFNGLGETPROGRAMINFOLOGPROC, GetProgramInfoLog)                                                                   \
+    X(PFNGLGETPROGRAMIVPROC, GetProgramiv)                                                                             \
+    X(PFNGLGETSHADERINFOLOGPROC, GetShaderInfoLog)                                                                     \
+    X(PFNGLGETSHADERIVPROC, GetShaderiv)                                                                               \
+    X(PFNGLGETSTRINGPROC, GetString)                                                                                   \
+    X(PFNGLGETUNIFORMLOCATIONPROC, GetUniformLocation)                                                                 \
+    X(PFNGLLINKPROGRAMPROC, LinkProgram)                                                                               \
+    X(PFNGLNAMEDBUFFERSTORAGEPROC, NamedBufferStorage)                                                                 \
+    X(PFNGLNAMEDFRAMEBUFFERTEXTUREPROC, NamedFramebufferTexture)                                                       \
+    X(PFNGLPIXELSTOREIPROC, PixelStorei)                                                                               \
+    X(PFNGLPOLYGONOFFSETPROC, PolygonOffset)                                                                           \
+    X(PFNGLPROGRAMUNIFORM1FPROC, ProgramUniform1f)                                                                     \
+    X(PFNGLPROGRAMUNIFORM2FPROC, ProgramUniform2f)                                                                     \
+    X(PFNGLPROGRAMUNIFORM4FPROC, ProgramUniform4f)                                                                     \
+    X(PFNGLPROGRAMUNIFORMMATRIX4FVPROC, ProgramUniformMatrix4fv)                                                       \
+    X(PFNGLREADPIXELSPROC, ReadPixels)                                                                                 \
+    X(PFNGLSHADERSOURCEPROC, ShaderSource)                                                                             \
+    X(PFNGLSTENCILFUNCPROC, StencilFunc)                                                                               \
+    X(PFNGLSTENCILOPPROC, StencilOp)                                                                                   \
+    X(PFNGLTEXTURESTORAGE2DPROC, TextureStorage2D)                                                                     \
+    X(PFNGLTEXTURESTORAGE2DMULTISAMPLEPROC, TextureStorage2DMultisample)                                               \
+    X(PFNGLUSEPROGRAMPROC, UseProgram)                                                                                 \
+    X(PFNGLVERTEXARRAYATTRIBBINDINGPROC, VertexArrayAttribBinding)                                                     \
+    X(PFNGLVERTEXARRAYATTRIBFORMATPROC, VertexArrayAttribFormat)                                                       \
+    X(PFNGLVERTEXARRAYBINDINGDIVISORPROC, VertexArrayBindingDivisor)                                                   \
+    X(PFNGLVERTEXARRAYVERTEXBUFFERPROC, VertexArrayVertexBuffer)                                                       \
+    X(PFNGLVIEWPORTPROC, Viewport)
+
+namespace vdbcage::gl {
+
+/// Looks an entry point up by its full name ("glClear"); null if there is none.
+using AnyFunction = void (*)();
+using GetProc = AnyFunction (*)(const char* name);
+
+/// The entry points of ONE context: two contexts may come from two drivers, so nothing here is global. Functions that
+/// take an `Api` need its context to be current on the calling thread.
+struct Api {
+    /// Fills the table through the context's own `getProc`; that context is current.
+    /// \throw DeviceError if an entry point is missing or the context is older than OpenGL 4.5
+    explicit Api(GetProc getProc);
+
+#define VDBCAGE_GL_DECLARE(Type, name) Type name = nullptr;
+    VDBCAGE_GL_ENTRY_POINTS(VDBCAGE_GL_DECLARE)
+#undef VDBCAGE_GL_DECLARE
+};
+
+/// Makes the context record in full what it calls an error or undefined, for `throwIfFailed` to report.
+void enableDebugMessages(const Api& api);
+
+/// Asks the context whether anything failed since the last call; `what` says what was being done ("rendering").
+/// \throw DeviceError with the error codes and, after `enableDebugMessages`, the driver's own words
+void throwIfFailed(const Api& api, const char* what);
+
+} // namespace vdbcage::gl

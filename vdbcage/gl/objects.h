@@ -1,0 +1,76 @@
+#pragma once
+
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+#include <vdbcage/gl/api.h>
+
+namespace vdbcage::gl {
+
+/// Owns one OpenGL object; movable. It must be destroyed while its context is current, and before that context.
+template <void (*destroy)(const Api&, GLuint)>
+class Object {
+public:
+    Object() = default;
+    Object(const Api& api, GLuint name) : api_(&api), name_(name) {}
+    ~Object()
+    {
+        if (name_ != 0) destroy(*api_, name_);
+    }
+    Object(Object&& other) noexcept : api_(other.api_), name_(std::exchange(other.name_, 0)) {}
+    Object& operator=(Object&& other) noexcept
+    {
+        std::swap(api_, other.api_);
+        std::swap(name_, other.name_);
+        return *this;
+    }
+    Object(const Object&) = delete;
+    Object& operator=(const Object&) = delete;
+
+    /// OpenGL's name for it, 0 for none.
+    GLuint name() const { return name_; }
+
+private:
+    const Api* api_ = nullptr;
+    GLuint name_ = 0;
+};
+
+namespace detail {
+
+void deleteBuffer(const Api& api, GLuint name);
+void deleteVertexArray(const Api& api, GLuint name);
+void deleteTexture(const Api& api, GLuint name);
+void deleteFramebuffer(const Api& api, GLuint name);
+void deleteShader(const Api& api, GLuint name);
+void deleteProgram(const Api& api, GLuint name);
+
+} // namespace detail
+
+using Buffer = Object<detail::deleteBuffer>;
+using VertexArray = Object<detail::deleteVertexArray>;
+using Texture = Object<detail::deleteTexture>;
+using Framebuffer = Object<detail::deleteFramebuffer>;
+using ShaderObject = Object<detail::deleteShader>;
+using ProgramObject = Object<detail::deleteProgram>;
+
+/// Memory of the device that holds `size` bytes of `data` and does not change (null `data`: undefined contents).
+/// \throw DeviceError (out of memory)
+[[nodiscard]] Buffer makeBuffer(const Api& api, std::size_t size, const void* data);
+
+template <typename Value>
+[[nodiscard]] Buffer makeBuffer(const Api& api, const std::vector<Value>& values)
+{
+    return makeBuffer(api, values.size() * sizeof(Value), values.data());
+}
+
+[[nodiscard]] VertexArray makeVertexArray(const Api& api);
+
+/// A picture of `width` x `height` pixels, `samples` samples a pixel (1: an ordinary texture).
+/// \throw DeviceError (too large, out of memory)
+[[nodiscard]] Texture makeTexture2D(const Api& api, GLenum format, int width, int height, int samples = 1);
+
+/// Draws into `colour` and `depthStencil`, of which one may be empty; both must outlive it. \throw DeviceError
+[[nodiscard]] Framebuffer makeFramebuffer(const Api& api, const Texture& colour, const Texture& depthStencil);
+
+} // namespace vdbcage::gl

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <openvdb/Types.h>
+#include <openvdb/math/Vec3.h>
+#include <vdbcage/mesh/mesh.h>
+
+namespace vdbcage::detail {
+
+/// True if the three points are on one line (or coincide), decided exactly for any finite coordinates.
+bool isDegenerate(const openvdb::Vec3d& a, const openvdb::Vec3d& b, const openvdb::Vec3d& c);
+
+/// The same for a triangle of `mesh`, whose indices must be in range.
+bool isDegenerate(const Mesh& mesh, const openvdb::Vec3I& triangle);
+
+} // namespace vdbcage::detail

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <charconv>
+#include <string>
+
+namespace vdbcage::detail {
+
+/// The shortest decimal digits that read back as the same value, or nan, inf, -inf; whatever the locale.
+inline std::string numberText(double value)
+{
+    char digits[32];
+    return {digits, std::to_chars(digits, digits + sizeof(digits), value).ptr};
+}
+
+} // namespace vdbcage::detail

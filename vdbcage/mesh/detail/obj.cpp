@@ -1,0 +1,185 @@
+// Based on: Wavefront, "Object Files (.obj)", the polygonal part of version 3.0.
+// Differs: statements that carry no polygons are skipped unread, also unknown ones, as programs add their own; a face
+// of one or two corners is ignored, except at the end of a file that was cut off within it.
+
+#include <vdbcage/mesh/detail/formats.h>
+
+#include <array>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include <vdbcage/mesh/detail/output_buffer.h>
+#include <vdbcage/mesh/detail/polygon_soup.h>
+#include <vdbcage/mesh/detail/text_cursor.h>
+
+namespace vdbcage::detail {
+
+namespace {
+
+bool isOneOf(std::string_view word, std::initializer_list<std::string_view> words)
+{
+    for (const std::string_view candidate : words) {
+        if (word == candidate) return true;
+    }
+    return false;
+}
+
+/// Words that no program's dialect has: a sign of a file that is no OBJ.
+bool looksLikeKeyword(std::string_view word)
+{
+    const auto isLetter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; };
+    if (!isLetter(word.front())) return false;
+    for (const char c : word) {
+        if (!isLetter(c) && !(c >= '0' && c <= '9') && c != '-' && c != '.') return false;
+    }
+    return true;
+}
+
+class ObjParser {
+public:
+    ObjParser(std::string_view bytes, const std::string& name)
+        : in_(bytes, name, TextSyntax{'#', /*continuesLines=*/true}), name_(name)
+    {
+    }
+
+    Mesh parse(ReadSummary* summary)
+    {
+        while (in_.skipToWord()) statement();
+        for (const Reference& reference : ahead_) {
+            if (reference.index >= soup_.points.size()) failOutOfRange(reference.where, soup_.points.size());
+        }
+        return toMesh(std::move(soup_), name_, summary);
+    }
+
+private:
+    /// A corner that refers to a point that has not come yet.
+    struct Reference {
+        std::uint64_t index;
+        const char* where;
+    };
+
+    void statement()
+    {
+        const char* start = in_.position();
+        const std::string_view keyword = in_.word();
+        if (keyword == "v") {
+            point();
+        } else if (keyword == "f" || keyword == "fo") {
+            face(start);
+        } else if (isOneOf(keyword, {"o", "g", "usemtl", "mtllib", "usemap", "maplib"})) {
+            in_.nextLine(); // names, of which the last may be a path that ends with a backslash
+        } else if (isOneOf(keyword, {"p", "l", "curv", "curv2", "surf"})) {
+            ++soup_.ignoredElements;
+            in_.nextStatement();
+        } else if (looksLikeKeyword(keyword)) {
+            in_.nextStatement();
+        } else {
+            in_.fail(start, "a line cannot begin with " + in_.quoted(start) + " in an OBJ file");
+        }
+    }
+
+    void point()
+    {
+        const double x = in_.coordinate("the x coordinate");
+        const double y = in_.coordinate("the y coordinate");
+        const double z = in_.coordinate("the z coordinate");
+        soup_.points.emplace_back(x, y, z);
+        while (!in_.atLineEnd()) { // a weight or a colour: not used, but a number
+            if (!in_.skipNumber()) in_.fail(in_.quoted(in_.position()) + " behind the coordinates is not a number");
+        }
+        in_.nextLine();
+    }
+
+    void face(const char* start)
+    {
+        face_.clear();
+        unsigned firstForm = 0;
+        bool sameForm = true;
+        while (!in_.atLineEnd()) {
+            const unsigned form = corner();
+            if (face_.size() == 1) firstForm = form;
+            sameForm = sameForm && form == firstForm;
+        }
+        // The last line may be cut off anywhere if it has no end; what is left of its last corner may still look whole.
+        if (in_.atEnd() && (face_.size() < 3 || !sameForm)) {
+            in_.fail(start, "the file ends within a face");
+        }
+        soup_.addFace(face_.data(), face_.size());
+        in_.nextLine();
+    }
+
+    /// v, v/vt, v//vn or v/vt/vn; returns which of the parts are there.
+    unsigned corner()
+    {
+        const char* where = in_.position();
+        std::int64_t index = 0;
+        std::int64_t unused = 0;
+        const bool hasIndex = in_.integerPrefix(index);
+        unsigned form = 0;
+        for (unsigned part = 1; part <= 2 && hasIndex && in_.skipCharacter('/'); ++part) {
+            form |= part << 2U;
+            if (in_.integerPrefix(unused)) form |= part;
+        }
+        if (!hasIndex || !in_.atWordEnd()) {
+            in_.fail(where, "the corner " + in_.quoted(where) + " is none of v, v/vt, v//vn and v/vt/vn");
+        }
+        const std::uint64_t points = soup_.points.size();
+        if (index == 0) in_.fail(where, "the corner " + in_.quoted(where) + " has index 0; points count from 1");
+        if (index < 0 && std::uint64_t(-(index + 1)) >= points) failOutOfRange(where, points);
+        const std::uint64_t at = index > 0 ? std::uint64_t(index - 1) : points - std::uint64_t(-(index + 1)) - 1;
+        // Only the highest so far is kept: it is the first to be out of range for some number of points.
+        if (at >= points && (ahead_.empty() || at > ahead_.back().index)) ahead_.push_back({at, where});
+        face_.push_back(static_cast<openvdb::Index32>(at));
+        return form;
+    }
+
+    [[noreturn]] void failOutOfRange(const char* where, std::uint64_t points) const
+    {
+        const char* there = *where == '-' ? " points before it" : " points";
+        in_.fail(where,
+                 "the corner " + in_.quoted(where) + " is out of range; there are " + std::to_string(points) + there);
+    }
+
+    TextCursor in_;
+    const std::string& name_;
+    PolygonSoup soup_;
+    std::vector<openvdb::Index32> face_;
+    std::vector<Reference> ahead_; // with growing index
+};
+
+template <typename Face>
+void writeFace(OutputBuffer& buffer, const Face& face)
+{
+    buffer.text("f");
+    for (int i = 0; i < Face::size; ++i) {
+        buffer.text(" ");
+        buffer.number(std::uint64_t(face[i]) + 1);
+    }
+    buffer.text("\n");
+}
+
+} // namespace
+
+Mesh parseObj(std::string_view bytes, const std::string& name, ReadSummary* summary)
+{
+    return ObjParser(bytes, name).parse(summary);
+}
+
+void writeObj(const Mesh& mesh, const std::string&, std::ostream& out)
+{
+    OutputBuffer buffer(out);
+    for (const openvdb::Vec3d& p : mesh.points) {
+        buffer.text("v");
+        for (int axis = 0; axis < 3; ++axis) {
+            buffer.text(" ");
+            buffer.number(p[axis]);
+        }
+        buffer.text("\n");
+    }
+    for (const openvdb::Vec3I& triangle : mesh.triangles) writeFace(buffer, triangle);
+    for (const openvdb::Vec4I& quad : mesh.quads) writeFace(buffer, quad);
+    buffer.flush();
+}
+
+} // namespace vdbcage::detail

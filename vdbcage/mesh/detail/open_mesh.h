@@ -1,0 +1,171 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include <OpenMesh/Core/Mesh/Traits.hh>
+#include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
+#include <vdbcage/core/error.h>
+#include <vdbcage/mesh/mesh.h>
+
+/// The one place where Mesh becomes OpenMesh's half-edge structure and back.
+namespace vdbcage::detail {
+
+struct OpenMeshTraits : OpenMesh::DefaultTraitsDouble {
+    VertexAttributes(OpenMesh::Attributes::Status);
+    HalfedgeAttributes(OpenMesh::Attributes::PrevHalfedge | OpenMesh::Attributes::Status);
+    EdgeAttributes(OpenMesh::Attributes::Status);
+    FaceAttributes(OpenMesh::Attributes::Status);
+};
+using OpenTriMesh = OpenMesh::TriMesh_ArrayKernelT<OpenMeshTraits>;
+
+inline openvdb::Vec3d toVec3d(const OpenMesh::Vec3d& p)
+{
+    return {p[0], p[1], p[2]};
+}
+
+inline OpenMesh::Vec3d fromVec3d(const openvdb::Vec3d& p)
+{
+    return {p.x(), p.y(), p.z()};
+}
+
+/// Pairs up the half-edges of `triangles`: 3 t + i runs from corner i of triangle t to the next. Gives each its
+/// opposite, or `none` at a boundary. \throw InputError an edge that is not between one or two faces in opposite
+/// directions, a triangle that repeats a corner
+class HalfEdgePairs {
+public:
+    static constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
+
+    HalfEdgePairs(const std::vector<openvdb::Vec3I>& triangles, std::size_t points)
+        : opposite(3 * triangles.size(), none)
+    {
+        const auto from = [&](std::size_t h) { return triangles[h / 3][int(h % 3)]; };
+        const auto to = [&](std::size_t h) { return triangles[h / 3][int((h + 1) % 3)]; };
+        const auto low = [&](std::size_t h) { return std::size_t(std::min(from(h), to(h))); };
+        // Bucket by the lower end: few half-edges share one.
+        std::vector<std::size_t> first(points + 1, 0), bucket(opposite.size());
+        for (std::size_t h = 0; h < opposite.size(); ++h) ++first[low(h) + 1];
+        for (std::size_t p = 0; p < points; ++p) first[p + 1] += first[p];
+        std::vector<std::size_t> end(first.begin(), first.end() - 1);
+        for (std::size_t h = 0; h < opposite.size(); ++h) {
+            const auto fail = [&](const char* problem) {
+                throw InputError("the surface is not an oriented 2-manifold: the edge between points " +
+                                 std::to_string(from(h)) + " and " + std::to_string(to(h)) + problem);
+            };
+            if (from(h) == to(h)) fail(" has no length");
+            const std::size_t p = low(h);
+            for (std::size_t i = first[p]; i < end[p]; ++i) {
+                const std::size_t other = bucket[i];
+                if (from(other) == from(h) && to(other) == to(h)) fail(" has two faces on the same side");
+                if (from(other) != to(h) || to(other) != from(h)) continue;
+                opposite[h] = other;
+                opposite[other] = h;
+            }
+            bucket[end[p]++] = h;
+        }
+    }
+
+    std::vector<std::size_t> opposite;
+};
+
+/// `mesh`, its quads split, as an OpenMesh with the same numbers for the points and, after the split, the faces.
+/// \throw InputError not an oriented 2-manifold (boundaries are allowed). O(faces).
+inline OpenTriMesh toOpenMesh(const Mesh& mesh)
+{
+    using Handle = OpenTriMesh::HalfedgeHandle;
+    const std::vector<openvdb::Vec3I> triangles = triangulate(mesh);
+    const HalfEdgePairs pairs(triangles, mesh.points.size());
+
+    // Built directly: add_face() searches, and prints what it does not like.
+    OpenTriMesh result;
+    std::size_t edges = 0;
+    for (std::size_t h = 0; h < pairs.opposite.size(); ++h) edges += pairs.opposite[h] > h; // `none` is above all
+    result.resize(mesh.points.size(), edges, triangles.size());
+    for (std::size_t p = 0; p < mesh.points.size(); ++p) {
+        result.set_point(OpenTriMesh::VertexHandle(int(p)), fromVec3d(mesh.points[p]));
+    }
+    std::vector<Handle> handles(pairs.opposite.size());
+    int edge = 0;
+    for (std::size_t h = 0; h < handles.size(); ++h) {
+        if (pairs.opposite[h] < h) {
+            handles[h] = result.opposite_halfedge_handle(handles[pairs.opposite[h]]);
+        } else {
+            handles[h] = result.halfedge_handle(OpenTriMesh::EdgeHandle(edge++), 0);
+        }
+        result.set_vertex_handle(handles[h], OpenTriMesh::VertexHandle(int(triangles[h / 3][int((h + 1) % 3)])));
+    }
+    for (std::size_t t = 0; t < triangles.size(); ++t) {
+        const OpenTriMesh::FaceHandle face{int(t)};
+        result.set_halfedge_handle(face, handles[3 * t]);
+        for (std::size_t i = 0; i < 3; ++i) {
+            const Handle handle = handles[3 * t + i];
+            result.set_face_handle(handle, face);
+            result.set_next_halfedge_handle(handle, handles[3 * t + (i + 1) % 3]);
+            result.set_halfedge_handle(OpenTriMesh::VertexHandle(int(triangles[t][int(i)])), handle);
+        }
+    }
+    // Boundary half-edges: one leaves each boundary vertex, and it is the one that the vertex must know.
+    const auto failAt = [](std::size_t p) {
+        throw InputError("the surface is not a 2-manifold: the faces at point " + std::to_string(p) +
+                         " form more than one fan");
+    };
+    std::vector<Handle> leaving(mesh.points.size());
+    for (std::size_t h = 0; h < handles.size(); ++h) {
+        if (pairs.opposite[h] != HalfEdgePairs::none) continue;
+        const Handle boundary = result.opposite_halfedge_handle(handles[h]);
+        const std::size_t to = triangles[h / 3][int(h % 3)], from = triangles[h / 3][int((h + 1) % 3)];
+        result.set_vertex_handle(boundary, OpenTriMesh::VertexHandle(int(to)));
+        result.set_boundary(boundary);
+        if (leaving[from].is_valid()) failAt(from);
+        leaving[from] = boundary;
+        result.set_halfedge_handle(OpenTriMesh::VertexHandle(int(from)), boundary);
+    }
+    std::vector<std::size_t> degree(mesh.points.size(), 0);
+    for (const openvdb::Vec3I& triangle : triangles) {
+        for (int i = 0; i < 3; ++i) ++degree[triangle[i]];
+    }
+    for (std::size_t p = 0; p < mesh.points.size(); ++p) {
+        if (leaving[p].is_valid()) {
+            // The boundary arrives at p on the half-edge before: found by turning around p through its faces.
+            Handle arriving = result.opposite_halfedge_handle(leaving[p]);
+            while (!result.is_boundary(arriving)) {
+                arriving = result.opposite_halfedge_handle(result.next_halfedge_handle(arriving));
+            }
+            result.set_next_halfedge_handle(arriving, leaving[p]);
+        }
+    }
+    for (std::size_t p = 0; p < mesh.points.size(); ++p) {
+        if (degree[p] == 0) continue;
+        std::size_t fan = 0;
+        for (auto face = result.cvf_iter(OpenTriMesh::VertexHandle(int(p))); face.is_valid(); ++face) ++fan;
+        if (fan != degree[p]) failAt(p);
+    }
+    return result;
+}
+
+/// The faces of `mesh` that are not deleted, and the points they use, in order.
+inline Mesh fromOpenMesh(const OpenTriMesh& mesh)
+{
+    Mesh result;
+    std::vector<openvdb::Index32> number(mesh.n_vertices());
+    for (const auto vertex : mesh.vertices()) { // skips deleted ones
+        if (mesh.is_isolated(vertex)) continue;
+        number[std::size_t(vertex.idx())] = openvdb::Index32(result.points.size());
+        result.points.push_back(toVec3d(mesh.point(vertex)));
+    }
+    for (const auto face : mesh.faces()) {
+        openvdb::Vec3I triangle;
+        OpenTriMesh::HalfedgeHandle side = mesh.halfedge_handle(face);
+        for (int i = 0; i < 3; ++i) {
+            triangle[i] = number[std::size_t(mesh.from_vertex_handle(side).idx())];
+            side = mesh.next_halfedge_handle(side);
+        }
+        result.triangles.push_back(triangle);
+    }
+    return result;
+}
+
+} // namespace vdbcage::detail

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include <vdbcage/mesh/mesh.h>
+#include <vdbcage/mesh/mesh_io.h>
+
+namespace vdbcage::detail {
+
+/// What a parser collects from a file before polygons are split: faces may come before the points that they use.
+struct PolygonSoup {
+    std::vector<openvdb::Vec3d> points;
+    std::vector<openvdb::Vec3I> triangles;
+    std::vector<openvdb::Index32> corners; ///< of the faces with more than three corners, one after another
+    std::vector<std::size_t> ends;         ///< where in `corners` each of these faces ends
+    std::size_t ignoredElements = 0;
+
+    /// A face of fewer than three corners is not a surface: it counts as ignored.
+    void addFace(const openvdb::Index32* face, std::size_t count)
+    {
+        if (count < 3) {
+            ++ignoredElements;
+        } else if (count == 3) {
+            triangles.emplace_back(face[0], face[1], face[2]);
+        } else {
+            corners.insert(corners.end(), face, face + count);
+            ends.push_back(corners.size());
+        }
+    }
+};
+
+/// Splits the polygons, and checks that there is a face with an area. All indices must be in range and all coordinates
+/// finite. `summary` may be null. \throw IoError naming `name` (of the file)
+Mesh toMesh(PolygonSoup soup, const std::string& name, ReadSummary* summary);
+
+} // namespace vdbcage::detail

@@ -1,0 +1,205 @@
+// Based on: the normal of Newell (Sutherland, Sproull, Schumacker 1974) and the clipping of ears (Meisters 1975).
+// Differs: a fan is tried first; corners that could lie in an ear are sorted by x, so that few are looked at.
+
+#include <vdbcage/mesh/detail/polygon_splitter.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace vdbcage::detail {
+
+namespace {
+
+/// The corners relative to the first one, scaled by a power of two to lie in [-1, 1]: nothing overflows or underflows
+/// below, whatever the units, and the differences of corners are rounded once at most.
+void scaleToUnit(const std::vector<openvdb::Vec3d>& points, const openvdb::Index32* face, std::size_t count,
+                 std::vector<openvdb::Vec3d>& local)
+{
+    local.resize(count);
+    double largest = 0;
+    const openvdb::Vec3d origin = points[face[0]] * 0.5;
+    for (std::size_t i = 0; i < count; ++i) {
+        local[i] = points[face[i]] * 0.5 - origin; // halves: the difference of two doubles may be infinite
+        largest = std::max({largest, std::abs(local[i].x()), std::abs(local[i].y()), std::abs(local[i].z())});
+    }
+    int exponent = 0;
+    std::frexp(largest, &exponent);
+    const double scale = std::ldexp(1.0, std::min(-exponent, 1023));
+    for (openvdb::Vec3d& p : local) p *= scale;
+}
+
+openvdb::Vec3d newellNormal(const std::vector<openvdb::Vec3d>& loop)
+{
+    openvdb::Vec3d normal(0, 0, 0);
+    for (std::size_t i = 0; i < loop.size(); ++i) normal += loop[i].cross(loop[i + 1 == loop.size() ? 0 : i + 1]);
+    return normal;
+}
+
+} // namespace
+
+void PolygonSplitter::split(const openvdb::Index32* face, std::size_t count, std::vector<openvdb::Vec3I>& triangles,
+                            std::vector<openvdb::Vec4I>& quads)
+{
+    scaleToUnit(points_, face, count, local_);
+    if (count == 4) {
+        splitQuad(face, triangles, quads);
+        return;
+    }
+    project();
+    // Beyond this many corners trying each as the apex would cost more than clipping ears does.
+    constexpr std::size_t fewCorners = 64;
+    const std::size_t apexes = count <= fewCorners ? count : 1;
+    for (std::size_t apex = 0; apex < apexes; ++apex) {
+        if (isFanApex(apex)) {
+            fan(face, apex, triangles);
+            return;
+        }
+    }
+    clipEars(face, triangles);
+}
+
+void PolygonSplitter::splitQuad(const openvdb::Index32* face, std::vector<openvdb::Vec3I>& triangles,
+                                std::vector<openvdb::Vec4I>& quads)
+{
+    const openvdb::Vec3d normal = (local_[2] - local_[0]).cross(local_[3] - local_[1]);
+    // A triangle below this share of the face counts as no better than a degenerate one.
+    const double least = 1e-10 * normal.dot(normal);
+    const auto keepsOrientation = [&](std::size_t tip) { // the triangle that the diagonal cuts off at corner `tip`
+        const openvdb::Vec3d& p = local_[tip];
+        const openvdb::Vec3d in = p - local_[(tip + 3) % 4];
+        const openvdb::Vec3d out = local_[(tip + 1) % 4] - p;
+        return normal.dot(in.cross(out)) > least;
+    };
+    const bool by02 = keepsOrientation(1) && keepsOrientation(3);
+    const bool by13 = keepsOrientation(0) && keepsOrientation(2);
+    if (by02 == by13) {
+        quads.emplace_back(face[0], face[1], face[2], face[3]);
+    } else if (by02) {
+        triangles.emplace_back(face[0], face[1], face[2]);
+        triangles.emplace_back(face[0], face[2], face[3]);
+    } else {
+        triangles.emplace_back(face[1], face[2], face[3]);
+        triangles.emplace_back(face[1], face[3], face[0]);
+    }
+}
+
+/// Drops the coordinate in which the normal is longest: the face keeps its shape up to a linear map, and each
+/// coordinate that is left keeps its exact value.
+void PolygonSplitter::project()
+{
+    const openvdb::Vec3d normal = newellNormal(local_);
+    int dropped = 2;
+    for (int axis = 0; axis < 2; ++axis) {
+        if (std::abs(normal[axis]) > std::abs(normal[dropped])) dropped = axis;
+    }
+    int u = (dropped + 1) % 3;
+    int v = (dropped + 2) % 3;
+    if (normal[dropped] < 0) std::swap(u, v);
+    const std::size_t count = local_.size();
+    loop_.resize(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        loop_[i] = {local_[i][u], local_[i][v], (i + count - 1) % count, (i + 1) % count, false, false};
+    }
+}
+
+/// Twice the signed area of a triangle of projected corners.
+double PolygonSplitter::area(std::size_t a, std::size_t b, std::size_t c) const
+{
+    const Corner& p = loop_[a];
+    const Corner& q = loop_[b];
+    const Corner& r = loop_[c];
+    return (q.x - p.x) * (r.y - p.y) - (q.y - p.y) * (r.x - p.x);
+}
+
+bool PolygonSplitter::isFanApex(std::size_t apex) const
+{
+    std::size_t corner = loop_[apex].next;
+    for (std::size_t next = loop_[corner].next; next != apex; corner = next, next = loop_[next].next) {
+        if (area(apex, corner, next) <= 0) return false;
+    }
+    return true;
+}
+
+/// All that is not clipped yet, as a fan.
+void PolygonSplitter::fan(const openvdb::Index32* face, std::size_t apex, std::vector<openvdb::Vec3I>& triangles) const
+{
+    std::size_t corner = loop_[apex].next;
+    for (std::size_t next = loop_[corner].next; next != apex; corner = next, next = loop_[next].next) {
+        triangles.emplace_back(face[apex], face[corner], face[next]);
+    }
+}
+
+bool PolygonSplitter::isEar(std::size_t corner) const
+{
+    const std::size_t before = loop_[corner].previous;
+    const std::size_t after = loop_[corner].next;
+    if (!loop_[corner].pointed) return false;
+    const Corner& a = loop_[before];
+    const Corner& b = loop_[corner];
+    const Corner& c = loop_[after];
+    const auto samePlace = [](const Corner& p, const Corner& q) { return p.x == q.x && p.y == q.y; };
+    const double largest = std::max({a.x, b.x, c.x});
+    auto obstacle = std::lower_bound(obstacles_.begin(), obstacles_.end(),
+                                     std::make_pair(std::min({a.x, b.x, c.x}), std::size_t(0)));
+    for (; obstacle != obstacles_.end() && obstacle->first <= largest; ++obstacle) {
+        const std::size_t i = obstacle->second;
+        const Corner& p = loop_[i];
+        if (p.clipped || p.pointed) continue;
+        // Corners in the same place are the two sides of a cut that joins a hole to the outline.
+        if (samePlace(p, a) || samePlace(p, b) || samePlace(p, c)) continue;
+        if (area(before, corner, i) >= 0 && area(corner, after, i) >= 0 && area(after, before, i) >= 0) return false;
+    }
+    return true;
+}
+
+void PolygonSplitter::clipEars(const openvdb::Index32* face, std::vector<openvdb::Vec3I>& triangles)
+{
+    const std::size_t count = loop_.size();
+    obstacles_.clear();
+    for (std::size_t i = 0; i < count; ++i) {
+        loop_[i].pointed = area(loop_[i].previous, i, loop_[i].next) > 0;
+        if (!loop_[i].pointed) obstacles_.emplace_back(loop_[i].x, i);
+    }
+    std::sort(obstacles_.begin(), obstacles_.end());
+
+    std::size_t corner = 0;
+    std::size_t left = count;
+    std::size_t rejected = 0; // corners looked at since the last ear
+    std::size_t flat = count; // one of them that is flat or folded back, if any
+    while (left > 3 && rejected < left) {
+        const std::size_t before = loop_[corner].previous;
+        const std::size_t after = loop_[corner].next;
+        bool clip = isEar(corner);
+        if (!clip) {
+            if (area(before, corner, after) == 0) flat = corner;
+            ++rejected;
+            // No ear left: a corner without area may go, as it changes nothing of the outline.
+            if (rejected == left && flat != count) {
+                corner = flat;
+                clip = true;
+            }
+        }
+        if (!clip) {
+            corner = after;
+            continue;
+        }
+        const std::size_t first = loop_[corner].previous;
+        const std::size_t last = loop_[corner].next;
+        triangles.emplace_back(face[first], face[corner], face[last]);
+        loop_[corner].clipped = true;
+        loop_[first].next = last;
+        loop_[last].previous = first;
+        for (const std::size_t i : {first, last}) {
+            loop_[i].pointed = area(loop_[i].previous, i, loop_[i].next) > 0;
+        }
+        // To skip a corner makes fewer slivers than to go on at the new edge.
+        corner = loop_[last].next;
+        --left;
+        rejected = 0;
+        flat = count;
+    }
+    // The last triangle; or, where no corner is an ear, a face that crosses itself and has no right division.
+    fan(face, corner, triangles);
+}
+
+} // namespace vdbcage::detail

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+#include <vdbcage/mesh/mesh.h>
+
+namespace vdbcage::detail {
+
+/// Splits faces of four and more corners into triangles that keep the face's orientation. It decides in rounded
+/// arithmetic: every choice of diagonals fills the same loop of edges, so an error of rounding can at worst choose a
+/// worse diagonal in a face that is nearly degenerate. Corners are never added, moved or dropped.
+class PolygonSplitter {
+public:
+    /// `points` must outlive the splitter and not change.
+    explicit PolygonSplitter(const std::vector<openvdb::Vec3d>& points) : points_(points) {}
+
+    /// Appends `count` - 2 triangles, or the face itself to `quads` if it has four corners and is convex, or if no
+    /// diagonal divides it well (it crosses itself or has no area). Cost: O(count) for a convex face, at worst
+    /// O(count^2).
+    void split(const openvdb::Index32* face, std::size_t count, std::vector<openvdb::Vec3I>& triangles,
+               std::vector<openvdb::Vec4I>& quads);
+
+private:
+    struct Corner {
+        double x, y;
+        std::size_t previous, next;
+        bool clipped, pointed; ///< pointed: its angle is below 180 degrees
+    };
+
+    void splitQuad(const openvdb::Index32* face, std::vector<openvdb::Vec3I>& triangles,
+                   std::vector<openvdb::Vec4I>& quads);
+    void project();
+    double area(std::size_t a, std::size_t b, std::size_t c) const;
+    bool isFanApex(std::size_t apex) const;
+    void fan(const openvdb::Index32* face, std::size_t apex, std::vector<openvdb::Vec3I>& triangles) const;
+    void clipEars(const openvdb::Index32* face, std::vector<openvdb::Vec3I>& triangles);
+    bool isEar(std::size_t corner) const;
+
+    const std::vector<openvdb::Vec3d>& points_;
+    std::vector<openvdb::Vec3d> local_;                     // the face's corners, scaled to about 1
+    std::vector<Corner> loop_;                              // the same, projected
+    std::vector<std::pair<double, std::size_t>> obstacles_; // x and index of the corners that may lie in an ear
+};
+
+} // namespace vdbcage::detail

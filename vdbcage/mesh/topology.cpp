@@ -1,0 +1,201 @@
+#include <vdbcage/mesh/topology.h>
+
+#include <algorithm>
+#include <atomic>
+#include <functional>
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_reduce.h>
+#include <vdbcage/mesh/detail/union_find.h>
+
+namespace vdbcage {
+
+namespace {
+
+using Index = std::uint32_t;
+
+// Corners numbered in the order of the faces: 3 for each triangle, then 4 for each quad.
+class Corners {
+public:
+    explicit Corners(const Mesh& mesh) : mesh_(mesh), triangleCorners_(3 * mesh.triangles.size()) {}
+
+    std::size_t size() const { return triangleCorners_ + 4 * mesh_.quads.size(); }
+    Index face(std::size_t corner) const
+    {
+        return static_cast<Index>(corner < triangleCorners_ ? corner / 3
+                                                            : mesh_.triangles.size() + (corner - triangleCorners_) / 4);
+    }
+    // The point at the corner, or `step` corners further around its face.
+    Index point(std::size_t corner, std::size_t step = 0) const
+    {
+        if (corner < triangleCorners_) return mesh_.triangles[corner / 3][static_cast<int>((corner + step) % 3)];
+        corner -= triangleCorners_;
+        return mesh_.quads[corner / 4][static_cast<int>((corner + step) % 4)];
+    }
+    Index next(std::size_t corner) const { return point(corner, 1); }
+    Index previous(std::size_t corner) const { return point(corner, corner < triangleCorners_ ? 2 : 3); }
+
+private:
+    const Mesh& mesh_;
+    std::size_t triangleCorners_;
+};
+
+// For each point the corners at it: those of point p are corners[first[p]] ... corners[first[p + 1] - 1], ascending.
+struct CornersOfPoints {
+    explicit CornersOfPoints(const Corners& all, std::size_t points) : first(points + 1, 0), corners(all.size())
+    {
+        for (std::size_t c = 0; c < all.size(); ++c) ++first[all.point(c) + 1];
+        for (std::size_t p = 0; p < points; ++p) first[p + 1] += first[p];
+        std::vector<std::size_t> next(first.begin(), first.end() - 1);
+        for (std::size_t c = 0; c < all.size(); ++c) corners[next[all.point(c)]++] = c;
+    }
+
+    std::vector<std::size_t> first;
+    std::vector<std::size_t> corners;
+};
+
+// A corner's edge to a neighbour of the vertex under examination.
+struct Spoke {
+    Index neighbour;
+    Index corner; // counted within the vertex
+    bool outward; // the face runs from the vertex to the neighbour
+};
+
+struct Counts {
+    std::size_t vertices = 0, edges = 0, boundary = 0, nonManifold = 0, misoriented = 0, nonManifoldVertices = 0;
+
+    Counts operator+(const Counts& other) const
+    {
+        return {vertices + other.vertices,       edges + other.edges,
+                boundary + other.boundary,       nonManifold + other.nonManifold,
+                misoriented + other.misoriented, nonManifoldVertices + other.nonManifoldVertices};
+    }
+};
+
+// What the threads find out about faces together.
+struct FaceFacts {
+    explicit FaceFacts(std::size_t faces) : sets(faces), unbalanced(faces) {}
+
+    detail::UnionFind sets;                    // connected over edges
+    std::vector<std::atomic<bool>> unbalanced; // set for a face at each edge not run along equally often both ways
+};
+
+class VertexExaminer {
+public:
+    VertexExaminer(const Corners& corners, const CornersOfPoints& ofPoints, FaceFacts& faces)
+        : corners_(corners), ofPoints_(ofPoints), faces_(faces)
+    {
+    }
+
+    // Edges are counted at their end with the smaller index; fans at every vertex.
+    void examine(Index vertex, Counts& counts)
+    {
+        const std::size_t begin = ofPoints_.first[vertex], count = ofPoints_.first[vertex + 1] - begin;
+        if (count == 0) return;
+        ++counts.vertices;
+        spokes_.clear();
+        fans_.resize(count);
+        for (Index i = 0; i < count; ++i) {
+            fans_[i] = i;
+            const std::size_t corner = ofPoints_.corners[begin + i];
+            const Index next = corners_.next(corner), previous = corners_.previous(corner);
+            if (next != vertex) spokes_.push_back({next, i, true});
+            if (previous != vertex) spokes_.push_back({previous, i, false});
+        }
+        std::sort(spokes_.begin(), spokes_.end(),
+                  [](const Spoke& a, const Spoke& b) { return a.neighbour < b.neighbour; });
+        for (std::size_t i = 0, end; i < spokes_.size(); i = end) {
+            const Index first = spokes_[i].corner;
+            std::size_t out = 0;
+            for (end = i; end < spokes_.size() && spokes_[end].neighbour == spokes_[i].neighbour; ++end) {
+                if (spokes_[end].outward) ++out;
+                fans_[root(spokes_[end].corner)] = root(first);
+                if (vertex < spokes_[i].neighbour) {
+                    faces_.sets.unite(face(begin, first), face(begin, spokes_[end].corner));
+                }
+            }
+            if (vertex < spokes_[i].neighbour) countEdge(end - i, out, face(begin, first), counts);
+        }
+        std::size_t fans = 0;
+        for (Index i = 0; i < count; ++i) fans += fans_[i] == i ? 1 : 0;
+        if (fans > 1) ++counts.nonManifoldVertices;
+    }
+
+private:
+    Index face(std::size_t begin, Index corner) const { return corners_.face(ofPoints_.corners[begin + corner]); }
+    Index root(Index i)
+    {
+        while (fans_[i] != i) i = fans_[i] = fans_[fans_[i]];
+        return i;
+    }
+    void countEdge(std::size_t uses, std::size_t out, Index face, Counts& counts)
+    {
+        ++counts.edges;
+        if (uses == 1) ++counts.boundary;
+        if (uses == 2 && out != 1) ++counts.misoriented;
+        if (uses > 2) ++counts.nonManifold;
+        if (2 * out != uses) faces_.unbalanced[face].store(true, std::memory_order_relaxed);
+    }
+
+    const Corners& corners_;
+    const CornersOfPoints& ofPoints_;
+    FaceFacts& faces_;
+    std::vector<Spoke> spokes_;
+    std::vector<Index> fans_; // a union-find over the vertex's corners
+};
+
+} // namespace
+
+bool MeshTopology::isCycle() const
+{
+    return faces > 0 && std::find(componentIsCycle.begin(), componentIsCycle.end(), 0) == componentIsCycle.end();
+}
+
+long MeshTopology::eulerCharacteristic() const
+{
+    return static_cast<long>(vertices) - static_cast<long>(edges) + static_cast<long>(faces);
+}
+
+MeshTopology analyzeTopology(const Mesh& mesh, Interrupter* interrupter)
+{
+    const Corners corners(mesh);
+    const CornersOfPoints ofPoints(corners, mesh.points.size());
+    FaceFacts faces(faceCount(mesh));
+    throwIfInterrupted(interrupter);
+
+    const auto examine = [&](const tbb::blocked_range<std::size_t>& range, Counts counts) {
+        throwIfInterrupted(interrupter);
+        VertexExaminer examiner(corners, ofPoints, faces);
+        for (std::size_t vertex = range.begin(); vertex < range.end(); ++vertex) {
+            examiner.examine(static_cast<Index>(vertex), counts);
+        }
+        return counts;
+    };
+    const tbb::blocked_range<std::size_t> all(0, mesh.points.size(), 4096);
+    const Counts counts = tbb::parallel_reduce(all, Counts(), examine, std::plus<>());
+
+    MeshTopology result;
+    result.faces = faceCount(mesh);
+    result.vertices = counts.vertices;
+    result.edges = counts.edges;
+    result.boundaryEdges = counts.boundary;
+    result.nonManifoldEdges = counts.nonManifold;
+    result.misorientedEdges = counts.misoriented;
+    result.nonManifoldVertices = counts.nonManifoldVertices;
+    result.faceComponent.resize(result.faces);
+    for (Index face = 0; face < result.faces; ++face) {
+        const Index first = faces.sets.find(face); // the root is the component's first face: numbered before the others
+        if (first == face) {
+            result.faceComponent[face] = static_cast<Index>(result.componentIsCycle.size());
+            result.componentIsCycle.push_back(1);
+        } else {
+            result.faceComponent[face] = result.faceComponent[first];
+        }
+    }
+    for (Index face = 0; face < result.faces; ++face) {
+        if (faces.unbalanced[face]) result.componentIsCycle[result.faceComponent[face]] = 0;
+    }
+    return result;
+}
+
+} // namespace vdbcage

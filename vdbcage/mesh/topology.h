@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include <vdbcage/core/export.h>
+#include <vdbcage/core/interrupter.h>
+#include <vdbcage/mesh/mesh.h>
+
+namespace vdbcage {
+
+/// How the faces of a mesh hang together, by their indices alone (points at the same place are not merged; a quad is
+/// one face). Faces are numbered triangles first, then quads. An edge is a pair of different points that follow each
+/// other around a face; a face that uses an edge twice (one with a repeated corner) counts there twice.
+struct MeshTopology {
+    std::size_t faces = 0;
+    std::size_t edges = 0;
+    std::size_t vertices = 0;            ///< points that faces use
+    std::size_t boundaryEdges = 0;       ///< edges with one face
+    std::size_t nonManifoldEdges = 0;    ///< edges with more than two faces
+    std::size_t misorientedEdges = 0;    ///< edges whose two faces run along them in the same direction
+    std::size_t nonManifoldVertices = 0; ///< vertices whose faces form more than one fan
+
+    /// For each face its component (connected over edges); components are numbered by their first face.
+    std::vector<std::uint32_t> faceComponent;
+    /// For each component, 1 if its faces run along each edge equally often in both directions. Then it has a signed
+    /// volume, and every point off its faces has a winding number.
+    std::vector<std::uint8_t> componentIsCycle;
+
+    std::size_t components() const { return componentIsCycle.size(); }
+    /// There are faces, and all components are cycles.
+    bool isCycle() const;
+    /// Vertices - edges + faces.
+    long eulerCharacteristic() const;
+    /// The sum over the components; only meaningful without boundary and non-manifold edges and vertices.
+    long genus() const { return static_cast<long>(components()) - eulerCharacteristic() / 2; }
+};
+
+/// Examines any polygon soup with valid indices. O(faces) for ordinary meshes, in parallel. \throw Cancelled
+VDBCAGE_API MeshTopology analyzeTopology(const Mesh& mesh, Interrupter* interrupter = nullptr);
+
+} // namespace vdbcage

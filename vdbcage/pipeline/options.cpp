@@ -1,0 +1,207 @@
+#include <vdbcage/pipeline/options.h>
+
+#include <charconv>
+#include <cmath>
+#include <utility>
+
+#include <vdbcage/core/error.h>
+
+namespace vdbcage {
+
+namespace {
+
+/// The names of an enumeration's values, in the order of the help; found by the type of a (null) value.
+using ElementNames = std::vector<std::pair<const char*, Element>>;
+
+const ElementNames& names(Element /*type*/)
+{
+    static const ElementNames list{{"sphere", Element::sphere}, {"cube", Element::cube}};
+    return list;
+}
+
+const std::vector<std::pair<const char*, CageFaces>>& names(CageFaces /*type*/)
+{
+    static const std::vector<std::pair<const char*, CageFaces>> list{{"triangles", CageFaces::triangles},
+                                                                     {"triquad", CageFaces::triquad}};
+    return list;
+}
+
+const std::vector<std::pair<const char*, Voxelizer>>& names(Voxelizer /*type*/)
+{
+    static const std::vector<std::pair<const char*, Voxelizer>> list{
+        {"auto", Voxelizer::automatic}, {"cpu", Voxelizer::cpu}, {"gl", Voxelizer::gl}, {"cgal", Voxelizer::cgal}};
+    return list;
+}
+
+const std::vector<std::pair<const char*, bool>>& names(bool /*type*/)
+{
+    static const std::vector<std::pair<const char*, bool>> list{{"on", true}, {"off", false}};
+    return list;
+}
+
+template <typename Value>
+std::string nameList()
+{
+    std::string list;
+    for (const auto& entry : names(Value{})) list += (list.empty() ? "" : "|") + std::string(entry.first);
+    return list;
+}
+
+template <typename Number>
+std::string numberText(Number value)
+{
+    char buffer[32];
+    const auto end = std::to_chars(buffer, buffer + sizeof buffer, value).ptr;
+    return {buffer, end};
+}
+
+std::string rangeText(const OptionInfo& info)
+{
+    return numberText(info.least) + " to " + numberText(info.most);
+}
+
+[[noreturn]] void refuse(const OptionInfo& info, const std::string& value, const std::string& allowed)
+{
+    throw InputError("--" + std::string(info.name) + ": '" + value + "' is not allowed; it must be " + allowed);
+}
+
+template <typename Number>
+void requireInRange(const OptionInfo& info, Number value)
+{
+    // Written so that a NaN is refused too.
+    if (!(static_cast<double>(value) >= info.least && static_cast<double>(value) <= info.most)) {
+        refuse(info, numberText(value), rangeText(info));
+    }
+}
+
+template <typename Number>
+Number parseNumber(const OptionInfo& info, const std::string& text, const char* kind)
+{
+    Number value{};
+    const char* end = text.data() + text.size();
+    const auto parsed = std::from_chars(text.data(), end, value);
+    if (parsed.ec != std::errc() || parsed.ptr != end) {
+        refuse(info, text, std::string(kind) + ", " + rangeText(info));
+    }
+    requireInRange(info, value);
+    return value;
+}
+
+/// One overload set a concern: the text of a value, setting it from text, its range, its placeholder in the help.
+struct ToText {
+    std::string operator()(int value) const { return numberText(value); }
+    std::string operator()(double value) const { return numberText(value); }
+    std::string operator()(const std::optional<double>& value) const { return value ? numberText(*value) : "auto"; }
+    template <typename Name>
+    std::string operator()(Name value) const
+    {
+        for (const auto& entry : names(value)) {
+            if (entry.second == value) return entry.first;
+        }
+        return {};
+    }
+};
+
+struct FromText {
+    const OptionInfo& info;
+    const std::string& text;
+
+    void operator()(int& field) const { field = parseNumber<int>(info, text, "a whole number"); }
+    void operator()(double& field) const { field = parseNumber<double>(info, text, "a number"); }
+    void operator()(std::optional<double>& field) const
+    {
+        if (text == "auto") {
+            field.reset();
+        } else {
+            field = parseNumber<double>(info, text, "auto or a number");
+        }
+    }
+    template <typename Name>
+    void operator()(Name& field) const
+    {
+        for (const auto& entry : names(field)) {
+            if (text == entry.first) {
+                field = entry.second;
+                return;
+            }
+        }
+        refuse(info, text, "one of " + nameList<Name>());
+    }
+};
+
+struct RequireRange {
+    const OptionInfo& info;
+
+    void operator()(int value) const { requireInRange(info, value); }
+    void operator()(double value) const { requireInRange(info, value); }
+    void operator()(const std::optional<double>& value) const
+    {
+        if (value) requireInRange(info, *value);
+    }
+    template <typename Name>
+    void operator()(Name /*value*/) const
+    {
+    }
+};
+
+struct Placeholder {
+    const OptionInfo& info;
+
+    std::string operator()(int /*value*/) const { return info.symbol; }
+    std::string operator()(double /*value*/) const { return info.symbol; }
+    std::string operator()(const std::optional<double>& /*value*/) const { return "auto|" + std::string(info.symbol); }
+    template <typename Name>
+    std::string operator()(Name /*value*/) const
+    {
+        return nameList<Name>();
+    }
+};
+
+} // namespace
+
+std::vector<OptionText> describeOptions()
+{
+    std::vector<OptionText> list;
+    const CageOptions defaults;
+    visitOptions(defaults, [&](const OptionInfo& info, const auto& field) {
+        const bool isNumber = info.symbol[0] != '\0';
+        list.push_back(
+            {info.name, Placeholder{info}(field), info.help, isNumber ? rangeText(info) : "", ToText{}(field)});
+    });
+    return list;
+}
+
+std::vector<std::pair<std::string, std::string>> optionValues(const CageOptions& options)
+{
+    std::vector<std::pair<std::string, std::string>> list;
+    visitOptions(options,
+                 [&](const OptionInfo& info, const auto& field) { list.emplace_back(info.name, ToText{}(field)); });
+    return list;
+}
+
+void setOption(CageOptions& options, const std::string& name, const std::string& value)
+{
+    bool found = false;
+    visitOptions(options, [&](const OptionInfo& info, auto& field) {
+        if (name == info.name) {
+            FromText{info, value}(field);
+            found = true;
+        }
+    });
+    if (!found) {
+        std::string known;
+        for (const OptionText& option : describeOptions()) known += " " + option.name;
+        throw InputError("there is no option '" + name + "'; there are:" + known);
+    }
+}
+
+void requireValid(const CageOptions& options)
+{
+    visitOptions(options, [](const OptionInfo& info, const auto& field) { RequireRange{info}(field); });
+    if (options.erodeRadius && *options.erodeRadius > options.closeRadius) {
+        throw InputError("--erode-radius: '" + numberText(*options.erodeRadius) +
+                         "' is not allowed; it must be at most the close radius, " + numberText(options.closeRadius));
+    }
+}
+
+} // namespace vdbcage

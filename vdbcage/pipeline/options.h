@@ -1,0 +1,85 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <vdbcage/core/export.h>
+#include <vdbcage/volume/morphology.h>
+#include <vdbcage/voxelize/voxelize.h>
+
+namespace vdbcage {
+
+/// Which faces a cage is made of.
+enum class CageFaces {
+    triangles,
+    triquad ///< triangles, merged into quads where they are flat enough
+};
+
+/// Everything that decides how a cage comes out. Lengths are fractions of the model's longest side.
+struct CageOptions {
+    int faces = 400;                            ///< faces of the cage, at most; a quad counts once
+    int resolution = 128;                       ///< voxels along the model's longest side
+    double closeRadius = 0.03;                  ///< gaps up to twice this wide are bridged
+    std::optional<double> erodeRadius;          ///< at most the close radius; unset: equal to it
+    Element element = Element::sphere;          ///< structuring element of the closing
+    int smooth = 3;                             ///< smoothing iterations: rounder with more
+    CageFaces mesh = CageFaces::triangles;      ///< triangles only, or quads too
+    double mergeAngle = 10;                     ///< degrees: flatter pairs of triangles become quads (triquad)
+    Voxelizer voxelizer = Voxelizer::automatic; ///< what turns the model into voxels
+    bool bounding = true;                       ///< only ever give a cage certified to bound the model
+};
+
+/// The stages of the pipeline in order; each option belongs to the first stage that depends on it.
+enum class PipelineStage { voxelize, close, smooth, decimate, merge };
+
+/// What is known of an option beside its value: one entry serves flags, help, range checks, README and metadata.
+struct OptionInfo {
+    const char* name;   ///< lower case with dashes: the flag without its leading dashes
+    const char* symbol; ///< stands for a number in the help ("N"); empty for names out of a list
+    const char* help;   ///< one line
+    PipelineStage stage;
+    double least = 0, most = 0; ///< allowed range of a number, ends included
+};
+
+/// Calls `visit(info, field)` for every option, in the order of the help. `Options` is CageOptions, const or not.
+template <typename Options, typename Visit>
+void visitOptions(Options& options, Visit&& visit)
+{
+    using In = PipelineStage;
+    visit(OptionInfo{"faces", "N", "faces of the cage, at most", In::decimate, 12, 1000000}, options.faces);
+    visit(OptionInfo{"resolution", "N", "voxels along the longest side", In::voxelize, 8, 2048}, options.resolution);
+    visit(OptionInfo{"close-radius", "F", "closes gaps up to twice this wide", In::close, 0, 0.25},
+          options.closeRadius);
+    visit(OptionInfo{"erode-radius", "F", "less than that leaves an offset", In::close, 0, 0.25}, options.erodeRadius);
+    visit(OptionInfo{"element", "", "shape of the closing", In::close}, options.element);
+    visit(OptionInfo{"smooth", "K", "smoothing iterations", In::smooth, 0, 100}, options.smooth);
+    visit(OptionInfo{"mesh", "", "faces of the cage", In::merge}, options.mesh);
+    visit(OptionInfo{"merge-angle", "DEG", "flatter pairs become quads", In::merge, 0, 180}, options.mergeAngle);
+    visit(OptionInfo{"voxelizer", "", "what makes the voxels", In::voxelize}, options.voxelizer);
+    visit(OptionInfo{"bounding", "", "only ever a certified cage", In::decimate}, options.bounding);
+}
+
+/// An option in words, for help and tables.
+struct OptionText {
+    std::string name;         ///< as OptionInfo
+    std::string value;        ///< "N", "F", "sphere|cube"
+    std::string help;         ///< as OptionInfo
+    std::string range;        ///< "12 to 1000000"; empty for names out of a list
+    std::string defaultValue; ///< "400"
+};
+
+/// All options in words, in the order of visitOptions.
+VDBCAGE_API std::vector<OptionText> describeOptions();
+
+/// The value of each option as text that setOption takes, in the order of visitOptions: (name, value).
+VDBCAGE_API std::vector<std::pair<std::string, std::string>> optionValues(const CageOptions& options);
+
+/// Sets the option called `name` from text. Numbers are written in the C locale's way.
+/// \throw InputError naming the option, the value and what is allowed
+VDBCAGE_API void setOption(CageOptions& options, const std::string& name, const std::string& value);
+
+/// Checks every range and that options fit each other. \throw InputError
+VDBCAGE_API void requireValid(const CageOptions& options);
+
+} // namespace vdbcage

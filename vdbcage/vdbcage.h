@@ -1,0 +1,21 @@
+#pragma once
+
+/// \file The whole public interface of vdbcage.
+
+#include <vdbcage/check/check.h>
+#include <vdbcage/core/error.h>
+#include <vdbcage/core/interrupter.h>
+#include <vdbcage/core/version.h>
+#include <vdbcage/mesh/mesh.h>
+#include <vdbcage/mesh/mesh_io.h>
+#include <vdbcage/mesh/topology.h>
+#include <vdbcage/pipeline/options.h>
+#include <vdbcage/pipeline/pipeline.h>
+#include <vdbcage/surface/decimate.h>
+#include <vdbcage/surface/extract.h>
+#include <vdbcage/surface/repair.h>
+#include <vdbcage/surface/smooth.h>
+#include <vdbcage/surface/triquad.h>
+#include <vdbcage/volume/morphology.h>
+#include <vdbcage/volume/vdb_io.h>
+#include <vdbcage/voxelize/voxelize.h>

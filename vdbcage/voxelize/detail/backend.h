@@ -1,0 +1,16 @@
+#pragma once
+
+#include <vdbcage/core/interrupter.h>
+#include <vdbcage/mesh/mesh.h>
+#include <vdbcage/voxelize/detail/bit_grid.h>
+#include <vdbcage/voxelize/detail/frame.h>
+
+namespace vdbcage::detail {
+
+/// What every voxelizer is: the solid voxels of `model`, as voxelize() defines them, in a grid over `frame.voxels`.
+/// `model` has passed requireUsable, `frame` is makeFrame's. \throw DeviceError, Cancelled
+using Backend = BitGrid(const Mesh& model, const Frame& frame, Interrupter* interrupter);
+
+Backend voxelizeCpu;
+
+} // namespace vdbcage::detail

@@ -1,0 +1,13 @@
+#pragma once
+
+#include <vdbcage/core/interrupter.h>
+#include <vdbcage/voxelize/detail/bit_grid.h>
+
+namespace vdbcage::detail {
+
+/// Sets every voxel of `bits` that no path of zero voxels, from face to face, joins to the outside of the box.
+/// O(words of bits + enclosed and hidden voxels); takes memory only where a voxel lies between set ones both along y
+/// and along z. \throw Cancelled
+void fillEnclosed(BitGrid& bits, Interrupter* interrupter = nullptr);
+
+} // namespace vdbcage::detail
