@@ -266,8 +266,11 @@ private:
     /// Quads that count under both diagonals: pairs that the verdict objects to are split again until it does not.
     void mergeCertified(const CageOptions& options, Candidate& candidate, Interrupter* interrupter)
     {
-        std::set<std::pair<openvdb::Index32, openvdb::Index32>> refused; // the pairs' common edges
-        const auto edge = [](const openvdb::Vec4I& quad) { return std::minmax(quad[0], quad[2]); };
+        using Edge = std::pair<openvdb::Index32, openvdb::Index32>;
+        std::set<Edge> refused; // the pairs' common edges
+        const auto edge = [](const openvdb::Vec4I& quad) {
+            return Edge(std::min(quad[0], quad[2]), std::max(quad[0], quad[2]));
+        };
         for (;;) {
             candidate.cage = triquad(candidate.decimated, mergeOptions(options),
                                      [&](const openvdb::Vec4I& quad) { return refused.count(edge(quad)) == 0; });

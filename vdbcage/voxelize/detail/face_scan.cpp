@@ -166,6 +166,7 @@ struct Face {
     /// Whether the edges of the projection along `axis` have a say in what is touched. Where the triangle is within one
     /// voxel along some axis, the projection along that axis decides alone; where it is so along two, its box does.
     bool edgesMatter(int axis) const { return size[(axis + 1) % 3] > 1 && size[(axis + 2) % 3] > 1; }
+    bool anyEdgesMatter() const { return edgesMatter(0) || edgesMatter(1) || edgesMatter(2); }
     bool planeMatters() const { return size[0] > 1 && size[1] > 1 && size[2] > 1; }
     /// Half the distance between two crossings' planes.
     template <typename Wide>
@@ -222,11 +223,35 @@ void flipBits(std::uint64_t* row, const Span& span)
     forEachWord(row, span, [](std::uint64_t& word, std::uint64_t mask) { word ^= mask; });
 }
 
+/// The planes of the face's box that lie in the slab.
+Span planesIn(const Face& face, const Span& planes)
+{
+    return intersection({0, face.size[0] - 1}, {planes.first - face.lowest[0], planes.last - face.lowest[0]});
+}
+
+std::size_t rowInSlab(const Face& face, const Slab& slab, int x, int y)
+{
+    return static_cast<std::size_t>(x + face.lowest[0] - slab.planes.first) *
+               static_cast<std::size_t>(slab.rowsPerPlane) +
+           static_cast<std::size_t>(y + face.lowest[1]);
+}
+
+/// Sets the whole box of the face.
+void setBox(const Face& face, const Slab& slab)
+{
+    const Span xs = planesIn(face, slab.planes);
+    for (int x = xs.first; x <= xs.last; ++x) {
+        for (int y = 0; y < face.size[1]; ++y) {
+            setBits(slab.surface + rowInSlab(face, slab, x, y) * static_cast<std::size_t>(slab.wordsPerRow),
+                    {face.lowest[2], face.lowest[2] + face.size[2] - 1});
+        }
+    }
+}
+
 template <typename Wide>
 std::size_t scan(const Face& face, bool counted, const Slab& slab, ScanBuffer& buffer)
 {
-    const Span xs =
-        intersection({0, face.size[0] - 1}, {slab.planes.first - face.lowest[0], slab.planes.last - face.lowest[0]});
+    const Span xs = planesIn(face, slab.planes);
     if (xs.empty()) return 0;
     const Span ys{0, face.size[1] - 1}, zs{0, face.size[2] - 1};
 
@@ -264,9 +289,7 @@ std::size_t scan(const Face& face, bool counted, const Slab& slab, ScanBuffer& b
             Span z = intersection(touchedZ, touchedByY[y]);
             if (planeMatters) z = intersection(z, plane.between(-touchLimit, touchLimit, value));
             if (z.empty()) continue;
-            const auto row = static_cast<std::size_t>(x + face.lowest[0] - slab.planes.first) *
-                                 static_cast<std::size_t>(slab.rowsPerPlane) +
-                             static_cast<std::size_t>(y + face.lowest[1]);
+            const std::size_t row = rowInSlab(face, slab, x, y);
             const std::size_t offset = row * static_cast<std::size_t>(slab.wordsPerRow);
             setBits(slab.surface + offset, {z.first + face.lowest[2], z.last + face.lowest[2]});
 
@@ -319,6 +342,10 @@ bool isSmall(const Face& face)
 std::size_t scanSurface(const LatticeTriangle& triangle, bool counted, const Slab& slab, ScanBuffer& buffer)
 {
     const Face face(triangle);
+    if (!face.anyEdgesMatter() && !(counted && (face.canCross(0) || face.canCross(1) || face.canCross(2)))) {
+        setBox(face, slab);
+        return 1;
+    }
     return isSmall(face) ? scan<std::int64_t>(face, counted, slab, buffer) : scan<Int128>(face, counted, slab, buffer);
 }
 

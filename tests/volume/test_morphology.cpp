@@ -1,0 +1,323 @@
+#include <boost/test/data/test_case.hpp>
+#include <boost/test/unit_test.hpp>
+
+#include <volume/masks.h>
+
+#include <cmath>
+#include <limits>
+
+#include <tbb/global_control.h>
+#include <vdbcage/core/error.h>
+#include <vdbcage/volume/morphology.h>
+
+using namespace vdbcage;
+using namespace vdbcage::test;
+namespace data = boost::unit_test::data;
+
+namespace {
+
+const std::vector<Element> elements{Element::sphere, Element::cube};
+const std::vector<double> radii{0, 0.5, 1, 1.41, 1.5, 2, 2.5, 3.7, 5, 8, 12.3};
+
+bool isInElement(const Coord& d, double radius, Element element)
+{
+    if (element == Element::cube) return std::max({std::abs(d.x()), std::abs(d.y()), std::abs(d.z())}) <= radius;
+    return d.x() * d.x() + d.y() * d.y() + d.z() * d.z() <= radius * radius;
+}
+
+std::vector<Coord> offsets(double radius, Element element)
+{
+    std::vector<Coord> result;
+    const CoordBBox box = grown(CoordBBox(Coord(0), Coord(0)), static_cast<int>(radius));
+    for (auto c = box.begin(); c; ++c) {
+        if (isInElement(*c, radius, element)) result.push_back(*c);
+    }
+    return result;
+}
+
+// The box of the result leaves room for an erosion by the same radius.
+DenseSet dilatedByDefinition(const DenseSet& set, double radius, Element element)
+{
+    DenseSet result(grown(set.box(), 2 * static_cast<int>(radius) + 1));
+    const auto voxels = offsets(radius, element);
+    for (auto c = set.box().begin(); c; ++c) {
+        if (!set[*c]) continue;
+        for (const Coord& d : voxels) result.set(*c + d, true);
+    }
+    return result;
+}
+
+// `set` must leave a border of empty voxels as wide as the radius.
+DenseSet erodedByDefinition(const DenseSet& set, double radius, Element element)
+{
+    std::vector<std::ptrdiff_t> steps;
+    const Coord first = set.box().min();
+    const Coord middle = first + Coord(static_cast<int>(radius));
+    for (const Coord& d : offsets(radius, element)) {
+        steps.push_back(static_cast<std::ptrdiff_t>(set.index(middle + d)) -
+                        static_cast<std::ptrdiff_t>(set.index(middle)));
+    }
+    DenseSet result(set.box());
+    for (auto c = set.box().begin(); c; ++c) {
+        if (!set[*c]) continue;
+        const char* const bits = set.bits().data() + set.index(*c);
+        result.set(*c, std::all_of(steps.begin(), steps.end(), [&](std::ptrdiff_t step) { return bits[step] != 0; }));
+    }
+    return result;
+}
+
+MaskGrid::Ptr close(const MaskGrid& grid, double closeRadius, double erodeRadius, Element element)
+{
+    return closeMask(grid, {closeRadius, erodeRadius, element});
+}
+
+std::uint64_t countIf(int radius, int dimensions)
+{
+    std::uint64_t count = 0;
+    for (int i = 1; i <= radius; ++i) {
+        for (int j = 1; j <= (dimensions > 1 ? radius : 1); ++j) {
+            for (int k = 1; k <= (dimensions > 2 ? radius : 1); ++k) {
+                const int square = i * i + (dimensions > 1 ? j * j : 0) + (dimensions > 2 ? k * k : 0);
+                if (square <= radius * radius) ++count;
+            }
+        }
+    }
+    return count;
+}
+
+// The number of voxels within a whole radius of a cube of n^3 voxels: the cube, its faces, edges and corners.
+std::uint64_t dilatedCubeCount(std::uint64_t n, int radius)
+{
+    return n * n * n + 6 * n * n * countIf(radius, 1) + 12 * n * countIf(radius, 2) + 8 * countIf(radius, 3);
+}
+
+} // namespace
+
+BOOST_AUTO_TEST_SUITE(morphology)
+
+BOOST_TEST_DECORATOR(*boost::unit_test::label("property"))
+BOOST_DATA_TEST_CASE(equals_the_definition, data::make(elements) * data::make(radii), element, radius)
+{
+    // Across the origin, across borders of leaves and blocks, across borders of regions.
+    const std::vector<Coord> corners{Coord(-6), Coord(120, -133, 3), Coord(4090, -4100, -7)};
+    const unsigned seeds = radius < 3 ? 6 : radius < 9 ? 3 : 1;
+    for (unsigned seed = 0; seed < seeds; ++seed) {
+        const DenseSet set = randomBlobs(cubeAt(corners[seed % 3], 11 + static_cast<int>(seed)), seed);
+        const auto grid = toGrid(set);
+        const DenseSet dilated = dilatedByDefinition(set, radius, element);
+        BOOST_TEST(sameSet(*dilate(*grid, radius, element), *toGrid(dilated)));
+        for (const double erodeRadius : {radius, 0.6 * radius}) {
+            const auto expected = toGrid(erodedByDefinition(dilated, erodeRadius, element));
+            BOOST_TEST(sameSet(*erode(*toGrid(dilated), erodeRadius, element), *expected));
+            BOOST_TEST(sameSet(*close(*grid, radius, erodeRadius, element), *expected));
+        }
+    }
+}
+
+BOOST_TEST_DECORATOR(*boost::unit_test::label("property"))
+BOOST_DATA_TEST_CASE(closing_is_extensive_idempotent_and_increasing, data::make(elements) * data::make({3.7, 9.0}),
+                     element, radius)
+{
+    const auto small = fatBlobs(90, 3), large = fatBlobs(90, 4);
+    large->topologyUnion(*small);
+    const auto closed = close(*small, radius, radius, element);
+    BOOST_TEST(isSubset(*small, *closed));
+    BOOST_TEST(!isSubset(*closed, *small));
+    BOOST_TEST(sameTree(*closed, *close(*closed, radius, radius, element)));
+    BOOST_TEST(isSubset(*closed, *close(*large, radius, radius, element)));
+    BOOST_TEST(isSubset(*closed, *close(*small, radius, 0.5 * radius, element)));
+}
+
+BOOST_TEST_DECORATOR(*boost::unit_test::label("property"))
+BOOST_DATA_TEST_CASE(whole_voxel_shifts_commute, data::make(elements), element)
+{
+    const auto grid = fatBlobs(70, 5);
+    const auto closed = close(*grid, 6.2, 5, element);
+    for (const Coord& by : {Coord(1, 2, 3), Coord(-128, 64, 4096), Coord(1 << 29, -(1 << 29), 777)}) {
+        BOOST_TEST(sameTree(*close(*shifted(*grid, by), 6.2, 5, element), *shifted(*closed, by)));
+    }
+}
+
+BOOST_TEST_DECORATOR(*boost::unit_test::label("property"))
+BOOST_DATA_TEST_CASE(erosion_is_the_dilation_of_the_complement, data::make(elements), element)
+{
+    const auto grid = fatBlobs(120, 6);
+    const int radius = 7;
+    CoordBBox box = grid->evalActiveVoxelBoundingBox();
+    auto complement = MaskGrid::create();
+    complement->sparseFill(grown(box, 2 * radius), true);
+    complement->topologyDifference(*grid);
+    auto expected = MaskGrid::create();
+    expected->sparseFill(grown(box, radius), true);
+    expected->topologyDifference(*dilate(*complement, radius, element));
+    BOOST_TEST(expected->activeVoxelCount() > 0U);
+    BOOST_TEST(sameSet(*erode(*grid, radius, element), *expected));
+}
+
+BOOST_DATA_TEST_CASE(one_and_two_threads_give_the_same, data::make(elements), element)
+{
+    const auto grid = fatBlobs(160, 7);
+    MaskGrid::Ptr results[2];
+    for (const std::size_t threads : {1U, 2U}) {
+        const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
+        results[threads - 1] = close(*grid, 10, 8.5, element);
+    }
+    BOOST_TEST(sameTree(*results[0], *results[1]));
+}
+
+BOOST_DATA_TEST_CASE(equal_sets_give_equal_trees, data::make(elements), element)
+{
+    auto tiles = MaskGrid::create();
+    tiles->sparseFill(cubeAt(Coord(-128), 256), true);
+    tiles->sparseFill(cubeAt(Coord(136, 0, 0), 24), true);
+    const auto dense = tiles->deepCopy();
+    dense->tree().voxelizeActiveTiles();
+    BOOST_TEST(dense->tree().leafCount() > tiles->tree().leafCount());
+    BOOST_TEST(dilate(*dense, 0, element)->tree().leafCount() == 0U);
+    for (const double radius : {0.0, 8.0, 11.0}) {
+        BOOST_TEST(sameTree(*dilate(*tiles, radius, element), *dilate(*dense, radius, element)));
+        BOOST_TEST(sameTree(*erode(*tiles, radius, element), *erode(*dense, radius, element)));
+        BOOST_TEST(sameTree(*close(*tiles, radius, radius, element), *close(*dense, radius, radius, element)));
+    }
+}
+
+BOOST_AUTO_TEST_CASE(only_active_states_count)
+{
+    // topologyUnion leaves active tiles whose value is false.
+    openvdb::BoolGrid bits(false);
+    bits.sparseFill(cubeAt(Coord(0), 128), true);
+    auto grid = MaskGrid::create();
+    grid->topologyUnion(bits);
+    const auto result = dilate(*grid, 0);
+    BOOST_TEST(result->activeVoxelCount() == 128U * 128U * 128U);
+    for (auto value = result->cbeginValueOn(); value; ++value) BOOST_TEST(*value);
+}
+
+BOOST_AUTO_TEST_CASE(empty_and_single_voxel)
+{
+    for (const Element element : elements) {
+        BOOST_TEST(dilate(*MaskGrid::create(), 5, element)->empty());
+        BOOST_TEST(erode(*MaskGrid::create(), 5, element)->empty());
+        BOOST_TEST(close(*MaskGrid::create(), 5, 5, element)->empty());
+        auto voxel = MaskGrid::create();
+        voxel->tree().setValueOn(Coord(7, -8, 127));
+        BOOST_TEST(sameTree(*close(*voxel, 9, 9, element), *voxel));
+        BOOST_TEST(erode(*voxel, 1, element)->empty());
+        BOOST_TEST(sameTree(*erode(*voxel, 0.9, element), *voxel));
+    }
+}
+
+// Beyond 16 bits of squared distance, and beyond one block.
+BOOST_DATA_TEST_CASE(large_radii, data::make({102, 103, 104, 150, 301}), radius)
+{
+    auto voxel = MaskGrid::create();
+    voxel->tree().setValueOn(Coord(-3, 120, 64));
+    const auto ball = dilate(*voxel, radius);
+    BOOST_TEST(ball->activeVoxelCount() == dilatedCubeCount(1, radius));
+    const auto side = static_cast<std::uint64_t>(2 * radius + 1);
+    BOOST_TEST(dilate(*voxel, radius, Element::cube)->activeVoxelCount() == side * side * side);
+    BOOST_TEST(sameTree(*erode(*ball, radius), *voxel));
+}
+
+BOOST_AUTO_TEST_CASE(radii_at_the_edge_of_rounding)
+{
+    auto voxel = MaskGrid::create();
+    voxel->tree().setValueOn(Coord(0));
+    // The square of the double next below the root of 3 rounds to 3, but is less.
+    const double below = std::nextafter(std::sqrt(3.0), 0.0), above = std::nextafter(std::sqrt(3.0), 2.0);
+    BOOST_TEST(dilate(*voxel, above)->activeVoxelCount() == 27U);
+    for (double radius = below; radius * radius >= 3.0; radius = std::nextafter(radius, 0.0)) {
+        if (std::fma(radius, radius, -3.0) < 0) BOOST_TEST(dilate(*voxel, radius)->activeVoxelCount() == 19U);
+    }
+    BOOST_TEST(dilate(*voxel, 1.7)->activeVoxelCount() == 19U);
+    BOOST_TEST(dilate(*voxel, 1.99, Element::cube)->activeVoxelCount() == 27U);
+}
+
+BOOST_AUTO_TEST_CASE(a_region_tile_is_not_made_dense)
+{
+    auto grid = MaskGrid::create();
+    grid->tree().addTile(3, Coord(-4096, 0, 0), true, true);
+    grid->tree().addTile(3, Coord(0, 0, 0), true, true); // its neighbour: no contour between them
+    const auto dilated = dilate(*grid, 8, Element::cube);
+    BOOST_TEST(dilated->activeVoxelCount() == (8192ULL + 16) * (4096 + 16) * (4096 + 16));
+    BOOST_TEST(dilated->tree().leafCount() == 0U);
+    BOOST_TEST(sameTree(*erode(*dilated, 8, Element::cube), *grid));
+    const auto eroded = erode(*grid, 8, Element::cube);
+    BOOST_TEST(eroded->activeVoxelCount() == (8192ULL - 16) * (4096 - 16) * (4096 - 16));
+}
+
+BOOST_AUTO_TEST_CASE(a_region_tile_and_the_sphere, *boost::unit_test::label("slow"))
+{
+    auto grid = MaskGrid::create();
+    grid->tree().addTile(3, Coord(0), true, true);
+    const auto dilated = dilate(*grid, 3);
+    BOOST_TEST(dilated->activeVoxelCount() == dilatedCubeCount(4096, 3));
+    BOOST_TEST(sameTree(*erode(*dilated, 3), *grid));
+}
+
+BOOST_AUTO_TEST_CASE(block_tiles_and_the_sphere)
+{
+    auto grid = MaskGrid::create();
+    grid->sparseFill(cubeAt(Coord(-128), 256), true);
+    const auto dilated = dilate(*grid, 13);
+    BOOST_TEST(dilated->activeVoxelCount() == dilatedCubeCount(256, 13));
+    BOOST_TEST(sameSet(*erode(*dilated, 13), *grid));
+    BOOST_TEST(sameSet(*close(*grid, 13, 13, Element::sphere), *grid));
+}
+
+BOOST_AUTO_TEST_CASE(keeps_the_transform_and_nothing_else)
+{
+    auto grid = toGrid(randomBlobs(cubeAt(Coord(0), 10), 2));
+    grid->setTransform(openvdb::math::Transform::createLinearTransform(0.125));
+    grid->transform().postTranslate(openvdb::Vec3d(1, 2, 3));
+    grid->setName("solid");
+    for (const auto& result : {dilate(*grid, 2), erode(*grid, 1), closeMask(*grid)}) {
+        BOOST_CHECK(result->transform() == grid->transform());
+        BOOST_TEST(result->metaCount() == 0U);
+    }
+}
+
+BOOST_AUTO_TEST_CASE(bad_input_is_refused)
+{
+    const auto grid = toGrid(randomBlobs(cubeAt(Coord(0), 10), 2));
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    for (const double radius : {-0.001, 512.01, infinity, -infinity, std::nan("")}) {
+        BOOST_CHECK_THROW(dilate(*grid, radius), InputError);
+        BOOST_CHECK_THROW(erode(*grid, radius), InputError);
+        BOOST_CHECK_THROW(closeMask(*grid, {radius, 0, Element::cube}), InputError);
+        BOOST_CHECK_THROW(closeMask(*grid, {4, radius, Element::cube}), InputError);
+    }
+    BOOST_CHECK_EXCEPTION(closeMask(*grid, {4, 4.5, Element::sphere}), InputError, [](const InputError& error) {
+        return std::string(error.what()) == "the erode radius is 4.5 voxels; it must be between 0 and 4";
+    });
+    constexpr int limit = 1 << 30;
+    for (const int bad : {limit, -limit - 1, std::numeric_limits<int>::max(), std::numeric_limits<int>::min()}) {
+        auto far = MaskGrid::create();
+        far->tree().setValueOn(Coord(0, bad, 0));
+        BOOST_CHECK_THROW(dilate(*far, 1), InputError);
+        BOOST_CHECK_THROW(erode(*far, 1, Element::cube), InputError);
+        BOOST_CHECK_THROW(closeMask(*far), InputError);
+    }
+    auto corners = MaskGrid::create();
+    corners->tree().setValueOn(Coord(limit - 1));
+    corners->tree().setValueOn(Coord(-limit));
+    for (const Element element : elements) {
+        BOOST_TEST(dilate(*corners, 100, element)->activeVoxelCount() > 2U);
+        BOOST_TEST(sameTree(*close(*corners, 60, 60, element), *corners));
+    }
+}
+
+BOOST_DATA_TEST_CASE(stops_at_any_check, data::make(elements), element)
+{
+    const auto grid = toGrid(randomBlobs(cubeAt(Coord(-6), 12), 9));
+    StopAt never(-1);
+    closeMask(*grid, {3, 3, element}, &never);
+    BOOST_TEST(!never.outOfRange);
+    BOOST_TEST(never.checks > 10);
+    for (int k = 0; k < never.checks; ++k) {
+        StopAt stop(k);
+        BOOST_CHECK_THROW(closeMask(*grid, {3, 3, element}, &stop), Cancelled);
+    }
+}
+
+BOOST_AUTO_TEST_SUITE_END()
