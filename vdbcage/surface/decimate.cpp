@@ -38,7 +38,7 @@ struct Limits {
     double fold;    ///< least cosine between the normals of neighbours after, unless it was less before
 };
 constexpr std::array<Limits, 4> levels = {
-    {{0.1, 0.5, -0.5}, {0.02, 0.2, -0.8}, {1e-3, 0.0, -0.95}, {1e-9, -1.0, -1.0}}};
+    {{0.1, 0.2, -0.8}, {0.02, 0.1, -0.9}, {1e-3, 0.0, -0.95}, {1e-9, -1.0, -1.0}}};
 
 /// 1 for an equilateral triangle, 0 for one without area; `doubledArea` is the length of the cross product.
 double quality(const Vec3d& a, const Vec3d& b, const Vec3d& c, double doubledArea)
