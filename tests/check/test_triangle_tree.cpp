@@ -1,0 +1,275 @@
+#include <boost/test/unit_test.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <set>
+
+#include <support/shapes.h>
+#include <support/stop_at.h>
+#include <tbb/global_control.h>
+#include <vdbcage/core/error.h>
+#include <vdbcage/mesh/detail/triangle_tree.h>
+
+using namespace vdbcage;
+using namespace vdbcage::detail;
+
+namespace {
+
+struct Soup {
+    std::vector<Vec3d> points;
+    std::vector<Vec3I> triangles;
+
+    Corners corners(std::size_t t) const
+    {
+        return {points[triangles[t][0]], points[triangles[t][1]], points[triangles[t][2]]};
+    }
+    TriangleTree tree() const { return {points, triangles}; }
+};
+
+// Sizes over many scales, some degenerate, some on a lattice, some the same.
+Soup randomSoup(unsigned seed, std::size_t count)
+{
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> unit(-1, 1);
+    Soup soup;
+    for (std::size_t i = 0; i < count; ++i) {
+        const double size = std::pow(10, -2 + 2 * unit(random));
+        const Vec3d centre(unit(random), unit(random), unit(random));
+        const auto kind = random() % 8;
+        for (int corner = 0; corner < 3; ++corner) {
+            Vec3d p = centre + size * Vec3d(unit(random), unit(random), unit(random));
+            if (kind == 0 && corner == 2) p = soup.points.back();
+            if (kind == 1) p = Vec3d(std::round(4 * p[0]), std::round(4 * p[1]), std::round(4 * p[2])) / 4.0;
+            if (kind == 2) p = Vec3d(0.5, 0.25, 0.125);
+            soup.points.push_back(p);
+        }
+        const auto first = static_cast<unsigned>(3 * i);
+        soup.triangles.emplace_back(first, first + 1, first + 2);
+    }
+    return soup;
+}
+
+using Numbers = std::multiset<std::uint32_t>;
+
+} // namespace
+
+BOOST_AUTO_TEST_SUITE(triangle_tree)
+
+BOOST_AUTO_TEST_CASE(every_triangle_is_found_once)
+{
+    for (const std::size_t count : {0U, 1U, 2U, 4U, 5U, 6U, 9U, 1000U, 20000U}) {
+        const TriangleTree tree = randomSoup(1, count).tree();
+        Numbers found;
+        tree.traverse([](const Box&) { return true; },
+                      [&](const TriangleTree::Item& item) { return found.insert(item.triangle), true; });
+        BOOST_TEST(found.size() == count);
+        BOOST_TEST(tree.items().size() == count);
+        std::uint32_t expected = 0;
+        BOOST_TEST(std::all_of(found.begin(), found.end(), [&](std::uint32_t t) { return t == expected++; }));
+    }
+}
+
+BOOST_AUTO_TEST_CASE(box_overlaps_equal_brute_force, *boost::unit_test::label("property"))
+{
+    std::mt19937 random(5);
+    std::uniform_real_distribution<double> unit(-1.2, 1.2);
+    const Soup soup = randomSoup(2, 3000);
+    const TriangleTree tree = soup.tree();
+    for (int i = 0; i < 200; ++i) {
+        Box box = Box::of(Vec3d(unit(random), unit(random), unit(random)));
+        if (i % 4 == 1) box.expand(Box::of(box.lo + 0.1 * Vec3d(unit(random), unit(random), unit(random))));
+        if (i % 4 == 2) box = Box::of(soup.points[random() % soup.points.size()]); // exactly on a corner
+        if (i % 4 == 3) box.hi[0] = std::numeric_limits<double>::infinity();       // a ray
+        Numbers expected, found;
+        for (std::uint32_t t = 0; t < soup.triangles.size(); ++t) {
+            if (box.meets(Box::of(soup.corners(t)))) expected.insert(t);
+        }
+        tree.forEachOverlap(box, [&](const TriangleTree::Item& item) { return found.insert(item.triangle), true; });
+        BOOST_TEST((found == expected));
+    }
+}
+
+BOOST_AUTO_TEST_CASE(pair_overlaps_equal_brute_force, *boost::unit_test::label("property"))
+{
+    const Soup a = randomSoup(3, 400), b = randomSoup(4, 37);
+    std::set<std::pair<std::uint32_t, std::uint32_t>> expected, found;
+    for (std::uint32_t s = 0; s < a.triangles.size(); ++s) {
+        for (std::uint32_t t = 0; t < b.triangles.size(); ++t) {
+            if (Box::of(a.corners(s)).meets(Box::of(b.corners(t)))) expected.emplace(s, t);
+        }
+    }
+    std::size_t calls = 0;
+    a.tree().forEachOverlap(b.tree(), [&](const TriangleTree::Item& s, const TriangleTree::Item& t) {
+        ++calls;
+        found.emplace(s.triangle, t.triangle);
+        return true;
+    });
+    BOOST_TEST((found == expected));
+    BOOST_TEST(calls == expected.size());
+    BOOST_TEST(a.tree().forEachOverlap(TriangleTree(), [](const auto&, const auto&) { return false; }));
+}
+
+BOOST_AUTO_TEST_CASE(a_visitor_can_stop)
+{
+    const TriangleTree tree = randomSoup(6, 100).tree();
+    int calls = 0;
+    const auto thrice = [&](const auto&...) { return ++calls < 3; };
+    BOOST_TEST(!tree.forEachOverlap(tree.box(), thrice));
+    BOOST_TEST(calls == 3);
+    calls = 0;
+    BOOST_TEST(!tree.forEachOverlap(tree, thrice));
+    BOOST_TEST(calls == 3);
+}
+
+BOOST_AUTO_TEST_CASE(closest_equals_brute_force, *boost::unit_test::label("property"))
+{
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> unit(-2, 2);
+    const Soup soup = randomSoup(8, 3000);
+    const TriangleTree tree = soup.tree();
+    std::uint32_t seed = TriangleTree::none;
+    for (int i = 0; i < 300; ++i) {
+        const Vec3d p(unit(random), unit(random), unit(random));
+        double expected = std::numeric_limits<double>::infinity();
+        for (std::size_t t = 0; t < soup.triangles.size(); ++t) {
+            expected = std::min(expected, (closestPointOnTriangle(p, soup.corners(t)) - p).lengthSqr());
+        }
+        const TriangleTree::Closest closest = tree.closest(p, seed);
+        seed = closest.item;
+        BOOST_TEST(closest.squaredDistance == expected, boost::test_tools::tolerance(1e-12));
+        BOOST_TEST((closest.point - p).lengthSqr() == closest.squaredDistance);
+        BOOST_TEST(tree.closest(p, TriangleTree::none, 0.999 * expected).item == TriangleTree::none);
+        BOOST_TEST(tree.closest(p, TriangleTree::none, 1.001 * expected).item != TriangleTree::none);
+    }
+    BOOST_TEST(TriangleTree().closest(Vec3d(0)).item == TriangleTree::none);
+}
+
+BOOST_AUTO_TEST_CASE(the_closest_point_of_a_triangle_beats_all_others, *boost::unit_test::label("property"))
+{
+    const Soup soup = randomSoup(9, 500);
+    std::mt19937 random(10);
+    std::uniform_real_distribution<double> unit(-2, 2);
+    for (std::size_t t = 0; t < soup.triangles.size(); ++t) {
+        const Corners corners = soup.corners(t);
+        const Vec3d p(unit(random), unit(random), unit(random));
+        const double distance = (closestPointOnTriangle(p, corners) - p).length();
+        double least = 1e9; // over a fine net of the triangle
+        constexpr int n = 60;
+        for (int i = 0; i <= n; ++i) {
+            for (int j = 0; i + j <= n; ++j) {
+                const Vec3d q = (corners[0] * (n - i - j) + corners[1] * i + corners[2] * j) / double(n);
+                least = std::min(least, (q - p).length());
+            }
+        }
+        const double size = (corners[1] - corners[0]).length() + (corners[2] - corners[0]).length();
+        BOOST_TEST(distance <= least + 1e-9);
+        BOOST_TEST(distance >= least - 2 * size / n - 1e-9); // hence it is a point of the triangle, or next to one
+    }
+}
+
+BOOST_AUTO_TEST_CASE(filters_never_deny_a_box_that_is_met, *boost::unit_test::label("property"))
+{
+    std::mt19937 random(11);
+    std::uniform_real_distribution<double> unit(-1, 1);
+    for (const double scale : {1.0, 1e-12, 1e12, 1e-90, 1e-150, 1e150, 1e-308}) {
+        int denied = 0;
+        for (int i = 0; i < 3000; ++i) {
+            const auto point = [&] { return scale * Vec3d(unit(random), unit(random), unit(random)); };
+            const Corners t{point(), point(), i % 10 ? point() : Vec3d(0.0)};
+            const Vec3d centre = point();
+            // Boxes that touch the triangle or the segment with a corner only, up to the rounding of that corner;
+            // corners of the triangle itself are exact.
+            Vec3d on = t[static_cast<std::size_t>(i) % 3];
+            Box box = Box::of(on);
+            box.expand(Box::of(centre));
+            BOOST_TEST(TriangleFilter(t)(box));
+            if (i % 3 != 2) BOOST_TEST(SegmentFilter(t[0], t[1])(box));
+            Box other = Box::of(centre);
+            other.expand(Box::of(centre + 0.05 * point()));
+            if (!TriangleFilter(t)(other) && other.meets(Box::of(t))) ++denied;
+        }
+        if (scale < 1e100 && scale > 1e-65) BOOST_TEST(denied > 100); // the filter is of some use
+    }
+}
+
+BOOST_AUTO_TEST_CASE(segment_filter_lets_every_triangle_through_that_the_segment_meets,
+                     *boost::unit_test::label("property"))
+{
+    std::mt19937 random(12);
+    std::uniform_real_distribution<double> unit(-1, 1);
+    const Soup soup = randomSoup(13, 2000);
+    const TriangleTree tree = soup.tree();
+    for (int i = 0; i < 100; ++i) {
+        const auto t = static_cast<std::uint32_t>(random() % soup.triangles.size());
+        const Corners corners = soup.corners(t);
+        const Vec3d start(unit(random), unit(random), unit(random));
+        const Vec3d through = corners[0]; // exactly the segment's end, and exactly in the triangle
+        std::size_t visited = 0;
+        bool found = false;
+        tree.traverse(SegmentFilter(start, through), [&](const TriangleTree::Item& item) {
+            ++visited;
+            found = found || item.triangle == t;
+            return true;
+        });
+        BOOST_TEST(found);
+        BOOST_TEST(visited < soup.triangles.size() / 2);
+    }
+}
+
+BOOST_AUTO_TEST_CASE(any_size_and_place_of_the_coordinates)
+{
+    for (const double scale : {1e-300, 1e-30, 1e30, 1e300, 1e307}) {
+        Soup soup = randomSoup(14, 500);
+        for (Vec3d& p : soup.points) p *= scale;
+        const TriangleTree tree = soup.tree();
+        for (std::uint32_t t = 0; t < soup.triangles.size(); ++t) {
+            bool found = false;
+            const Corners corners = soup.corners(t);
+            tree.traverse(TriangleFilter(corners), [&](const TriangleTree::Item& item) {
+                found = found || item.triangle == t;
+                return true;
+            });
+            BOOST_TEST(found);
+        }
+    }
+    // Geometric distances: the worst for equal bins. Still found, and the stack of a traversal is long enough.
+    Soup soup;
+    for (unsigned i = 0; i < 6000; ++i) {
+        const double x = std::ldexp(1.0, 1000 - static_cast<int>(i % 2000));
+        for (int k = 0; k < 3; ++k) soup.points.emplace_back(k == 0 ? x : 0, k == 1 ? x : 0, i < 3000 ? x : -x);
+        soup.triangles.emplace_back(3 * i, 3 * i + 1, 3 * i + 2);
+    }
+    const TriangleTree tree = soup.tree();
+    std::size_t found = 0;
+    tree.forEachOverlap(tree.box(), [&](const auto&) { return ++found, true; });
+    BOOST_TEST(found == soup.triangles.size());
+}
+
+BOOST_AUTO_TEST_CASE(the_number_of_threads_does_not_matter)
+{
+    const Soup soup = randomSoup(15, 300000);
+    const TriangleTree many = soup.tree();
+    const tbb::global_control control(tbb::global_control::max_allowed_parallelism, 1);
+    const TriangleTree one = soup.tree();
+    const auto same = [](const TriangleTree::Item& a, const TriangleTree::Item& b) {
+        return a.triangle == b.triangle && a.corners == b.corners;
+    };
+    BOOST_TEST(std::equal(many.items().begin(), many.items().end(), one.items().begin(), same));
+    BOOST_TEST(many.closest(Vec3d(3, 1, 2)).item == one.closest(Vec3d(3, 1, 2)).item);
+}
+
+BOOST_AUTO_TEST_CASE(building_can_be_cancelled)
+{
+    const Soup soup = randomSoup(16, 50000);
+    test::StopAt never(1000000);
+    const TriangleTree tree(soup.points, soup.triangles, &never);
+    const int asked = test::questions(never, 1000000);
+    BOOST_TEST(asked > 5);
+    for (int k = 0; k < asked; ++k) {
+        test::StopAt stop(k);
+        BOOST_CHECK_THROW(TriangleTree(soup.points, soup.triangles, &stop), Cancelled);
+    }
+}
+
+BOOST_AUTO_TEST_SUITE_END()
