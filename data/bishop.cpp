@@ -10,7 +10,8 @@ namespace data {
 
 namespace {
 
-constexpr int segments = 72;      // around the axis; an even number
+constexpr int segments = 72; // around the axis; an even number
+constexpr int halfTurn = segments / 2;
 constexpr double spacing = 0.075; // of the lines on the slot's wall
 
 struct ProfilePoint {
@@ -119,7 +120,7 @@ public:
         findCorners();
         snap();
         for (int i = 0; i + 1 < profile_.size(); ++i)
-            for (int j = 0; j < segments / 2; ++j) addCell(i, j);
+            for (int j = 0; j < halfTurn; ++j) addCell(i, j);
         addSlotWall();
         return model_;
     }
@@ -137,17 +138,17 @@ private:
         double sn = 0;
         double cs = 0;
         sineCosine(2 * pi * t / segments, sn, cs);
-        return {q.r * cs, q.y, t == 0 || t == segments / 2 ? 0 : q.r * sn};
+        return {q.r * cs, q.y, t == 0 || t == halfTurn ? 0 : q.r * sn};
     }
 
     Vec3 at(int point) const { return model_.points[static_cast<std::size_t>(point)]; }
 
-    Corner& corner(int i, int j) { return corners_[static_cast<std::size_t>(i * (segments / 2 + 1) + j)]; }
+    Corner& corner(int i, int j) { return corners_[static_cast<std::size_t>(i * (halfTurn + 1) + j)]; }
 
     void findCorners()
     {
         for (int i = 0; i < profile_.size(); ++i)
-            for (int j = 0; j <= segments / 2; ++j) corners_.push_back({1.0 * i, 1.0 * j, slot_(place(i, j)), -1});
+            for (int j = 0; j <= halfTurn; ++j) corners_.push_back({1.0 * i, 1.0 * j, slot_(place(i, j)), -1});
     }
 
     /// Where the slot's edge crosses the line between two corners, as a part of that line.
@@ -168,12 +169,12 @@ private:
     {
         std::vector<Corner> moved = corners_;
         for (int i = 1; i + 1 < profile_.size(); ++i) {
-            for (int j = 0; j <= segments / 2; ++j) {
+            for (int j = 0; j <= halfTurn; ++j) {
                 const Corner& a = corner(i, j);
                 double nearest = 0.36;
                 for (const auto& step : {std::pair(1, 0), std::pair(-1, 0), std::pair(0, 1), std::pair(0, -1)}) {
-                    if (j + step.second < 0 || j + step.second > segments / 2) continue;
-                    const bool onSeam = j == 0 || j == segments / 2;
+                    if (j + step.second < 0 || j + step.second > halfTurn) continue;
+                    const bool onSeam = j == 0 || j == halfTurn;
                     if (onSeam && step.second != 0) continue; // must stay in the middle plane
                     const Corner& b = corner(i + step.first, j + step.second);
                     if ((a.distance < 0) == (b.distance < 0)) continue;
