@@ -104,7 +104,7 @@ BOOST_AUTO_TEST_CASE(nested_shells)
     // Three shells around each other, the middle one across the borders of blocks, and a ball in the middle.
     DenseSet set(cubeAt(Coord(-20), 40));
     for (auto c = set.box().begin(); c; ++c) {
-        const double r = (c->asVec3d() + openvdb::Vec3d(0.5)).length();
+        const double r = ((*c).asVec3d() + openvdb::Vec3d(0.5)).length();
         set.set(*c, (r > 16 && r < 19) || (r > 8 && r < 11) || r < 4);
     }
     requireSameAsFlood(set);

@@ -10,6 +10,16 @@
 #include <vdbcage/core/error.h>
 #include <vdbcage/volume/morphology.h>
 
+namespace vdbcage {
+
+/// For Boost.Test, which names the case by its data.
+static std::ostream& operator<<(std::ostream& out, Element element)
+{
+    return out << (element == Element::sphere ? "sphere" : "cube");
+}
+
+} // namespace vdbcage
+
 using namespace vdbcage;
 using namespace vdbcage::test;
 namespace data = boost::unit_test::data;
