@@ -36,15 +36,18 @@ std::string keyUpTo(const CageOptions& options, PipelineStage last)
     return key;
 }
 
-openvdb::Vec3d roundedToFloat(const openvdb::Vec3d& point)
+/// The float next to `value`. Volatile, because g++ 12 -O3 drops the conversion in the remainder of a vectorized loop.
+double nearestFloat(double value)
 {
-    return {static_cast<double>(static_cast<float>(point.x())), static_cast<double>(static_cast<float>(point.y())),
-            static_cast<double>(static_cast<float>(point.z()))};
+    const volatile float rounded = static_cast<float>(value);
+    return static_cast<double>(rounded);
 }
 
 Mesh roundedToFloat(Mesh mesh)
 {
-    for (openvdb::Vec3d& point : mesh.points) point = roundedToFloat(point);
+    for (openvdb::Vec3d& point : mesh.points) {
+        for (int axis = 0; axis < 3; ++axis) point[axis] = nearestFloat(point[axis]);
+    }
     return mesh;
 }
 
