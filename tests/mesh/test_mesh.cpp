@@ -112,6 +112,31 @@ BOOST_AUTO_TEST_CASE(degenerate_is_decided_exactly_at_every_scale, *boost::unit_
     BOOST_TEST(degenerate > 100);
 }
 
+BOOST_AUTO_TEST_CASE(points_of_a_line_are_degenerate_where_their_differences_are_rounded,
+                     *boost::unit_test::label("property"))
+{
+    // Points t d of a line through the origin, exact in doubles; t spans so many powers of two that differences are
+    // not.
+    std::mt19937 random(2);
+    std::uniform_int_distribution<int> whole(-7, 7);
+    std::uniform_int_distribution<int> exponent(-56, 0);
+    int misjudgedIfRounded = 0;
+    for (int trial = 0; trial < 20000; ++trial) {
+        for (const int scale : {0, -530, 510}) {
+            const Vec3d direction(whole(random), whole(random), whole(random));
+            Vec3d p[3];
+            for (Vec3d& point : p) point = direction * std::ldexp(double(whole(random)), exponent(random) + scale);
+            BOOST_TEST_REQUIRE(detail::isDegenerate(p[0], p[1], p[2]));
+            misjudgedIfRounded += (p[1] - p[0]).cross(p[2] - p[0]) != Vec3d(0, 0, 0);
+        }
+    }
+    BOOST_TEST(misjudgedIfRounded > 1000);
+    // Where products fall below the normal doubles, the rounding of one may tip that of the other.
+    const Vec3d direction(1, 5, 0);
+    const auto at = [&](double t) { return direction * std::ldexp(t, -534); };
+    BOOST_TEST(detail::isDegenerate(at(-0x1p-55), at(0x1.4p-2), at(-0x1.8p-2)));
+}
+
 BOOST_AUTO_TEST_CASE(a_triangle_one_unit_in_the_last_place_from_a_line_is_not_degenerate)
 {
     const double next = std::nextafter(0.3, 1.0);

@@ -125,6 +125,8 @@ const std::vector<Bad>& badFiles()
         {"cut.obj", threePoints + "f 1 2 3\nf 1 2", {"line 5", "ends within a face"}},
         {"cut2.obj", threePoints + "vt 0 0\nf 1/1 2/1 3/1\nf 1/1 2/1 3", {"line 6", "ends within a face"}},
         {"cut3.obj", threePoints + "f 1 2 3\nv 1", {"line 5", "y coordinate"}},
+        {"cut4.obj", threePoints + "v 0 1 1\nf 1 2 3\nf 1 2 3", {"line 6", "point 4", "cut off"}},
+        {"cut5.obj", threePoints + "f 1 2 3\nv 1 1 1.", {"line 5", "point 4", "cut off"}},
         {"numbers.obj", "0 0 0\n1 0 0\n", {"line 1", "\"0\""}},
         {"vertex.obj", "v 0 0 0\n", {"no faces"}},
         {"points.obj", threePoints + "p 1 2 3\n", {"no faces"}},

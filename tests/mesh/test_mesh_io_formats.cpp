@@ -109,15 +109,15 @@ BOOST_AUTO_TEST_CASE(numbers)
 
 BOOST_AUTO_TEST_CASE(obj_corners_in_every_form)
 {
-    const std::string before = "v 9 9 9\n" + threePoints + "v 1 1 0\nvt 0 0\nvn 0 0 1\n";
+    const std::string before = "v 9 9 9\n" + threePoints + "v 1 1 0\nvt 0 0\nvn 0 0 1\nf 1 4 5\n";
     for (const char* face :
          {"f 2 3 4", "f 2/1 3/1 4/1", "f 2//1 3//1 4//1", "f 2/1/1 3/1/1 4/1/1", "f -4 -3 -2",
           "f -4/-1/-1 -3/-1/-1 -2/-1/-1", "f 2/1/ 3/1/ 4/1/", "f 2// 3// 4//", "f 2/ 3/ 4/", "\t f\t2  3 4   # a face",
           "f 2 \\\n 3 \\\r\n 4", "f 2\\\n3 4", "fo 2 3 4", "f +2 +3 +4"}) {
         for (const char* end : {"\n", "", "\r\n"}) {
             const Mesh mesh = obj(before + face + end);
-            BOOST_REQUIRE_MESSAGE(mesh.triangles.size() == 1U, face);
-            BOOST_CHECK_MESSAGE(mesh.triangles[0] == Vec3I(1, 2, 3), face);
+            BOOST_REQUIRE_MESSAGE(mesh.triangles.size() == 2U, face);
+            BOOST_CHECK_MESSAGE(mesh.triangles[1] == Vec3I(1, 2, 3), face);
         }
     }
 }
@@ -127,6 +127,14 @@ BOOST_AUTO_TEST_CASE(obj_relative_corners_count_from_the_face_and_faces_may_come
     const Mesh mesh = obj(threePoints + "f -3 -2 -1\nf 4 5 6\nv 0 0 1\nv 1 0 1\nv 0 1 1\nf -3 -2 -1\nf -6 -5 -4\n");
     const std::vector<Vec3I> expected = {{0, 1, 2}, {3, 4, 5}, {3, 4, 5}, {0, 1, 2}};
     BOOST_CHECK(mesh.triangles == expected);
+}
+
+BOOST_AUTO_TEST_CASE(obj_without_a_last_line_end_is_whole_if_all_its_points_are_used)
+{
+    BOOST_CHECK_NO_THROW(obj(threePoints + "f 1 2 3"));
+    BOOST_CHECK_NO_THROW(obj(threePoints + "v 9 9 9\nf 1 2 3\n"));
+    BOOST_CHECK_NO_THROW(obj(threePoints + "v 9 9 9\np 4\nf 1 2 3")); // a point may serve another element
+    BOOST_CHECK_THROW(obj(threePoints + "v 9 9 9\nf 1 2 3"), IoError);
 }
 
 BOOST_AUTO_TEST_CASE(obj_weights_and_colours_are_not_read)

@@ -12,13 +12,13 @@ using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 
 /// True if the 2x2 determinant ux vy - uy vx of rounded differences is certainly not zero. Each product carries three
 /// roundings and the difference one more: an error below 5 * 2^-53 times the sum of the products' sizes, plus what
-/// underflow takes (below 1e-320). The bounds below are wider than both. Overflow gives infinity or NaN: not certain.
+/// underflow takes (below 1e-320). The bounds below are wider than both, and infinite or NaN after an overflow.
 bool certainlyNonzero(double ux, double uy, double vx, double vy)
 {
     const double first = ux * vy;
     const double second = uy * vx;
     const double size = std::abs(first) + std::abs(second);
-    return std::isfinite(size) && std::abs(first - second) > 1e-15 * size + 1e-300;
+    return std::abs(first - second) > 1e-15 * size + 1e-300;
 }
 
 } // namespace

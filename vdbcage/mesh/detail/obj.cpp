@@ -4,8 +4,9 @@
 
 #include <vdbcage/mesh/detail/formats.h>
 
-#include <array>
+#include <algorithm>
 #include <cstdint>
+#include <initializer_list>
 #include <utility>
 #include <vector>
 
@@ -39,7 +40,8 @@ bool looksLikeKeyword(std::string_view word)
 class ObjParser {
 public:
     ObjParser(std::string_view bytes, const std::string& name)
-        : in_(bytes, name, TextSyntax{'#', /*continuesLines=*/true}), name_(name)
+        : in_(bytes, name, TextSyntax{'#', /*continuesLines=*/true}), name_(name),
+          endsWithinLine_(!bytes.empty() && bytes.back() != '\n' && bytes.back() != '\r')
     {
     }
 
@@ -49,6 +51,7 @@ public:
         for (const Reference& reference : ahead_) {
             if (reference.index >= soup_.points.size()) failOutOfRange(reference.where, soup_.points.size());
         }
+        if (endsWithinLine_) requireAllUsed();
         return toMesh(std::move(soup_), name_, summary);
     }
 
@@ -134,6 +137,22 @@ private:
         return form;
     }
 
+    /// A file whose last line has no end may be whole or cut off. Points that nothing uses tell: without them a cut-off
+    /// file would silently become a part of its model.
+    void requireAllUsed() const
+    {
+        if (soup_.ignoredElements > 0 || (soup_.triangles.empty() && soup_.ends.empty())) return;
+        std::vector<bool> used(soup_.points.size(), false);
+        for (const openvdb::Vec3I& triangle : soup_.triangles) {
+            for (int i = 0; i < 3; ++i) used[triangle[i]] = true;
+        }
+        for (const openvdb::Index32 corner : soup_.corners) used[corner] = true;
+        const auto unused = std::find(used.begin(), used.end(), false);
+        if (unused == used.end()) return;
+        in_.fail("the file ends within a line, and no face uses point " + std::to_string(unused - used.begin() + 1) +
+                 ": it seems to be cut off (if it is whole, end its last line)");
+    }
+
     [[noreturn]] void failOutOfRange(const char* where, std::uint64_t points) const
     {
         const char* there = *where == '-' ? " points before it" : " points";
@@ -143,6 +162,7 @@ private:
 
     TextCursor in_;
     const std::string& name_;
+    bool endsWithinLine_;
     PolygonSoup soup_;
     std::vector<openvdb::Index32> face_;
     std::vector<Reference> ahead_; // with growing index

@@ -1,10 +1,12 @@
 // Based on: the normal of Newell (Sutherland, Sproull, Schumacker 1974) and the clipping of ears (Meisters 1975).
-// Differs: a fan is tried first; corners that could lie in an ear are sorted by x, so that few are looked at.
+// Differs: a fan is tried first; corners that could lie in an ear are sorted into a grid, so that few are looked at.
 
 #include <vdbcage/mesh/detail/polygon_splitter.h>
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <utility>
 
 namespace vdbcage::detail {
 
@@ -98,7 +100,7 @@ void PolygonSplitter::project()
     const std::size_t count = local_.size();
     loop_.resize(count);
     for (std::size_t i = 0; i < count; ++i) {
-        loop_[i] = {local_[i][u], local_[i][v], (i + count - 1) % count, (i + 1) % count, false, false};
+        loop_[i] = {local_[i][u], local_[i][v], (i + count - 1) % count, (i + 1) % count, 0, false, false};
     }
 }
 
@@ -138,68 +140,128 @@ bool PolygonSplitter::isEar(std::size_t corner) const
     const Corner& b = loop_[corner];
     const Corner& c = loop_[after];
     const auto samePlace = [](const Corner& p, const Corner& q) { return p.x == q.x && p.y == q.y; };
-    const double largest = std::max({a.x, b.x, c.x});
-    auto obstacle = std::lower_bound(obstacles_.begin(), obstacles_.end(),
-                                     std::make_pair(std::min({a.x, b.x, c.x}), std::size_t(0)));
-    for (; obstacle != obstacles_.end() && obstacle->first <= largest; ++obstacle) {
-        const std::size_t i = obstacle->second;
+    const auto blocks = [&](std::size_t i) {
         const Corner& p = loop_[i];
-        if (p.clipped || p.pointed) continue;
+        if (p.clipped || p.pointed) return false;
         // Corners in the same place are the two sides of a cut that joins a hole to the outline.
-        if (samePlace(p, a) || samePlace(p, b) || samePlace(p, c)) continue;
-        if (area(before, corner, i) >= 0 && area(corner, after, i) >= 0 && area(after, before, i) >= 0) return false;
+        if (samePlace(p, a) || samePlace(p, b) || samePlace(p, c)) return false;
+        return area(before, corner, i) >= 0 && area(corner, after, i) >= 0 && area(after, before, i) >= 0;
+    };
+    const std::size_t lastX = cellIndex(std::max({a.x, b.x, c.x}) - cellX_);
+    const std::size_t lastY = cellIndex(std::max({a.y, b.y, c.y}) - cellY_);
+    const std::size_t firstY = cellIndex(std::min({a.y, b.y, c.y}) - cellY_);
+    for (std::size_t x = cellIndex(std::min({a.x, b.x, c.x}) - cellX_); x <= lastX; ++x) {
+        // The cells of one x lie one behind another.
+        const std::size_t end = cellBegin_[x * side_ + lastY + 1];
+        for (std::size_t i = cellBegin_[x * side_ + firstY]; i < end; ++i) {
+            if (blocks(obstacles_[i])) return false;
+        }
     }
     return true;
 }
 
+/// Grows with the distance, so that a corner within an ear's box is in one of the box's cells, however it is rounded.
+std::size_t PolygonSplitter::cellIndex(double distance) const
+{
+    return std::min(static_cast<std::size_t>(std::max(distance * cellsPerUnit_, 0.0)), side_ - 1);
+}
+
+/// Into about as many cells as there are obstacles, by counting.
+void PolygonSplitter::sortObstacles()
+{
+    std::size_t count = 0;
+    double right = loop_[0].x, top = loop_[0].y;
+    cellX_ = right;
+    cellY_ = top;
+    for (const Corner& p : loop_) {
+        if (!p.pointed) ++count;
+        cellX_ = std::min(cellX_, p.x);
+        cellY_ = std::min(cellY_, p.y);
+        right = std::max(right, p.x);
+        top = std::max(top, p.y);
+    }
+    side_ = static_cast<std::size_t>(std::sqrt(double(count))) + 1;
+    const double extent = std::max(right - cellX_, top - cellY_);
+    cellsPerUnit_ = extent > 0 ? double(side_) / extent : 0; // corners lie in [-1, 1]; see scaleToUnit
+    const auto cellOf = [&](const Corner& p) { return cellIndex(p.x - cellX_) * side_ + cellIndex(p.y - cellY_); };
+    cellBegin_.assign(side_ * side_ + 1, 0);
+    for (const Corner& p : loop_) {
+        if (!p.pointed) ++cellBegin_[cellOf(p) + 1];
+    }
+    std::partial_sum(cellBegin_.begin(), cellBegin_.end(), cellBegin_.begin());
+    obstacles_.resize(count);
+    std::vector<std::size_t> next(cellBegin_.begin(), cellBegin_.end() - 1);
+    for (std::size_t i = 0; i < loop_.size(); ++i) {
+        if (!loop_[i].pointed) obstacles_[next[cellOf(loop_[i])]++] = i;
+    }
+}
+
+void PolygonSplitter::clip(std::size_t corner, const openvdb::Index32* face, std::vector<openvdb::Vec3I>& triangles)
+{
+    const std::size_t before = loop_[corner].previous;
+    const std::size_t after = loop_[corner].next;
+    triangles.emplace_back(face[before], face[corner], face[after]);
+    loop_[corner].clipped = true;
+    loop_[before].next = after;
+    loop_[after].previous = before;
+    for (const std::size_t i : {before, after}) {
+        loop_[i].pointed = area(loop_[i].previous, i, loop_[i].next) > 0;
+        // Their turn comes in the next round, also if it were due in this one: clipping every second corner of a chain
+        // makes fewer slivers than clipping one after another.
+        if (loop_[i].round > round_) continue;
+        loop_[i].round = round_ + 1;
+        nextCandidates_.push_back(i);
+    }
+}
+
+/// In rounds over the corners whose neighbours changed in the last one; when they are used up, over all.
 void PolygonSplitter::clipEars(const openvdb::Index32* face, std::vector<openvdb::Vec3I>& triangles)
 {
     const std::size_t count = loop_.size();
-    obstacles_.clear();
-    for (std::size_t i = 0; i < count; ++i) {
-        loop_[i].pointed = area(loop_[i].previous, i, loop_[i].next) > 0;
-        if (!loop_[i].pointed) obstacles_.emplace_back(loop_[i].x, i);
-    }
-    std::sort(obstacles_.begin(), obstacles_.end());
+    for (std::size_t i = 0; i < count; ++i) loop_[i].pointed = area(loop_[i].previous, i, loop_[i].next) > 0;
+    sortObstacles();
 
-    std::size_t corner = 0;
     std::size_t left = count;
-    std::size_t rejected = 0; // corners looked at since the last ear
-    std::size_t flat = count; // one of them that is flat or folded back, if any
-    while (left > 3 && rejected < left) {
-        const std::size_t before = loop_[corner].previous;
-        const std::size_t after = loop_[corner].next;
-        bool clip = isEar(corner);
-        if (!clip) {
-            if (area(before, corner, after) == 0) flat = corner;
-            ++rejected;
-            // No ear left: a corner without area may go, as it changes nothing of the outline.
-            if (rejected == left && flat != count) {
-                corner = flat;
-                clip = true;
-            }
-        }
-        if (!clip) {
-            corner = after;
+    std::size_t start = 0; // a corner that is left
+    bool all = false;
+    round_ = 0;
+    nextCandidates_.clear();
+    while (left > 3) {
+        const bool none = nextCandidates_.empty();
+        if (none && all) {
+            // No ear is left. A corner without area may go, as it changes nothing of the outline.
+            std::size_t flat = start;
+            do flat = loop_[flat].next;
+            while (flat != start && area(loop_[flat].previous, flat, loop_[flat].next) != 0);
+            if (area(loop_[flat].previous, flat, loop_[flat].next) != 0) break;
+            start = loop_[flat].next;
+            clip(flat, face, triangles);
+            --left;
+            all = false;
             continue;
         }
-        const std::size_t first = loop_[corner].previous;
-        const std::size_t last = loop_[corner].next;
-        triangles.emplace_back(face[first], face[corner], face[last]);
-        loop_[corner].clipped = true;
-        loop_[first].next = last;
-        loop_[last].previous = first;
-        for (const std::size_t i : {first, last}) {
-            loop_[i].pointed = area(loop_[i].previous, i, loop_[i].next) > 0;
+        all = none;
+        ++round_;
+        candidates_.swap(nextCandidates_);
+        nextCandidates_.clear();
+        if (all) {
+            candidates_.clear();
+            std::size_t corner = start;
+            do {
+                loop_[corner].round = round_;
+                candidates_.push_back(corner);
+                corner = loop_[corner].next;
+            } while (corner != start);
         }
-        // To skip a corner makes fewer slivers than to go on at the new edge.
-        corner = loop_[last].next;
-        --left;
-        rejected = 0;
-        flat = count;
+        for (const std::size_t corner : candidates_) {
+            if (loop_[corner].clipped || loop_[corner].round != round_ || !isEar(corner)) continue;
+            start = loop_[corner].next;
+            clip(corner, face, triangles);
+            if (--left == 3) break;
+        }
     }
     // The last triangle; or, where no corner is an ear, a face that crosses itself and has no right division.
-    fan(face, corner, triangles);
+    fan(face, start, triangles);
 }
 
 } // namespace vdbcage::detail

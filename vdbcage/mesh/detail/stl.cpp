@@ -190,9 +190,9 @@ PolygonSoup parseBinary(std::string_view bytes, const std::string& name)
     return soup;
 }
 
-/// A file whose size is the one that its header announces is binary. Of the others, one that begins with "solid" and
-/// has no zero byte near its start is ascii: the number of triangles and the attributes of a binary file have zero
-/// bytes.
+/// A file whose size is the one that its header announces is binary. Of the others (a cut-off binary file may be among
+/// them) one that begins with "solid" and has no zero byte near its start is ascii: in a binary file the number of
+/// triangles, if below 2^24, and the attributes have zero bytes.
 bool isAscii(std::string_view bytes)
 {
     if (bytes.size() >= headerSize) {
