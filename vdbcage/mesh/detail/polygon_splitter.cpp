@@ -100,7 +100,7 @@ void PolygonSplitter::project()
     const std::size_t count = local_.size();
     loop_.resize(count);
     for (std::size_t i = 0; i < count; ++i) {
-        loop_[i] = {local_[i][u], local_[i][v], (i + count - 1) % count, (i + 1) % count, false, false};
+        loop_[i] = {local_[i][u], local_[i][v], (i + count - 1) % count, (i + 1) % count, 0, false, false};
     }
 }
 
@@ -196,50 +196,72 @@ void PolygonSplitter::sortObstacles()
     }
 }
 
+void PolygonSplitter::clip(std::size_t corner, const openvdb::Index32* face, std::vector<openvdb::Vec3I>& triangles)
+{
+    const std::size_t before = loop_[corner].previous;
+    const std::size_t after = loop_[corner].next;
+    triangles.emplace_back(face[before], face[corner], face[after]);
+    loop_[corner].clipped = true;
+    loop_[before].next = after;
+    loop_[after].previous = before;
+    for (const std::size_t i : {before, after}) {
+        loop_[i].pointed = area(loop_[i].previous, i, loop_[i].next) > 0;
+        // Their turn comes in the next round, also if it were due in this one: clipping every second corner of a chain
+        // makes fewer slivers than clipping one after another.
+        if (loop_[i].round > round_) continue;
+        loop_[i].round = round_ + 1;
+        nextCandidates_.push_back(i);
+    }
+}
+
+/// In rounds over the corners whose neighbours changed in the last one; when they are used up, over all.
 void PolygonSplitter::clipEars(const openvdb::Index32* face, std::vector<openvdb::Vec3I>& triangles)
 {
     const std::size_t count = loop_.size();
     for (std::size_t i = 0; i < count; ++i) loop_[i].pointed = area(loop_[i].previous, i, loop_[i].next) > 0;
     sortObstacles();
 
-    std::size_t corner = 0;
     std::size_t left = count;
-    std::size_t rejected = 0; // corners looked at since the last ear
-    std::size_t flat = count; // one of them that is flat or folded back, if any
-    while (left > 3 && rejected < left) {
-        const std::size_t before = loop_[corner].previous;
-        const std::size_t after = loop_[corner].next;
-        bool clip = isEar(corner);
-        if (!clip) {
-            if (area(before, corner, after) == 0) flat = corner;
-            ++rejected;
-            // No ear left: a corner without area may go, as it changes nothing of the outline.
-            if (rejected == left && flat != count) {
-                corner = flat;
-                clip = true;
-            }
-        }
-        if (!clip) {
-            corner = after;
+    std::size_t start = 0; // a corner that is left
+    bool all = false;
+    round_ = 0;
+    nextCandidates_.clear();
+    while (left > 3) {
+        const bool none = nextCandidates_.empty();
+        if (none && all) {
+            // No ear is left. A corner without area may go, as it changes nothing of the outline.
+            std::size_t flat = start;
+            do flat = loop_[flat].next;
+            while (flat != start && area(loop_[flat].previous, flat, loop_[flat].next) != 0);
+            if (area(loop_[flat].previous, flat, loop_[flat].next) != 0) break;
+            start = loop_[flat].next;
+            clip(flat, face, triangles);
+            --left;
+            all = false;
             continue;
         }
-        const std::size_t first = loop_[corner].previous;
-        const std::size_t last = loop_[corner].next;
-        triangles.emplace_back(face[first], face[corner], face[last]);
-        loop_[corner].clipped = true;
-        loop_[first].next = last;
-        loop_[last].previous = first;
-        for (const std::size_t i : {first, last}) {
-            loop_[i].pointed = area(loop_[i].previous, i, loop_[i].next) > 0;
+        all = none;
+        ++round_;
+        candidates_.swap(nextCandidates_);
+        nextCandidates_.clear();
+        if (all) {
+            candidates_.clear();
+            std::size_t corner = start;
+            do {
+                loop_[corner].round = round_;
+                candidates_.push_back(corner);
+                corner = loop_[corner].next;
+            } while (corner != start);
         }
-        // To skip a corner makes fewer slivers than to go on at the new edge.
-        corner = loop_[last].next;
-        --left;
-        rejected = 0;
-        flat = count;
+        for (const std::size_t corner : candidates_) {
+            if (loop_[corner].clipped || loop_[corner].round != round_ || !isEar(corner)) continue;
+            start = loop_[corner].next;
+            clip(corner, face, triangles);
+            if (--left == 3) break;
+        }
     }
     // The last triangle; or, where no corner is an ear, a face that crosses itself and has no right division.
-    fan(face, corner, triangles);
+    fan(face, start, triangles);
 }
 
 } // namespace vdbcage::detail

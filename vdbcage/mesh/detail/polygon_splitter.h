@@ -25,6 +25,7 @@ private:
     struct Corner {
         double x, y;
         std::size_t previous, next;
+        std::size_t round;     ///< of clipping, in which its turn comes
         bool clipped, pointed; ///< pointed: its angle is below 180 degrees
     };
 
@@ -35,6 +36,7 @@ private:
     bool isFanApex(std::size_t apex) const;
     void fan(const openvdb::Index32* face, std::size_t apex, std::vector<openvdb::Vec3I>& triangles) const;
     void clipEars(const openvdb::Index32* face, std::vector<openvdb::Vec3I>& triangles);
+    void clip(std::size_t corner, const openvdb::Index32* face, std::vector<openvdb::Vec3I>& triangles);
     bool isEar(std::size_t corner) const;
     void sortObstacles();
     std::size_t cellIndex(double distance) const;
@@ -47,6 +49,8 @@ private:
     // from cellBegin_[c] to cellBegin_[c + 1].
     std::vector<std::size_t> obstacles_, cellBegin_;
     std::size_t side_ = 1;
+    std::vector<std::size_t> candidates_, nextCandidates_; // the corners to look at in this round and the next
+    std::size_t round_ = 0;
     double cellX_ = 0, cellY_ = 0, cellsPerUnit_ = 0;
 };
 
