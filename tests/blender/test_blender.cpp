@@ -20,9 +20,9 @@ BOOST_AUTO_TEST_CASE(blender_opens_every_stage_and_meshes_it_in_its_place)
         const auto mask = readVdb(std::filesystem::path(stages) / (std::string(stage) + ".vdb"));
         const double voxel = mask->voxelSize()[0];
         const openvdb::CoordBBox box = mask->evalActiveVoxelBoundingBox();
-        const openvdb::Vec3d half(0.5);
-        const openvdb::Vec3d low = mask->indexToWorld(box.min().asVec3d() - half);
-        const openvdb::Vec3d high = mask->indexToWorld(box.max().asVec3d() + half);
+        const openvdb::Vec3d corner(0.5);
+        const openvdb::Vec3d low = mask->indexToWorld(box.min().asVec3d() - corner);
+        const openvdb::Vec3d high = mask->indexToWorld(box.max().asVec3d() + corner);
         facts[stage]["voxel"] = voxel;
         facts[stage]["low"] = {low.x(), low.y(), low.z()};
         facts[stage]["high"] = {high.x(), high.y(), high.z()};

@@ -77,7 +77,7 @@ std::vector<BadModel> badModels()
                                 "property double z\nelement face 1\nproperty list uchar int vertex_indices\n"
                                 "end_header\n";
     return {
-        {"empty obj", "obj", "", "no face"},
+        {"empty obj", "obj", "", "empty"},
         {"empty off", "off", "", ""},
         {"empty ply", "ply", "", ""},
         {"empty stl", "stl", "", ""},
@@ -88,18 +88,15 @@ std::vector<BadModel> badModels()
         {"only a comment", "obj", "# nothing\n", "no face"},
         {"one vertex", "obj", "v 0 0 0\n", "no face"},
         {"vertices but no faces", "obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n", "no face"},
-        {"index 0", "obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 0 1 2\n", ":4"},
+        {"index 0", "obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 0 1 2\n", "line 4"},
         {"index out of range", "obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\n", "4"},
         {"relative index out of range", "obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf -1 -2 -4\n", "-4"},
-        {"face of two", "obj", good + "f 1 2\n", ":9"},
-        {"face without corners", "obj", good + "f\n", ":9"},
-        {"face of words", "obj", good + "f a b c\n", ":9"},
+        {"face of words", "obj", good + "f a b c\n", "line 9"},
         {"nan", "obj", "v nan 0 0\n" + good, "nan"},
         {"inf", "obj", "v 0 0 0\nv inf 0 0\nv 0 1 0\nf 1 2 3\n", "inf"},
         {"beyond doubles", "obj", "v 0 0 0\nv 1e400 0 0\nv 0 1 0\nf 1 2 3\n", "1e400"},
-        {"1e308", "obj", "v -1e308 0 0\nv 1e308 0 0\nv 0 1e308 0\nf 1 2 3\n", ""},
-        {"vertex of two", "obj", "v 0 0\n" + good, ":1"},
-        {"vertex of words", "obj", "v a b c\n" + good, ":1"},
+        {"vertex of two", "obj", "v 0 0\n" + good, "line 1"},
+        {"vertex of words", "obj", "v a b c\n" + good, "line 1"},
         {"only degenerate faces", "obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\nf 1 1 2\n", "degenerate"},
         {"no counts", "off", "OFF\n", ""},
         {"too few vertices", "off", "OFF\n3 1 0\n0 0 0\n1 0 0\n", ""},
@@ -144,6 +141,18 @@ BOOST_AUTO_TEST_CASE(bad_models)
                           {path, bad.mention});
             expectRefusal(folder, {command, "check", path, path}, {path, bad.mention});
         }
+    }
+}
+
+BOOST_AUTO_TEST_CASE(models_too_large_too_small_or_too_far)
+{
+    const TemporaryFolder folder;
+    const std::string path = folder / "model.obj";
+    for (const char* text :
+         {"v -1e308 0 0\nv 1e308 0 0\nv 0 1e308 0\nf 1 2 3\n", "v 0 0 0\nv 1e-300 0 0\nv 0 1e-300 0\nf 1 2 3\n",
+          "v 1e15 0 0\nv 1000000000000001 0 0\nv 1e15 1 0\nf 1 2 3\n"}) {
+        test::writeText(path, text);
+        expectRefusal(folder, {command, "make", path, "-o", folder / "cage.obj"}, {path, "longest side"});
     }
 }
 
@@ -213,7 +222,7 @@ BOOST_AUTO_TEST_CASE(bad_arguments)
                                                {"--resolution", "0"},
                                                {"--resolution", "100000"},
                                                {"--close-radius", "nan"},
-                                               {"--close-radius", "0.01", "--erode-radius", "0.02"},
+                                               {"--erode-radius", "0.02", "--close-radius", "0.01"},
                                                {"--element", "pyramid"},
                                                {"--mesh", "pentagons"},
                                                {"--bounding", "perhaps"},
@@ -281,6 +290,7 @@ BOOST_AUTO_TEST_CASE(poor_but_good_input_gets_a_cage)
         {"a flat sheet", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n"},
         {"some bad faces", good + "f 1 1 2\nf 2 2 2\n"},
         {"a line for a face among others", good + "v 2 0 0\nv 3 0 0\nv 4 0 0\nf 5 6 7\n"},
+        {"a face of two corners among others", good + "f 1 2\n"},
         {"windows line ends", "v 0 0 0\r\nv 1 0 0\r\nv 0 1 0\r\nf 1 2 3\r\n"}};
     for (const auto& model : models) {
         BOOST_TEST_CONTEXT(model.first)

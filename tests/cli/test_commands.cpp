@@ -47,6 +47,7 @@ BOOST_AUTO_TEST_CASE(make_leaves_cage_stages_report_and_picture)
     BOOST_TEST(checkCage(cage, readMesh(bishop)).bounding());
 
     const auto stages = folder / "stages";
+    openvdb::initialize();
     for (const char* name : {"solid", "dilated", "closed", "contour"}) {
         openvdb::io::File file((stages / (std::string(name) + ".vdb")).string());
         file.open();

@@ -204,7 +204,8 @@ BOOST_AUTO_TEST_CASE(extensions_are_known)
     for (const char* name : {"a.obj", "a.off", "a.ply", "a.stl", "b/a.OBJ", "a.b.Stl"}) {
         BOOST_CHECK_NO_THROW(requireMeshExtension(name));
     }
-    for (const char* name : {"a", "a.ob", "a.objx", "obj", ".obj"}) BOOST_CHECK_THROW(requireMeshExtension(name), IoError);
+    for (const char* name : {"a", "a.ob", "a.objx", "obj", ".obj"})
+        BOOST_CHECK_THROW(requireMeshExtension(name), IoError);
 }
 
 BOOST_AUTO_TEST_CASE(what_cannot_be_written_leaves_no_file)

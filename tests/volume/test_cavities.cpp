@@ -109,8 +109,8 @@ BOOST_AUTO_TEST_CASE(nested_shells)
     }
     requireSameAsFlood(set);
     BOOST_TEST(cavitiesOf(*toGrid(set)) == 2U);
-    set.set(Coord(17, 0, 0), false); // a hole through part of the outer wall only
-    BOOST_TEST(cavitiesOf(*toGrid(set)) == 2U);
+    set.set(Coord(17, 0, 0), false); // within the outer wall: a cavity of its own
+    BOOST_TEST(cavitiesOf(*toGrid(set)) == 3U);
     for (int x = 14; x < 20; ++x) set.set(Coord(x, 0, 0), false);
     BOOST_TEST(cavitiesOf(*toGrid(set)) == 1U);
     requireSameAsFlood(set);

@@ -54,6 +54,20 @@ void requireSensible(const MakeArguments& arguments)
     requireValid(arguments.options);
 }
 
+/// Runs the pipeline; an objection to the model names its file.
+Pipeline makePipeline(Mesh model, const MakeArguments& arguments, Interrupter& interrupter)
+{
+    try {
+        Pipeline pipeline(std::move(model));
+        pipeline.run(arguments.options, &interrupter);
+        return pipeline;
+    } catch (const InputError& error) {
+        const std::string text = error.what(), prefix = "model: ";
+        if (text.compare(0, prefix.size(), prefix) != 0) throw;
+        throw InputError(arguments.model.string() + ": " + text.substr(prefix.size()));
+    }
+}
+
 void addStages(const Pipeline& pipeline, const MakeArguments& arguments, Interrupter* interrupter, Outputs& outputs)
 {
     const fs::path& folder = arguments.stages;
@@ -146,8 +160,8 @@ int runMake(std::vector<std::string> words)
     const Json modelReport = toJson(summary, model, arguments.model);
     reading.reset();
 
-    Pipeline pipeline(std::move(model));
-    const Mesh& cage = pipeline.run(arguments.options, &clock);
+    Pipeline pipeline = makePipeline(std::move(model), arguments, clock);
+    const Mesh& cage = pipeline.cage();
 
     std::optional<Stage> writing(std::in_place, &clock, "write");
     outputs.add(arguments.cage, [&](const fs::path& path) { writeMesh(cage, path); });

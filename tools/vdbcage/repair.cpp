@@ -36,7 +36,8 @@ int runRepair(std::vector<std::string> words)
     std::filesystem::path cagePath, outputPath, reportPath;
     bool quiet = false;
     CLI::App app("vdbcage repair CAGE -o OUT [OPTIONS]\n"
-                 "Stitches, orients, fills holes and removes self-intersections; the result is triangles.",
+                 "Stitches, orients, fills holes and removes self-intersections.\n"
+                 "The result is triangles.",
                  "repair");
     app.add_option("cage", cagePath)->required()->type_name("CAGE");
     app.add_option("-o,--output", outputPath, "the mended cage to write")->required()->type_name("OUT");

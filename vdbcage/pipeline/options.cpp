@@ -57,7 +57,11 @@ std::string numberText(Number value)
 
 std::string rangeText(const OptionInfo& info)
 {
-    return numberText(info.least) + " to " + numberText(info.most);
+    // Whole numbers in full: 1000000, not 1e+06.
+    const auto text = [](double value) {
+        return value == std::floor(value) ? numberText(static_cast<long>(value)) : numberText(value);
+    };
+    return text(info.least) + " to " + text(info.most);
 }
 
 [[noreturn]] void refuse(const OptionInfo& info, const std::string& value, const std::string& allowed)

@@ -49,9 +49,9 @@ void visitOptions(Options& options, Visit&& visit)
     using In = PipelineStage;
     visit(OptionInfo{"faces", "N", "faces of the cage, at most", In::decimate, 12, 1000000}, options.faces);
     visit(OptionInfo{"resolution", "N", "voxels along the longest side", In::voxelize, 8, 2048}, options.resolution);
-    visit(OptionInfo{"close-radius", "F", "closes gaps up to twice this wide", In::close, 0, 0.25},
+    visit(OptionInfo{"close-radius", "F", "bridges gaps up to twice it", In::close, 0, 0.25},
           options.closeRadius);
-    visit(OptionInfo{"erode-radius", "F", "less than that leaves an offset", In::close, 0, 0.25}, options.erodeRadius);
+    visit(OptionInfo{"erode-radius", "F", "if less, leaves an offset", In::close, 0, 0.25}, options.erodeRadius);
     visit(OptionInfo{"element", "", "shape of the closing", In::close}, options.element);
     visit(OptionInfo{"smooth", "K", "smoothing iterations", In::smooth, 0, 100}, options.smooth);
     visit(OptionInfo{"mesh", "", "faces of the cage", In::merge}, options.mesh);

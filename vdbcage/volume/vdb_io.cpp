@@ -109,7 +109,7 @@ void writeVdb(const MaskGrid& mask, const std::filesystem::path& path,
     openvdb::initialize();
     const auto tree = std::make_shared<openvdb::FloatTree>(mask.tree(), 0.0F, 1.0F, openvdb::TopologyCopy());
     const auto grid = FloatGrid::create(tree);
-    grid->setTransform(detail::copyTransform(mask.transform()));
+    detail::copyTransform(mask, *grid);
     grid->setName(gridName);
     grid->setGridClass(openvdb::GRID_FOG_VOLUME);
     grid->setCreator("vdbcage " VDBCAGE_VERSION);

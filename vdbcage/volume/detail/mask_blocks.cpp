@@ -156,7 +156,7 @@ MaskTree::Ptr assemble(const FullParts& full, std::vector<BuiltBlock> built)
     for (auto& [origin, region] : regions) {
         if (!region || (region->isChildMaskOff() && region->isValueMaskOn())) {
             tree->root().addTile(origin, true, true);
-        } else if (!region->isEmpty()) {
+        } else if (!region->isChildMaskOff() || !region->isValueMaskOff()) { // isEmpty() knows of children only
             tree->root().addChild(region.release());
         }
     }
