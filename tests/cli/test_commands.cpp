@@ -9,6 +9,7 @@
 #include <support/shapes.h>
 #include <vdbcage/check/check.h>
 #include <vdbcage/mesh/mesh_io.h>
+#include <vdbcage/surface/repair.h>
 #include <vdbcage/volume/vdb_io.h>
 
 using namespace vdbcage;
@@ -137,7 +138,10 @@ BOOST_AUTO_TEST_CASE(render_draws_models_cages_and_volumes)
 
 BOOST_AUTO_TEST_CASE(repair_mends_a_cage)
 {
-    if (runCommand({command, "repair", "--help"}).status != 0) return;
+    if (!hasRepair()) {
+        BOOST_TEST(runCommand({command, "repair", bishop, "-o", "mended.obj"}).status == 1);
+        return;
+    }
     const TemporaryFolder folder;
     Mesh open = test::sphere({0, 0, 0}, 1, 12);
     open.quads.resize(open.quads.size() - 3);

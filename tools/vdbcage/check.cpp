@@ -17,8 +17,8 @@ int runCheck(std::vector<std::string> words)
     std::filesystem::path cagePath, modelPath, reportPath;
     bool quiet = false;
     CLI::App app("vdbcage check CAGE MODEL [OPTIONS]\n"
-                 "Examines a cage against its model. Exit status 2: it is not a valid cage, or does\n"
-                 "not bound the model.",
+                 "Examines a cage against its model.\n"
+                 "Exit status 2: it is not a valid cage, or does not bound the model.",
                  "check");
     app.add_option("cage", cagePath)->required()->type_name("CAGE");
     app.add_option("model", modelPath)->required()->type_name("MODEL");

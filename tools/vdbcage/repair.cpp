@@ -63,7 +63,8 @@ int runRepair(std::vector<std::string> words)
     }
     progress.reset();
     if (!quiet) {
-        for (const auto& fact : toJson(report).items()) std::cerr << "  " << fact.key() << ": " << fact.value() << '\n';
+        const Json facts = toJson(report);
+        for (const auto& fact : facts.items()) std::cerr << "  " << fact.key() << ": " << fact.value() << '\n';
     }
     return exitGood;
 }

@@ -11,6 +11,7 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_sort.h>
+#include <vdbcage/core/detail/mask_grid.h>
 #include <vdbcage/core/error.h>
 
 namespace vdbcage {
@@ -278,7 +279,8 @@ void number(std::vector<SurfaceBlock>& blocks, Mesh& mesh)
 
 openvdb::MaskGrid::Ptr makeWellComposed(const openvdb::MaskGrid& solid, Interrupter* interrupter)
 {
-    openvdb::MaskGrid::Ptr result = solid.deepCopy();
+    const openvdb::MaskGrid::Ptr result =
+        detail::maskGridLike(solid, std::make_shared<openvdb::MaskTree>(solid.tree()));
     Tree& tree = result->tree();
     // Voxels are added inside the box of those that are there, so this ends.
     for (std::vector<Coord> blocks = surfaceBlocks(tree, interrupter); !blocks.empty();) {

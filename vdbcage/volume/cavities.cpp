@@ -14,7 +14,7 @@
 #include <tbb/parallel_for.h>
 
 #include <vdbcage/volume/detail/mask_blocks.h>
-#include <vdbcage/volume/detail/mask_grid.h>
+#include <vdbcage/core/detail/mask_grid.h>
 
 namespace vdbcage {
 

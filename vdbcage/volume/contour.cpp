@@ -6,7 +6,7 @@
 #include <tbb/parallel_for.h>
 
 #include <vdbcage/volume/detail/contour_leaves.h>
-#include <vdbcage/volume/detail/mask_grid.h>
+#include <vdbcage/core/detail/mask_grid.h>
 
 namespace vdbcage {
 

@@ -7,7 +7,7 @@
 
 #include <vdbcage/core/error.h>
 #include <vdbcage/volume/detail/cube_pass.h>
-#include <vdbcage/volume/detail/mask_grid.h>
+#include <vdbcage/core/detail/mask_grid.h>
 #include <vdbcage/volume/detail/sphere_pass.h>
 
 namespace vdbcage {

@@ -14,7 +14,7 @@
 #include <vdbcage/core/atomic_file.h>
 #include <vdbcage/core/error.h>
 #include <vdbcage/core/version.h>
-#include <vdbcage/volume/detail/mask_grid.h>
+#include <vdbcage/core/detail/mask_grid.h>
 
 namespace vdbcage {
 
