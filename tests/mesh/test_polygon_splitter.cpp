@@ -165,6 +165,9 @@ BOOST_DATA_TEST_CASE(ragged_stars_are_divided_without_overlap, boost::unit_test:
     }
     const Loop loop = placed(star, random);
     checkTriangles(loop, split(loop).triangles);
+    Loop doubled; // so that no corner has an area
+    for (const Vec3d& p : loop) doubled.insert(doubled.end(), 2, p);
+    checkTriangles(doubled, split(doubled).triangles);
 }
 
 BOOST_DATA_TEST_CASE(combs_and_spirals_are_divided_without_overlap, boost::unit_test::data::xrange(40))
@@ -223,6 +226,15 @@ BOOST_AUTO_TEST_CASE(a_hole_joined_to_the_outline_by_a_cut_is_left_open)
             inside = inside && (loop[t[(i + 1) % 3]] - loop[t[i]]).cross(inHole - loop[t[i]]).z() > 0;
         }
         BOOST_TEST(!inside);
+    }
+}
+
+BOOST_AUTO_TEST_CASE(a_flat_corner_on_one_side_of_a_cut_is_in_nobodys_way)
+{
+    Loop loop = flat({{0, 0}, {9, 0}, {9, 9}, {0, 9}, {0, 0}, {1.5, 1.5}, {3, 3}, {3, 6}, {6, 6}, {6, 3}, {3, 3}});
+    for (std::size_t turn = 0; turn < loop.size(); ++turn) {
+        checkTriangles(loop, split(loop).triangles);
+        std::rotate(loop.begin(), loop.begin() + 1, loop.end());
     }
 }
 
