@@ -104,6 +104,9 @@ inline std::vector<HardModel> hardModels()
     Mesh saddle;
     saddle.points = {{0, 0, 0}, {10, 0, 6}, {10, 10, 0}, {0, 10, 6}};
     saddle.quads = {{0, 1, 2, 3}};
+    Mesh pyramid; // faces of more than 64 voxels
+    pyramid.points = {{0, 0, 0}, {1, 0.1, 0.2}, {0.1, 0.9, 0.3}, {0.3, 0.2, 0.8}};
+    pyramid.triangles = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
     const Mesh ball = sphere(Vec3d(0.3, 0.1, -0.2), 1, 8);
     return {
         {"triangle", triangle, 20},
@@ -113,7 +116,7 @@ inline std::vector<HardModel> hardModels()
         {"degenerate faces", degenerate, 24},
         {"saddle quad", saddle, 30},
         {"sphere", ball, 25},
-        {"octahedron of large faces", sphere(Vec3d(0.1, 0.2, 0.3), 1, 2), 100},
+        {"pyramid", pyramid, 80},
         {"sphere, half reversed", halfReversed(ball), 24},
         {"box on voxel centres", box(Vec3d(0), Vec3d(8, 6, 4)), 8},
         {"box on voxel borders", box(Vec3d(0), Vec3d(8, 5, 3)), 8},

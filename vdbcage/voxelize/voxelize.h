@@ -9,7 +9,7 @@ namespace vdbcage {
 
 /// Which code turns the model into voxels. All of them give the same bits on closed models.
 enum class Voxelizer {
-    automatic, ///< the fastest of those that this build and machine have
+    automatic, ///< the fastest of those that this build and machine have (now: cpu)
     cpu,       ///< exact, TBB-parallel; the reference
     gl,        ///< OpenGL 4.5 shaders
     cgal       ///< CGAL, optional GPL part
@@ -20,19 +20,37 @@ struct VoxelizeOptions {
     Voxelizer voxelizer = Voxelizer::automatic;
 };
 
-/// Turns any polygon soup into a solid: the voxels whose closed cube meets a face, and those inside.
+/// Turns any polygon soup into a solid: the voxels that a face touches, and those inside.
 ///
-/// Voxel ijk is the unit cube centred at ijk in index space; the voxel size is the longest side of the model's
-/// bounding box divided by the resolution, and the transform of the grid says where it lies. Faces are taken with
-/// their points rounded to a lattice of 2^-14 voxel and cubes grown by as much, so that no voxel that a face of the
-/// unrounded model touches is ever missed. A voxel is inside if rays along at least two of the three axes through its
-/// centre cross the surface an odd number of times, or if no path of face-connected empty voxels joins it to the
-/// outside; so open, self-intersecting, badly oriented and multi-part models become solids too. Quads count under
-/// both diagonals.
+/// Where the voxels are. Voxel ijk is the unit cube centred at ijk in index space; the voxel size is the longest side
+/// of the model's bounding box divided by the resolution, and the transform of the grid, a uniform scale and a
+/// translation, says where it lies. The centre of the bounding box is at the index resolution / 2 on each axis, so the
+/// ends of the longest side are at 0 and `resolution`, in the middle of a voxel: that side gets resolution + 1 voxels,
+/// all indices are in [0, resolution], and a model with a plane of symmetry across an axis through its middle gets
+/// mirrored voxels. Moving or scaling the model moves or scales the transform and, but for rounding, changes no voxel.
 ///
-/// \throw InputError an empty or non-finite model, a resolution out of range, a model too small for its distance from
-///        the origin; DeviceError the chosen voxelizer is not to be had; Cancelled
-/// Cost: O(faces + surface voxels + resolution^3 / 64) time, resolution^3 / 4 bytes of memory (grid and flood).
+/// What is touched. The model is rounded to a lattice of 2^-14 voxel and cubes are grown by one lattice unit on each
+/// side, more than the rounding can amount to. On these integers the answer is exact; so every voxel is set whose
+/// closed cube meets a face of the model as given, and none whose cube is farther than 2^-12 voxel from all of them.
+/// Quads count under both diagonals; degenerate faces count as the segments and points that they are.
+///
+/// What is inside. A voxel whose centre is an odd number of crossings away from the outside on rays along at least two
+/// of the three axes (a quad counts under its diagonal 0-2); and then every voxel that no path of face-connected voxels
+/// neither touched nor inside joins to the outside, so the solid has no cavities. Orientation plays no part. Open,
+/// self-intersecting and multi-part models become solids too: a bowl is filled to its rim.
+///
+/// \throw InputError the resolution is out of range; what requireUsable() refuses; the longest side is not in
+///        [1e-100, 1e100]; a voxel is smaller than 2^-37 (7e-12) of the largest absolute coordinate, so that a model
+///        far from the origin has no room for its digits. DeviceError the chosen voxelizer is not in this build.
+///        Cancelled
+///
+/// Cost: O(faces + touched voxels + box / 64) time, where box is the number of voxels of the bounding box, at most
+/// (resolution + 1)^3; box / 7 bytes and a few planes a thread, up to box / 5 bytes more where much of the box is
+/// hidden in hollows. TBB-parallel; the result does not depend on the number of threads.
+///
+/// The transform can have a voxel size below 1.44e-5, the smallest that OpenVDB's own constructors take; functions of
+/// OpenVDB that build a new map from it (getAffineMap, postTranslate) throw ArithmeticError for such a grid.
+///
 /// Based on: Akenine-Moller, Fast 3D Triangle-Box Overlap Testing, 2001; Schwarz and Seidel, Fast Parallel Surface and
 /// Solid Voxelization on GPUs, 2010; Nooruddin and Turk, Simplification and Repair of Polygonal Models Using
 /// Volumetric Techniques, 2003 (votes of parity counts).

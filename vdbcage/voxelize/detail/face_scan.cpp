@@ -311,7 +311,7 @@ std::size_t scan(const Face& face, bool counted, const Slab& slab, ScanBuffer& b
 template <typename Wide>
 void scanAlongX(const Face& face, const Span& planes, std::uint64_t* bits, int wordsPerRow)
 {
-    const Span xs = intersection({0, face.size[0] - 1}, {planes.first - face.lowest[0], planes.last - face.lowest[0]});
+    const Span xs = planesIn(face, planes);
     if (xs.empty()) return;
     Projection projection;
     face.project(0, projection);
