@@ -245,6 +245,10 @@ BOOST_AUTO_TEST_CASE(permissions)
     const TemporaryFolder folder;
     namespace fs = std::filesystem;
     fs::permissions(folder.path(), fs::perms::all);
+    // A copy that everybody can reach, wherever this was built.
+    const std::string reachable = folder / "vdbcage";
+    fs::copy_file(command, reachable);
+    fs::permissions(reachable, fs::perms::owner_all | fs::perms::others_read | fs::perms::others_exec);
     const std::string model = folder / "model.obj", secret = folder / "secret.obj", fixed = folder / "fixed.obj";
     test::writeText(model, good);
     test::writeText(secret, good);
@@ -254,9 +258,9 @@ BOOST_AUTO_TEST_CASE(permissions)
     fs::create_directory(folder / "closed");
     fs::permissions(folder / "closed",
                     fs::perms::owner_read | fs::perms::owner_exec | fs::perms::others_read | fs::perms::others_exec);
-    expectRefusal(folder, asNobody({command, "make", secret, "-o", folder / "cage.obj"}), {"secret.obj", "ermission"});
-    expectRefusal(folder, asNobody({command, "make", model, "-o", fixed}), {"fixed.obj", "ermission"});
-    expectRefusal(folder, asNobody({command, "make", model, "-o", folder / "closed/cage.obj"}),
+    expectRefusal(folder, asNobody({reachable, "make", secret, "-o", folder / "cage.obj"}), {"secret.obj", "ermission"});
+    expectRefusal(folder, asNobody({reachable, "make", model, "-o", fixed}), {"fixed.obj", "ermission"});
+    expectRefusal(folder, asNobody({reachable, "make", model, "-o", folder / "closed/cage.obj"}),
                   {"closed", "ermission"});
 }
 
