@@ -11,10 +11,12 @@
 #include <vdbcage/mesh/topology.h>
 #include <vdbcage/pipeline/options.h>
 #include <vdbcage/pipeline/pipeline.h>
+#include <vdbcage/surface/bounding_guard.h>
 #include <vdbcage/surface/decimate.h>
 #include <vdbcage/surface/extract.h>
 #include <vdbcage/surface/repair.h>
 #include <vdbcage/surface/smooth.h>
+#include <vdbcage/surface/tighten.h>
 #include <vdbcage/surface/triquad.h>
 #include <vdbcage/volume/cavities.h>
 #include <vdbcage/volume/contour.h>

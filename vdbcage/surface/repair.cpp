@@ -11,10 +11,10 @@
 #include <CGAL/Polygon_mesh_processing/orient_polygon_soup.h>
 #include <CGAL/Polygon_mesh_processing/orientation.h>
 #include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
-#include <CGAL/Polygon_mesh_processing/repair_self_intersections.h>
 #include <CGAL/Polygon_mesh_processing/repair.h>
 #include <CGAL/Polygon_mesh_processing/repair_degeneracies.h>
 #include <CGAL/Polygon_mesh_processing/repair_polygon_soup.h>
+#include <CGAL/Polygon_mesh_processing/repair_self_intersections.h>
 #include <CGAL/Polygon_mesh_processing/self_intersections.h>
 #include <CGAL/Polygon_mesh_processing/stitch_borders.h>
 #include <CGAL/Polygon_mesh_processing/triangulate_hole.h>
@@ -81,11 +81,10 @@ Mesh repair(const Mesh& cage, RepairReport* report, Interrupter* interrupter)
     // As a soup: one point a place, no degenerate face, no face twice.
     done.mergedPoints = pmp::merge_duplicate_points_in_polygon_soup(points, polygons);
     const std::size_t before = polygons.size();
-    polygons.erase(std::remove_if(polygons.begin(), polygons.end(),
-                                  [&](const Polygon& t) {
-                                      return CGAL::collinear(points[t[0]], points[t[1]], points[t[2]]);
-                                  }),
-                   polygons.end());
+    polygons.erase(
+        std::remove_if(polygons.begin(), polygons.end(),
+                       [&](const Polygon& t) { return CGAL::collinear(points[t[0]], points[t[1]], points[t[2]]); }),
+        polygons.end());
     pmp::merge_duplicate_polygons_in_polygon_soup(
         points, polygons, pmp::parameters::erase_all_duplicates(false).require_same_orientation(false));
     done.removedFaces = before - polygons.size();
@@ -138,7 +137,8 @@ Mesh repair(const Mesh& cage, RepairReport* report, Interrupter* interrupter)
     const auto edgesAfter = directedEdges(points, after);
     done.reoriented = std::any_of(edgesBefore.begin(), edgesBefore.end(), [&](const auto& edge) {
         return !std::binary_search(edgesAfter.begin(), edgesAfter.end(), edge) &&
-               std::binary_search(edgesAfter.begin(), edgesAfter.end(), std::array<Kernel::Point_3, 2>{edge[1], edge[0]});
+               std::binary_search(edgesAfter.begin(), edgesAfter.end(),
+                                  std::array<Kernel::Point_3, 2>{edge[1], edge[0]});
     });
     if (report) *report = done;
     return mended;

@@ -1,0 +1,231 @@
+#include <boost/test/unit_test.hpp>
+
+#include <cmath>
+#include <random>
+
+#include <vdbcage/core/error.h>
+#include <vdbcage/surface/bounding_guard.h>
+#include <vdbcage/surface/detail/guard_model.h>
+#include <vdbcage/surface/detail/guarded_surface.h>
+
+#include "support/shapes.h"
+
+using namespace vdbcage;
+using detail::Box;
+using detail::Corners;
+using detail::Fan;
+using detail::GuardedSurface;
+using openvdb::Vec3d;
+
+namespace {
+
+Vec3d randomPoint(std::mt19937& random, double size = 1)
+{
+    std::uniform_real_distribution<double> coordinate(-size, size);
+    return {coordinate(random), coordinate(random), coordinate(random)};
+}
+
+Corners randomTriangle(std::mt19937& random, double size)
+{
+    const Vec3d centre = randomPoint(random);
+    return {centre + randomPoint(random, size), centre + randomPoint(random, size), centre + randomPoint(random, size)};
+}
+
+Mesh soup(std::mt19937& random, int triangles, double size)
+{
+    Mesh mesh;
+    for (int i = 0; i < triangles; ++i) {
+        const auto first = static_cast<openvdb::Index32>(mesh.points.size());
+        for (const Vec3d& p : randomTriangle(random, size)) mesh.points.push_back(p);
+        mesh.triangles.emplace_back(first, first + 1, first + 2);
+    }
+    return mesh;
+}
+
+/// Two pyramids base to base: point 0 is the top, 1 the bottom, then `sides` around.
+Mesh bipyramid(const Vec3d& centre, double size, int sides = 6)
+{
+    Mesh mesh;
+    mesh.points = {centre + Vec3d(0, 0, size), centre - Vec3d(0, 0, size)};
+    for (int i = 0; i < sides; ++i) {
+        const double angle = 6.283185307179586 * i / sides;
+        mesh.points.push_back(centre + size * Vec3d(std::cos(angle), std::sin(angle), 0));
+    }
+    for (int i = 0; i < sides; ++i) {
+        const auto a = static_cast<openvdb::Index32>(2 + i), b = static_cast<openvdb::Index32>(2 + (i + 1) % sides);
+        mesh.triangles.emplace_back(0U, a, b);
+        mesh.triangles.emplace_back(1U, b, a);
+    }
+    return mesh;
+}
+
+BoundingGuard guardOf(const Mesh& model, double minAngle = 0, double clearance = 1e-4)
+{
+    GuardOptions options;
+    options.clearance = clearance;
+    options.minAngleDegrees = minAngle;
+    return BoundingGuard(model, options);
+}
+
+/// Whether the top of `surface` (its point 0) may go to `p`.
+bool topMayGo(const Mesh& surface, const BoundingGuard& guard, const Vec3d& p)
+{
+    const GuardedSurface guarded(surface, guard.model());
+    return guarded.allows(guarded.fanOf(0), guard.model().rounded(guard.model().scaled(p)));
+}
+
+const Mesh inLowerHalf = test::box({-0.1, -0.1, -0.5}, {0.1, 0.1, -0.3});
+
+} // namespace
+
+BOOST_AUTO_TEST_SUITE(bounding_guard)
+
+BOOST_AUTO_TEST_CASE(nearness_is_never_more_than_between_any_two_points_and_is_reached)
+{
+    std::mt19937 random(1);
+    int crossing = 0;
+    for (int round = 0; round < 3000; ++round) {
+        Corners a = randomTriangle(random, round % 3 == 0 ? 0.3 : 1.5), b = randomTriangle(random, 0.5);
+        if (round % 7 == 0) a[2] = a[1];                        // a segment
+        if (round % 11 == 0) b[1] = b[2] = b[0];                // a point
+        if (round % 13 == 0) b[0] = 0.5 * (a[0] + a[1]);        // a touch
+        if (round % 17 == 0) b[1] = b[0] + 2.0 * (a[1] - a[0]); // parallel edges
+        const detail::Nearness near = detail::nearness(a, b);
+        double sampled = 1e9;
+        constexpr int steps = 12;
+        for (int i = 0; i <= steps; ++i) {
+            for (int j = 0; i + j <= steps; ++j) {
+                const Vec3d p = a[0] + (double(i) / steps) * (a[1] - a[0]) + (double(j) / steps) * (a[2] - a[0]);
+                sampled = std::min(sampled, (detail::closestPointOnTriangle(p, b) - p).lengthSqr());
+            }
+        }
+        BOOST_REQUIRE_LE(near.squaredDistance, sampled + 1e-12);
+        if (near.squaredDistance == 0) {
+            ++crossing;
+            continue;
+        }
+        BOOST_REQUIRE_SMALL((near.onFirst - near.onSecond).lengthSqr() - near.squaredDistance, 1e-12);
+        BOOST_REQUIRE_SMALL((detail::closestPointOnTriangle(near.onFirst, a) - near.onFirst).length(), 1e-9);
+        BOOST_REQUIRE_SMALL((detail::closestPointOnTriangle(near.onSecond, b) - near.onSecond).length(), 1e-9);
+        // Refined around the nearest points, sampling comes as near.
+        BOOST_REQUIRE_LE(std::sqrt(near.squaredDistance), std::sqrt(sampled) + 1e-9);
+    }
+    BOOST_TEST(crossing > 100);
+}
+
+BOOST_AUTO_TEST_CASE(clearance_agrees_with_every_triangle_asked_one_by_one)
+{
+    std::mt19937 random(2);
+    for (const double clearance : {1e-6, 1e-2}) {
+        const Mesh model = soup(random, 300, 0.1);
+        const BoundingGuard guard = guardOf(model, 0, clearance);
+        int clear = 0;
+        for (int round = 0; round < 2000; ++round) {
+            const Corners world = randomTriangle(random, round % 2 ? 0.1 : 0.4);
+            const auto scaled = [&](const Vec3d& p) { return guard.model().scaled(p); };
+            const Corners t{scaled(world[0]), scaled(world[1]), scaled(world[2])};
+            bool expected = true;
+            for (const auto& m : model.triangles) {
+                const Corners other{model.points[m[0]], model.points[m[1]], model.points[m[2]]};
+                expected &= detail::nearness(world, other).squaredDistance >= guard.clearance() * guard.clearance();
+            }
+            std::uint32_t blocker = detail::TriangleTree::none;
+            BOOST_REQUIRE_EQUAL(guard.model().clear(t, detail::TriangleTree::none, &blocker), expected);
+            BOOST_REQUIRE_EQUAL(blocker == detail::TriangleTree::none, expected);
+            if (!expected) BOOST_REQUIRE(!guard.model().clear(t, blocker, nullptr));
+            clear += expected;
+        }
+        BOOST_TEST(clear > 200);
+        BOOST_TEST(clear < 1800);
+    }
+}
+
+// Each of the next four fails if the test of the guard that it is named after is taken out.
+
+BOOST_AUTO_TEST_CASE(clearance_to_the_model_is_kept)
+{
+    const Mesh model = test::box({-0.1, -0.1, -0.1}, {0.1, 0.1, 0.1});
+    const Mesh surface = bipyramid({0, 0, 0}, 1);
+    BOOST_TEST(topMayGo(surface, guardOf(model), {0, 0, 0.3}));
+    BOOST_TEST(!topMayGo(surface, guardOf(model), {0, 0, 0.05}));
+    // Clear of the model, but not by enough.
+    BOOST_TEST(topMayGo(surface, guardOf(model, 0, 1e-3), {0, 0, 0.13}));
+    BOOST_TEST(!topMayGo(surface, guardOf(model, 0, 0.1), {0, 0, 0.13}));
+}
+
+BOOST_AUTO_TEST_CASE(the_rest_of_the_surface_is_not_touched)
+{
+    const Mesh model = test::joined(inLowerHalf, test::box({-0.05, -0.05, 1.9}, {0.05, 0.05, 2.0}));
+    const Mesh surface = test::joined(bipyramid({0, 0, 0}, 1), bipyramid({0, 0, 1.8}, 0.5));
+    const BoundingGuard guard = guardOf(model);
+    BOOST_TEST(topMayGo(surface, guard, {0, 0, 1.2}));
+    BOOST_TEST(!topMayGo(surface, guard, {0, 0, 1.5}));
+    BOOST_TEST(!topMayGo(surface, guard, {0, 0, 1.3})); // tip on tip
+}
+
+BOOST_AUTO_TEST_CASE(triangles_do_not_fold_onto_each_other)
+{
+    const BoundingGuard guard = guardOf(inLowerHalf);
+    const Mesh surface = bipyramid({0, 0, 0}, 1);
+    BOOST_TEST(topMayGo(surface, guard, {0.1, 0.05, 0}));
+    BOOST_TEST(!topMayGo(surface, guard, {3, 0.3, 0})); // flat, and over its own ring
+}
+
+BOOST_AUTO_TEST_CASE(parts_of_the_model_are_not_swept_over)
+{
+    const Mesh surface = bipyramid({0, 0, 0}, 1);
+    const Mesh speck = test::box({0.199, -0.001, 0.499}, {0.201, 0.001, 0.501});
+    BOOST_TEST(topMayGo(surface, guardOf(inLowerHalf), {0, 0, 0.05}));
+    BOOST_TEST(!topMayGo(surface, guardOf(test::joined(inLowerHalf, speck)), {0, 0, 0.05}));
+    BOOST_TEST(topMayGo(surface, guardOf(test::joined(inLowerHalf, speck)), {0, 0, 0.8}));
+}
+
+BOOST_AUTO_TEST_CASE(triangles_keep_their_shape)
+{
+    const Mesh surface = bipyramid({0, 0, 0}, 1);
+    const Vec3d nearRing(0.8, 0, 0.1);
+    BOOST_TEST(topMayGo(surface, guardOf(inLowerHalf, 0), nearRing));
+    BOOST_TEST(!topMayGo(surface, guardOf(inLowerHalf, 15), nearRing));
+    // On the line between two points of the ring: no area.
+    BOOST_TEST(!topMayGo(surface, guardOf(inLowerHalf, 0), 0.5 * (surface.points[2] + surface.points[3])));
+}
+
+BOOST_AUTO_TEST_CASE(changes_made_side_by_side_do_not_run_into_each_other)
+{
+    // Either tip may cross the middle alone, not both.
+    const Mesh model = test::joined(inLowerHalf, test::box({-0.05, -0.05, 3.35}, {0.05, 0.05, 3.4}));
+    const Mesh surface = test::joined(bipyramid({0, 0, 0}, 1), bipyramid({0, 0, 3}, 1));
+    const BoundingGuard guard = guardOf(model);
+    GuardedSurface guarded(surface, guard.model());
+    const Fan below = guarded.fanOf(0), above = guarded.fanOf(9);
+    const Vec3d up = guard.model().rounded(guard.model().scaled({0, 0, 1.6}));
+    const Vec3d down = guard.model().rounded(guard.model().scaled({0, 0, 1.4}));
+    BOOST_REQUIRE(guarded.allows(below, up));
+    BOOST_REQUIRE(guarded.allows(above, down));
+    GuardedSurface::Batch batch(guarded);
+    BOOST_TEST(batch.apply(below, up));
+    BOOST_TEST(!batch.apply(above, down));
+    // Nor are neighbours moved on what they no longer see.
+    BOOST_TEST(!batch.apply(guarded.fanOf(2), guarded.point(2)));
+}
+
+BOOST_AUTO_TEST_CASE(bad_options_and_surfaces_are_refused)
+{
+    BOOST_CHECK_THROW(guardOf(inLowerHalf, 0, 0), InputError);
+    BOOST_CHECK_THROW(guardOf(inLowerHalf, 0, std::nan("")), InputError);
+    BOOST_CHECK_THROW(guardOf(inLowerHalf, 31), InputError);
+    BOOST_CHECK_THROW(guardOf(Mesh{}), InputError);
+    const BoundingGuard guard = guardOf(inLowerHalf);
+    Mesh open = bipyramid({0, 0, 0}, 1);
+    open.triangles.pop_back();
+    BOOST_CHECK_THROW(GuardedSurface(open, guard.model()), InputError);
+}
+
+BOOST_AUTO_TEST_CASE(a_whole_surface_is_clear_or_not)
+{
+    const BoundingGuard guard = guardOf(inLowerHalf);
+    BOOST_TEST(guard.isClear(bipyramid({0, 0, 0}, 1)));
+    BOOST_TEST(!guard.isClear(bipyramid({0, 0, 0}, 0.5)));
+}
+
+BOOST_AUTO_TEST_SUITE_END()

@@ -1,0 +1,394 @@
+// Based on: shared ideas of Sander et al., "Silhouette Clipping", 2000 (hulls kept outside while decimating), and Sacht
+// et al., "Nested Cages", 2015.
+// Differs: moves are vetoed one star at a time by exact or error-bounded tests; nothing is projected or re-inflated.
+
+#include <vdbcage/surface/bounding_guard.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <sstream>
+#include <utility>
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_reduce.h>
+#include <vdbcage/core/detail/nearest_float.h>
+#include <vdbcage/core/error.h>
+#include <vdbcage/mesh/detail/union_find.h>
+#include <vdbcage/surface/detail/guard_model.h>
+
+namespace vdbcage {
+
+namespace detail {
+
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+
+double clamp01(double t)
+{
+    return std::min(1.0, std::max(0.0, t));
+}
+
+/// The nearest points of two segments (Ericson, Real-Time Collision Detection, 5.1.9).
+Nearness segmentNearness(const Vec3d& p1, const Vec3d& q1, const Vec3d& p2, const Vec3d& q2)
+{
+    const Vec3d d1 = q1 - p1, d2 = q2 - p2, r = p1 - p2;
+    const double a = d1.dot(d1), e = d2.dot(d2), f = d2.dot(r);
+    double s = 0, t = 0;
+    if (a <= 0 && e <= 0) {
+        s = t = 0;
+    } else if (a <= 0) {
+        t = clamp01(f / e);
+    } else {
+        const double c = d1.dot(r);
+        if (e <= 0) {
+            s = clamp01(-c / a);
+        } else {
+            const double b = d1.dot(d2), determinant = a * e - b * b;
+            // Nearly parallel: any point of the first will do, the second follows from it; the ends are also compared
+            // as vertices against the other triangle.
+            s = determinant > 1e-14 * a * e ? clamp01((b * f - c * e) / determinant) : 0.0;
+            t = (b * s + f) / e;
+            if (t < 0) {
+                t = 0;
+                s = clamp01(-c / a);
+            } else if (t > 1) {
+                t = 1;
+                s = clamp01((b - c) / a);
+            }
+        }
+    }
+    Nearness result;
+    result.onFirst = p1 + s * d1;
+    result.onSecond = p2 + t * d2;
+    result.squaredDistance = (result.onFirst - result.onSecond).lengthSqr();
+    return result;
+}
+
+double volume(const Vec3d& a, const Vec3d& b, const Vec3d& c, const Vec3d& d)
+{
+    return (b - a).cross(c - a).dot(d - a);
+}
+
+/// Whether the segment pq crosses the inside of the triangle, far enough from every border that rounding cannot matter;
+/// the rest is covered by distances between vertices, edges and faces.
+bool pierces(const Vec3d& p, const Vec3d& q, const Corners& t)
+{
+    const double vp = volume(t[0], t[1], t[2], p), vq = volume(t[0], t[1], t[2], q);
+    if ((vp > 0) == (vq > 0)) return false;
+    const double a = volume(p, q, t[0], t[1]), b = volume(p, q, t[1], t[2]), c = volume(p, q, t[2], t[0]);
+    return (a > 0 && b > 0 && c > 0) || (a < 0 && b < 0 && c < 0);
+}
+
+/// Whether all corners of `other` lie beyond `reach` on one side of the plane of `t`.
+bool planeSeparates(const Corners& t, const Corners& other, double reach)
+{
+    const Vec3d normal = (t[1] - t[0]).cross(t[2] - t[0]);
+    const double length = normal.length();
+    if (!(length > 0)) return false;
+    const double limit = reach * length;
+    const double a = normal.dot(other[0] - t[0]), b = normal.dot(other[1] - t[0]), c = normal.dot(other[2] - t[0]);
+    // Error: the dot product's terms are bounded by length times the distance of the corner.
+    const double error = 1e-14 * length *
+                         ((other[0] - t[0]).length() + (other[1] - t[0]).length() + (other[2] - t[0]).length() +
+                          (t[1] - t[0]).length() + (t[2] - t[0]).length());
+    return std::min({a, b, c}) > limit + error || std::max({a, b, c}) < -limit - error;
+}
+
+/// The box of a triangle, grown.
+Box grown(const Corners& t, double by)
+{
+    Box box = Box::of(t);
+    box.lo -= Vec3d(by);
+    box.hi += Vec3d(by);
+    return box;
+}
+
+/// Prunes boxes that a triangle cannot reach within a distance: by its box, its plane, and the planes upright on it
+/// through its edges.
+class SlabFilter {
+public:
+    SlabFilter(const Corners& t, double reach) : box_(grown(t, reach)), corner_(t[0])
+    {
+        Vec3d normal = (t[1] - t[0]).cross(t[2] - t[0]);
+        const double length = normal.length();
+        if (!(length > 0)) return;
+        normal /= length;
+        const double size = (box_.hi - box_.lo).length();
+        const double slack = reach + 1e-12 * size;
+        addSlab(normal, -slack, slack);
+        for (int i = 0; i < 3; ++i) {
+            const Vec3d& a = t[static_cast<std::size_t>(i)];
+            const Vec3d& b = t[static_cast<std::size_t>((i + 1) % 3)];
+            Vec3d outward = (b - a).cross(normal);
+            const double edge = outward.length();
+            if (!(edge > 0)) continue;
+            outward /= edge;
+            addSlab(outward, -std::numeric_limits<double>::infinity(), outward.dot(a - corner_) + slack);
+        }
+    }
+    bool operator()(const Box& box) const
+    {
+        if (!box_.meets(box)) return false;
+        const Vec3d centre = 0.5 * (box.lo + box.hi) - corner_, half = 0.5 * (box.hi - box.lo);
+        for (int i = 0; i < count_; ++i) {
+            const Slab& slab = slabs_[static_cast<std::size_t>(i)];
+            const double middle = slab.normal.dot(centre);
+            const double radius = std::abs(slab.normal[0]) * half[0] + std::abs(slab.normal[1]) * half[1] +
+                                  std::abs(slab.normal[2]) * half[2];
+            const double error = 1e-14 * (radius + std::abs(middle));
+            if (middle - radius > slab.high + error || middle + radius < slab.low - error) return false;
+        }
+        return true;
+    }
+
+private:
+    struct Slab {
+        Vec3d normal;
+        double low, high;
+    };
+    void addSlab(const Vec3d& normal, double low, double high)
+    {
+        slabs_[static_cast<std::size_t>(count_++)] = {normal, low, high};
+    }
+
+    Box box_;
+    Vec3d corner_;
+    std::array<Slab, 4> slabs_;
+    int count_ = 0;
+};
+
+/// Prunes boxes that do not meet a tetrahedron: by its box and the planes of its faces. Rounding may cost a box that
+/// only touches.
+class HullFilter {
+public:
+    explicit HullFilter(const std::array<Vec3d, 4>& p) : box_(Box::of(p[0]))
+    {
+        for (std::size_t i = 0; i < 4; ++i) {
+            box_.expand(Box::of(p[i]));
+            const Vec3d &a = p[(i + 1) & 3], &b = p[(i + 2) & 3], &c = p[(i + 3) & 3];
+            Vec3d normal = (b - a).cross(c - a);
+            if (normal.dot(p[i] - a) > 0) normal = -normal;
+            planes_[i] = {normal, normal.dot(a)};
+        }
+    }
+    bool operator()(const Box& box) const
+    {
+        if (!box_.meets(box)) return false;
+        for (const auto& plane : planes_) {
+            // The box's corner deepest below the plane.
+            const Vec3d& n = plane.first;
+            const Vec3d corner(n[0] > 0 ? box.lo[0] : box.hi[0], n[1] > 0 ? box.lo[1] : box.hi[1],
+                               n[2] > 0 ? box.lo[2] : box.hi[2]);
+            if (n.dot(corner) > plane.second) return false;
+        }
+        return true;
+    }
+
+private:
+    Box box_;
+    std::array<std::pair<Vec3d, double>, 4> planes_;
+};
+
+/// The signed solid angle of a triangle seen from p (van Oosterom and Strackee 1983).
+double solidAngle(const Corners& t, const Vec3d& p)
+{
+    const Vec3d a = t[0] - p, b = t[1] - p, c = t[2] - p;
+    const double la = a.length(), lb = b.length(), lc = c.length();
+    return 2 * std::atan2(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
+}
+
+std::vector<Vec3I> allTriangles(const Mesh& mesh)
+{
+    std::vector<Vec3I> triangles = triangulate(mesh);
+    for (const openvdb::Vec4I& q : mesh.quads) {
+        triangles.emplace_back(q[1], q[2], q[3]);
+        triangles.emplace_back(q[1], q[3], q[0]);
+    }
+    return triangles;
+}
+
+} // namespace
+
+Nearness nearness(const Corners& first, const Corners& second)
+{
+    Nearness best;
+    best.squaredDistance = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < 3; ++i) {
+        const Vec3d onSecond = closestPointOnTriangle(first[i], second);
+        const double d = (first[i] - onSecond).lengthSqr();
+        if (d < best.squaredDistance) best = {first[i], onSecond, d};
+    }
+    for (std::size_t i = 0; i < 3; ++i) {
+        const Vec3d onFirst = closestPointOnTriangle(second[i], first);
+        const double d = (second[i] - onFirst).lengthSqr();
+        if (d < best.squaredDistance) best = {onFirst, second[i], d};
+    }
+    for (std::size_t i = 0; i < 3; ++i) {
+        for (std::size_t j = 0; j < 3; ++j) {
+            const Nearness edges = segmentNearness(first[i], first[(i + 1) % 3], second[j], second[(j + 1) % 3]);
+            if (edges.squaredDistance < best.squaredDistance) best = edges;
+        }
+    }
+    for (std::size_t i = 0; i < 3; ++i) {
+        if (pierces(first[i], first[(i + 1) % 3], second) || pierces(second[i], second[(i + 1) % 3], first)) {
+            best.squaredDistance = 0;
+        }
+    }
+    return best;
+}
+
+GuardModel::GuardModel(const Mesh& model, const GuardOptions& options, Interrupter* interrupter)
+{
+    requireUsable(model, "model");
+    const auto require = [](const char* name, double value, double least, double most) {
+        if (value >= least && value <= most) return;
+        std::ostringstream text;
+        text << name << ": " << value << " is not allowed; it must be " << least << " to " << most;
+        throw InputError(text.str());
+    };
+    require("clearance", options.clearance, 1e-7, 0.1);
+    require("min angle", options.minAngleDegrees, 0, 30);
+    const openvdb::BBoxd box = boundingBox(model);
+    const double side = box.extents()[static_cast<int>(box.maxExtent())];
+    scale_ = std::ldexp(1.0, -std::ilogb(side));
+    clearance_ = options.clearance * side * scale_;
+    // Below the least sine the orientation tests have no room.
+    minSine_ = std::max(1e-6, std::sin(options.minAngleDegrees * pi / 180));
+    double largest = 0;
+    for (int i = 0; i < 3; ++i) largest = std::max({largest, std::abs(box.min()[i]), std::abs(box.max()[i])});
+    // Rounding to float may move a point by 2^-24 of its coordinate: it has to be small against the clearance.
+    roundsToFloat_ = largest < 1e30 && side > 1e-30 && largest * 0x1p-24 < 1e-5 * side;
+    if (roundsToFloat_) clearance_ = std::max(clearance_, 4 * largest * scale_ * 0x1p-24);
+    const std::vector<Vec3I> triangles = allTriangles(model);
+    std::vector<Vec3d> points;
+    points.reserve(model.points.size());
+    for (const Vec3d& p : model.points) points.push_back(scaled(p));
+    tree_ = TriangleTree(points, triangles, interrupter);
+
+    UnionFind sets(model.points.size());
+    for (const Vec3I& t : triangles) {
+        sets.unite(t[0], t[1]);
+        sets.unite(t[1], t[2]);
+    }
+    std::vector<bool> seen(model.points.size(), false);
+    std::vector<Vec3I> partPoints;
+    for (const Vec3I& t : triangles) {
+        const std::uint32_t root = sets.find(t[0]);
+        if (!seen[root]) partPoints.emplace_back(t[0], t[0], t[0]);
+        seen[root] = true;
+    }
+    parts_ = TriangleTree(std::move(points), partPoints, interrupter);
+}
+
+Vec3d GuardModel::scaled(const Vec3d& p) const
+{
+    return p * scale_;
+}
+
+Vec3d GuardModel::unscaled(const Vec3d& p) const
+{
+    return p / scale_;
+}
+
+Vec3d GuardModel::rounded(const Vec3d& p) const
+{
+    if (!roundsToFloat_) return p;
+    return {nearestFloat(p[0] / scale_) * scale_, nearestFloat(p[1] / scale_) * scale_,
+            nearestFloat(p[2] / scale_) * scale_};
+}
+
+bool GuardModel::clear(const Corners& triangle, std::uint32_t hint, std::uint32_t* blocker) const
+{
+    const double limit = clearance_ * clearance_;
+    const auto blocks = [&](const TriangleTree::Item& item) {
+        const Corners other = tree_.corners(item);
+        if (planeSeparates(triangle, other, clearance_) || planeSeparates(other, triangle, clearance_)) return false;
+        return nearness(triangle, other).squaredDistance < limit;
+    };
+    const auto found = [&](const TriangleTree::Item& item) {
+        if (blocker) *blocker = static_cast<std::uint32_t>(&item - tree_.items().data());
+        return false;
+    };
+    if (hint != TriangleTree::none && blocks(tree_.items()[hint])) return found(tree_.items()[hint]);
+    const SlabFilter filter(triangle, clearance_);
+    const Box reach = grown(triangle, clearance_);
+    return tree_.traverse(filter, [&](const TriangleTree::Item& item) {
+        return !reach.meets(Box::of(tree_.corners(item))) || !blocks(item) || found(item);
+    });
+}
+
+void GuardModel::forEachBlocker(const Corners& triangle, const std::function<bool(const Corners&)>& visit) const
+{
+    const double limit = clearance_ * clearance_;
+    tree_.traverse(SlabFilter(triangle, clearance_), [&](const TriangleTree::Item& item) {
+        const Corners other = tree_.corners(item);
+        return planeSeparates(triangle, other, clearance_) || planeSeparates(other, triangle, clearance_) ||
+               !(nearness(triangle, other).squaredDistance < limit) || visit(other);
+    });
+}
+
+void GuardModel::forEachInside(const std::array<Vec3d, 4>& tetrahedron,
+                               const std::function<void(const Corners&)>& visit) const
+{
+    tree_.traverse(HullFilter(tetrahedron), [&](const TriangleTree::Item& item) {
+        visit(tree_.corners(item));
+        return true;
+    });
+}
+
+bool GuardModel::mayHoldPart(const Box& box) const
+{
+    return !parts_.forEachOverlap(box, [](const TriangleTree::Item&) { return false; });
+}
+
+bool GuardModel::swept(const std::vector<Corners>& surface, const Box& box) const
+{
+    return !parts_.forEachOverlap(box, [&](const TriangleTree::Item& item) {
+        // The point keeps its distance to both stars, so the sum is near a whole multiple of 4 pi.
+        const Vec3d& point = parts_.points()[item.corners[0]];
+        double angle = 0;
+        for (const Corners& t : surface) angle += solidAngle(t, point);
+        return std::abs(angle) < 2 * pi;
+    });
+}
+
+} // namespace detail
+
+BoundingGuard::BoundingGuard(const Mesh& model, const GuardOptions& options, Interrupter* interrupter)
+    : model_(std::make_unique<const detail::GuardModel>(model, options, interrupter))
+{
+}
+BoundingGuard::~BoundingGuard() = default;
+BoundingGuard::BoundingGuard(BoundingGuard&&) noexcept = default;
+BoundingGuard& BoundingGuard::operator=(BoundingGuard&&) noexcept = default;
+
+double BoundingGuard::clearance() const
+{
+    return model_->unscaled(openvdb::Vec3d(model_->clearance()))[0];
+}
+
+bool BoundingGuard::isClear(const Mesh& surface) const
+{
+    const std::vector<openvdb::Vec3I> triangles = detail::allTriangles(surface);
+    const auto point = [&](openvdb::Index32 i) { return model_->rounded(model_->scaled(surface.points[i])); };
+    return tbb::parallel_reduce(
+        tbb::blocked_range<std::size_t>(0, triangles.size(), 256), true,
+        [&](const tbb::blocked_range<std::size_t>& range, bool clear) {
+            for (std::size_t i = range.begin(); i < range.end() && clear; ++i) {
+                const openvdb::Vec3I& t = triangles[i];
+                clear = model_->clear({point(t[0]), point(t[1]), point(t[2])}, detail::TriangleTree::none, nullptr);
+            }
+            return clear;
+        },
+        [](bool a, bool b) { return a && b; });
+}
+
+bool BoundingGuard::roundsToFloat() const
+{
+    return model_->roundsToFloat();
+}
+
+} // namespace vdbcage

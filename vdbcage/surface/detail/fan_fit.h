@@ -1,0 +1,48 @@
+#pragma once
+
+#include <cstdint>
+
+#include <openvdb/math/Mat3.h>
+#include <vdbcage/surface/detail/guarded_surface.h>
+
+namespace vdbcage::detail {
+
+/// How far a surface is from the model: the integral of the distance, or of its square, over triangles, by sampling. A
+/// triangle is cut into k x k equal ones, each counted at its centroid, k growing with the triangle's size.
+class DistanceMeasure {
+public:
+    enum class Power { distance, square };
+
+    /// `areaPerSample` in world units squared.
+    DistanceMeasure(const GuardModel& guard, double areaPerSample, Power power)
+        : guard_(guard), areaPerSample_(areaPerSample), power_(power)
+    {
+    }
+
+    /// The integral over a triangle. `seed` is an item near it and gets a better one.
+    double integral(const Corners& t, std::uint32_t& seed) const;
+
+    /// The integral over a fan with its centre at some place, and how it changes when the centre moves by delta: about
+    /// delta curvature delta / 2 + slope delta, the distances being taken to where each sample's nearest point is now.
+    struct Fit {
+        double integral = 0;
+        openvdb::Mat3d curvature = openvdb::Mat3d::zero();
+        Vec3d slope{0.0};
+        double reach = 0; ///< length of the longest edge at the centre
+    };
+    Fit fit(const GuardedSurface& surface, const Fan& fan, const Vec3d& centre, std::uint32_t& seed) const;
+
+    /// Pulls the centre of a fan, allowed at `p`, to where the integral is less, along the planes of the contacts it
+    /// meets on the way. Returns whether there was such a place; `p` and `fit` are then those of the new place.
+    bool improve(const GuardedSurface& surface, const Fan& fan, Vec3d& p, Fit& fit, std::uint32_t& seed) const;
+
+private:
+    template <typename Visit>
+    void forEachSample(const Corners& t, std::uint32_t& seed, const Visit& visit) const;
+
+    const GuardModel& guard_;
+    double areaPerSample_;
+    Power power_;
+};
+
+} // namespace vdbcage::detail

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include <vdbcage/mesh/detail/triangle_tree.h>
+#include <vdbcage/surface/bounding_guard.h>
+
+namespace vdbcage::detail {
+
+/// The nearest points of two triangles.
+struct Nearness {
+    Vec3d onFirst, onSecond;
+    double squaredDistance = 0; ///< 0 if they cross (the points then mean nothing)
+};
+
+/// How near two closed triangles come (either may be degenerate); rounded: the error of the distance is a few units of
+/// 2^-52 of their sizes, far below any clearance.
+Nearness nearness(const Corners& first, const Corners& second);
+
+/// What a guard knows of the model.
+class GuardModel {
+public:
+    GuardModel(const Mesh& model, const GuardOptions& options, Interrupter* interrupter);
+
+    /// All other functions work in units in which the model's longest side is 1 to 2, a power of two apart from the
+    /// world's, so that no product of lengths leaves the range of double. Exact both ways.
+    Vec3d scaled(const Vec3d& p) const;
+    Vec3d unscaled(const Vec3d& p) const;
+    /// `p` as it will be written.
+    Vec3d rounded(const Vec3d& p) const;
+    /// Whether `triangle` keeps the clearance; if not and `blocker` is set, the item of a face it comes too near to.
+    /// `hint` is an item to try first (TriangleTree::none: nothing to try).
+    bool clear(const Corners& triangle, std::uint32_t hint, std::uint32_t* blocker) const;
+    /// Calls visit(corners) for every model triangle that `triangle` comes too near to, until it answers false.
+    void forEachBlocker(const Corners& triangle, const std::function<bool(const Corners&)>& visit) const;
+    /// Calls visit(corners) for every model triangle near the tetrahedron, and perhaps some more.
+    void forEachInside(const std::array<Vec3d, 4>& tetrahedron, const std::function<void(const Corners&)>& visit) const;
+    /// Whether a part of the model may lie in `box`, so that swept() has to be asked.
+    bool mayHoldPart(const Box& box) const;
+    /// Whether a closed surface sweeps over a part of the model: `surface` is the new star and the reversed old one.
+    bool swept(const std::vector<Corners>& surface, const Box& box) const;
+
+    const TriangleTree& tree() const { return tree_; }
+    double clearance() const { return clearance_; }
+    double minSine() const { return minSine_; }
+    bool roundsToFloat() const { return roundsToFloat_; }
+
+private:
+    TriangleTree tree_;
+    TriangleTree parts_; // a point of each connected part, as a degenerate triangle
+    double scale_ = 1, clearance_ = 0, minSine_ = 0;
+    bool roundsToFloat_ = false;
+};
+
+} // namespace vdbcage::detail

@@ -1,0 +1,393 @@
+// Based on: Garland, Heckbert, "Surface Simplification Using Quadric Error Metrics", 1997.
+//           Sander, Gu, Gortler, Hoppe, Snyder, "Silhouette Clipping", 2000 (decimation that stays outside).
+// Differs: every collapse has to pass the guard, its vertex pushed outward until it does; the last collapses are
+// ordered by the measured change of the distance to the model, with the vertex where that is least.
+
+#include <vdbcage/surface/detail/guarded_decimate.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <queue>
+#include <unordered_map>
+
+#include <openvdb/math/Mat3.h>
+#include <tbb/parallel_for.h>
+#include <vdbcage/surface/detail/fan_fit.h>
+#include <vdbcage/surface/detail/guarded_sweeps.h>
+
+namespace vdbcage::detail {
+
+namespace {
+
+/// x A x - 2 b x + c, relative to some origin.
+struct Quadric {
+    openvdb::Mat3d a = openvdb::Mat3d::zero();
+    Vec3d b{0.0};
+    double c = 0;
+
+    void addPlane(const Vec3d& n, const Vec3d& p, double weight)
+    {
+        const double d = n.dot(p);
+        for (int i = 0; i < 3; ++i) {
+            for (int j = 0; j < 3; ++j) a[i][j] += weight * n[i] * n[j];
+        }
+        b += weight * d * n;
+        c += weight * d * d;
+    }
+    void addPoint(const Vec3d& p, double weight)
+    {
+        for (int i = 0; i < 3; ++i) a[i][i] += weight;
+        b += weight * p;
+        c += weight * p.dot(p);
+    }
+    Quadric& operator+=(const Quadric& o)
+    {
+        a += o.a;
+        b += o.b;
+        c += o.c;
+        return *this;
+    }
+    double at(const Vec3d& x) const { return std::max(0.0, x.dot(a * x) - 2 * b.dot(x) + c); }
+};
+
+/// The mean normal of what the fan replaces, of unit length (or zero).
+Vec3d outward(const GuardedSurface& surface, const Fan& fan)
+{
+    Vec3d normal(0.0);
+    for (const std::uint32_t f : fan.oldFaces) {
+        const Corners t = surface.corners(f);
+        normal += (t[1] - t[0]).cross(t[2] - t[0]);
+    }
+    const double length = normal.length();
+    return length > 0 ? normal / length : Vec3d(0.0);
+}
+
+/// The edge u < v at the front of a queue costs least; equal costs are told apart by number.
+struct QueuedEdge {
+    double cost;
+    std::uint32_t u, v, stampU, stampV;
+
+    bool operator<(const QueuedEdge& o) const // std::priority_queue has its largest in front
+    {
+        if (cost != o.cost) return cost > o.cost;
+        if (u != o.u) return u > o.u;
+        return v > o.v;
+    }
+};
+
+using Edge = std::pair<std::uint32_t, std::uint32_t>;
+
+std::vector<Edge> allEdges(const GuardedSurface& surface)
+{
+    std::vector<Edge> edges;
+    for (std::uint32_t u = 0; u < surface.vertices(); ++u) {
+        for (const std::uint32_t v : surface.neighbours(u)) {
+            if (u < v) edges.emplace_back(u, v);
+        }
+    }
+    return edges;
+}
+
+class QuadricCollapser {
+public:
+    explicit QuadricCollapser(GuardedSurface& surface)
+        : surface_(surface), quadrics_(surface.vertices()), stamp_(surface.vertices(), 0)
+    {
+        if (surface.vertices() > 0) origin_ = surface.point(0);
+        for (std::uint32_t v = 0; v < surface.vertices(); ++v) {
+            for (const std::uint32_t f : surface.facesOf(v)) {
+                const Corners t = surface.corners(f);
+                Vec3d normal = (t[1] - t[0]).cross(t[2] - t[0]);
+                const double twiceArea = normal.length();
+                if (!(twiceArea > 0)) continue;
+                normal /= twiceArea;
+                quadrics_[v].addPlane(normal, t[0] - origin_, twiceArea / 6);
+                // A weak pull to the middle keeps triangles even where the surface is flat.
+                quadrics_[v].addPoint((t[0] + t[1] + t[2]) / 3.0 - origin_, 1e-3 * twiceArea / 6);
+            }
+        }
+    }
+
+    void run(std::size_t faces, Interrupter* interrupter)
+    {
+        std::size_t facesAtLastFill = 0;
+        while (surface_.liveFaces() > faces) {
+            if (queue_.empty()) {
+                // What was blocked may be free since its surroundings changed.
+                if (surface_.liveFaces() == facesAtLastFill) return;
+                facesAtLastFill = surface_.liveFaces();
+                for (const Edge& edge : allEdges(surface_)) push(edge.first, edge.second);
+            }
+            throwIfInterrupted(interrupter);
+            collapseBatch(faces);
+        }
+    }
+
+private:
+    struct Proposal {
+        QueuedEdge edge;
+        Fan fan;
+        std::optional<Vec3d> place;
+    };
+
+    /// Few at a time where few are left, so that their order matters more.
+    std::size_t batchSize(std::size_t faces) const
+    {
+        const std::size_t collapsesLeft = (surface_.liveFaces() - faces + 1) / 2;
+        return std::min(collapsesLeft, std::clamp<std::size_t>(surface_.liveFaces() / 200, 4, 64));
+    }
+
+    void collapseBatch(std::size_t faces)
+    {
+        std::vector<Proposal> proposals;
+        const std::size_t size = batchSize(faces);
+        while (proposals.size() < size && !queue_.empty()) {
+            const QueuedEdge edge = queue_.top();
+            queue_.pop();
+            if (edge.stampU == stamp_[edge.u] && edge.stampV == stamp_[edge.v] && surface_.isVertex(edge.u) &&
+                surface_.isVertex(edge.v)) {
+                proposals.push_back({edge, {}, {}});
+            }
+        }
+        tbb::parallel_for(std::size_t(0), proposals.size(), [&](std::size_t i) {
+            Proposal& p = proposals[i];
+            if (surface_.fanOf(p.edge.u, p.edge.v, p.fan)) p.place = place(p.fan);
+        });
+        GuardedSurface::Batch batch(surface_);
+        for (const Proposal& p : proposals) {
+            if (!p.place) continue;
+            const std::uint32_t u = p.edge.u;
+            if (!batch.apply(p.fan, *p.place)) {
+                // In the way of an earlier one: its turn comes again, unless it touches that one and is made anew.
+                if (p.edge.stampU == stamp_[u] && p.edge.stampV == stamp_[p.edge.v]) queue_.push(p.edge);
+                continue;
+            }
+            quadrics_[u] += quadrics_[p.edge.v];
+            ++stamp_[u];
+            ++stamp_[p.edge.v];
+            for (const std::uint32_t w : surface_.neighbours(u)) push(u, w);
+        }
+    }
+
+    Vec3d optimum(std::uint32_t u, std::uint32_t v) const
+    {
+        Quadric q = quadrics_[u];
+        q += quadrics_[v];
+        const Vec3d middle = 0.5 * (surface_.point(u) + surface_.point(v)) - origin_;
+        const double ridge = 1e-4 * (q.a[0][0] + q.a[1][1] + q.a[2][2]);
+        if (!(ridge > 0)) return middle + origin_;
+        for (int i = 0; i < 3; ++i) q.a[i][i] += ridge;
+        const Vec3d x = q.a.inverse() * (q.b + ridge * middle);
+        const double length = (surface_.point(u) - surface_.point(v)).length();
+        return ((x - middle).length() > 2 * length ? middle : x) + origin_;
+    }
+
+    void push(std::uint32_t u, std::uint32_t v)
+    {
+        if (u > v) std::swap(u, v);
+        Quadric q = quadrics_[u];
+        q += quadrics_[v];
+        queue_.push({q.at(optimum(u, v) - origin_), u, v, stamp_[u], stamp_[v]});
+    }
+
+    std::optional<Vec3d> place(const Fan& fan) const
+    {
+        const Vec3d a = surface_.point(fan.centre), b = surface_.point(fan.removed), middle = 0.5 * (a + b);
+        const Vec3d best = optimum(fan.centre, fan.removed);
+        const Vec3d up = outward(surface_, fan) * (a - b).length();
+        std::uint32_t blocker = TriangleTree::none;
+        for (const Vec3d& at : {best, best + 0.1 * up, best + 0.25 * up, best + 0.5 * up, a, b, middle + 0.1 * up,
+                                middle + 0.35 * up, middle + 0.8 * up}) {
+            const Vec3d rounded = surface_.guard().rounded(at);
+            if (surface_.allows(fan, rounded, &blocker)) return rounded;
+        }
+        return std::nullopt;
+    }
+
+    GuardedSurface& surface_;
+    Vec3d origin_{0.0};
+    std::vector<Quadric> quadrics_;
+    std::vector<std::uint32_t> stamp_; // grows when an edge at the vertex changes: older entries of the queue are void
+    std::priority_queue<QueuedEdge> queue_;
+};
+
+class MeasuredCollapser {
+public:
+    MeasuredCollapser(GuardedSurface& surface, std::size_t faces, bool thorough)
+        : surface_(surface), faces_(faces), thorough_(thorough),
+          measure_(surface.guard(), area(surface) / static_cast<double>(faces) / samplesPerFace,
+                   DistanceMeasure::Power::square),
+          stamp_(surface.vertices(), 0), seed_(surface.vertices(), TriangleTree::none)
+    {
+    }
+
+    void run(Interrupter* interrupter)
+    {
+        std::size_t facesAtLastFill = 0;
+        while (surface_.liveFaces() > faces_) {
+            throwIfInterrupted(interrupter);
+            if (pending_.empty() && queue_.empty()) {
+                // What was blocked may be free since its surroundings changed.
+                if (surface_.liveFaces() == facesAtLastFill) return;
+                facesAtLastFill = surface_.liveFaces();
+                pending_ = allEdges(surface_);
+                measureFaces();
+            }
+            gatherStale();
+            if (!pending_.empty()) {
+                evaluatePending();
+            } else if (!queue_.empty()) {
+                collapse(pop());
+            }
+        }
+    }
+
+private:
+    static constexpr double samplesPerFace = 6; ///< of the size they have in the end
+    static constexpr std::size_t batch = 8;     ///< stale edges measured again side by side
+
+    struct Candidate {
+        QueuedEdge edge;
+        Vec3d place;
+        std::uint32_t issue; // of several entries of one edge only the latest counts
+
+        bool operator<(const Candidate& o) const { return edge < o.edge; }
+    };
+
+    static std::uint64_t key(std::uint32_t u, std::uint32_t v) { return std::uint64_t(u) << 32U | v; }
+
+    Candidate pop()
+    {
+        const Candidate top = queue_.top();
+        queue_.pop();
+        return top;
+    }
+
+    /// Takes entries off the front of the queue that no longer count (dropped) or whose surroundings changed (pending),
+    /// until one stands there that may be collapsed.
+    void gatherStale()
+    {
+        std::size_t gathered = 0;
+        while (!queue_.empty() && gathered < batch) {
+            const Candidate& top = queue_.top();
+            const QueuedEdge& e = top.edge;
+            const bool counts = top.issue == latest_[key(e.u, e.v)] && surface_.isVertex(e.u) && surface_.isVertex(e.v);
+            if (counts && e.stampU == stamp_[e.u] && e.stampV == stamp_[e.v]) return;
+            if (counts) {
+                pending_.emplace_back(e.u, e.v);
+                ++gathered;
+            }
+            queue_.pop();
+        }
+    }
+
+    void evaluatePending()
+    {
+        std::sort(pending_.begin(), pending_.end());
+        pending_.erase(std::unique(pending_.begin(), pending_.end()), pending_.end());
+        std::vector<std::optional<Candidate>> results(pending_.size());
+        tbb::parallel_for(std::size_t(0), pending_.size(),
+                          [&](std::size_t i) { results[i] = evaluate(pending_[i].first, pending_[i].second); });
+        for (std::size_t i = 0; i < pending_.size(); ++i) {
+            const std::uint32_t issue = ++latest_[key(pending_[i].first, pending_[i].second)];
+            if (!results[i]) continue;
+            results[i]->issue = issue;
+            queue_.push(*results[i]);
+        }
+        pending_.clear();
+    }
+
+    std::optional<Candidate> evaluate(std::uint32_t u, std::uint32_t v) const
+    {
+        Fan fan;
+        if (!surface_.fanOf(u, v, fan)) return std::nullopt;
+        const Vec3d a = surface_.point(u), b = surface_.point(v), middle = 0.5 * (a + b);
+        const Vec3d up = outward(surface_, fan) * (a - b).length();
+        std::uint32_t blocker = TriangleTree::none;
+        std::optional<Vec3d> place;
+        for (const Vec3d& at : {middle, a, b, middle + 0.1 * up, middle + 0.25 * up, middle + 0.5 * up, middle + up}) {
+            const Vec3d rounded = surface_.guard().rounded(at);
+            if (surface_.allows(fan, rounded, &blocker)) {
+                place = rounded;
+                break;
+            }
+        }
+        if (!place) return std::nullopt;
+        double before = 0;
+        for (const std::uint32_t f : fan.oldFaces) before += faceIntegral_[f];
+        std::uint32_t seed = seed_[u];
+        DistanceMeasure::Fit fit = measure_.fit(surface_, fan, *place, seed);
+        for (int i = 0; i < (thorough_ ? 3 : 1); ++i) {
+            if (!measure_.improve(surface_, fan, *place, fit, seed)) break;
+        }
+        return Candidate{{fit.integral - before, u, v, stamp_[u], stamp_[v]}, *place, 0};
+    }
+
+    void collapse(const Candidate& candidate)
+    {
+        const std::uint32_t u = candidate.edge.u;
+        Fan fan;
+        if (!surface_.fanOf(u, candidate.edge.v, fan) || !surface_.allows(fan, candidate.place)) return;
+        surface_.apply(fan, candidate.place);
+        const auto ring = surface_.neighbours(u);
+        for (const std::uint32_t f : surface_.facesOf(u)) measureFace(f, seed_[u]);
+        ++stamp_[u];
+        for (const std::uint32_t w : ring) ++stamp_[w];
+        if (thorough_) {
+            for (const std::uint32_t w : ring) pullIn(w);
+        }
+        for (const std::uint32_t w : ring) pending_.emplace_back(std::min(u, w), std::max(u, w));
+    }
+
+    void pullIn(std::uint32_t v)
+    {
+        const Fan star = surface_.fanOf(v);
+        Vec3d p = surface_.point(v);
+        DistanceMeasure::Fit fit = measure_.fit(surface_, star, p, seed_[v]);
+        if (!measure_.improve(surface_, star, p, fit, seed_[v])) return;
+        surface_.apply(star, p);
+        for (const std::uint32_t f : surface_.facesOf(v)) measureFace(f, seed_[v]);
+        for (const auto& edge : star.rim) ++stamp_[edge[0]];
+    }
+
+    void measureFace(std::uint32_t f, std::uint32_t& seed)
+    {
+        faceIntegral_[f] = measure_.integral(surface_.corners(f), seed);
+    }
+
+    void measureFaces()
+    {
+        faceIntegral_.resize(surface_.faces());
+        tbb::parallel_for(std::uint32_t(0), surface_.vertices(), [&](std::uint32_t v) {
+            for (const std::uint32_t f : surface_.facesOf(v)) {
+                if (surface_.face(f)[0] == v) measureFace(f, seed_[v]);
+            }
+        });
+    }
+
+    GuardedSurface& surface_;
+    std::size_t faces_;
+    bool thorough_;
+    DistanceMeasure measure_;
+    std::vector<std::uint32_t> stamp_; // grows when a face at the vertex changes
+    std::vector<std::uint32_t> seed_;
+    std::vector<double> faceIntegral_;
+    std::vector<Edge> pending_; // to be measured
+    std::priority_queue<Candidate> queue_;
+    std::unordered_map<std::uint64_t, std::uint32_t> latest_; // issue of each edge's entry that counts
+};
+
+} // namespace
+
+void collapseByQuadrics(GuardedSurface& surface, std::size_t faces, Interrupter* interrupter)
+{
+    QuadricCollapser(surface).run(faces, interrupter);
+}
+
+void collapseByMeasure(GuardedSurface& surface, std::size_t faces, bool thorough, Interrupter* interrupter)
+{
+    MeasuredCollapser(surface, faces, thorough).run(interrupter);
+}
+
+} // namespace vdbcage::detail

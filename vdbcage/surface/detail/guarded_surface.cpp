@@ -1,0 +1,489 @@
+#include <vdbcage/surface/detail/guarded_surface.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/intersections.h>
+#include <vdbcage/core/error.h>
+
+namespace vdbcage::detail {
+
+namespace {
+
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+
+Kernel::Point_3 exact(const Vec3d& p)
+{
+    return {p[0], p[1], p[2]};
+}
+
+Kernel::Triangle_3 exact(const Corners& t)
+{
+    return {exact(t[0]), exact(t[1]), exact(t[2])};
+}
+
+bool isDegenerate(const Corners& t)
+{
+    return CGAL::collinear(exact(t[0]), exact(t[1]), exact(t[2]));
+}
+
+/// -1, 0, 1: on which side of the plane of t the point lies; 0 where rounding could decide.
+int roughSide(const Corners& t, const Vec3d& p)
+{
+    const Vec3d u = t[1] - t[0], v = t[2] - t[0], w = p - t[0];
+    const double volume = u.cross(v).dot(w);
+    const double error = 1e-14 * u.length() * v.length() * w.length();
+    return volume > error ? 1 : volume < -error ? -1 : 0;
+}
+
+/// The sine of the smallest angle of a triangle.
+double minSine(const Corners& t)
+{
+    const double a = (t[1] - t[2]).lengthSqr(), b = (t[2] - t[0]).lengthSqr(), c = (t[0] - t[1]).lengthSqr();
+    const double twiceArea = (t[1] - t[0]).cross(t[2] - t[0]).length();
+    const double longest = std::max({a, b, c}), shortest = std::min({a, b, c});
+    const double middle = a + b + c - longest - shortest;
+    const double product = std::sqrt(longest * middle);
+    return product > 0 ? twiceArea / product : 0;
+}
+
+/// Two triangles of a surface, by vertex numbers and corners; whether they meet in more than what they share.
+bool meetBeyondShared(const Vec3I& a, const Corners& ca, const Vec3I& b, const Corners& cb)
+{
+    std::array<int, 3> inA{}, inB{};
+    int shared = 0;
+    for (int i = 0; i < 3; ++i) {
+        for (int j = 0; j < 3; ++j) {
+            if (a[i] != b[j]) continue;
+            inA[static_cast<std::size_t>(shared)] = i;
+            inB[static_cast<std::size_t>(shared)] = j;
+            ++shared;
+        }
+    }
+    const auto corner = [](const Corners& c, int i) { return c[static_cast<std::size_t>(i % 3)]; };
+    if (shared == 0) {
+        // One plane between them settles most pairs.
+        int sides = 0;
+        for (const Vec3d& p : cb) sides += roughSide(ca, p);
+        if (std::abs(sides) == 3) return false;
+        sides = 0;
+        for (const Vec3d& p : ca) sides += roughSide(cb, p);
+        if (std::abs(sides) == 3) return false;
+        return CGAL::do_intersect(exact(ca), exact(cb));
+    }
+    if (shared == 1) {
+        const int i = inA[0], j = inB[0];
+        if (std::abs(roughSide(ca, corner(cb, j + 1)) + roughSide(ca, corner(cb, j + 2))) == 2) return false;
+        if (std::abs(roughSide(cb, corner(ca, i + 1)) + roughSide(cb, corner(ca, i + 2))) == 2) return false;
+        const Kernel::Segment_3 acrossA(exact(corner(ca, i + 1)), exact(corner(ca, i + 2)));
+        const Kernel::Segment_3 acrossB(exact(corner(cb, j + 1)), exact(corner(cb, j + 2)));
+        return CGAL::do_intersect(exact(ca), acrossB) || CGAL::do_intersect(exact(cb), acrossA);
+    }
+    if (shared == 2) {
+        // Folded onto each other, or not at all.
+        const Vec3d u = corner(ca, inA[0]), v = corner(ca, inA[1]);
+        const Vec3d p = corner(ca, 3 - inA[0] - inA[1]), q = corner(cb, 3 - inB[0] - inB[1]);
+        if (roughSide({u, v, p}, q) != 0) return false;
+        return CGAL::coplanar(exact(u), exact(v), exact(p), exact(q)) &&
+               CGAL::coplanar_orientation(exact(u), exact(v), exact(p), exact(q)) == CGAL::POSITIVE;
+    }
+    return true;
+}
+
+using Triangles = boost::container::small_vector<Corners, 16>;
+
+/// The weights of t's corners that give p's foot in its plane; zeros for a degenerate t.
+Vec3d barycentric(const Vec3d& p, const Corners& t)
+{
+    const Vec3d u = t[1] - t[0], v = t[2] - t[0], w = p - t[0];
+    const double uu = u.dot(u), uv = u.dot(v), vv = v.dot(v), wu = w.dot(u), wv = w.dot(v);
+    const double determinant = uu * vv - uv * uv;
+    if (!(determinant > 0)) return Vec3d(0.0);
+    const double b = (wu * vv - wv * uv) / determinant, c = (wv * uu - wu * uv) / determinant;
+    return {1 - b - c, b, c};
+}
+
+/// Whether, seen along some direction, the fan lies spread out around its centre without overlap: then no two of its
+/// triangles can meet beyond what they share. No answer but false where rounding could matter.
+bool spreadOut(const Triangles& triangles)
+{
+    Vec3d direction(0.0);
+    for (const Corners& t : triangles) direction += (t[1] - t[0]).cross(t[2] - t[0]);
+    const double length = direction.length();
+    if (!(length > 0)) return false;
+    direction /= length;
+    const Vec3d& centre = triangles.front()[0];
+    const Vec3d axis = std::abs(direction[0]) < 0.6 ? Vec3d(1, 0, 0) : Vec3d(0, 1, 0);
+    Vec3d x = axis.cross(direction);
+    x /= x.length();
+    const Vec3d y = direction.cross(x);
+    double turn = 0;
+    for (const Corners& t : triangles) {
+        const Vec3d a = t[1] - centre, b = t[2] - centre;
+        const double ax = a.dot(x), ay = a.dot(y), bx = b.dot(x), by = b.dot(y);
+        const double cross = ax * by - ay * bx;
+        if (cross <= 1e-12 * a.length() * b.length()) return false;
+        turn += std::atan2(cross, ax * bx + ay * by);
+    }
+    return turn < 6.2832 + 1; // once around, not twice
+}
+
+/// What a triangle hits first when its corner 0 moves in a straight line.
+struct Impact {
+    double time = 1;   ///< 0 to 1
+    Vec3d normal{0.0}; ///< of the plane through the contact that the corner must stay above, any length
+    double weight = 0; ///< of the corner at the contact
+};
+
+/// Adds the half-spaces of the first contacts with the model, one of each kind (vertex with face, edge with edge, face
+/// with vertex), when corner 0 of `now` moves to `to`. Returns whether there are any.
+bool addImpacts(const GuardModel& guard, const Corners& now, const Vec3d& to, bool corner, double clearance,
+                std::vector<HalfSpace>& halfSpaces)
+{
+    const Vec3d &c = now[0], &a = now[1], &b = now[2];
+    const Vec3d step = to - c, across = b - a;
+    Impact face, edge, vertex;
+    guard.forEachInside({c, to, a, b}, [&](const Corners& m) {
+        for (std::size_t i = 0; i < 3; ++i) {
+            {
+                // A model vertex in the face.
+                const Vec3d arm = m[i] - a, normal = across.cross(arm);
+                const double time = -normal.dot(c - a) / normal.dot(step);
+                if (time > 0 && time < face.time) {
+                    const Vec3d at = c + time * step, up = across.cross(at - a), n = across.cross(up);
+                    const double weight = n.dot(arm) / n.dot(at - a);
+                    const Vec3d foot = arm - weight * (at - a);
+                    const double along = foot.dot(across);
+                    if (weight > 0 && weight <= 1 && along >= 0 && along <= (1 - weight) * across.dot(across)) {
+                        face = {time, normal, weight};
+                    }
+                }
+            }
+            {
+                // A model edge in the edge from a.
+                const Vec3d p = m[i] - a, q = m[(i + 1) % 3] - a, normal = p.cross(q);
+                const double time = -normal.dot(c - a) / normal.dot(step);
+                if (time > 0 && time < edge.time) {
+                    const Vec3d arm = c + time * step - a;
+                    const double s = arm.cross(p).dot(normal), t = arm.cross(q).dot(normal);
+                    const double weight = p.cross(q - p).dot(normal) / arm.cross(q - p).dot(normal);
+                    if ((s > 0) != (t > 0) && weight > 0 && weight <= 1) edge = {time, normal, weight};
+                }
+            }
+        }
+        if (corner) {
+            const Vec3d normal = (m[1] - m[0]).cross(m[2] - m[0]);
+            const double time = normal.dot(m[0] - c) / normal.dot(step);
+            if (time > 0 && time < vertex.time) {
+                const Vec3d at = c + time * step;
+                bool inside = true;
+                for (std::size_t i = 0; i < 3; ++i) {
+                    inside = inside && (m[(i + 1) % 3] - m[i]).cross(at - m[i]).dot(normal) >= 0;
+                }
+                if (inside) vertex = {time, normal, 1};
+            }
+        }
+    });
+    const std::size_t before = halfSpaces.size();
+    for (const Impact& impact : {face, edge, vertex}) {
+        if (!(impact.weight > 0)) continue;
+        Vec3d normal = impact.normal / impact.normal.length();
+        if (normal.dot(step) > 0) normal = -normal;
+        const double offset = normal.dot(c + impact.time * step) + clearance / impact.weight;
+        const double least = std::min(offset, normal.dot(c));
+        if (normal.dot(to) < least - 1e-3 * clearance) halfSpaces.push_back({normal, least});
+    }
+    return halfSpaces.size() > before;
+}
+
+/// Adds the half-space that keeps corner 0 of `fan`, now at `at`, where `fan` is at least `clearance` from `other`, to
+/// first order; none if they cross.
+void addApproach(const Corners& fan, const Corners& other, const Vec3d& at, double clearance,
+                 std::vector<HalfSpace>& halfSpaces)
+{
+    const Nearness near = nearness(fan, other);
+    const double distance = std::sqrt(near.squaredDistance);
+    const double weight = barycentric(near.onFirst, fan)[0];
+    if (!(distance > 0) || !(weight > 1e-6)) return;
+    const Vec3d apart = (near.onFirst - near.onSecond) / distance;
+    halfSpaces.push_back({apart, apart.dot(at) + (clearance - distance) / weight});
+}
+
+} // namespace
+
+GuardedSurface::GuardedSurface(const Mesh& surface, const GuardModel& guard)
+    : guard_(guard), faces_(triangulate(surface))
+{
+    points_.reserve(surface.points.size());
+    for (const Vec3d& p : surface.points) points_.push_back(guard.rounded(guard.scaled(p)));
+    facesOf_.resize(points_.size());
+    alive_.assign(faces_.size(), 1);
+    liveFaces_ = faces_.size();
+    std::vector<Box> boxes;
+    boxes.reserve(faces_.size());
+    for (std::uint32_t f = 0; f < faces_.size(); ++f) {
+        for (int i = 0; i < 3; ++i) facesOf_[faces_[f][i]].push_back(f);
+        boxes.push_back(Box::of(corners(f)));
+    }
+    for (std::uint32_t v = 0; v < points_.size(); ++v) {
+        // Around each vertex of a closed oriented 2-manifold the rim is one cycle.
+        std::map<std::uint32_t, std::uint32_t> next;
+        for (const std::uint32_t f : facesOf_[v]) {
+            const Vec3I& t = faces_[f];
+            const int i = t[0] == v ? 0 : t[1] == v ? 1 : 2;
+            next[t[(i + 1) % 3]] = t[(i + 2) % 3];
+        }
+        std::size_t steps = 0;
+        if (!next.empty()) {
+            std::uint32_t at = next.begin()->first;
+            do {
+                const auto step = next.find(at);
+                if (step == next.end()) break;
+                at = step->second;
+                ++steps;
+            } while (at != next.begin()->first && steps <= next.size());
+        }
+        if (steps != facesOf_[v].size() || next.size() != steps) {
+            throw InputError("surface: it is not a closed, oriented 2-manifold at point " + std::to_string(v));
+        }
+    }
+    tree_.build(boxes, alive_);
+}
+
+Corners GuardedSurface::corners(std::uint32_t f) const
+{
+    const Vec3I& t = faces_[f];
+    return {points_[t[0]], points_[t[1]], points_[t[2]]};
+}
+
+std::vector<std::uint32_t> GuardedSurface::neighbours(std::uint32_t v) const
+{
+    std::vector<std::uint32_t> list;
+    for (const std::uint32_t f : facesOf_[v]) {
+        const Vec3I& t = faces_[f];
+        list.push_back(t[0] == v ? t[1] : t[1] == v ? t[2] : t[0]);
+    }
+    std::sort(list.begin(), list.end());
+    return list;
+}
+
+Fan GuardedSurface::fanOf(std::uint32_t v) const
+{
+    Fan fan;
+    fan.centre = v;
+    fan.oldFaces.assign(facesOf_[v].begin(), facesOf_[v].end());
+    fan.keptFaces = fan.oldFaces;
+    for (const std::uint32_t f : facesOf_[v]) {
+        const Vec3I& t = faces_[f];
+        const int i = t[0] == v ? 0 : t[1] == v ? 1 : 2;
+        fan.rim.push_back({t[(i + 1) % 3], t[(i + 2) % 3]});
+    }
+    return fan;
+}
+
+bool GuardedSurface::fanOf(std::uint32_t keep, std::uint32_t remove, Fan& fan) const
+{
+    // Link condition: the ends have two common neighbours, no more, and something is left.
+    const auto a = neighbours(keep), b = neighbours(remove);
+    std::size_t common = 0;
+    for (auto i = a.begin(), j = b.begin(); i != a.end() && j != b.end();) {
+        if (*i == *j) ++common;
+        const bool first = *i <= *j, second = *j <= *i;
+        i += first;
+        j += second;
+    }
+    if (common != 2 || a.size() + b.size() < 8) return false;
+    fan = Fan{};
+    fan.centre = keep;
+    fan.removed = remove;
+    for (const std::uint32_t v : {keep, remove}) {
+        for (const std::uint32_t f : facesOf_[v]) {
+            const Vec3I& t = faces_[f];
+            const bool both =
+                (t[0] == keep || t[1] == keep || t[2] == keep) && (t[0] == remove || t[1] == remove || t[2] == remove);
+            if (both) {
+                if (v == keep) fan.oldFaces.push_back(f);
+                continue;
+            }
+            fan.oldFaces.push_back(f);
+            fan.keptFaces.push_back(f);
+            const int i = t[0] == v ? 0 : t[1] == v ? 1 : 2;
+            fan.rim.push_back({t[(i + 1) % 3], t[(i + 2) % 3]});
+        }
+    }
+    return fan.rim.size() >= 3;
+}
+
+Corners GuardedSurface::fanCorners(const Fan& fan, std::size_t i, const Vec3d& p) const
+{
+    return {p, points_[fan.rim[i][0]], points_[fan.rim[i][1]]};
+}
+
+bool GuardedSurface::isOld(const Fan& fan, std::uint32_t face) const
+{
+    return std::find(fan.oldFaces.begin(), fan.oldFaces.end(), face) != fan.oldFaces.end();
+}
+
+bool GuardedSurface::wellShaped(const Fan& fan, const Vec3d& p) const
+{
+    double least = 1;
+    for (std::size_t i = 0; i < fan.rim.size(); ++i) least = std::min(least, detail::minSine(fanCorners(fan, i, p)));
+    if (least >= guard_.minSine()) return true;
+    double before = 1;
+    for (const std::uint32_t f : fan.oldFaces) before = std::min(before, detail::minSine(corners(f)));
+    if (!(least >= before)) return false;
+    for (std::size_t i = 0; i < fan.rim.size(); ++i) {
+        if (isDegenerate(fanCorners(fan, i, p))) return false;
+    }
+    return true;
+}
+
+bool GuardedSurface::clearOfSurface(const Fan& fan, const Vec3d& p) const
+{
+    const std::size_t n = fan.rim.size();
+    Triangles triangles(n);
+    for (std::size_t i = 0; i < n; ++i) triangles[i] = fanCorners(fan, i, p);
+    const auto ids = [&](std::size_t i) { return Vec3I(fan.centre, fan.rim[i][0], fan.rim[i][1]); };
+    if (!spreadOut(triangles)) {
+        for (std::size_t i = 0; i < n; ++i) {
+            for (std::size_t j = i + 1; j < n; ++j) {
+                if (meetBeyondShared(ids(i), triangles[i], ids(j), triangles[j])) return false;
+            }
+        }
+    }
+    for (std::size_t i = 0; i < n; ++i) {
+        const bool apart = tree_.forEachOverlap(Box::of(triangles[i]), [&](std::uint32_t face) {
+            return isOld(fan, face) || !meetBeyondShared(ids(i), triangles[i], faces_[face], corners(face));
+        });
+        if (!apart) return false;
+    }
+    return true;
+}
+
+bool GuardedSurface::allows(const Fan& fan, const Vec3d& p, std::uint32_t* hint) const
+{
+    if (!wellShaped(fan, p)) return false;
+    std::uint32_t blocker = hint ? *hint : TriangleTree::none;
+    for (std::size_t i = 0; i < fan.rim.size(); ++i) {
+        if (!guard_.clear(fanCorners(fan, i, p), blocker, &blocker)) {
+            if (hint) *hint = blocker;
+            return false;
+        }
+    }
+    if (!clearOfSurface(fan, p)) return false;
+    Box box = Box::of(p);
+    for (const auto& edge : fan.rim) box.expand(Box::of(points_[edge[0]]));
+    box.expand(Box::of(points_[fan.centre]));
+    if (fan.removed != Fan::none) box.expand(Box::of(points_[fan.removed]));
+    if (!guard_.mayHoldPart(box)) return true;
+    std::vector<Corners> surface;
+    for (std::size_t i = 0; i < fan.rim.size(); ++i) surface.push_back(fanCorners(fan, i, p));
+    for (const std::uint32_t f : fan.oldFaces) {
+        const Corners t = corners(f);
+        surface.push_back({t[0], t[2], t[1]});
+    }
+    return !guard_.swept(surface, box);
+}
+
+void GuardedSurface::contacts(const Fan& fan, const Vec3d& from, const Vec3d& to,
+                              std::vector<HalfSpace>& halfSpaces) const
+{
+    constexpr int mostGaps = 6; // of each triangle; the rest shows up in the next try if it matters
+    // A little more than the clearance, so that rounding leaves the next try on the right side.
+    const double clearance = 1.01 * guard_.clearance();
+    for (std::size_t i = 0; i < fan.rim.size(); ++i) {
+        const Corners now = fanCorners(fan, i, from), then = fanCorners(fan, i, to);
+        if (!addImpacts(guard_, now, to, i == 0, clearance, halfSpaces)) {
+            int gaps = 0;
+            guard_.forEachBlocker(then, [&](const Corners& other) {
+                addApproach(then, other, to, clearance, halfSpaces);
+                return ++gaps < mostGaps;
+            });
+        }
+        const Vec3I ids(fan.centre, fan.rim[i][0], fan.rim[i][1]);
+        tree_.forEachOverlap(Box::of(then), [&](std::uint32_t face) {
+            if (isOld(fan, face)) return true;
+            for (const int corner : {0, 1, 2}) {
+                if (faces_[face][corner] == ids[1] || faces_[face][corner] == ids[2]) return true;
+            }
+            if (meetBeyondShared(ids, then, faces_[face], corners(face))) {
+                addApproach(now, corners(face), from, 0.1 * guard_.clearance(), halfSpaces);
+            }
+            return true;
+        });
+    }
+}
+
+void GuardedSurface::apply(const Fan& fan, const Vec3d& p)
+{
+    points_[fan.centre] = p;
+    if (fan.removed != Fan::none) {
+        for (const std::uint32_t f : fan.oldFaces) {
+            Vec3I& t = faces_[f];
+            const bool stays = std::find(fan.keptFaces.begin(), fan.keptFaces.end(), f) != fan.keptFaces.end();
+            if (!stays) {
+                for (int i = 0; i < 3; ++i) {
+                    auto& list = facesOf_[t[i]];
+                    list.erase(std::find(list.begin(), list.end(), f));
+                }
+                alive_[f] = 0;
+                tree_.remove(f);
+                --liveFaces_;
+                continue;
+            }
+            for (int i = 0; i < 3; ++i) {
+                if (t[i] != fan.removed) continue;
+                t[i] = fan.centre;
+                facesOf_[fan.centre].push_back(f);
+            }
+        }
+        facesOf_[fan.removed].clear();
+    }
+    for (const std::uint32_t f : fan.keptFaces) tree_.update(f, Box::of(corners(f)));
+    if (tree_.wantsBuild()) {
+        std::vector<Box> boxes(faces_.size());
+        for (std::uint32_t f = 0; f < faces_.size(); ++f) {
+            if (alive_[f]) boxes[f] = Box::of(corners(f));
+        }
+        tree_.build(boxes, alive_);
+    }
+}
+
+bool GuardedSurface::Batch::apply(const Fan& fan, const Vec3d& p)
+{
+    const auto touched = [&](std::uint32_t v) { return std::binary_search(moved_.begin(), moved_.end(), v); };
+    if (touched(fan.centre) || (fan.removed != Fan::none && touched(fan.removed))) return false;
+    Box box = Box::of(p);
+    for (const auto& edge : fan.rim) {
+        if (touched(edge[0])) return false;
+        box.expand(Box::of(surface_.point(edge[0])));
+    }
+    const auto meets = [&](const Box& other) { return box.meets(other); };
+    if (std::any_of(boxes_.begin(), boxes_.end(), meets) && !surface_.clearOfSurface(fan, p)) return false;
+    surface_.apply(fan, p);
+    for (const std::uint32_t v : {fan.centre, fan.removed}) {
+        if (v != Fan::none) moved_.insert(std::lower_bound(moved_.begin(), moved_.end(), v), v);
+    }
+    boxes_.push_back(box);
+    return true;
+}
+
+Mesh GuardedSurface::mesh() const
+{
+    Mesh mesh;
+    std::vector<std::uint32_t> number(points_.size());
+    for (std::uint32_t v = 0; v < points_.size(); ++v) {
+        if (!isVertex(v)) continue;
+        number[v] = static_cast<std::uint32_t>(mesh.points.size());
+        mesh.points.push_back(guard_.unscaled(points_[v]));
+    }
+    for (std::uint32_t f = 0; f < faces_.size(); ++f) {
+        const Vec3I& t = faces_[f];
+        if (alive_[f]) mesh.triangles.emplace_back(number[t[0]], number[t[1]], number[t[2]]);
+    }
+    return mesh;
+}
+
+} // namespace vdbcage::detail

@@ -1,0 +1,97 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include <boost/container/small_vector.hpp>
+#include <vdbcage/surface/detail/guard_model.h>
+#include <vdbcage/surface/detail/refit_tree.h>
+
+namespace vdbcage::detail {
+
+/// A change to a surface: the triangles around one vertex, or around both ends of an edge, give way to a fan around a
+/// centre. Moving a vertex and collapsing an edge are the same thing to the guard.
+struct Fan {
+    static constexpr std::uint32_t none = ~std::uint32_t(0);
+    using Faces = boost::container::small_vector<std::uint32_t, 16>;
+
+    std::uint32_t centre = none;  ///< the vertex that moves, or survives the collapse
+    std::uint32_t removed = none; ///< the vertex that goes in a collapse
+    Faces oldFaces;               ///< those that give way
+    Faces keptFaces;              ///< one old face for each rim edge: it is replaced by that triangle
+    /// Edges across from the centre, in the faces' direction.
+    boost::container::small_vector<std::array<std::uint32_t, 2>, 16> rim;
+};
+
+/// A plane that a fan's centre must stay beyond: normal . centre >= offset.
+struct HalfSpace {
+    Vec3d normal;
+    double offset;
+};
+
+/// A closed triangle surface that bounds a model and is only changed in ways that keep it so.
+class GuardedSurface {
+public:
+    /// Points are rounded as the guard asks, quads split. \throw InputError the surface is not a closed 2-manifold
+    GuardedSurface(const Mesh& surface, const GuardModel& guard);
+
+    std::size_t liveFaces() const { return liveFaces_; }
+    std::uint32_t faces() const { return static_cast<std::uint32_t>(faces_.size()); } ///< ever, numbers below
+    std::uint32_t vertices() const { return static_cast<std::uint32_t>(points_.size()); }
+    bool isVertex(std::uint32_t v) const { return !facesOf_[v].empty(); }
+    const Vec3d& point(std::uint32_t v) const { return points_[v]; }
+    const std::vector<std::uint32_t>& facesOf(std::uint32_t v) const { return facesOf_[v]; }
+    const Vec3I& face(std::uint32_t f) const { return faces_[f]; }
+    Corners corners(std::uint32_t f) const;
+    /// The vertices joined to v by an edge, ascending.
+    std::vector<std::uint32_t> neighbours(std::uint32_t v) const;
+
+    Fan fanOf(std::uint32_t v) const;
+    /// The fan that takes the place of the stars of both ends; false where the link condition forbids the collapse.
+    bool fanOf(std::uint32_t keep, std::uint32_t remove, Fan& fan) const;
+
+    /// Whether the fan may have its centre at `p` (rounded as the guard asks). `hint` is a blocker to try first and
+    /// gets the one that was found.
+    bool allows(const Fan& fan, const Vec3d& p, std::uint32_t* hint = nullptr) const;
+    /// The half-spaces that keep the fan's centre, allowed at `from`, off what forbids it at `to`.
+    void contacts(const Fan& fan, const Vec3d& from, const Vec3d& to, std::vector<HalfSpace>& halfSpaces) const;
+    /// Makes the change; it must have been allowed.
+    void apply(const Fan& fan, const Vec3d& p);
+
+    /// Changes that were each allowed on the surface as it was when the batch began, made one after the other.
+    class Batch;
+
+    /// The live triangles, points that no face uses left out, order kept.
+    Mesh mesh() const;
+    const GuardModel& guard() const { return guard_; }
+
+private:
+    Corners fanCorners(const Fan& fan, std::size_t i, const Vec3d& p) const;
+    bool wellShaped(const Fan& fan, const Vec3d& p) const;
+    bool clearOfSurface(const Fan& fan, const Vec3d& p) const;
+    bool isOld(const Fan& fan, std::uint32_t face) const;
+
+    const GuardModel& guard_;
+    std::vector<Vec3d> points_;
+    std::vector<Vec3I> faces_;
+    std::vector<char> alive_;
+    std::vector<std::vector<std::uint32_t>> facesOf_;
+    std::size_t liveFaces_ = 0;
+    RefitTree tree_;
+};
+
+class GuardedSurface::Batch {
+public:
+    explicit Batch(GuardedSurface& surface) : surface_(surface) {}
+
+    /// Makes the change, unless one made before it in the batch moved a vertex of its fan or came into its way.
+    bool apply(const Fan& fan, const Vec3d& p);
+
+private:
+    GuardedSurface& surface_;
+    std::vector<std::uint32_t> moved_; // vertices, ascending
+    std::vector<Box> boxes_;           // of the fans made
+};
+
+} // namespace vdbcage::detail

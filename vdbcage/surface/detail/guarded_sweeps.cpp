@@ -1,0 +1,185 @@
+// Based on: Vollmer, Mencl, Muller, "Improved Laplacian Smoothing of Noisy Surface Meshes", 1999 (roundOff).
+// Differs: moves that the guard does not allow are shortened or left out.
+
+#include <vdbcage/surface/detail/guarded_sweeps.h>
+
+#include <algorithm>
+#include <optional>
+#include <vector>
+
+#include <tbb/parallel_for.h>
+#include <vdbcage/surface/detail/fan_fit.h>
+
+namespace vdbcage::detail {
+
+namespace {
+
+/// Vertices in groups without neighbours among each other: greedy colouring in index order.
+std::vector<std::vector<std::uint32_t>> independentGroups(const GuardedSurface& surface,
+                                                          const std::vector<std::uint32_t>& vertices)
+{
+    constexpr std::uint32_t uncoloured = ~std::uint32_t(0);
+    std::vector<std::uint32_t> colour(surface.vertices(), uncoloured);
+    std::vector<std::vector<std::uint32_t>> groups;
+    std::vector<std::uint32_t> takenBy; // for each colour the last vertex with a neighbour of it
+    for (const std::uint32_t v : vertices) {
+        for (const std::uint32_t w : surface.neighbours(v)) {
+            if (colour[w] != uncoloured) takenBy[colour[w]] = v;
+        }
+        std::uint32_t free = 0;
+        while (free < groups.size() && takenBy[free] == v) ++free;
+        if (free == groups.size()) {
+            groups.emplace_back();
+            takenBy.push_back(uncoloured);
+        }
+        colour[v] = free;
+        groups[free].push_back(v);
+    }
+    return groups;
+}
+
+/// Asks propose(v, fan), which may run on any thread, for the allowed new place of each vertex, and moves it there.
+template <typename Propose, typename Moved>
+void sweep(GuardedSurface& surface, const std::vector<std::uint32_t>& vertices, Interrupter* interrupter,
+           const Propose& propose, const Moved& moved)
+{
+    constexpr std::size_t batch = 128;
+    struct Proposal {
+        Fan fan;
+        std::optional<Vec3d> place;
+    };
+    std::vector<Proposal> proposals;
+    for (const auto& group : independentGroups(surface, vertices)) {
+        for (std::size_t begin = 0; begin < group.size(); begin += batch) {
+            throwIfInterrupted(interrupter);
+            const std::size_t count = std::min(batch, group.size() - begin);
+            proposals.assign(count, {});
+            tbb::parallel_for(std::size_t(0), count, [&](std::size_t i) {
+                const std::uint32_t v = group[begin + i];
+                proposals[i].fan = surface.fanOf(v);
+                proposals[i].place = propose(v, proposals[i].fan);
+            });
+            GuardedSurface::Batch changes(surface);
+            for (std::size_t i = 0; i < count; ++i) {
+                const bool done = proposals[i].place && changes.apply(proposals[i].fan, *proposals[i].place);
+                moved(group[begin + i], proposals[i].fan, done);
+            }
+        }
+    }
+}
+
+std::vector<std::uint32_t> allVertices(const GuardedSurface& surface)
+{
+    std::vector<std::uint32_t> list;
+    for (std::uint32_t v = 0; v < surface.vertices(); ++v) {
+        if (surface.isVertex(v)) list.push_back(v);
+    }
+    return list;
+}
+
+Vec3d ringAverage(const GuardedSurface& surface, const Fan& fan)
+{
+    Vec3d average(0.0);
+    for (const auto& edge : fan.rim) average += surface.point(edge[0]);
+    return average / static_cast<double>(fan.rim.size());
+}
+
+/// The first of the places on the way to `goal` that is allowed.
+std::optional<Vec3d> towards(const GuardedSurface& surface, const Fan& fan, const Vec3d& goal,
+                             std::initializer_list<double> steps)
+{
+    const Vec3d& p = surface.point(fan.centre);
+    std::uint32_t blocker = TriangleTree::none;
+    for (const double step : steps) {
+        const Vec3d target = surface.guard().rounded(p + step * (goal - p));
+        if (surface.allows(fan, target, &blocker)) return target;
+    }
+    return std::nullopt;
+}
+
+} // namespace
+
+double area(const GuardedSurface& surface)
+{
+    double sum = 0;
+    for (std::uint32_t v = 0; v < surface.vertices(); ++v) {
+        for (const std::uint32_t f : surface.facesOf(v)) {
+            if (surface.face(f)[0] != v) continue; // each face once
+            const Corners t = surface.corners(f);
+            sum += 0.5 * (t[1] - t[0]).cross(t[2] - t[0]).length();
+        }
+    }
+    return sum;
+}
+
+void shrink(GuardedSurface& surface, Interrupter* interrupter)
+{
+    sweep(
+        surface, allVertices(surface), interrupter,
+        [&](std::uint32_t v, const Fan& fan) {
+            const Vec3d closest = surface.guard().tree().closest(surface.point(v)).point;
+            return towards(surface, fan, 0.5 * (ringAverage(surface, fan) + closest), {0.9, 0.5, 0.2});
+        },
+        [](std::uint32_t, const Fan&, bool) {});
+}
+
+void roundOff(GuardedSurface& surface, int sweeps, Interrupter* interrupter)
+{
+    const std::vector<std::uint32_t> vertices = allVertices(surface);
+    std::vector<Vec3d> toAverage(surface.vertices(), Vec3d(0.0));
+    for (int i = 0; i < sweeps; ++i) {
+        tbb::parallel_for(std::size_t(0), vertices.size(), [&](std::size_t k) {
+            const std::uint32_t v = vertices[k];
+            toAverage[v] = ringAverage(surface, surface.fanOf(v)) - surface.point(v);
+        });
+        sweep(
+            surface, vertices, interrupter,
+            [&](std::uint32_t v, const Fan& fan) {
+                Vec3d around(0.0);
+                for (const auto& edge : fan.rim) around += toAverage[edge[0]];
+                around /= static_cast<double>(fan.rim.size());
+                return towards(surface, fan, surface.point(v) + 0.7 * toAverage[v] - 0.7 * around, {1.0, 0.5, 0.2});
+            },
+            [](std::uint32_t, const Fan&, bool) {});
+    }
+}
+
+void tighten(GuardedSurface& surface, int sweeps, double areaPerSample, Interrupter* interrupter)
+{
+    constexpr double sleepBelow = 0.001; // a smaller part gained: not tried again until a neighbour moves
+    constexpr double stopBelow = 0.001;  // the same for a whole sweep
+    const DistanceMeasure measure(surface.guard(), areaPerSample, DistanceMeasure::Power::distance);
+    const std::size_t n = surface.vertices();
+    std::vector<std::uint32_t> seed(n, TriangleTree::none);
+    std::vector<double> before(n, 0), after(n, 0);
+    std::vector<std::uint32_t> awake = allVertices(surface);
+    for (int i = 0; i < sweeps && !awake.empty(); ++i) {
+        std::vector<char> stir(n, 0);
+        double gain = 0, total = 0;
+        sweep(
+            surface, awake, interrupter,
+            [&](std::uint32_t v, const Fan& fan) -> std::optional<Vec3d> {
+                Vec3d p = surface.point(v);
+                DistanceMeasure::Fit fit = measure.fit(surface, fan, p, seed[v]);
+                before[v] = after[v] = fit.integral;
+                if (!measure.improve(surface, fan, p, fit, seed[v])) return std::nullopt;
+                after[v] = fit.integral;
+                return p;
+            },
+            [&](std::uint32_t v, const Fan& fan, bool moved) {
+                total += before[v];
+                if (!moved) return;
+                gain += before[v] - after[v];
+                if (before[v] - after[v] < sleepBelow * before[v]) return;
+                stir[v] = 1;
+                for (const auto& edge : fan.rim) stir[edge[0]] = 1;
+            });
+        if (!(gain > stopBelow * total)) break;
+        awake.clear();
+        for (std::uint32_t v = 0; v < n; ++v) {
+            if (stir[v]) awake.push_back(v);
+        }
+    }
+}
+
+} // namespace vdbcage::detail
