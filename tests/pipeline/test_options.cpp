@@ -35,9 +35,10 @@ BOOST_AUTO_TEST_CASE(text_goes_in_and_comes_out)
 {
     CageOptions options;
     const std::vector<std::pair<std::string, std::string>> wanted{
-        {"faces", "100"},     {"resolution", "64"}, {"close-radius", "0.125"}, {"erode-radius", "0.0625"},
-        {"element", "cube"},  {"smooth", "7"},      {"mesh", "triquad"},       {"merge-angle", "22.5"},
-        {"voxelizer", "cpu"}, {"bounding", "off"}};
+        {"faces", "100"},        {"resolution", "64"}, {"close-radius", "0.125"}, {"erode-radius", "0.0625"},
+        {"element", "cube"},     {"smooth", "7"},      {"parts", "merge"},        {"mesh", "triquad"},
+        {"merge-angle", "22.5"}, {"voxelizer", "cpu"}, {"bounding", "off"},       {"clearance", "0.001"},
+        {"min-angle", "2"},      {"effort", "best"}};
     for (const auto& option : wanted) setOption(options, option.first, option.second);
     BOOST_CHECK(optionValues(options) == wanted);
     BOOST_CHECK(optionValues(CageOptions{}) != wanted);
@@ -48,16 +49,22 @@ BOOST_AUTO_TEST_CASE(text_goes_in_and_comes_out)
     BOOST_TEST(!options.bounding);
     setOption(options, "erode-radius", "auto");
     BOOST_TEST(!options.erodeRadius.has_value());
+    BOOST_TEST(options.resolution.value() == 64);
+    setOption(options, "resolution", "auto");
+    BOOST_TEST(!options.resolution.has_value());
+    BOOST_CHECK(options.parts == CageParts::merge);
+    BOOST_CHECK(options.effort == Effort::best);
 }
 
 BOOST_AUTO_TEST_CASE(what_is_not_allowed_is_refused_by_name_value_and_range)
 {
     const std::vector<std::pair<std::string, std::string>> bad{
-        {"faces", "11"},        {"faces", "1000001"},    {"faces", "4.5"},         {"faces", ""},
-        {"faces", "12x"},       {"faces", " 12"},        {"resolution", "7"},      {"resolution", "2049"},
-        {"close-radius", "-1"}, {"close-radius", "nan"}, {"close-radius", "inf"},  {"close-radius", "0,03"},
-        {"erode-radius", "x"},  {"element", "Cube"},     {"mesh", "quads!"},       {"merge-angle", "181"},
-        {"voxelizer", ""},      {"bounding", "maybe"},   {"smooth", "99999999999"}};
+        {"faces", "11"},        {"faces", "1000001"},    {"faces", "4.5"},          {"faces", ""},
+        {"faces", "12x"},       {"faces", " 12"},        {"resolution", "7"},       {"resolution", "2049"},
+        {"close-radius", "-1"}, {"close-radius", "nan"}, {"close-radius", "inf"},   {"close-radius", "0,03"},
+        {"erode-radius", "x"},  {"element", "Cube"},     {"mesh", "quads!"},        {"merge-angle", "181"},
+        {"voxelizer", ""},      {"bounding", "maybe"},   {"smooth", "99999999999"}, {"clearance", "0"},
+        {"effort", "worst"},    {"parts", ""},           {"resolution", "64.5"},    {"min-angle", "31"}};
     for (const auto& entry : bad) {
         CageOptions options;
         BOOST_CHECK_EXCEPTION(setOption(options, entry.first, entry.second), InputError, [&](const InputError& error) {

@@ -191,7 +191,7 @@ BOOST_AUTO_TEST_CASE(cancelling_throws_and_the_pipeline_runs_again)
     BOOST_CHECK(sameMesh(made.run(options), expected));
 }
 
-BOOST_AUTO_TEST_CASE(without_bounding_the_cage_is_tight_and_reported_as_it_is)
+BOOST_AUTO_TEST_CASE(without_bounding_the_cage_is_reported_as_it_is)
 {
     CageOptions options = coarse();
     options.bounding = false;
@@ -204,7 +204,7 @@ BOOST_AUTO_TEST_CASE(without_bounding_the_cage_is_tight_and_reported_as_it_is)
     options.bounding = true;
     made.run(options);
     BOOST_TEST(made.report().check.bounding());
-    BOOST_TEST(free < made.report().check.meanDistance);
+    BOOST_TEST(free > made.report().check.meanDistance); // the guarded operators are tighter, too
 }
 
 BOOST_AUTO_TEST_CASE(more_smoothing_is_rounder)

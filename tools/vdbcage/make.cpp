@@ -86,10 +86,9 @@ void addStages(const Pipeline& pipeline, const MakeArguments& arguments, Interru
     const auto surface = [&](const char* stage, const Mesh& mesh) {
         outputs.add(folder / (std::string(stage) + ".obj"), [&](const fs::path& path) { writeMesh(mesh, path); });
     };
-    const CageOptions& options = arguments.options;
     volume("solid", *pipeline.solid());
-    volume("dilated",
-           *dilate(*pipeline.solid(), options.closeRadius * options.resolution, options.element, interrupter));
+    volume("dilated", *dilate(*pipeline.solid(), pipeline.report().closeRadius * pipeline.report().resolution,
+                              arguments.options.element, interrupter));
     volume("closed", *pipeline.closed());
     volume("contour", *contour(*pipeline.closed(), interrupter));
     surface("surface", pipeline.surface());
@@ -109,7 +108,9 @@ void printSummary(const MakeArguments& arguments, const Pipeline& pipeline, cons
                   : check.valid()  ? ", NOT bounding"
                                    : ", NOT a valid cage")
               << ", mean distance " << 100 * check.meanDistance << " % of the diagonal, " << seconds << " s\n";
-    if (report.isBox) {
+    if (report.start == CageStart::block) {
+        std::cerr << "  shrunk from a block: the closing has too many parts or handles for so few faces\n";
+    } else if (report.start == CageStart::box) {
         std::cerr << "  this is the model's bounding box: nothing tighter with so few faces was certified\n";
     }
     if (!arguments.verbose) return;
@@ -117,7 +118,7 @@ void printSummary(const MakeArguments& arguments, const Pipeline& pipeline, cons
         std::cerr << "  " << std::left << std::setw(10) << stage.name << std::right << std::setw(8) << stage.seconds
                   << " s\n";
     }
-    std::cerr << "  offset " << report.offsetVoxels << " voxels after " << report.attempts << " attempts, memory peak "
+    std::cerr << "  resolution " << report.resolution << ", close radius " << report.closeRadius << ", memory peak "
               << peakMemory() << " MiB\n"
               << describe(check);
 }

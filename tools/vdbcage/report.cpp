@@ -40,10 +40,18 @@ Json toJson(const CageCheck& check)
 
 Json toJson(const CageReport& report)
 {
-    return {{"float_safe", report.floatSafe},     {"offset_voxels", report.offsetVoxels},
-            {"attempts", report.attempts},        {"is_box", report.isBox},
-            {"repaired", report.repaired},        {"cavities_filled", report.cavitiesFilled},
-            {"solid_voxels", report.solidVoxels}, {"closed_voxels", report.closedVoxels}};
+    const char* start = report.start == CageStart::closing ? "closing"
+                        : report.start == CageStart::block ? "block"
+                                                           : "box";
+    return {{"float_safe", report.floatSafe},
+            {"offset_voxels", report.offsetVoxels},
+            {"resolution", report.resolution},
+            {"close_radius", report.closeRadius},
+            {"start", start},
+            {"repaired", report.repaired},
+            {"cavities_filled", report.cavitiesFilled},
+            {"solid_voxels", report.solidVoxels},
+            {"closed_voxels", report.closedVoxels}};
 }
 
 Json toJson(const ReadSummary& summary, const Mesh& mesh, const std::filesystem::path& path)

@@ -2,6 +2,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <type_traits>
 #include <utility>
 
 #include <vdbcage/core/error.h>
@@ -30,6 +31,20 @@ const std::vector<std::pair<const char*, Voxelizer>>& names(Voxelizer /*type*/)
 {
     static const std::vector<std::pair<const char*, Voxelizer>> list{
         {"auto", Voxelizer::automatic}, {"cpu", Voxelizer::cpu}, {"gl", Voxelizer::gl}, {"cgal", Voxelizer::cgal}};
+    return list;
+}
+
+const std::vector<std::pair<const char*, CageParts>>& names(CageParts /*type*/)
+{
+    static const std::vector<std::pair<const char*, CageParts>> list{{"keep", CageParts::keep},
+                                                                     {"merge", CageParts::merge}};
+    return list;
+}
+
+const std::vector<std::pair<const char*, Effort>>& names(Effort /*type*/)
+{
+    static const std::vector<std::pair<const char*, Effort>> list{
+        {"fast", Effort::fast}, {"fair", Effort::fair}, {"best", Effort::best}};
     return list;
 }
 
@@ -95,7 +110,11 @@ Number parseNumber(const OptionInfo& info, const std::string& text, const char* 
 struct ToText {
     std::string operator()(int value) const { return numberText(value); }
     std::string operator()(double value) const { return numberText(value); }
-    std::string operator()(const std::optional<double>& value) const { return value ? numberText(*value) : "auto"; }
+    template <typename Number>
+    std::string operator()(const std::optional<Number>& value) const
+    {
+        return value ? numberText(*value) : "auto";
+    }
     template <typename Name>
     std::string operator()(Name value) const
     {
@@ -112,12 +131,14 @@ struct FromText {
 
     void operator()(int& field) const { field = parseNumber<int>(info, text, "a whole number"); }
     void operator()(double& field) const { field = parseNumber<double>(info, text, "a number"); }
-    void operator()(std::optional<double>& field) const
+    template <typename Number>
+    void operator()(std::optional<Number>& field) const
     {
         if (text == "auto") {
             field.reset();
         } else {
-            field = parseNumber<double>(info, text, "auto or a number");
+            const bool whole = std::is_integral_v<Number>;
+            field = parseNumber<Number>(info, text, whole ? "auto or a whole number" : "auto or a number");
         }
     }
     template <typename Name>
@@ -138,7 +159,8 @@ struct RequireRange {
 
     void operator()(int value) const { requireInRange(info, value); }
     void operator()(double value) const { requireInRange(info, value); }
-    void operator()(const std::optional<double>& value) const
+    template <typename Number>
+    void operator()(const std::optional<Number>& value) const
     {
         if (value) requireInRange(info, *value);
     }
@@ -153,7 +175,11 @@ struct Placeholder {
 
     std::string operator()(int /*value*/) const { return info.symbol; }
     std::string operator()(double /*value*/) const { return info.symbol; }
-    std::string operator()(const std::optional<double>& /*value*/) const { return "auto|" + std::string(info.symbol); }
+    template <typename Number>
+    std::string operator()(const std::optional<Number>& /*value*/) const
+    {
+        return "auto|" + std::string(info.symbol);
+    }
     template <typename Name>
     std::string operator()(Name /*value*/) const
     {
@@ -202,9 +228,10 @@ void setOption(CageOptions& options, const std::string& name, const std::string&
 void requireValid(const CageOptions& options)
 {
     visitOptions(options, [](const OptionInfo& info, const auto& field) { RequireRange{info}(field); });
-    if (options.erodeRadius && *options.erodeRadius > options.closeRadius) {
+    if (options.erodeRadius && !(options.closeRadius && *options.erodeRadius <= *options.closeRadius)) {
         throw InputError("--erode-radius: '" + numberText(*options.erodeRadius) +
-                         "' is not allowed; it must be at most the close radius, " + numberText(options.closeRadius));
+                         "' is not allowed; it must be at most the close radius, " +
+                         (options.closeRadius ? numberText(*options.closeRadius) : "which has to be given too"));
     }
 }
 

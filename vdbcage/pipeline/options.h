@@ -5,6 +5,7 @@
 #include <vector>
 
 #include <vdbcage/core/export.h>
+#include <vdbcage/surface/decimate.h>
 #include <vdbcage/volume/morphology.h>
 #include <vdbcage/voxelize/voxelize.h>
 
@@ -16,14 +17,24 @@ enum class CageFaces {
     triquad ///< triangles, merged into quads where they are flat enough
 };
 
+/// What becomes of parts of the model that the closing leaves apart.
+enum class CageParts {
+    keep, ///< each may get a cage of its own, where the faces suffice
+    merge ///< one cage around everything
+};
+
 /// Everything that decides how a cage comes out. Lengths are fractions of the model's longest side.
 struct CageOptions {
     int faces = 400;                            ///< faces of the cage, at most; a quad counts once
-    int resolution = 128;                       ///< voxels along the model's longest side
-    double closeRadius = 0.03;                  ///< gaps up to twice this wide are bridged
-    std::optional<double> erodeRadius;          ///< at most the close radius; unset: equal to it
+    std::optional<int> resolution;              ///< voxels along the model's longest side; unset: by the faces
+    std::optional<double> closeRadius;          ///< gaps up to twice this wide are bridged; unset: as the faces allow
+    std::optional<double> erodeRadius;          ///< at most the close radius, which must be set; unset: equal to it
     Element element = Element::sphere;          ///< structuring element of the closing
-    int smooth = 3;                             ///< smoothing iterations: rounder with more
+    int smooth = 0;                             ///< sweeps of smoothing at the end: rounder, and less tight, with more
+    CageParts parts = CageParts::keep;          ///< what becomes of separate parts of the closing
+    double clearance = 1e-6;                    ///< least distance from model to cage
+    double minAngle = 6;                        ///< degrees: no triangle angle gets smaller by decimation or tightening
+    Effort effort = Effort::fair;               ///< time against tightness
     CageFaces mesh = CageFaces::triangles;      ///< triangles only, or quads too
     double mergeAngle = 10;                     ///< degrees: flatter pairs of triangles become quads (triquad)
     Voxelizer voxelizer = Voxelizer::automatic; ///< what turns the model into voxels
@@ -31,7 +42,7 @@ struct CageOptions {
 };
 
 /// The stages of the pipeline in order; each option belongs to the first stage that depends on it.
-enum class PipelineStage { voxelize, close, smooth, decimate, merge };
+enum class PipelineStage { voxelize, close, decimate, merge };
 
 /// What is known of an option beside its value: one entry serves flags, help, range checks, README and metadata.
 struct OptionInfo {
@@ -49,15 +60,18 @@ void visitOptions(Options& options, Visit&& visit)
     using In = PipelineStage;
     visit(OptionInfo{"faces", "N", "faces of the cage, at most", In::decimate, 12, 1000000}, options.faces);
     visit(OptionInfo{"resolution", "N", "voxels along the longest side", In::voxelize, 8, 2048}, options.resolution);
-    visit(OptionInfo{"close-radius", "F", "bridges gaps up to twice it", In::close, 0, 0.25},
-          options.closeRadius);
+    visit(OptionInfo{"close-radius", "F", "bridges gaps up to twice it", In::close, 0, 0.25}, options.closeRadius);
     visit(OptionInfo{"erode-radius", "F", "if less, leaves an offset", In::close, 0, 0.25}, options.erodeRadius);
     visit(OptionInfo{"element", "", "shape of the closing", In::close}, options.element);
-    visit(OptionInfo{"smooth", "K", "smoothing iterations", In::smooth, 0, 100}, options.smooth);
+    visit(OptionInfo{"smooth", "K", "rounds it off: 0 is tightest", In::decimate, 0, 100}, options.smooth);
+    visit(OptionInfo{"parts", "", "separate parts of the closing", In::decimate}, options.parts);
     visit(OptionInfo{"mesh", "", "faces of the cage", In::merge}, options.mesh);
     visit(OptionInfo{"merge-angle", "DEG", "flatter pairs become quads", In::merge, 0, 180}, options.mergeAngle);
     visit(OptionInfo{"voxelizer", "", "what makes the voxels", In::voxelize}, options.voxelizer);
     visit(OptionInfo{"bounding", "", "only ever a certified cage", In::decimate}, options.bounding);
+    visit(OptionInfo{"clearance", "F", "least distance to model", In::decimate, 1e-7, 0.1}, options.clearance);
+    visit(OptionInfo{"min-angle", "DEG", "floor for triangle angles", In::decimate, 0, 30}, options.minAngle);
+    visit(OptionInfo{"effort", "", "time against tightness", In::decimate}, options.effort);
 }
 
 /// An option in words, for help and tables.

@@ -1,6 +1,7 @@
 // The chain of stages is that of "Cage Generation with User Interaction in Cage Modeler" and of Calderon and Boubekeur,
 // Bounding Proxies for Shape Approximation, 2017.
-// Differs: a cage is certified before it is returned; where the plain operators cut the model the closing is grown.
+// Differs: surfaces are changed under a guard that keeps the model inside, and a cage is certified before it is
+// returned.
 
 #include <vdbcage/pipeline/pipeline.h>
 
@@ -10,11 +11,16 @@
 #include <string>
 #include <utility>
 
+#include <vdbcage/core/detail/mask_grid.h>
+#include <vdbcage/core/detail/nearest_float.h>
 #include <vdbcage/core/error.h>
+#include <vdbcage/mesh/topology.h>
+#include <vdbcage/surface/bounding_guard.h>
 #include <vdbcage/surface/decimate.h>
 #include <vdbcage/surface/extract.h>
 #include <vdbcage/surface/repair.h>
 #include <vdbcage/surface/smooth.h>
+#include <vdbcage/surface/tighten.h>
 #include <vdbcage/surface/triquad.h>
 #include <vdbcage/volume/cavities.h>
 #include <vdbcage/volume/morphology.h>
@@ -36,17 +42,10 @@ std::string keyUpTo(const CageOptions& options, PipelineStage last)
     return key;
 }
 
-/// The float next to `value`. Volatile, because g++ 12 -O3 drops the conversion in the remainder of a vectorized loop.
-double nearestFloat(double value)
-{
-    const volatile float rounded = static_cast<float>(value);
-    return static_cast<double>(rounded);
-}
-
 Mesh roundedToFloat(Mesh mesh)
 {
     for (openvdb::Vec3d& point : mesh.points) {
-        for (int axis = 0; axis < 3; ++axis) point[axis] = nearestFloat(point[axis]);
+        for (int axis = 0; axis < 3; ++axis) point[axis] = detail::nearestFloat(point[axis]);
     }
     return mesh;
 }
@@ -98,13 +97,10 @@ public:
     void run(const CageOptions& options, Interrupter* interrupter)
     {
         requireValid(options);
-        updateSolid(options, interrupter);
-        updateClosed(options, interrupter);
         const std::string key = keyUpTo(options, PipelineStage::merge);
         if (key == cageKey_) return;
         cageKey_.clear();
-        attempts_ = 0;
-        Candidate best = options.bounding ? findBounding(options, interrupter) : makeUnguarded(options, interrupter);
+        Candidate best = options.bounding ? makeBounding(options, interrupter) : makeUnguarded(options, interrupter);
         {
             const Stage stage(interrupter, "certify");
             best.check = checker(interrupter).check(best.cage, {}, interrupter);
@@ -114,9 +110,10 @@ public:
         }
         report_.check = best.check;
         report_.floatSafe = floatSafe_ && options.bounding;
+        report_.resolution = best.voxels.resolution;
+        report_.closeRadius = best.voxels.closeRadius;
         report_.offsetVoxels = best.offset;
-        report_.attempts = attempts_;
-        report_.isBox = best.isBox;
+        report_.start = best.start;
         report_.repaired = best.repaired;
         best_ = std::move(best);
         cageKey_ = key;
@@ -127,44 +124,77 @@ public:
     openvdb::MaskGrid::ConstPtr closed() const { return closed_; }
     const CageReport& report() const { return report_; }
 
-    /// One try at a cage: the closing grown by `offset` voxels and what was made of it.
+    /// What auto options stand for.
+    struct Voxels {
+        int resolution;
+        double closeRadius;
+    };
+    /// A cage and what it was made from.
     struct Candidate {
+        Voxels voxels{};
         double offset = 0;
+        CageStart start = CageStart::closing;
         Mesh surface, smoothed, decimated, cage;
         CageCheck check;
-        bool isBox = false, repaired = false;
+        bool repaired = false;
     };
     const Candidate& best() const { return best_; }
 
 private:
+    void updateClosed(CageOptions options, const Voxels& voxels, Interrupter* interrupter)
+    {
+        options.resolution = voxels.resolution;
+        options.closeRadius = voxels.closeRadius;
+        updateSolid(options, interrupter);
+        const std::string key = keyUpTo(options, PipelineStage::close);
+        if (key == closedKey_) return;
+        closedKey_.clear();
+        const Stage stage(interrupter, "close");
+        CloseOptions closing;
+        closing.closeRadiusVoxels = voxels.closeRadius * voxels.resolution;
+        closing.erodeRadiusVoxels = options.erodeRadius.value_or(voxels.closeRadius) * voxels.resolution;
+        closing.element = options.element;
+        const auto closed = closeMask(*solid_, closing, interrupter);
+        closed_ = fillCavities(*closed, &report_.cavitiesFilled, interrupter);
+        report_.closedVoxels = static_cast<std::size_t>(closed_->activeVoxelCount());
+        closedKey_ = key;
+    }
+
     void updateSolid(const CageOptions& options, Interrupter* interrupter)
     {
         const std::string key = keyUpTo(options, PipelineStage::voxelize);
         if (key == solidKey_) return;
         solidKey_.clear();
+        closedKey_.clear();
         const Stage stage(interrupter, "voxelize");
         VoxelizeOptions voxels;
-        voxels.resolution = options.resolution;
+        voxels.resolution = options.resolution.value();
         voxels.voxelizer = options.voxelizer;
         solid_ = voxelize(model_, voxels, interrupter);
         report_.solidVoxels = static_cast<std::size_t>(solid_->activeVoxelCount());
         solidKey_ = key;
     }
 
-    void updateClosed(const CageOptions& options, Interrupter* interrupter)
+    /// The voxels to try, finest first. What is given is obeyed.
+    static std::vector<Voxels> ladder(const CageOptions& options)
     {
-        const std::string key = keyUpTo(options, PipelineStage::close);
-        if (key == closedKey_) return;
-        closedKey_.clear();
-        const Stage stage(interrupter, "close");
-        CloseOptions closing;
-        closing.closeRadiusVoxels = options.closeRadius * options.resolution;
-        closing.erodeRadiusVoxels = options.erodeRadius.value_or(options.closeRadius) * options.resolution;
-        closing.element = options.element;
-        const auto closed = closeMask(*solid_, closing, interrupter);
-        closed_ = fillCavities(*closed, &report_.cavitiesFilled, interrupter);
-        report_.closedVoxels = static_cast<std::size_t>(closed_->activeVoxelCount());
-        closedKey_ = key;
+        constexpr double leastRadius = 0.03, greatestRadius = 0.24;
+        constexpr int usual = 64, finest = 512, coarsest = 16;
+        // The surface should have several times the faces that the cage is to have.
+        const double wanted = usual * std::sqrt(std::max(1.0, options.faces / 1000.0));
+        const int resolution = options.resolution.value_or(std::min(finest, static_cast<int>(std::ceil(wanted))));
+        std::vector<Voxels> list{{resolution, options.closeRadius.value_or(leastRadius)}};
+        if (!options.closeRadius) {
+            for (double radius = 2 * leastRadius; radius <= greatestRadius; radius *= 2) {
+                list.push_back({resolution, radius});
+            }
+        }
+        if (!options.resolution) {
+            for (int coarser = resolution / 2; coarser >= coarsest; coarser /= 2) {
+                list.push_back({coarser, options.closeRadius.value_or(greatestRadius)});
+            }
+        }
+        return list;
     }
 
     const CageChecker& checker(Interrupter* interrupter)
@@ -187,35 +217,6 @@ private:
         return check;
     }
 
-    /// Surface, smoothing and decimation of the closing grown by `offset` voxels; triangles, not examined.
-    Candidate makeTriangles(const CageOptions& options, double offset, Interrupter* interrupter)
-    {
-        ++attempts_;
-        Candidate candidate;
-        candidate.offset = offset;
-        {
-            const Stage stage(interrupter, "surface");
-            const openvdb::MaskGrid::ConstPtr grown =
-                offset > 0 ? dilate(*closed_, offset, Element::sphere, interrupter) : closed_;
-            candidate.surface = extractSurface(*grown, interrupter);
-        }
-        {
-            const Stage stage(interrupter, "smooth");
-            SmoothOptions smoothing;
-            smoothing.iterations = options.smooth;
-            candidate.smoothed = vdbcage::smooth(candidate.surface, smoothing, interrupter);
-        }
-        {
-            const Stage stage(interrupter, "decimate");
-            DecimateOptions target;
-            target.faces = static_cast<std::size_t>(options.faces);
-            candidate.decimated = decimate(candidate.smoothed, target, interrupter);
-        }
-        if (floatSafe_) candidate.decimated = roundedToFloat(std::move(candidate.decimated));
-        candidate.cage = candidate.decimated;
-        return candidate;
-    }
-
     TriquadOptions mergeOptions(const CageOptions& options) const
     {
         TriquadOptions merging;
@@ -225,7 +226,26 @@ private:
 
     Candidate makeUnguarded(const CageOptions& options, Interrupter* interrupter)
     {
-        Candidate candidate = makeTriangles(options, 0, interrupter);
+        constexpr int removeSteps = 3; // smoothing that takes the steps of the voxels away
+        Candidate candidate;
+        candidate.voxels = ladder(options).front();
+        updateClosed(options, candidate.voxels, interrupter);
+        {
+            const Stage stage(interrupter, "surface");
+            candidate.surface = extractSurface(*closed_, interrupter);
+        }
+        {
+            const Stage stage(interrupter, "smooth");
+            SmoothOptions smoothing;
+            smoothing.iterations = std::min(100, removeSteps + options.smooth);
+            candidate.smoothed = vdbcage::smooth(candidate.surface, smoothing, interrupter);
+        }
+        {
+            const Stage stage(interrupter, "decimate");
+            candidate.decimated = decimate(candidate.smoothed, target(options), interrupter);
+        }
+        if (floatSafe_) candidate.decimated = roundedToFloat(std::move(candidate.decimated));
+        candidate.cage = candidate.decimated;
         if (hasRepair() && !certify(candidate.cage, interrupter).valid()) {
             candidate.decimated = repair(candidate.decimated, nullptr, interrupter);
             candidate.cage = candidate.decimated;
@@ -235,35 +255,91 @@ private:
         return candidate;
     }
 
-    /// A certified candidate grown by as little as a short search finds. The first guess follows from the error of a
-    /// quadric decimation, which falls like 1 / faces; then the offset is bracketed by steps of `step` and the bracket
-    /// narrowed once. Not every larger offset holds where a smaller one does, so the smallest that held is taken.
-    Candidate findBounding(const CageOptions& options, Interrupter* interrupter)
+    static DecimateOptions target(const CageOptions& options)
     {
-        constexpr double step = 1.6;
-        const double largest = std::min(0.5 * options.resolution, 512.0);
-        double offset = std::clamp(8.0 * options.resolution / options.faces, 1.0, largest);
-        std::optional<Candidate> held;
-        double failed = 0;
-        const auto attempt = [&](double at) {
-            Candidate candidate = makeTriangles(options, at, interrupter);
-            const bool few = faceCount(candidate.cage) <= static_cast<std::size_t>(options.faces);
-            if (few && certify(candidate.cage, interrupter).bounding()) {
-                held = std::move(candidate);
-                return true;
-            }
-            failed = std::max(failed, at);
-            return false;
-        };
-        if (attempt(offset)) {
-            while (offset / step >= 0.7 && attempt(offset / step)) offset /= step;
-        } else {
-            while (!held && offset * step <= largest) attempt(offset *= step);
+        DecimateOptions target;
+        target.faces = static_cast<std::size_t>(options.faces);
+        return target;
+    }
+
+    /// The first rung of the ladder that leads to few enough faces, or else a cage from a block, or else the box.
+    Candidate makeBounding(const CageOptions& options, Interrupter* interrupter)
+    {
+        GuardOptions guardOptions;
+        guardOptions.clearance = options.clearance;
+        guardOptions.minAngleDegrees = options.minAngle;
+        const BoundingGuard guard(model_, guardOptions, interrupter);
+        constexpr int blockResolution = 32; // a block has no detail that more could show
+        Candidate candidate;
+        for (const Voxels& voxels : ladder(options)) {
+            candidate.voxels = voxels;
+            updateClosed(options, voxels, interrupter);
+            start(candidate, *closed_, guard, interrupter);
+            if (!fewEnoughHandles(candidate.surface, options, interrupter)) continue;
+            if (shrinkOnto(candidate, options, guard, interrupter)) return candidate;
         }
-        if (!held) return makeBox(options);
-        if (failed > 0) attempt(std::sqrt(failed * held->offset));
-        if (options.mesh == CageFaces::triquad) mergeCertified(options, *held, interrupter);
-        return std::move(*held);
+        candidate.start = CageStart::block;
+        candidate.voxels.resolution = std::min(candidate.voxels.resolution, blockResolution);
+        updateClosed(options, candidate.voxels, interrupter);
+        start(candidate, *blockAround(*closed_), guard, interrupter);
+        if (shrinkOnto(candidate, options, guard, interrupter)) return candidate;
+        return makeBox(options, guard);
+    }
+
+    /// The surface of `solid`, grown until it keeps the guard's clearance.
+    static void start(Candidate& candidate, const openvdb::MaskGrid& solid, const BoundingGuard& guard,
+                      Interrupter* interrupter)
+    {
+        const Stage stage(interrupter, "surface");
+        candidate.offset = 0;
+        candidate.surface = extractSurface(solid, interrupter);
+        if (guard.isClear(candidate.surface)) return;
+        // A point off the grown solid lies that far, less a voxel's diagonal, from the model.
+        const double diagonal = std::sqrt(3.0), voxel = solid.voxelSize()[0];
+        candidate.offset = 1;
+        candidate.surface = extractSurface(*dilate(solid, candidate.offset, Element::sphere, interrupter), interrupter);
+        if (guard.isClear(candidate.surface)) return;
+        candidate.offset = std::ceil(guard.clearance() / voxel + diagonal);
+        candidate.surface = extractSurface(*dilate(solid, candidate.offset, Element::sphere, interrupter), interrupter);
+    }
+
+    /// Whether parts and handles leave faces enough for the shape: a part needs about 8, a handle 12.
+    static bool fewEnoughHandles(const Mesh& surface, const CageOptions& options, Interrupter* interrupter)
+    {
+        constexpr double share = 0.15; // of the faces
+        const MeshTopology topology = analyzeTopology(surface, interrupter);
+        const auto parts = static_cast<double>(topology.components());
+        if (options.parts == CageParts::merge && parts > 1) return false;
+        return 8 * (parts - 1) + 12 * static_cast<double>(topology.genus()) <= share * options.faces;
+    }
+
+    /// All the voxels of the box of `mask`.
+    static openvdb::MaskGrid::Ptr blockAround(const openvdb::MaskGrid& mask)
+    {
+        const openvdb::MaskGrid::Ptr block = detail::maskGridLike(mask, std::make_shared<openvdb::MaskTree>());
+        block->tree().fill(mask.evalActiveVoxelBoundingBox(), true, true);
+        return block;
+    }
+
+    /// Makes the cage of the candidate's surface; whether it has few enough faces and is certified.
+    bool shrinkOnto(Candidate& candidate, const CageOptions& options, const BoundingGuard& guard,
+                    Interrupter* interrupter)
+    {
+        candidate.smoothed = candidate.surface;
+        {
+            const Stage stage(interrupter, "decimate");
+            candidate.decimated = decimate(candidate.surface, guard, target(options), options.effort, interrupter);
+        }
+        if (faceCount(candidate.decimated) > static_cast<std::size_t>(options.faces)) return false;
+        {
+            const Stage stage(interrupter, "tighten");
+            candidate.cage = tighten(candidate.decimated, guard, {}, interrupter);
+            if (options.smooth > 0)
+                candidate.cage = vdbcage::smooth(candidate.cage, guard, options.smooth, interrupter);
+        }
+        if (!certify(candidate.cage, interrupter).bounding()) return false;
+        if (options.mesh == CageFaces::triquad) mergeCertified(options, candidate, interrupter);
+        return true;
     }
 
     /// Quads that count under both diagonals: pairs that the verdict objects to are split again until it does not.
@@ -274,8 +350,9 @@ private:
         const auto edge = [](const openvdb::Vec4I& quad) {
             return Edge(std::min(quad[0], quad[2]), std::max(quad[0], quad[2]));
         };
+        const Mesh triangles = candidate.cage;
         for (;;) {
-            candidate.cage = triquad(candidate.decimated, mergeOptions(options),
+            candidate.cage = triquad(triangles, mergeOptions(options),
                                      [&](const openvdb::Vec4I& quad) { return refused.count(edge(quad)) == 0; });
             if (candidate.cage.quads.empty()) return;
             const CageCheck check = certify(candidate.cage, interrupter);
@@ -291,15 +368,14 @@ private:
         }
     }
 
-    Candidate makeBox(const CageOptions& options)
+    Candidate makeBox(const CageOptions& options, const BoundingGuard& guard)
     {
         openvdb::BBoxd box = boundingBox(model_);
-        const double margin = 0.01 * longestSide(box);
-        box.expand(margin);
+        box.expand(std::max(2 * guard.clearance(), 0.01 * longestSide(box)));
         Candidate candidate;
-        candidate.isBox = true;
-        candidate.offset = 0.01 * options.resolution;
-        candidate.decimated = boxMesh(box);
+        candidate.voxels = ladder(options).back();
+        candidate.start = CageStart::box;
+        candidate.surface = candidate.smoothed = candidate.decimated = boxMesh(box);
         if (floatSafe_) candidate.decimated = roundedToFloat(std::move(candidate.decimated));
         candidate.cage = candidate.decimated;
         if (options.mesh == CageFaces::triquad) candidate.cage = triquad(candidate.decimated, mergeOptions(options));
@@ -311,7 +387,6 @@ private:
     openvdb::MaskGrid::Ptr solid_, closed_;
     std::unique_ptr<CageChecker> checker_, floatChecker_;
     std::string solidKey_, closedKey_, cageKey_; // what the values were made with; empty: nothing
-    int attempts_ = 0;
     Candidate best_;
     CageReport report_;
 };

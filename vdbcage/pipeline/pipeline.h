@@ -12,13 +12,21 @@
 
 namespace vdbcage {
 
+/// What a bounding cage was shrunk from.
+enum class CageStart {
+    closing, ///< the surface of the closing
+    block,   ///< a solid box of voxels: no closing allowed as few faces (or one cage)
+    box      ///< nothing: it is the model's bounding box, since nothing tighter was certified
+};
+
 /// How a cage came about, beside the cage itself.
 struct CageReport {
-    CageCheck check;                ///< the verdict on the cage as it is returned, with measures
-    bool floatSafe = false;         ///< its coordinates are floats, and the cage also bounds the model rounded to float
-    double offsetVoxels = 0;        ///< how far the closing had to be grown before the cage bounded the model
-    int attempts = 0;               ///< cages built on the way to this one
-    bool isBox = false;             ///< nothing tighter than the model's bounding box was certified
+    CageCheck check;         ///< the verdict on the cage as it is returned, with measures
+    bool floatSafe = false;  ///< its coordinates are floats, and the cage also bounds the model rounded to float
+    int resolution = 0;      ///< voxels along the longest side, as given or chosen
+    double closeRadius = 0;  ///< fraction of the longest side, as given or chosen
+    double offsetVoxels = 0; ///< how far the closing had to be grown to keep the clearance
+    CageStart start = CageStart::closing;
     bool repaired = false;          ///< an unguarded cage was not valid and went through repair()
     std::size_t cavitiesFilled = 0; ///< hollows inside the closing that were filled
     std::size_t solidVoxels = 0, closedVoxels = 0;
@@ -27,10 +35,12 @@ struct CageReport {
 /// From a model to its cage, keeping every intermediate. Running again with other options starts from the first stage
 /// that they touch: another face count or smoothness needs no new voxels and no new closing.
 ///
-/// With CageOptions::bounding the cage is certified: every candidate is examined by checkCage, on its coordinates
-/// rounded to float where float can hold the model, against the model as given and as rounded to float. Plain smoothing
-/// and decimation cut into a model, so the closing is grown until a candidate holds, and by as little as a short search
-/// finds; the last resort is the model's bounding box. A cage that is not certified is never returned.
+/// With CageOptions::bounding the surface of the closing is shrunk, decimated and tightened under a BoundingGuard, and
+/// the cage is certified: examined by checkCage, other code than the guard's, on its coordinates as they are returned,
+/// against the model as given and (where float can hold it) as rounded to float. A cage that is not certified is never
+/// returned. Where the closing has too many parts and handles for the faces, and its radius and resolution are not
+/// given, it is closed more, then voxelized more coarsely; where that is not enough, the cage is shrunk from a solid
+/// block, and the last resort is the model's bounding box. So there are never more faces than asked for.
 class VDBCAGE_API Pipeline {
 public:
     /// \throw InputError the model has no usable face (see requireUsable)
@@ -41,17 +51,18 @@ public:
 
     /// Makes the cage for `options` and returns it; valid until the next run. If it throws, the intermediates and the
     /// cage of the run before may be gone, but the pipeline can run again.
-    /// Stages reported to `interrupter`: voxelize, close, surface, smooth, decimate, certify (some more than once).
-    /// The cage can have fewer faces than asked, and more where the topology of the closing does not allow fewer and
-    /// `bounding` is off. \throw InputError, DeviceError, Cancelled
+    /// Stages reported to `interrupter`: voxelize, close, surface, smooth (bounding off only), decimate, tighten
+    /// (bounding only), certify; some more than once.
+    /// The cage can have fewer faces than asked, and more only where the topology of the closing does not allow fewer
+    /// and `bounding` is off. \throw InputError, DeviceError, Cancelled
     const Mesh& run(const CageOptions& options, Interrupter* interrupter = nullptr);
 
     const Mesh& model() const;
     /// The intermediates of the last run; null or empty before the first.
     openvdb::MaskGrid::ConstPtr solid() const;  ///< the voxelized model
     openvdb::MaskGrid::ConstPtr closed() const; ///< its closing, cavities filled
-    const Mesh& surface() const;                ///< faces of the closing grown by CageReport::offsetVoxels
-    const Mesh& smoothed() const;
+    const Mesh& surface() const;                ///< what the cage was made from, quads
+    const Mesh& smoothed() const;               ///< bounding off: the surface smoothed; else the surface
     const Mesh& decimated() const;
     const Mesh& cage() const;
     const CageReport& report() const;
