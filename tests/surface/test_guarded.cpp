@@ -154,6 +154,24 @@ BOOST_AUTO_TEST_CASE(thorough_work_pays)
     BOOST_TEST(sum[2] < sum[0]);
 }
 
+BOOST_AUTO_TEST_CASE(shaking_only_ever_tightens)
+{
+    TightenOptions shaking;
+    shaking.shakes = 4;
+    int tighter = 0;
+    for (const Mesh& model : models()) {
+        const BoundingGuard guard(model);
+        const CageChecker checker(model);
+        const Mesh cage = decimate(ball(24), guard, to(60), Effort::fast);
+        const CageCheck before = checker.check(tighten(cage, guard)),
+                        after = checker.check(tighten(cage, guard, shaking));
+        BOOST_TEST(after.bounding());
+        BOOST_TEST(after.meanDistance < 1.02 * before.meanDistance); // the integral drops; the area may, too
+        tighter += after.meanDistance < before.meanDistance;
+    }
+    BOOST_TEST(tighter >= 4); // of 6
+}
+
 BOOST_AUTO_TEST_CASE(smoothing_makes_it_rounder)
 {
     const Mesh model = test::joined(test::sphere({-0.25, 0, 0}, 0.15, 10), test::sphere({0.25, 0, 0}, 0.15, 10));
@@ -221,6 +239,9 @@ BOOST_AUTO_TEST_CASE(bad_options_are_refused)
     BOOST_CHECK_THROW(smooth(start, guard, 101), InputError);
     TightenOptions options;
     options.sweeps = -1;
+    BOOST_CHECK_THROW(tighten(start, guard, options), InputError);
+    options = {};
+    options.shakes = 101;
     BOOST_CHECK_THROW(tighten(start, guard, options), InputError);
 }
 

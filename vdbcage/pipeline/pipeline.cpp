@@ -333,7 +333,9 @@ private:
         if (faceCount(candidate.decimated) > static_cast<std::size_t>(options.faces)) return false;
         {
             const Stage stage(interrupter, "tighten");
-            candidate.cage = tighten(candidate.decimated, guard, {}, interrupter);
+            TightenOptions tightening;
+            tightening.shakes = options.effort == Effort::fast ? 0 : options.effort == Effort::fair ? 1 : 6;
+            candidate.cage = tighten(candidate.decimated, guard, tightening, interrupter);
             if (options.smooth > 0)
                 candidate.cage = vdbcage::smooth(candidate.cage, guard, options.smooth, interrupter);
         }

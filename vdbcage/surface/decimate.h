@@ -25,9 +25,9 @@ VDBCAGE_API Mesh decimate(const Mesh& surface, const DecimateOptions& options = 
 
 /// What a guarded decimation may cost.
 enum class Effort {
-    fast, ///< quadrics alone
-    fair, ///< the last collapses by their measured growth of the distance to the model: about a third tighter
-    best  ///< the same with more care: about 5 % tighter than fair, twice its time
+    fast, ///< quadrics, the surface pulled onto the model once on the way
+    fair, ///< the same twice: a few percent tighter
+    best  ///< then vertices are exchanged between places: 5 to 10 % tighter than fair, several times its time
 };
 
 /// Decimates a surface that bounds `guard`'s model and keeps it so: it is drawn towards the model, and every collapse

@@ -1,10 +1,12 @@
 // The operators of smooth.h, decimate.h and tighten.h that work under a guard, put together from sweeps and collapses.
 
 #include <string>
+#include <vector>
 
 #include <vdbcage/core/error.h>
 #include <vdbcage/surface/decimate.h>
 #include <vdbcage/surface/detail/guarded_decimate.h>
+#include <vdbcage/surface/detail/guarded_exchange.h>
 #include <vdbcage/surface/detail/guarded_sweeps.h>
 #include <vdbcage/surface/smooth.h>
 #include <vdbcage/surface/tighten.h>
@@ -15,10 +17,10 @@ namespace {
 
 constexpr double samplesPerFace = 16; // of the distance to the model, where vertices are tightened
 
-void requireSweeps(int sweeps)
+void requireCount(const std::string& name, int value)
 {
-    if (sweeps >= 0 && sweeps <= 100) return;
-    throw InputError("sweeps: " + std::to_string(sweeps) + " is not allowed; it must be 0 to 100");
+    if (value >= 0 && value <= 100) return;
+    throw InputError(name + ": " + std::to_string(value) + " is not allowed; it must be 0 to 100");
 }
 
 double areaPerSample(const detail::GuardedSurface& surface, std::size_t faces)
@@ -30,7 +32,7 @@ double areaPerSample(const detail::GuardedSurface& surface, std::size_t faces)
 
 Mesh smooth(const Mesh& surface, const BoundingGuard& guard, int sweeps, Interrupter* interrupter)
 {
-    requireSweeps(sweeps);
+    requireCount("sweeps", sweeps);
     detail::GuardedSurface guarded(surface, guard.model());
     detail::roundOff(guarded, sweeps, interrupter);
     return guarded.mesh();
@@ -39,29 +41,40 @@ Mesh smooth(const Mesh& surface, const BoundingGuard& guard, int sweeps, Interru
 Mesh decimate(const Mesh& surface, const BoundingGuard& guard, const DecimateOptions& options, Effort effort,
               Interrupter* interrupter)
 {
-    constexpr std::size_t measuredFrom = 4; // times the faces asked for: quadrics do as well above
+    constexpr int sweepsAtStop = 2, exchangeRounds = 3;
     if (options.faces < 4) {
         throw InputError("faces: " + std::to_string(options.faces) +
                          " is not allowed; a closed surface has at least 4");
     }
     detail::GuardedSurface guarded(surface, guard.model());
     detail::shrink(guarded, interrupter);
-    if (effort == Effort::fast) {
-        detail::collapseByQuadrics(guarded, options.faces, interrupter);
-        return guarded.mesh();
+    // Quadrics know the surface that they were made from: one that was pulled onto the model on the way is better.
+    const auto stops = effort == Effort::fast ? std::vector<std::size_t>{3} : std::vector<std::size_t>{4, 2};
+    for (const std::size_t stop : stops) {
+        detail::collapseByQuadrics(guarded, stop * options.faces, interrupter);
+        detail::tighten(guarded, sweepsAtStop, areaPerSample(guarded, 2 * options.faces), interrupter);
     }
-    detail::collapseByQuadrics(guarded, measuredFrom * options.faces, interrupter);
-    detail::tighten(guarded, 3, areaPerSample(guarded, 2 * options.faces), interrupter);
-    detail::collapseByMeasure(guarded, options.faces, effort == Effort::best, interrupter);
+    detail::collapseByQuadrics(guarded, options.faces, interrupter);
+    // Where the model is in the way of every collapse, there is room farther out (the model's longest side is 1 to 2).
+    for (double push = 0.02; guarded.liveFaces() > options.faces && push < 1; push *= 2) {
+        detail::inflate(guarded, push, interrupter);
+        detail::collapseByQuadrics(guarded, options.faces, interrupter);
+    }
+    if (effort == Effort::best) {
+        detail::tighten(guarded, TightenOptions().sweeps, areaPerSample(guarded, options.faces), interrupter);
+        detail::exchange(guarded, exchangeRounds, interrupter);
+    }
     return guarded.mesh();
 }
 
 Mesh tighten(const Mesh& cage, const BoundingGuard& guard, const TightenOptions& options, Interrupter* interrupter)
 {
-    requireSweeps(options.sweeps);
+    requireCount("sweeps", options.sweeps);
+    requireCount("shakes", options.shakes);
     detail::GuardedSurface guarded(cage, guard.model());
     if (guarded.liveFaces() == 0) return guarded.mesh();
     detail::tighten(guarded, options.sweeps, areaPerSample(guarded, guarded.liveFaces()), interrupter);
+    detail::shake(guarded, options.shakes, options.sweeps, areaPerSample(guarded, guarded.liveFaces()), interrupter);
     return guarded.mesh();
 }
 

@@ -8,13 +8,14 @@
 namespace vdbcage {
 
 struct TightenOptions {
-    int sweeps = 10; ///< times that each vertex is tried, at most, 0 to 100
+    int sweeps = 16; ///< times that each vertex is tried, at most, 0 to 100
+    int shakes = 0;  ///< times that it is pushed out a little and tightened again, kept where tighter, 0 to 100
 };
 
 /// Pulls a bounding surface onto its model: one vertex at a time goes to where the integral of the distance to the
 /// model over its star is least, as far as the guard allows, sliding along what it touches. Connectivity and vertex
 /// order stay; the mean distance never grows. Triangles only (quads are split). \pre `cage` is closed, 2-manifold, and
-/// bounds the guard's model with its clearance. \throw InputError, Cancelled. O(sweeps * faces * log(model faces)).
+/// bounds the guard's model with its clearance. \throw InputError, Cancelled. O(sweeps * (1 + shakes) * faces * log(model faces)).
 VDBCAGE_API Mesh tighten(const Mesh& cage, const BoundingGuard& guard, const TightenOptions& options = {},
                          Interrupter* interrupter = nullptr);
 

@@ -91,6 +91,40 @@ std::optional<openvdb::Mat3d> inverseCholesky(const openvdb::Mat3d& a)
 
 } // namespace
 
+bool descend(const GuardedSurface& surface, const Fan& fan, Vec3d& p, const Quadratic& change, const StepLimit& limit,
+             const std::function<bool(const Vec3d&)>& accepts)
+{
+    constexpr int attempts = 8;
+    constexpr double leastStep = 1e-3;
+    const auto inverse = inverseCholesky(change.curvature);
+    if (!inverse) return false;
+    std::vector<HalfSpace> halfSpaces;
+    double share = limit.share;
+    std::uint32_t blocker = TriangleTree::none;
+    for (int attempt = 0; attempt < attempts; ++attempt) {
+        const auto solution = solve(*inverse, change.slope, halfSpaces, p);
+        if (!solution) return false;
+        Vec3d delta = *solution;
+        const double length = delta.length();
+        if (length > 0.5 * limit.reach) delta *= 0.5 * limit.reach / length;
+        delta *= share;
+        if (!(delta.length() > leastStep * limit.reach)) return false;
+        const Vec3d target = surface.guard().rounded(p + delta);
+        if (!surface.allows(fan, target, &blocker)) {
+            const std::size_t before = halfSpaces.size();
+            surface.contacts(fan, p, target, halfSpaces);
+            if (halfSpaces.size() == before || attempt >= attempts / 2) share *= 0.5;
+            continue;
+        }
+        if (accepts(target)) {
+            p = target;
+            return true;
+        }
+        share *= 0.4;
+    }
+    return false;
+}
+
 template <typename Visit>
 void DistanceMeasure::forEachSample(const Corners& t, std::uint32_t& seed, const Visit& visit) const
 {
@@ -140,51 +174,28 @@ DistanceMeasure::Fit DistanceMeasure::fit(const GuardedSurface& surface, const F
             const double w = power_ == Power::square ? 2 * weight : weight / std::max(d, least);
             const double wb = w * b0, wbb = wb * b0;
             for (int i = 0; i < 3; ++i) {
-                for (int j = 0; j < 3; ++j) fit.curvature[i][j] += wbb * n[i] * n[j];
-                fit.slope[i] += wb * d * n[i];
+                for (int j = 0; j < 3; ++j) fit.change.curvature[i][j] += wbb * n[i] * n[j];
+                fit.change.slope[i] += wb * d * n[i];
             }
             weights += wbb;
         });
     }
     // Flat fans say nothing of moves along themselves: a little stiffness keeps these small.
-    for (int i = 0; i < 3; ++i) fit.curvature[i][i] += 0.01 * weights;
+    for (int i = 0; i < 3; ++i) fit.change.curvature[i][i] += 0.01 * weights;
     return fit;
 }
 
-bool DistanceMeasure::improve(const GuardedSurface& surface, const Fan& fan, Vec3d& p, Fit& fit,
-                              std::uint32_t& seed) const
+bool DistanceMeasure::improve(const GuardedSurface& surface, const Fan& fan, Vec3d& p, Fit& fit, std::uint32_t& seed,
+                              double share) const
 {
-    constexpr int attempts = 8;
-    constexpr double leastStep = 1e-3, leastGain = 1e-3;
-    const auto inverse = inverseCholesky(fit.curvature);
-    if (!inverse) return false;
-    std::vector<HalfSpace> halfSpaces;
-    double shorten = 1;
-    std::uint32_t blocker = TriangleTree::none;
-    for (int attempt = 0; attempt < attempts; ++attempt) {
-        const auto solution = solve(*inverse, fit.slope, halfSpaces, p);
-        if (!solution) return false;
-        Vec3d delta = *solution;
-        const double length = delta.length();
-        if (length > 0.5 * fit.reach) delta *= 0.5 * fit.reach / length;
-        delta *= shorten;
-        if (!(delta.length() > leastStep * fit.reach)) return false;
-        const Vec3d target = guard_.rounded(p + delta);
-        if (!surface.allows(fan, target, &blocker)) {
-            const std::size_t before = halfSpaces.size();
-            surface.contacts(fan, p, target, halfSpaces);
-            if (halfSpaces.size() == before || attempt >= attempts / 2) shorten *= 0.5;
-            continue;
-        }
-        const Fit there = this->fit(surface, fan, target, seed);
-        if (there.integral < fit.integral * (1 - leastGain)) {
-            p = target;
-            fit = there;
-            return true;
-        }
-        shorten *= 0.4;
-    }
-    return false;
+    constexpr double leastGain = 1e-3;
+    Fit there;
+    const bool found = descend(surface, fan, p, fit.change, {fit.reach, share}, [&](const Vec3d& target) {
+        there = this->fit(surface, fan, target, seed);
+        return there.integral < fit.integral * (1 - leastGain);
+    });
+    if (found) fit = there;
+    return found;
 }
 
 } // namespace vdbcage::detail

@@ -1,11 +1,30 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 
 #include <openvdb/math/Mat3.h>
 #include <vdbcage/surface/detail/guarded_surface.h>
 
 namespace vdbcage::detail {
+
+/// How some quantity changes when a fan's centre moves by delta: about delta curvature delta / 2 + slope delta.
+struct Quadratic {
+    openvdb::Mat3d curvature = openvdb::Mat3d::zero();
+    Vec3d slope{0.0};
+};
+
+/// How far a centre may go at once.
+struct StepLimit {
+    double reach;     ///< no step is longer than half of it, nor shorter than a thousandth
+    double share = 1; ///< of the way to the best place that is allowed; less than 1 leaves room for the neighbours
+};
+
+/// Looks for a place of the fan's centre, allowed at `p`, where `change` is negative, along the planes of the contacts
+/// it meets on the way. `accepts` is asked of the places that the guard allows, one after the other; the first that it
+/// takes becomes `p`. Returns whether there was one.
+bool descend(const GuardedSurface& surface, const Fan& fan, Vec3d& p, const Quadratic& change, const StepLimit& limit,
+             const std::function<bool(const Vec3d&)>& accepts);
 
 /// How far a surface is from the model: the integral of the distance, or of its square, over triangles, by sampling. A
 /// triangle is cut into k x k equal ones, each counted at its centroid, k growing with the triangle's size.
@@ -22,19 +41,19 @@ public:
     /// The integral over a triangle. `seed` is an item near it and gets a better one.
     double integral(const Corners& t, std::uint32_t& seed) const;
 
-    /// The integral over a fan with its centre at some place, and how it changes when the centre moves by delta: about
-    /// delta curvature delta / 2 + slope delta, the distances being taken to where each sample's nearest point is now.
+    /// The integral over a fan with its centre at some place, and how it changes when the centre moves, the distances
+    /// being taken to where each sample's nearest point is now.
     struct Fit {
         double integral = 0;
-        openvdb::Mat3d curvature = openvdb::Mat3d::zero();
-        Vec3d slope{0.0};
+        Quadratic change;
         double reach = 0; ///< length of the longest edge at the centre
     };
     Fit fit(const GuardedSurface& surface, const Fan& fan, const Vec3d& centre, std::uint32_t& seed) const;
 
-    /// Pulls the centre of a fan, allowed at `p`, to where the integral is less, along the planes of the contacts it
-    /// meets on the way. Returns whether there was such a place; `p` and `fit` are then those of the new place.
-    bool improve(const GuardedSurface& surface, const Fan& fan, Vec3d& p, Fit& fit, std::uint32_t& seed) const;
+    /// Pulls the centre of a fan, allowed at `p`, to where the integral is less (`share` as StepLimit). Returns whether
+    /// there was such a place; `p` and `fit` are then those of the new place.
+    bool improve(const GuardedSurface& surface, const Fan& fan, Vec3d& p, Fit& fit, std::uint32_t& seed,
+                 double share = 1) const;
 
 private:
     template <typename Visit>

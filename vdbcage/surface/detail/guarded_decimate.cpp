@@ -1,7 +1,8 @@
 // Based on: Garland, Heckbert, "Surface Simplification Using Quadric Error Metrics", 1997.
 //           Sander, Gu, Gortler, Hoppe, Snyder, "Silhouette Clipping", 2000 (decimation that stays outside).
-// Differs: every collapse has to pass the guard, its vertex pushed outward until it does; the last collapses are
-// ordered by the measured change of the distance to the model, with the vertex where that is least.
+// Differs: every collapse has to pass the guard, its vertex pushed outward until it does and then drawn along what it
+// touches to where its quadric is least; collapses can also be ordered by the measured change of the distance to the
+// model.
 
 #include <vdbcage/surface/detail/guarded_decimate.h>
 
@@ -125,10 +126,16 @@ public:
     }
 
 private:
-    struct Proposal {
+    /// Without a place its cost is that of the best one, allowed or not: the real one can only be more.
+    struct Candidate {
         QueuedEdge edge;
-        Fan fan;
         std::optional<Vec3d> place;
+
+        bool operator<(const Candidate& o) const { return edge < o.edge; }
+    };
+    struct Proposal {
+        Candidate candidate;
+        Fan fan;
     };
 
     /// Few at a time where few are left, so that their order matters more.
@@ -143,37 +150,44 @@ private:
         std::vector<Proposal> proposals;
         const std::size_t size = batchSize(faces);
         while (proposals.size() < size && !queue_.empty()) {
-            const QueuedEdge edge = queue_.top();
+            if (isCurrent(queue_.top().edge)) proposals.push_back({queue_.top(), {}});
             queue_.pop();
-            if (edge.stampU == stamp_[edge.u] && edge.stampV == stamp_[edge.v] && surface_.isVertex(edge.u) &&
-                surface_.isVertex(edge.v)) {
-                proposals.push_back({edge, {}, {}});
-            }
         }
-        tbb::parallel_for(std::size_t(0), proposals.size(), [&](std::size_t i) {
-            Proposal& p = proposals[i];
-            if (surface_.fanOf(p.edge.u, p.edge.v, p.fan)) p.place = place(p.fan);
-        });
+        const bool slides = surface_.liveFaces() < slideBelow * faces;
+        tbb::parallel_for(std::size_t(0), proposals.size(), [&](std::size_t i) { find(proposals[i], slides); });
+        std::stable_sort(proposals.begin(), proposals.end(),
+                         [](const Proposal& a, const Proposal& b) { return b.candidate < a.candidate; });
         GuardedSurface::Batch batch(surface_);
         for (const Proposal& p : proposals) {
-            if (!p.place) continue;
-            const std::uint32_t u = p.edge.u;
-            if (!batch.apply(p.fan, *p.place)) {
-                // In the way of an earlier one: its turn comes again, unless it touches that one and is made anew.
-                if (p.edge.stampU == stamp_[u] && p.edge.stampV == stamp_[p.edge.v]) queue_.push(p.edge);
+            const QueuedEdge& edge = p.candidate.edge;
+            if (!p.candidate.place || !isCurrent(edge)) continue;
+            const bool isDearer = !queue_.empty() && queue_.top().edge.cost < edge.cost;
+            if (isDearer || !batch.apply(p.fan, *p.candidate.place)) {
+                queue_.push(p.candidate);
                 continue;
             }
-            quadrics_[u] += quadrics_[p.edge.v];
-            ++stamp_[u];
-            ++stamp_[p.edge.v];
-            for (const std::uint32_t w : surface_.neighbours(u)) push(u, w);
+            quadrics_[edge.u] += quadrics_[edge.v];
+            ++stamp_[edge.u];
+            ++stamp_[edge.v];
+            for (const std::uint32_t w : surface_.neighbours(edge.u)) push(edge.u, w);
         }
     }
 
-    Vec3d optimum(std::uint32_t u, std::uint32_t v) const
+    bool isCurrent(const QueuedEdge& edge) const
+    {
+        return edge.stampU == stamp_[edge.u] && edge.stampV == stamp_[edge.v] && surface_.isVertex(edge.u) &&
+               surface_.isVertex(edge.v);
+    }
+
+    Quadric sum(std::uint32_t u, std::uint32_t v) const
     {
         Quadric q = quadrics_[u];
         q += quadrics_[v];
+        return q;
+    }
+
+    Vec3d optimum(Quadric q, std::uint32_t u, std::uint32_t v) const
+    {
         const Vec3d middle = 0.5 * (surface_.point(u) + surface_.point(v)) - origin_;
         const double ridge = 1e-4 * (q.a[0][0] + q.a[1][1] + q.a[2][2]);
         if (!(ridge > 0)) return middle + origin_;
@@ -186,36 +200,68 @@ private:
     void push(std::uint32_t u, std::uint32_t v)
     {
         if (u > v) std::swap(u, v);
-        Quadric q = quadrics_[u];
-        q += quadrics_[v];
-        queue_.push({q.at(optimum(u, v) - origin_), u, v, stamp_[u], stamp_[v]});
+        const Quadric q = sum(u, v);
+        queue_.push({{q.at(optimum(q, u, v) - origin_), u, v, stamp_[u], stamp_[v]}, std::nullopt});
     }
 
-    std::optional<Vec3d> place(const Fan& fan) const
+    /// Gives a candidate its fan and an allowed place with its cost, or takes its place away.
+    void find(Proposal& proposal, bool slides) const
+    {
+        QueuedEdge& edge = proposal.candidate.edge;
+        std::optional<Vec3d>& place = proposal.candidate.place;
+        if (!surface_.fanOf(edge.u, edge.v, proposal.fan)) {
+            place.reset();
+            return;
+        }
+        if (place && surface_.allows(proposal.fan, *place)) return;
+        const Quadric q = sum(edge.u, edge.v);
+        place = findPlace(proposal.fan, q, slides);
+        if (place) edge.cost = q.at(*place - origin_);
+    }
+
+    std::optional<Vec3d> findPlace(const Fan& fan, const Quadric& q, bool slides) const
     {
         const Vec3d a = surface_.point(fan.centre), b = surface_.point(fan.removed), middle = 0.5 * (a + b);
-        const Vec3d best = optimum(fan.centre, fan.removed);
+        const Vec3d best = optimum(q, fan.centre, fan.removed);
         const Vec3d up = outward(surface_, fan) * (a - b).length();
         std::uint32_t blocker = TriangleTree::none;
         for (const Vec3d& at : {best, best + 0.1 * up, best + 0.25 * up, best + 0.5 * up, a, b, middle + 0.1 * up,
                                 middle + 0.35 * up, middle + 0.8 * up}) {
-            const Vec3d rounded = surface_.guard().rounded(at);
-            if (surface_.allows(fan, rounded, &blocker)) return rounded;
+            Vec3d place = surface_.guard().rounded(at);
+            if (!surface_.allows(fan, place, &blocker)) continue;
+            if (slides && at != best) slide(fan, q, best, place);
+            return place;
         }
         return std::nullopt;
     }
+
+    /// Moves an allowed place towards the best one along what it touches.
+    void slide(const Fan& fan, const Quadric& q, const Vec3d& best, Vec3d& place) const
+    {
+        Quadratic change;
+        change.curvature = q.a;
+        const double stiffness = 0.01 * (q.a[0][0] + q.a[1][1] + q.a[2][2]);
+        for (int i = 0; i < 3; ++i) change.curvature[i][i] += stiffness;
+        change.slope = change.curvature * (place - best);
+        const double before = q.at(place - origin_);
+        const double edge = (surface_.point(fan.centre) - surface_.point(fan.removed)).length();
+        descend(surface_, fan, place, change, {4 * (edge + (place - best).length())},
+                [&](const Vec3d& target) { return q.at(target - origin_) < before; });
+    }
+
+    static constexpr std::size_t slideBelow = 4; ///< times the faces asked for: above it pays less than it costs
 
     GuardedSurface& surface_;
     Vec3d origin_{0.0};
     std::vector<Quadric> quadrics_;
     std::vector<std::uint32_t> stamp_; // grows when an edge at the vertex changes: older entries of the queue are void
-    std::priority_queue<QueuedEdge> queue_;
+    std::priority_queue<Candidate> queue_;
 };
 
 class MeasuredCollapser {
 public:
-    MeasuredCollapser(GuardedSurface& surface, std::size_t faces, bool thorough)
-        : surface_(surface), faces_(faces), thorough_(thorough),
+    MeasuredCollapser(GuardedSurface& surface, std::size_t faces)
+        : surface_(surface), faces_(faces),
           measure_(surface.guard(), area(surface) / static_cast<double>(faces) / samplesPerFace,
                    DistanceMeasure::Power::square),
           stamp_(surface.vertices(), 0), seed_(surface.vertices(), TriangleTree::none)
@@ -245,7 +291,8 @@ public:
 
 private:
     static constexpr double samplesPerFace = 6; ///< of the size they have in the end
-    static constexpr std::size_t batch = 8;     ///< stale edges measured again side by side
+    static constexpr int improvements = 3;
+    static constexpr std::size_t batch = 8; ///< stale edges measured again side by side
 
     struct Candidate {
         QueuedEdge edge;
@@ -318,7 +365,7 @@ private:
         for (const std::uint32_t f : fan.oldFaces) before += faceIntegral_[f];
         std::uint32_t seed = seed_[u];
         DistanceMeasure::Fit fit = measure_.fit(surface_, fan, *place, seed);
-        for (int i = 0; i < (thorough_ ? 3 : 1); ++i) {
+        for (int i = 0; i < improvements; ++i) {
             if (!measure_.improve(surface_, fan, *place, fit, seed)) break;
         }
         return Candidate{{fit.integral - before, u, v, stamp_[u], stamp_[v]}, *place, 0};
@@ -334,9 +381,7 @@ private:
         for (const std::uint32_t f : surface_.facesOf(u)) measureFace(f, seed_[u]);
         ++stamp_[u];
         for (const std::uint32_t w : ring) ++stamp_[w];
-        if (thorough_) {
-            for (const std::uint32_t w : ring) pullIn(w);
-        }
+        for (const std::uint32_t w : ring) pullIn(w);
         for (const std::uint32_t w : ring) pending_.emplace_back(std::min(u, w), std::max(u, w));
     }
 
@@ -368,7 +413,6 @@ private:
 
     GuardedSurface& surface_;
     std::size_t faces_;
-    bool thorough_;
     DistanceMeasure measure_;
     std::vector<std::uint32_t> stamp_; // grows when a face at the vertex changes
     std::vector<std::uint32_t> seed_;
@@ -385,9 +429,9 @@ void collapseByQuadrics(GuardedSurface& surface, std::size_t faces, Interrupter*
     QuadricCollapser(surface).run(faces, interrupter);
 }
 
-void collapseByMeasure(GuardedSurface& surface, std::size_t faces, bool thorough, Interrupter* interrupter)
+void collapseByMeasure(GuardedSurface& surface, std::size_t faces, Interrupter* interrupter)
 {
-    MeasuredCollapser(surface, faces, thorough).run(interrupter);
+    MeasuredCollapser(surface, faces).run(interrupter);
 }
 
 } // namespace vdbcage::detail

@@ -316,6 +316,25 @@ bool GuardedSurface::fanOf(std::uint32_t keep, std::uint32_t remove, Fan& fan) c
     return fan.rim.size() >= 3;
 }
 
+Fan GuardedSurface::fanOfSplit(std::uint32_t u, std::uint32_t v) const
+{
+    Fan fan;
+    fan.centre = vertices();
+    for (const std::uint32_t f : facesOf_[u]) {
+        const Vec3I& t = faces_[f];
+        for (int i = 0; i < 3; ++i) {
+            const std::uint32_t a = t[i], b = t[(i + 1) % 3], c = t[(i + 2) % 3];
+            if (!((a == u && b == v) || (a == v && b == u))) continue;
+            fan.oldFaces.push_back(f);
+            fan.keptFaces.push_back(f);
+            fan.rim.push_back({b, c});
+            fan.keptFaces.push_back(Fan::none);
+            fan.rim.push_back({c, a});
+        }
+    }
+    return fan;
+}
+
 Corners GuardedSurface::fanCorners(const Fan& fan, std::size_t i, const Vec3d& p) const
 {
     return {p, points_[fan.rim[i][0]], points_[fan.rim[i][1]]};
@@ -330,7 +349,7 @@ bool GuardedSurface::wellShaped(const Fan& fan, const Vec3d& p) const
 {
     double least = 1;
     for (std::size_t i = 0; i < fan.rim.size(); ++i) least = std::min(least, detail::minSine(fanCorners(fan, i, p)));
-    if (least >= guard_.minSine()) return true;
+    if (least >= guard().minSine()) return true;
     double before = 1;
     for (const std::uint32_t f : fan.oldFaces) before = std::min(before, detail::minSine(corners(f)));
     if (!(least >= before)) return false;
@@ -367,7 +386,7 @@ bool GuardedSurface::allows(const Fan& fan, const Vec3d& p, std::uint32_t* hint)
     if (!wellShaped(fan, p)) return false;
     std::uint32_t blocker = hint ? *hint : TriangleTree::none;
     for (std::size_t i = 0; i < fan.rim.size(); ++i) {
-        if (!guard_.clear(fanCorners(fan, i, p), blocker, &blocker)) {
+        if (!guard().clear(fanCorners(fan, i, p), blocker, &blocker)) {
             if (hint) *hint = blocker;
             return false;
         }
@@ -375,16 +394,16 @@ bool GuardedSurface::allows(const Fan& fan, const Vec3d& p, std::uint32_t* hint)
     if (!clearOfSurface(fan, p)) return false;
     Box box = Box::of(p);
     for (const auto& edge : fan.rim) box.expand(Box::of(points_[edge[0]]));
-    box.expand(Box::of(points_[fan.centre]));
+    if (fan.centre < vertices()) box.expand(Box::of(points_[fan.centre]));
     if (fan.removed != Fan::none) box.expand(Box::of(points_[fan.removed]));
-    if (!guard_.mayHoldPart(box)) return true;
+    if (!guard().mayHoldPart(box)) return true;
     std::vector<Corners> surface;
     for (std::size_t i = 0; i < fan.rim.size(); ++i) surface.push_back(fanCorners(fan, i, p));
     for (const std::uint32_t f : fan.oldFaces) {
         const Corners t = corners(f);
         surface.push_back({t[0], t[2], t[1]});
     }
-    return !guard_.swept(surface, box);
+    return !guard().swept(surface, box);
 }
 
 void GuardedSurface::contacts(const Fan& fan, const Vec3d& from, const Vec3d& to,
@@ -392,12 +411,12 @@ void GuardedSurface::contacts(const Fan& fan, const Vec3d& from, const Vec3d& to
 {
     constexpr int mostGaps = 6; // of each triangle; the rest shows up in the next try if it matters
     // A little more than the clearance, so that rounding leaves the next try on the right side.
-    const double clearance = 1.01 * guard_.clearance();
+    const double clearance = 1.01 * guard().clearance();
     for (std::size_t i = 0; i < fan.rim.size(); ++i) {
         const Corners now = fanCorners(fan, i, from), then = fanCorners(fan, i, to);
-        if (!addImpacts(guard_, now, to, i == 0, clearance, halfSpaces)) {
+        if (!addImpacts(guard(), now, to, i == 0, clearance, halfSpaces)) {
             int gaps = 0;
-            guard_.forEachBlocker(then, [&](const Corners& other) {
+            guard().forEachBlocker(then, [&](const Corners& other) {
                 addApproach(then, other, to, clearance, halfSpaces);
                 return ++gaps < mostGaps;
             });
@@ -409,7 +428,7 @@ void GuardedSurface::contacts(const Fan& fan, const Vec3d& from, const Vec3d& to
                 if (faces_[face][corner] == ids[1] || faces_[face][corner] == ids[2]) return true;
             }
             if (meetBeyondShared(ids, then, faces_[face], corners(face))) {
-                addApproach(now, corners(face), from, 0.1 * guard_.clearance(), halfSpaces);
+                addApproach(now, corners(face), from, 0.1 * guard().clearance(), halfSpaces);
             }
             return true;
         });
@@ -418,30 +437,50 @@ void GuardedSurface::contacts(const Fan& fan, const Vec3d& from, const Vec3d& to
 
 void GuardedSurface::apply(const Fan& fan, const Vec3d& p)
 {
+    if (fan.centre == vertices()) {
+        points_.push_back(p);
+        facesOf_.emplace_back();
+        reconnect(fan);
+        return;
+    }
     points_[fan.centre] = p;
     if (fan.removed != Fan::none) {
-        for (const std::uint32_t f : fan.oldFaces) {
-            Vec3I& t = faces_[f];
-            const bool stays = std::find(fan.keptFaces.begin(), fan.keptFaces.end(), f) != fan.keptFaces.end();
-            if (!stays) {
-                for (int i = 0; i < 3; ++i) {
-                    auto& list = facesOf_[t[i]];
-                    list.erase(std::find(list.begin(), list.end(), f));
-                }
-                alive_[f] = 0;
-                tree_.remove(f);
-                --liveFaces_;
-                continue;
-            }
-            for (int i = 0; i < 3; ++i) {
-                if (t[i] != fan.removed) continue;
-                t[i] = fan.centre;
-                facesOf_[fan.centre].push_back(f);
-            }
-        }
-        facesOf_[fan.removed].clear();
+        reconnect(fan);
+    } else {
+        for (const std::uint32_t f : fan.keptFaces) tree_.update(f, Box::of(corners(f)));
     }
-    for (const std::uint32_t f : fan.keptFaces) tree_.update(f, Box::of(corners(f)));
+}
+
+void GuardedSurface::reconnect(const Fan& fan)
+{
+    for (const std::uint32_t f : fan.oldFaces) {
+        for (int i = 0; i < 3; ++i) {
+            auto& list = facesOf_[faces_[f][i]];
+            list.erase(std::find(list.begin(), list.end(), f));
+        }
+        if (std::find(fan.keptFaces.begin(), fan.keptFaces.end(), f) != fan.keptFaces.end()) continue;
+        alive_[f] = 0;
+        --liveFaces_;
+        tree_.remove(f);
+    }
+    for (std::size_t i = 0; i < fan.rim.size(); ++i) {
+        std::uint32_t f = fan.keptFaces[i];
+        const bool isNew = f == Fan::none;
+        if (isNew) {
+            f = faces();
+            faces_.emplace_back();
+            alive_.push_back(1);
+            ++liveFaces_;
+        }
+        faces_[f] = Vec3I(fan.centre, fan.rim[i][0], fan.rim[i][1]);
+        for (int k = 0; k < 3; ++k) facesOf_[faces_[f][k]].push_back(f);
+        const Box box = Box::of(corners(f));
+        if (isNew) {
+            tree_.insert(f, box);
+        } else {
+            tree_.update(f, box);
+        }
+    }
     if (tree_.wantsBuild()) {
         std::vector<Box> boxes(faces_.size());
         for (std::uint32_t f = 0; f < faces_.size(); ++f) {
@@ -477,7 +516,7 @@ Mesh GuardedSurface::mesh() const
     for (std::uint32_t v = 0; v < points_.size(); ++v) {
         if (!isVertex(v)) continue;
         number[v] = static_cast<std::uint32_t>(mesh.points.size());
-        mesh.points.push_back(guard_.unscaled(points_[v]));
+        mesh.points.push_back(guard().unscaled(points_[v]));
     }
     for (std::uint32_t f = 0; f < faces_.size(); ++f) {
         const Vec3I& t = faces_[f];

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include <boost/container/small_vector.hpp>
@@ -10,16 +11,17 @@
 
 namespace vdbcage::detail {
 
-/// A change to a surface: the triangles around one vertex, or around both ends of an edge, give way to a fan around a
-/// centre. Moving a vertex and collapsing an edge are the same thing to the guard.
+/// A change to a surface: the triangles around one vertex, around both ends of an edge, or on both sides of an edge
+/// give way to a fan around a centre. Moving a vertex, collapsing an edge and splitting one are the same thing to the
+/// guard.
 struct Fan {
     static constexpr std::uint32_t none = ~std::uint32_t(0);
     using Faces = boost::container::small_vector<std::uint32_t, 16>;
 
-    std::uint32_t centre = none;  ///< the vertex that moves, or survives the collapse
+    std::uint32_t centre = none;  ///< the vertex that moves, survives the collapse, or is new: then it is vertices()
     std::uint32_t removed = none; ///< the vertex that goes in a collapse
     Faces oldFaces;               ///< those that give way
-    Faces keptFaces;              ///< one old face for each rim edge: it is replaced by that triangle
+    Faces keptFaces;              ///< for each rim edge the old face that becomes its triangle; none: a new face
     /// Edges across from the centre, in the faces' direction.
     boost::container::small_vector<std::array<std::uint32_t, 2>, 16> rim;
 };
@@ -30,7 +32,8 @@ struct HalfSpace {
     double offset;
 };
 
-/// A closed triangle surface that bounds a model and is only changed in ways that keep it so.
+/// A closed triangle surface that bounds a model and is only changed in ways that keep it so. A value; copies share the
+/// guard.
 class GuardedSurface {
 public:
     /// Points are rounded as the guard asks, quads split. \throw InputError the surface is not a closed 2-manifold
@@ -50,6 +53,8 @@ public:
     Fan fanOf(std::uint32_t v) const;
     /// The fan that takes the place of the stars of both ends; false where the link condition forbids the collapse.
     bool fanOf(std::uint32_t keep, std::uint32_t remove, Fan& fan) const;
+    /// The fan that splits the edge between two neighbours at a new vertex.
+    Fan fanOfSplit(std::uint32_t u, std::uint32_t v) const;
 
     /// Whether the fan may have its centre at `p` (rounded as the guard asks). `hint` is a blocker to try first and
     /// gets the one that was found.
@@ -71,8 +76,9 @@ private:
     bool wellShaped(const Fan& fan, const Vec3d& p) const;
     bool clearOfSurface(const Fan& fan, const Vec3d& p) const;
     bool isOld(const Fan& fan, std::uint32_t face) const;
+    void reconnect(const Fan& fan);
 
-    const GuardModel& guard_;
+    std::reference_wrapper<const GuardModel> guard_;
     std::vector<Vec3d> points_;
     std::vector<Vec3I> faces_;
     std::vector<char> alive_;

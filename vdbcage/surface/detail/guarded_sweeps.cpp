@@ -4,6 +4,7 @@
 #include <vdbcage/surface/detail/guarded_sweeps.h>
 
 #include <algorithm>
+#include <numeric>
 #include <optional>
 #include <vector>
 
@@ -97,6 +98,20 @@ std::optional<Vec3d> towards(const GuardedSurface& surface, const Fan& fan, cons
     return std::nullopt;
 }
 
+/// The sum of the unit normals around a vertex, of unit length (or zero).
+Vec3d normalAt(const GuardedSurface& surface, const Fan& fan)
+{
+    Vec3d sum(0.0);
+    const Vec3d& p = surface.point(fan.centre);
+    for (const auto& edge : fan.rim) {
+        const Vec3d normal = (surface.point(edge[0]) - p).cross(surface.point(edge[1]) - p);
+        const double length = normal.length();
+        if (length > 0) sum += normal / length;
+    }
+    const double length = sum.length();
+    return length > 0 ? sum / length : Vec3d(0.0);
+}
+
 } // namespace
 
 double area(const GuardedSurface& surface)
@@ -123,6 +138,16 @@ void shrink(GuardedSurface& surface, Interrupter* interrupter)
         [](std::uint32_t, const Fan&, bool) {});
 }
 
+void inflate(GuardedSurface& surface, double by, Interrupter* interrupter)
+{
+    sweep(
+        surface, allVertices(surface), interrupter,
+        [&](std::uint32_t v, const Fan& fan) {
+            return towards(surface, fan, surface.point(v) + by * normalAt(surface, fan), {1.0, 0.5, 0.2});
+        },
+        [](std::uint32_t, const Fan&, bool) {});
+}
+
 void roundOff(GuardedSurface& surface, int sweeps, Interrupter* interrupter)
 {
     const std::vector<std::uint32_t> vertices = allVertices(surface);
@@ -144,16 +169,31 @@ void roundOff(GuardedSurface& surface, int sweeps, Interrupter* interrupter)
     }
 }
 
+double integratedDistance(const GuardedSurface& surface, double areaPerSample)
+{
+    const DistanceMeasure measure(surface.guard(), areaPerSample, DistanceMeasure::Power::distance);
+    std::vector<double> sums(surface.vertices(), 0);
+    tbb::parallel_for(std::uint32_t(0), surface.vertices(), [&](std::uint32_t v) {
+        std::uint32_t seed = TriangleTree::none;
+        for (const std::uint32_t f : surface.facesOf(v)) {
+            if (surface.face(f)[0] == v) sums[v] += measure.integral(surface.corners(f), seed);
+        }
+    });
+    return std::accumulate(sums.begin(), sums.end(), 0.0);
+}
+
 void tighten(GuardedSurface& surface, int sweeps, double areaPerSample, Interrupter* interrupter)
 {
     constexpr double sleepBelow = 0.001; // a smaller part gained: not tried again until a neighbour moves
     constexpr double stopBelow = 0.001;  // the same for a whole sweep
+    constexpr int gentleSweeps = 6;
     const DistanceMeasure measure(surface.guard(), areaPerSample, DistanceMeasure::Power::distance);
     const std::size_t n = surface.vertices();
     std::vector<std::uint32_t> seed(n, TriangleTree::none);
     std::vector<double> before(n, 0), after(n, 0);
     std::vector<std::uint32_t> awake = allVertices(surface);
     for (int i = 0; i < sweeps && !awake.empty(); ++i) {
+        const double share = i < gentleSweeps ? 0.5 : 1;
         std::vector<char> stir(n, 0);
         double gain = 0, total = 0;
         sweep(
@@ -162,7 +202,7 @@ void tighten(GuardedSurface& surface, int sweeps, double areaPerSample, Interrup
                 Vec3d p = surface.point(v);
                 DistanceMeasure::Fit fit = measure.fit(surface, fan, p, seed[v]);
                 before[v] = after[v] = fit.integral;
-                if (!measure.improve(surface, fan, p, fit, seed[v])) return std::nullopt;
+                if (!measure.improve(surface, fan, p, fit, seed[v], share)) return std::nullopt;
                 after[v] = fit.integral;
                 return p;
             },
@@ -178,6 +218,25 @@ void tighten(GuardedSurface& surface, int sweeps, double areaPerSample, Interrup
         awake.clear();
         for (std::uint32_t v = 0; v < n; ++v) {
             if (stir[v]) awake.push_back(v);
+        }
+    }
+}
+
+void shake(GuardedSurface& surface, int times, int sweeps, double areaPerSample, Interrupter* interrupter)
+{
+    if (surface.liveFaces() == 0) return;
+    double distance = integratedDistance(surface, areaPerSample);
+    double push = 0.3; // of the mean distance
+    for (int i = 0; i < times; ++i) {
+        GuardedSurface shaken = surface;
+        inflate(shaken, push * distance / area(surface), interrupter);
+        tighten(shaken, sweeps, areaPerSample, interrupter);
+        const double after = integratedDistance(shaken, areaPerSample);
+        if (after < distance) {
+            distance = after;
+            surface = std::move(shaken);
+        } else {
+            push *= 0.5;
         }
     }
 }

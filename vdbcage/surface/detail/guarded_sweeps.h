@@ -13,13 +13,24 @@ namespace vdbcage::detail {
 void shrink(GuardedSurface& surface, Interrupter* interrupter);
 
 /// Moves vertices to where the integral of the distance over their stars is less, until a sweep gains little or
-/// `sweeps` are done. `areaPerSample` as DistanceMeasure.
+/// `sweeps` are done. `areaPerSample` as DistanceMeasure. The first sweeps go half of the way only: a vertex that used
+/// up all the room there is would stop its neighbours short of a better place.
 void tighten(GuardedSurface& surface, int sweeps, double areaPerSample, Interrupter* interrupter);
+
+/// Moves every vertex outward.
+void inflate(GuardedSurface& surface, double by, Interrupter* interrupter);
+
+/// Pushes all vertices outward a little and tightens again, up to `times`; what did not bring the surface nearer to the
+/// model is undone, and then it is pushed less. Frees vertices that hold each other.
+void shake(GuardedSurface& surface, int times, int sweeps, double areaPerSample, Interrupter* interrupter);
 
 /// Sweeps of HC Laplacian smoothing: towards the average of the neighbours, less what that would shrink the surface.
 void roundOff(GuardedSurface& surface, int sweeps, Interrupter* interrupter);
 
 /// The total area of the surface.
 double area(const GuardedSurface& surface);
+
+/// The integral of the distance to the model over the surface. In parallel.
+double integratedDistance(const GuardedSurface& surface, double areaPerSample);
 
 } // namespace vdbcage::detail

@@ -3,15 +3,16 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <numeric>
+#include <limits>
 #include <vector>
 
 #include <vdbcage/mesh/detail/triangle_tree.h>
 
 namespace vdbcage::detail {
 
-/// Boxes of things that move and vanish one at a time: a binary tree that is refitted upwards from a changed leaf and
-/// built anew when half of the things are gone. Deterministic.
+/// Boxes of things that move, come and vanish one at a time: a binary tree that is refitted upwards from a changed
+/// leaf; things that came since it was built are looked through one by one. To be built anew when wantsBuild() says so.
+/// Deterministic.
 class RefitTree {
 public:
     static constexpr std::uint32_t none = ~std::uint32_t(0);
@@ -27,30 +28,50 @@ public:
         nodes_.clear();
         nodes_.reserve(2 * things.size());
         live_ = built_ = things.size();
+        late_.clear();
         if (!things.empty()) buildNode(boxes, things, 0, things.size(), none);
     }
 
-    /// Whether so many things have gone since the last build that another one pays.
-    bool wantsBuild() const { return live_ * 2 < built_; }
+    /// Whether so many things have come or gone since the last build that another one pays.
+    bool wantsBuild() const { return live_ * 2 < built_ || late_.size() > mostLate; }
+
+    /// Adds a thing of the next number.
+    void insert(std::uint32_t thing, const Box& box)
+    {
+        leafOf_.push_back(none);
+        late_.push_back({thing, box});
+        ++live_;
+    }
 
     void update(std::uint32_t thing, const Box& box)
     {
+        if (leafOf_[thing] == none) {
+            findLate(thing)->box = box;
+            return;
+        }
         nodes_[leafOf_[thing]].box = box;
         refit(nodes_[leafOf_[thing]].parent);
     }
 
     void remove(std::uint32_t thing)
     {
+        --live_;
+        if (leafOf_[thing] == none) {
+            late_.erase(findLate(thing));
+            return;
+        }
         nodes_[leafOf_[thing]].box = empty();
         refit(nodes_[leafOf_[thing]].parent);
         leafOf_[thing] = none;
-        --live_;
     }
 
     /// Calls visit(thing) for each thing whose box meets `box`, until it answers false. Returns false if it stopped.
     template <typename Visit>
     bool forEachOverlap(const Box& box, const Visit& visit) const
     {
+        for (const Late& late : late_) {
+            if (late.box.meets(box) && !visit(late.thing)) return false;
+        }
         if (nodes_.empty()) return true;
         std::array<std::uint32_t, 64> stack; // halving: depth at most 32
         std::size_t size = 0;
@@ -73,6 +94,17 @@ private:
         Box box;
         std::uint32_t parent, left, right; // right == none: a leaf, left is its thing
     };
+
+    struct Late {
+        std::uint32_t thing;
+        Box box;
+    };
+    static constexpr std::size_t mostLate = 32;
+
+    std::vector<Late>::iterator findLate(std::uint32_t thing)
+    {
+        return std::find_if(late_.begin(), late_.end(), [&](const Late& late) { return late.thing == thing; });
+    }
 
     static Box empty()
     {
@@ -122,7 +154,8 @@ private:
     }
 
     std::vector<Node> nodes_;
-    std::vector<std::uint32_t> leafOf_;
+    std::vector<std::uint32_t> leafOf_; // none: gone, or late
+    std::vector<Late> late_;
     std::size_t live_ = 0, built_ = 0;
 };
 

@@ -1,0 +1,105 @@
+#include <boost/test/unit_test.hpp>
+
+#include <algorithm>
+#include <random>
+#include <vector>
+
+#include <vdbcage/surface/detail/refit_tree.h>
+
+using namespace vdbcage::detail;
+
+namespace {
+
+class Boxes {
+public:
+    explicit Boxes(unsigned seed) : random_(seed) {}
+    Box next()
+    {
+        Box box;
+        for (int i = 0; i < 3; ++i) {
+            box.lo[i] = unit();
+            box.hi[i] = box.lo[i] + 0.2 * unit();
+        }
+        return box;
+    }
+    std::size_t below(std::size_t n) { return random_() % n; }
+
+private:
+    double unit() { return static_cast<double>(random_()) / 4294967296.0; }
+
+    std::mt19937 random_;
+};
+
+std::vector<std::uint32_t> found(const RefitTree& tree, const Box& box)
+{
+    std::vector<std::uint32_t> list;
+    tree.forEachOverlap(box, [&](std::uint32_t thing) {
+        list.push_back(thing);
+        return true;
+    });
+    std::sort(list.begin(), list.end());
+    return list;
+}
+
+std::vector<std::uint32_t> expected(const std::vector<Box>& boxes, const std::vector<char>& alive, const Box& box)
+{
+    std::vector<std::uint32_t> list;
+    for (std::uint32_t i = 0; i < boxes.size(); ++i) {
+        if (alive[i] && boxes[i].meets(box)) list.push_back(i);
+    }
+    return list;
+}
+
+} // namespace
+
+BOOST_AUTO_TEST_SUITE(refit_tree)
+
+BOOST_AUTO_TEST_CASE(finds_what_a_list_finds_while_things_come_move_and_go)
+{
+    for (const std::size_t atFirst : {0, 1, 2, 60}) {
+        Boxes random(static_cast<unsigned>(atFirst));
+        std::vector<Box> boxes;
+        for (std::size_t i = 0; i < atFirst; ++i) boxes.push_back(random.next());
+        std::vector<char> alive(atFirst, 1);
+        RefitTree tree;
+        tree.build(boxes, alive);
+        for (int step = 0; step < 600; ++step) {
+            const std::size_t thing = boxes.empty() ? 0 : random.below(boxes.size());
+            switch (boxes.empty() ? 0 : random.below(step < 200 ? 3 : 4)) {
+            case 0:
+                boxes.push_back(random.next());
+                alive.push_back(1);
+                tree.insert(static_cast<std::uint32_t>(boxes.size() - 1), boxes.back());
+                break;
+            case 1:
+            case 2:
+                if (!alive[thing]) break;
+                boxes[thing] = random.next();
+                tree.update(static_cast<std::uint32_t>(thing), boxes[thing]);
+                break;
+            default:
+                if (!alive[thing]) break;
+                alive[thing] = 0;
+                tree.remove(static_cast<std::uint32_t>(thing));
+            }
+            if (tree.wantsBuild()) tree.build(boxes, alive);
+            const Box box = random.next();
+            BOOST_REQUIRE(found(tree, box) == expected(boxes, alive, box));
+        }
+    }
+}
+
+BOOST_AUTO_TEST_CASE(stops_where_it_is_told)
+{
+    RefitTree tree;
+    const Box box{Vec3d(0.0), Vec3d(1.0)};
+    tree.build({box, box, box}, {1, 1, 1});
+    tree.insert(3, box);
+    for (int most = 1; most <= 4; ++most) {
+        int visits = 0;
+        BOOST_TEST(!tree.forEachOverlap(box, [&](std::uint32_t) { return ++visits < most; }));
+        BOOST_TEST(visits == most);
+    }
+}
+
+BOOST_AUTO_TEST_SUITE_END()

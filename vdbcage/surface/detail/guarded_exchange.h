@@ -1,0 +1,13 @@
+#pragma once
+
+#include <vdbcage/core/interrupter.h>
+#include <vdbcage/surface/detail/guarded_surface.h>
+
+namespace vdbcage::detail {
+
+/// Takes vertices from where they bring little to where they bring more: the edges whose split brings the surface
+/// nearest to the model are split, and as many others collapsed by measure. Done `rounds` times; a round that did not
+/// bring the surface nearer is undone. The number of faces does not grow. TBB-parallel, deterministic.
+void exchange(GuardedSurface& surface, int rounds, Interrupter* interrupter);
+
+} // namespace vdbcage::detail
