@@ -7,10 +7,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <set>
 #include <string>
 #include <utility>
+#include <vector>
 
+#include <tbb/parallel_for.h>
 #include <vdbcage/core/detail/mask_grid.h>
 #include <vdbcage/core/detail/nearest_float.h>
 #include <vdbcage/core/error.h>
@@ -180,8 +183,9 @@ private:
     {
         constexpr double leastRadius = 0.03, greatestRadius = 0.24;
         constexpr int usual = 64, finest = 512, coarsest = 16;
-        // The surface should have several times the faces that the cage is to have.
-        const double wanted = usual * std::sqrt(std::max(1.0, options.faces / 1000.0));
+        // The surface should have several times the faces that the cage is to have; still more gain little.
+        const double wanted =
+            (options.effort == Effort::fast ? 0.75 : 1.0) * usual * std::sqrt(std::max(1.0, options.faces / 1000.0));
         const int resolution = options.resolution.value_or(std::min(finest, static_cast<int>(std::ceil(wanted))));
         std::vector<Voxels> list{{resolution, options.closeRadius.value_or(leastRadius)}};
         if (!options.closeRadius) {
@@ -270,20 +274,42 @@ private:
         guardOptions.minAngleDegrees = options.minAngle;
         const BoundingGuard guard(model_, guardOptions, interrupter);
         constexpr int blockResolution = 32; // a block has no detail that more could show
-        Candidate candidate;
         for (const Voxels& voxels : ladder(options)) {
-            candidate.voxels = voxels;
-            updateClosed(options, voxels, interrupter);
-            start(candidate, *closed_, guard, interrupter);
-            if (!fewEnoughHandles(candidate.surface, options, interrupter)) continue;
-            if (shrinkOnto(candidate, options, guard, interrupter)) return candidate;
+            std::vector<Candidate> starts = startsFrom(voxels, options, guard, interrupter);
+            if (starts.empty()) continue;
+            auto candidate = shrinkOnto(std::move(starts), options, guard, interrupter);
+            if (!candidate) continue;
+            updateClosed(options, candidate->voxels, interrupter);
+            return *candidate;
         }
-        candidate.start = CageStart::block;
-        candidate.voxels.resolution = std::min(candidate.voxels.resolution, blockResolution);
-        updateClosed(options, candidate.voxels, interrupter);
-        start(candidate, *blockAround(*closed_), guard, interrupter);
-        if (shrinkOnto(candidate, options, guard, interrupter)) return candidate;
-        return makeBox(options, guard);
+        Candidate block;
+        block.start = CageStart::block;
+        block.voxels = ladder(options).back();
+        block.voxels.resolution = std::min(block.voxels.resolution, blockResolution);
+        updateClosed(options, block.voxels, interrupter);
+        start(block, *blockAround(*closed_), guard, interrupter);
+        auto candidate = shrinkOnto({block}, options, guard, interrupter);
+        return candidate ? *candidate : makeBox(options, guard);
+    }
+
+    /// What cages may be shrunk from with voxels like these: nothing if there are too many handles. Among few faces the
+    /// order of the collapses is luck, so that several starts pay.
+    std::vector<Candidate> startsFrom(const Voxels& voxels, const CageOptions& options, const BoundingGuard& guard,
+                                      Interrupter* interrupter)
+    {
+        constexpr int fewFaces = 200;
+        const bool several = options.effort == Effort::best && options.faces <= fewFaces && !options.resolution;
+        std::vector<Candidate> starts;
+        for (const double scale : {1.0, 0.85, 0.7, 0.6}) {
+            Candidate candidate;
+            candidate.voxels = voxels;
+            candidate.voxels.resolution = static_cast<int>(std::lround(scale * voxels.resolution));
+            updateClosed(options, candidate.voxels, interrupter);
+            start(candidate, *closed_, guard, interrupter);
+            if (fewEnoughHandles(candidate.surface, options, interrupter)) starts.push_back(std::move(candidate));
+            if (!several || starts.empty()) break;
+        }
+        return starts;
     }
 
     /// The surface of `solid`, grown until it keeps the guard's clearance.
@@ -321,27 +347,46 @@ private:
         return block;
     }
 
-    /// Makes the cage of the candidate's surface; whether it has few enough faces and is certified.
-    bool shrinkOnto(Candidate& candidate, const CageOptions& options, const BoundingGuard& guard,
-                    Interrupter* interrupter)
+    /// Makes cages of the candidates' surfaces, side by side; the tightest that has few enough faces and is certified.
+    std::optional<Candidate> shrinkOnto(std::vector<Candidate> starts, const CageOptions& options,
+                                        const BoundingGuard& guard, Interrupter* interrupter)
     {
-        candidate.smoothed = candidate.surface;
         {
             const Stage stage(interrupter, "decimate");
-            candidate.decimated = decimate(candidate.surface, guard, target(options), options.effort, interrupter);
+            tbb::parallel_for(std::size_t(0), starts.size(), [&](std::size_t i) {
+                starts[i].smoothed = starts[i].surface;
+                starts[i].decimated = decimate(starts[i].surface, guard, target(options), options.effort, interrupter);
+            });
         }
-        if (faceCount(candidate.decimated) > static_cast<std::size_t>(options.faces)) return false;
+        const auto hasTooMany = [&](const Candidate& candidate) {
+            return faceCount(candidate.decimated) > static_cast<std::size_t>(options.faces);
+        };
+        starts.erase(std::remove_if(starts.begin(), starts.end(), hasTooMany), starts.end());
         {
             const Stage stage(interrupter, "tighten");
             TightenOptions tightening;
             tightening.shakes = options.effort == Effort::fast ? 0 : options.effort == Effort::fair ? 1 : 6;
-            candidate.cage = tighten(candidate.decimated, guard, tightening, interrupter);
-            if (options.smooth > 0)
-                candidate.cage = vdbcage::smooth(candidate.cage, guard, options.smooth, interrupter);
+            tbb::parallel_for(std::size_t(0), starts.size(), [&](std::size_t i) {
+                Mesh& cage = starts[i].cage;
+                cage = tighten(starts[i].decimated, guard, tightening, interrupter);
+                if (options.smooth > 0) cage = vdbcage::smooth(cage, guard, options.smooth, interrupter);
+            });
         }
-        if (!certify(candidate.cage, interrupter).bounding()) return false;
-        if (options.mesh == CageFaces::triquad) mergeCertified(options, candidate, interrupter);
-        return true;
+        if (starts.size() > 1) {
+            const Stage stage(interrupter, "certify");
+            for (Candidate& candidate : starts) {
+                candidate.check = checker(interrupter).check(candidate.cage, {}, interrupter);
+            }
+            std::stable_sort(starts.begin(), starts.end(), [](const Candidate& a, const Candidate& b) {
+                return a.check.meanDistance < b.check.meanDistance;
+            });
+        }
+        for (Candidate& candidate : starts) {
+            if (!certify(candidate.cage, interrupter).bounding()) continue;
+            if (options.mesh == CageFaces::triquad) mergeCertified(options, candidate, interrupter);
+            return std::move(candidate);
+        }
+        return std::nullopt;
     }
 
     /// Quads that count under both diagonals: pairs that the verdict objects to are split again until it does not.

@@ -82,20 +82,31 @@ bool pierces(const Vec3d& p, const Vec3d& q, const Corners& t)
     return (a > 0 && b > 0 && c > 0) || (a < 0 && b < 0 && c < 0);
 }
 
-/// Whether all corners of `other` lie beyond `reach` on one side of the plane of `t`.
-bool planeSeparates(const Corners& t, const Corners& other, double reach)
-{
-    const Vec3d normal = (t[1] - t[0]).cross(t[2] - t[0]);
-    const double length = normal.length();
-    if (!(length > 0)) return false;
-    const double limit = reach * length;
-    const double a = normal.dot(other[0] - t[0]), b = normal.dot(other[1] - t[0]), c = normal.dot(other[2] - t[0]);
-    // Error: the dot product's terms are bounded by length times the distance of the corner.
-    const double error = 1e-14 * length *
-                         ((other[0] - t[0]).length() + (other[1] - t[0]).length() + (other[2] - t[0]).length() +
-                          (t[1] - t[0]).length() + (t[2] - t[0]).length());
-    return std::min({a, b, c}) > limit + error || std::max({a, b, c}) < -limit - error;
-}
+/// The plane of a triangle, to tell quickly that another triangle is far on one side of it.
+class Separator {
+public:
+    explicit Separator(const Corners& t)
+        : corner_(t[0]), normal_((t[1] - t[0]).cross(t[2] - t[0])), normal2_(normal_.lengthSqr()),
+          size2_(std::max((t[1] - t[0]).lengthSqr(), (t[2] - t[0]).lengthSqr()))
+    {
+    }
+    /// Whether all corners of `other` lie on one side, farther than `reach`. Never wrongly yes.
+    bool separates(const Corners& other, double reach) const
+    {
+        const Vec3d u = other[0] - corner_, v = other[1] - corner_, w = other[2] - corner_;
+        const double a = normal_.dot(u), b = normal_.dot(v), c = normal_.dot(w);
+        const double height = std::max(std::min({a, b, c}), -std::max({a, b, c}));
+        if (!(height > 0)) return false;
+        // The error of a height is below 1e-14 of the normal's length times the sizes; (r + e)^2 < 1.001 r^2 + 1001
+        // e^2.
+        const double size2 = size2_ + std::max({u.lengthSqr(), v.lengthSqr(), w.lengthSqr()});
+        return height * height > normal2_ * (1.001 * reach * reach + 1e-24 * size2);
+    }
+
+private:
+    Vec3d corner_, normal_;
+    double normal2_, size2_;
+};
 
 /// The box of a triangle, grown.
 Box grown(const Corners& t, double by)
@@ -240,6 +251,16 @@ Nearness nearness(const Corners& first, const Corners& second)
     return best;
 }
 
+namespace {
+
+bool comesTooNear(const Corners& triangle, const Separator& separator, const Corners& other, double clearance)
+{
+    return !separator.separates(other, clearance) && !Separator(other).separates(triangle, clearance) &&
+           nearness(triangle, other).squaredDistance < clearance * clearance;
+}
+
+} // namespace
+
 GuardModel::GuardModel(const Mesh& model, const GuardOptions& options, Interrupter* interrupter)
 {
     requireUsable(model, "model");
@@ -302,11 +323,9 @@ Vec3d GuardModel::rounded(const Vec3d& p) const
 
 bool GuardModel::clear(const Corners& triangle, std::uint32_t hint, std::uint32_t* blocker) const
 {
-    const double limit = clearance_ * clearance_;
+    const Separator separator(triangle);
     const auto blocks = [&](const TriangleTree::Item& item) {
-        const Corners other = tree_.corners(item);
-        if (planeSeparates(triangle, other, clearance_) || planeSeparates(other, triangle, clearance_)) return false;
-        return nearness(triangle, other).squaredDistance < limit;
+        return comesTooNear(triangle, separator, tree_.corners(item), clearance_);
     };
     const auto found = [&](const TriangleTree::Item& item) {
         if (blocker) *blocker = static_cast<std::uint32_t>(&item - tree_.items().data());
@@ -322,19 +341,21 @@ bool GuardModel::clear(const Corners& triangle, std::uint32_t hint, std::uint32_
 
 void GuardModel::forEachBlocker(const Corners& triangle, const std::function<bool(const Corners&)>& visit) const
 {
-    const double limit = clearance_ * clearance_;
+    const Separator separator(triangle);
+    const Box reach = grown(triangle, clearance_);
     tree_.traverse(SlabFilter(triangle, clearance_), [&](const TriangleTree::Item& item) {
         const Corners other = tree_.corners(item);
-        return planeSeparates(triangle, other, clearance_) || planeSeparates(other, triangle, clearance_) ||
-               !(nearness(triangle, other).squaredDistance < limit) || visit(other);
+        return !reach.meets(Box::of(other)) || !comesTooNear(triangle, separator, other, clearance_) || visit(other);
     });
 }
 
 void GuardModel::forEachInside(const std::array<Vec3d, 4>& tetrahedron,
                                const std::function<void(const Corners&)>& visit) const
 {
-    tree_.traverse(HullFilter(tetrahedron), [&](const TriangleTree::Item& item) {
-        visit(tree_.corners(item));
+    const HullFilter filter(tetrahedron);
+    tree_.traverse(filter, [&](const TriangleTree::Item& item) {
+        const Corners corners = tree_.corners(item);
+        if (filter(Box::of(corners))) visit(corners);
         return true;
     });
 }

@@ -16,7 +16,7 @@ namespace vdbcage::detail {
 
 namespace {
 
-constexpr std::uint32_t leafSize = 4;
+constexpr std::uint32_t leafSize = 3;
 constexpr std::size_t binCount = 16;
 constexpr std::size_t binnedDepth = 60;           // deeper nodes are halved: 2^32 triangles end within 32 more
 constexpr std::size_t taskSize = 4096;            // triangles in a subtree that are worth a task

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cassert>
 #include <cmath>
@@ -37,7 +38,7 @@ struct Box {
     {
         double sum = 0;
         for (int i = 0; i < 3; ++i) {
-            const double d = p[i] < lo[i] ? lo[i] - p[i] : p[i] > hi[i] ? p[i] - hi[i] : 0.0;
+            const double d = std::max(std::max(lo[i] - p[i], p[i] - hi[i]), 0.0);
             sum += d * d;
         }
         return sum;

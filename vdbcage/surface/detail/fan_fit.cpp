@@ -91,6 +91,12 @@ std::optional<openvdb::Mat3d> inverseCholesky(const openvdb::Mat3d& a)
 
 } // namespace
 
+double leastChange(const Quadratic& change)
+{
+    const auto inverse = inverseCholesky(change.curvature);
+    return inverse ? -0.5 * (inverse->transpose() * change.slope).lengthSqr() : 0;
+}
+
 bool descend(const GuardedSurface& surface, const Fan& fan, Vec3d& p, const Quadratic& change, const StepLimit& limit,
              const std::function<bool(const Vec3d&)>& accepts)
 {

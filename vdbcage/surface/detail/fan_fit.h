@@ -14,6 +14,9 @@ struct Quadratic {
     Vec3d slope{0.0};
 };
 
+/// The least value of `change` anywhere, which is negative or 0; 0 where it has none.
+double leastChange(const Quadratic& change);
+
 /// How far a centre may go at once.
 struct StepLimit {
     double reach;     ///< no step is longer than half of it, nor shorter than a thousandth

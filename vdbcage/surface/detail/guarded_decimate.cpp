@@ -277,12 +277,12 @@ public:
                 // What was blocked may be free since its surroundings changed.
                 if (surface_.liveFaces() == facesAtLastFill) return;
                 facesAtLastFill = surface_.liveFaces();
-                pending_ = allEdges(surface_);
+                for (const Edge& edge : allEdges(surface_)) pending_.push_back({edge, true});
                 measureFaces();
             }
-            gatherStale();
+            gatherFront();
             if (!pending_.empty()) {
-                evaluatePending();
+                measurePending();
             } else if (!queue_.empty()) {
                 collapse(pop());
             }
@@ -290,19 +290,27 @@ public:
     }
 
 private:
-    static constexpr double samplesPerFace = 6; ///< of the size they have in the end
-    static constexpr int improvements = 3;
-    static constexpr std::size_t batch = 8; ///< stale edges measured again side by side
+    static constexpr double samplesPerFace = 4; ///< of the size they have in the end
+    static constexpr int improvements = 2;
+    static constexpr std::size_t batch = 8; ///< edges measured side by side at the front of the queue
 
+    /// Without a place its cost is an estimate of the best one's, allowed or not.
     struct Candidate {
         QueuedEdge edge;
-        Vec3d place;
+        std::optional<Vec3d> place;
         std::uint32_t issue; // of several entries of one edge only the latest counts
 
         bool operator<(const Candidate& o) const { return edge < o.edge; }
     };
+    struct Pending {
+        Edge edge;
+        bool onlyEstimate; // until it comes to the front of the queue
 
-    static std::uint64_t key(std::uint32_t u, std::uint32_t v) { return std::uint64_t(u) << 32U | v; }
+        bool operator<(const Pending& o) const { return edge < o.edge; }
+        bool operator==(const Pending& o) const { return edge == o.edge; }
+    };
+
+    static std::uint64_t key(const Edge& edge) { return std::uint64_t(edge.first) << 32U | edge.second; }
 
     Candidate pop()
     {
@@ -311,33 +319,35 @@ private:
         return top;
     }
 
-    /// Takes entries off the front of the queue that no longer count (dropped) or whose surroundings changed (pending),
-    /// until one stands there that may be collapsed.
-    void gatherStale()
+    /// Takes entries off the front of the queue that no longer count (dropped), whose surroundings changed, or that
+    /// were only estimated (pending), until one stands there that may be collapsed.
+    void gatherFront()
     {
         std::size_t gathered = 0;
         while (!queue_.empty() && gathered < batch) {
             const Candidate& top = queue_.top();
             const QueuedEdge& e = top.edge;
-            const bool counts = top.issue == latest_[key(e.u, e.v)] && surface_.isVertex(e.u) && surface_.isVertex(e.v);
-            if (counts && e.stampU == stamp_[e.u] && e.stampV == stamp_[e.v]) return;
-            if (counts) {
-                pending_.emplace_back(e.u, e.v);
+            const Edge edge(e.u, e.v);
+            if (top.issue == latest_[key(edge)] && surface_.isVertex(e.u) && surface_.isVertex(e.v)) {
+                const bool isCurrent = e.stampU == stamp_[e.u] && e.stampV == stamp_[e.v];
+                if (isCurrent && top.place) return;
+                pending_.push_back({edge, !isCurrent});
                 ++gathered;
             }
             queue_.pop();
         }
     }
 
-    void evaluatePending()
+    void measurePending()
     {
         std::sort(pending_.begin(), pending_.end());
         pending_.erase(std::unique(pending_.begin(), pending_.end()), pending_.end());
         std::vector<std::optional<Candidate>> results(pending_.size());
-        tbb::parallel_for(std::size_t(0), pending_.size(),
-                          [&](std::size_t i) { results[i] = evaluate(pending_[i].first, pending_[i].second); });
+        tbb::parallel_for(std::size_t(0), pending_.size(), [&](std::size_t i) {
+            results[i] = measure(pending_[i].edge.first, pending_[i].edge.second, pending_[i].onlyEstimate);
+        });
         for (std::size_t i = 0; i < pending_.size(); ++i) {
-            const std::uint32_t issue = ++latest_[key(pending_[i].first, pending_[i].second)];
+            const std::uint32_t issue = ++latest_[key(pending_[i].edge)];
             if (!results[i]) continue;
             results[i]->issue = issue;
             queue_.push(*results[i]);
@@ -345,44 +355,50 @@ private:
         pending_.clear();
     }
 
-    std::optional<Candidate> evaluate(std::uint32_t u, std::uint32_t v) const
+    std::optional<Candidate> measure(std::uint32_t u, std::uint32_t v, bool onlyEstimate) const
     {
         Fan fan;
         if (!surface_.fanOf(u, v, fan)) return std::nullopt;
         const Vec3d a = surface_.point(u), b = surface_.point(v), middle = 0.5 * (a + b);
-        const Vec3d up = outward(surface_, fan) * (a - b).length();
-        std::uint32_t blocker = TriangleTree::none;
-        std::optional<Vec3d> place;
-        for (const Vec3d& at : {middle, a, b, middle + 0.1 * up, middle + 0.25 * up, middle + 0.5 * up, middle + up}) {
-            const Vec3d rounded = surface_.guard().rounded(at);
-            if (surface_.allows(fan, rounded, &blocker)) {
-                place = rounded;
-                break;
-            }
-        }
-        if (!place) return std::nullopt;
+        Candidate candidate{{0, u, v, stamp_[u], stamp_[v]}, std::nullopt, 0};
         double before = 0;
         for (const std::uint32_t f : fan.oldFaces) before += faceIntegral_[f];
         std::uint32_t seed = seed_[u];
-        DistanceMeasure::Fit fit = measure_.fit(surface_, fan, *place, seed);
-        for (int i = 0; i < improvements; ++i) {
-            if (!measure_.improve(surface_, fan, *place, fit, seed)) break;
+        if (onlyEstimate) {
+            const DistanceMeasure::Fit fit = measure_.fit(surface_, fan, middle, seed);
+            candidate.edge.cost = std::max(0.0, fit.integral + leastChange(fit.change)) - before;
+            return candidate;
         }
-        return Candidate{{fit.integral - before, u, v, stamp_[u], stamp_[v]}, *place, 0};
+        const Vec3d up = outward(surface_, fan) * (a - b).length();
+        std::uint32_t blocker = TriangleTree::none;
+        for (const Vec3d& at : {middle, a, b, middle + 0.1 * up, middle + 0.25 * up, middle + 0.5 * up, middle + up}) {
+            const Vec3d rounded = surface_.guard().rounded(at);
+            if (surface_.allows(fan, rounded, &blocker)) {
+                candidate.place = rounded;
+                break;
+            }
+        }
+        if (!candidate.place) return std::nullopt;
+        DistanceMeasure::Fit fit = measure_.fit(surface_, fan, *candidate.place, seed);
+        for (int i = 0; i < improvements; ++i) {
+            if (!measure_.improve(surface_, fan, *candidate.place, fit, seed)) break;
+        }
+        candidate.edge.cost = fit.integral - before;
+        return candidate;
     }
 
     void collapse(const Candidate& candidate)
     {
         const std::uint32_t u = candidate.edge.u;
         Fan fan;
-        if (!surface_.fanOf(u, candidate.edge.v, fan) || !surface_.allows(fan, candidate.place)) return;
-        surface_.apply(fan, candidate.place);
+        if (!surface_.fanOf(u, candidate.edge.v, fan) || !surface_.allows(fan, *candidate.place)) return;
+        surface_.apply(fan, *candidate.place);
         const auto ring = surface_.neighbours(u);
         for (const std::uint32_t f : surface_.facesOf(u)) measureFace(f, seed_[u]);
         ++stamp_[u];
         for (const std::uint32_t w : ring) ++stamp_[w];
         for (const std::uint32_t w : ring) pullIn(w);
-        for (const std::uint32_t w : ring) pending_.emplace_back(std::min(u, w), std::max(u, w));
+        for (const std::uint32_t w : ring) pending_.push_back({std::minmax(u, w), true});
     }
 
     void pullIn(std::uint32_t v)
@@ -417,7 +433,7 @@ private:
     std::vector<std::uint32_t> stamp_; // grows when a face at the vertex changes
     std::vector<std::uint32_t> seed_;
     std::vector<double> faceIntegral_;
-    std::vector<Edge> pending_; // to be measured
+    std::vector<Pending> pending_; // to be measured
     std::priority_queue<Candidate> queue_;
     std::unordered_map<std::uint64_t, std::uint32_t> latest_; // issue of each edge's entry that counts
 };

@@ -119,15 +119,14 @@ bool spreadOut(const Triangles& triangles)
     Vec3d x = axis.cross(direction);
     x /= x.length();
     const Vec3d y = direction.cross(x);
-    double turn = 0;
+    int rounds = 0; // times that the rim crosses the positive x axis
     for (const Corners& t : triangles) {
         const Vec3d a = t[1] - centre, b = t[2] - centre;
-        const double ax = a.dot(x), ay = a.dot(y), bx = b.dot(x), by = b.dot(y);
-        const double cross = ax * by - ay * bx;
-        if (cross <= 1e-12 * a.length() * b.length()) return false;
-        turn += std::atan2(cross, ax * bx + ay * by);
+        const double ax = a.dot(x), ay = a.dot(y), bx = b.dot(x), by = b.dot(y), cross = ax * by - ay * bx;
+        if (!(cross > 0 && cross * cross > 1e-24 * a.lengthSqr() * b.lengthSqr())) return false;
+        rounds += ay < 0 && by >= 0; // a turn to the left by less than half a round
     }
-    return turn < 6.2832 + 1; // once around, not twice
+    return rounds == 1;
 }
 
 /// What a triangle hits first when its corner 0 moves in a straight line.
@@ -372,13 +371,19 @@ bool GuardedSurface::clearOfSurface(const Fan& fan, const Vec3d& p) const
             }
         }
     }
-    for (std::size_t i = 0; i < n; ++i) {
-        const bool apart = tree_.forEachOverlap(Box::of(triangles[i]), [&](std::uint32_t face) {
-            return isOld(fan, face) || !meetBeyondShared(ids(i), triangles[i], faces_[face], corners(face));
-        });
-        if (!apart) return false;
-    }
-    return true;
+    boost::container::small_vector<Box, 16> boxes;
+    for (const Corners& t : triangles) boxes.push_back(Box::of(t));
+    Box all = Box::of(triangles.front());
+    for (const Box& box : boxes) all.expand(box);
+    return tree_.forEachOverlap(all, [&](std::uint32_t face) {
+        if (isOld(fan, face)) return true;
+        const Corners other = corners(face);
+        const Box otherBox = Box::of(other);
+        for (std::size_t i = 0; i < n; ++i) {
+            if (boxes[i].meets(otherBox) && meetBeyondShared(ids(i), triangles[i], faces_[face], other)) return false;
+        }
+        return true;
+    });
 }
 
 bool GuardedSurface::allows(const Fan& fan, const Vec3d& p, std::uint32_t* hint) const
