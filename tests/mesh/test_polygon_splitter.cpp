@@ -267,4 +267,23 @@ BOOST_AUTO_TEST_CASE(senseless_polygons_still_give_two_triangles_less_than_corne
     }
 }
 
+BOOST_AUTO_TEST_CASE(alternatives_hold_every_triangle_of_every_fan)
+{
+    for (const std::size_t n : {4, 5, 8, 9, 20, 64}) {
+        std::vector<openvdb::Index32> face(n);
+        for (std::size_t i = 0; i < n; ++i) face[i] = static_cast<openvdb::Index32>(10 + i);
+        std::vector<openvdb::Vec3I> triangles;
+        detail::addAlternatives(face.data(), n, triangles);
+        const auto found = cornerSets(triangles);
+        for (std::size_t apex = 0; apex < n; ++apex) {
+            for (std::size_t i = 1; i + 1 < n; ++i) {
+                BOOST_TEST(found.count({face[apex], face[(apex + i) % n], face[(apex + i + 1) % n]}) == 1U);
+            }
+        }
+    }
+    std::vector<openvdb::Vec3I> none;
+    detail::addAlternatives(std::vector<openvdb::Index32>(65).data(), 65, none);
+    BOOST_TEST(none.empty());
+}
+
 BOOST_AUTO_TEST_SUITE_END()

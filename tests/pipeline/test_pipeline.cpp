@@ -4,8 +4,10 @@
 #include <map>
 
 #include <support/shapes.h>
+#include <support/temporary_folder.h>
 #include <tbb/global_control.h>
 #include <vdbcage/core/error.h>
+#include <vdbcage/mesh/mesh_io.h>
 #include <vdbcage/pipeline/pipeline.h>
 
 using namespace vdbcage;
@@ -233,6 +235,34 @@ BOOST_AUTO_TEST_CASE(unusable_models_and_options_are_refused_before_any_work)
     CageOptions options;
     options.faces = 3;
     BOOST_CHECK_THROW(makeCage(test::box({0, 0, 0}, {1, 1, 1}), options), InputError);
+}
+
+BOOST_AUTO_TEST_CASE(a_cage_bounds_its_model_however_another_program_splits_the_polygons)
+{
+    const test::TemporaryFolder folder;
+    const std::string crumpled = "OFF\n9 3 0\n0 0 0\n2 0 0.9\n0.4 0.4 0\n0 2 -0.8\n" // a concave quad
+                                 "3 0 0\n4 0 1\n5 1 0\n4 2 1.2\n3 2 -0.3\n"          // with more, crumpled pentagons
+                                 "4 0 1 2 3\n5 4 5 6 7 8\n5 1 4 8 3 2\n";
+    test::writeText(folder / "crumpled.off", crumpled);
+    const Mesh model = readMesh(folder / "crumpled.off");
+    BOOST_TEST(model.quads.empty());
+    Mesh everything{model.points, {}, {}};
+    const std::vector<openvdb::Index32> faces[] = {{0, 1, 2, 3}, {4, 5, 6, 7, 8}, {1, 4, 8, 3, 2}};
+    for (const auto& face : faces) {
+        for (std::size_t i = 0; i < face.size(); ++i) {
+            for (std::size_t j = i + 1; j < face.size(); ++j) {
+                for (std::size_t k = j + 1; k < face.size(); ++k) {
+                    everything.triangles.emplace_back(face[i], face[j], face[k]);
+                }
+            }
+        }
+    }
+    for (const int count : {20, 100, 400}) {
+        CageOptions options;
+        options.faces = count;
+        options.effort = Effort::fast;
+        BOOST_TEST(checkCage(makeCage(model, options), everything).bounding());
+    }
 }
 
 BOOST_AUTO_TEST_SUITE_END()

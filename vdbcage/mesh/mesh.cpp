@@ -12,13 +12,16 @@ namespace vdbcage {
 namespace {
 
 template <typename Visit>
-void forEachCorner(const Mesh& mesh, const Visit& visit)
+void forEachIndex(const Mesh& mesh, const Visit& visit)
 {
     for (const openvdb::Vec3I& triangle : mesh.triangles) {
         for (int i = 0; i < 3; ++i) visit(triangle[i]);
     }
     for (const openvdb::Vec4I& quad : mesh.quads) {
         for (int i = 0; i < 4; ++i) visit(quad[i]);
+    }
+    for (const openvdb::Vec3I& triangle : mesh.alternatives) {
+        for (int i = 0; i < 3; ++i) visit(triangle[i]);
     }
 }
 
@@ -35,10 +38,22 @@ std::vector<openvdb::Vec3I> triangulate(const Mesh& mesh)
     return triangles;
 }
 
+std::vector<openvdb::Vec3I> everySplit(const Mesh& mesh)
+{
+    std::vector<openvdb::Vec3I> triangles = triangulate(mesh);
+    triangles.reserve(triangles.size() + 2 * mesh.quads.size() + mesh.alternatives.size());
+    for (const openvdb::Vec4I& quad : mesh.quads) {
+        triangles.emplace_back(quad[0], quad[1], quad[3]);
+        triangles.emplace_back(quad[1], quad[2], quad[3]);
+    }
+    triangles.insert(triangles.end(), mesh.alternatives.begin(), mesh.alternatives.end());
+    return triangles;
+}
+
 openvdb::BBoxd boundingBox(const Mesh& mesh)
 {
     openvdb::BBoxd box;
-    forEachCorner(mesh, [&](openvdb::Index32 corner) { box.expand(mesh.points[corner]); });
+    forEachIndex(mesh, [&](openvdb::Index32 corner) { box.expand(mesh.points[corner]); });
     return box;
 }
 
@@ -46,7 +61,7 @@ void requireUsable(const Mesh& mesh, const char* what)
 {
     const auto fail = [&](const std::string& problem) { throw InputError(std::string(what) + ": " + problem); };
     if (faceCount(mesh) == 0) fail("it has no faces; at least one is needed");
-    forEachCorner(mesh, [&](openvdb::Index32 corner) {
+    forEachIndex(mesh, [&](openvdb::Index32 corner) {
         if (corner >= mesh.points.size()) {
             fail("a face uses point " + std::to_string(corner) + "; there are " + std::to_string(mesh.points.size()) +
                  " points, counted from 0");

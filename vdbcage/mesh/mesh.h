@@ -17,6 +17,9 @@ struct Mesh {
     std::vector<openvdb::Vec3d> points;    ///< world space, exactly as the file has them
     std::vector<openvdb::Vec3I> triangles; ///< three indices into `points`
     std::vector<openvdb::Vec4I> quads;     ///< four indices into `points`, in order around the face
+    /// Of a model that was read: triangles that its polygons would have if they were split in other ways (quads apart,
+    /// whose diagonals are known). They are no faces, but another program may see them, so cages bound them too.
+    std::vector<openvdb::Vec3I> alternatives = {};
 };
 
 /// Triangles and quads together, a quad counting once.
@@ -27,6 +30,10 @@ inline std::size_t faceCount(const Mesh& mesh)
 
 /// The triangles of the mesh, then each quad as two: split by the diagonal of its corners 0 and 2. O(faces).
 VDBCAGE_API std::vector<openvdb::Vec3I> triangulate(const Mesh& mesh);
+
+/// triangulate(), then the triangles of every other way to split a face: of the quads by their other diagonal, and the
+/// alternatives. O(faces).
+VDBCAGE_API std::vector<openvdb::Vec3I> everySplit(const Mesh& mesh);
 
 /// The box of the points that faces refer to (a point no face uses does not count); empty for no faces. O(faces).
 VDBCAGE_API openvdb::BBoxd boundingBox(const Mesh& mesh);

@@ -211,16 +211,6 @@ double solidAngle(const Corners& t, const Vec3d& p)
     return 2 * std::atan2(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
 }
 
-std::vector<Vec3I> allTriangles(const Mesh& mesh)
-{
-    std::vector<Vec3I> triangles = triangulate(mesh);
-    for (const openvdb::Vec4I& q : mesh.quads) {
-        triangles.emplace_back(q[1], q[2], q[3]);
-        triangles.emplace_back(q[1], q[3], q[0]);
-    }
-    return triangles;
-}
-
 } // namespace
 
 Nearness nearness(const Corners& first, const Corners& second)
@@ -283,7 +273,7 @@ GuardModel::GuardModel(const Mesh& model, const GuardOptions& options, Interrupt
     // Rounding to float may move a point by 2^-24 of its coordinate: it has to be small against the clearance.
     roundsToFloat_ = largest < 1e30 && side > 1e-30 && largest * 0x1p-24 < 1e-5 * side;
     if (roundsToFloat_) clearance_ = std::max(clearance_, 4 * largest * scale_ * 0x1p-24);
-    const std::vector<Vec3I> triangles = allTriangles(model);
+    const std::vector<Vec3I> triangles = everySplit(model);
     std::vector<Vec3d> points;
     points.reserve(model.points.size());
     for (const Vec3d& p : model.points) points.push_back(scaled(p));
@@ -393,7 +383,7 @@ double BoundingGuard::clearance() const
 
 bool BoundingGuard::isClear(const Mesh& surface) const
 {
-    const std::vector<openvdb::Vec3I> triangles = detail::allTriangles(surface);
+    const std::vector<openvdb::Vec3I> triangles = everySplit(surface);
     const auto point = [&](openvdb::Index32 i) { return model_->rounded(model_->scaled(surface.points[i])); };
     return tbb::parallel_reduce(
         tbb::blocked_range<std::size_t>(0, triangles.size(), 256), true,

@@ -33,6 +33,9 @@ void requireSound(const Mesh& mesh, const char* what)
     for (const openvdb::Vec4I& quad : mesh.quads) {
         for (int i = 0; i < 4; ++i) requirePoint(quad[i]);
     }
+    for (const Vec3I& triangle : mesh.alternatives) {
+        for (int i = 0; i < 3; ++i) requirePoint(triangle[i]);
+    }
 }
 
 CheckedModel::CheckedModel(const Mesh& mesh, Interrupter* interrupter)
@@ -40,7 +43,7 @@ CheckedModel::CheckedModel(const Mesh& mesh, Interrupter* interrupter)
     if (faceCount(mesh) == 0) throw InputError("model: it has no faces; at least one is needed");
     requireSound(mesh, "model");
     const FaceTriangles faces(mesh);
-    tbb::parallel_invoke([&] { tree = TriangleTree(mesh.points, faces.triangles(), interrupter); },
+    tbb::parallel_invoke([&] { tree = TriangleTree(mesh.points, everySplit(mesh), interrupter); },
                          [&] { findParts(mesh, faces, interrupter); },
                          [&] {
                              if (analyzeTopology(mesh, interrupter).isCycle()) {

@@ -51,6 +51,7 @@ Mesh toMesh(PolygonSoup soup, const std::string& name, ReadSummary* summary)
         const std::size_t triangles = mesh.triangles.size();
         const std::size_t quads = mesh.quads.size();
         splitter.split(face, count, mesh.triangles, mesh.quads);
+        if (mesh.quads.size() == quads) addAlternatives(face, count, mesh.alternatives);
         bool faceHasArea = false;
         for (std::size_t i = triangles; i < mesh.triangles.size() && !faceHasArea; ++i) {
             faceHasArea = !isDegenerate(mesh, mesh.triangles[i]);

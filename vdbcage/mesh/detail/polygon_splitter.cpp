@@ -264,4 +264,22 @@ void PolygonSplitter::clipEars(const openvdb::Index32* face, std::vector<openvdb
     fan(face, start, triangles);
 }
 
+void addAlternatives(const openvdb::Index32* face, std::size_t count, std::vector<openvdb::Vec3I>& triangles)
+{
+    constexpr std::size_t mostForTriples = 8, mostForFans = 64;
+    if (count <= mostForTriples) {
+        for (std::size_t i = 0; i < count; ++i) {
+            for (std::size_t j = i + 1; j < count; ++j) {
+                for (std::size_t k = j + 1; k < count; ++k) triangles.emplace_back(face[i], face[j], face[k]);
+            }
+        }
+    } else if (count <= mostForFans) {
+        for (std::size_t apex = 0; apex < count; ++apex) {
+            for (std::size_t i = 1; i + 1 < count; ++i) {
+                triangles.emplace_back(face[apex], face[(apex + i) % count], face[(apex + i + 1) % count]);
+            }
+        }
+    }
+}
+
 } // namespace vdbcage::detail

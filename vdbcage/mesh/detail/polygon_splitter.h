@@ -54,4 +54,8 @@ private:
     double cellX_ = 0, cellY_ = 0, cellsPerUnit_ = 0;
 };
 
+/// Appends the triangles of other ways to split a face of four or more corners than the one that a PolygonSplitter
+/// chooses: any three corners up to eight; beyond, up to 64 corners, the fans around each; nothing for larger faces.
+void addAlternatives(const openvdb::Index32* face, std::size_t count, std::vector<openvdb::Vec3I>& triangles);
+
 } // namespace vdbcage::detail

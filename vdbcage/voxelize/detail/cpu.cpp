@@ -28,15 +28,11 @@ using openvdb::Vec3I;
 class SlabbedTriangles {
 public:
     SlabbedTriangles(const Mesh& model, const Frame& frame)
-        : points_(latticePoints(model, frame)), faces_(triangulate(model)), counted_(faces_.size()),
+        : points_(latticePoints(model, frame)), faces_(everySplit(model)),
+          counted_(model.triangles.size() + 2 * model.quads.size()),
           slabThickness_(std::clamp(frame.voxels.dim().x() / 16, 1, 8)),
           slabCount_((frame.voxels.dim().x() + slabThickness_ - 1) / slabThickness_), planes_(frame.voxels.dim().x())
     {
-        // The other diagonal of the quads.
-        for (const openvdb::Vec4I& quad : model.quads) {
-            faces_.emplace_back(quad[0], quad[1], quad[3]);
-            faces_.emplace_back(quad[1], quad[2], quad[3]);
-        }
         const openvdb::Coord low = frame.voxels.min();
         const Vec3i origin(low.x() * latticeStep, low.y() * latticeStep, low.z() * latticeStep);
         for (Vec3i& point : points_) point -= origin;
@@ -46,7 +42,7 @@ public:
     int slabCount() const { return slabCount_; }
     int slabThickness() const { return slabThickness_; }
     Span planes(int slab) const { return {slab * slabThickness_, std::min((slab + 1) * slabThickness_, planes_) - 1}; }
-    /// visit(triangle, whether its crossings count: those of a quad do under one diagonal only)
+    /// visit(triangle, whether its crossings count: those of a face do under one way to split it only)
     template <typename Visit>
     void forEach(int slab, const Visit& visit) const
     {
