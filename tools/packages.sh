@@ -7,6 +7,10 @@ packages=(
     libosmesa6-dev libgl-dev libpng-dev                                        # pictures
     libcli11-dev nlohmann-json3-dev                                            # the command
 )
+test_packages=(
+    libboost-test-dev
+    tetgen # fills cages, to see that others can use them
+)
 
 # install_packages NAME...: by apt-get, as root or through sudo; silent and quick when nothing is missing.
 install_packages() {

@@ -7,6 +7,20 @@
 using namespace vdbcage;
 using nlohmann::json;
 
+namespace {
+
+/// Runs a script of this folder, which is to end with exit status 0.
+void runInBlender(const std::string& script, const std::string& first, const std::string& second)
+{
+    const auto result =
+        test::runCommand({VDBCAGE_BLENDER, "--background", "--factory-startup", "--python-exit-code", "1", "--python",
+                          VDBCAGE_SOURCE_DIR "/tests/blender/" + script, "--", first, second});
+    BOOST_TEST(result.status == 0, result.out + result.err);
+    BOOST_TEST_MESSAGE(result.out);
+}
+
+} // namespace
+
 BOOST_AUTO_TEST_CASE(blender_opens_every_stage_and_meshes_it_in_its_place)
 {
     const test::TemporaryFolder folder;
@@ -32,9 +46,14 @@ BOOST_AUTO_TEST_CASE(blender_opens_every_stage_and_meshes_it_in_its_place)
         }
     }
     test::writeText(folder / "facts.json", facts.dump());
-    const auto result =
-        test::runCommand({VDBCAGE_BLENDER, "--background", "--factory-startup", "--python-exit-code", "1", "--python",
-                          VDBCAGE_SOURCE_DIR "/tests/blender/stages.py", "--", stages, folder / "facts.json"});
-    BOOST_TEST(result.status == 0, result.out + result.err);
-    BOOST_TEST_MESSAGE(result.out);
+    runInBlender("stages.py", stages, folder / "facts.json");
+}
+
+BOOST_AUTO_TEST_CASE(blender_binds_its_mesh_deform_modifier_to_a_cage)
+{
+    const test::TemporaryFolder folder;
+    const std::string creature = VDBCAGE_SOURCE_DIR "/data/creature.obj", cage = folder / "cage.obj";
+    BOOST_REQUIRE(test::runCommand({VDBCAGE_COMMAND, "make", creature, "-o", cage, "--faces", "400", "-q"}).status ==
+                  0);
+    runInBlender("mesh_deform.py", creature, cage);
 }

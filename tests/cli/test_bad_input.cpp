@@ -207,6 +207,17 @@ BOOST_AUTO_TEST_CASE(bad_paths)
     expectRefusal(folder, make({model, "-o", "/dev/full"}), {"/dev/full"});
     expectRefusal(folder, {command, "render", "-o", folder / "picture.png"}, {});
     expectRefusal(folder, {command, "render", model, "-o", folder / "picture.jpg"}, {".png"});
+    const auto sheet = [&](std::vector<std::string> more) {
+        std::vector<std::string> words{command, "render", "-o", folder / "sheet.png"};
+        words.insert(words.end(), more.begin(), more.end());
+        return words;
+    };
+    expectRefusal(folder, sheet({model, "/"}), {"panel"});
+    expectRefusal(folder, sheet({model, "/", "/", model}), {"panel"});
+    expectRefusal(folder, sheet({model, "/", folder / "missing.obj"}), {"missing.obj"});
+    expectRefusal(folder, sheet({model, "/", model, "--columns", "many"}), {"--columns", "many"});
+    expectRefusal(folder, sheet({model, "/", model, "--columns", "-1"}), {"--columns", "-1"});
+    expectRefusal(folder, sheet({model, "/", model, "--columns", "2", "--size", "1x1"}), {"1 x 1", "2 panels"});
     expectRefusal(folder, {command, "check", cage, model}, {"cage.obj"});
 }
 
@@ -258,7 +269,8 @@ BOOST_AUTO_TEST_CASE(permissions)
     fs::create_directory(folder / "closed");
     fs::permissions(folder / "closed",
                     fs::perms::owner_read | fs::perms::owner_exec | fs::perms::others_read | fs::perms::others_exec);
-    expectRefusal(folder, asNobody({reachable, "make", secret, "-o", folder / "cage.obj"}), {"secret.obj", "ermission"});
+    expectRefusal(folder, asNobody({reachable, "make", secret, "-o", folder / "cage.obj"}),
+                  {"secret.obj", "ermission"});
     expectRefusal(folder, asNobody({reachable, "make", model, "-o", fixed}), {"fixed.obj", "ermission"});
     expectRefusal(folder, asNobody({reachable, "make", model, "-o", folder / "closed/cage.obj"}),
                   {"closed", "ermission"});

@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 #include <openvdb/openvdb.h>
+#include <support/read_png.h>
 #include <support/run_command.h>
 #include <support/shapes.h>
 #include <vdbcage/check/check.h>
@@ -134,6 +135,42 @@ BOOST_AUTO_TEST_CASE(render_draws_models_cages_and_volumes)
     BOOST_TEST(bytes.substr(1, 3) == "PNG");
     // Width and height stand in the header, big endian.
     BOOST_TEST(bytes.substr(16, 8) == std::string("\0\0\x02\x58\0\0\0\xc8", 8));
+}
+
+BOOST_AUTO_TEST_CASE(render_makes_a_contact_sheet)
+{
+    const TemporaryFolder folder;
+    const std::string ball = folder / "ball.obj", box = folder / "box.obj", sheet = folder / "sheet.png",
+                      single = folder / "single.png";
+    writeMesh(test::sphere({0, 0, 0}, 1, 12), ball);
+    writeMesh(test::box({-2, -1, -1}, {2, 1, 1}), box);
+    const std::vector<std::vector<std::string>> panels{{ball, box}, {ball}, {box}, {box, ball}, {ball}};
+    std::vector<std::string> words{command, "render", "--columns", "3", "--size", "240x120", "-o", sheet};
+    for (const std::vector<std::string>& panel : panels) {
+        if (&panel != &panels.front()) words.emplace_back("/");
+        words.insert(words.end(), panel.begin(), panel.end());
+    }
+    const auto result = runCommand(words);
+    BOOST_TEST(result.status == 0, result.err);
+    const Picture all = test::readPng(sheet);
+    BOOST_REQUIRE(all.width == 240);
+    BOOST_REQUIRE(all.height == 120);
+    // Every cell, row by row, is the picture of its panel alone; the one that is left over is white.
+    for (std::size_t i = 0; i <= panels.size(); ++i) {
+        Picture one{80, 60, std::vector<std::uint8_t>(80 * 60 * 3, 255)};
+        if (i < panels.size()) {
+            std::vector<std::string> alone{command, "render", "--size", "80x60", "-o", single};
+            alone.insert(alone.end(), panels[i].begin(), panels[i].end());
+            BOOST_TEST(runCommand(alone).status == 0);
+            one = test::readPng(single);
+        }
+        Picture cell{80, 60, {}};
+        for (std::size_t y = 0; y < 60; ++y) {
+            const auto row = all.rgb.begin() + static_cast<std::ptrdiff_t>(3 * ((i / 3 * 60 + y) * 240 + i % 3 * 80));
+            cell.rgb.insert(cell.rgb.end(), row, row + 3 * 80);
+        }
+        BOOST_TEST_CONTEXT("cell " << i) BOOST_CHECK(cell.rgb == one.rgb);
+    }
 }
 
 BOOST_AUTO_TEST_CASE(repair_mends_a_cage)

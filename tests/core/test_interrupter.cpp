@@ -56,4 +56,18 @@ BOOST_AUTO_TEST_CASE(the_clock_lists_each_stage_once_and_passes_everything_on)
     BOOST_TEST(clock.wasInterrupted());
 }
 
+BOOST_AUTO_TEST_CASE(the_clock_counts_work_as_cpu_time)
+{
+    StageClock clock;
+    constexpr double least = 0.01; // seconds
+    for (int i = 0; i < 2; ++i) {
+        const Stage stage(&clock, "work");
+        const std::clock_t until = std::clock() + static_cast<std::clock_t>(least * CLOCKS_PER_SEC);
+        while (std::clock() < until) {
+        }
+    }
+    BOOST_REQUIRE(clock.stages().size() == 1U);
+    BOOST_TEST(clock.stages()[0].cpuSeconds >= 2 * least);
+}
+
 BOOST_AUTO_TEST_SUITE_END()

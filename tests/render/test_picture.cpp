@@ -2,12 +2,13 @@
 
 #include <string>
 
-#include <png.h>
+#include <support/read_png.h>
 #include <support/temporary_folder.h>
 #include <tools/vdbcage/picture.h>
 #include <vdbcage/core/error.h>
 
 using namespace vdbcage;
+using test::readPng;
 using test::readText;
 using test::TemporaryFolder;
 using test::writeText;
@@ -22,17 +23,6 @@ Picture gradient(int width, int height)
             for (const int value : {x * 7, y * 5, x ^ y}) picture.rgb.push_back(static_cast<std::uint8_t>(value & 255));
         }
     }
-    return picture;
-}
-
-Picture readPng(const std::filesystem::path& path)
-{
-    png_image image{};
-    image.version = PNG_IMAGE_VERSION;
-    BOOST_REQUIRE(png_image_begin_read_from_file(&image, path.c_str()) != 0);
-    BOOST_TEST(image.format == png_uint_32(PNG_FORMAT_RGB)); // as it is in the file
-    Picture picture{int(image.width), int(image.height), std::vector<std::uint8_t>(PNG_IMAGE_SIZE(image))};
-    BOOST_REQUIRE(png_image_finish_read(&image, nullptr, picture.rgb.data(), 0, nullptr) != 0);
     return picture;
 }
 

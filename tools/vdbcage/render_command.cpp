@@ -1,5 +1,5 @@
 #include <charconv>
-#include <deque>
+#include <map>
 
 #include <vdbcage/core/atomic_file.h>
 #include <vdbcage/core/error.h>
@@ -80,20 +80,20 @@ int runRender(std::vector<std::string> words)
     requireWritable(picture);
     const Size size = parseSize(sizeText);
 
-    std::deque<Mesh> meshes; // layers point at them
+    std::map<std::string, Mesh> meshes; // by file: many panels can show the same model; layers point at them
     scene.panels.emplace_back();
     for (const std::string& file : files) {
         if (signalled()) throw Cancelled();
         if (file == "/") {
             scene.panels.emplace_back();
-        } else if (fs::path(file).extension() == ".vdb") {
-            meshes.push_back(extractSurface(*readVdb(file)));
-            scene.panels.back().push_back(voxelsLayer(meshes.back()));
-        } else {
-            meshes.push_back(readMesh(file));
-            scene.panels.back().push_back(scene.panels.back().empty() ? shadedLayer(meshes.back())
-                                                                      : wireframeLayer(meshes.back()));
+            continue;
         }
+        const bool voxels = fs::path(file).extension() == ".vdb";
+        const auto [known, isNew] = meshes.try_emplace(file);
+        Mesh& mesh = known->second;
+        if (isNew) mesh = voxels ? extractSurface(*readVdb(file)) : readMesh(file);
+        std::vector<Layer>& panel = scene.panels.back();
+        panel.push_back(voxels ? voxelsLayer(mesh) : panel.empty() ? shadedLayer(mesh) : wireframeLayer(mesh));
     }
     for (const auto& panel : scene.panels) {
         if (panel.empty()) throw InputError("a panel has no file; write FILE... / FILE...");

@@ -35,7 +35,8 @@ Json toJson(const CageCheck& check)
             {"cage_volume", check.cageVolume},
             {"volume_ratio", check.volumeRatio},
             {"min_angle_degrees", check.minAngleDegrees},
-            {"angle_1st_percentile_degrees", check.angle1stPercentileDegrees}};
+            {"angle_1st_percentile_degrees", check.angle1stPercentileDegrees},
+            {"median_angle_degrees", check.medianAngleDegrees}};
 }
 
 Json toJson(const CageReport& report)
@@ -68,7 +69,9 @@ Json toJson(const ReadSummary& summary, const Mesh& mesh, const std::filesystem:
 Json toJson(const std::vector<StageTime>& stages)
 {
     Json list = Json::array();
-    for (const StageTime& stage : stages) list.push_back({{"name", stage.name}, {"seconds", stage.seconds}});
+    for (const StageTime& stage : stages) {
+        list.push_back({{"name", stage.name}, {"seconds", stage.seconds}, {"cpu_seconds", stage.cpuSeconds}});
+    }
     return list;
 }
 

@@ -65,6 +65,7 @@ void measure(CageCheck& result, const detail::CageFaces& cage, const detail::Che
     const detail::Angles angles = detail::angles(cage.mesh.points, cage.faces);
     result.minAngleDegrees = angles.least;
     result.angle1stPercentileDegrees = angles.firstPercentile;
+    result.medianAngleDegrees = angles.median;
     if (!(model.diagonal > 0)) return;
     const detail::Distances distances =
         detail::distances(cage.mesh.points, cage.faces, model.tree, samples, interrupter);

@@ -48,6 +48,7 @@ struct CageCheck {
     double volumeRatio = 0;     ///< cage volume / model volume; 0 if the model or the cage has no inside
     double minAngleDegrees = 0; ///< the smallest triangle angle (quads: under both diagonals)
     double angle1stPercentileDegrees = 0; ///< 1 % of these angles are smaller
+    double medianAngleDegrees = 0;        ///< half of these angles are smaller
 
     bool closed() const { return triangles + quads > 0 && boundaryEdges == 0; }
     bool manifold() const { return nonManifoldEdges == 0 && nonManifoldVertices == 0; }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <ctime>
 #include <string>
 #include <vector>
 
@@ -34,7 +35,8 @@ private:
 /// How long one stage took.
 struct StageTime {
     std::string name;
-    double seconds = 0; ///< wall clock
+    double seconds = 0;    ///< wall clock
+    double cpuSeconds = 0; ///< of all threads of the process
 };
 
 /// An interrupter that records what each stage took and passes everything on to another one (or to nobody).
@@ -55,6 +57,7 @@ private:
     std::vector<StageTime> stages_;
     std::string name_;
     std::chrono::steady_clock::time_point began_;
+    std::clock_t cpuBegan_ = 0;
 };
 
 } // namespace vdbcage

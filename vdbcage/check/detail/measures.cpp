@@ -117,9 +117,12 @@ Angles angles(const std::vector<Vec3d>& points, const FaceTriangles& faces)
             all.push_back(angleDegrees(points[t[i]], points[t[(i + 1) % 3]], points[t[(i + 2) % 3]]));
         }
     }
+    const auto middle = all.begin() + static_cast<std::ptrdiff_t>(all.size() / 2);
+    std::nth_element(all.begin(), middle, all.end());
+    const double median = *middle;
     const auto percentile = all.begin() + static_cast<std::ptrdiff_t>(all.size() / 100);
-    std::nth_element(all.begin(), percentile, all.end());
-    return {*std::min_element(all.begin(), percentile + 1), *percentile};
+    std::nth_element(all.begin(), percentile, middle + 1);
+    return {*std::min_element(all.begin(), percentile + 1), *percentile, median};
 }
 
 Distances distances(const std::vector<Vec3d>& points, const FaceTriangles& faces, const TriangleTree& tree,

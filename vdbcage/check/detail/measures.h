@@ -13,7 +13,7 @@ namespace vdbcage::detail {
 double volume(const std::vector<Vec3d>& points, const FaceTriangles& faces);
 
 struct Angles {
-    double least = 0, firstPercentile = 0; ///< degrees
+    double least = 0, firstPercentile = 0, median = 0; ///< degrees
 };
 /// Of all corners of all triangles; zeros for no faces.
 Angles angles(const std::vector<Vec3d>& points, const FaceTriangles& faces);

@@ -1,0 +1,132 @@
+// What vdbcage-bench prints; never how fast anything is.
+
+#include <boost/test/unit_test.hpp>
+
+#include <algorithm>
+#include <sstream>
+
+#include <nlohmann/json.hpp>
+#include <support/run_command.h>
+#include <support/shapes.h>
+#include <vdbcage/mesh/mesh_io.h>
+
+using namespace vdbcage;
+using nlohmann::json;
+using test::runCommand;
+
+namespace {
+
+const std::string bench = VDBCAGE_BENCH;
+const std::string bishop = VDBCAGE_MODELS "/bishop.obj";
+
+/// Runs the benchmark with `words` and reads its lines.
+std::vector<json> linesOf(std::vector<std::string> words)
+{
+    words.insert(words.begin(), bench);
+    const auto result = runCommand(words);
+    BOOST_TEST(result.status == 0, result.err);
+    std::vector<json> lines;
+    std::istringstream stream(result.out);
+    for (std::string line; std::getline(stream, line);) lines.push_back(json::parse(line));
+    return lines;
+}
+
+} // namespace
+
+BOOST_AUTO_TEST_SUITE(benchmark)
+
+BOOST_AUTO_TEST_CASE(stages_of_whole_runs)
+{
+    const auto lines = linesOf({bishop, "--resolutions", "16,32", "--threads", "1", "--faces", "100"});
+    BOOST_REQUIRE(lines.size() == 2U);
+    BOOST_TEST(lines[0]["resolution"] == 16);
+    BOOST_TEST(lines[1]["resolution"] == 32);
+    for (const json& line : lines) {
+        BOOST_TEST(line["bounding"] == true);
+        BOOST_TEST(line["cage_faces"] <= 100);
+        BOOST_TEST(line["memory_peak_mib"] > 1);
+        for (const char* stage : {"read", "voxelize", "close", "surface", "decimate", "tighten", "certify"}) {
+            BOOST_TEST(line["stage_seconds"].contains(stage));
+            BOOST_TEST(line["stage_cpu_seconds"].contains(stage));
+        }
+    }
+}
+
+BOOST_AUTO_TEST_CASE(cages_beside_plain_decimation)
+{
+    const auto lines = linesOf(
+        {"cage", bishop, "--faces", "50,200", "--efforts", "fast,fair", "--resolution", "32", "--threads", "2"});
+    BOOST_REQUIRE(lines.size() == 4U);
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+        const json& line = lines[i];
+        BOOST_TEST(line["faces_asked"] == (i < 2 ? 50 : 200));
+        BOOST_TEST(line["effort"] == (i % 2 == 0 ? "fast" : "fair"));
+        BOOST_TEST(line["threads"] == 2);
+        BOOST_TEST(line["copies"] == 1);
+        BOOST_TEST(line["resolution"] == 32);
+        BOOST_TEST(line["memory_peak_mib"] > 1);
+        BOOST_TEST(line["stage_cpu_seconds"].contains("tighten"));
+        BOOST_TEST(line["qem"]["stage_seconds"].size() == 1U);
+        for (const json& cage : {line["cage"], line["qem"]}) {
+            BOOST_TEST(cage["faces"] <= line["faces_asked"]);
+            BOOST_TEST(cage["mean_distance_percent"] > 0);
+            BOOST_TEST(cage["mean_distance_percent"] < cage["max_distance_percent"]);
+            const json& angles = cage["angle_percentile_degrees"];
+            BOOST_TEST(angles["0"] <= angles["1"]);
+            BOOST_TEST(angles["1"] < angles["50"]);
+        }
+        BOOST_TEST(line["cage"]["bounding"] == true);
+        BOOST_TEST(line["cage"]["volume_ratio"] > 1);
+        BOOST_TEST(line["qem"]["bounding"] == false); // voxels can be tight, but nothing holds it back
+    }
+}
+
+BOOST_AUTO_TEST_CASE(copies_are_turned_and_give_medians)
+{
+    const std::vector<std::string> words{"cage", bishop, "--faces", "50", "--efforts", "fast", "--resolution", "32"};
+    const auto with = [&](const char* option, const char* value) {
+        std::vector<std::string> all = words;
+        all.insert(all.end(), {option, value});
+        return linesOf(all).at(0);
+    };
+    const json median = with("--copies", "3");
+    BOOST_TEST(median["copies"] == 3);
+    std::vector<json> distances;
+    for (const char* copy : {"0", "1", "2"}) {
+        distances.push_back(with("--copy", copy)["cage"]["mean_distance_percent"]);
+    }
+    BOOST_TEST(with("--copies", "1")["cage"]["mean_distance_percent"] == distances[0]);
+    std::sort(distances.begin(), distances.end());
+    BOOST_TEST(distances[0] < distances[1]);
+    BOOST_TEST(distances[1] < distances[2]);
+    BOOST_TEST(median["cage"]["mean_distance_percent"] == distances[1]);
+}
+
+BOOST_AUTO_TEST_CASE(bad_arguments)
+{
+    struct Wrong {
+        std::vector<std::string> words;
+        const char* mention;
+    };
+    for (const Wrong& wrong : std::vector<Wrong>{{{"cage"}, "models"},
+                                                 {{"cage", bishop, "--faces", "3"}, "faces"},
+                                                 {{"cage", bishop, "--efforts", "none"}, "effort"},
+                                                 {{"cage", bishop, "--copies", "0"}, "--copies"},
+                                                 {{"cage", bishop, "--threads", "0"}, "--threads"},
+                                                 {{"cage", bishop, "--bounding", "off"}, "--bounding"},
+                                                 {{"cage", "missing.obj", "--faces", "50"}, "missing.obj"},
+                                                 {{bishop, "--threads", "0"}, "--threads"},
+                                                 {{bishop, "--resolutions", "1"}, "resolution"}}) {
+        std::vector<std::string> words{bench};
+        words.insert(words.end(), wrong.words.begin(), wrong.words.end());
+        const auto result = runCommand(words);
+        BOOST_TEST_CONTEXT(wrong.words.back())
+        {
+            BOOST_TEST(result.status != 0);
+            BOOST_TEST(result.out.empty());
+            BOOST_TEST(result.err.find(wrong.mention) != std::string::npos, result.err);
+        }
+    }
+}
+
+BOOST_AUTO_TEST_SUITE_END()

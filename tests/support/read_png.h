@@ -1,0 +1,25 @@
+#pragma once
+
+#include <filesystem>
+#include <stdexcept>
+
+#include <png.h>
+#include <tools/vdbcage/picture.h>
+
+namespace vdbcage::test {
+
+/// Reads a PNG file that holds what a Picture holds.
+inline Picture readPng(const std::filesystem::path& path)
+{
+    png_image image{};
+    image.version = PNG_IMAGE_VERSION;
+    Picture picture;
+    if (png_image_begin_read_from_file(&image, path.c_str()) != 0 && image.format == PNG_FORMAT_RGB) {
+        picture = {static_cast<int>(image.width), static_cast<int>(image.height),
+                   std::vector<std::uint8_t>(PNG_IMAGE_SIZE(image))};
+        if (png_image_finish_read(&image, nullptr, picture.rgb.data(), 0, nullptr) != 0) return picture;
+    }
+    throw std::runtime_error(path.string() + " is not an RGB picture: " + image.message);
+}
+
+} // namespace vdbcage::test

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+#include <vdbcage/core/interrupter.h>
+#include <vdbcage/pipeline/options.h>
+
+namespace vdbcage::bench {
+
+using Json = nlohmann::ordered_json;
+
+/// One benchmark: its arguments with the program's name first; returns the exit status. \throw Error
+int runStages(int argc, char** argv);
+int runCage(int argc, char** argv);
+
+/// Gives `app` a flag for every option of a cage but those in `except`; it sets `options`. The flags in use and their
+/// values, as given, are added to `words`, for another process that is to have the same.
+void addCageOptions(CLI::App& app, const std::vector<std::string>& except, CageOptions& options,
+                    std::vector<std::string>& words);
+
+/// \throw InputError unless `count` is at least 1
+void requirePositive(const char* option, int count);
+
+/// What this process has used so far: "cpu_seconds" and "memory_peak_mib".
+Json usage();
+
+/// The stages by name: "stage_seconds" of wall clock, "stage_cpu_seconds" of all threads.
+Json toJson(const std::vector<StageTime>& stages);
+
+/// Runs this program again with `words` (the first is its name), in a process of its own, so that its peak memory and
+/// its warm-up are its own. Returns what it prints. \throw Error if it fails
+std::string runSelf(const std::vector<std::string>& words);
+
+} // namespace vdbcage::bench
