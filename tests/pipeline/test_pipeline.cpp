@@ -99,6 +99,22 @@ BOOST_AUTO_TEST_CASE(models_that_are_no_solids_get_cages_too)
     }
 }
 
+BOOST_AUTO_TEST_CASE(more_effort_does_not_end_in_the_box_where_less_does_not)
+{
+    CageOptions options = coarse();
+    options.resolution = 24;
+    options.faces = 12;
+    options.parts = CageParts::merge;
+    for (const Mesh& model : {saturn(), test::box({0, 0, 0}, {1, 1, 0.2}), test::torus(1, 0.05, 24, 6)}) {
+        for (const Effort effort : {Effort::fast, Effort::fair, Effort::best}) {
+            options.effort = effort;
+            Pipeline made(model);
+            made.run(options);
+            BOOST_CHECK(made.report().start != CageStart::box);
+        }
+    }
+}
+
 BOOST_AUTO_TEST_CASE(only_stale_stages_run_again)
 {
     Pipeline made(saturn());
