@@ -146,12 +146,14 @@ BOOST_AUTO_TEST_CASE(thorough_work_pays)
     for (const Mesh& model : {test::torus(0.3, 0.08, 24, 10), soup(1, 30, 0.1), test::sphere({0, 0, 0}, 0.4, 12)}) {
         const BoundingGuard guard(model);
         for (int i = 0; i < 3; ++i) {
-            const Mesh cage = tighten(decimate(ball(24), guard, to(100), efforts[i]), guard);
+            TightenOptions tightening;
+            tightening.shakes = i == 0 ? 0 : i == 1 ? 1 : 6; // as the pipeline does
+            const Mesh cage = tighten(decimate(ball(24), guard, to(100), efforts[i]), guard, tightening);
             sum[i] += checkCage(cage, model).meanDistance;
         }
     }
-    BOOST_TEST(sum[1] < 1.05 * sum[0]); // among few faces there is some luck
-    BOOST_TEST(sum[2] < 0.97 * sum[0]);
+    BOOST_TEST(sum[1] < sum[0]);
+    BOOST_TEST(sum[2] < sum[1]);
 }
 
 BOOST_AUTO_TEST_CASE(shaking_only_ever_tightens)
@@ -180,7 +182,7 @@ BOOST_AUTO_TEST_CASE(smoothing_makes_it_rounder)
     double last = bending(tight);
     for (const int sweeps : {3, 9}) {
         const double now = bending(smooth(tight, guard, sweeps));
-        BOOST_TEST(now < 0.97 * last);
+        BOOST_TEST(now < 0.95 * last);
         last = now;
     }
     BOOST_CHECK(same(smooth(tight, guard, 0), tight));

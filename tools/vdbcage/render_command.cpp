@@ -36,6 +36,12 @@ Size parseSize(const std::string& text)
     return size;
 }
 
+/// The option's text names the range itself.
+CLI::Validator inRange(int least, int most)
+{
+    return CLI::Range(least, most).description("");
+}
+
 } // namespace
 
 void requirePngExtension(const fs::path& path)
@@ -67,13 +73,13 @@ int runRender(std::vector<std::string> words)
     app.add_option("--size", sizeText, "in pixels [1200x900]")->type_name("WIDTHxHEIGHT");
     app.add_option("--columns", scene.columns, "panels side by side, 0 to 100 [0: as fits]")
         ->type_name("N")
-        ->check(CLI::Range(0, 100));
+        ->check(inRange(0, 100));
     app.add_option("--azimuth", scene.view.azimuthDegrees, "to the right of the front, -360 to 360 [35]")
         ->type_name("DEG")
-        ->check(CLI::Range(-360, 360));
+        ->check(inRange(-360, 360));
     app.add_option("--elevation", scene.view.elevationDegrees, "above the horizon, -90 to 90 [18]")
         ->type_name("DEG")
-        ->check(CLI::Range(-90, 90));
+        ->check(inRange(-90, 90));
     app.add_flag("--same-view", scene.sameView, "one scale and place for all panels");
     if (!parse(app, std::move(words))) return exitGood;
     requirePngExtension(picture);

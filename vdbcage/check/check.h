@@ -41,7 +41,7 @@ struct CageCheck {
                                          ///< or with a model vertex between the two diagonals of the quad
 
     // Measures; lengths are fractions of the diagonal of the model's bounding box
-    double meanDistance = 0;    ///< from the cage to the model, over an even sample of the cage's area
+    double meanDistance = 0;    ///< from the cage to the model under every split of its faces, over an even sample
     double maxDistance = 0;     ///< the largest of these and of the distances of the cage's corners
     double minDistance = 0;     ///< the smallest of these (sampled, not exact)
     double cageVolume = 0;      ///< in world units cubed, the mean over the diagonals; 0 if the cage has no inside

@@ -58,17 +58,6 @@ double longestSide(const openvdb::BBoxd& box)
     return box.extents()[static_cast<int>(box.maxExtent())];
 }
 
-/// Whether a host that stores floats can hold the model at all: 2^-24 of its largest coordinate is far below its size.
-bool fitsFloat(const openvdb::BBoxd& box)
-{
-    double largest = 0;
-    for (int axis = 0; axis < 3; ++axis) {
-        largest = std::max({largest, std::abs(box.min()[axis]), std::abs(box.max()[axis])});
-    }
-    const double side = longestSide(box);
-    return largest < 1e30 && side > 1e-30 && largest * 0x1p-24 < 1e-5 * side;
-}
-
 /// The six faces of `box`, each as two triangles facing outward.
 Mesh boxMesh(const openvdb::BBoxd& box)
 {
@@ -93,8 +82,7 @@ public:
     explicit Stages(Mesh model) : model_(std::move(model))
     {
         requireUsable(model_, "model");
-        const openvdb::BBoxd box = boundingBox(model_);
-        floatSafe_ = fitsFloat(box);
+        floatSafe_ = detail::fitsFloat(boundingBox(model_));
     }
 
     void run(const CageOptions& options, Interrupter* interrupter)

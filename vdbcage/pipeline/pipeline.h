@@ -39,7 +39,8 @@ struct CageReport {
 /// the cage is certified: examined by checkCage, other code than the guard's, on its coordinates as they are returned,
 /// against the model as given and (where float can hold it) as rounded to float. A cage that is not certified is never
 /// returned. Where the closing has too many parts and handles for the faces, and its radius and resolution are not
-/// given, it is closed more, then voxelized more coarsely; where that is not enough, the cage is shrunk from a solid
+/// given, it is closed more, then voxelized more coarsely (Effort::best at few faces also tries some coarser
+/// resolutions side by side and keeps the tightest cage); where that is not enough, the cage is shrunk from a solid
 /// block, and the last resort is the model's bounding box. So there are never more faces than asked for.
 class VDBCAGE_API Pipeline {
 public:

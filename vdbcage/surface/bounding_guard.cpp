@@ -268,11 +268,8 @@ GuardModel::GuardModel(const Mesh& model, const GuardOptions& options, Interrupt
     clearance_ = options.clearance * side * scale_;
     // Below the least sine the orientation tests have no room.
     minSine_ = std::max(1e-6, std::sin(options.minAngleDegrees * pi / 180));
-    double largest = 0;
-    for (int i = 0; i < 3; ++i) largest = std::max({largest, std::abs(box.min()[i]), std::abs(box.max()[i])});
-    // Rounding to float may move a point by 2^-24 of its coordinate: it has to be small against the clearance.
-    roundsToFloat_ = largest < 1e30 && side > 1e-30 && largest * 0x1p-24 < 1e-5 * side;
-    if (roundsToFloat_) clearance_ = std::max(clearance_, 4 * largest * scale_ * 0x1p-24);
+    roundsToFloat_ = fitsFloat(box);
+    if (roundsToFloat_) clearance_ = std::max(clearance_, 4 * floatRounding(box) * scale_);
     const std::vector<Vec3I> triangles = everySplit(model);
     std::vector<Vec3d> points;
     points.reserve(model.points.size());
@@ -395,11 +392,6 @@ bool BoundingGuard::isClear(const Mesh& surface) const
             return clear;
         },
         [](bool a, bool b) { return a && b; });
-}
-
-bool BoundingGuard::roundsToFloat() const
-{
-    return model_->roundsToFloat();
 }
 
 } // namespace vdbcage

@@ -41,8 +41,6 @@ public:
     double clearance() const;
     /// Whether every face of `surface` keeps the clearance (quads: under both diagonals). In parallel.
     bool isClear(const Mesh& surface) const;
-    /// Whether points are rounded to float.
-    bool roundsToFloat() const;
 
     /// For the operators of this library.
     const detail::GuardModel& model() const { return *model_; }

@@ -1,5 +1,10 @@
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+
+#include <openvdb/math/BBox.h>
+
 namespace vdbcage::detail {
 
 /// The float next to `value`. Volatile, because g++ 12 -O3 drops the conversion in parts of vectorized code.
@@ -7,6 +12,21 @@ inline double nearestFloat(double value)
 {
     const volatile float rounded = static_cast<float>(value);
     return static_cast<double>(rounded);
+}
+
+/// What rounding to float moves a coordinate in `box` by, at most: 2^-24 of the largest.
+inline double floatRounding(const openvdb::BBoxd& box)
+{
+    double largest = 0;
+    for (int i = 0; i < 3; ++i) largest = std::max({largest, std::abs(box.min()[i]), std::abs(box.max()[i])});
+    return largest * 0x1p-24;
+}
+
+/// Whether a host that stores floats can hold a model of this (not empty) box at all: rounding is far below its size.
+inline bool fitsFloat(const openvdb::BBoxd& box)
+{
+    const double side = box.extents()[static_cast<int>(box.maxExtent())], rounding = floatRounding(box);
+    return rounding < 1e23 && side > 1e-30 && rounding < 1e-5 * side;
 }
 
 } // namespace vdbcage::detail

@@ -12,57 +12,14 @@
 #include <queue>
 #include <unordered_map>
 
-#include <openvdb/math/Mat3.h>
 #include <tbb/parallel_for.h>
 #include <vdbcage/surface/detail/fan_fit.h>
 #include <vdbcage/surface/detail/guarded_sweeps.h>
+#include <vdbcage/surface/detail/quadric.h>
 
 namespace vdbcage::detail {
 
 namespace {
-
-/// x A x - 2 b x + c, relative to some origin.
-struct Quadric {
-    openvdb::Mat3d a = openvdb::Mat3d::zero();
-    Vec3d b{0.0};
-    double c = 0;
-
-    void addPlane(const Vec3d& n, const Vec3d& p, double weight)
-    {
-        const double d = n.dot(p);
-        for (int i = 0; i < 3; ++i) {
-            for (int j = 0; j < 3; ++j) a[i][j] += weight * n[i] * n[j];
-        }
-        b += weight * d * n;
-        c += weight * d * d;
-    }
-    void addPoint(const Vec3d& p, double weight)
-    {
-        for (int i = 0; i < 3; ++i) a[i][i] += weight;
-        b += weight * p;
-        c += weight * p.dot(p);
-    }
-    Quadric& operator+=(const Quadric& o)
-    {
-        a += o.a;
-        b += o.b;
-        c += o.c;
-        return *this;
-    }
-    double at(const Vec3d& x) const { return std::max(0.0, x.dot(a * x) - 2 * b.dot(x) + c); }
-};
-
-/// The mean normal of what the fan replaces, of unit length (or zero).
-Vec3d outward(const GuardedSurface& surface, const Fan& fan)
-{
-    Vec3d normal(0.0);
-    for (const std::uint32_t f : fan.oldFaces) {
-        const Corners t = surface.corners(f);
-        normal += (t[1] - t[0]).cross(t[2] - t[0]);
-    }
-    const double length = normal.length();
-    return length > 0 ? normal / length : Vec3d(0.0);
-}
 
 /// The edge u < v at the front of a queue costs least; equal costs are told apart by number.
 struct QueuedEdge {
@@ -104,8 +61,7 @@ public:
                 if (!(twiceArea > 0)) continue;
                 normal /= twiceArea;
                 quadrics_[v].addPlane(normal, t[0] - origin_, twiceArea / 6);
-                // A weak pull to the middle keeps triangles even where the surface is flat.
-                quadrics_[v].addPoint((t[0] + t[1] + t[2]) / 3.0 - origin_, 1e-3 * twiceArea / 6);
+                quadrics_[v].addSpread((t[0] + t[1] + t[2]) / 3.0 - origin_, twiceArea / 6);
             }
         }
     }
@@ -186,22 +142,27 @@ private:
         return q;
     }
 
-    Vec3d optimum(Quadric q, std::uint32_t u, std::uint32_t v) const
+    double cost(const Quadric& q, const Vec3d& p) const
     {
-        const Vec3d middle = 0.5 * (surface_.point(u) + surface_.point(v)) - origin_;
-        const double ridge = 1e-4 * (q.a[0][0] + q.a[1][1] + q.a[2][2]);
-        if (!(ridge > 0)) return middle + origin_;
-        for (int i = 0; i < 3; ++i) q.a[i][i] += ridge;
-        const Vec3d x = q.a.inverse() * (q.b + ridge * middle);
-        const double length = (surface_.point(u) - surface_.point(v)).length();
-        return ((x - middle).length() > 2 * length ? middle : x) + origin_;
+        constexpr double spreadWeight = 1e-3;
+        return q.cost(p - origin_, spreadWeight);
+    }
+
+    Vec3d optimum(const Quadric& q, std::uint32_t u, std::uint32_t v) const
+    {
+        constexpr double stiffness = 1e-3;
+        const Vec3d a = surface_.point(u), b = surface_.point(v), middle = 0.5 * (a + b);
+        Vec3d place;
+        if (!q.bestPlace(stiffness, place)) return middle;
+        place += origin_;
+        return (place - middle).length() > 2 * (a - b).length() ? middle : place;
     }
 
     void push(std::uint32_t u, std::uint32_t v)
     {
         if (u > v) std::swap(u, v);
         const Quadric q = sum(u, v);
-        queue_.push({{q.at(optimum(q, u, v) - origin_), u, v, stamp_[u], stamp_[v]}, std::nullopt});
+        queue_.push({{cost(q, optimum(q, u, v)), u, v, stamp_[u], stamp_[v]}, std::nullopt});
     }
 
     /// Gives a candidate its fan and an allowed place with its cost, or takes its place away.
@@ -216,14 +177,14 @@ private:
         if (place && surface_.allows(proposal.fan, *place)) return;
         const Quadric q = sum(edge.u, edge.v);
         place = findPlace(proposal.fan, q, slides);
-        if (place) edge.cost = q.at(*place - origin_);
+        if (place) edge.cost = cost(q, *place);
     }
 
     std::optional<Vec3d> findPlace(const Fan& fan, const Quadric& q, bool slides) const
     {
         const Vec3d a = surface_.point(fan.centre), b = surface_.point(fan.removed), middle = 0.5 * (a + b);
         const Vec3d best = optimum(q, fan.centre, fan.removed);
-        const Vec3d up = outward(surface_, fan) * (a - b).length();
+        const Vec3d up = surface_.outward(fan) * (a - b).length();
         std::uint32_t blocker = TriangleTree::none;
         for (const Vec3d& at : {best, best + 0.1 * up, best + 0.25 * up, best + 0.5 * up, a, b, middle + 0.1 * up,
                                 middle + 0.35 * up, middle + 0.8 * up}) {
@@ -239,14 +200,14 @@ private:
     void slide(const Fan& fan, const Quadric& q, const Vec3d& best, Vec3d& place) const
     {
         Quadratic change;
-        change.curvature = q.a;
-        const double stiffness = 0.01 * (q.a[0][0] + q.a[1][1] + q.a[2][2]);
+        change.curvature = q.planes();
+        const double stiffness = 0.01 * change.curvature.trace();
         for (int i = 0; i < 3; ++i) change.curvature[i][i] += stiffness;
         change.slope = change.curvature * (place - best);
-        const double before = q.at(place - origin_);
+        const double before = cost(q, place);
         const double edge = (surface_.point(fan.centre) - surface_.point(fan.removed)).length();
         descend(surface_, fan, place, change, {4 * (edge + (place - best).length())},
-                [&](const Vec3d& target) { return q.at(target - origin_) < before; });
+                [&](const Vec3d& target) { return cost(q, target) < before; });
     }
 
     static constexpr std::size_t slideBelow = 4; ///< times the faces asked for: above it pays less than it costs
@@ -369,7 +330,7 @@ private:
             candidate.edge.cost = std::max(0.0, fit.integral + leastChange(fit.change)) - before;
             return candidate;
         }
-        const Vec3d up = outward(surface_, fan) * (a - b).length();
+        const Vec3d up = surface_.outward(fan) * (a - b).length();
         std::uint32_t blocker = TriangleTree::none;
         for (const Vec3d& at : {middle, a, b, middle + 0.1 * up, middle + 0.25 * up, middle + 0.5 * up, middle + up}) {
             const Vec3d rounded = surface_.guard().rounded(at);

@@ -30,18 +30,13 @@ std::optional<Split> trySplit(const GuardedSurface& surface, const DistanceMeasu
     constexpr int improvements = 3;
     const Fan fan = surface.fanOfSplit(u, v);
     const Vec3d along = surface.point(v) - surface.point(u);
-    Vec3d outward(0.0);
+    const Vec3d up = surface.outward(fan) * along.length();
     double before = 0;
     std::uint32_t seed = TriangleTree::none;
-    for (const std::uint32_t f : fan.oldFaces) {
-        const Corners t = surface.corners(f);
-        outward += (t[1] - t[0]).cross(t[2] - t[0]);
-        before += measure.integral(t, seed);
-    }
-    outward *= along.length() / outward.length();
+    for (const std::uint32_t f : fan.oldFaces) before += measure.integral(surface.corners(f), seed);
     // On the edge, or a little off, since its middle is rounded.
     for (const double off : {0.0, 1e-5, 1e-3, 0.03}) {
-        Vec3d place = surface.guard().rounded(surface.point(u) + 0.5 * along + off * outward);
+        Vec3d place = surface.guard().rounded(surface.point(u) + 0.5 * along + off * up);
         if (!surface.allows(fan, place)) continue;
         DistanceMeasure::Fit fit = measure.fit(surface, fan, place, seed);
         for (int i = 0; i < improvements; ++i) {

@@ -334,6 +334,17 @@ Fan GuardedSurface::fanOfSplit(std::uint32_t u, std::uint32_t v) const
     return fan;
 }
 
+Vec3d GuardedSurface::outward(const Fan& fan) const
+{
+    Vec3d normal(0.0);
+    for (const std::uint32_t f : fan.oldFaces) {
+        const Corners t = corners(f);
+        normal += (t[1] - t[0]).cross(t[2] - t[0]);
+    }
+    const double length = normal.length();
+    return length > 0 ? normal / length : Vec3d(0.0);
+}
+
 Corners GuardedSurface::fanCorners(const Fan& fan, std::size_t i, const Vec3d& p) const
 {
     return {p, points_[fan.rim[i][0]], points_[fan.rim[i][1]]};

@@ -55,6 +55,8 @@ public:
     bool fanOf(std::uint32_t keep, std::uint32_t remove, Fan& fan) const;
     /// The fan that splits the edge between two neighbours at a new vertex.
     Fan fanOfSplit(std::uint32_t u, std::uint32_t v) const;
+    /// The mean normal of what the fan replaces, of unit length (or zero).
+    Vec3d outward(const Fan& fan) const;
 
     /// Whether the fan may have its centre at `p` (rounded as the guard asks). `hint` is a blocker to try first and
     /// gets the one that was found.

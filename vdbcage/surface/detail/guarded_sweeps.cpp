@@ -85,6 +85,13 @@ Vec3d ringAverage(const GuardedSurface& surface, const Fan& fan)
     return average / static_cast<double>(fan.rim.size());
 }
 
+double meanSpoke(const GuardedSurface& surface, const Fan& fan)
+{
+    double sum = 0;
+    for (const auto& edge : fan.rim) sum += (surface.point(edge[0]) - surface.point(fan.centre)).length();
+    return sum / static_cast<double>(fan.rim.size());
+}
+
 /// The first of the places on the way to `goal` that is allowed.
 std::optional<Vec3d> towards(const GuardedSurface& surface, const Fan& fan, const Vec3d& goal,
                              std::initializer_list<double> steps)
@@ -96,20 +103,6 @@ std::optional<Vec3d> towards(const GuardedSurface& surface, const Fan& fan, cons
         if (surface.allows(fan, target, &blocker)) return target;
     }
     return std::nullopt;
-}
-
-/// The sum of the unit normals around a vertex, of unit length (or zero).
-Vec3d normalAt(const GuardedSurface& surface, const Fan& fan)
-{
-    Vec3d sum(0.0);
-    const Vec3d& p = surface.point(fan.centre);
-    for (const auto& edge : fan.rim) {
-        const Vec3d normal = (surface.point(edge[0]) - p).cross(surface.point(edge[1]) - p);
-        const double length = normal.length();
-        if (length > 0) sum += normal / length;
-    }
-    const double length = sum.length();
-    return length > 0 ? sum / length : Vec3d(0.0);
 }
 
 } // namespace
@@ -143,13 +136,14 @@ void inflate(GuardedSurface& surface, double by, Interrupter* interrupter)
     sweep(
         surface, allVertices(surface), interrupter,
         [&](std::uint32_t v, const Fan& fan) {
-            return towards(surface, fan, surface.point(v) + by * normalAt(surface, fan), {1.0, 0.5, 0.2});
+            return towards(surface, fan, surface.point(v) + by * surface.outward(fan), {1.0, 0.5, 0.2});
         },
         [](std::uint32_t, const Fan&, bool) {});
 }
 
 void roundOff(GuardedSurface& surface, int sweeps, Interrupter* interrupter)
 {
+    constexpr double outward = 0.02; // of the edges' length: a tight surface has no room to move in
     const std::vector<std::uint32_t> vertices = allVertices(surface);
     std::vector<Vec3d> toAverage(surface.vertices(), Vec3d(0.0));
     for (int i = 0; i < sweeps; ++i) {
@@ -163,7 +157,9 @@ void roundOff(GuardedSurface& surface, int sweeps, Interrupter* interrupter)
                 Vec3d around(0.0);
                 for (const auto& edge : fan.rim) around += toAverage[edge[0]];
                 around /= static_cast<double>(fan.rim.size());
-                return towards(surface, fan, surface.point(v) + 0.7 * toAverage[v] - 0.7 * around, {1.0, 0.5, 0.2});
+                const Vec3d room = outward * meanSpoke(surface, fan) * surface.outward(fan);
+                return towards(surface, fan, surface.point(v) + 0.7 * toAverage[v] - 0.7 * around + room,
+                               {1.0, 0.5, 0.2});
             },
             [](std::uint32_t, const Fan&, bool) {});
     }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <openvdb/math/Mat3.h>
 #include <openvdb/math/Vec3.h>
 
 namespace vdbcage::detail {
@@ -60,6 +61,9 @@ public:
         const double spread = weight_ * p.lengthSqr() - 2 * first_.dot(p) + second_;
         return std::max(0.0, planes) + spreadWeight * std::max(0.0, spread);
     }
+
+    /// Half the second derivative of the plane error.
+    openvdb::Mat3d planes() const { return {xx_, xy_, xz_, xy_, yy_, yz_, xz_, yz_, zz_}; }
 
     /// The place of least plane error nearest to the middle of the area; directions in which the planes are softer
     /// than `stiffness` times the area count as open. False if there is no area.
