@@ -6,6 +6,7 @@
 #include <support/stop_at.h>
 #include <tbb/global_control.h>
 #include <vdbcage/check/check.h>
+#include <vdbcage/core/detail/nearest_float.h>
 #include <vdbcage/core/error.h>
 
 using namespace vdbcage;
@@ -288,6 +289,34 @@ BOOST_AUTO_TEST_CASE(contacts_to_the_last_bit)
         BOOST_TEST(check(cage, cube(above)).contactFaces == 0U);
         BOOST_TEST(check(cage, cube(above)).modelVerticesOutside == 8U);
     }
+}
+
+BOOST_AUTO_TEST_CASE(as_floats)
+{
+    CheckOptions asFloats;
+    asFloats.asFloats = true;
+    const double inside = 1 - 1e-9; // a float cannot tell it from 1
+    BOOST_TEST(check(cube(), cube(inside)).bounding());
+    BOOST_TEST(checkCage(cube(), cube(inside), asFloats).contactFaces == 6U);
+    BOOST_TEST(checkCage(cube(), cube(inside), asFloats).modelVerticesOutside == 8U);
+
+    const auto rounded = [](Mesh mesh) {
+        for (Vec3d& p : mesh.points) p = detail::nearestFloat(p);
+        return mesh;
+    };
+    std::size_t different = 0;
+    for (int i = 0; i < 60; ++i) {
+        // Spheres around spheres, closer than floats can tell apart.
+        const Vec3d move(0.1 * i, 1000.0 / (1 + i), -3.7 * i);
+        const Mesh model = transformed(sphere({}, 1, 12), 1, move);
+        const Mesh cage = transformed(triangulated(sphere({}, 1 + 2e-5 * i / 60, 12)), 1, move);
+        const CageCheck given = checkCage(cage, model), floats = checkCage(cage, model, asFloats);
+        BOOST_TEST(sameAnswers(floats, checkCage(rounded(cage), rounded(model))));
+        different += !sameAnswers(given, floats);
+    }
+    BOOST_TEST(different > 5U);
+    BOOST_CHECK_THROW(checkCage(cube(1e39), cube(), asFloats), InputError);
+    BOOST_CHECK_THROW(checkCage(cube(), cube(1e39), asFloats), InputError);
 }
 
 BOOST_AUTO_TEST_CASE(models_of_several_parts)

@@ -33,7 +33,7 @@ private:
 std::vector<std::uint32_t> found(const RefitTree& tree, const Box& box)
 {
     std::vector<std::uint32_t> list;
-    tree.forEachOverlap(box, [&](std::uint32_t thing) {
+    tree.forEachOverlap(box, [&](std::uint32_t thing, const Box& /*box*/) {
         list.push_back(thing);
         return true;
     });
@@ -97,7 +97,7 @@ BOOST_AUTO_TEST_CASE(stops_where_it_is_told)
     tree.insert(3, box);
     for (int most = 1; most <= 4; ++most) {
         int visits = 0;
-        BOOST_TEST(!tree.forEachOverlap(box, [&](std::uint32_t) { return ++visits < most; }));
+        BOOST_TEST(!tree.forEachOverlap(box, [&](std::uint32_t, const Box&) { return ++visits < most; }));
         BOOST_TEST(visits == most);
     }
 }

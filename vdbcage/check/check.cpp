@@ -1,12 +1,14 @@
 #include <vdbcage/check/check.h>
 
 #include <algorithm>
+#include <limits>
 
 #include <vdbcage/check/detail/cage_faces.h>
 #include <vdbcage/check/detail/checked_model.h>
 #include <vdbcage/check/detail/enclosure.h>
 #include <vdbcage/check/detail/measures.h>
 #include <vdbcage/check/detail/predicates.h>
+#include <vdbcage/core/error.h>
 #include <vdbcage/mesh/topology.h>
 
 namespace vdbcage {
@@ -86,10 +88,21 @@ CageChecker::CageChecker(const Mesh& model, Interrupter* interrupter)
 {
 }
 
-CageCheck CageChecker::check(const Mesh& cage, const CheckOptions& options, Interrupter* interrupter) const
+CageCheck CageChecker::check(const Mesh& given, const CheckOptions& options, Interrupter* interrupter) const
 {
-    detail::requireSound(cage, "cage");
+    detail::requireSound(given, "cage");
     throwIfInterrupted(interrupter);
+    Mesh rounded;
+    if (options.asFloats) {
+        rounded = given;
+        for (Vec3d& p : rounded.points) p = detail::nearestFloat(p);
+        detail::requireSound(rounded, "cage as floats");
+        if (detail::farthest({model_->tree.box().lo, model_->tree.box().hi}) > std::numeric_limits<float>::max()) {
+            throw InputError("model: its coordinates are not within the range of float");
+        }
+    }
+    const Mesh& cage = options.asFloats ? rounded : given;
+    const detail::CheckedModel::View model{*model_, options.asFloats};
 
     CageCheck result;
     result.points = cage.points.size();
@@ -110,9 +123,9 @@ CageCheck CageChecker::check(const Mesh& cage, const CheckOptions& options, Inte
     result.selfIntersections = detail::countSelfIntersections(faces, interrupter);
 
     detail::Flags touched(model_->parts());
-    result.contactFaces = detail::countContacts(faces, *model_, touched, interrupter);
+    result.contactFaces = detail::countContacts(faces, model, touched, interrupter);
     result.modelVerticesOutside =
-        topology.isCycle() ? detail::countOutside(faces, *model_, touched, interrupter) : model_->usedVertices;
+        topology.isCycle() ? detail::countOutside(faces, model, touched, interrupter) : model_->usedVertices;
 
     for (std::uint32_t face = 0; face < faces.bad.size(); ++face) {
         if (detail::isSet(faces.bad[face])) result.badFaces.push_back(face);

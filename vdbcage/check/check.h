@@ -63,6 +63,7 @@ struct CageCheck {
 };
 
 struct CheckOptions {
+    bool asFloats = false;       ///< examine both meshes with their points rounded to float (only the cage's measures)
     bool measure = true;         ///< fill in the measures too (distances cost the most)
     std::size_t samples = 20000; ///< points on the cage for the distances
 };
@@ -78,7 +79,7 @@ public:
 
     /// Examines `cage`, any polygon soup; never throws for a bad one. Exact predicates (CGAL's filtered kernel) decide
     /// every yes/no. O(n log m) for ordinary meshes, in parallel; the same for any number of threads.
-    /// \throw InputError (an index out of range, a point of a face that is not finite), Cancelled
+    /// \throw InputError (an index out of range, a point of a face that is not finite, or not as a float), Cancelled
     CageCheck check(const Mesh& cage, const CheckOptions& options = {}, Interrupter* interrupter = nullptr) const;
 
 private:

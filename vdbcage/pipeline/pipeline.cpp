@@ -47,9 +47,7 @@ std::string keyUpTo(const CageOptions& options, PipelineStage last)
 
 Mesh roundedToFloat(Mesh mesh)
 {
-    for (openvdb::Vec3d& point : mesh.points) {
-        for (int axis = 0; axis < 3; ++axis) point[axis] = detail::nearestFloat(point[axis]);
-    }
+    for (openvdb::Vec3d& point : mesh.points) point = detail::nearestFloat(point);
     return mesh;
 }
 
@@ -203,8 +201,8 @@ private:
         exactOnly.measure = false;
         CageCheck check = checker(interrupter).check(cage, exactOnly, interrupter);
         if (check.bounding() && floatSafe_) {
-            if (!floatChecker_) floatChecker_ = std::make_unique<CageChecker>(roundedToFloat(model_), interrupter);
-            check = floatChecker_->check(cage, exactOnly, interrupter);
+            exactOnly.asFloats = true;
+            check = checker(interrupter).check(cage, exactOnly, interrupter);
         }
         return check;
     }
@@ -420,7 +418,7 @@ private:
     Mesh model_;
     bool floatSafe_ = false;
     openvdb::MaskGrid::Ptr solid_, closed_;
-    std::unique_ptr<CageChecker> checker_, floatChecker_;
+    std::unique_ptr<CageChecker> checker_;
     std::string solidKey_, closedKey_, cageKey_; // what the values were made with; empty: nothing
     Candidate best_;
     CageReport report_;

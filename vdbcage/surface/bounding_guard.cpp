@@ -72,14 +72,21 @@ double volume(const Vec3d& a, const Vec3d& b, const Vec3d& c, const Vec3d& d)
     return (b - a).cross(c - a).dot(d - a);
 }
 
-/// Whether the segment pq crosses the inside of the triangle, far enough from every border that rounding cannot matter;
-/// the rest is covered by distances between vertices, edges and faces.
-bool pierces(const Vec3d& p, const Vec3d& q, const Corners& t)
+/// Whether an edge of `from` crosses the inside of `t`, far enough from every border that rounding cannot matter; the
+/// rest is covered by distances between vertices, edges and faces.
+bool pierces(const Corners& from, const Corners& t)
 {
-    const double vp = volume(t[0], t[1], t[2], p), vq = volume(t[0], t[1], t[2], q);
-    if ((vp > 0) == (vq > 0)) return false;
-    const double a = volume(p, q, t[0], t[1]), b = volume(p, q, t[1], t[2]), c = volume(p, q, t[2], t[0]);
-    return (a > 0 && b > 0 && c > 0) || (a < 0 && b < 0 && c < 0);
+    const Vec3d normal = (t[1] - t[0]).cross(t[2] - t[0]);
+    const std::array<bool, 3> above{normal.dot(from[0] - t[0]) > 0, normal.dot(from[1] - t[0]) > 0,
+                                    normal.dot(from[2] - t[0]) > 0};
+    for (std::size_t i = 0; i < 3; ++i) {
+        const std::size_t j = (i + 1) % 3;
+        if (above[i] == above[j]) continue;
+        const Vec3d &p = from[i], &q = from[j];
+        const double a = volume(p, q, t[0], t[1]), b = volume(p, q, t[1], t[2]), c = volume(p, q, t[2], t[0]);
+        if ((a > 0 && b > 0 && c > 0) || (a < 0 && b < 0 && c < 0)) return true;
+    }
+    return false;
 }
 
 /// The plane of a triangle, to tell quickly that another triangle is far on one side of it.
@@ -106,101 +113,6 @@ public:
 private:
     Vec3d corner_, normal_;
     double normal2_, size2_;
-};
-
-/// The box of a triangle, grown.
-Box grown(const Corners& t, double by)
-{
-    Box box = Box::of(t);
-    box.lo -= Vec3d(by);
-    box.hi += Vec3d(by);
-    return box;
-}
-
-/// Prunes boxes that a triangle cannot reach within a distance: by its box, its plane, and the planes upright on it
-/// through its edges.
-class SlabFilter {
-public:
-    SlabFilter(const Corners& t, double reach) : box_(grown(t, reach)), corner_(t[0])
-    {
-        Vec3d normal = (t[1] - t[0]).cross(t[2] - t[0]);
-        const double length = normal.length();
-        if (!(length > 0)) return;
-        normal /= length;
-        const double size = (box_.hi - box_.lo).length();
-        const double slack = reach + 1e-12 * size;
-        addSlab(normal, -slack, slack);
-        for (int i = 0; i < 3; ++i) {
-            const Vec3d& a = t[static_cast<std::size_t>(i)];
-            const Vec3d& b = t[static_cast<std::size_t>((i + 1) % 3)];
-            Vec3d outward = (b - a).cross(normal);
-            const double edge = outward.length();
-            if (!(edge > 0)) continue;
-            outward /= edge;
-            addSlab(outward, -std::numeric_limits<double>::infinity(), outward.dot(a - corner_) + slack);
-        }
-    }
-    bool operator()(const Box& box) const
-    {
-        if (!box_.meets(box)) return false;
-        const Vec3d centre = 0.5 * (box.lo + box.hi) - corner_, half = 0.5 * (box.hi - box.lo);
-        for (int i = 0; i < count_; ++i) {
-            const Slab& slab = slabs_[static_cast<std::size_t>(i)];
-            const double middle = slab.normal.dot(centre);
-            const double radius = std::abs(slab.normal[0]) * half[0] + std::abs(slab.normal[1]) * half[1] +
-                                  std::abs(slab.normal[2]) * half[2];
-            const double error = 1e-14 * (radius + std::abs(middle));
-            if (middle - radius > slab.high + error || middle + radius < slab.low - error) return false;
-        }
-        return true;
-    }
-
-private:
-    struct Slab {
-        Vec3d normal;
-        double low, high;
-    };
-    void addSlab(const Vec3d& normal, double low, double high)
-    {
-        slabs_[static_cast<std::size_t>(count_++)] = {normal, low, high};
-    }
-
-    Box box_;
-    Vec3d corner_;
-    std::array<Slab, 4> slabs_;
-    int count_ = 0;
-};
-
-/// Prunes boxes that do not meet a tetrahedron: by its box and the planes of its faces. Rounding may cost a box that
-/// only touches.
-class HullFilter {
-public:
-    explicit HullFilter(const std::array<Vec3d, 4>& p) : box_(Box::of(p[0]))
-    {
-        for (std::size_t i = 0; i < 4; ++i) {
-            box_.expand(Box::of(p[i]));
-            const Vec3d &a = p[(i + 1) & 3], &b = p[(i + 2) & 3], &c = p[(i + 3) & 3];
-            Vec3d normal = (b - a).cross(c - a);
-            if (normal.dot(p[i] - a) > 0) normal = -normal;
-            planes_[i] = {normal, normal.dot(a)};
-        }
-    }
-    bool operator()(const Box& box) const
-    {
-        if (!box_.meets(box)) return false;
-        for (const auto& plane : planes_) {
-            // The box's corner deepest below the plane.
-            const Vec3d& n = plane.first;
-            const Vec3d corner(n[0] > 0 ? box.lo[0] : box.hi[0], n[1] > 0 ? box.lo[1] : box.hi[1],
-                               n[2] > 0 ? box.lo[2] : box.hi[2]);
-            if (n.dot(corner) > plane.second) return false;
-        }
-        return true;
-    }
-
-private:
-    Box box_;
-    std::array<std::pair<Vec3d, double>, 4> planes_;
 };
 
 /// The signed solid angle of a triangle seen from p (van Oosterom and Strackee 1983).
@@ -233,11 +145,7 @@ Nearness nearness(const Corners& first, const Corners& second)
             if (edges.squaredDistance < best.squaredDistance) best = edges;
         }
     }
-    for (std::size_t i = 0; i < 3; ++i) {
-        if (pierces(first[i], first[(i + 1) % 3], second) || pierces(second[i], second[(i + 1) % 3], first)) {
-            best.squaredDistance = 0;
-        }
-    }
+    if (pierces(first, second) || pierces(second, first)) best.squaredDistance = 0;
     return best;
 }
 
@@ -319,30 +227,24 @@ bool GuardModel::clear(const Corners& triangle, std::uint32_t hint, std::uint32_
         return false;
     };
     if (hint != TriangleTree::none && blocks(tree_.items()[hint])) return found(tree_.items()[hint]);
-    const SlabFilter filter(triangle, clearance_);
-    const Box reach = grown(triangle, clearance_);
-    return tree_.traverse(filter, [&](const TriangleTree::Item& item) {
-        return !reach.meets(Box::of(tree_.corners(item))) || !blocks(item) || found(item);
-    });
+    return tree_.traverse(tree_.near(triangle, clearance_),
+                          [&](const TriangleTree::Item& item) { return !blocks(item) || found(item); });
 }
 
 void GuardModel::forEachBlocker(const Corners& triangle, const std::function<bool(const Corners&)>& visit) const
 {
     const Separator separator(triangle);
-    const Box reach = grown(triangle, clearance_);
-    tree_.traverse(SlabFilter(triangle, clearance_), [&](const TriangleTree::Item& item) {
+    tree_.traverse(tree_.near(triangle, clearance_), [&](const TriangleTree::Item& item) {
         const Corners other = tree_.corners(item);
-        return !reach.meets(Box::of(other)) || !comesTooNear(triangle, separator, other, clearance_) || visit(other);
+        return !comesTooNear(triangle, separator, other, clearance_) || visit(other);
     });
 }
 
 void GuardModel::forEachInside(const std::array<Vec3d, 4>& tetrahedron,
                                const std::function<void(const Corners&)>& visit) const
 {
-    const HullFilter filter(tetrahedron);
-    tree_.traverse(filter, [&](const TriangleTree::Item& item) {
-        const Corners corners = tree_.corners(item);
-        if (filter(Box::of(corners))) visit(corners);
+    tree_.traverse(tree_.inTetrahedron(tetrahedron), [&](const TriangleTree::Item& item) {
+        visit(tree_.corners(item));
         return true;
     });
 }

@@ -15,7 +15,7 @@ namespace vdbcage {
 
 namespace {
 
-constexpr double samplesPerFace = 8; // of the distance to the model, where vertices are tightened
+constexpr double samplesPerFace = 4; // of the distance to the model, where vertices are tightened
 
 void requireCount(const std::string& name, int value)
 {

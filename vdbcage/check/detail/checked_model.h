@@ -5,6 +5,7 @@
 #include <vector>
 
 #include <vdbcage/check/detail/face_triangles.h>
+#include <vdbcage/core/detail/nearest_float.h>
 #include <vdbcage/core/interrupter.h>
 #include <vdbcage/mesh/detail/triangle_tree.h>
 
@@ -20,6 +21,24 @@ struct CheckedModel {
     CheckedModel(const Mesh& mesh, Interrupter* interrupter);
 
     std::size_t parts() const { return partFirst.size() - 1; }
+
+    /// The model as it is, or with its points rounded to float.
+    struct View {
+        const CheckedModel& model;
+        bool asFloats;
+
+        Vec3d point(std::uint32_t i) const
+        {
+            const Vec3d& p = model.tree.points()[i];
+            return asFloats ? nearestFloat(p) : p;
+        }
+        Corners corners(const TriangleTree::Item& item) const
+        {
+            return {point(item.corners[0]), point(item.corners[1]), point(item.corners[2])};
+        }
+        /// How far its triangles may lie from those in the tree.
+        double reach() const { return asFloats ? 2 * floatRounding({model.tree.box().lo, model.tree.box().hi}) : 0; }
+    };
 
     TriangleTree tree;                       ///< all four triangles of a quad
     std::size_t usedVertices = 0;            ///< points that faces use

@@ -54,8 +54,9 @@ bool liesInside(CageFaces& cage, const Vec3d& p, std::vector<std::uint32_t>& cro
 
 } // namespace
 
-std::size_t countContacts(CageFaces& cage, const CheckedModel& model, Flags& touched, Interrupter* interrupter)
+std::size_t countContacts(CageFaces& cage, const CheckedModel::View& view, Flags& touched, Interrupter* interrupter)
 {
+    const CheckedModel& model = view.model;
     std::atomic<std::size_t> result{0};
     tbb::parallel_for(Range(0, cage.faces.faces(), 1), [&](const Range& range) {
         for (std::size_t face = range.begin(); face < range.end(); ++face) {
@@ -64,10 +65,10 @@ std::size_t countContacts(CageFaces& cage, const CheckedModel& model, Flags& tou
             for (std::size_t t = cage.faces.first(face); t < cage.faces.first(face + 1); ++t) {
                 const Corners corners = cage.corners(t);
                 const Box box = Box::of(corners);
-                model.tree.traverse(TriangleFilter(corners), [&](const TriangleTree::Item& item) {
+                model.tree.traverse(model.tree.near(corners, view.reach()), [&](const TriangleTree::Item& item) {
                     std::atomic<bool>& part = touched[model.partOfPoint[item.corners[0]]];
                     if (contact && isSet(part)) return true; // nothing left to learn from this pair
-                    const Corners other = model.tree.corners(item);
+                    const Corners other = view.corners(item);
                     if (!box.meets(Box::of(other)) || !trianglesMeet(corners, other)) return true;
                     contact = true;
                     set(part);
@@ -82,11 +83,13 @@ std::size_t countContacts(CageFaces& cage, const CheckedModel& model, Flags& tou
     return result;
 }
 
-std::size_t countOutside(CageFaces& cage, const CheckedModel& model, const Flags& touched, Interrupter* interrupter)
+std::size_t countOutside(CageFaces& cage, const CheckedModel::View& view, const Flags& touched,
+                         Interrupter* interrupter)
 {
     // A part is connected: its triangles share vertices. If it does not meet the cage (under either diagonal of any
     // quad), no path within it crosses the cage or the tetrahedron of a quad, so all its vertices are on the same side
     // of everything, and one stands for all.
+    const CheckedModel& model = view.model;
     struct Question {
         std::uint32_t vertex;
         std::size_t weight;
@@ -108,7 +111,7 @@ std::size_t countOutside(CageFaces& cage, const CheckedModel& model, const Flags
         std::size_t outside = 0;
         for (std::size_t i = range.begin(); i < range.end(); ++i) {
             const Question& question = questions[i];
-            const Vec3d& p = model.tree.points()[question.vertex];
+            const Vec3d p = view.point(question.vertex);
             if ((question.onCage && liesOnCage(cage, p)) || !liesInside(cage, p, crossed)) outside += question.weight;
         }
         result += outside;

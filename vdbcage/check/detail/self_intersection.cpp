@@ -89,7 +89,7 @@ std::size_t countSelfIntersections(CageFaces& cage, Interrupter* interrupter)
                     }
                     const Corners corners = cage.corners(t);
                     const Box box = Box::of(corners);
-                    cage.tree.traverse(TriangleFilter(corners), [&](const TriangleTree::Item& item) {
+                    cage.tree.traverse(cage.tree.near(corners), [&](const TriangleTree::Item& item) {
                         const Index other = cage.faces.face(item.triangle);
                         if (other <= face || countedBy[other] == face || cage.degenerate[item.triangle]) return true;
                         if (!box.meets(Box::of(cage.tree.corners(item))) || !collide(cage, t, item.triangle))

@@ -14,12 +14,24 @@ inline double nearestFloat(double value)
     return static_cast<double>(rounded);
 }
 
-/// What rounding to float moves a coordinate in `box` by, at most: 2^-24 of the largest.
-inline double floatRounding(const openvdb::BBoxd& box)
+inline openvdb::Vec3d nearestFloat(const openvdb::Vec3d& p)
+{
+    return {nearestFloat(p[0]), nearestFloat(p[1]), nearestFloat(p[2])};
+}
+
+/// The size of the largest coordinate.
+inline double farthest(const openvdb::BBoxd& box)
 {
     double largest = 0;
     for (int i = 0; i < 3; ++i) largest = std::max({largest, std::abs(box.min()[i]), std::abs(box.max()[i])});
-    return largest * 0x1p-24;
+    return largest;
+}
+
+/// What rounding to float moves a coordinate in `box` by, at most: 2^-24 of the largest, and no less than floats tell
+/// apart.
+inline double floatRounding(const openvdb::BBoxd& box)
+{
+    return farthest(box) * 0x1p-24 + 0x1p-149;
 }
 
 /// Whether a host that stores floats can hold a model of this (not empty) box at all: rounding is far below its size.

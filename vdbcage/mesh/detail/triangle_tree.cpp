@@ -1,6 +1,7 @@
 // Based on: I. Wald, "On fast Construction of SAH-based Bounding Volume Hierarchies", 2007 (binned splits);
 //           C. Ericson, "Real-Time Collision Detection", 2005, 5.1.5 (closest point on a triangle).
-// Differs: bins along one axis only (the longest of the centroids); node boxes are exact, in double.
+//           I. Wald, C. Benthin, S. Boulos, "Getting Rid of Packets", 2008 (trees of four children for SIMD).
+// Differs: bins along one axis only (the longest of the centroids).
 #include <vdbcage/mesh/detail/triangle_tree.h>
 
 #include <algorithm>
@@ -9,42 +10,48 @@
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
-#include <tbb/parallel_invoke.h>
 #include <tbb/parallel_reduce.h>
 
 namespace vdbcage::detail {
 
 namespace {
 
-constexpr std::uint32_t leafSize = 3;
 constexpr std::size_t binCount = 16;
 constexpr std::size_t binnedDepth = 60;           // deeper nodes are halved: 2^32 triangles end within 32 more
 constexpr std::size_t taskSize = 4096;            // triangles in a subtree that are worth a task
 constexpr std::size_t parallelBinSize = 1U << 17; // triangles in a node that are worth binning in parallel
 
-// A triangle while the tree is built. The coordinates only guide the splits, so they are floats, moved and scaled to
-// the unit cube: any size and place of the model is the same to them.
+using Floats = float __attribute__((vector_size(16)));
+
+Floats least(Floats a, Floats b)
+{
+    return a < b ? a : b;
+}
+Floats greatest(Floats a, Floats b)
+{
+    return a > b ? a : b;
+}
+
+// A triangle's box while the tree is built, in the tree's units. The fourth component of lo and hi means nothing.
 struct Ref {
-    std::array<float, 3> lo, hi;
+    Floats lo, hi;
     std::uint32_t triangle;
 
-    float centre(std::size_t axis) const { return 0.5F * (lo[axis] + hi[axis]); }
+    Floats twiceCentre() const { return lo + hi; }
 };
 
 struct FloatBox {
-    std::array<float, 3> lo{2, 2, 2}, hi{-2, -2, -2};
+    Floats lo = Floats{} + std::numeric_limits<float>::infinity(), hi = -lo;
 
-    void expand(const std::array<float, 3>& otherLo, const std::array<float, 3>& otherHi)
+    void expand(Floats otherLo, Floats otherHi)
     {
-        for (std::size_t i = 0; i < 3; ++i) {
-            lo[i] = std::min(lo[i], otherLo[i]);
-            hi[i] = std::max(hi[i], otherHi[i]);
-        }
+        lo = least(lo, otherLo);
+        hi = greatest(hi, otherHi);
     }
     float area() const
     {
-        const float x = hi[0] - lo[0], y = hi[1] - lo[1], z = hi[2] - lo[2];
-        return x * y + y * z + z * x;
+        const Floats size = hi - lo;
+        return size[0] * size[1] + size[1] * size[2] + size[2] * size[0];
     }
 };
 
@@ -98,7 +105,7 @@ struct Binning {
     }
     std::size_t bin(const Ref& ref) const
     {
-        return std::min(binCount - 1, static_cast<std::size_t>((ref.centre(axis) - origin) * scale));
+        return std::min(binCount - 1, static_cast<std::size_t>((ref.twiceCentre()[axis] - origin) * scale));
     }
 
     std::size_t axis = 0;
@@ -142,9 +149,19 @@ Vec3d closestPointOnSegment(const Vec3d& p, const Vec3d& a, const Vec3d& b)
     return a + t * ab;
 }
 
-// The filters' error bounds hold while nothing overflows, and while what underflows is below `underflow`.
-constexpr double largest = 1e100, smallest = 1e-100, underflow = 1e-200;
-constexpr double roundingErrors = 16 * std::numeric_limits<double>::epsilon(); // twice and more what is needed
+constexpr double infinity = std::numeric_limits<double>::infinity();
+// Slivers below have no plane to speak of: one that is computed from them may point astray by more than 1e-7.
+constexpr double leastSine = 1e-8, smallest = 1e-100;
+
+// Floats not above and not below, off by up to 2e-7 of the value.
+float roundedDown(double value)
+{
+    return static_cast<float>(value - 1.2e-7 * std::abs(value) - 1e-40);
+}
+float roundedUp(double value)
+{
+    return static_cast<float>(value + 1.2e-7 * std::abs(value) + 1e-40);
+}
 
 double maxAbs(const Vec3d& v)
 {
@@ -187,55 +204,80 @@ Vec3d closestPointOnTriangle(const Vec3d& p, const Corners& triangle)
     return best;
 }
 
-TriangleFilter::TriangleFilter(const Corners& triangle) : box_(Box::of(triangle)), corner_(triangle[0])
+TriangleTree::Region::Region(const Box& box)
 {
-    const Vec3d u = triangle[1] - triangle[0], v = triangle[2] - triangle[0];
-    normal_ = u.cross(v);
-    for (int i = 0; i < 3; ++i) {
-        const int j = (i + 1) % 3, k = (i + 2) % 3;
-        errorScale_[i] = roundingErrors * (std::abs(u[j] * v[k]) + std::abs(u[k] * v[j]));
+    // All nodes lie within [-1.1, 1.1]; NaN, of a box too far away to compute with, stays and is met nowhere.
+    for (std::size_t i = 0; i < 3; ++i) {
+        const int axis = static_cast<int>(i);
+        lo_[i] = Floats{} + roundedDown(std::clamp(box.lo[axis], -4.0, 4.0));
+        hi_[i] = Floats{} + roundedUp(std::clamp(box.hi[axis], -4.0, 4.0));
     }
-    const double edge = std::max(maxAbs(u), maxAbs(v));
-    usePlane_ = edge > smallest && edge < largest && maxAbs(corner_) < largest;
 }
 
-bool TriangleFilter::planeMayMeet(const Box& box) const
+/// `farthest`: the largest coordinate that went into the slab.
+void TriangleTree::Region::addSlab(const Vec3d& normal, double low, double high, double farthest)
 {
-    if (!usePlane_) return true;
-    double least = 0, most = 0, error = underflow;
-    for (int i = 0; i < 3; ++i) {
-        const double lo = box.lo[i] - corner_[i], hi = box.hi[i] - corner_[i];
-        const double atLo = normal_[i] * lo, atHi = normal_[i] * hi;
-        least += std::min(atLo, atHi);
-        most += std::max(atLo, atHi);
-        error += errorScale_[i] * std::max(std::abs(lo), std::abs(hi));
+    // Projections of nodes, in float, are wrong by less than 3e-6; a normal may point astray by 1e-7.
+    const double slack = 4e-6 + 2e-7 * farthest;
+    Slab& slab = slab_[slabs_++];
+    for (std::size_t i = 0; i < 3; ++i) {
+        const auto component = static_cast<float>(normal[static_cast<int>(i)]);
+        slab.normal[i] = Floats{} + component;
+        slab.absolute[i] = Floats{} + std::abs(component);
     }
-    // Written so that a box too far away to compute with (NaN, infinite) counts as met.
-    return !(least > error || most < -error);
+    slab.twiceLow = Floats{} + static_cast<float>(std::clamp(2 * (low - slack), -1e30, 1e30));
+    slab.twiceHigh = Floats{} + static_cast<float>(std::clamp(2 * (high + slack), -1e30, 1e30));
 }
 
-SegmentFilter::SegmentFilter(const Vec3d& a, const Vec3d& b) : start_(a), direction_(b - a)
+TriangleTree::Region TriangleTree::inBox(const Box& box) const
 {
-    box_ = Box::of(a);
-    box_.expand(Box::of(b));
-    useLine_ = maxAbs(a) < largest && maxAbs(direction_) < largest && maxAbs(direction_) > smallest;
+    return Region({inUnits(box.lo), inUnits(box.hi)});
 }
 
-bool SegmentFilter::lineMayMeet(const Box& box) const
+TriangleTree::Region TriangleTree::near(const Corners& triangle, double reach) const
 {
-    if (!useLine_) return true;
-    const Vec3d lo = box.lo - start_, hi = box.hi - start_;
-    for (int i = 0; i < 3; ++i) {
-        // In the plane of the axes j and k: the range, over the box, of which side of the line a point lies.
-        const int j = (i + 1) % 3, k = (i + 2) % 3;
-        const double j0 = direction_[k] * lo[j], j1 = direction_[k] * hi[j];
-        const double k0 = direction_[j] * lo[k], k1 = direction_[j] * hi[k];
-        const double least = std::min(k0, k1) - std::max(j0, j1), most = std::max(k0, k1) - std::min(j0, j1);
-        const double error =
-            underflow + roundingErrors * (std::max(std::abs(j0), std::abs(j1)) + std::max(std::abs(k0), std::abs(k1)));
-        if (least > error || most < -error) return false;
+    Box box = Box::of(triangle);
+    box.lo -= Vec3d(reach);
+    box.hi += Vec3d(reach);
+    Region region = inBox(box);
+    const Corners t{inUnits(triangle[0]), inUnits(triangle[1]), inUnits(triangle[2])};
+    const Vec3d u = t[1] - t[0], v = t[2] - t[0];
+    Vec3d normal = u.cross(v);
+    const double length = normal.length();
+    if (!(length > leastSine * u.length() * v.length()) || !(length > smallest)) return region;
+    normal /= length;
+    const double margin = reach * scale_, farthest = std::max({maxAbs(t[0]), maxAbs(t[1]), maxAbs(t[2])});
+    const double height = normal.dot(t[0]);
+    region.addSlab(normal, height - margin, height + margin, farthest);
+    for (std::size_t i = 0; i < 3; ++i) {
+        const Vec3d edge = t[(i + 1) % 3] - t[i];
+        const Vec3d outward = edge.cross(normal) / edge.length();
+        region.addSlab(outward, -infinity, outward.dot(t[i]) + margin, farthest);
     }
-    return true;
+    return region;
+}
+
+TriangleTree::Region TriangleTree::inTetrahedron(const std::array<Vec3d, 4>& corners) const
+{
+    Box box = Box::of(corners[0]);
+    for (const Vec3d& p : corners) box.expand(Box::of(p));
+    Region region = inBox(box);
+    std::array<Vec3d, 4> p;
+    double farthest = 0;
+    for (std::size_t i = 0; i < 4; ++i) {
+        p[i] = inUnits(corners[i]);
+        farthest = std::max(farthest, maxAbs(p[i]));
+    }
+    for (std::size_t i = 0; i < 4; ++i) {
+        const Vec3d& a = p[(i + 1) & 3];
+        const Vec3d u = p[(i + 2) & 3] - a, v = p[(i + 3) & 3] - a;
+        const Vec3d normal = u.cross(v);
+        const double length = normal.length();
+        if (!(length > leastSine * u.length() * v.length()) || !(length > smallest)) continue;
+        const double here = normal.dot(a) / length, opposite = normal.dot(p[i]) / length;
+        region.addSlab(normal / length, std::min(here, opposite), std::max(here, opposite), farthest);
+    }
+    return region;
 }
 
 class TreeBuilder {
@@ -249,9 +291,9 @@ public:
     {
         makeRefs();
         tree_.items_.resize(triangles_.size());
-        tree_.nodes_.reset(new TriangleTree::Node[triangles_.size() + 1]); // not initialized: few pages are touched
+        tree_.nodes_.reset(new TriangleTree::Node[triangles_.size()]); // not initialized: few pages are touched
         nodeCount_ = 1;
-        buildNode(0, 0, static_cast<std::uint32_t>(refs_.size()), 0);
+        buildNode(0, {0, static_cast<std::uint32_t>(refs_.size()), 0});
     }
 
 private:
@@ -268,19 +310,20 @@ private:
                 a.expand(b);
                 return a;
             });
-        const Vec3d centre = box.lo * 0.5 + box.hi * 0.5, half = box.hi * 0.5 - box.lo * 0.5; // must not overflow
-        const double inverse = 1 / maxAbs(half), scale = std::isfinite(inverse) ? inverse : 1.0;
+        const Vec3d half = box.hi * 0.5 - box.lo * 0.5; // must not overflow
+        const double inverse = 1 / maxAbs(half);
+        tree_.box_ = box;
+        tree_.centre_ = box.lo * 0.5 + box.hi * 0.5;
+        tree_.scale_ = std::isfinite(inverse) ? inverse : 1.0;
         tbb::parallel_for(tbb::blocked_range<std::size_t>(0, refs_.size(), 16384),
                           [&](const tbb::blocked_range<std::size_t>& range) {
                               throwIfInterrupted(interrupter_);
                               for (std::size_t i = range.begin(); i < range.end(); ++i) {
                                   const Box item = itemBox(i);
+                                  const Vec3d lo = tree_.inUnits(item.lo), hi = tree_.inUnits(item.hi);
+                                  refs_[i].lo = Floats{roundedDown(lo[0]), roundedDown(lo[1]), roundedDown(lo[2]), 0};
+                                  refs_[i].hi = Floats{roundedUp(hi[0]), roundedUp(hi[1]), roundedUp(hi[2]), 0};
                                   refs_[i].triangle = static_cast<std::uint32_t>(i);
-                                  for (std::size_t k = 0; k < 3; ++k) {
-                                      const int axis = static_cast<int>(k);
-                                      refs_[i].lo[k] = static_cast<float>((item.lo[axis] - centre[axis]) * scale);
-                                      refs_[i].hi[k] = static_cast<float>((item.hi[axis] - centre[axis]) * scale);
-                                  }
                               }
                           });
     }
@@ -291,48 +334,68 @@ private:
         return Box::of({tree_.points_[t[0]], tree_.points_[t[1]], tree_.points_[t[2]]});
     }
 
-    void buildNode(std::uint32_t nodeIndex, std::uint32_t begin, std::uint32_t end, std::size_t depth)
+    struct Range {
+        std::uint32_t begin, end;
+        std::size_t depth; // of binary splits
+
+        std::uint32_t size() const { return end - begin; }
+    };
+
+    // Returns the box of the node.
+    FloatBox buildNode(std::uint32_t nodeIndex, const Range& whole)
     {
-        TriangleTree::Node& node = tree_.nodes_[nodeIndex];
-        if (end - begin <= leafSize) {
-            node.first = begin;
-            node.count = end - begin;
-            node.box = itemBox(refs_[begin].triangle);
-            for (std::uint32_t i = begin; i < end; ++i) {
-                const std::uint32_t triangle = refs_[i].triangle;
-                tree_.items_[i] = {triangles_[triangle], triangle};
-                node.box.expand(itemBox(triangle));
-            }
-            return;
-        }
-        const bool large = end - begin > taskSize;
+        const bool large = whole.size() > taskSize;
         if (large) throwIfInterrupted(interrupter_);
-        const std::uint32_t middle = split(begin, end, depth);
-        const std::uint32_t children = nodeCount_.fetch_add(2, std::memory_order_relaxed);
-        const auto left = [&] { buildNode(children, begin, middle, depth + 1); };
-        const auto right = [&] { buildNode(children + 1, middle, end, depth + 1); };
-        if (large) {
-            tbb::parallel_invoke(left, right);
-        } else {
-            left();
-            right();
+        std::array<Range, 4> ranges{whole};
+        std::size_t count = 1;
+        while (count < 4 && count < whole.size()) {
+            Range* const largest = std::max_element(ranges.begin(), ranges.begin() + count,
+                                                    [](const Range& a, const Range& b) { return a.size() < b.size(); });
+            const std::size_t depth = largest->depth + 1;
+            const std::uint32_t middle = whole.size() <= 4 ? largest->begin + 1 : split(*largest);
+            ranges[count++] = {middle, largest->end, depth};
+            *largest = {largest->begin, middle, depth};
         }
-        node.first = children;
-        node.count = 0;
-        node.box = tree_.nodes_[children].box;
-        node.box.expand(tree_.nodes_[children + 1].box);
+        std::array<FloatBox, 4> boxes;
+        std::array<std::uint32_t, 4> child{};
+        const auto buildChild = [&](std::size_t i) {
+            const Range& range = ranges[i];
+            if (range.size() == 1) {
+                const Ref& ref = refs_[range.begin];
+                tree_.items_[range.begin] = {triangles_[ref.triangle], ref.triangle};
+                child[i] = range.begin | TriangleTree::isItem;
+                boxes[i].expand(ref.lo, ref.hi);
+                return;
+            }
+            child[i] = nodeCount_.fetch_add(1, std::memory_order_relaxed);
+            boxes[i] = buildNode(child[i], range);
+        };
+        if (large) {
+            tbb::parallel_for(std::size_t(0), count, buildChild);
+        } else {
+            for (std::size_t i = 0; i < count; ++i) buildChild(i);
+        }
+        TriangleTree::Node& node = tree_.nodes_[nodeIndex];
+        node.child = child;
+        FloatBox sum;
+        for (std::size_t i = 0; i < 4; ++i) {
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                node.lo[axis][i] = i < count ? boxes[i].lo[axis] : std::numeric_limits<float>::quiet_NaN();
+                node.hi[axis][i] = i < count ? boxes[i].hi[axis] : std::numeric_limits<float>::quiet_NaN();
+            }
+            if (i < count) sum.expand(boxes[i].lo, boxes[i].hi);
+        }
+        return sum;
     }
 
     // Sorts the range of refs into two sides and returns where the second begins.
-    std::uint32_t split(std::uint32_t begin, std::uint32_t end, std::size_t depth)
+    std::uint32_t split(const Range& range)
     {
-        Ref* const first = refs_.data() + begin;
-        Ref* const last = refs_.data() + end;
-        const Binning binning(fold<FloatBox>(first, last, [](FloatBox& box, const Ref& ref) {
-            const std::array<float, 3> centre{ref.centre(0), ref.centre(1), ref.centre(2)};
-            box.expand(centre, centre);
-        }));
-        if (depth < binnedDepth && binning.scale > 0) {
+        Ref* const first = refs_.data() + range.begin;
+        Ref* const last = refs_.data() + range.end;
+        const Binning binning(fold<FloatBox>(
+            first, last, [](FloatBox& box, const Ref& ref) { box.expand(ref.twiceCentre(), ref.twiceCentre()); }));
+        if (range.depth < binnedDepth && binning.scale > 0) {
             const std::size_t best = cheapestSplit(fold<Bins>(first, last, [&](Bins& bins, const Ref& ref) {
                 const std::size_t bin = binning.bin(ref);
                 bins.boxes[bin].expand(ref.lo, ref.hi);
@@ -341,13 +404,13 @@ private:
             if (best > 0) {
                 const Ref* const middle =
                     std::partition(first, last, [&](const Ref& ref) { return binning.bin(ref) < best; });
-                return begin + static_cast<std::uint32_t>(middle - first);
+                return range.begin + static_cast<std::uint32_t>(middle - first);
             }
         }
-        const std::uint32_t middle = begin + (end - begin) / 2;
+        const std::uint32_t middle = range.begin + range.size() / 2;
         std::nth_element(first, refs_.data() + middle, last, [&](const Ref& a, const Ref& b) {
-            return std::make_pair(a.centre(binning.axis), a.triangle) <
-                   std::make_pair(b.centre(binning.axis), b.triangle);
+            return std::make_pair(a.twiceCentre()[binning.axis], a.triangle) <
+                   std::make_pair(b.twiceCentre()[binning.axis], b.triangle);
         });
         return middle;
     }
@@ -365,37 +428,64 @@ TriangleTree::TriangleTree(std::vector<Vec3d> points, const std::vector<Vec3I>& 
     if (!triangles.empty()) TreeBuilder(*this, triangles, interrupter).build();
 }
 
-TriangleTree::Closest TriangleTree::closest(const Vec3d& p, std::uint32_t seed, double bound) const
+TriangleTree::Closest TriangleTree::closest(const Vec3d& p, std::uint32_t seed, double slack) const
 {
     Closest best;
-    best.squaredDistance = bound;
     if (empty()) return best;
     const auto tryItem = [&](std::uint32_t item) {
         const Vec3d point = closestPointOnTriangle(p, corners(items_[item]));
         const double squaredDistance = (point - p).lengthSqr();
-        if (squaredDistance < best.squaredDistance) best = {point, squaredDistance, item};
+        if (!(squaredDistance < best.squaredDistance)) return false;
+        best = {point, squaredDistance, item};
+        return true;
     };
     if (seed != none) tryItem(seed);
 
+    // In the tree's units, in float: what is not farther than `reach`, which is rounded up, may be nearer. Points far
+    // away are taken for nearer ones.
+    std::array<float, 3> lo, hi;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const double x = std::clamp(inUnits(p)[static_cast<int>(i)], -1e15, 1e15);
+        lo[i] = roundedDown(x);
+        hi[i] = roundedUp(x);
+    }
+    const auto reachOf = [&](double squaredDistance) {
+        const double distance = std::sqrt(squaredDistance) * scale_ / (1 + slack);
+        return static_cast<float>(std::min(1.00001 * distance * distance + 1e-30, 1e38));
+    };
+    float reach = reachOf(best.squaredDistance);
     struct Entry {
-        std::uint32_t node;
-        double squaredDistance;
+        std::uint32_t child;
+        float squaredDistance;
     };
     Stack<Entry> stack;
-    stack.push({0, box().squaredDistance(p)});
+    stack.push({0, 0});
     while (!stack.empty()) {
         const Entry entry = stack.pop();
-        if (!(entry.squaredDistance < best.squaredDistance)) continue;
-        const Node& node = nodes_[entry.node];
-        if (node.count > 0) {
-            for (std::uint32_t i = node.first; i < node.first + node.count; ++i) tryItem(i);
+        if (entry.squaredDistance > reach) continue;
+        if (entry.child & isItem) {
+            if (tryItem(entry.child & ~isItem)) reach = reachOf(best.squaredDistance);
             continue;
         }
-        Entry near{node.first, nodes_[node.first].box.squaredDistance(p)};
-        Entry far{node.first + 1, nodes_[node.first + 1].box.squaredDistance(p)};
-        if (far.squaredDistance < near.squaredDistance) std::swap(near, far);
-        stack.push(far);
-        stack.push(near);
+        const Node& node = nodes_[entry.child];
+        Floats squaredDistance{};
+        for (std::size_t i = 0; i < 3; ++i) {
+            const Floats below = node.lo[i] - hi[i], above = lo[i] - node.hi[i];
+            Floats away = below > above ? below : above;
+            away = away < 0 ? Floats{} : away; // keeps NaN
+            squaredDistance += away * away;
+        }
+        const unsigned met = bits(squaredDistance <= reach);
+        // The nearest is to be popped first.
+        std::array<Entry, 4> near;
+        std::size_t count = 0;
+        for (std::size_t i = 0; i < 4; ++i) {
+            if (!(met >> i & 1U)) continue;
+            std::size_t at = count++;
+            for (; at > 0 && near[at - 1].squaredDistance < squaredDistance[i]; --at) near[at] = near[at - 1];
+            near[at] = {node.child[i], squaredDistance[i]};
+        }
+        for (std::size_t i = 0; i < count; ++i) stack.push(near[i]);
     }
     return best;
 }

@@ -10,6 +10,10 @@
 #include <memory>
 #include <vector>
 
+#ifdef __SSE2__
+#include <emmintrin.h>
+#endif
+
 #include <openvdb/Types.h>
 #include <vdbcage/core/interrupter.h>
 
@@ -48,39 +52,12 @@ struct Box {
 /// The point of the closed triangle nearest to `p`; the triangle may be degenerate. Rounded.
 Vec3d closestPointOnTriangle(const Vec3d& p, const Corners& triangle);
 
-/// Answers, never wrongly with no, whether a box may meet a triangle: their boxes meet and the triangle's plane cuts
-/// the box, up to a bound of the rounding errors.
-class TriangleFilter {
-public:
-    explicit TriangleFilter(const Corners& triangle);
-    bool operator()(const Box& box) const { return box_.meets(box) && planeMayMeet(box); }
-
-private:
-    bool planeMayMeet(const Box& box) const;
-
-    Box box_;
-    Vec3d corner_, normal_, errorScale_;
-    bool usePlane_;
-};
-
-/// The same for a segment between two points (may be one point): the boxes meet, and no axis across the segment and an
-/// edge of the box separates them.
-class SegmentFilter {
-public:
-    SegmentFilter(const Vec3d& a, const Vec3d& b);
-    bool operator()(const Box& box) const { return box_.meets(box) && lineMayMeet(box); }
-
-private:
-    bool lineMayMeet(const Box& box) const;
-
-    Box box_;
-    Vec3d start_, direction_;
-    bool useLine_;
-};
-
 /// A bounding volume hierarchy over triangles (indices into points; degenerate ones welcome). Immutable once built: any
 /// number of threads may ask at the same time. The tree, and so the order of its answers, is the same for any number of
 /// threads that built it.
+///
+/// Nodes have up to four children, whose boxes are compared at once, in float: rounded outward, so that no triangle is
+/// missed; what is left is told apart in double.
 class TriangleTree {
 public:
     static constexpr std::uint32_t none = ~std::uint32_t(0);
@@ -92,8 +69,9 @@ public:
     struct Closest {
         Vec3d point;
         double squaredDistance = std::numeric_limits<double>::infinity();
-        std::uint32_t item = none; ///< none: nothing nearer than the bound
+        std::uint32_t item = none; ///< none: the tree is empty
     };
+    class Region;
 
     TriangleTree() = default;
     /// Points must be finite where triangles use them. O(n log n), in parallel. \throw Cancelled
@@ -108,41 +86,89 @@ public:
         return {points_[item.corners[0]], points_[item.corners[1]], points_[item.corners[2]]};
     }
     /// The box of everything; the tree must not be empty.
-    const Box& box() const { return nodes_[0].box; }
+    const Box& box() const { return box_; }
 
-    /// Calls `visit(item)` for each triangle in the leaves that are reached through boxes for which `mayMeet(box)` is
-    /// true. `visit` answers whether to go on; returns false if it stopped.
-    template <typename MayMeet, typename Visit>
-    bool traverse(const MayMeet& mayMeet, const Visit& visit) const;
+    /// What lies in a box (its sides may be infinite).
+    Region inBox(const Box& box) const;
+    /// What comes as near as `reach` to a triangle, which may be degenerate.
+    Region near(const Corners& triangle, double reach = 0) const;
+    /// What meets a tetrahedron, which may be flat.
+    Region inTetrahedron(const std::array<Vec3d, 4>& corners) const;
 
-    /// Calls `visit(item)` for each triangle whose box meets `box`, until it answers false.
+    /// Calls `visit(item)` for each triangle whose box meets `region`, and perhaps for some more beside it. `visit`
+    /// answers whether to go on; returns false if it stopped.
+    template <typename Visit>
+    bool traverse(const Region& region, const Visit& visit) const;
+
+    /// Calls `visit(item)` for each triangle whose box meets `box`, exactly, until it answers false.
     template <typename Visit>
     bool forEachOverlap(const Box& box, const Visit& visit) const;
 
-    /// Calls `visit(item, otherItem)` for each pair whose boxes meet, until it answers false.
-    template <typename Visit>
-    bool forEachOverlap(const TriangleTree& other, const Visit& visit) const;
-
-    /// The closest point of the triangles to `p`, if its squared distance is below `bound`. `seed`, an item number such
-    /// as that of the last answer for a point nearby, makes it faster (and may decide between equals).
-    Closest closest(const Vec3d& p, std::uint32_t seed = none,
-                    double bound = std::numeric_limits<double>::infinity()) const;
+    /// The closest point of the triangles to `p`. `seed`, an item number such as that of the last answer for a point
+    /// nearby, makes it faster (and may decide between equals). With `slack` a point up to 1 + slack times as far may
+    /// be given, which is faster too.
+    Closest closest(const Vec3d& p, std::uint32_t seed = none, double slack = 0) const;
 
 private:
     friend class TreeBuilder;
+    using Floats = float __attribute__((vector_size(16))); // one for each child of a node
+    using Lanes = std::int32_t __attribute__((vector_size(16)));
+
     struct Node {
-        Box box;
-        std::uint32_t first; // a leaf's first item, else the first of two children
-        std::uint32_t count; // of items; 0: not a leaf
+        std::array<Floats, 3> lo, hi;       // NaN: no such child
+        std::array<std::uint32_t, 4> child; // a node, or isItem and an item
     };
+    static constexpr std::uint32_t isItem = std::uint32_t(1) << 31;
     // The builder switches to halving at a depth that keeps every path shorter than this.
     static constexpr std::size_t maxDepth = 96;
     template <typename T>
     class Stack;
 
+    static unsigned bits(const Lanes& lanes);
+    /// Nodes are in units in which the box is [-1, 1] along its longest side. Monotone in every coordinate.
+    Vec3d inUnits(const Vec3d& p) const { return (p - centre_) * scale_; }
+
     std::vector<Vec3d> points_;
     std::vector<Item> items_;
     std::unique_ptr<Node[]> nodes_; // the root first
+    Box box_;
+    Vec3d centre_{0.0};
+    double scale_ = 1;
+};
+
+/// A box, cut by up to four slabs: where a tree is to look. In the units of the tree that made it.
+class TriangleTree::Region {
+public:
+    /// Which of the node's children it meets, never wrongly denied: a bit each.
+    unsigned meets(const Node& node) const
+    {
+        Lanes met = (node.lo[0] <= hi_[0]) & (node.hi[0] >= lo_[0]) & (node.lo[1] <= hi_[1]) & (node.hi[1] >= lo_[1]) &
+                    (node.lo[2] <= hi_[2]) & (node.hi[2] >= lo_[2]);
+        const std::array<Floats, 3> sum{node.lo[0] + node.hi[0], node.lo[1] + node.hi[1], node.lo[2] + node.hi[2]};
+        const std::array<Floats, 3> size{node.hi[0] - node.lo[0], node.hi[1] - node.lo[1], node.hi[2] - node.lo[2]};
+        for (std::size_t i = 0; i < slabs_; ++i) {
+            const Slab& s = slab_[i];
+            if (bits(met) == 0) return 0;
+            const Floats middle = s.normal[0] * sum[0] + s.normal[1] * sum[1] + s.normal[2] * sum[2];
+            const Floats radius = s.absolute[0] * size[0] + s.absolute[1] * size[1] + s.absolute[2] * size[2];
+            // What cannot be computed (NaN) counts as met.
+            met &= ~((middle - radius > s.twiceHigh) | (middle + radius < s.twiceLow));
+        }
+        return bits(met);
+    }
+
+private:
+    friend class TriangleTree;
+    struct Slab {
+        std::array<Floats, 3> normal, absolute; // absolute: each component's size
+        Floats twiceLow, twiceHigh;
+    };
+    explicit Region(const Box& box);
+    void addSlab(const Vec3d& normal, double low, double high, double farthest);
+
+    std::array<Floats, 3> lo_, hi_;
+    std::array<Slab, 4> slab_; // not initialized
+    std::size_t slabs_ = 0;
 };
 
 template <typename T>
@@ -158,25 +184,35 @@ public:
 
 private:
     std::size_t size_ = 0;
-    std::array<T, 3 * maxDepth> entries_; // not initialized
+    std::array<T, 3 * maxDepth + 1> entries_; // not initialized
 };
 
-template <typename MayMeet, typename Visit>
-bool TriangleTree::traverse(const MayMeet& mayMeet, const Visit& visit) const
+inline unsigned TriangleTree::bits(const Lanes& lanes)
+{
+#ifdef __SSE2__
+    return static_cast<unsigned>(_mm_movemask_ps(reinterpret_cast<__m128>(lanes)));
+#else
+    return (lanes[0] & 1U) | (lanes[1] & 2U) | (lanes[2] & 4U) | (lanes[3] & 8U);
+#endif
+}
+
+template <typename Visit>
+bool TriangleTree::traverse(const Region& region, const Visit& visit) const
 {
     if (empty()) return true;
     Stack<std::uint32_t> stack;
     stack.push(0);
     while (!stack.empty()) {
         const Node& node = nodes_[stack.pop()];
-        if (!mayMeet(node.box)) continue;
-        if (node.count == 0) {
-            stack.push(node.first + 1);
-            stack.push(node.first);
-            continue;
-        }
-        for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
-            if (!visit(items_[i])) return false;
+        const unsigned met = region.meets(node);
+        for (std::size_t i = 0; i < 4; ++i) {
+            if (!(met >> i & 1U)) continue;
+            const std::uint32_t child = node.child[i];
+            if (!(child & isItem)) {
+                stack.push(child);
+            } else if (!visit(items_[child & ~isItem])) {
+                return false;
+            }
         }
     }
     return true;
@@ -185,39 +221,7 @@ bool TriangleTree::traverse(const MayMeet& mayMeet, const Visit& visit) const
 template <typename Visit>
 bool TriangleTree::forEachOverlap(const Box& box, const Visit& visit) const
 {
-    return traverse([&](const Box& nodeBox) { return box.meets(nodeBox); },
-                    [&](const Item& item) { return !box.meets(Box::of(corners(item))) || visit(item); });
-}
-
-template <typename Visit>
-bool TriangleTree::forEachOverlap(const TriangleTree& other, const Visit& visit) const
-{
-    if (empty() || other.empty()) return true;
-    Stack<std::array<std::uint32_t, 2>> stack;
-    stack.push({0, 0});
-    while (!stack.empty()) {
-        const auto [here, there] = stack.pop();
-        const Node& node = nodes_[here];
-        const Node& otherNode = other.nodes_[there];
-        if (!node.box.meets(otherNode.box)) continue;
-        if (node.count > 0 && otherNode.count > 0) {
-            for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
-                const Box box = Box::of(corners(items_[i]));
-                for (std::uint32_t k = otherNode.first; k < otherNode.first + otherNode.count; ++k) {
-                    if (!box.meets(Box::of(other.corners(other.items_[k])))) continue;
-                    if (!visit(items_[i], other.items_[k])) return false;
-                }
-            }
-        } else if (otherNode.count > 0 || (node.count == 0 && (node.box.hi - node.box.lo).length() >=
-                                                                  (otherNode.box.hi - otherNode.box.lo).length())) {
-            stack.push({node.first + 1, there});
-            stack.push({node.first, there});
-        } else {
-            stack.push({here, otherNode.first + 1});
-            stack.push({here, otherNode.first});
-        }
-    }
-    return true;
+    return traverse(inBox(box), [&](const Item& item) { return !box.meets(Box::of(corners(item))) || visit(item); });
 }
 
 } // namespace vdbcage::detail

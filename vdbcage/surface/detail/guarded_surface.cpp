@@ -29,14 +29,41 @@ bool isDegenerate(const Corners& t)
     return CGAL::collinear(exact(t[0]), exact(t[1]), exact(t[2]));
 }
 
-/// -1, 0, 1: on which side of the plane of t the point lies; 0 where rounding could decide.
-int roughSide(const Corners& t, const Vec3d& p)
-{
-    const Vec3d u = t[1] - t[0], v = t[2] - t[0], w = p - t[0];
-    const double volume = u.cross(v).dot(w);
-    const double error = 1e-14 * u.length() * v.length() * w.length();
-    return volume > error ? 1 : volume < -error ? -1 : 0;
-}
+/// The plane of a triangle, to tell sides without exact arithmetic where that is safe.
+class Plane {
+public:
+    explicit Plane(const Corners& t) : corner_(t[0])
+    {
+        const Vec3d u = t[1] - t[0], v = t[2] - t[0];
+        normal_ = u.cross(v);
+        error2_ = 1e-28 * u.lengthSqr() * v.lengthSqr();
+    }
+    /// -1, 0, 1: on which side p lies; 0 where rounding could decide.
+    int side(const Vec3d& p) const
+    {
+        const Vec3d w = p - corner_;
+        const double volume = normal_.dot(w);
+        if (!(volume * volume > error2_ * w.lengthSqr())) return 0;
+        return volume > 0 ? 1 : -1;
+    }
+
+    /// Twice the area long.
+    const Vec3d& normal() const { return normal_; }
+
+private:
+    Vec3d corner_, normal_;
+    double error2_;
+};
+
+/// A triangle of a surface.
+struct Facet {
+    Vec3I ids;
+    Corners corners;
+    Plane plane;
+
+    Facet(const Vec3I& vertices, const Corners& places) : ids(vertices), corners(places), plane(places) {}
+    const Vec3d& corner(int i) const { return corners[static_cast<std::size_t>(i % 3)]; }
+};
 
 /// The sine of the smallest angle of a triangle.
 double minSine(const Corners& t)
@@ -49,50 +76,50 @@ double minSine(const Corners& t)
     return product > 0 ? twiceArea / product : 0;
 }
 
-/// Two triangles of a surface, by vertex numbers and corners; whether they meet in more than what they share.
-bool meetBeyondShared(const Vec3I& a, const Corners& ca, const Vec3I& b, const Corners& cb)
+/// Whether two triangles of a surface meet in more than the vertices that they share.
+bool meetBeyondShared(const Facet& a, const Facet& b)
 {
     std::array<int, 3> inA{}, inB{};
     int shared = 0;
     for (int i = 0; i < 3; ++i) {
         for (int j = 0; j < 3; ++j) {
-            if (a[i] != b[j]) continue;
+            if (a.ids[i] != b.ids[j]) continue;
             inA[static_cast<std::size_t>(shared)] = i;
             inB[static_cast<std::size_t>(shared)] = j;
             ++shared;
         }
     }
-    const auto corner = [](const Corners& c, int i) { return c[static_cast<std::size_t>(i % 3)]; };
     if (shared == 0) {
         // One plane between them settles most pairs.
-        int sides = 0;
-        for (const Vec3d& p : cb) sides += roughSide(ca, p);
-        if (std::abs(sides) == 3) return false;
-        sides = 0;
-        for (const Vec3d& p : ca) sides += roughSide(cb, p);
-        if (std::abs(sides) == 3) return false;
-        return CGAL::do_intersect(exact(ca), exact(cb));
+        const auto apart = [](const Facet& one, const Facet& other) {
+            const int side = one.plane.side(other.corners[0]);
+            return side != 0 && one.plane.side(other.corners[1]) == side && one.plane.side(other.corners[2]) == side;
+        };
+        return !apart(a, b) && !apart(b, a) && CGAL::do_intersect(exact(a.corners), exact(b.corners));
     }
     if (shared == 1) {
+        const auto apart = [](const Facet& one, const Facet& other, int tip) {
+            const int side = one.plane.side(other.corner(tip + 1));
+            return side != 0 && one.plane.side(other.corner(tip + 2)) == side;
+        };
         const int i = inA[0], j = inB[0];
-        if (std::abs(roughSide(ca, corner(cb, j + 1)) + roughSide(ca, corner(cb, j + 2))) == 2) return false;
-        if (std::abs(roughSide(cb, corner(ca, i + 1)) + roughSide(cb, corner(ca, i + 2))) == 2) return false;
-        const Kernel::Segment_3 acrossA(exact(corner(ca, i + 1)), exact(corner(ca, i + 2)));
-        const Kernel::Segment_3 acrossB(exact(corner(cb, j + 1)), exact(corner(cb, j + 2)));
-        return CGAL::do_intersect(exact(ca), acrossB) || CGAL::do_intersect(exact(cb), acrossA);
+        if (apart(a, b, j) || apart(b, a, i)) return false;
+        const Kernel::Segment_3 acrossA(exact(a.corner(i + 1)), exact(a.corner(i + 2)));
+        const Kernel::Segment_3 acrossB(exact(b.corner(j + 1)), exact(b.corner(j + 2)));
+        return CGAL::do_intersect(exact(a.corners), acrossB) || CGAL::do_intersect(exact(b.corners), acrossA);
     }
     if (shared == 2) {
         // Folded onto each other, or not at all.
-        const Vec3d u = corner(ca, inA[0]), v = corner(ca, inA[1]);
-        const Vec3d p = corner(ca, 3 - inA[0] - inA[1]), q = corner(cb, 3 - inB[0] - inB[1]);
-        if (roughSide({u, v, p}, q) != 0) return false;
+        const Vec3d& q = b.corner(3 - inB[0] - inB[1]);
+        if (a.plane.side(q) != 0) return false;
+        const Vec3d &u = a.corner(inA[0]), &v = a.corner(inA[1]), &p = a.corner(3 - inA[0] - inA[1]);
         return CGAL::coplanar(exact(u), exact(v), exact(p), exact(q)) &&
                CGAL::coplanar_orientation(exact(u), exact(v), exact(p), exact(q)) == CGAL::POSITIVE;
     }
     return true;
 }
 
-using Triangles = boost::container::small_vector<Corners, 16>;
+using Facets = boost::container::small_vector<Facet, 16>;
 
 /// The weights of t's corners that give p's foot in its plane; zeros for a degenerate t.
 Vec3d barycentric(const Vec3d& p, const Corners& t)
@@ -107,21 +134,21 @@ Vec3d barycentric(const Vec3d& p, const Corners& t)
 
 /// Whether, seen along some direction, the fan lies spread out around its centre without overlap: then no two of its
 /// triangles can meet beyond what they share. No answer but false where rounding could matter.
-bool spreadOut(const Triangles& triangles)
+bool spreadOut(const Facets& facets)
 {
     Vec3d direction(0.0);
-    for (const Corners& t : triangles) direction += (t[1] - t[0]).cross(t[2] - t[0]);
+    for (const Facet& f : facets) direction += f.plane.normal();
     const double length = direction.length();
     if (!(length > 0)) return false;
     direction /= length;
-    const Vec3d& centre = triangles.front()[0];
+    const Vec3d& centre = facets.front().corners[0];
     const Vec3d axis = std::abs(direction[0]) < 0.6 ? Vec3d(1, 0, 0) : Vec3d(0, 1, 0);
     Vec3d x = axis.cross(direction);
     x /= x.length();
     const Vec3d y = direction.cross(x);
     int rounds = 0; // times that the rim crosses the positive x axis
-    for (const Corners& t : triangles) {
-        const Vec3d a = t[1] - centre, b = t[2] - centre;
+    for (const Facet& f : facets) {
+        const Vec3d a = f.corners[1] - centre, b = f.corners[2] - centre;
         const double ax = a.dot(x), ay = a.dot(y), bx = b.dot(x), by = b.dot(y), cross = ax * by - ay * bx;
         if (!(cross > 0 && cross * cross > 1e-24 * a.lengthSqr() * b.lengthSqr())) return false;
         rounds += ay < 0 && by >= 0; // a turn to the left by less than half a round
@@ -372,26 +399,27 @@ bool GuardedSurface::wellShaped(const Fan& fan, const Vec3d& p) const
 bool GuardedSurface::clearOfSurface(const Fan& fan, const Vec3d& p) const
 {
     const std::size_t n = fan.rim.size();
-    Triangles triangles(n);
-    for (std::size_t i = 0; i < n; ++i) triangles[i] = fanCorners(fan, i, p);
-    const auto ids = [&](std::size_t i) { return Vec3I(fan.centre, fan.rim[i][0], fan.rim[i][1]); };
-    if (!spreadOut(triangles)) {
+    Facets facets;
+    boost::container::small_vector<Box, 16> boxes;
+    Box all = Box::of(p);
+    for (std::size_t i = 0; i < n; ++i) {
+        facets.emplace_back(Vec3I(fan.centre, fan.rim[i][0], fan.rim[i][1]), fanCorners(fan, i, p));
+        boxes.push_back(Box::of(facets.back().corners));
+        all.expand(boxes.back());
+    }
+    if (!spreadOut(facets)) {
         for (std::size_t i = 0; i < n; ++i) {
             for (std::size_t j = i + 1; j < n; ++j) {
-                if (meetBeyondShared(ids(i), triangles[i], ids(j), triangles[j])) return false;
+                if (meetBeyondShared(facets[i], facets[j])) return false;
             }
         }
     }
-    boost::container::small_vector<Box, 16> boxes;
-    for (const Corners& t : triangles) boxes.push_back(Box::of(t));
-    Box all = Box::of(triangles.front());
-    for (const Box& box : boxes) all.expand(box);
-    return tree_.forEachOverlap(all, [&](std::uint32_t face) {
-        if (isOld(fan, face)) return true;
-        const Corners other = corners(face);
-        const Box otherBox = Box::of(other);
+    return tree_.forEachOverlap(all, [&](std::uint32_t face, const Box& box) {
+        const auto meets = [&](const Box& other) { return other.meets(box); };
+        if (std::none_of(boxes.begin(), boxes.end(), meets) || isOld(fan, face)) return true;
+        const Facet other(faces_[face], corners(face));
         for (std::size_t i = 0; i < n; ++i) {
-            if (boxes[i].meets(otherBox) && meetBeyondShared(ids(i), triangles[i], faces_[face], other)) return false;
+            if (boxes[i].meets(box) && meetBeyondShared(facets[i], other)) return false;
         }
         return true;
     });
@@ -430,7 +458,8 @@ void GuardedSurface::contacts(const Fan& fan, const Vec3d& from, const Vec3d& to
     const double clearance = 1.01 * guard().clearance();
     for (std::size_t i = 0; i < fan.rim.size(); ++i) {
         const Corners now = fanCorners(fan, i, from), then = fanCorners(fan, i, to);
-        if (!addImpacts(guard(), now, to, i == 0, clearance, halfSpaces)) {
+        const bool isBlocked = !guard().clear(then, TriangleTree::none, nullptr);
+        if (isBlocked && !addImpacts(guard(), now, to, i == 0, clearance, halfSpaces)) {
             int gaps = 0;
             guard().forEachBlocker(then, [&](const Corners& other) {
                 addApproach(then, other, to, clearance, halfSpaces);
@@ -438,13 +467,14 @@ void GuardedSurface::contacts(const Fan& fan, const Vec3d& from, const Vec3d& to
             });
         }
         const Vec3I ids(fan.centre, fan.rim[i][0], fan.rim[i][1]);
-        tree_.forEachOverlap(Box::of(then), [&](std::uint32_t face) {
+        tree_.forEachOverlap(Box::of(then), [&](std::uint32_t face, const Box& /*box*/) {
             if (isOld(fan, face)) return true;
             for (const int corner : {0, 1, 2}) {
                 if (faces_[face][corner] == ids[1] || faces_[face][corner] == ids[2]) return true;
             }
-            if (meetBeyondShared(ids, then, faces_[face], corners(face))) {
-                addApproach(now, corners(face), from, 0.1 * guard().clearance(), halfSpaces);
+            const Corners other = corners(face);
+            if (meetBeyondShared({ids, then}, {faces_[face], other})) {
+                addApproach(now, other, from, 0.1 * guard().clearance(), halfSpaces);
             }
             return true;
         });

@@ -51,19 +51,22 @@ void sweep(GuardedSurface& surface, const std::vector<std::uint32_t>& vertices, 
     };
     std::vector<Proposal> proposals;
     for (const auto& group : independentGroups(surface, vertices)) {
-        for (std::size_t begin = 0; begin < group.size(); begin += batch) {
+        // Numbers mostly follow the place: vertices spread over the group, so that the changes of a batch are far
+        // apart.
+        const std::size_t batches = (group.size() + batch - 1) / batch;
+        for (std::size_t first = 0; first < batches; ++first) {
             throwIfInterrupted(interrupter);
-            const std::size_t count = std::min(batch, group.size() - begin);
+            const std::size_t count = (group.size() - first + batches - 1) / batches;
             proposals.assign(count, {});
             tbb::parallel_for(std::size_t(0), count, [&](std::size_t i) {
-                const std::uint32_t v = group[begin + i];
+                const std::uint32_t v = group[first + i * batches];
                 proposals[i].fan = surface.fanOf(v);
                 proposals[i].place = propose(v, proposals[i].fan);
             });
             GuardedSurface::Batch changes(surface);
             for (std::size_t i = 0; i < count; ++i) {
                 const bool done = proposals[i].place && changes.apply(proposals[i].fan, *proposals[i].place);
-                moved(group[begin + i], proposals[i].fan, done);
+                moved(group[first + i * batches], proposals[i].fan, done);
             }
         }
     }
@@ -180,8 +183,8 @@ double integratedDistance(const GuardedSurface& surface, double areaPerSample)
 
 void tighten(GuardedSurface& surface, int sweeps, double areaPerSample, Interrupter* interrupter)
 {
-    constexpr double sleepBelow = 0.001; // a smaller part gained: not tried again until a neighbour moves
-    constexpr double stopBelow = 0.001;  // the same for a whole sweep
+    constexpr double sleepBelow = 0.002; // a smaller part gained: not tried again until a neighbour moves
+    constexpr double stopBelow = 0.002;  // the same for a whole sweep
     constexpr int gentleSweeps = 6;
     const DistanceMeasure measure(surface.guard(), areaPerSample, DistanceMeasure::Power::distance);
     const std::size_t n = surface.vertices();

@@ -65,12 +65,12 @@ public:
         leafOf_[thing] = none;
     }
 
-    /// Calls visit(thing) for each thing whose box meets `box`, until it answers false. Returns false if it stopped.
+    /// Calls visit(thing, itsBox) for each thing whose box meets `box`, until it answers false. Returns false if it stopped.
     template <typename Visit>
     bool forEachOverlap(const Box& box, const Visit& visit) const
     {
         for (const Late& late : late_) {
-            if (late.box.meets(box) && !visit(late.thing)) return false;
+            if (late.box.meets(box) && !visit(late.thing, late.box)) return false;
         }
         if (nodes_.empty()) return true;
         std::array<std::uint32_t, 64> stack; // halving: depth at most 32
@@ -80,7 +80,7 @@ public:
             const Node& node = nodes_[stack[--size]];
             if (!node.box.meets(box)) continue;
             if (node.right == none) {
-                if (!visit(node.left)) return false;
+                if (!visit(node.left, node.box)) return false;
                 continue;
             }
             stack[size++] = node.right;
