@@ -89,31 +89,68 @@ bool pierces(const Corners& from, const Corners& t)
     return false;
 }
 
+/// Distances between two sets of points along an axis that is the cross product of u and v. Never wrongly yes.
+class Axis {
+public:
+    Axis(const Vec3d& u, const Vec3d& v)
+        : direction_(u.cross(v)), length2_(direction_.lengthSqr()), product2_(u.lengthSqr() * v.lengthSqr())
+    {
+    }
+    double along(const Vec3d& p) const { return direction_.dot(p); }
+    /// Whether a gap, computed of vectors no longer than the root of `size2`, is wider than `reach` for sure.
+    bool isWider(double gap, double reach, double size2) const
+    {
+        // The error is below 1e-14 |u| |v| size; (r + e)^2 < 1.001 r^2 + 1001 e^2.
+        return gap > 0 && gap * gap > 1.001 * length2_ * reach * reach + 2e-25 * product2_ * size2;
+    }
+
+private:
+    Vec3d direction_;
+    double length2_, product2_;
+};
+
 /// The plane of a triangle, to tell quickly that another triangle is far on one side of it.
 class Separator {
 public:
     explicit Separator(const Corners& t)
-        : corner_(t[0]), normal_((t[1] - t[0]).cross(t[2] - t[0])), normal2_(normal_.lengthSqr()),
+        : corner_(t[0]), normal_(t[1] - t[0], t[2] - t[0]),
           size2_(std::max((t[1] - t[0]).lengthSqr(), (t[2] - t[0]).lengthSqr()))
     {
     }
-    /// Whether all corners of `other` lie on one side, farther than `reach`. Never wrongly yes.
+    /// Whether all corners of `other` lie on one side, farther than `reach`.
     bool separates(const Corners& other, double reach) const
     {
         const Vec3d u = other[0] - corner_, v = other[1] - corner_, w = other[2] - corner_;
-        const double a = normal_.dot(u), b = normal_.dot(v), c = normal_.dot(w);
+        const double a = normal_.along(u), b = normal_.along(v), c = normal_.along(w);
         const double height = std::max(std::min({a, b, c}), -std::max({a, b, c}));
-        if (!(height > 0)) return false;
-        // The error of a height is below 1e-14 of the normal's length times the sizes; (r + e)^2 < 1.001 r^2 + 1001
-        // e^2.
-        const double size2 = size2_ + std::max({u.lengthSqr(), v.lengthSqr(), w.lengthSqr()});
-        return height * height > normal2_ * (1.001 * reach * reach + 1e-24 * size2);
+        return normal_.isWider(height, reach, size2_ + std::max({u.lengthSqr(), v.lengthSqr(), w.lengthSqr()}));
     }
 
 private:
-    Vec3d corner_, normal_;
-    double normal2_, size2_;
+    Vec3d corner_;
+    Axis normal_;
+    double size2_;
 };
+
+/// Whether a pair of planes along an edge of each keeps the triangles farther apart than `reach`.
+bool edgesSeparate(const Corners& first, const Corners& second, double reach)
+{
+    for (std::size_t i = 0; i < 3; ++i) {
+        const Vec3d edge = first[(i + 1) % 3] - first[i], arm = first[(i + 2) % 3] - first[i];
+        for (std::size_t j = 0; j < 3; ++j) {
+            const Vec3d otherEdge = second[(j + 1) % 3] - second[j], otherArm = second[(j + 2) % 3] - second[j];
+            const Vec3d across = second[j] - first[i];
+            const Axis axis(edge, otherEdge);
+            const double from = axis.along(arm), to = axis.along(otherArm), between = axis.along(across);
+            const double gap = std::max(between + std::min(0.0, to) - std::max(0.0, from),
+                                        std::min(0.0, from) - between - std::max(0.0, to));
+            const double size2 = std::max(
+                {edge.lengthSqr(), arm.lengthSqr(), otherEdge.lengthSqr(), otherArm.lengthSqr(), across.lengthSqr()});
+            if (axis.isWider(gap, reach, size2)) return true;
+        }
+    }
+    return false;
+}
 
 /// The signed solid angle of a triangle seen from p (van Oosterom and Strackee 1983).
 double solidAngle(const Corners& t, const Vec3d& p)
@@ -154,6 +191,7 @@ namespace {
 bool comesTooNear(const Corners& triangle, const Separator& separator, const Corners& other, double clearance)
 {
     return !separator.separates(other, clearance) && !Separator(other).separates(triangle, clearance) &&
+           !edgesSeparate(triangle, other, clearance) &&
            nearness(triangle, other).squaredDistance < clearance * clearance;
 }
 
