@@ -79,7 +79,7 @@ void splitBest(GuardedSurface& surface, std::size_t faces, double areaPerSample)
 void exchange(GuardedSurface& surface, int rounds, Interrupter* interrupter)
 {
     constexpr int sweeps = 6;
-    constexpr double samplesPerFace = 8;
+    constexpr double samplesPerFace = 4;
     const std::size_t faces = surface.liveFaces();
     if (faces == 0) return;
     const double areaPerSample = area(surface) / (samplesPerFace * static_cast<double>(faces));
