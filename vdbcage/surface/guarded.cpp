@@ -41,7 +41,7 @@ Mesh smooth(const Mesh& surface, const BoundingGuard& guard, int sweeps, Interru
 Mesh decimate(const Mesh& surface, const BoundingGuard& guard, const DecimateOptions& options, Effort effort,
               Interrupter* interrupter)
 {
-    constexpr int sweepsAtStop = 2, exchangeRounds = 2;
+    constexpr int sweepsAtStop = 2, exchangeRounds = 3;
     if (options.faces < 4) {
         throw InputError("faces: " + std::to_string(options.faces) +
                          " is not allowed; a closed surface has at least 4");

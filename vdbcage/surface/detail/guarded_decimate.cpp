@@ -12,6 +12,7 @@
 #include <queue>
 #include <unordered_map>
 
+#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 #include <vdbcage/surface/detail/fan_fit.h>
 #include <vdbcage/surface/detail/guarded_sweeps.h>
@@ -74,7 +75,7 @@ public:
                 // What was blocked may be free since its surroundings changed.
                 if (surface_.liveFaces() == facesAtLastFill) return;
                 facesAtLastFill = surface_.liveFaces();
-                for (const Edge& edge : allEdges(surface_)) push(edge.first, edge.second);
+                push(allEdges(surface_));
             }
             throwIfInterrupted(interrupter);
             collapseBatch(faces);
@@ -114,6 +115,7 @@ private:
         std::stable_sort(proposals.begin(), proposals.end(),
                          [](const Proposal& a, const Proposal& b) { return b.candidate < a.candidate; });
         GuardedSurface::Batch batch(surface_);
+        std::vector<std::uint32_t> kept;
         for (const Proposal& p : proposals) {
             const QueuedEdge& edge = p.candidate.edge;
             if (!p.candidate.place || !isCurrent(edge)) continue;
@@ -125,8 +127,15 @@ private:
             quadrics_[edge.u] += quadrics_[edge.v];
             ++stamp_[edge.u];
             ++stamp_[edge.v];
-            for (const std::uint32_t w : surface_.neighbours(edge.u)) push(edge.u, w);
+            kept.push_back(edge.u);
         }
+        std::vector<Edge> edges;
+        for (const std::uint32_t u : kept) {
+            for (const std::uint32_t w : surface_.neighbours(u)) edges.push_back(std::minmax(u, w));
+        }
+        std::sort(edges.begin(), edges.end());
+        edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+        push(edges);
     }
 
     bool isCurrent(const QueuedEdge& edge) const
@@ -158,11 +167,20 @@ private:
         return (place - middle).length() > 2 * (a - b).length() ? middle : place;
     }
 
-    void push(std::uint32_t u, std::uint32_t v)
+    void push(const std::vector<Edge>& edges)
     {
-        if (u > v) std::swap(u, v);
-        const Quadric q = sum(u, v);
-        queue_.push({{cost(q, optimum(q, u, v)), u, v, stamp_[u], stamp_[v]}, std::nullopt});
+        std::vector<double> costs(edges.size());
+        tbb::parallel_for(tbb::blocked_range<std::size_t>(0, edges.size(), 32), [&](const auto& range) {
+            for (std::size_t i = range.begin(); i < range.end(); ++i) {
+                const auto [u, v] = edges[i];
+                const Quadric q = sum(u, v);
+                costs[i] = cost(q, optimum(q, u, v));
+            }
+        });
+        for (std::size_t i = 0; i < edges.size(); ++i) {
+            const auto [u, v] = edges[i];
+            queue_.push({{costs[i], u, v, stamp_[u], stamp_[v]}, std::nullopt});
+        }
     }
 
     /// Gives a candidate its fan and an allowed place with its cost, or takes its place away.
