@@ -102,6 +102,29 @@ BOOST_AUTO_TEST_CASE(copies_are_turned_and_give_medians)
     BOOST_TEST(median["cage"]["mean_distance_percent"] == distances[1]);
 }
 
+BOOST_AUTO_TEST_CASE(closings_beside_alternatives)
+{
+    for (const char* element : {"sphere", "cube"}) {
+        const json line = linesOf({"closing", "--model", bishop, "--resolution", "64", "--radius", "5", "--element",
+                                   element, "--threads", "1", "--runs", "1"})
+                              .at(0);
+        BOOST_TEST(line["resolution"] == 64);
+        BOOST_TEST(line["radius_voxels"] == 5);
+        BOOST_TEST(line["element"] == element);
+        BOOST_TEST(line["threads"] == 1);
+        BOOST_TEST(line["closed_voxels"] >= line["solid_voxels"]);
+        for (const char* part : {"dilation", "erosion", "closing", "alternative"}) {
+            BOOST_TEST(line[part].contains("cpu_seconds"));
+            BOOST_TEST(line[part].contains("wall_seconds"));
+        }
+        BOOST_TEST(line["alternative"]["same_voxels"] == true);
+        BOOST_TEST(line.contains("times_faster"));
+    }
+    const json alone = linesOf({"closing", "--model", bishop, "--resolution", "32", "--alone"}).at(0);
+    BOOST_TEST(alone["radius_voxels"] == 2);
+    BOOST_TEST(!alone.contains("alternative"));
+}
+
 BOOST_AUTO_TEST_CASE(bad_arguments)
 {
     struct Wrong {
@@ -115,6 +138,9 @@ BOOST_AUTO_TEST_CASE(bad_arguments)
                                                  {{"cage", bishop, "--threads", "0"}, "--threads"},
                                                  {{"cage", bishop, "--bounding", "off"}, "--bounding"},
                                                  {{"cage", "missing.obj", "--faces", "50"}, "missing.obj"},
+                                                 {{"closing"}, "--model"},
+                                                 {{"closing", "--model", bishop, "--radius", "-1"}, "radius"},
+                                                 {{"closing", "--model", bishop, "--element", "ball"}, "element"},
                                                  {{bishop, "--threads", "0"}, "--threads"},
                                                  {{bishop, "--resolutions", "1"}, "resolution"}}) {
         std::vector<std::string> words{bench};

@@ -135,6 +135,21 @@ inline bool sameSet(const MaskGrid& a, const MaskGrid& b)
     return isSubset(a, b) && isSubset(b, a);
 }
 
+/// Whether exactly the voxels of `set` are active. Much faster than making a grid of a large one.
+inline bool holds(const MaskGrid& grid, const DenseSet& set)
+{
+    std::size_t count = 0;
+    for (auto value = grid.cbeginValueOn(); value; ++value) {
+        CoordBBox box;
+        value.getBoundingBox(box);
+        for (auto c = box.begin(); c; ++c) {
+            if (!set[*c]) return false;
+            ++count;
+        }
+    }
+    return count == static_cast<std::size_t>(std::count(set.bits().begin(), set.bits().end(), 1));
+}
+
 inline bool sameTree(const MaskGrid& a, const MaskGrid& b)
 {
     return a.tree().hasSameTopology(b.tree()) && sameSet(a, b);

@@ -8,6 +8,7 @@
 
 #include <tbb/global_control.h>
 #include <vdbcage/core/error.h>
+#include <vdbcage/volume/detail/sphere_pass.h>
 #include <vdbcage/volume/morphology.h>
 
 namespace vdbcage {
@@ -101,9 +102,79 @@ std::uint64_t dilatedCubeCount(std::uint64_t n, int radius)
     return n * n * n + 6 * n * n * countIf(radius, 1) + 12 * n * countIf(radius, 2) + 8 * countIf(radius, 3);
 }
 
+// The voxels within a radius of some voxels.
+DenseSet unionOfBalls(const std::vector<Coord>& centres, double radius)
+{
+    const int reach = static_cast<int>(radius);
+    CoordBBox box;
+    for (const Coord& centre : centres) box.expand(grown(CoordBBox(centre, centre), reach));
+    DenseSet set(box);
+    for (const Coord& centre : centres) {
+        for (int x = -reach; x <= reach; ++x) {
+            for (int y = -reach; y <= reach; ++y) {
+                for (int z = -reach; z <= reach; ++z) {
+                    if (x * x + y * y + z * z <= radius * radius) set.set(centre.offsetBy(x, y, z), true);
+                }
+            }
+        }
+    }
+    return set;
+}
+
+MaskGrid::Ptr gridOf(openvdb::MaskTree::Ptr tree)
+{
+    return MaskGrid::create(std::move(tree));
+}
+
 } // namespace
 
+namespace vdbcage::detail {
+
+/// For Boost.Test.
+static std::ostream& operator<<(std::ostream& out, Simd simd)
+{
+    return out << (simd == Simd::plain ? "plain" : simd == Simd::avx2 ? "avx2" : "avx512");
+}
+
+} // namespace vdbcage::detail
+
 BOOST_AUTO_TEST_SUITE(morphology)
+
+// Below and above the radii where the sphere's kernels change their integers: 104 (coarse squares), 120 (heights).
+BOOST_TEST_DECORATOR(*boost::unit_test::label("property"))
+BOOST_DATA_TEST_CASE(every_instruction_set_equals_the_definition,
+                     data::make(detail::supportedSimd()) *
+                         data::make({0.0, 0.5, 1.0, 2.5, 6.9, 16.0, 33.3, 64.0, 105.5, 121.0, 200.0}),
+                     simd, radius)
+{
+    const std::vector<Coord> voxels{Coord(-3, 120, 64), Coord(9, 117, 71), Coord(5, 125, 60), Coord(6, 124, 60)};
+    auto grid = MaskGrid::create();
+    for (const Coord& voxel : voxels) grid->tree().setValueOn(voxel);
+    const auto squared = static_cast<std::int64_t>(radius * radius);
+    const auto ball = gridOf(detail::dilateBySphere(grid->tree(), squared, {}, simd));
+    BOOST_TEST(holds(*ball, unionOfBalls(voxels, radius)));
+    // The closing of two voxels next to each other is these two; of all four it is what the plain code says.
+    const auto closed = gridOf(detail::erodeBySphere(ball->tree(), &grid->tree(), squared, {}, simd));
+    BOOST_TEST(isSubset(*grid, *closed));
+    BOOST_TEST(
+        sameTree(*closed, *gridOf(detail::erodeBySphere(ball->tree(), nullptr, squared, {}, detail::Simd::plain))));
+}
+
+BOOST_TEST_DECORATOR(*boost::unit_test::label("property"))
+BOOST_DATA_TEST_CASE(every_instruction_set_closes_blobs_by_definition,
+                     data::make(detail::supportedSimd()) * data::make({1.5, 4.0, 7.3, 11.0}), simd, radius)
+{
+    for (unsigned seed = 0; seed < 3; ++seed) {
+        const DenseSet set = randomBlobs(cubeAt(Coord(120, -134, 4), 15), seed);
+        const auto grid = toGrid(set);
+        const auto squared = static_cast<std::int64_t>(radius * radius);
+        const DenseSet dilated = dilatedByDefinition(set, radius, Element::sphere);
+        const auto fast = gridOf(detail::dilateBySphere(grid->tree(), squared, {}, simd));
+        BOOST_TEST(holds(*fast, dilated));
+        BOOST_TEST(holds(*gridOf(detail::erodeBySphere(fast->tree(), &grid->tree(), squared, {}, simd)),
+                         erodedByDefinition(dilated, radius, Element::sphere)));
+    }
+}
 
 BOOST_TEST_DECORATOR(*boost::unit_test::label("property"))
 BOOST_DATA_TEST_CASE(equals_the_definition, data::make(elements) * data::make(radii), element, radius)

@@ -12,6 +12,7 @@ int main(int argc, char** argv)
     using namespace vdbcage;
     try {
         if (argc > 1 && std::string(argv[1]) == "cage") return bench::runCage(argc, argv);
+        if (argc > 1 && std::string(argv[1]) == "closing") return bench::runClosing(argc, argv);
         return bench::runStages(argc, argv);
     } catch (const std::exception& error) {
         std::fprintf(stderr, "vdbcage-bench: error: %s\n", error.what());

@@ -49,7 +49,8 @@ int runStages(int argc, char** argv)
     std::vector<int> resolutions{32, 64, 128, 256, 512}, threads{1, 2};
     CageOptions options;
     CLI::App app("vdbcage-bench " VDBCAGE_VERSION ": stage times and peak memory of whole runs, as JSON lines.\n"
-                 "vdbcage-bench cage --help: tightness of cages beside plain decimation");
+                 "vdbcage-bench cage --help: tightness of cages beside plain decimation\n"
+                 "vdbcage-bench closing --help: dilation, erosion and closing beside alternatives");
     app.add_option("models", models, "models to measure on")->required()->type_name("MODEL...");
     app.add_option("--resolutions", resolutions, "list of resolutions [32,64,128,256,512]")
         ->delimiter(',')

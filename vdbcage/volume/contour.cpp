@@ -5,8 +5,8 @@
 
 #include <tbb/parallel_for.h>
 
-#include <vdbcage/volume/detail/contour_leaves.h>
 #include <vdbcage/core/detail/mask_grid.h>
+#include <vdbcage/volume/detail/contour_leaves.h>
 
 namespace vdbcage {
 
@@ -19,8 +19,8 @@ openvdb::MaskGrid::Ptr contour(const openvdb::MaskGrid& mask, Interrupter* inter
     tbb::parallel_for(std::size_t{0}, blocks.size(), [&](std::size_t i) {
         throwIfInterrupted(interrupter);
         BlockBuilder builder(blocks[i].origin);
-        for (const ContourLeaf& leaf : blocks[i].leaves) {
-            builder.set(static_cast<int>(MaskBlock::coordToOffset(leaf.origin)), leaf.words.data());
+        for (std::size_t n = 0; n < blocks[i].leaves.size(); ++n) {
+            builder.set(blocks[i].leaves[n].slot, blocks[i].words[n].data());
         }
         built[i] = builder.finish();
     });

@@ -5,9 +5,9 @@
 #include <sstream>
 #include <utility>
 
+#include <vdbcage/core/detail/mask_grid.h>
 #include <vdbcage/core/error.h>
 #include <vdbcage/volume/detail/cube_pass.h>
-#include <vdbcage/core/detail/mask_grid.h>
 #include <vdbcage/volume/detail/sphere_pass.h>
 
 namespace vdbcage {

@@ -83,9 +83,9 @@ bool contourWords(const PaddedSlots& slots, std::size_t i, std::uint64_t flip, W
     return any != 0;
 }
 
-ContourLeaf contourLeaf(const Coord& origin, const Words& words)
+ContourLeaf contourLeaf(int slot, const Words& words)
 {
-    ContourLeaf leaf{origin, words, bitBox(words.data()), {}};
+    ContourLeaf leaf{static_cast<std::uint16_t>(slot), bitBox(words.data()), {}};
     // The middle one of the non-empty words, and of its bits one next to the middle.
     std::array<int, 8> used{};
     std::size_t count = 0;
@@ -104,7 +104,7 @@ ContourBlock contourOfBlock(const MaskTree& tree, const Coord& origin, std::uint
 {
     constexpr int groupSlots = 4; // a group is 4^3 slots
     const PaddedSlots slots(tree, origin);
-    ContourBlock result{origin, {}, {}, {}};
+    ContourBlock result{origin, {}, {}, {}, {}};
     Words words;
     for (int group = 0; group < 64; ++group) {
         const Coord first(group / 16 * groupSlots, group / 4 % 4 * groupSlots, group % 4 * groupSlots);
@@ -112,9 +112,11 @@ ContourBlock contourOfBlock(const MaskTree& tree, const Coord& origin, std::uint
         for (int i = 0; i < 64; ++i) {
             const int n = slotIndex(first.x() + i / 16, first.y() + i / 4 % 4, first.z() + i % 4);
             if (!contourWords(slots, PaddedSlots::inner(n), flip, words)) continue;
-            const ContourLeaf& leaf = result.leaves.emplace_back(contourLeaf(origin + slotOffset(n), words));
-            found.box.expand(leaf.origin.offsetBy(leaf.box.lower[0], leaf.box.lower[1], leaf.box.lower[2]));
-            found.box.expand(leaf.origin.offsetBy(leaf.box.upper[0], leaf.box.upper[1], leaf.box.upper[2]));
+            const BitBox& box = result.leaves.emplace_back(contourLeaf(n, words)).box;
+            result.words.push_back(words);
+            const Coord corner = origin + slotOffset(n);
+            found.box.expand(corner.offsetBy(box.lower[0], box.lower[1], box.lower[2]));
+            found.box.expand(corner.offsetBy(box.upper[0], box.upper[1], box.upper[2]));
         }
         found.end = result.leaves.size();
         if (found.end == found.begin) continue;
@@ -122,6 +124,7 @@ ContourBlock contourOfBlock(const MaskTree& tree, const Coord& origin, std::uint
         result.box.expand(found.box);
     }
     result.leaves.shrink_to_fit();
+    result.words.shrink_to_fit();
     return result;
 }
 

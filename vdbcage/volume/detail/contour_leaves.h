@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include <vdbcage/volume/detail/mask_blocks.h>
@@ -8,11 +9,10 @@
 
 namespace vdbcage::detail {
 
-/// The contour voxels of one slot.
+/// Where the contour voxels of one slot are, roughly.
 struct ContourLeaf {
-    Coord origin;
-    Words words;
-    BitBox box;                        ///< of the set bits
+    std::uint16_t slot;                ///< of the block
+    BitBox box;                        ///< of the voxels, in the slot
     std::array<std::int8_t, 3> sample; ///< one of the voxels, near the middle of them
 };
 
@@ -26,6 +26,7 @@ struct ContourBlock {
     Coord origin;
     openvdb::CoordBBox box; ///< of the voxels
     std::vector<ContourLeaf> leaves;
+    std::vector<Words> words; ///< the voxels of each leaf
     std::vector<ContourGroup> groups;
 };
 

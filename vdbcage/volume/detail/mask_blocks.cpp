@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 #include <sstream>
 
 #include <vdbcage/core/error.h>
@@ -38,11 +39,6 @@ bool isUniformlyFull(const MaskBlock& node)
     return true;
 }
 
-bool isFullRegion(const MaskTree& tree, const Coord& origin)
-{
-    return tree.getValueDepth(origin) == 0 && tree.isValueOn(origin);
-}
-
 // The blocks along the face of a region on one side of one axis.
 template <class Visit>
 void forEachFaceBlock(const Coord& region, int axis, bool upper, const Visit& visit)
@@ -71,18 +67,28 @@ std::vector<Coord> shellBlocks(const MaskTree& tree)
     std::vector<Coord> blocks;
     forEachNode(tree, [&](const MaskBlock& node) { blocks.push_back(node.origin()); });
     forEachFullBlockTile(tree, [&](const Coord& origin) { blocks.push_back(origin); });
-    for (auto tile = tree.root().cbeginValueOn(); tile; ++tile) {
+    std::vector<Coord> regions;
+    for (auto tile = tree.root().cbeginValueOn(); tile; ++tile) regions.push_back(tile.getCoord());
+    for (const Coord& block : facesOfRegions(regions)) blocks.push_back(block);
+    std::sort(blocks.begin(), blocks.end());
+    blocks.erase(std::unique(blocks.begin(), blocks.end()), blocks.end());
+    return blocks;
+}
+
+std::vector<Coord> facesOfRegions(const std::vector<Coord>& regions)
+{
+    const std::set<Coord> all(regions.begin(), regions.end());
+    std::vector<Coord> blocks;
+    for (const Coord& region : regions) {
         for (int axis = 0; axis < 3; ++axis) {
             for (const bool upper : {false, true}) {
-                Coord neighbour = tile.getCoord();
+                Coord neighbour = region;
                 neighbour[axis] += upper ? regionSize : -regionSize;
-                if (isFullRegion(tree, neighbour)) continue;
-                forEachFaceBlock(tile.getCoord(), axis, upper, [&](const Coord& c) { blocks.push_back(c); });
+                if (all.count(neighbour) > 0) continue;
+                forEachFaceBlock(region, axis, upper, [&](const Coord& c) { blocks.push_back(c); });
             }
         }
     }
-    std::sort(blocks.begin(), blocks.end());
-    blocks.erase(std::unique(blocks.begin(), blocks.end()), blocks.end());
     return blocks;
 }
 
@@ -99,6 +105,7 @@ FullParts fullParts(const MaskTree& tree)
 
 void BlockBuilder::set(int n, const std::uint64_t* words)
 {
+    if (words == emptyWords.data()) return;
     std::uint64_t any = 0, all = ~0ULL;
     for (int x = 0; x < leafSize; ++x) {
         any |= words[x];

@@ -72,6 +72,20 @@ Block blockAt(const MaskTree& tree, const Coord& origin);
 /// those at the faces where its neighbour is not a full region.
 std::vector<Coord> shellBlocks(const MaskTree& tree);
 
+/// The blocks along those faces of full regions where the neighbour is not among them; some maybe twice.
+std::vector<Coord> facesOfRegions(const std::vector<Coord>& regions);
+
+/// Calls visit(origin) for each block of a region.
+template <class Visit>
+void forEachBlock(const Coord& region, const Visit& visit)
+{
+    for (int x = 0; x < regionSize; x += blockSize) {
+        for (int y = 0; y < regionSize; y += blockSize) {
+            for (int z = 0; z < regionSize; z += blockSize) visit(region.offsetBy(x, y, z));
+        }
+    }
+}
+
 /// Where a tree is full without a leaf or slot tile saying so.
 struct FullParts {
     std::vector<Coord> regions;

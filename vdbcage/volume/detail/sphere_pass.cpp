@@ -1,8 +1,7 @@
 // Based on: the node-wise overlap tests of Calderon and Boubekeur, Bounding Proxies for Shape Approximation, 2017.
 // Differs: exact integer distances to the contour voxels alone (for a point outside a set some nearest voxel of it has
-// a face neighbour outside); the tree's nodes are asked as wholes (128^3, 32^3, 16^3, 8^3), each with the contour
-// leaves that reach it, and only slots that are neither all in nor all out compute distances, axis by axis as in
-// Saito and Toriwaki, New Algorithms for Euclidean Distance Transformation, 1994.
+// a face neighbour outside); the tree's nodes are asked as wholes (128^3, 32^3, 8^3), each with the contour leaves that
+// reach it, and only slots that are neither all in nor all out look at voxels (see sphere_reach.h).
 #include <vdbcage/volume/detail/sphere_pass.h>
 
 #include <algorithm>
@@ -14,7 +13,7 @@
 #include <tbb/parallel_for.h>
 
 #include <vdbcage/volume/detail/contour_leaves.h>
-#include <vdbcage/volume/detail/leaf_distance.h>
+#include <vdbcage/volume/detail/sphere_reach.h>
 
 namespace vdbcage::detail {
 
@@ -32,87 +31,24 @@ std::int64_t squaredGap(const CoordBBox& a, const CoordBBox& b)
     return sum;
 }
 
-CoordBBox worldBox(const Coord& origin, const BitBox& box)
-{
-    return {origin.offsetBy(box.lower[0], box.lower[1], box.lower[2]),
-            origin.offsetBy(box.upper[0], box.upper[1], box.upper[2])};
-}
-
-// Contour leaves as arrays by coordinate, relative to a 32^3 part of a block, so that the distance tests run in wide
-// vectors. T is int16_t where the radius lets it.
-template <class T>
-struct Candidates {
-    std::array<std::vector<T>, 3> lower, upper, sample;
-    std::vector<const ContourLeaf*> leaves;
-
-    void clear()
-    {
-        for (auto* arrays : {&lower, &upper, &sample}) {
-            for (auto& array : *arrays) array.clear();
-        }
-        leaves.clear();
-    }
-    void add(const ContourLeaf& leaf, const Coord& base)
-    {
-        const Coord offset = leaf.origin - base;
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            const int o = offset[static_cast<int>(axis)];
-            lower[axis].push_back(static_cast<T>(o + leaf.box.lower[axis]));
-            upper[axis].push_back(static_cast<T>(o + leaf.box.upper[axis]));
-            sample[axis].push_back(static_cast<T>(o + leaf.sample[axis]));
-        }
-        leaves.push_back(&leaf);
-    }
-    void add(const Candidates& other, std::size_t i)
-    {
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            lower[axis].push_back(other.lower[axis][i]);
-            upper[axis].push_back(other.upper[axis][i]);
-            sample[axis].push_back(other.sample[axis][i]);
-        }
-        leaves.push_back(other.leaves[i]);
-    }
-};
-
-// Adds to `nearest` and `farthest` the squared distances along one axis: from the target's interval to the boxes, and
-// from the samples to the far end of the interval. Distances are cut at `cap`, which is above the radius.
-template <class T>
-void addAxis(std::size_t count, const T* __restrict lower, const T* __restrict upper, const T* __restrict sample,
-             T targetLower, T targetUpper, T cap, T* __restrict nearest, T* __restrict farthest)
-{
-    for (std::size_t i = 0; i < count; ++i) {
-        const T below = static_cast<T>(lower[i] - targetUpper), above = static_cast<T>(targetLower - upper[i]);
-        T gap = below > above ? below : above;
-        gap = gap > T(0) ? gap : T(0);
-        gap = gap < cap ? gap : cap;
-        const T toLower = static_cast<T>(sample[i] - targetLower), toUpper = static_cast<T>(targetUpper - sample[i]);
-        T far = toLower > toUpper ? toLower : toUpper;
-        far = far < cap ? far : cap;
-        nearest[i] = static_cast<T>(nearest[i] + static_cast<T>(gap * gap));
-        farthest[i] = static_cast<T>(farthest[i] + static_cast<T>(far * far));
-    }
-}
-
-// What one thread needs while it works on a 32^3 part of a block.
-template <class T>
+// What one thread needs while it works on a part of a block.
 struct WorkSpace {
-    explicit WorkSpace(std::int64_t squaredRadius) : distance(squaredRadius) {}
-
-    LeafDistance<T> distance;
-    std::array<Candidates<T>, 3> candidates; // the leaves near the 32^3, those that reach it, those that reach the 16^3
-    std::vector<T> nearest, farthest;
+    std::vector<NearLeaf> near;
+    std::vector<std::uint64_t> reached; // by leaf: slots of the part
+    // For each slot of the part the leaves that reach it: below from the front, above from the back, then those beside.
+    std::vector<std::uint16_t> lists;
+    std::array<std::array<std::size_t, 3>, 64> counts; // below, beside, above
+    SphereReach::Fronts fronts;
     std::array<Words, 64> open; // by slot of the part: the voxels that the pass may change
-    std::array<CoordBBox, 64> openBox;
-    std::size_t tests = 0; // candidates tested since the interrupter was last asked
 };
 
-template <class T>
 class SpherePass {
 public:
     SpherePass(const MaskTree& base, const MaskTree* keep, ContourOf side, std::int64_t squaredRadius,
-               const std::vector<ContourBlock>& contour, const Progress& progress)
+               const std::vector<ContourBlock>& contour, Simd simd, const Progress& progress)
         : base_(base), keep_(keep), side_(side), squaredRadius_(squaredRadius), contour_(contour), progress_(progress),
-          reach_(static_cast<int>(std::ceil(std::sqrt(static_cast<double>(squaredRadius))))), workSpaces_(squaredRadius)
+          reach_(static_cast<int>(std::ceil(std::sqrt(static_cast<double>(squaredRadius))))),
+          sphere_(squaredRadius, simd)
     {
     }
 
@@ -190,25 +126,46 @@ private:
         }
     }
 
-    void buildPart(const Target& target, int part, WorkSpace<T>& work, BlockBuilder& builder) const
+    void buildPart(const Target& target, int part, WorkSpace& work, BlockBuilder& builder) const
     {
         const Coord firstSlot(part / 16 * partSlots, part / 4 % 4 * partSlots, part % 4 * partSlots);
-        findOpenVoxels(target, firstSlot, work);
-        const Coord corner = target.origin + slotOffset(slotIndex(firstSlot.x(), firstSlot.y(), firstSlot.z()));
-        const CoordBBox box = CoordBBox::createCube(corner, partSlots * leafSize);
-        Candidates<T>& near = work.candidates[0];
-        near.clear();
-        for (const auto& [block, group] : target.groups) {
-            if (squaredGap(group->box, box) > squaredRadius_) continue;
-            for (std::size_t i = group->begin; i < group->end; ++i) near.add(block->leaves[i], corner);
+        std::uint64_t open = findOpenVoxels(target, firstSlot, work);
+        std::uint64_t covered = 0;
+        if (open != 0) {
+            gatherLeaves(target, firstSlot, work);
+            covered = open & sphere_.coveredSlots(work.near.data(), work.near.size(), open);
+            open &= ~covered;
         }
-        descend({target, firstSlot, corner, work, builder}, Coord(0), partSlots, 0);
+        if (open != 0) open &= listLeaves(open, work);
+        for (int i = 0; i < 64; ++i) {
+            const auto slot = static_cast<std::size_t>(i);
+            const int n = slotOfBlock(firstSlot, i);
+            const std::uint64_t* const base = target.base.slot(n);
+            // The open voxels within reach change sides.
+            if ((covered >> i & 1) != 0) {
+                setChanged(builder, n, base, work.open[slot]);
+            } else if ((open >> i & 1) != 0) {
+                setChanged(builder, n, base,
+                           sphere_.within(work.open[slot], i, work.near.data(), listsOf(slot, work), work.fronts));
+            } else {
+                builder.set(n, base);
+            }
+        }
     }
 
-    void findOpenVoxels(const Target& target, const Coord& firstSlot, WorkSpace<T>& work) const
+    static void setChanged(BlockBuilder& builder, int n, const std::uint64_t* base, const Words& change)
     {
+        Words words;
+        for (std::size_t x = 0; x < 8; ++x) words[x] = base[x] ^ change[x];
+        builder.set(n, words.data());
+    }
+
+    // Tells which slots of the part have open voxels.
+    std::uint64_t findOpenVoxels(const Target& target, const Coord& firstSlot, WorkSpace& work) const
+    {
+        std::uint64_t found = 0;
         for (int i = 0; i < 64; ++i) {
-            const int n = slotIndex(firstSlot.x() + i / 16, firstSlot.y() + i / 4 % 4, firstSlot.z() + i % 4);
+            const int n = slotOfBlock(firstSlot, i);
             const std::uint64_t* const base = target.base.slot(n);
             const std::uint64_t* const keep = target.keep.slot(n);
             Words& open = work.open[static_cast<std::size_t>(i)];
@@ -217,108 +174,83 @@ private:
                 open[x] = side_ == ContourOf::mask ? ~base[x] : base[x] & ~keep[x];
                 any |= open[x];
             }
-            CoordBBox& box = work.openBox[static_cast<std::size_t>(i)];
-            box.reset();
-            if (any != 0) box = worldBox(target.origin + slotOffset(n), bitBox(open.data()));
+            found |= std::uint64_t{any != 0} << i;
         }
+        return found;
     }
 
-    // The part that is being built, in the hands of one thread.
-    struct Part {
-        const Target& target;
-        Coord firstSlot, corner;
-        WorkSpace<T>& work;
-        BlockBuilder& builder;
-    };
-
-    // Settles a cube of `slots`^3 slots that starts at slot `first` of the part, given that all leaves that can reach
-    // it are among the candidates of `level`.
-    void descend(const Part& part, const Coord& first, int slots, std::size_t level) const
+    void gatherLeaves(const Target& target, const Coord& firstSlot, WorkSpace& work) const
     {
-        WorkSpace<T>& work = part.work;
-        CoordBBox box; // of the open voxels
-        forEachSlot(first, slots, [&](int i) { box.expand(work.openBox[static_cast<std::size_t>(i)]); });
-        const Candidates<T>& candidates = work.candidates[level];
-        if (box.empty() || candidates.leaves.empty()) return settle(part, first, slots, false);
-        if (testDistances(part, box, candidates)) return settle(part, first, slots, true);
-        const T limit = static_cast<T>(squaredRadius_);
-        if (slots == 1) {
-            const int i = slotOfPart(first);
-            const Coord origin = part.corner + Coord(first.x() * 8, first.y() * 8, first.z() * 8);
-            const Words& open = work.open[static_cast<std::size_t>(i)];
-            work.distance.start(origin, bitBox(open.data()));
-            for (std::size_t c = 0; c < candidates.leaves.size(); ++c) {
-                if (work.nearest[c] <= limit) work.distance.add(*candidates.leaves[c]);
-            }
-            setSlot(part, i, work.distance.within(open));
-            return;
-        }
-        Candidates<T>& reaching = work.candidates[level + 1];
-        reaching.clear();
-        for (std::size_t c = 0; c < candidates.leaves.size(); ++c) {
-            if (work.nearest[c] <= limit) reaching.add(candidates, c);
-        }
-        const int half = slots / 2;
-        for (int child = 0; child < 8; ++child) {
-            descend(part, first + Coord(child / 4 * half, child / 2 % 2 * half, child % 2 * half), half,
-                    std::min<std::size_t>(level + 1, 2));
-        }
-    }
-
-    // Fills work.nearest, and tells whether one known contour voxel has the whole box in its reach.
-    bool testDistances(const Part& part, const CoordBBox& box, const Candidates<T>& candidates) const
-    {
-        WorkSpace<T>& work = part.work;
-        const std::size_t count = candidates.leaves.size();
-        work.tests += count;
-        if (work.tests > testsPerCheck) {
-            work.tests = 0;
-            throwIfInterrupted(progress_.interrupter);
-        }
-        work.nearest.assign(count, 0);
-        work.farthest.assign(count, 0);
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            const int a = static_cast<int>(axis);
-            addAxis(count, candidates.lower[axis].data(), candidates.upper[axis].data(), candidates.sample[axis].data(),
-                    static_cast<T>(box.min()[a] - part.corner[a]), static_cast<T>(box.max()[a] - part.corner[a]),
-                    static_cast<T>(reach_ + 1), work.nearest.data(), work.farthest.data());
-        }
-        return *std::min_element(work.farthest.begin(), work.farthest.end()) <= static_cast<T>(squaredRadius_);
-    }
-
-    // All open voxels of these slots are within reach, or none.
-    void settle(const Part& part, const Coord& first, int slots, bool within) const
-    {
-        forEachSlot(first, slots, [&](int i) {
-            setSlot(part, i, within ? part.work.open[static_cast<std::size_t>(i)] : emptyWords);
-        });
-    }
-
-    // `near`: the open voxels within reach of the contour. They change sides.
-    void setSlot(const Part& part, int i, const Words& near) const
-    {
-        const int n =
-            slotIndex(part.firstSlot.x() + i / 16, part.firstSlot.y() + i / 4 % 4, part.firstSlot.z() + i % 4);
-        const std::uint64_t* const base = part.target.base.slot(n);
-        Words result;
-        for (std::size_t x = 0; x < 8; ++x) result[x] = base[x] ^ near[x];
-        part.builder.set(n, result.data());
-    }
-
-    static int slotOfPart(const Coord& slot) { return slot.x() * 16 + slot.y() * 4 + slot.z(); }
-
-    template <class Visit>
-    static void forEachSlot(const Coord& first, int slots, const Visit& visit)
-    {
-        for (int x = 0; x < slots; ++x) {
-            for (int y = 0; y < slots; ++y) {
-                for (int z = 0; z < slots; ++z) visit(slotOfPart(first.offsetBy(x, y, z)));
+        const Coord corner = target.origin + slotOffset(slotIndex(firstSlot.x(), firstSlot.y(), firstSlot.z()));
+        const CoordBBox box = CoordBBox::createCube(corner, partSlots * leafSize);
+        work.near.clear();
+        for (const auto& [block, group] : target.groups) {
+            if (squaredGap(group->box, box) > squaredRadius_) continue;
+            const Coord voxels = block->origin - corner,
+                        offset(voxels.x() >> 3, voxels.y() >> 3, voxels.z() >> 3); // in slots
+            for (std::size_t i = group->begin; i < group->end; ++i) {
+                const ContourLeaf& leaf = block->leaves[i];
+                NearLeaf& near = work.near.emplace_back();
+                near.words = &block->words[i];
+                near.x = static_cast<std::int16_t>(offset.x() + (leaf.slot >> 8));
+                near.y = static_cast<std::int16_t>(offset.y() + (leaf.slot >> 4 & 15));
+                near.z = static_cast<std::int16_t>(offset.z() + (leaf.slot & 15));
+                near.box = leaf.box;
+                near.sample = leaf.sample;
             }
         }
     }
 
-    static constexpr int partSlots = 4;                 // along an axis
-    static constexpr std::size_t testsPerCheck = 20000; // a millisecond or so
+    // Tells which of the open slots a leaf may reach.
+    std::uint64_t listLeaves(std::uint64_t open, WorkSpace& work) const
+    {
+        std::uint64_t any = 0;
+        const std::size_t size = work.near.size();
+        for (auto& counts : work.counts) counts.fill(0);
+        work.lists.resize(128 * size);
+        work.reached.resize(size);
+        sphere_.reachedSlots(work.near.data(), size, work.reached.data());
+        SphereReach::start(work.fronts, size);
+        for (std::size_t i = 0; i < size; ++i) {
+            const std::uint64_t reached = work.reached[i] & open;
+            if (reached == 0) continue;
+            any |= reached;
+            const int z = work.near[i].z;
+            constexpr std::uint64_t column = 0x1111111111111111ULL; // the slots of the part with z = 0
+            std::uint64_t below = 0, beside = 0;
+            for (int k = 0; k < partSlots; ++k) {
+                if (z < k) below |= column << k;
+                if (z == k) beside |= column << k;
+            }
+            const auto list = [&](std::uint64_t slots, std::size_t side) {
+                for (; slots != 0; slots &= slots - 1) {
+                    const auto slot = static_cast<std::size_t>(__builtin_ctzll(slots));
+                    const std::size_t n = work.counts[slot][side]++;
+                    const std::size_t place = side == 0 ? n : side == 1 ? size + n : size - 1 - n;
+                    work.lists[slot * 2 * size + place] = static_cast<std::uint16_t>(i);
+                }
+            };
+            list(reached & below, 0);
+            list(reached & beside, 1);
+            list(reached & ~(below | beside), 2);
+        }
+        return any;
+    }
+
+    static SphereReach::Lists listsOf(std::size_t slot, const WorkSpace& work)
+    {
+        const std::size_t size = work.near.size();
+        const std::uint16_t* const first = work.lists.data() + slot * 2 * size;
+        const auto& counts = work.counts[slot];
+        return {{first, first + size, first + size - counts[2]}, {counts[0], counts[1], counts[2]}};
+    }
+
+    static int slotOfBlock(const Coord& firstSlot, int i)
+    {
+        return slotIndex(firstSlot.x() + i / 16, firstSlot.y() + i / 4 % 4, firstSlot.z() + i % 4);
+    }
+
+    static constexpr int partSlots = 4; // along an axis
 
     const MaskTree& base_;
     const MaskTree* keep_;
@@ -327,32 +259,30 @@ private:
     const std::vector<ContourBlock>& contour_;
     Progress progress_;
     int reach_; // the radius, rounded up
-    tbb::enumerable_thread_specific<WorkSpace<T>> workSpaces_;
+    SphereReach sphere_;
+    tbb::enumerable_thread_specific<WorkSpace> workSpaces_;
     std::atomic<std::size_t> partsDone_{0};
 };
 
-MaskTree::Ptr runPass(const MaskTree& base, const MaskTree* keep, ContourOf side, std::int64_t squaredRadius,
+MaskTree::Ptr runPass(const MaskTree& base, const MaskTree* keep, ContourOf side, std::int64_t squaredRadius, Simd simd,
                       const Progress& progress)
 {
     const std::vector<ContourBlock> contour = contourBlocks(base, side, progress.part(0, 8));
     const Progress rest{progress.interrupter, progress.part(0, 8).to, progress.to};
-    if (squaredRadius <= std::int64_t{smallRadius} * smallRadius) {
-        return SpherePass<std::int16_t>(base, keep, side, squaredRadius, contour, rest).run();
-    }
-    return SpherePass<std::int32_t>(base, keep, side, squaredRadius, contour, rest).run();
+    return SpherePass(base, keep, side, squaredRadius, contour, simd, rest).run();
 }
 
 } // namespace
 
-MaskTree::Ptr dilateBySphere(const MaskTree& mask, std::int64_t squaredRadius, const Progress& progress)
+MaskTree::Ptr dilateBySphere(const MaskTree& mask, std::int64_t squaredRadius, const Progress& progress, Simd simd)
 {
-    return runPass(mask, nullptr, ContourOf::mask, squaredRadius, progress);
+    return runPass(mask, nullptr, ContourOf::mask, squaredRadius, simd, progress);
 }
 
 MaskTree::Ptr erodeBySphere(const MaskTree& mask, const MaskTree* keep, std::int64_t squaredRadius,
-                            const Progress& progress)
+                            const Progress& progress, Simd simd)
 {
-    return runPass(mask, keep, ContourOf::complement, squaredRadius, progress);
+    return runPass(mask, keep, ContourOf::complement, squaredRadius, simd, progress);
 }
 
 } // namespace vdbcage::detail

@@ -4,15 +4,17 @@
 
 #include <vdbcage/volume/detail/mask_blocks.h>
 #include <vdbcage/volume/detail/progress.h>
+#include <vdbcage/volume/detail/simd.h>
 
 namespace vdbcage::detail {
 
 /// The voxels p with a voxel q of `mask` such that |p - q|^2 <= squaredRadius.
-MaskTree::Ptr dilateBySphere(const MaskTree& mask, std::int64_t squaredRadius, const Progress& progress);
+MaskTree::Ptr dilateBySphere(const MaskTree& mask, std::int64_t squaredRadius, const Progress& progress,
+                             Simd simd = bestSimd());
 
 /// The voxels p such that every q with |p - q|^2 <= squaredRadius is in `mask`. `keep`, if not null, are voxels known
 /// to be in the result: no work is done on them.
 MaskTree::Ptr erodeBySphere(const MaskTree& mask, const MaskTree* keep, std::int64_t squaredRadius,
-                            const Progress& progress);
+                            const Progress& progress, Simd simd = bestSimd());
 
 } // namespace vdbcage::detail

@@ -1,0 +1,151 @@
+// vdbcage-bench closing: what dilating, eroding and closing a model's voxels cost, beside what a user would do
+// otherwise.
+
+#include <algorithm>
+#include <fstream>
+#include <iostream>
+
+#include <malloc.h>
+
+#include <tbb/global_control.h>
+#include <tbb/info.h>
+#include <vdbcage/core/error.h>
+#include <vdbcage/mesh/mesh_io.h>
+#include <vdbcage/voxelize/voxelize.h>
+
+#include "bench.h"
+#include "rivals.h"
+
+namespace vdbcage::bench {
+
+namespace {
+
+using openvdb::MaskGrid;
+using openvdb::MaskTree;
+
+struct Cost {
+    double cpuSeconds = 0, wallSeconds = 0;
+};
+
+/// The least of several runs of `work`: times are only ever longer for what others do on the machine.
+template <class Work>
+Cost cost(int runs, const Work& work)
+{
+    Cost least;
+    for (int i = 0; i < runs; ++i) {
+        const auto began = std::chrono::steady_clock::now();
+        const std::clock_t cpuBegan = std::clock();
+        work();
+        const double cpu = static_cast<double>(std::clock() - cpuBegan) / CLOCKS_PER_SEC;
+        const double wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+        least.cpuSeconds = i == 0 ? cpu : std::min(least.cpuSeconds, cpu);
+        least.wallSeconds = i == 0 ? wall : std::min(least.wallSeconds, wall);
+    }
+    return least;
+}
+
+Json toJson(const Cost& cost)
+{
+    return {{"cpu_seconds", cost.cpuSeconds}, {"wall_seconds", cost.wallSeconds}};
+}
+
+/// A line of /proc/self/status in MiB, as VmHWM.
+double processMemory(const std::string& name)
+{
+    std::ifstream status("/proc/self/status");
+    for (std::string word; status >> word;) {
+        double kib = 0;
+        if (word == name + ":" && status >> kib) return kib / 1024;
+    }
+    return 0;
+}
+
+/// How much memory in MiB `work` takes at its peak, more than there was; pages the process had but did not use are
+/// given back first.
+template <class Work>
+double memoryPeak(const Work& work)
+{
+    ::malloc_trim(0);
+    std::ofstream("/proc/self/clear_refs") << 5; // VmHWM starts anew
+    const double before = processMemory("VmRSS");
+    work();
+    return processMemory("VmHWM") - before;
+}
+
+double mebibytes(const MaskTree& tree)
+{
+    return static_cast<double>(tree.memUsage()) / (1 << 20);
+}
+
+Json measure(const std::string& model, int resolution, int radius, Element element, int runs, bool compare)
+{
+    VoxelizeOptions voxels;
+    voxels.resolution = resolution;
+    const auto solid = voxelize(readMesh(model), voxels);
+    const double r = radius;
+    MaskGrid::Ptr dilated, closed;
+    const double memory = memoryPeak([&] { closed = closeMask(*solid, {r, r, element}); });
+    dilated = dilate(*solid, r, element);
+    Json line{{"model", model},
+              {"resolution", resolution},
+              {"radius_voxels", radius},
+              {"element", element == Element::sphere ? "sphere" : "cube"},
+              {"threads", tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism)},
+              {"solid_voxels", solid->activeVoxelCount()},
+              {"closed_voxels", closed->activeVoxelCount()},
+              {"dilation", toJson(cost(runs, [&] { dilate(*solid, r, element); }))},
+              {"erosion", toJson(cost(runs, [&] { erode(*dilated, r, element); }))}};
+    const Cost ours = cost(runs, [&] { closeMask(*solid, {r, r, element}); });
+    line["closing"] = toJson(ours);
+    line["closing"]["memory_peak_mib"] = memory;
+    line["closing"]["memory_peak_beyond_trees_mib"] = memory - mebibytes(dilated->tree()) - mebibytes(closed->tree());
+    if (!compare) return line;
+    dilated.reset();
+    MaskTree::Ptr other;
+    Cost theirs;
+    const double theirMemory = memoryPeak([&] {
+        theirs = cost(1, [&] {
+            other = element == Element::sphere ? closeByDenseDistances(solid->tree(), radius)
+                                               : closeByRepetition(solid->tree(), radius);
+        });
+    });
+    MaskTree difference(*other);
+    difference.topologyDifference(closed->tree());
+    line["alternative"] = toJson(theirs);
+    line["alternative"].update({{"memory_peak_mib", theirMemory},
+                                {"same_voxels", other->activeVoxelCount() == closed->activeVoxelCount() &&
+                                                    difference.activeVoxelCount() == 0}});
+    line["times_faster"] = theirs.cpuSeconds / ours.cpuSeconds;
+    return line;
+}
+
+} // namespace
+
+int runClosing(int argc, char** argv)
+{
+    std::string model, elementName = "sphere";
+    int resolution = 256, radius = 0, threads = tbb::info::default_concurrency(), runs = 3;
+    bool alone = false;
+    CLI::App app("vdbcage-bench closing: time and memory of dilating, eroding and closing a model's voxels, least of\n"
+                 "several runs, beside an alternative: for the sphere two exact distance transforms of the dense box,\n"
+                 "for the cube OpenVDB's dilateActiveValues and erodeActiveValues. A JSON line");
+    app.add_option("--model", model, "the model to voxelize")->required()->type_name("MODEL");
+    app.add_option("--resolution", resolution, "voxels along the longest side [256]")->type_name("N");
+    app.add_option("--radius", radius, "in whole voxels [resolution / 16]")->type_name("K");
+    app.add_option("--element", elementName, "[sphere]")->type_name("sphere|cube");
+    app.add_option("--threads", threads, "[all]")->type_name("N");
+    app.add_option("--runs", runs, "how many to take the least of [3]")->type_name("N");
+    app.add_flag("--alone", alone, "without the alternative");
+    CLI11_PARSE(app, argc - 1, argv + 1);
+    if (app.count("--radius") == 0) radius = resolution / 16;
+    requirePositive("--resolution", resolution);
+    requirePositive("--threads", threads);
+    requirePositive("--runs", runs);
+    CageOptions options;
+    setOption(options, "element", elementName);
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
+    std::cout << measure(model, resolution, radius, options.element, runs, !alone).dump() << std::endl;
+    return 0;
+}
+
+} // namespace vdbcage::bench

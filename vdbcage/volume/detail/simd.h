@@ -1,0 +1,33 @@
+#pragma once
+
+#include <vector>
+
+/// Kernels that are compiled for several instruction sets, of which one is chosen at run time. A kernel is an inline
+/// template over the width of the vectors (GNU vector types: any machine), and a few functions with the attributes
+/// below that instantiate it.
+namespace vdbcage::detail {
+
+enum class Simd {
+    plain, ///< what every machine of the architecture has
+    avx2,
+    avx512 ///< F, BW, DQ and VL, as x86-64-v4
+};
+
+/// Those that this build and machine have, plain first, best last.
+const std::vector<Simd>& supportedSimd();
+inline Simd bestSimd()
+{
+    return supportedSimd().back();
+}
+
+#if defined(__x86_64__)
+#define VDBCAGE_WITH_AVX 1
+#define VDBCAGE_TARGET_AVX2 __attribute__((target("avx2,bmi,bmi2")))
+#define VDBCAGE_TARGET_AVX512 __attribute__((target("avx512f,avx512bw,avx512dq,avx512vl,avx2,bmi,bmi2")))
+#else
+#define VDBCAGE_WITH_AVX 0
+#endif
+/// A function without a target of its own that takes on that of the kernel it is called in.
+#define VDBCAGE_INLINE inline __attribute__((always_inline))
+
+} // namespace vdbcage::detail

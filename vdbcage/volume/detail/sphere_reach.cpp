@@ -1,0 +1,641 @@
+#include <vdbcage/volume/detail/sphere_reach.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+#if defined(__x86_64__)
+#include <emmintrin.h>
+#endif
+
+#include <vdbcage/volume/detail/word_bits.h>
+
+namespace vdbcage::detail {
+
+namespace {
+
+constexpr int lanes = 64;        // the columns of a slot: column (x, y) is lane 8 y + x
+constexpr int smallRadius = 120; // largest radius, rounded up, for which heights fit bytes
+
+// Heights are kept above `none`, which stands for no voxel at all, so that differences of bytes stay above 0.
+template <class T>
+constexpr T none = 0;
+template <>
+constexpr std::uint8_t none<std::uint8_t> = 128;
+
+std::int64_t square(std::int64_t v)
+{
+    return v * v;
+}
+
+// Of a column at an offset (dx, dy): how many voxels at z = 0, 1, ... are within reach of a contour voxel at z = 0.
+int heightAt(int dx, int dy, std::int64_t squaredRadius)
+{
+    const std::int64_t rest = squaredRadius - square(dx) - square(dy);
+    if (rest < 0) return 0;
+    auto height = static_cast<std::int64_t>(std::sqrt(static_cast<double>(rest)));
+    while (height * height > rest) --height;
+    while (square(height + 1) <= rest) ++height;
+    return static_cast<int>(height) + 1;
+}
+
+int gap(int position, int lower, int upper)
+{
+    return std::max({lower - position, position - upper, 0});
+}
+
+} // namespace
+
+struct SphereReach::Tables {
+    explicit Tables(std::int64_t squared)
+        : squaredRadius(squared), reach(static_cast<int>(std::ceil(std::sqrt(static_cast<double>(squared))))),
+          isSmall(reach <= smallRadius), slotReach((reach + 7) / 8 + 1), rowReach(8 * slotReach + 7),
+          coordinates(2 * margin() + 32)
+    {
+        while ((squaredRadius >> shift) > std::numeric_limits<std::int16_t>::max() / 3 - 1) ++shift;
+        limit = static_cast<std::int16_t>(squaredRadius >> shift);
+        isSmall ? fillHeights(smallRows, smallSlots) : fillHeights(largeRows, largeSlots);
+        fillSquares();
+    }
+
+    // Height above a contour voxel at (-dx, -dy) seen from column (x, y) of a slot: [rowPlace(dx, dy) + lane].
+    template <class T>
+    const T* rows() const
+    {
+        if constexpr (sizeof(T) == 1)
+            return smallRows.data();
+        else
+            return largeRows.data();
+    }
+    int rowStride() const { return (2 * rowReach + 8) * 8; } // to the next dx; the next dy is 8 away
+    int rowPlace(int dx, int dy) const { return (dx + rowReach) * rowStride() + (dy + rowReach) * 8; }
+    // The same for contour voxels anywhere in the columns of a slot at the offset (-dx, -dy), in slots.
+    template <class T>
+    const T* slots() const
+    {
+        if constexpr (sizeof(T) == 1)
+            return smallSlots.data();
+        else
+            return largeSlots.data();
+    }
+    int slotStride() const { return (2 * slotReach + 1) * lanes; } // to the next dx; the next dy is 64 away
+    int slotPlace(int dx, int dy) const { return (dx + slotReach) * slotStride() + (dy + slotReach) * lanes; }
+
+    std::int64_t squaredRadius;
+    int reach; // the radius, rounded up
+    bool isSmall;
+    int slotReach, rowReach; // largest offsets that are asked for, in slots and voxels
+    int coordinates;
+
+    // Squared distances along one axis, by a voxel's coordinate in the part, to its four slots: divided by 2^shift,
+    // rounded down (near) or up (far), and cut just above the limit.
+    struct Squares {
+        std::array<std::int16_t, 4> below, above; // to the near end, of a slot that is below or above it, else 0
+        std::array<std::int16_t, 4> far;          // to the far end
+    };
+    const Squares& squares(int coordinate) const { return squares_[static_cast<std::size_t>(coordinate + margin())]; }
+    struct WideSquares { // each four times
+        std::array<std::int16_t, 16> below, above, far;
+    };
+    const WideSquares& wideSquares(int coordinate) const
+    {
+        return wideSquares_[static_cast<std::size_t>(coordinate + margin())];
+    }
+    std::int16_t limit = 0;
+
+private:
+    int margin() const { return reach + 40; }
+    template <class T>
+    void fillHeights(std::vector<T>& rows, std::vector<T>& slots)
+    {
+        // One quarter of the disc; the rest is its mirror image.
+        const int size = rowReach + 8;
+        std::vector<T> heights(static_cast<std::size_t>(size * size));
+        for (int dx = 0; dx < size; ++dx) {
+            for (int dy = 0; dy < size; ++dy) {
+                heights[static_cast<std::size_t>(dx * size + dy)] =
+                    static_cast<T>(none<T> + heightAt(dx, dy, squaredRadius));
+            }
+        }
+        const auto at = [&](int dx, int dy) { return heights[static_cast<std::size_t>(dx * size + dy)]; };
+        for (int dx = -rowReach; dx <= rowReach; ++dx) {
+            for (int dy = -rowReach; dy <= rowReach + 7; ++dy) {
+                for (int x = 0; x < 8; ++x) rows.push_back(at(std::abs(dx + x), std::abs(dy)));
+            }
+        }
+        for (int dx = -slotReach; dx <= slotReach; ++dx) {
+            for (int dy = -slotReach; dy <= slotReach; ++dy) {
+                for (int y = 0; y < 8; ++y) {
+                    for (int x = 0; x < 8; ++x) slots.push_back(at(gap(8 * dx + x, 0, 7), gap(8 * dy + y, 0, 7)));
+                }
+            }
+        }
+    }
+
+    void fillSquares()
+    {
+        const std::int64_t most = std::int64_t{limit} + 1, unit = std::int64_t{1} << shift;
+        const auto down = [&](std::int64_t v) { return static_cast<std::int16_t>(std::min(square(v) / unit, most)); };
+        const auto up = [&](std::int64_t v) {
+            return static_cast<std::int16_t>(std::min((square(v) + unit - 1) / unit, most));
+        };
+        for (int c = -margin(); c < 32 + margin(); ++c) {
+            Squares& narrow = squares_.emplace_back();
+            WideSquares& wide = wideSquares_.emplace_back();
+            for (std::size_t i = 0; i < 4; ++i) {
+                const int first = 8 * static_cast<int>(i), last = first + 7;
+                narrow.below[i] = down(std::max(c - last, 0));
+                narrow.above[i] = down(std::max(first - c, 0));
+                narrow.far[i] = up(std::max(last - c, c - first));
+                std::fill_n(wide.below.begin() + static_cast<std::ptrdiff_t>(4 * i), 4, narrow.below[i]);
+                std::fill_n(wide.above.begin() + static_cast<std::ptrdiff_t>(4 * i), 4, narrow.above[i]);
+                std::fill_n(wide.far.begin() + static_cast<std::ptrdiff_t>(4 * i), 4, narrow.far[i]);
+            }
+        }
+    }
+
+    int shift = 0;
+    std::vector<std::uint8_t> smallRows, smallSlots;
+    std::vector<std::int16_t> largeRows, largeSlots;
+    std::vector<Squares> squares_;
+    std::vector<WideSquares> wideSquares_;
+};
+
+namespace {
+
+using Tables = SphereReach::Tables;
+
+// A vector of a native width.
+template <class T, int bytes>
+struct VectorOf {
+    typedef T type __attribute__((vector_size(bytes)));
+};
+
+template <class T, int bytes>
+struct Columns { // one T for each column of a slot
+    using Vector = typename VectorOf<T, bytes>::type;
+    static constexpr int count = lanes * static_cast<int>(sizeof(T)) / bytes;
+    Vector v[count];
+
+    VDBCAGE_INLINE void load(const T* from)
+    {
+        for (int i = 0; i < count; ++i) std::memcpy(&v[i], from + i * bytes / static_cast<int>(sizeof(T)), bytes);
+    }
+    VDBCAGE_INLINE void store(T* to) const
+    {
+        for (int i = 0; i < count; ++i) std::memcpy(to + i * bytes / static_cast<int>(sizeof(T)), &v[i], bytes);
+    }
+    VDBCAGE_INLINE void fill(T value)
+    {
+        for (int i = 0; i < count; ++i) v[i] = Vector{} + value;
+    }
+};
+
+// Vectors are handed on by reference: by value they would make an ABI of their own.
+template <class Vector>
+VDBCAGE_INLINE void raiseTo(Vector& a, const Vector& b)
+{
+    a = a > b ? a : b;
+}
+template <class Vector>
+VDBCAGE_INLINE void lowerTo(Vector& a, const Vector& b)
+{
+    a = a < b ? a : b;
+}
+template <class Vector>
+VDBCAGE_INLINE bool isAny(const Vector& v)
+{
+    typedef std::uint64_t Pair __attribute__((vector_size(16)));
+    Pair pairs[sizeof(Vector) / 16];
+    std::memcpy(pairs, &v, sizeof v);
+    for (std::size_t i = 1; i < sizeof(Vector) / 16; ++i) pairs[0] |= pairs[i];
+    return (pairs[0][0] | pairs[0][1]) != 0;
+}
+
+// The voxels of a leaf that no other one hides from a slot (all but a few that one further along x hides): hidden is
+// what has another voxel ahead of it. Ahead is towards the slot along the axes where `side` is not 0, and the same
+// place along the others.
+template <int bytes>
+VDBCAGE_INLINE void frontVoxels(const Words& words, int sideX, int sideY, int sideZ, std::uint64_t* front)
+{
+    typedef std::uint64_t Quads __attribute__((vector_size(bytes)));
+    constexpr int count = 64 / bytes, perVector = bytes / 8;
+    constexpr std::uint64_t firstZ = 0x0101010101010101ULL;
+    // Shifts away from the slot; one of the two of an axis is 0.
+    const int downZ = sideZ > 0, upZ = sideZ<0, downY = sideY> 0 ? 8 : 0, upY = sideY < 0 ? 8 : 0;
+    const std::uint64_t maskY = sideY != 0 ? ~0ULL : 0, maskX = sideX != 0 ? ~0ULL : 0;
+    const auto maskZ = [&](unsigned down, unsigned up) {
+        return sideZ > 0 ? down * firstZ : sideZ < 0 ? up * firstZ : 0;
+    };
+    const std::uint64_t z1 = maskZ(0x7F, 0xFE), z2 = maskZ(0x3F, 0xFC), z4 = maskZ(0x0F, 0xF0);
+    std::uint64_t cones[8 + 2]; // each voxel spread over all that it hides, and itself; without x
+    cones[0] = cones[9] = 0;
+    Quads own[count], hidden[count];
+    for (int i = 0; i < count; ++i) {
+        std::memcpy(&own[i], words.data() + i * perVector, bytes);
+        Quads w = own[i];
+        w |= (w >> downZ << upZ) & z1;
+        w |= (w >> 2 * downZ << 2 * upZ) & z2;
+        w |= (w >> 4 * downZ << 4 * upZ) & z4;
+        w |= (w >> downY << upY) & maskY;
+        w |= (w >> 2 * downY << 2 * upY) & maskY;
+        w |= (w >> 4 * downY << 4 * upY) & maskY;
+        hidden[i] = ((w >> downZ << upZ) & z1) | ((w >> downY << upY) & maskY);
+        std::memcpy(cones + 1 + i * perVector, &w, bytes);
+    }
+    for (int i = 0; i < count; ++i) {
+        Quads ahead;
+        std::memcpy(&ahead, cones + 1 + sideX + i * perVector, bytes);
+        ahead = own[i] & ~(hidden[i] | (ahead & maskX));
+        std::memcpy(front + i * perVector, &ahead, bytes);
+    }
+}
+
+// Adds the front to `fronts` and tells where.
+template <int bytes>
+VDBCAGE_INLINE std::uint32_t findFront(int stride, const Words& words, int sideX, int sideY, int sideZ,
+                                       SphereReach::Fronts& fronts)
+{
+    std::uint64_t front[8];
+    frontVoxels<bytes>(words, sideX, sideY, sideZ, front);
+    const std::size_t start = fronts.size;
+    if (fronts.voxels.size() < start + 1 + lanes) fronts.voxels.resize(2 * start + 1 + lanes);
+    auto* const first = &fronts.voxels[start];
+    auto* next = first;
+    for (int x = 0; x < 8; ++x) {
+        for (std::uint64_t word = front[x]; word != 0;) {
+            const int bit = __builtin_ctzll(word), y = bit >> 3;
+            if (sideZ == 0) {
+                *++next = {-x * stride - 8 * y, static_cast<std::int32_t>(word >> (8 * y) & 0xFF)};
+                word &= ~(0xFFULL << (8 * y));
+            } else { // a column's front is one voxel
+                *++next = {-x * stride - 8 * y, bit & 7};
+                word &= word - 1;
+            }
+        }
+    }
+    first->place = static_cast<std::int32_t>(next - first);
+    fronts.size += static_cast<std::size_t>(next - first) + 1;
+    return static_cast<std::uint32_t>(start);
+}
+
+VDBCAGE_INLINE int sideOf(int offset)
+{
+    return (offset > 0) - (offset < 0);
+}
+
+using Fronts = SphereReach::Fronts;
+
+struct SlotQuery {
+    const Words& open;
+    int x, y, z;             // the slot
+    int slotPlace, rowPlace; // of it in the tables, from the part's first
+    const NearLeaf* near;
+    const SphereReach::Lists& lists;
+    Fronts& fronts;
+};
+
+template <class T, int bytes>
+class Kernel {
+public:
+    static VDBCAGE_INLINE Words within(const Tables& tables, const SlotQuery& query)
+    {
+        Words openBytes = query.open;
+        transposeBytes(openBytes); // now word y, byte x, bit z
+        T openLanes[lanes];
+        for (std::size_t i = 0; i < lanes; ++i)
+            openLanes[i] = reinterpret_cast<const std::uint8_t*>(openBytes.data())[i];
+        C open, found;
+        open.load(openLanes);
+        found.fill(0);
+        if (vertical(tables, query, 1, open, found) && vertical(tables, query, -1, open, found)) {
+            lateral(tables, query, open, found);
+        }
+        T foundLanes[lanes];
+        found.store(foundLanes);
+        Words words;
+        for (std::size_t i = 0; i < lanes; ++i)
+            reinterpret_cast<std::uint8_t*>(words.data())[i] = static_cast<std::uint8_t>(foundLanes[i]);
+        transposeBytes(words);
+        for (std::size_t x = 0; x < 8; ++x) words[x] &= query.open[x];
+        return words;
+    }
+
+private:
+    using C = Columns<T, bytes>;
+    using Vector = typename C::Vector;
+
+    static VDBCAGE_INLINE void load(Vector& v, const T* row, int i)
+    {
+        std::memcpy(&v, row + i * bytes / static_cast<int>(sizeof(T)), bytes);
+    }
+
+    // The front of a leaf towards a slot.
+    static VDBCAGE_INLINE const Fronts::Voxel* frontOf(const Tables& tables, const SlotQuery& query, std::size_t leaf,
+                                                       int sideZ)
+    {
+        const NearLeaf& near = query.near[leaf];
+        const int sideX = sideOf(query.x - near.x), sideY = sideOf(query.y - near.y);
+        std::uint32_t& start =
+            query.fronts.starts[leaf * 27 + static_cast<std::size_t>(9 * sideX + 3 * sideY + sideZ + 13)];
+        if (start == 0) start = findFront<bytes>(tables.rowStride(), *near.words, sideX, sideY, sideZ, query.fronts);
+        return &query.fronts.voxels[start];
+    }
+
+    // The leaf nearest to the slot, by their slots. After it others have less to add.
+    static VDBCAGE_INLINE std::size_t nearest(const SlotQuery& query, const std::uint16_t* indices, std::size_t count)
+    {
+        int least = std::numeric_limits<int>::max();
+        std::size_t found = 0;
+        for (std::size_t n = 0; n < count; ++n) {
+            const NearLeaf& near = query.near[indices[n]];
+            const int dx = query.x - near.x, dy = query.y - near.y, dz = query.z - near.z,
+                      distance = dx * dx + dy * dy + dz * dz;
+            found = distance < least ? n : found;
+            least = std::min(least, distance);
+        }
+        return found;
+    }
+
+    // From the leaves below (side 1) or above (-1). Returns whether any are left open.
+    static VDBCAGE_INLINE bool vertical(const Tables& tables, const SlotQuery& query, int side, C& open, C& found)
+    {
+        const std::size_t count = query.lists.counts[1 - side];
+        if (count == 0) return true;
+        // Heights in each column: that reached, no more than the last open voxel needs, no less than before the first.
+        C reached, needed;
+        for (int i = 0; i < C::count; ++i) {
+            reached.v[i] = Vector{} + std::numeric_limits<T>::max();
+            needed.v[i] = Vector{} + none<T>;
+            for (int k = 7; k >= 0; --k) {
+                const T bit = static_cast<T>(side > 0 ? 1 << k : 128 >> k), before = static_cast<T>(none<T> + k),
+                        after = static_cast<T>(before + 1);
+                const Vector isOpen = reinterpret_cast<Vector>((open.v[i] & bit) != 0);
+                reached.v[i] = (isOpen & before) | (~isOpen & reached.v[i]);
+                raiseTo<Vector>(needed.v[i], isOpen & after);
+            }
+        }
+        const T* const slots = tables.slots<T>() + query.slotPlace;
+        const T* const rows = tables.rows<T>() + query.rowPlace;
+        const std::size_t first = nearest(query, query.lists.indices[1 - side], count);
+        for (std::size_t n = 0; n <= count; ++n) {
+            const std::size_t index = query.lists.indices[1 - side][n == 0 ? first : n - 1];
+            const NearLeaf& near = query.near[index];
+            // Distance below the slot's first voxel (above the last) of the leaf's z = 0.
+            const int base = side > 0 ? 8 * (query.z - near.z) : 8 * (near.z - query.z) - 7;
+            const T least = static_cast<T>(side > 0 ? base - near.box.upper[2] : base + near.box.lower[2]);
+            const T* const best = slots + near.slotPlace;
+            Vector gain{};
+            for (int i = 0; i < C::count; ++i) {
+                Vector most;
+                load(most, best, i);
+                most -= least;
+                lowerTo<Vector>(most, needed.v[i]);
+                raiseTo<Vector>(most, reached.v[i]);
+                gain |= most ^ reached.v[i];
+            }
+            if (!isAny<Vector>(gain)) continue;
+            const Fronts::Voxel* front = frontOf(tables, query, index, side);
+            const T* const corner = rows + near.rowPlace;
+            const Fronts::Voxel* const end = front + front->place + 1;
+            for (++front; front != end; ++front) {
+                const T depth = static_cast<T>(side > 0 ? base - front->z : base + front->z);
+                for (int i = 0; i < C::count; ++i) {
+                    Vector height;
+                    load(height, corner + front->place, i);
+                    raiseTo<Vector>(reached.v[i], height - depth);
+                }
+            }
+        }
+        Vector left{};
+        for (int i = 0; i < C::count; ++i) {
+            Vector bits{};
+            for (int k = 0; k < 8; ++k) {
+                const T bit = static_cast<T>(side > 0 ? 1 << k : 128 >> k), before = static_cast<T>(none<T> + k);
+                bits |= reinterpret_cast<Vector>(reached.v[i] > before) & bit;
+            }
+            found.v[i] |= bits & open.v[i];
+            open.v[i] &= ~bits;
+            left |= open.v[i];
+        }
+        return isAny<Vector>(left);
+    }
+
+    // From the leaves beside the slot.
+    static VDBCAGE_INLINE void lateral(const Tables& tables, const SlotQuery& query, const C& open, C& found)
+    {
+        using S = std::make_signed_t<T>;
+        using Signed = typename VectorOf<S, bytes>::type; // heights keep their order as signed numbers
+        const T* const slots = tables.slots<T>() + query.slotPlace;
+        const T* const rows = tables.rows<T>() + query.rowPlace;
+        for (std::size_t n = 0; n < query.lists.counts[1]; ++n) {
+            const std::size_t index = query.lists.indices[1][n];
+            const NearLeaf& near = query.near[index];
+            const T* const best = slots + near.slotPlace;
+            Vector gain{};
+            for (int i = 0; i < C::count; ++i) {
+                Vector most;
+                load(most, best, i);
+                gain |= reinterpret_cast<Vector>(most != none<T>) & open.v[i] & ~found.v[i];
+            }
+            if (!isAny<Vector>(gain)) continue;
+            const Fronts::Voxel* front = frontOf(tables, query, index, 0);
+            const T* const corner = rows + near.rowPlace;
+            const Fronts::Voxel* const end = front + front->place + 1;
+            for (++front; front != end; ++front) {
+                Signed heights[C::count];
+                std::memcpy(&heights, corner + front->place, sizeof heights);
+                // A voxel more up and down with each voxel more of height.
+                auto byte = static_cast<unsigned>(front->z);
+                for (int height = 0;; ++height) {
+                    const S least = static_cast<S>(none<T> + height);
+                    const T bits = static_cast<T>(byte);
+                    for (int i = 0; i < C::count; ++i)
+                        found.v[i] |= reinterpret_cast<Vector>(heights[i] > least) & bits;
+                    if (byte == 0xFF) break;
+                    byte |= (byte << 1 | byte >> 1) & 0xFF;
+                }
+            }
+        }
+    }
+};
+
+// Bit i of the result is the sign of lane i.
+VDBCAGE_INLINE unsigned signBits(const std::int16_t* lanes16)
+{
+#if defined(__x86_64__)
+    const auto* const halves = reinterpret_cast<const __m128i*>(lanes16);
+    return static_cast<unsigned>(
+        _mm_movemask_epi8(_mm_packs_epi16(_mm_loadu_si128(halves), _mm_loadu_si128(halves + 1))));
+#else
+    unsigned bits = 0;
+    for (int i = 0; i < 16; ++i) bits |= static_cast<unsigned>(lanes16[i] < 0) << i;
+    return bits;
+#endif
+}
+
+template <int bytes>
+struct MaskKernel {
+    using Vector = typename VectorOf<std::int16_t, bytes>::type;
+    static constexpr int count = 32 / bytes;
+    static constexpr std::size_t samples = 48; // more hardly settle more
+
+    // The slots where the squares along the three axes add up to the limit or less. `y` has each of its four values
+    // four times.
+    static VDBCAGE_INLINE std::uint64_t within(const std::int16_t* x, const Vector* y, std::uint64_t z,
+                                               std::int16_t limit)
+    {
+        typedef std::uint64_t Quads __attribute__((vector_size(bytes)));
+        const Vector along = reinterpret_cast<Vector>(Quads{} + z);
+        std::uint64_t mask = 0;
+        Vector sum[count];
+        for (int i = 0; i < count; ++i) sum[i] = y[i] + along - limit - std::int16_t(1);
+        for (int k = 0; k < 4; ++k) {
+            alignas(32) std::int16_t signs[16];
+            for (int i = 0; i < count; ++i) {
+                const Vector s = sum[i] + x[k];
+                std::memcpy(signs + i * bytes / 2, &s, bytes);
+            }
+            mask |= static_cast<std::uint64_t>(signBits(signs)) << (16 * k);
+        }
+        return mask;
+    }
+
+    static VDBCAGE_INLINE std::uint64_t quad(const std::array<std::int16_t, 4>& values)
+    {
+        std::uint64_t word;
+        std::memcpy(&word, values.data(), sizeof word);
+        return word;
+    }
+
+    static VDBCAGE_INLINE void reached(const Tables& tables, NearLeaf* near, std::size_t total, std::uint64_t* result)
+    {
+        for (std::size_t n = 0; n < total; ++n) {
+            NearLeaf& leaf = near[n];
+            const int x = 8 * leaf.x, y = 8 * leaf.y, z = 8 * leaf.z;
+            const auto &lowX = tables.squares(x + leaf.box.lower[0]), &highX = tables.squares(x + leaf.box.upper[0]);
+            const auto &lowZ = tables.squares(z + leaf.box.lower[2]), &highZ = tables.squares(z + leaf.box.upper[2]);
+            const auto &lowY = tables.wideSquares(y + leaf.box.lower[1]),
+                       &highY = tables.wideSquares(y + leaf.box.upper[1]);
+            // One of the two is 0.
+            const std::uint64_t nearX = quad(lowX.below) | quad(highX.above);
+            Vector nearY[count];
+            for (int i = 0; i < count; ++i) {
+                Vector a, b;
+                std::memcpy(&a, lowY.below.data() + i * bytes / 2, bytes);
+                std::memcpy(&b, highY.above.data() + i * bytes / 2, bytes);
+                nearY[i] = a | b;
+            }
+            std::int16_t alongX[4];
+            std::memcpy(alongX, &nearX, sizeof alongX);
+            leaf.slotPlace = tables.slotPlace(-leaf.x, -leaf.y);
+            leaf.rowPlace = tables.rowPlace(-x, -y);
+            result[n] = within(alongX, nearY, quad(lowZ.below) | quad(highZ.above), tables.limit);
+        }
+    }
+
+    static VDBCAGE_INLINE std::uint64_t covered(const Tables& tables, const NearLeaf* near, std::size_t total,
+                                                std::uint64_t wanted)
+    {
+        std::uint64_t result = 0;
+        const std::size_t stride = total / samples + 1;
+        for (std::size_t n = 0; n < total && (wanted & ~result) != 0; n += stride) {
+            const NearLeaf& leaf = near[n];
+            const auto &farX = tables.squares(8 * leaf.x + leaf.sample[0]),
+                       &farZ = tables.squares(8 * leaf.z + leaf.sample[2]);
+            const auto& farY = tables.wideSquares(8 * leaf.y + leaf.sample[1]);
+            Vector alongY[count];
+            for (int i = 0; i < count; ++i) std::memcpy(&alongY[i], farY.far.data() + i * bytes / 2, bytes);
+            result |= within(farX.far.data(), alongY, quad(farZ.far), tables.limit);
+        }
+        return result;
+    }
+};
+
+using WithinFunction = Words (*)(const Tables&, const SlotQuery&);
+using ReachedFunction = void (*)(const Tables&, NearLeaf*, std::size_t, std::uint64_t*);
+using CoveredFunction = std::uint64_t (*)(const Tables&, const NearLeaf*, std::size_t, std::uint64_t);
+
+template <class T>
+Words withinPlain(const Tables& tables, const SlotQuery& query)
+{
+    return Kernel<T, 16>::within(tables, query);
+}
+void reachedPlain(const Tables& tables, NearLeaf* near, std::size_t count, std::uint64_t* result)
+{
+    MaskKernel<16>::reached(tables, near, count, result);
+}
+std::uint64_t coveredPlain(const Tables& tables, const NearLeaf* near, std::size_t count, std::uint64_t wanted)
+{
+    return MaskKernel<16>::covered(tables, near, count, wanted);
+}
+#if VDBCAGE_WITH_AVX
+template <class T>
+VDBCAGE_TARGET_AVX2 Words withinAvx2(const Tables& tables, const SlotQuery& query)
+{
+    return Kernel<T, 32>::within(tables, query);
+}
+VDBCAGE_TARGET_AVX2 void reachedAvx2(const Tables& tables, NearLeaf* near, std::size_t count, std::uint64_t* result)
+{
+    MaskKernel<32>::reached(tables, near, count, result);
+}
+VDBCAGE_TARGET_AVX2 std::uint64_t coveredAvx2(const Tables& tables, const NearLeaf* near, std::size_t count,
+                                              std::uint64_t wanted)
+{
+    return MaskKernel<32>::covered(tables, near, count, wanted);
+}
+template <class T>
+VDBCAGE_TARGET_AVX512 Words withinAvx512(const Tables& tables, const SlotQuery& query)
+{
+    return Kernel<T, 64>::within(tables, query);
+}
+#endif
+
+WithinFunction withinFunction(Simd simd, bool isSmall)
+{
+#if VDBCAGE_WITH_AVX
+    if (simd == Simd::avx512) return isSmall ? withinAvx512<std::uint8_t> : withinAvx512<std::int16_t>;
+    if (simd == Simd::avx2) return isSmall ? withinAvx2<std::uint8_t> : withinAvx2<std::int16_t>;
+#endif
+    (void)simd;
+    return isSmall ? withinPlain<std::uint8_t> : withinPlain<std::int16_t>;
+}
+
+} // namespace
+
+SphereReach::SphereReach(std::int64_t squaredRadius, Simd simd)
+    : tables_(std::make_unique<Tables>(squaredRadius)), simd_(simd)
+{
+}
+SphereReach::~SphereReach() = default;
+
+void SphereReach::reachedSlots(NearLeaf* near, std::size_t count, std::uint64_t* masks) const
+{
+#if VDBCAGE_WITH_AVX
+    if (simd_ != Simd::plain) return reachedAvx2(*tables_, near, count, masks);
+#endif
+    reachedPlain(*tables_, near, count, masks);
+}
+std::uint64_t SphereReach::coveredSlots(const NearLeaf* near, std::size_t count, std::uint64_t wanted) const
+{
+#if VDBCAGE_WITH_AVX
+    if (simd_ != Simd::plain) return coveredAvx2(*tables_, near, count, wanted);
+#endif
+    return coveredPlain(*tables_, near, count, wanted);
+}
+
+void SphereReach::start(Fronts& fronts, std::size_t leaves)
+{
+    fronts.starts.assign(leaves * 27, 0);
+    fronts.size = 1;
+}
+
+Words SphereReach::within(const Words& open, int slot, const NearLeaf* near, const Lists& lists, Fronts& fronts) const
+{
+    const int x = slot >> 4, y = slot >> 2 & 3, z = slot & 3;
+    const int slotPlace = x * tables_->slotStride() + y * lanes, rowPlace = 8 * (x * tables_->rowStride() + 8 * y);
+    return withinFunction(simd_, tables_->isSmall)(*tables_, {open, x, y, z, slotPlace, rowPlace, near, lists, fronts});
+}
+
+} // namespace vdbcage::detail

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include <vdbcage/volume/detail/contour_leaves.h>
+#include <vdbcage/volume/detail/simd.h>
+
+namespace vdbcage::detail {
+
+/// A contour leaf as seen from a part: a cube of 4^3 slots.
+struct NearLeaf {
+    const Words* words;
+    std::int16_t x, y, z; ///< its slot, counted from the part's first
+    BitBox box;
+    std::array<std::int8_t, 3> sample;
+    std::int32_t slotPlace, rowPlace; ///< of the part's first slot in the tables: SphereReach::reachedSlots sets them
+};
+
+/// Which voxels lie within a sphere's reach of contour voxels: a rough answer for the 64 slots of a part at once, and
+/// an exact one for the voxels of a slot. Slot (x, y, z) of a part is bit 16 x + 4 y + z.
+///
+/// Exact: a contour voxel q reaches, in each column along z, the voxels up to h(dx, dy) above and below it. Of contour
+/// voxels below a slot so the largest q.z + h tells all, column by column, in bytes side by side (16-bit integers
+/// beyond smallRadius). Voxels hidden behind others of their leaf are left out before, and leaves that can add nothing
+/// too.
+///
+/// Const once it is made: threads share one. Memory: 32 r^2 bytes (64 r^2 beyond smallRadius).
+class SphereReach {
+public:
+    /// `squaredRadius` up to 512^2; `simd` must be supported.
+    SphereReach(std::int64_t squaredRadius, Simd simd);
+    ~SphereReach();
+
+    /// For each of the `count` leaves at least the slots with a voxel within its reach. Completes the leaves.
+    void reachedSlots(NearLeaf* near, std::size_t count, std::uint64_t* masks) const;
+    /// Most of the `wanted` slots that lie wholly within reach of one leaf, and maybe others that do.
+    std::uint64_t coveredSlots(const NearLeaf* near, std::size_t count, std::uint64_t wanted) const;
+
+    /// What one thread has found out about the leaves around the part that it works on.
+    struct Fronts {
+        struct Voxel {
+            std::int32_t place; ///< of its column in the tables, from that of the leaf's first column
+            std::int32_t z;     ///< in the leaf; of leaves beside the slot the byte of all voxels in the column
+        };
+        std::vector<std::uint32_t> starts; ///< by leaf and direction to a slot: where its front is, 0 if not yet there
+        std::vector<Voxel> voxels;         ///< a front is the number of its voxels and the voxels
+        std::size_t size = 0;              ///< of the part of `voxels` that is in use
+    };
+    static void start(Fronts& fronts, std::size_t leaves);
+
+    /// The leaves that may reach a slot, as indices: those below it, beside and above.
+    struct Lists {
+        const std::uint16_t* indices[3];
+        std::size_t counts[3];
+    };
+    /// The bits of `open` within reach of the listed leaves, in slot `slot` of the part. `fronts` was started with it.
+    Words within(const Words& open, int slot, const NearLeaf* near, const Lists& lists, Fronts& fronts) const;
+
+    struct Tables;
+
+private:
+    std::unique_ptr<const Tables> tables_;
+    Simd simd_;
+};
+
+} // namespace vdbcage::detail

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <vdbcage/volume/detail/mask_blocks.h>
+
+namespace vdbcage::detail {
+
+/// Swaps the bits of `word` under `mask` with those `shift` places above.
+inline void swapBits(std::uint64_t& word, std::uint64_t mask, int shift)
+{
+    const std::uint64_t difference = ((word >> shift) ^ word) & mask;
+    word ^= difference ^ (difference << shift);
+}
+
+/// The same between two words.
+inline void swapBits(std::uint64_t& low, std::uint64_t& high, std::uint64_t mask, int shift)
+{
+    const std::uint64_t difference = ((low >> shift) ^ high) & mask;
+    high ^= difference;
+    low ^= difference << shift;
+}
+
+/// Byte y of word x goes to byte x of word y.
+inline void transposeBytes(Words& w)
+{
+    for (std::size_t i = 0; i < 4; ++i) swapBits(w[i], w[i + 4], 0x00000000FFFFFFFFULL, 32);
+    for (const std::size_t i : {0U, 1U, 4U, 5U}) swapBits(w[i], w[i + 2], 0x0000FFFF0000FFFFULL, 16);
+    for (const std::size_t i : {0U, 2U, 4U, 6U}) swapBits(w[i], w[i + 1], 0x00FF00FF00FF00FFULL, 8);
+}
+
+} // namespace vdbcage::detail
