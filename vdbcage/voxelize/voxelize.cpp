@@ -16,7 +16,7 @@ detail::Backend& chooseBackend(Voxelizer voxelizer)
     case Voxelizer::cpu:
         break;
     case Voxelizer::gl:
-        throw DeviceError("voxelizer gl: this build has none; use auto or cpu");
+        return detail::voxelizeGl;
     case Voxelizer::cgal:
         throw DeviceError("voxelizer cgal: this build has none; use auto or cpu");
     }

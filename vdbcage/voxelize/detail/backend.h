@@ -13,4 +13,7 @@ using Backend = BitGrid(const Mesh& model, const Frame& frame, Interrupter* inte
 
 Backend voxelizeCpu;
 
+/// Through an OpenGL context of its own, that lives as long as the call.
+Backend voxelizeGl;
+
 } // namespace vdbcage::detail

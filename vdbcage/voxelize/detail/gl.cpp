@@ -1,0 +1,299 @@
+// Based on: Schwarz and Seidel, Fast Parallel Surface and Solid Voxelization on GPUs, 2010; Akenine-Moller, Fast 3D
+// Triangle-Box Overlap Testing, 2001.
+// Differs: exact (shaders/voxelize/face.glsl). A triangle is worked on by columns along z, whatever its direction: all
+// 13 axes together bound one run of bits there, and the same column holds its crossings of the rays along all three
+// axes. The rasterizer only deals out columns; no yes or no depends on how it rounds. The device finds surface and
+// crossings; parities, vote and filling are the host's, shared with the other backends.
+#include <vdbcage/voxelize/detail/gl.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <shaders/voxelize.h>
+#include <tbb/blocked_range.h>
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+#include <vdbcage/core/error.h>
+#include <vdbcage/gl/offscreen.h>
+#include <vdbcage/voxelize/detail/fill.h>
+#include <vdbcage/voxelize/detail/parity_vote.h>
+#include <vdbcage/voxelize/detail/slabbed_triangles.h>
+
+namespace vdbcage::detail {
+
+namespace {
+
+using Word = BitGrid::Word;
+static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "two words of the shaders are one of BitGrid's");
+
+constexpr int grids = 4; // surface, crossings along x, y, z
+
+/// What an invocation or six vertices work on, as shaders/voxelize/item.glsl has it.
+struct Item {
+    std::int32_t corners[9];
+    std::int32_t columnsX, columnsY; ///< first + 65536 * last
+    std::int32_t counted;
+};
+static_assert(sizeof(Item) == 48);
+
+/// Items are sent to the device so many at a time.
+constexpr std::size_t batchSize = std::size_t(1) << 18;
+
+Span voxelsOf(int a, int b, int c)
+{
+    return {(std::min({a, b, c}) - latticeReach + latticeStep - 1) >> latticeBits,
+            (std::max({a, b, c}) + latticeReach) >> latticeBits};
+}
+
+/// Cuts the columns that a triangle may touch in the slab's planes into items: visit(item). A driver may end an
+/// invocation that takes too many steps without a word (llvmpipe: 65,535), and triangles of all sizes run side by side.
+template <typename Visit>
+void cut(const LatticeTriangle& triangle, bool counted, const Span& planes, const Visit& visit)
+{
+    constexpr int mostColumns = 64, mostSteps = 8192;
+    const openvdb::Vec3i(&p)[3] = triangle.corners;
+    const Span xs = voxelsOf(p[0].x(), p[1].x(), p[2].x()), ys = voxelsOf(p[0].y(), p[1].y(), p[2].y()),
+               zs = voxelsOf(p[0].z(), p[1].z(), p[2].z());
+    const int words = (zs.last >> 5) - (zs.first >> 5) + 1;
+    const int columns = std::clamp(mostSteps / words, 1, mostColumns);
+    const int width = std::min(columns, ys.last - ys.first + 1), height = columns / width;
+    Item item;
+    for (int i = 0; i < 9; ++i) item.corners[i] = p[i / 3][i % 3];
+    item.counted = counted;
+    const int lastX = std::min(xs.last, planes.last);
+    for (int x = std::max(xs.first, planes.first); x <= lastX; x += height) {
+        item.columnsX = x | std::min(x + height - 1, lastX) << 16;
+        for (int y = ys.first; y <= ys.last; y += width) {
+            item.columnsY = y | std::min(y + width - 1, ys.last) << 16;
+            visit(item);
+        }
+    }
+}
+
+class GlRun {
+public:
+    GlRun(const gl::Api& api, GlVoxelizer::Path path, const gl::ProgramObject& program, const Mesh& model,
+          const Frame& frame, int slabThickness, Interrupter* interrupter)
+        : api_(api), raster_(path == GlVoxelizer::Path::raster), program_(program), interrupter_(interrupter),
+          triangles_(model, frame, slabThickness), grid_(frame.voxels), rows_(grid_.size().y()),
+          words_(grid_.wordsPerRow()), planeWords_(grid_.rowOffset(1, 0)),
+          slabWords_(planeWords_ * static_cast<std::size_t>(slabThickness)),
+          items_(gl::makeBuffer(api, batchSize * sizeof(Item), nullptr, GL_DYNAMIC_STORAGE_BIT)),
+          bits_(gl::makeBuffer(api, grids * slabWords_ * sizeof(Word), nullptr)), crossings_(3 * slabWords_),
+          entering_(planeWords_)
+    {
+        setUniform("rowsPerPlane", rows_);
+        setUniform("wordsPerRow", 2 * words_);
+        setUniform("wordsPerGrid", static_cast<int>(2 * slabWords_));
+        if (raster_) {
+            image_ = gl::makeBufferTexture(api_, GL_R32UI, bits_);
+            picture_ = gl::makeEmptyFramebuffer(api_, rows_, slabThickness);
+            noVertices_ = gl::makeVertexArray(api_);
+            api_.ProgramUniform2f(program_.name(), gl::uniformLocation(api_, program_, "perPixel"),
+                                  2.0F / static_cast<float>(rows_), 2.0F / static_cast<float>(slabThickness));
+        }
+    }
+
+    BitGrid run()
+    {
+        for (int slab = 0; slab < triangles_.slabCount(); ++slab) {
+            const int percent = 10 + 70 * slab / triangles_.slabCount();
+            throwIfInterrupted(interrupter_, percent);
+            findCrossings(slab, percent);
+            vote(triangles_.planes(slab));
+        }
+        fillEnclosed(grid_, interrupter_);
+        return std::move(grid_);
+    }
+
+private:
+    void setUniform(const char* name, int value)
+    {
+        api_.ProgramUniform1i(program_.name(), gl::uniformLocation(api_, program_, name), value);
+    }
+
+    /// Fills the planes of the slab in the grid, and crossings_.
+    void findCrossings(int slab, int percent)
+    {
+        const Span planes = triangles_.planes(slab);
+        setUniform("firstPlane", planes.first);
+        api_.ClearNamedBufferData(bits_.name(), GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, nullptr);
+        std::vector<Item> batch;
+        batch.reserve(std::min(batchSize, 2 * triangles_.size(slab)));
+        const auto flush = [&] {
+            throwIfInterrupted(interrupter_, percent);
+            scan(batch);
+            batch.clear();
+        };
+        for (std::size_t i = 0; i < triangles_.size(slab); ++i) {
+            cut(triangles_.triangle(slab, i), triangles_.counted(slab, i), planes, [&](const Item& item) {
+                batch.push_back(item);
+                if (batch.size() == batchSize) flush();
+            });
+        }
+        if (!batch.empty()) flush();
+
+        api_.MemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+        const std::size_t used = planeWords_ * static_cast<std::size_t>(planes.last - planes.first + 1);
+        read(0, grid_.row(planes.first, 0), used);
+        read(slabWords_, crossings_.data(), 3 * slabWords_);
+        gl::throwIfFailed(api_, "voxelizing");
+    }
+
+    void scan(const std::vector<Item>& batch)
+    {
+        const auto count = static_cast<GLsizei>(batch.size());
+        api_.NamedBufferSubData(items_.name(), 0, static_cast<GLsizeiptr>(batch.size() * sizeof(Item)), batch.data());
+        api_.UseProgram(program_.name());
+        api_.BindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, items_.name());
+        if (raster_) {
+            api_.BindImageTexture(0, image_.name(), 0, GL_FALSE, 0, GL_READ_WRITE, GL_R32UI);
+            api_.BindFramebuffer(GL_FRAMEBUFFER, picture_.name());
+            api_.BindVertexArray(noVertices_.name());
+            api_.Viewport(0, 0, rows_, triangles_.slabThickness());
+            api_.DrawArrays(GL_TRIANGLES, 0, 6 * count);
+        } else {
+            constexpr GLsizei groupSize = 64;
+            setUniform("itemCount", count);
+            api_.BindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, bits_.name());
+            api_.DispatchCompute(static_cast<GLuint>((count + groupSize - 1) / groupSize), 1, 1);
+        }
+        gl::throwIfFailed(api_, "voxelizing");
+    }
+
+    void read(std::size_t first, Word* words, std::size_t count)
+    {
+        api_.GetNamedBufferSubData(bits_.name(), static_cast<GLintptr>(first * sizeof(Word)),
+                                   static_cast<GLsizeiptr>(count * sizeof(Word)), words);
+    }
+
+    /// Adds the inside to the planes of the slab, in parallel by a few of them at a time.
+    void vote(const Span& planes)
+    {
+        constexpr int thickness = 8;
+        const int count = (planes.last - planes.first) / thickness + 1;
+        const auto slabOf = [&](int i) {
+            Slab slab;
+            slab.planes.first = planes.first + i * thickness;
+            slab.planes.last = std::min(slab.planes.first + thickness - 1, planes.last);
+            slab.rowsPerPlane = rows_;
+            slab.wordsPerRow = words_;
+            slab.surface = grid_.row(slab.planes.first, 0);
+            const std::size_t offset = static_cast<std::size_t>(i * thickness) * planeWords_;
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                slab.crossings[axis] = crossings_.data() + axis * slabWords_ + offset;
+            }
+            return slab;
+        };
+        // The parities with which rays along x enter a few planes: first how those before change them.
+        std::vector<Word> entering(static_cast<std::size_t>(count + 1) * planeWords_);
+        const auto enteringAt = [&](int i) { return entering.data() + static_cast<std::size_t>(i) * planeWords_; };
+        std::copy(entering_.begin(), entering_.end(), enteringAt(0));
+        tbb::parallel_for(0, count, [&](int i) {
+            throwIfInterrupted(interrupter_);
+            const Slab slab = slabOf(i);
+            const std::size_t words = planeWords_ * static_cast<std::size_t>(slab.planes.last - slab.planes.first + 1);
+            Word* const parities = enteringAt(i + 1);
+            for (std::size_t at = 0; at < words; at += planeWords_) {
+                for (std::size_t k = 0; k < planeWords_; ++k) parities[k] ^= slab.crossings[0][at + k];
+            }
+        });
+        tbb::parallel_for(tbb::blocked_range<std::size_t>(0, planeWords_, 4096), [&](const auto& range) {
+            for (int i = 1; i <= count; ++i) {
+                for (std::size_t k = range.begin(); k != range.end(); ++k) enteringAt(i)[k] ^= enteringAt(i - 1)[k];
+            }
+        });
+        std::copy_n(enteringAt(count), planeWords_, entering_.begin());
+
+        tbb::enumerable_thread_specific<Workspace> workspaces;
+        tbb::parallel_for(0, count, [&](int i) {
+            throwIfInterrupted(interrupter_);
+            Workspace& work = workspaces.local();
+            Slab slab = slabOf(i);
+            work.crossed.assign(static_cast<std::size_t>(thickness * rows_), 0);
+            work.row.resize(static_cast<std::size_t>(words_));
+            slab.crossed = work.crossed.data();
+            markCrossed(slab);
+            for (int x = slab.planes.first; x <= slab.planes.last; ++x) {
+                voteInside(slab, x, enteringAt(i), work.row.data());
+            }
+        });
+    }
+    struct Workspace {
+        std::vector<std::uint8_t> crossed;
+        std::vector<Word> row;
+    };
+
+    static void markCrossed(const Slab& slab)
+    {
+        const int rows = slab.rowsPerPlane * (slab.planes.last - slab.planes.first + 1);
+        for (int axis = 0; axis < 3; ++axis) {
+            const Word* words = slab.crossings[axis];
+            for (int row = 0; row < rows; ++row, words += slab.wordsPerRow) {
+                Word any = 0;
+                for (int i = 0; i < slab.wordsPerRow; ++i) any |= words[i];
+                if (any != 0) slab.crossed[row] = static_cast<std::uint8_t>(slab.crossed[row] | 1 << axis);
+            }
+        }
+    }
+
+    const gl::Api& api_;
+    const bool raster_;
+    const gl::ProgramObject& program_;
+    Interrupter* interrupter_;
+    const SlabbedTriangles triangles_;
+    BitGrid grid_;
+    const int rows_, words_;
+    const std::size_t planeWords_, slabWords_;
+    const gl::Buffer items_, bits_;
+    gl::Texture image_;       ///< bits_ for the raster path
+    gl::Framebuffer picture_; ///< a pixel a column
+    gl::VertexArray noVertices_;
+    std::vector<Word> crossings_; ///< of the slab that was read last
+    std::vector<Word> entering_;  ///< parities with which rays along x enter the next slab
+};
+
+gl::ProgramObject compile(const gl::Api& api, GlVoxelizer::Path path)
+{
+    if (path == GlVoxelizer::Path::raster) return gl::makeProgram(api, {shaders::columnsVert, shaders::columnsFrag});
+    return gl::makeProgram(api, {shaders::columnsComp});
+}
+
+} // namespace
+
+GlVoxelizer::GlVoxelizer(const gl::Api& api, Path path, std::size_t gridBytes)
+    : api_(api), path_(path), gridBytes_(gridBytes), program_(compile(api, path))
+{
+    GLint64 words = 0, bytes = 0;
+    api_.GetInteger64v(GL_MAX_TEXTURE_BUFFER_SIZE, &words);
+    api_.GetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &bytes);
+    const GLint64 most = path == Path::raster ? 4 * words : bytes;
+    gridBytes_ = std::min(gridBytes_, static_cast<std::size_t>(std::max<GLint64>(most, 0)));
+}
+
+BitGrid GlVoxelizer::run(const Mesh& model, const Frame& frame, Interrupter* interrupter) const
+{
+    const openvdb::Coord size = frame.voxels.dim();
+    const auto rowWords = static_cast<std::size_t>((size.z() + BitGrid::wordBits - 1) / BitGrid::wordBits);
+    const std::size_t planeBytes = grids * sizeof(Word) * rowWords * static_cast<std::size_t>(size.y());
+    const auto mostPlanes = static_cast<int>(std::min(gridBytes_ / planeBytes, static_cast<std::size_t>(size.x())));
+    if (mostPlanes == 0) throw DeviceError("OpenGL: the device has too small buffers for a plane of this many voxels");
+    const int slabs = (size.x() + mostPlanes - 1) / mostPlanes;
+    return GlRun(api_, path_, program_, model, frame, (size.x() + slabs - 1) / slabs, interrupter).run();
+}
+
+BitGrid voxelizeGl(const Mesh& model, const Frame& frame, Interrupter* interrupter)
+{
+    // Isolated: a thread that waits here must not begin another model, for which it would need another context.
+    return tbb::this_task_arena::isolate([&] {
+        const gl::OffscreenContext context;
+        const auto current = context.makeCurrent();
+        return GlVoxelizer(context.api(), GlVoxelizer::Path::compute).run(model, frame, interrupter);
+    });
+}
+
+} // namespace vdbcage::detail
