@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+
 #include <GL/glcorearb.h>
 
 /// Every OpenGL entry point that the project calls: its type in GL/glcorearb.h and its name without "gl".
@@ -40,6 +42,7 @@
     X(PFNGLDRAWARRAYSINSTANCEDPROC, DrawArraysInstanced)                                                               \
     X(PFNGLENABLEPROC, Enable)                                                                                         \
     X(PFNGLENABLEVERTEXARRAYATTRIBPROC, EnableVertexArrayAttrib)                                                       \
+    X(PFNGLFINISHPROC, Finish)                                                                                         \
     X(PFNGLGETDEBUGMESSAGELOGPROC, GetDebugMessageLog)                                                                 \
     X(PFNGLGETERRORPROC, GetError)                                                                                     \
     X(PFNGLGETINTEGER64VPROC, GetInteger64v)                                                                           \
@@ -98,6 +101,9 @@ struct Api {
 
 /// Makes the context record in full what it calls an error or undefined, for `throwIfFailed` to report.
 void enableDebugMessages(const Api& api);
+
+/// What failed since the last call, in words; empty if nothing did.
+std::string takeFailures(const Api& api);
 
 /// Asks the context whether anything failed since the last call; `what` says what was being done ("rendering").
 /// \throw DeviceError with the error codes and, after `enableDebugMessages`, the driver's own words

@@ -7,8 +7,9 @@
 #include <vdbcage/voxelize/detail/gl.h>
 
 #include <algorithm>
-#include <array>
+#include <cmath>
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -43,10 +44,29 @@ static_assert(sizeof(Item) == 48);
 /// Items are sent to the device so many at a time.
 constexpr std::size_t batchSize = std::size_t(1) << 18;
 
-Span voxelsOf(int a, int b, int c)
+/// The voxels that something may touch that goes from `low` to `high`.
+Span voxelsOf(int low, int high)
 {
-    return {(std::min({a, b, c}) - latticeReach + latticeStep - 1) >> latticeBits,
-            (std::max({a, b, c}) + latticeReach) >> latticeBits};
+    return {(low - latticeReach + latticeStep - 1) >> latticeBits, (high + latticeReach) >> latticeBits};
+}
+
+/// The y of the voxels that the part of the triangle between two x may touch; one voxel more at times.
+Span rowsBetween(const LatticeTriangle& triangle, int fromX, int toX)
+{
+    double low = std::numeric_limits<double>::max(), high = std::numeric_limits<double>::lowest();
+    const auto add = [&](double y) {
+        low = std::min(low, y);
+        high = std::max(high, y);
+    };
+    for (int i = 0; i < 3; ++i) {
+        const openvdb::Vec3i &p = triangle.corners[i], &q = triangle.corners[(i + 1) % 3];
+        if (fromX <= p.x() && p.x() <= toX) add(p.y());
+        for (const int x : {fromX, toX}) {
+            if ((p.x() < x) != (q.x() < x)) add(p.y() + double(x - p.x()) * (q.y() - p.y()) / (q.x() - p.x()));
+        }
+    }
+    if (high < low) return {};
+    return voxelsOf(static_cast<int>(std::floor(low)) - 1, static_cast<int>(std::ceil(high)) + 1);
 }
 
 /// Cuts the columns that a triangle may touch in the slab's planes into items: visit(item). A driver may end an
@@ -54,22 +74,34 @@ Span voxelsOf(int a, int b, int c)
 template <typename Visit>
 void cut(const LatticeTriangle& triangle, bool counted, const Span& planes, const Visit& visit)
 {
-    constexpr int mostColumns = 64, mostSteps = 8192;
+    constexpr int mostColumns = 64, mostSteps = 8192, thickness = 4;
     const openvdb::Vec3i(&p)[3] = triangle.corners;
-    const Span xs = voxelsOf(p[0].x(), p[1].x(), p[2].x()), ys = voxelsOf(p[0].y(), p[1].y(), p[2].y()),
-               zs = voxelsOf(p[0].z(), p[1].z(), p[2].z());
-    const int words = (zs.last >> 5) - (zs.first >> 5) + 1;
-    const int columns = std::clamp(mostSteps / words, 1, mostColumns);
-    const int width = std::min(columns, ys.last - ys.first + 1), height = columns / width;
+    Span xs = voxelsOf(std::min({p[0].x(), p[1].x(), p[2].x()}), std::max({p[0].x(), p[1].x(), p[2].x()}));
+    const Span ys = voxelsOf(std::min({p[0].y(), p[1].y(), p[2].y()}), std::max({p[0].y(), p[1].y(), p[2].y()}));
+    const Span zs = voxelsOf(std::min({p[0].z(), p[1].z(), p[2].z()}), std::max({p[0].z(), p[1].z(), p[2].z()}));
+    xs = {std::max(xs.first, planes.first), std::min(xs.last, planes.last)};
+    const int steps = (zs.last >> 5) - (zs.first >> 5) + 1;
+    const int columns = std::min(mostColumns, mostSteps / steps);
+
     Item item;
     for (int i = 0; i < 9; ++i) item.corners[i] = p[i / 3][i % 3];
     item.counted = counted;
-    const int lastX = std::min(xs.last, planes.last);
-    for (int x = std::max(xs.first, planes.first); x <= lastX; x += height) {
-        item.columnsX = x | std::min(x + height - 1, lastX) << 16;
-        for (int y = ys.first; y <= ys.last; y += width) {
-            item.columnsY = y | std::min(y + width - 1, ys.last) << 16;
-            visit(item);
+    const auto visitColumns = [&](int firstX, int lastX, int firstY, int lastY) {
+        item.columnsX = firstX | lastX << 16;
+        item.columnsY = firstY | lastY << 16;
+        visit(item);
+    };
+    if ((xs.last - xs.first + 1) * (ys.last - ys.first + 1) <= columns) {
+        visitColumns(xs.first, xs.last, ys.first, ys.last);
+        return;
+    }
+    const int width = columns / thickness;
+    for (int x = xs.first; x <= xs.last; x += thickness) {
+        const int last = std::min(x + thickness - 1, xs.last);
+        Span rows = rowsBetween(triangle, x * latticeStep - latticeReach, last * latticeStep + latticeReach);
+        rows = {std::max(rows.first, ys.first), std::min(rows.last, ys.last)};
+        for (int y = rows.first; y <= rows.last; y += width) {
+            visitColumns(x, last, y, std::min(y + width - 1, rows.last));
         }
     }
 }
@@ -156,6 +188,7 @@ private:
             api_.BindVertexArray(noVertices_.name());
             api_.Viewport(0, 0, rows_, triangles_.slabThickness());
             api_.DrawArrays(GL_TRIANGLES, 0, 6 * count);
+            api_.Finish(); // llvmpipe does not wait for fragments that still read the items when these change
         } else {
             constexpr GLsizei groupSize = 64;
             setUniform("itemCount", count);
