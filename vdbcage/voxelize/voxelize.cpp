@@ -18,7 +18,7 @@ detail::Backend& chooseBackend(Voxelizer voxelizer)
     case Voxelizer::gl:
         return detail::voxelizeGl;
     case Voxelizer::cgal:
-        throw DeviceError("voxelizer cgal: this build has none; use auto or cpu");
+        return detail::voxelizeCgal;
     }
     return detail::voxelizeCpu;
 }

@@ -16,4 +16,8 @@ Backend voxelizeCpu;
 /// Through an OpenGL context of its own, that lives as long as the call.
 Backend voxelizeGl;
 
+/// By CGAL's predicates and AABB tree: slow, and of other make. \throw DeviceError in builds without
+/// VDBCAGE_WITH_CGAL_GPL
+Backend voxelizeCgal;
+
 } // namespace vdbcage::detail

@@ -14,9 +14,6 @@
 #include <vector>
 
 #include <shaders/voxelize.h>
-#include <tbb/blocked_range.h>
-#include <tbb/enumerable_thread_specific.h>
-#include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 #include <vdbcage/core/error.h>
 #include <vdbcage/gl/offscreen.h>
@@ -116,7 +113,7 @@ public:
           slabWords_(planeWords_ * static_cast<std::size_t>(slabThickness)),
           items_(gl::makeBuffer(api, batchSize * sizeof(Item), nullptr, GL_DYNAMIC_STORAGE_BIT)),
           bits_(gl::makeBuffer(api, grids * slabWords_ * sizeof(Word), nullptr)), crossings_(3 * slabWords_),
-          entering_(planeWords_)
+          alongX_(planeWords_)
     {
         setUniform("rowsPerPlane", rows_);
         setUniform("wordsPerRow", 2 * words_);
@@ -204,74 +201,15 @@ private:
                                    static_cast<GLsizeiptr>(count * sizeof(Word)), words);
     }
 
-    /// Adds the inside to the planes of the slab, in parallel by a few of them at a time.
     void vote(const Span& planes)
     {
-        constexpr int thickness = 8;
-        const int count = (planes.last - planes.first) / thickness + 1;
-        const auto slabOf = [&](int i) {
-            Slab slab;
-            slab.planes.first = planes.first + i * thickness;
-            slab.planes.last = std::min(slab.planes.first + thickness - 1, planes.last);
-            slab.rowsPerPlane = rows_;
-            slab.wordsPerRow = words_;
-            slab.surface = grid_.row(slab.planes.first, 0);
-            const std::size_t offset = static_cast<std::size_t>(i * thickness) * planeWords_;
-            for (std::size_t axis = 0; axis < 3; ++axis) {
-                slab.crossings[axis] = crossings_.data() + axis * slabWords_ + offset;
-            }
-            return slab;
-        };
-        // The parities with which rays along x enter a few planes: first how those before change them.
-        std::vector<Word> entering(static_cast<std::size_t>(count + 1) * planeWords_);
-        const auto enteringAt = [&](int i) { return entering.data() + static_cast<std::size_t>(i) * planeWords_; };
-        std::copy(entering_.begin(), entering_.end(), enteringAt(0));
-        tbb::parallel_for(0, count, [&](int i) {
-            throwIfInterrupted(interrupter_);
-            const Slab slab = slabOf(i);
-            const std::size_t words = planeWords_ * static_cast<std::size_t>(slab.planes.last - slab.planes.first + 1);
-            Word* const parities = enteringAt(i + 1);
-            for (std::size_t at = 0; at < words; at += planeWords_) {
-                for (std::size_t k = 0; k < planeWords_; ++k) parities[k] ^= slab.crossings[0][at + k];
-            }
-        });
-        tbb::parallel_for(tbb::blocked_range<std::size_t>(0, planeWords_, 4096), [&](const auto& range) {
-            for (int i = 1; i <= count; ++i) {
-                for (std::size_t k = range.begin(); k != range.end(); ++k) enteringAt(i)[k] ^= enteringAt(i - 1)[k];
-            }
-        });
-        std::copy_n(enteringAt(count), planeWords_, entering_.begin());
-
-        tbb::enumerable_thread_specific<Workspace> workspaces;
-        tbb::parallel_for(0, count, [&](int i) {
-            throwIfInterrupted(interrupter_);
-            Workspace& work = workspaces.local();
-            Slab slab = slabOf(i);
-            work.crossed.assign(static_cast<std::size_t>(thickness * rows_), 0);
-            work.row.resize(static_cast<std::size_t>(words_));
-            slab.crossed = work.crossed.data();
-            markCrossed(slab);
-            for (int x = slab.planes.first; x <= slab.planes.last; ++x) {
-                voteInside(slab, x, enteringAt(i), work.row.data());
-            }
-        });
-    }
-    struct Workspace {
-        std::vector<std::uint8_t> crossed;
-        std::vector<Word> row;
-    };
-
-    static void markCrossed(const Slab& slab)
-    {
-        const int rows = slab.rowsPerPlane * (slab.planes.last - slab.planes.first + 1);
-        for (int axis = 0; axis < 3; ++axis) {
-            const Word* words = slab.crossings[axis];
-            for (int row = 0; row < rows; ++row, words += slab.wordsPerRow) {
-                Word any = 0;
-                for (int i = 0; i < slab.wordsPerRow; ++i) any |= words[i];
-                if (any != 0) slab.crossed[row] = static_cast<std::uint8_t>(slab.crossed[row] | 1 << axis);
-            }
-        }
+        Slab slab;
+        slab.planes = planes;
+        slab.rowsPerPlane = rows_;
+        slab.wordsPerRow = words_;
+        slab.surface = grid_.row(planes.first, 0);
+        for (std::size_t axis = 0; axis < 3; ++axis) slab.crossings[axis] = crossings_.data() + axis * slabWords_;
+        voteInside(slab, alongX_.data(), interrupter_);
     }
 
     const gl::Api& api_;
@@ -287,7 +225,7 @@ private:
     gl::Framebuffer picture_; ///< a pixel a column
     gl::VertexArray noVertices_;
     std::vector<Word> crossings_; ///< of the slab that was read last
-    std::vector<Word> entering_;  ///< parities with which rays along x enter the next slab
+    std::vector<Word> alongX_;    ///< parities with which rays along x enter the next slab
 };
 
 gl::ProgramObject compile(const gl::Api& api, GlVoxelizer::Path path)

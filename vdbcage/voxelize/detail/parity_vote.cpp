@@ -2,6 +2,10 @@
 #include <vdbcage/voxelize/detail/parity_vote.h>
 
 #include <algorithm>
+#include <vector>
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
 
 namespace vdbcage::detail {
 
@@ -26,6 +30,19 @@ void accumulate(Word* row, int words)
     for (int i = 0; i < words; ++i) {
         row[i] ^= carry;
         carry = Word(0) - (row[i] >> 63);
+    }
+}
+
+/// Finds `crossed`.
+void markCrossed(const Slab& slab)
+{
+    const int rows = slab.rowsPerPlane * (slab.planes.last - slab.planes.first + 1);
+    for (int axis = 0; axis < 3; ++axis) {
+        const Word* words = slab.crossings[axis];
+        for (int row = 0; row < rows; ++row, words += slab.wordsPerRow) {
+            const bool any = anyBit(words, slab.wordsPerRow);
+            slab.crossed[row] = static_cast<std::uint8_t>(slab.crossed[row] | (any ? 1 << axis : 0));
+        }
     }
 }
 
@@ -65,6 +82,52 @@ void voteInside(const Slab& slab, int x, Word* alongX, Word* alongY)
         }
         if (crossed & 4) std::fill_n(alongZ, words, Word(0));
     }
+}
+
+void voteInside(const Slab& slab, Word* alongX, Interrupter* interrupter)
+{
+    constexpr int thickness = 8; // of the slabs that are worked on in parallel
+    const int count = (slab.planes.last - slab.planes.first) / thickness + 1;
+    const std::size_t planeWords =
+        static_cast<std::size_t>(slab.rowsPerPlane) * static_cast<std::size_t>(slab.wordsPerRow);
+    const auto part = [&](int i) {
+        const std::size_t offset = static_cast<std::size_t>(i * thickness) * planeWords;
+        Slab thin = slab;
+        thin.planes.first += i * thickness;
+        thin.planes.last = std::min(thin.planes.first + thickness - 1, slab.planes.last);
+        thin.surface += offset;
+        for (Word*& crossings : thin.crossings) crossings += offset;
+        return thin;
+    };
+    // The parities along x with which each part is entered: first how the part before changes them.
+    std::vector<Word> entering(static_cast<std::size_t>(count + 1) * planeWords);
+    const auto enteringAt = [&](int i) { return entering.data() + static_cast<std::size_t>(i) * planeWords; };
+    std::copy_n(alongX, planeWords, enteringAt(0));
+    tbb::parallel_for(0, count, [&](int i) {
+        throwIfInterrupted(interrupter);
+        const Slab thin = part(i);
+        const Word* crossings = thin.crossings[0];
+        Word* const parities = enteringAt(i + 1);
+        for (int x = thin.planes.first; x <= thin.planes.last; ++x, crossings += planeWords) {
+            for (std::size_t k = 0; k < planeWords; ++k) parities[k] ^= crossings[k];
+        }
+    });
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, planeWords, 4096), [&](const auto& range) {
+        for (int i = 1; i <= count; ++i) {
+            for (std::size_t k = range.begin(); k != range.end(); ++k) enteringAt(i)[k] ^= enteringAt(i - 1)[k];
+        }
+    });
+    std::copy_n(enteringAt(count), planeWords, alongX);
+
+    tbb::parallel_for(0, count, [&](int i) {
+        throwIfInterrupted(interrupter);
+        Slab thin = part(i);
+        std::vector<std::uint8_t> crossed(static_cast<std::size_t>(thickness * slab.rowsPerPlane));
+        std::vector<Word> row(static_cast<std::size_t>(slab.wordsPerRow));
+        thin.crossed = crossed.data();
+        markCrossed(thin);
+        for (int x = thin.planes.first; x <= thin.planes.last; ++x) voteInside(thin, x, enteringAt(i), row.data());
+    });
 }
 
 } // namespace vdbcage::detail
