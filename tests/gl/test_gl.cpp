@@ -224,6 +224,11 @@ BOOST_AUTO_TEST_CASE(a_context_says_where_it_comes_from)
     const OffscreenContext any;
     BOOST_TEST(any.description() == egl.description());
     BOOST_TEST(any.isSoftware() == egl.isSoftware());
+    if (egl.isSoftware()) {
+        BOOST_CHECK_EXCEPTION(OffscreenContext(Debug::off, Source::hardware), DeviceError, says({"hardware"}));
+    } else {
+        BOOST_TEST(OffscreenContext(Debug::off, Source::hardware).description() == egl.description());
+    }
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -195,6 +195,7 @@ BOOST_DATA_TEST_CASE(extreme_triangles_get_the_voxels_of_the_cpu, boost::unit_te
     same("in a few voxels", coveringTriangle(), 2);
     same("standing, diagonal", standingTriangle(true), 333);
     same("standing along y", standingTriangle(false), 700);
+    same("standing, all steps that an item may take", standingTriangle(false), 4096);
     same("walls", walls(60), 200);
     same("box on voxel corners", test::box(Vec3d(0.5), Vec3d(96.5, 63.5, 32.5)), 96);
     const bool many = way.source == Source::osmesa && way.path == Path::compute;
@@ -263,6 +264,34 @@ BOOST_AUTO_TEST_CASE(tasks_of_tbb_may_voxelize)
         masks[i] = voxelize(model, {50, Voxelizer::gl});
     });
     for (const auto& mask : masks) BOOST_TEST(mask->tree().hasSameTopology(expected->tree()));
+}
+
+BOOST_AUTO_TEST_CASE(automatic_is_the_cpu_where_the_device_fails_or_does_not_pay)
+{
+    const Mesh model = coveringTriangle();
+    Backend& failing = *+[](const Mesh&, const Frame&, Interrupter*) -> BitGrid { throw DeviceError("broken device"); };
+    Backend& cancelled = *+[](const Mesh&, const Frame&, Interrupter*) -> BitGrid { throw Cancelled(); };
+    const auto frame = [&](int resolution) { return makeFrame(model, resolution); };
+    constexpr int large = leastResolutionForDevice;
+    VoxelizeReport report;
+
+    BitGrid bits = voxelizeAutomatically(model, frame(large), failing, report, nullptr);
+    BOOST_TEST((report.voxelizer == Voxelizer::cpu));
+    BOOST_TEST(report.fallback == "broken device");
+    BOOST_TEST(difference(bits, onCpu(model, large)) == 0U);
+
+    bits = voxelizeAutomatically(model, frame(large), voxelizeGl, report, nullptr);
+    BOOST_TEST((report.voxelizer == Voxelizer::gl));
+    BOOST_TEST(report.fallback == "");
+    BOOST_TEST(difference(bits, onCpu(model, large)) == 0U);
+
+    bits = voxelizeAutomatically(model, frame(large - 1), failing, report, nullptr);
+    BOOST_TEST((report.voxelizer == Voxelizer::cpu));
+    BOOST_TEST(report.fallback == "");
+    BOOST_CHECK_THROW((void)voxelizeAutomatically(model, frame(large), cancelled, report, nullptr), Cancelled);
+
+    (void)voxelize(model, {large}, nullptr, &report);
+    BOOST_TEST(((report.voxelizer == Voxelizer::gl) == report.fallback.empty()));
 }
 
 BOOST_AUTO_TEST_CASE(every_question_can_cancel)

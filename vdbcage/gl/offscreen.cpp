@@ -59,10 +59,17 @@ OffscreenContext::OffscreenContext(Debug debug, Source source)
         }
     };
     std::vector<detail::MakePlatform> ways;
-    if (source != Source::osmesa) attempt([&] { ways = detail::eglPlatforms(); });
-    if (source != Source::egl) ways.emplace_back(&detail::makeOsmesa);
+    if (source != Source::osmesa) attempt([&] { ways = detail::eglPlatforms(source == Source::hardware); });
+    if (source == Source::any || source == Source::osmesa) ways.emplace_back(&detail::makeOsmesa);
     for (const detail::MakePlatform& make : ways) {
-        attempt([&] { state_ = std::make_unique<State>(make(debug == Debug::on), debug); });
+        attempt([&] {
+            state_ = std::make_unique<State>(make(debug == Debug::on), debug);
+            if (source == Source::hardware && state_->software) {
+                const std::string found = state_->description;
+                state_.reset();
+                throw DeviceError("OpenGL: a device turned out to be software (" + found + ")");
+            }
+        });
         if (state_) return;
     }
     throw DeviceError(problems);

@@ -15,9 +15,10 @@ class OffscreenContext {
 public:
     enum class Debug { off, on };
     enum class Source {
-        any,   ///< hardware by EGL if there is any, else software by EGL, else OSMesa
-        egl,   ///< EGL only: hardware if there is any
-        osmesa ///< OSMesa only: Mesa's rasterizer in software, which needs nothing but its library
+        any,      ///< hardware by EGL if there is any, else software by EGL, else OSMesa
+        hardware, ///< hardware by EGL only; where there is none, that takes a few ms
+        egl,      ///< EGL only: hardware if there is any, else software
+        osmesa    ///< OSMesa only: Mesa's rasterizer in software, which needs nothing but its library
     };
 
     /// With `Debug::on` errors carry the driver's own words (see `throwIfFailed`). Takes some 10 ms; the first of a

@@ -151,7 +151,7 @@ std::vector<EGLDeviceEXT> hardware(const Library& egl, const char* extensions)
 
 } // namespace
 
-std::vector<MakePlatform> eglPlatforms()
+std::vector<MakePlatform> eglPlatforms(bool hardwareOnly)
 {
     const Library egl;
     const char* extensions = egl.queryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
@@ -164,10 +164,14 @@ std::vector<MakePlatform> eglPlatforms()
     };
     if (getDisplay && hasName(extensions, "EGL_EXT_platform_base")) {
         for (EGLDeviceEXT device : hardware(egl, extensions)) add(EGL_PLATFORM_DEVICE_EXT, device);
-        if (hasName(extensions, "EGL_MESA_platform_surfaceless"))
+        if (!hardwareOnly && hasName(extensions, "EGL_MESA_platform_surfaceless")) {
             add(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY);
+        }
     }
-    if (platforms.empty()) throw DeviceError("OpenGL: EGL has neither a hardware device nor surfaceless displays");
+    if (platforms.empty()) {
+        throw DeviceError(hardwareOnly ? "OpenGL: EGL has no hardware device"
+                                       : "OpenGL: EGL has neither a hardware device nor displays without a surface");
+    }
     return platforms;
 }
 

@@ -27,9 +27,9 @@ public:
 /// Makes a context when called. \throw DeviceError
 using MakePlatform = std::function<std::unique_ptr<Platform>(bool debug)>;
 
-/// The ways to a context by EGL, the best first: the devices that are hardware, then Mesa without a surface, which may
-/// be software. \throw DeviceError if there is no EGL that does without a display
-std::vector<MakePlatform> eglPlatforms();
+/// The ways to a context by EGL: first the devices that are hardware, then, unless only those are wanted, Mesa without
+/// a surface. \throw DeviceError if EGL cannot be loaded or has none of them
+std::vector<MakePlatform> eglPlatforms(bool hardwareOnly);
 
 /// Mesa's rasterizer in software. \throw DeviceError
 std::unique_ptr<Platform> makeOsmesa(bool debug);

@@ -257,14 +257,29 @@ BitGrid GlVoxelizer::run(const Mesh& model, const Frame& frame, Interrupter* int
     return GlRun(api_, path_, program_, model, frame, (size.x() + slabs - 1) / slabs, interrupter).run();
 }
 
-BitGrid voxelizeGl(const Mesh& model, const Frame& frame, Interrupter* interrupter)
+namespace {
+
+BitGrid voxelizeThrough(gl::OffscreenContext::Source source, const Mesh& model, const Frame& frame,
+                        Interrupter* interrupter)
 {
     // Isolated: a thread that waits here must not begin another model, for which it would need another context.
     return tbb::this_task_arena::isolate([&] {
-        const gl::OffscreenContext context;
+        const gl::OffscreenContext context(gl::OffscreenContext::Debug::off, source);
         const auto current = context.makeCurrent();
         return GlVoxelizer(context.api(), GlVoxelizer::Path::compute).run(model, frame, interrupter);
     });
+}
+
+} // namespace
+
+BitGrid voxelizeGl(const Mesh& model, const Frame& frame, Interrupter* interrupter)
+{
+    return voxelizeThrough(gl::OffscreenContext::Source::any, model, frame, interrupter);
+}
+
+BitGrid voxelizeGlHardware(const Mesh& model, const Frame& frame, Interrupter* interrupter)
+{
+    return voxelizeThrough(gl::OffscreenContext::Source::hardware, model, frame, interrupter);
 }
 
 } // namespace vdbcage::detail
