@@ -209,14 +209,14 @@ uint bitsIn(int word, ivec2 run)
     return (0xffffffffu << first) & (0xffffffffu >> (31 - last));
 }
 
-/// Flips the voxels of `centred` where the crossing of a ray along this axis lies in the voxel.
-void flipCrossings(Face face, Row row, int y, int axis, ivec2 centred, int at)
+/// Flips the voxels of `inside` where the crossing of a ray along this axis lies in the voxel.
+void flipCrossings(Face face, Row row, int y, int axis, ivec2 inside, int at)
 {
     // A voxel holds a crossing if the plane's value at its centre is within half a cell of zero.
     const dvec2 cell = signOf(face.normal[axis]) * (latticeStep / 2) * dvec2(face.normalHigh[axis], face.normalLow[axis]);
-    clipByPlane(centred, face, row.x, y, cell, 1.0LF);
-    if (isEmpty(centred)) return;
-    const ivec2 run = centred + face.middle.z;
+    clipByPlane(inside, face, row.x, y, cell, 1.0LF);
+    if (isEmpty(inside)) return;
+    const ivec2 run = inside + face.middle.z;
     for (int word = wordOf(run.x); word <= wordOf(run.y); ++word) {
         xorWord(at + (1 + axis) * wordsPerGrid + word, bitsIn(word, run));
     }

@@ -103,10 +103,10 @@ BOOST_AUTO_TEST_CASE(a_device_that_fails_is_replaced_by_the_cpu_and_reported)
 {
     const TemporaryFolder folder;
     const std::string model = folder / "model.obj", cage = folder / "cage.obj", report = folder / "report.json";
-    writeMesh(test::sphere({0, 0, 0}, 1, 12), model);
+    writeMesh(test::box({0, 0, 0}, {1, 0.03, 0.02}), model);
     // Mesa's drivers then have no OpenGL 4.5; a driver of another make would do the work.
     const auto run = runCommand({"env", "MESA_GL_VERSION_OVERRIDE=4.1", command, "make", model, "-o", cage, "--report",
-                                 report, "--resolution", "512", "--effort", "fast", "--faces", "100"});
+                                 report, "--resolution", "1024", "--close-radius", "0.001", "--effort", "fast"});
     BOOST_TEST(run.status == 0, run.err);
     const json result = readJson(report)["result"];
     if (result["voxelizer"] == "cpu") {

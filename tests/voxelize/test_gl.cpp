@@ -268,7 +268,7 @@ BOOST_AUTO_TEST_CASE(tasks_of_tbb_may_voxelize)
 
 BOOST_AUTO_TEST_CASE(automatic_is_the_cpu_where_the_device_fails_or_does_not_pay)
 {
-    const Mesh model = coveringTriangle();
+    const Mesh model = test::box(Vec3d(0), Vec3d(1, 0.03, 0.02));
     Backend& failing = *+[](const Mesh&, const Frame&, Interrupter*) -> BitGrid { throw DeviceError("broken device"); };
     Backend& cancelled = *+[](const Mesh&, const Frame&, Interrupter*) -> BitGrid { throw Cancelled(); };
     const auto frame = [&](int resolution) { return makeFrame(model, resolution); };

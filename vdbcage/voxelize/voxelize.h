@@ -11,7 +11,7 @@ namespace vdbcage {
 
 /// Which code turns the model into voxels. All of them are exact and give the same bits.
 enum class Voxelizer {
-    automatic, ///< gl at resolution 512 and above if there is hardware for it and it does not fail, else cpu
+    automatic, ///< gl at resolution 1024 and above if there is hardware for it and it does not fail, else cpu
     cpu,       ///< TBB-parallel; the reference
     gl,        ///< OpenGL 4.5 shaders, in software where there is no hardware; needs no display
     cgal       ///< CGAL's AABB tree, TBB-parallel; slow; optional GPL part

@@ -24,8 +24,9 @@ Backend voxelizeGlHardware;
 /// VDBCAGE_WITH_CGAL_GPL
 Backend voxelizeCgal;
 
-/// From this resolution on, setting up a device may pay: below, the CPU is done before a context and its shaders are.
-constexpr int leastResolutionForDevice = 512;
+/// From this resolution on, setting up a device may pay: below, the CPU is done before a context and its shaders are
+/// made (README, Voxelizers).
+constexpr int leastResolutionForDevice = 1024;
 
 /// By the device from leastResolutionForDevice on, unless it fails; else by the CPU. `report` says which and why.
 BitGrid voxelizeAutomatically(const Mesh& model, const Frame& frame, Backend& device, VoxelizeReport& report,
