@@ -23,6 +23,7 @@ struct Library {
         file.find("eglDestroyContext", destroyContext);
         file.find("eglGetCurrentContext", currentContext);
         file.find("eglMakeCurrent", makeCurrent);
+        file.find("eglReleaseThread", releaseThread);
     }
     SharedLibrary file;
     GetProc getProc = nullptr;
@@ -35,26 +36,33 @@ struct Library {
     decltype(&eglDestroyContext) destroyContext = nullptr;
     decltype(&eglGetCurrentContext) currentContext = nullptr;
     decltype(&eglMakeCurrent) makeCurrent = nullptr;
+    decltype(&eglReleaseThread) releaseThread = nullptr;
 };
 
-/// Makes OpenGL what EGL's calls on this thread are about, as long as it lives.
-class BindOpenGl {
+/// A visit of this thread to EGL, with OpenGL as the API that its calls are about. It leaves the thread as it was:
+/// where no context is current afterwards, even without the data that EGL keeps for each thread. At the end of the
+/// process libEGL frees this data of all threads, and then once more for each thread that ends later, as TBB's workers
+/// do.
+class Visit {
 public:
-    explicit BindOpenGl(const Library& egl) : egl_(egl), before_(egl.queryApi()), bound_(egl.bindApi(EGL_OPENGL_API))
+    explicit Visit(const Library& egl) : egl_(egl), before_(egl.queryApi())
     {
         // No check: what needs it fails next, with an error of its own.
+        egl_.bindApi(EGL_OPENGL_API);
     }
-    ~BindOpenGl()
+    ~Visit()
     {
-        if (bound_) egl_.bindApi(before_);
+        if (!hasContext(EGL_OPENGL_API) && !hasContext(EGL_OPENGL_ES_API)) egl_.releaseThread();
+        if (egl_.queryApi() != before_) egl_.bindApi(before_);
     }
-    BindOpenGl(const BindOpenGl&) = delete;
-    BindOpenGl& operator=(const BindOpenGl&) = delete;
+    Visit(const Visit&) = delete;
+    Visit& operator=(const Visit&) = delete;
 
 private:
+    bool hasContext(EGLenum api) const { return egl_.bindApi(api) && egl_.currentContext() != EGL_NO_CONTEXT; }
+
     const Library& egl_;
     EGLenum before_;
-    EGLBoolean bound_;
 };
 
 /// Whether a list of names separated by blanks, which may be null, has this one.
@@ -74,6 +82,7 @@ class EglPlatform : public Platform {
 public:
     EglPlatform(const Library& egl, EGLDisplay display, bool debug) : egl_(egl), display_(display)
     {
+        const Visit visit(egl_);
         // The display is the process's, shared by all who ask for it, and so is never terminated here.
         EGLint major = 0, minor = 0;
         if (!egl_.initialize(display_, &major, &minor)) fail(egl_, "cannot initialize the device");
@@ -82,7 +91,6 @@ public:
              {"EGL_KHR_surfaceless_context", "EGL_KHR_no_config_context", "EGL_KHR_create_context"}) {
             if (!hasName(extensions, needed)) throw DeviceError("OpenGL: EGL: the device lacks " + std::string(needed));
         }
-        const BindOpenGl binding(egl_);
         const EGLint attributes[] = {EGL_CONTEXT_MAJOR_VERSION_KHR,
                                      4,
                                      EGL_CONTEXT_MINOR_VERSION_KHR,
@@ -97,13 +105,17 @@ public:
     }
     EglPlatform(const EglPlatform&) = delete;
     EglPlatform& operator=(const EglPlatform&) = delete;
-    ~EglPlatform() override { egl_.destroyContext(display_, context_); }
+    ~EglPlatform() override
+    {
+        const Visit visit(egl_);
+        egl_.destroyContext(display_, context_);
+    }
 
     const char* name() const override { return "EGL"; }
     GetProc getProc() const override { return egl_.getProc; }
     void makeCurrent() override
     {
-        const BindOpenGl binding(egl_);
+        const Visit visit(egl_);
         if (egl_.currentContext() != EGL_NO_CONTEXT) {
             throw DeviceError("OpenGL: an EGL context is already current on this thread");
         }
@@ -113,7 +125,7 @@ public:
     }
     void release() noexcept override
     {
-        const BindOpenGl binding(egl_);
+        const Visit visit(egl_);
         egl_.makeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
     }
 
@@ -154,6 +166,7 @@ std::vector<EGLDeviceEXT> hardware(const Library& egl, const char* extensions)
 std::vector<MakePlatform> eglPlatforms(bool hardwareOnly)
 {
     const Library egl;
+    const Visit visit(egl);
     const char* extensions = egl.queryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
     const auto getDisplay = extension<PFNEGLGETPLATFORMDISPLAYEXTPROC>(egl, "eglGetPlatformDisplayEXT");
     std::vector<MakePlatform> platforms;
