@@ -17,8 +17,8 @@ set(gpl "CGAL/(Surface_mesh|AABB_|Side_of_triangle_mesh|Polygon_mesh_processing|
 # library header pattern | files that may include it
 set(confined
     "OpenMesh/|^vdbcage/(mesh/detail/open_mesh\\.h|surface/[a-z_]+\\.cpp)$"
-    "GL/osmesa|^vdbcage/gl/offscreen\\.cpp$"
-    "EGL/|^vdbcage/gl/offscreen\\.cpp$"
+    "GL/osmesa|^vdbcage/gl/detail/osmesa\\.cpp$"
+    "EGL/|^vdbcage/gl/detail/egl\\.cpp$"
     "GLFW/|^tools/view/window\\.cpp$"
     "png\\.h|^(tools/vdbcage/picture\\.cpp|tests/.*)$"
     "CGAL/|^(vdbcage/.*\\.cpp|tests/.*)$")

@@ -3,7 +3,8 @@
 #   vdbcage_embed_shaders(TARGET FOLDER FILES...)
 #
 # Makes <shaders/FOLDER.h> for TARGET: for each file of shaders/FOLDER, say line.vert, a gl::ShaderSource named
-# vdbcage::shaders::lineVert. A file's extension tells its stage: vert, geom, frag or comp.
+# vdbcage::shaders::lineVert. A file's extension tells its stage: vert, geom, frag or comp. A line `#include "face.glsl"`
+# stands for that file of the same folder, which is no stage and includes nothing; it too is in FILES.
 
 if(CMAKE_SCRIPT_MODE_FILE)
     # The build step: cmake -DFOLDER= -DSOURCE= -DFILES=a,b -DOUTPUT= -P EmbedShaders.cmake
@@ -15,8 +16,16 @@ if(CMAKE_SCRIPT_MODE_FILE)
     set(text "// Made from shaders/${FOLDER} by cmake/EmbedShaders.cmake.\n#pragma once\n\n")
     string(APPEND text "#include <vdbcage/gl/program.h>\n\nnamespace vdbcage::shaders {\n")
     foreach(file ${FILES})
+        if(file MATCHES "\\.glsl$")
+            file(READ ${SOURCE}/${file} included_${file})
+        endif()
+    endforeach()
+    foreach(file ${FILES})
+        if(file MATCHES "\\.glsl$")
+            continue()
+        endif()
         if(NOT file MATCHES "^([a-z][A-Za-z]*)\\.(vert|geom|frag|comp)$")
-            message(FATAL_ERROR "shaders/${FOLDER}/${file}: a name like lineWide.vert is needed (vert, geom, frag, comp)")
+            message(FATAL_ERROR "shaders/${FOLDER}/${file}: a name like lineWide.vert is needed (vert, geom, frag, comp, glsl)")
         endif()
         set(name ${CMAKE_MATCH_1})
         set(extension ${CMAKE_MATCH_2})
@@ -24,6 +33,14 @@ if(CMAKE_SCRIPT_MODE_FILE)
         string(TOUPPER ${initial} initial)
         string(SUBSTRING ${extension} 1 -1 rest)
         file(READ ${SOURCE}/${file} glsl)
+        foreach(included ${FILES})
+            if(DEFINED included_${included})
+                string(REPLACE "#include \"${included}\"\n" "${included_${included}}" glsl "${glsl}")
+            endif()
+        endforeach()
+        if(glsl MATCHES "#include")
+            message(FATAL_ERROR "shaders/${FOLDER}/${file}: includes a file that is not embedded with it")
+        endif()
         string(APPEND text "\ninline constexpr gl::ShaderSource ${name}${initial}${rest}{${stage_${extension}}, "
             "\"${FOLDER}/${file}\", R\"glsl(${glsl})glsl\"};\n")
     endforeach()
@@ -44,6 +61,8 @@ function(vdbcage_embed_shaders target folder)
             -P ${VDBCAGE_EMBED_SHADERS_SCRIPT}
         DEPENDS ${inputs} ${VDBCAGE_EMBED_SHADERS_SCRIPT}
         COMMENT "Embedding shaders/${folder}" VERBATIM)
-    target_sources(${target} PRIVATE ${header})
+    # A target of its own: the one that needs them may be another folder's.
+    add_custom_target(${target}_${folder}_shaders DEPENDS ${header})
+    add_dependencies(${target} ${target}_${folder}_shaders)
     target_include_directories(${target} PRIVATE ${include})
 endfunction()

@@ -4,7 +4,7 @@ packages=(
     g++ cmake ninja-build
     libopenvdb-dev libtbb-dev libblosc-dev libboost-dev libboost-iostreams-dev # volumes
     libopenmesh-dev libcgal-dev libgmp-dev libmpfr-dev                         # surfaces
-    libosmesa6-dev libgl-dev libpng-dev                                        # pictures
+    libgl-dev libegl-dev libosmesa6-dev libgl1-mesa-dri libpng-dev             # pictures, voxels by OpenGL
     libcli11-dev nlohmann-json3-dev                                            # the command
 )
 test_packages=(

@@ -251,6 +251,16 @@ BOOST_AUTO_TEST_CASE(bad_arguments)
     expectRefusal(folder, {command, "make", model, "-o", cage, "--colour", "red"}, {"--colour"});
 }
 
+BOOST_AUTO_TEST_CASE(no_opengl)
+{
+    const TemporaryFolder folder;
+    const std::string model = folder / "model.obj", cage = folder / "cage.obj";
+    test::writeText(model, good);
+    expectRefusal(folder,
+                  {"env", "MESA_GL_VERSION_OVERRIDE=4.1", command, "make", model, "-o", cage, "--voxelizer", "gl"},
+                  {"OpenGL", "4.5", "EGL", "OSMesa"});
+}
+
 BOOST_AUTO_TEST_CASE(permissions)
 {
     const TemporaryFolder folder;

@@ -125,6 +125,27 @@ BOOST_AUTO_TEST_CASE(closings_beside_alternatives)
     BOOST_TEST(!alone.contains("alternative"));
 }
 
+BOOST_AUTO_TEST_CASE(voxelizers_side_by_side)
+{
+    const auto lines = linesOf({"voxelize", bishop, "--resolutions", "9,16", "--repeat", "2", "--threads", "1",
+                                "--voxelizers", "gl,gl-raster,cgal,meshToVolume"});
+    BOOST_REQUIRE(lines.size() == 3U);
+    BOOST_TEST(lines[0]["device"].get<std::string>().find("OpenGL 4.") != std::string::npos);
+    BOOST_TEST(lines[0]["context_seconds"] > 0);
+    BOOST_TEST(lines[0]["compute_shader_seconds"] > 0);
+    for (std::size_t i = 1; i < lines.size(); ++i) {
+        BOOST_TEST(lines[i]["resolution"] == (i == 1 ? 9 : 16));
+        BOOST_TEST(lines[i]["threads"] == 1);
+        BOOST_TEST(lines[i]["cpu"]["wall_ratio"] == 1);
+        for (const char* name : {"cpu", "gl", "gl-raster", "cgal", "meshToVolume"}) {
+            BOOST_TEST(lines[i][name]["wall_ratio"] > 0);
+            BOOST_TEST(lines[i][name]["cpu_ratio"] >= 0);
+        }
+        for (const char* name : {"cpu", "gl", "gl-raster", "cgal"}) BOOST_TEST(lines[i][name]["different_voxels"] == 0);
+        BOOST_TEST(!lines[i]["meshToVolume"].contains("different_voxels"));
+    }
+}
+
 BOOST_AUTO_TEST_CASE(bad_arguments)
 {
     struct Wrong {
@@ -141,6 +162,9 @@ BOOST_AUTO_TEST_CASE(bad_arguments)
                                                  {{"closing"}, "--model"},
                                                  {{"closing", "--model", bishop, "--radius", "-1"}, "radius"},
                                                  {{"closing", "--model", bishop, "--element", "ball"}, "element"},
+                                                 {{"voxelize", bishop, "--voxelizers", "abacus"}, "--voxelizers"},
+                                                 {{"voxelize", bishop, "--repeat", "0"}, "--repeat"},
+                                                 {{"voxelize", bishop, "--resolutions", "0"}, "--resolutions"},
                                                  {{bishop, "--threads", "0"}, "--threads"},
                                                  {{bishop, "--resolutions", "1"}, "resolution"}}) {
         std::vector<std::string> words{bench};

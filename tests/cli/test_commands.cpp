@@ -84,6 +84,40 @@ BOOST_AUTO_TEST_CASE(make_leaves_cage_stages_report_and_picture)
     }
 }
 
+BOOST_AUTO_TEST_CASE(every_voxelizer_leads_to_the_same_cage_and_is_reported)
+{
+    const TemporaryFolder folder;
+    const std::string model = folder / "model.obj", report = folder / "report.json";
+    writeMesh(test::torus(1, 0.4, 40, 20), model);
+    for (const std::string name : {"auto", "cpu", "gl"}) {
+        const auto run = runCommand({"env", "-u", "DISPLAY", command, "make", model, "-o", folder / (name + ".obj"),
+                                     "--voxelizer", name, "--report", report, "--resolution", "40"});
+        BOOST_TEST(run.status == 0, run.err);
+        BOOST_TEST(readJson(report)["result"]["voxelizer"] == (name == "gl" ? "gl" : "cpu"));
+        BOOST_TEST(readJson(report)["result"]["voxelizer_fallback"] == "");
+        BOOST_TEST(test::readText(folder / (name + ".obj")) == test::readText(folder / "auto.obj"));
+    }
+}
+
+BOOST_AUTO_TEST_CASE(a_device_that_fails_is_replaced_by_the_cpu_and_reported)
+{
+    const TemporaryFolder folder;
+    const std::string model = folder / "model.obj", cage = folder / "cage.obj", report = folder / "report.json";
+    writeMesh(test::box({0, 0, 0}, {1, 0.03, 0.02}), model);
+    // Mesa's drivers then have no OpenGL 4.5; a driver of another make would do the work.
+    const auto run = runCommand({"env", "MESA_GL_VERSION_OVERRIDE=4.1", command, "make", model, "-o", cage, "--report",
+                                 report, "--resolution", "1024", "--close-radius", "0.001", "--effort", "fast"});
+    BOOST_TEST(run.status == 0, run.err);
+    const json result = readJson(report)["result"];
+    if (result["voxelizer"] == "cpu") {
+        const std::string reason = result["voxelizer_fallback"];
+        BOOST_TEST(reason.find("OpenGL") == 0U, reason);
+        BOOST_TEST(run.err.find(reason) != std::string::npos, run.err);
+    } else {
+        BOOST_TEST(result["voxelizer"] == "gl");
+    }
+}
+
 BOOST_AUTO_TEST_CASE(every_format_goes_in_and_out)
 {
     const TemporaryFolder folder;

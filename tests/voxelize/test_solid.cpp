@@ -240,9 +240,6 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_voxelized_is_refused_with_the_value_and_what
     Mesh bad = model;
     bad.points[3].y() = std::numeric_limits<double>::quiet_NaN();
     BOOST_TEST(names(message(bad, {}), "coordinates must be finite"));
-    for (const Voxelizer voxelizer : {Voxelizer::gl, Voxelizer::cgal}) {
-        BOOST_CHECK_THROW(voxelize(model, {16, voxelizer}), DeviceError);
-    }
     BOOST_TEST(sameVoxels(*voxelize(model, {16, Voxelizer::cpu}), *voxelize(model, {16})));
 }
 

@@ -113,6 +113,9 @@ void printSummary(const MakeArguments& arguments, const Pipeline& pipeline, cons
     } else if (report.start == CageStart::box) {
         std::cerr << "  this is the model's bounding box: nothing tighter with so few faces was certified\n";
     }
+    if (!report.voxels.fallback.empty()) {
+        std::cerr << "  voxels by the CPU: " << report.voxels.fallback << '\n';
+    }
     if (!arguments.verbose) return;
     for (const StageTime& stage : stages) {
         std::cerr << "  " << std::left << std::setw(10) << stage.name << std::right << std::setw(8) << stage.seconds

@@ -39,6 +39,16 @@ Json toJson(const CageCheck& check)
             {"median_angle_degrees", check.medianAngleDegrees}};
 }
 
+std::string nameOf(Voxelizer voxelizer)
+{
+    CageOptions options;
+    options.voxelizer = voxelizer;
+    for (const auto& option : optionValues(options)) {
+        if (option.first == "voxelizer") return option.second;
+    }
+    return {};
+}
+
 Json toJson(const CageReport& report)
 {
     const char* start = report.start == CageStart::closing ? "closing"
@@ -47,6 +57,8 @@ Json toJson(const CageReport& report)
     return {{"float_safe", report.floatSafe},
             {"offset_voxels", report.offsetVoxels},
             {"resolution", report.resolution},
+            {"voxelizer", nameOf(report.voxels.voxelizer)},
+            {"voxelizer_fallback", report.voxels.fallback},
             {"close_radius", report.closeRadius},
             {"start", start},
             {"repaired", report.repaired},

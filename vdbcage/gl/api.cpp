@@ -66,7 +66,7 @@ void enableDebugMessages(const Api& api)
     }
 }
 
-void throwIfFailed(const Api& api, const char* what)
+std::string takeFailures(const Api& api)
 {
     std::string problems;
     const auto add = [&](const std::string& problem) { problems += (problems.empty() ? "" : "; ") + problem; };
@@ -82,6 +82,12 @@ void throwIfFailed(const Api& api, const char* what)
                                   text.data()) == 1) {
         add(text.data());
     }
+    return problems;
+}
+
+void throwIfFailed(const Api& api, const char* what)
+{
+    const std::string problems = takeFailures(api);
     if (!problems.empty()) throw DeviceError("OpenGL failed while " + std::string(what) + ": " + problems);
 }
 

@@ -1,15 +1,20 @@
 #pragma once
 
+#include <string>
+
 #include <GL/glcorearb.h>
 
 /// Every OpenGL entry point that the project calls: its type in GL/glcorearb.h and its name without "gl".
 #define VDBCAGE_GL_ENTRY_POINTS(X)                                                                                     \
     X(PFNGLATTACHSHADERPROC, AttachShader)                                                                             \
+    X(PFNGLBINDBUFFERBASEPROC, BindBufferBase)                                                                         \
     X(PFNGLBINDFRAMEBUFFERPROC, BindFramebuffer)                                                                       \
+    X(PFNGLBINDIMAGETEXTUREPROC, BindImageTexture)                                                                     \
     X(PFNGLBINDVERTEXARRAYPROC, BindVertexArray)                                                                       \
     X(PFNGLBLENDFUNCPROC, BlendFunc)                                                                                   \
     X(PFNGLBLITNAMEDFRAMEBUFFERPROC, BlitNamedFramebuffer)                                                             \
     X(PFNGLCHECKNAMEDFRAMEBUFFERSTATUSPROC, CheckNamedFramebufferStatus)                                               \
+    X(PFNGLCLEARNAMEDBUFFERDATAPROC, ClearNamedBufferData)                                                             \
     X(PFNGLCLEARNAMEDFRAMEBUFFERFIPROC, ClearNamedFramebufferfi)                                                       \
     X(PFNGLCLEARNAMEDFRAMEBUFFERFVPROC, ClearNamedFramebufferfv)                                                       \
     X(PFNGLCLEARNAMEDFRAMEBUFFERIVPROC, ClearNamedFramebufferiv)                                                       \
@@ -32,13 +37,17 @@
     X(PFNGLDEPTHFUNCPROC, DepthFunc)                                                                                   \
     X(PFNGLDEPTHMASKPROC, DepthMask)                                                                                   \
     X(PFNGLDISABLEPROC, Disable)                                                                                       \
+    X(PFNGLDISPATCHCOMPUTEPROC, DispatchCompute)                                                                       \
     X(PFNGLDRAWARRAYSPROC, DrawArrays)                                                                                 \
     X(PFNGLDRAWARRAYSINSTANCEDPROC, DrawArraysInstanced)                                                               \
     X(PFNGLENABLEPROC, Enable)                                                                                         \
     X(PFNGLENABLEVERTEXARRAYATTRIBPROC, EnableVertexArrayAttrib)                                                       \
+    X(PFNGLFINISHPROC, Finish)                                                                                         \
     X(PFNGLGETDEBUGMESSAGELOGPROC, GetDebugMessageLog)                                                                 \
     X(PFNGLGETERRORPROC, GetError)                                                                                     \
+    X(PFNGLGETINTEGER64VPROC, GetInteger64v)                                                                           \
     X(PFNGLGETINTEGERVPROC, GetIntegerv)                                                                               \
+    X(PFNGLGETNAMEDBUFFERSUBDATAPROC, GetNamedBufferSubData)                                                           \
     X(PFNGLGETPROGRAMINFOLOGPROC, GetProgramInfoLog)                                                                   \
     X(PFNGLGETPROGRAMIVPROC, GetProgramiv)                                                                             \
     X(PFNGLGETSHADERINFOLOGPROC, GetShaderInfoLog)                                                                     \
@@ -46,11 +55,15 @@
     X(PFNGLGETSTRINGPROC, GetString)                                                                                   \
     X(PFNGLGETUNIFORMLOCATIONPROC, GetUniformLocation)                                                                 \
     X(PFNGLLINKPROGRAMPROC, LinkProgram)                                                                               \
+    X(PFNGLMEMORYBARRIERPROC, MemoryBarrier)                                                                           \
     X(PFNGLNAMEDBUFFERSTORAGEPROC, NamedBufferStorage)                                                                 \
+    X(PFNGLNAMEDBUFFERSUBDATAPROC, NamedBufferSubData)                                                                 \
+    X(PFNGLNAMEDFRAMEBUFFERPARAMETERIPROC, NamedFramebufferParameteri)                                                 \
     X(PFNGLNAMEDFRAMEBUFFERTEXTUREPROC, NamedFramebufferTexture)                                                       \
     X(PFNGLPIXELSTOREIPROC, PixelStorei)                                                                               \
     X(PFNGLPOLYGONOFFSETPROC, PolygonOffset)                                                                           \
     X(PFNGLPROGRAMUNIFORM1FPROC, ProgramUniform1f)                                                                     \
+    X(PFNGLPROGRAMUNIFORM1IPROC, ProgramUniform1i)                                                                     \
     X(PFNGLPROGRAMUNIFORM2FPROC, ProgramUniform2f)                                                                     \
     X(PFNGLPROGRAMUNIFORM4FPROC, ProgramUniform4f)                                                                     \
     X(PFNGLPROGRAMUNIFORMMATRIX4FVPROC, ProgramUniformMatrix4fv)                                                       \
@@ -58,6 +71,7 @@
     X(PFNGLSHADERSOURCEPROC, ShaderSource)                                                                             \
     X(PFNGLSTENCILFUNCPROC, StencilFunc)                                                                               \
     X(PFNGLSTENCILOPPROC, StencilOp)                                                                                   \
+    X(PFNGLTEXTUREBUFFERPROC, TextureBuffer)                                                                           \
     X(PFNGLTEXTURESTORAGE2DPROC, TextureStorage2D)                                                                     \
     X(PFNGLTEXTURESTORAGE2DMULTISAMPLEPROC, TextureStorage2DMultisample)                                               \
     X(PFNGLUSEPROGRAMPROC, UseProgram)                                                                                 \
@@ -87,6 +101,9 @@ struct Api {
 
 /// Makes the context record in full what it calls an error or undefined, for `throwIfFailed` to report.
 void enableDebugMessages(const Api& api);
+
+/// What failed since the last call, in words; empty if nothing did.
+std::string takeFailures(const Api& api);
 
 /// Asks the context whether anything failed since the last call; `what` says what was being done ("rendering").
 /// \throw DeviceError with the error codes and, after `enableDebugMessages`, the driver's own words

@@ -40,13 +40,13 @@ void deleteProgram(const Api& api, GLuint name)
 
 } // namespace detail
 
-Buffer makeBuffer(const Api& api, std::size_t size, const void* data)
+Buffer makeBuffer(const Api& api, std::size_t size, const void* data, GLbitfield flags)
 {
     GLuint name = 0;
     api.CreateBuffers(1, &name);
     Buffer buffer(api, name);
     // OpenGL has no buffers of size 0.
-    api.NamedBufferStorage(name, static_cast<GLsizeiptr>(size > 0 ? size : 1), size > 0 ? data : nullptr, 0);
+    api.NamedBufferStorage(name, static_cast<GLsizeiptr>(size > 0 ? size : 1), size > 0 ? data : nullptr, flags);
     throwIfFailed(api, "allocating a buffer");
     return buffer;
 }
@@ -72,6 +72,29 @@ Texture makeTexture2D(const Api& api, GLenum format, int width, int height, int 
     return texture;
 }
 
+Texture makeBufferTexture(const Api& api, GLenum format, const Buffer& buffer)
+{
+    GLuint name = 0;
+    api.CreateTextures(GL_TEXTURE_BUFFER, 1, &name);
+    Texture texture(api, name);
+    api.TextureBuffer(name, format, buffer.name());
+    throwIfFailed(api, "making a texture of a buffer");
+    return texture;
+}
+
+namespace {
+
+void requireComplete(const Api& api, const Framebuffer& framebuffer)
+{
+    throwIfFailed(api, "making a framebuffer");
+    const GLenum status = api.CheckNamedFramebufferStatus(framebuffer.name(), GL_DRAW_FRAMEBUFFER);
+    if (status != GL_FRAMEBUFFER_COMPLETE) {
+        throw DeviceError("OpenGL: this framebuffer cannot be drawn into (status " + std::to_string(status) + ")");
+    }
+}
+
+} // namespace
+
 Framebuffer makeFramebuffer(const Api& api, const Texture& colour, const Texture& depthStencil)
 {
     GLuint name = 0;
@@ -81,11 +104,18 @@ Framebuffer makeFramebuffer(const Api& api, const Texture& colour, const Texture
     if (depthStencil.name() != 0) {
         api.NamedFramebufferTexture(name, GL_DEPTH_STENCIL_ATTACHMENT, depthStencil.name(), 0);
     }
-    throwIfFailed(api, "making a framebuffer");
-    const GLenum status = api.CheckNamedFramebufferStatus(name, GL_DRAW_FRAMEBUFFER);
-    if (status != GL_FRAMEBUFFER_COMPLETE) {
-        throw DeviceError("OpenGL: this framebuffer cannot be drawn into (status " + std::to_string(status) + ")");
-    }
+    requireComplete(api, framebuffer);
+    return framebuffer;
+}
+
+Framebuffer makeEmptyFramebuffer(const Api& api, int width, int height)
+{
+    GLuint name = 0;
+    api.CreateFramebuffers(1, &name);
+    Framebuffer framebuffer(api, name);
+    api.NamedFramebufferParameteri(name, GL_FRAMEBUFFER_DEFAULT_WIDTH, width);
+    api.NamedFramebufferParameteri(name, GL_FRAMEBUFFER_DEFAULT_HEIGHT, height);
+    requireComplete(api, framebuffer);
     return framebuffer;
 }
 

@@ -54,9 +54,9 @@ using Framebuffer = Object<detail::deleteFramebuffer>;
 using ShaderObject = Object<detail::deleteShader>;
 using ProgramObject = Object<detail::deleteProgram>;
 
-/// Memory of the device that holds `size` bytes of `data` and does not change (null `data`: undefined contents).
-/// \throw DeviceError (out of memory)
-[[nodiscard]] Buffer makeBuffer(const Api& api, std::size_t size, const void* data);
+/// Memory of the device that holds `size` bytes of `data` (null: undefined contents). Shaders may write to it; `flags`
+/// of GL_DYNAMIC_STORAGE_BIT lets the program do so too. \throw DeviceError (out of memory)
+[[nodiscard]] Buffer makeBuffer(const Api& api, std::size_t size, const void* data, GLbitfield flags = 0);
 
 template <typename Value>
 [[nodiscard]] Buffer makeBuffer(const Api& api, const std::vector<Value>& values)
@@ -70,7 +70,13 @@ template <typename Value>
 /// \throw DeviceError (too large, out of memory)
 [[nodiscard]] Texture makeTexture2D(const Api& api, GLenum format, int width, int height, int samples = 1);
 
+/// The values of `format` in `buffer`, which must outlive it, as an image of one row. \throw DeviceError
+[[nodiscard]] Texture makeBufferTexture(const Api& api, GLenum format, const Buffer& buffer);
+
 /// Draws into `colour` and `depthStencil`, of which one may be empty; both must outlive it. \throw DeviceError
 [[nodiscard]] Framebuffer makeFramebuffer(const Api& api, const Texture& colour, const Texture& depthStencil);
+
+/// Nothing to draw into, of `width` x `height` pixels: for fragment shaders that write elsewhere. \throw DeviceError
+[[nodiscard]] Framebuffer makeEmptyFramebuffer(const Api& api, int width, int height);
 
 } // namespace vdbcage::gl

@@ -1,39 +1,17 @@
 #include <vdbcage/gl/offscreen.h>
 
-#include <array>
 #include <atomic>
 #include <optional>
-#include <type_traits>
 
-#include <GL/osmesa.h>
 #include <vdbcage/core/error.h>
+#include <vdbcage/gl/detail/platform.h>
 
 namespace vdbcage::gl {
 
 namespace {
 
-struct Destroy {
-    void operator()(OSMesaContext context) const { OSMesaDestroyContext(context); }
-};
-using ContextHandle = std::unique_ptr<std::remove_pointer_t<OSMesaContext>, Destroy>;
-
-ContextHandle createContext()
-{
-    constexpr std::array<int, 9> attributes{
-        OSMESA_FORMAT,
-        OSMESA_RGBA,
-        OSMESA_PROFILE,
-        OSMESA_CORE_PROFILE,
-        OSMESA_CONTEXT_MAJOR_VERSION,
-        4,
-        OSMESA_CONTEXT_MINOR_VERSION,
-        5,
-        0,
-    };
-    ContextHandle context(OSMesaCreateContextAttribs(attributes.data(), nullptr));
-    if (!context) throw DeviceError("OpenGL: OSMesa cannot make a 4.5 core context");
-    return context;
-}
+/// OpenGL itself keeps this for each thread, but drivers do not see contexts of each other.
+thread_local bool threadHasContext = false;
 
 std::string text(const Api& api, GLenum name)
 {
@@ -41,61 +19,102 @@ std::string text(const Api& api, GLenum name)
     return string ? reinterpret_cast<const char*>(string) : "?";
 }
 
+bool namesSoftware(const std::string& renderer)
+{
+    for (const char* name : {"llvmpipe", "softpipe", "swrast", "Software Rasterizer"}) {
+        if (renderer.find(name) != std::string::npos) return true;
+    }
+    return false;
+}
+
 } // namespace
 
-/// What one kind of context needs. OSMesa, Mesa's rasterizer in software, works on every machine.
-struct OffscreenContext::Platform {
-    void makeCurrent()
+struct OffscreenContext::State {
+    State(std::unique_ptr<detail::Platform> from, Debug debug) : platform(std::move(from))
     {
-        if (OSMesaGetCurrentContext()) throw DeviceError("OpenGL: a context is already current on this thread");
-        if (inUse.exchange(true)) throw DeviceError("OpenGL: the context is in use on another thread");
-        if (!OSMesaMakeCurrent(context.get(), pixel.data(), GL_UNSIGNED_BYTE, 1, 1)) {
-            inUse = false;
-            throw DeviceError("OpenGL: OSMesa cannot make its context current");
-        }
-    }
-    void release() noexcept
-    {
-        OSMesaMakeCurrent(nullptr, nullptr, GL_UNSIGNED_BYTE, 0, 0);
-        inUse = false;
+        const Current current(*this);
+        const Api& table = api.emplace(platform->getProc());
+        if (debug == Debug::on) enableDebugMessages(table);
+        const std::string renderer = text(table, GL_RENDERER);
+        software = namesSoftware(renderer);
+        description = std::string(platform->name()) + ": " + renderer + ", OpenGL " + text(table, GL_VERSION);
+        throwIfFailed(table, "making a context");
     }
 
-    std::array<GLubyte, 4> pixel{}; // OSMesa insists on a default framebuffer
-    ContextHandle context = createContext();
-    std::atomic<bool> inUse{false};
+    std::unique_ptr<detail::Platform> platform;
     std::optional<Api> api;
     std::string description;
+    bool software = false;
+    std::atomic<bool> inUse{false};
 };
 
-OffscreenContext::OffscreenContext(Debug debug) : platform_(std::make_unique<Platform>())
+OffscreenContext::OffscreenContext(Debug debug, Source source)
 {
-    const Current current = makeCurrent();
-    const Api& table = platform_->api.emplace(&OSMesaGetProcAddress);
-    if (debug == Debug::on) enableDebugMessages(table);
-    platform_->description = "OSMesa: " + text(table, GL_RENDERER) + ", OpenGL " + text(table, GL_VERSION);
-    throwIfFailed(table, "making a context");
+    std::string problems;
+    const auto attempt = [&](const auto& work) {
+        try {
+            work();
+        } catch (const DeviceError& error) {
+            problems += (problems.empty() ? "" : "; ") + std::string(error.what());
+        }
+    };
+    std::vector<detail::MakePlatform> ways;
+    if (source != Source::osmesa) attempt([&] { ways = detail::eglPlatforms(source == Source::hardware); });
+    if (source == Source::any || source == Source::osmesa) ways.emplace_back(&detail::makeOsmesa);
+    for (const detail::MakePlatform& make : ways) {
+        attempt([&] {
+            state_ = std::make_unique<State>(make(debug == Debug::on), debug);
+            if (source == Source::hardware && state_->software) {
+                const std::string found = state_->description;
+                state_.reset();
+                throw DeviceError("OpenGL: a device turned out to be software (" + found + ")");
+            }
+        });
+        if (state_) return;
+    }
+    throw DeviceError(problems);
 }
 
 OffscreenContext::~OffscreenContext() = default;
 
-OffscreenContext::Current::Current(const OffscreenContext& context) : context_(context)
+OffscreenContext::Current::Current(State& state) : state_(state)
 {
-    context_.platform_->makeCurrent();
+    if (threadHasContext) throw DeviceError("OpenGL: a context is already current on this thread");
+    if (state_.inUse.exchange(true)) throw DeviceError("OpenGL: the context is in use on another thread");
+    try {
+        state_.platform->makeCurrent();
+    } catch (...) {
+        state_.inUse = false;
+        throw;
+    }
+    threadHasContext = true;
 }
 
 OffscreenContext::Current::~Current()
 {
-    context_.platform_->release();
+    state_.platform->release();
+    threadHasContext = false;
+    state_.inUse = false;
+}
+
+OffscreenContext::Current OffscreenContext::makeCurrent() const
+{
+    return Current(*state_);
 }
 
 const Api& OffscreenContext::api() const
 {
-    return *platform_->api;
+    return *state_->api;
 }
 
 const std::string& OffscreenContext::description() const
 {
-    return platform_->description;
+    return state_->description;
+}
+
+bool OffscreenContext::isSoftware() const
+{
+    return state_->software;
 }
 
 } // namespace vdbcage::gl

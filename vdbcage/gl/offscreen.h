@@ -10,12 +10,21 @@ namespace vdbcage::gl {
 /// An OpenGL 4.5 core context that needs no display. It has no usable default framebuffer: draw into framebuffers of
 /// your own. Any number may exist; one may be used from any thread, by one thread at a time.
 class OffscreenContext {
+    struct State;
+
 public:
     enum class Debug { off, on };
+    enum class Source {
+        any,      ///< hardware by EGL if there is any, else software by EGL, else OSMesa
+        hardware, ///< hardware by EGL only; where there is none, that takes a few ms
+        egl,      ///< EGL only: hardware if there is any, else software
+        osmesa    ///< OSMesa only: Mesa's rasterizer in software, which needs nothing but its library
+    };
 
-    /// With `Debug::on` errors carry the driver's own words (see `throwIfFailed`). Takes some 10 ms.
-    /// \throw DeviceError if no such context can be had here
-    explicit OffscreenContext(Debug debug = Debug::off);
+    /// With `Debug::on` errors carry the driver's own words (see `throwIfFailed`). Takes some 10 ms; the first of a
+    /// process loads the driver too.
+    /// \throw DeviceError if no such context can be had here: why not, for each way that was tried
+    explicit OffscreenContext(Debug debug = Debug::off, Source source = Source::any);
     ~OffscreenContext();
     OffscreenContext(const OffscreenContext&) = delete;
     OffscreenContext& operator=(const OffscreenContext&) = delete;
@@ -29,23 +38,25 @@ public:
 
     private:
         friend class OffscreenContext;
-        explicit Current(const OffscreenContext& context);
-        const OffscreenContext& context_;
+        explicit Current(State& state);
+        State& state_;
     };
 
     /// `const auto current = context.makeCurrent();` before any call through `api()`, also before GL objects of this
     /// context are destroyed. \throw DeviceError if a context is current on this thread already, or this one elsewhere
-    [[nodiscard]] Current makeCurrent() const { return Current(*this); }
+    [[nodiscard]] Current makeCurrent() const;
 
     /// The entry points; valid as long as this object is.
     const Api& api() const;
 
-    /// The driver's name and version, for reports.
+    /// Where it comes from and the driver's name and version, for reports.
     const std::string& description() const;
 
+    /// Whether a program on the CPU draws, rather than a device.
+    bool isSoftware() const;
+
 private:
-    struct Platform;
-    std::unique_ptr<Platform> platform_;
+    std::unique_ptr<State> state_;
 };
 
 } // namespace vdbcage::gl

@@ -9,10 +9,11 @@ namespace vdbcage::gl {
 
 namespace {
 
-/// The driver's log, on one line.
+/// The driver's log of what failed, on one line; debug messages say it again and are dropped.
 template <typename GetValue, typename GetLog>
-std::string readLog(GLuint name, GetValue getValue, GetLog getLog)
+std::string readLog(const Api& api, GLuint name, GetValue getValue, GetLog getLog)
 {
+    takeFailures(api);
     GLint size = 0;
     getValue(name, GL_INFO_LOG_LENGTH, &size);
     std::vector<char> log(static_cast<std::size_t>(size) + 1, '\0');
@@ -33,7 +34,7 @@ ShaderObject compile(const Api& api, const ShaderSource& source)
     api.GetShaderiv(shader.name(), GL_COMPILE_STATUS, &done);
     if (done == GL_FALSE) {
         throw DeviceError(std::string(source.name) +
-                          ": does not compile: " + readLog(shader.name(), api.GetShaderiv, api.GetShaderInfoLog));
+                          ": does not compile: " + readLog(api, shader.name(), api.GetShaderiv, api.GetShaderInfoLog));
     }
     return shader;
 }
@@ -55,7 +56,7 @@ ProgramObject makeProgram(const Api& api, std::initializer_list<ShaderSource> st
     api.GetProgramiv(program.name(), GL_LINK_STATUS, &done);
     if (done == GL_FALSE) {
         throw DeviceError(names +
-                          ": does not link: " + readLog(program.name(), api.GetProgramiv, api.GetProgramInfoLog));
+                          ": does not link: " + readLog(api, program.name(), api.GetProgramiv, api.GetProgramInfoLog));
     }
     throwIfFailed(api, "making a program");
     return program;

@@ -159,7 +159,7 @@ private:
         VoxelizeOptions voxels;
         voxels.resolution = options.resolution.value();
         voxels.voxelizer = options.voxelizer;
-        solid_ = voxelize(model_, voxels, interrupter);
+        solid_ = voxelize(model_, voxels, interrupter, &report_.voxels);
         report_.solidVoxels = static_cast<std::size_t>(solid_->activeVoxelCount());
         solidKey_ = key;
     }

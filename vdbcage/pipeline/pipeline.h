@@ -24,6 +24,7 @@ struct CageReport {
     CageCheck check;         ///< the verdict on the cage as it is returned, with measures
     bool floatSafe = false;  ///< its coordinates are floats, and the cage also bounds the model rounded to float
     int resolution = 0;      ///< voxels along the longest side, as given or chosen
+    VoxelizeReport voxels;   ///< what made the voxels
     double closeRadius = 0;  ///< fraction of the longest side, as given or chosen
     double offsetVoxels = 0; ///< how far the closing had to be grown to keep the clearance
     CageStart start = CageStart::closing;

@@ -1,41 +1,61 @@
 #include <vdbcage/voxelize/voxelize.h>
 
 #include <string>
+#include <utility>
 
 #include <vdbcage/core/error.h>
 #include <vdbcage/voxelize/detail/backend.h>
 
 namespace vdbcage {
 
-namespace {
+namespace detail {
 
-detail::Backend& chooseBackend(Voxelizer voxelizer)
+BitGrid voxelizeAutomatically(const Mesh& model, const Frame& frame, Backend& device, VoxelizeReport& report,
+                              Interrupter* interrupter)
 {
-    switch (voxelizer) {
-    case Voxelizer::automatic:
-    case Voxelizer::cpu:
-        break;
-    case Voxelizer::gl:
-        throw DeviceError("voxelizer gl: this build has none; use auto or cpu");
-    case Voxelizer::cgal:
-        throw DeviceError("voxelizer cgal: this build has none; use auto or cpu");
+    report = {};
+    if (frame.resolution >= leastResolutionForDevice) {
+        try {
+            BitGrid bits = device(model, frame, interrupter);
+            report.voxelizer = Voxelizer::gl;
+            return bits;
+        } catch (const DeviceError& error) {
+            report.fallback = error.what();
+        }
     }
-    return detail::voxelizeCpu;
+    return voxelizeCpu(model, frame, interrupter);
 }
 
-} // namespace
+} // namespace detail
 
-openvdb::MaskGrid::Ptr voxelize(const Mesh& model, const VoxelizeOptions& options, Interrupter* interrupter)
+openvdb::MaskGrid::Ptr voxelize(const Mesh& model, const VoxelizeOptions& options, Interrupter* interrupter,
+                                VoxelizeReport* report)
 {
     constexpr int highest = 4096;
     if (options.resolution < 1 || options.resolution > highest) {
         throw InputError("resolution is " + std::to_string(options.resolution) + "; 1 to " + std::to_string(highest) +
                          " is allowed");
     }
-    detail::Backend& backend = chooseBackend(options.voxelizer);
     requireUsable(model, "model");
     const detail::Frame frame = detail::makeFrame(model, options.resolution);
-    return detail::toMask(backend(model, frame, interrupter), detail::makeTransform(frame), interrupter);
+    VoxelizeReport done;
+    done.voxelizer = options.voxelizer;
+    const auto run = [&] {
+        switch (options.voxelizer) {
+        case Voxelizer::gl:
+            return detail::voxelizeGl(model, frame, interrupter);
+        case Voxelizer::cgal:
+            return detail::voxelizeCgal(model, frame, interrupter);
+        case Voxelizer::cpu:
+            return detail::voxelizeCpu(model, frame, interrupter);
+        case Voxelizer::automatic:
+            break;
+        }
+        return detail::voxelizeAutomatically(model, frame, detail::voxelizeGlHardware, done, interrupter);
+    };
+    openvdb::MaskGrid::Ptr mask = detail::toMask(run(), detail::makeTransform(frame), interrupter);
+    if (report) *report = std::move(done);
+    return mask;
 }
 
 } // namespace vdbcage

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+
 #include <openvdb/openvdb.h>
 #include <vdbcage/core/export.h>
 #include <vdbcage/core/interrupter.h>
@@ -7,17 +9,23 @@
 
 namespace vdbcage {
 
-/// Which code turns the model into voxels. All of them give the same bits on closed models.
+/// Which code turns the model into voxels. All of them are exact and give the same bits.
 enum class Voxelizer {
-    automatic, ///< the fastest of those that this build and machine have (now: cpu)
-    cpu,       ///< exact, TBB-parallel; the reference
-    gl,        ///< OpenGL 4.5 shaders
-    cgal       ///< CGAL, optional GPL part
+    automatic, ///< gl at resolution 1024 and above if there is hardware for it and it does not fail, else cpu
+    cpu,       ///< TBB-parallel; the reference
+    gl,        ///< OpenGL 4.5 shaders, in software where there is no hardware; needs no display
+    cgal       ///< CGAL's AABB tree, TBB-parallel; slow; optional GPL part
 };
 
 struct VoxelizeOptions {
     int resolution = 128; ///< voxels along the model's longest side, 1 to 4096
     Voxelizer voxelizer = Voxelizer::automatic;
+};
+
+/// How voxelize() did it.
+struct VoxelizeReport {
+    Voxelizer voxelizer = Voxelizer::cpu; ///< whose voxels these are, never automatic
+    std::string fallback;                 ///< why automatic took cpu after it had tried gl; else empty
 };
 
 /// Turns any polygon soup into a solid: the voxels that a face touches, and those inside.
@@ -41,12 +49,13 @@ struct VoxelizeOptions {
 ///
 /// \throw InputError the resolution is out of range; what requireUsable() refuses; the longest side is not in
 ///        [1e-100, 1e100]; a voxel is smaller than 2^-37 (7e-12) of the largest absolute coordinate, so that a model
-///        far from the origin has no room for its digits. DeviceError the chosen voxelizer is not in this build.
-///        Cancelled
+///        far from the origin has no room for its digits. DeviceError there is no OpenGL 4.5 or it fails, cgal is not
+///        in this build; never with automatic and cpu. Cancelled
 ///
 /// Cost: O(faces + touched voxels + box / 64) time, where box is the number of voxels of the bounding box, at most
 /// (resolution + 1)^3; box / 7 bytes and a few planes a thread, up to box / 5 bytes more where much of the box is
-/// hidden in hollows. TBB-parallel; the result does not depend on the number of threads.
+/// hidden in hollows; gl also needs 128 MiB of the device and as much again. TBB-parallel; the result does not depend
+/// on the number of threads.
 ///
 /// The transform can have a voxel size below 1.44e-5, the smallest that OpenVDB's own constructors take; functions of
 /// OpenVDB that build a new map from it (getAffineMap, postTranslate) throw ArithmeticError for such a grid.
@@ -54,7 +63,9 @@ struct VoxelizeOptions {
 /// Based on: Akenine-Moller, Fast 3D Triangle-Box Overlap Testing, 2001; Schwarz and Seidel, Fast Parallel Surface and
 /// Solid Voxelization on GPUs, 2010; Nooruddin and Turk, Simplification and Repair of Polygonal Models Using
 /// Volumetric Techniques, 2003 (votes of parity counts).
+///
+/// `report`, if not null, says which voxelizer did it.
 VDBCAGE_API openvdb::MaskGrid::Ptr voxelize(const Mesh& model, const VoxelizeOptions& options = {},
-                                            Interrupter* interrupter = nullptr);
+                                            Interrupter* interrupter = nullptr, VoxelizeReport* report = nullptr);
 
 } // namespace vdbcage

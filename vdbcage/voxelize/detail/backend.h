@@ -4,6 +4,7 @@
 #include <vdbcage/mesh/mesh.h>
 #include <vdbcage/voxelize/detail/bit_grid.h>
 #include <vdbcage/voxelize/detail/frame.h>
+#include <vdbcage/voxelize/voxelize.h>
 
 namespace vdbcage::detail {
 
@@ -12,5 +13,23 @@ namespace vdbcage::detail {
 using Backend = BitGrid(const Mesh& model, const Frame& frame, Interrupter* interrupter);
 
 Backend voxelizeCpu;
+
+/// Through an OpenGL context of its own, that lives as long as the call.
+Backend voxelizeGl;
+
+/// The same, but only through one that is hardware. \throw DeviceError also if there is none
+Backend voxelizeGlHardware;
+
+/// By CGAL's predicates and AABB tree: slow, and of other make. \throw DeviceError in builds without
+/// VDBCAGE_WITH_CGAL_GPL
+Backend voxelizeCgal;
+
+/// From this resolution on, setting up a device may pay: below, the CPU is done before a context and its shaders are
+/// made (README, Voxelizers).
+constexpr int leastResolutionForDevice = 1024;
+
+/// By the device from leastResolutionForDevice on, unless it fails; else by the CPU. `report` says which and why.
+BitGrid voxelizeAutomatically(const Mesh& model, const Frame& frame, Backend& device, VoxelizeReport& report,
+                              Interrupter* interrupter);
 
 } // namespace vdbcage::detail

@@ -1,0 +1,183 @@
+// vdbcage-bench voxelize: every voxelizer on the same models and resolutions in one run, beside OpenVDB's
+// meshToVolume, which makes distances and so does more, for scale.
+
+#include <algorithm>
+#include <functional>
+#include <iostream>
+#include <map>
+#include <memory>
+
+#include <openvdb/tools/MeshToVolume.h>
+#include <tbb/global_control.h>
+#include <tbb/info.h>
+#include <vdbcage/core/error.h>
+#include <vdbcage/gl/offscreen.h>
+#include <vdbcage/mesh/mesh_io.h>
+#include <vdbcage/voxelize/detail/gl.h>
+
+#include "bench.h"
+
+namespace vdbcage::bench {
+
+namespace {
+
+using detail::BitGrid;
+using detail::Frame;
+using detail::GlVoxelizer;
+
+double now()
+{
+    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+/// The context and shaders that are used again and again, and what it took to make them.
+class Device {
+public:
+    Device() : began_(now()), current_(context_.makeCurrent()), contextMade_(now())
+    {
+        compute_ = std::make_unique<GlVoxelizer>(context_.api(), GlVoxelizer::Path::compute);
+        computeMade_ = now();
+        raster_ = std::make_unique<GlVoxelizer>(context_.api(), GlVoxelizer::Path::raster);
+        rasterMade_ = now();
+    }
+    const GlVoxelizer& voxelizer(const std::string& name) const { return name == "gl-raster" ? *raster_ : *compute_; }
+    Json description() const
+    {
+        return {{"device", context_.description()},
+                {"software", context_.isSoftware()},
+                {"context_seconds", contextMade_ - began_},
+                {"compute_shader_seconds", computeMade_ - contextMade_},
+                {"raster_shader_seconds", rasterMade_ - computeMade_}};
+    }
+
+private:
+    double began_;
+    gl::OffscreenContext context_;
+    gl::OffscreenContext::Current current_;
+    double contextMade_, computeMade_ = 0, rasterMade_ = 0;
+    std::unique_ptr<GlVoxelizer> compute_, raster_;
+};
+
+/// The faces in the index space of a transform, as meshToVolume asks for them.
+class IndexSpaceFaces {
+public:
+    IndexSpaceFaces(const Mesh& mesh, const openvdb::math::Transform& transform) : triangles_(triangulate(mesh))
+    {
+        for (const openvdb::Vec3d& point : mesh.points) points_.push_back(transform.worldToIndex(point));
+    }
+    std::size_t polygonCount() const { return triangles_.size(); }
+    std::size_t pointCount() const { return points_.size(); }
+    static std::size_t vertexCount(std::size_t /*face*/) { return 3; }
+    void getIndexSpacePoint(std::size_t face, std::size_t corner, openvdb::Vec3d& point) const
+    {
+        point = points_[triangles_[face][static_cast<int>(corner)]];
+    }
+
+private:
+    std::vector<openvdb::Vec3d> points_;
+    std::vector<openvdb::Vec3I> triangles_;
+};
+
+std::size_t countDifferent(const BitGrid& a, const BitGrid& b)
+{
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < a.wordCount(); ++i) {
+        count += static_cast<std::size_t>(__builtin_popcountll(a.words()[i] ^ b.words()[i]));
+    }
+    return count;
+}
+
+/// One way to voxelize on one model at one resolution, into a VDB grid.
+using Run = std::function<void()>;
+
+struct Cost {
+    double wall = 1e300, cpu = 1e300; ///< seconds, the least of several runs
+    void measure(const Run& run)
+    {
+        const double wallBefore = now(), cpuBefore = usage()["cpu_seconds"];
+        run();
+        wall = std::min(wall, now() - wallBefore);
+        cpu = std::min(cpu, usage()["cpu_seconds"].get<double>() - cpuBefore);
+    }
+};
+
+} // namespace
+
+int runVoxelize(int argc, char** argv)
+{
+    const std::vector<std::string> known{"cpu", "gl", "gl-raster", "cgal", "meshToVolume"};
+    std::vector<std::string> models, voxelizers = known;
+    std::vector<int> resolutions{32, 64, 128, 256, 512, 1024};
+    int repeat = 3, threads = tbb::info::default_concurrency();
+    CLI::App app("vdbcage-bench voxelize: every voxelizer in one run, ratios to cpu, as JSON lines");
+    app.add_option("models", models, "models to measure on")->required()->type_name("MODEL...");
+    app.add_option("--resolutions", resolutions, "[32,64,128,256,512,1024]")->delimiter(',')->type_name("N,N...");
+    app.add_option("--voxelizers", voxelizers, "[cpu,gl,gl-raster,cgal,meshToVolume]; always cpu too")
+        ->delimiter(',')
+        ->type_name("V,V...")
+        ->check(CLI::IsMember(known));
+    app.add_option("--repeat", repeat, "the least of so many runs [3]")->type_name("K");
+    app.add_option("--threads", threads, "of the CPU [all]; a driver in software has its own")->type_name("N");
+    CLI11_PARSE(app, argc - 1, argv + 1);
+    for (const int resolution : resolutions) requirePositive("--resolutions", resolution);
+    requirePositive("--repeat", repeat);
+    requirePositive("--threads", threads);
+
+    openvdb::initialize();
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
+    const auto wanted = [&](const char* name) {
+        return std::find(voxelizers.begin(), voxelizers.end(), name) != voxelizers.end();
+    };
+    std::unique_ptr<Device> device;
+    if (wanted("gl") || wanted("gl-raster")) {
+        device = std::make_unique<Device>();
+        std::cout << device->description().dump() << std::endl;
+    }
+    for (const std::string& path : models) {
+        const Mesh model = readMesh(path);
+        for (const int resolution : resolutions) {
+            const Frame frame = detail::makeFrame(model, resolution);
+            const auto transform = detail::makeTransform(frame);
+            std::map<std::string, Run> runs;
+            std::map<std::string, BitGrid> bits;
+            const auto add = [&](const std::string& name, auto voxelizer) {
+                runs[name] = [&bits, &transform, name, voxelizer] {
+                    BitGrid grid = voxelizer();
+                    detail::toMask(grid, transform);
+                    bits.insert_or_assign(name, std::move(grid));
+                };
+            };
+            add("cpu", [&] { return detail::voxelizeCpu(model, frame, nullptr); });
+            if (wanted("cgal")) add("cgal", [&] { return detail::voxelizeCgal(model, frame, nullptr); });
+            for (const char* name : {"gl", "gl-raster"}) {
+                if (!wanted(name)) continue;
+                add(name, [&, name] { return device->voxelizer(name).run(model, frame, nullptr); });
+            }
+            if (wanted("meshToVolume")) {
+                runs["meshToVolume"] = [&] {
+                    const IndexSpaceFaces faces(model, *transform);
+                    openvdb::tools::meshToVolume<openvdb::FloatGrid>(faces, *transform, 1.0F, 1.0F);
+                };
+            }
+            std::map<std::string, Cost> costs;
+            for (int k = 0; k < repeat; ++k) {
+                for (const auto& run : runs) costs[run.first].measure(run.second);
+            }
+            Json line{{"model", path}, {"faces", faceCount(model)}, {"resolution", resolution}, {"threads", threads}};
+            for (const auto& entry : costs) {
+                const Cost& cost = entry.second;
+                Json& result = line[entry.first];
+                result = {{"wall_seconds", cost.wall},
+                          {"cpu_seconds", cost.cpu},
+                          {"wall_ratio", cost.wall / costs["cpu"].wall},
+                          {"cpu_ratio", cost.cpu / costs["cpu"].cpu}};
+                const auto found = bits.find(entry.first);
+                if (found != bits.end()) result["different_voxels"] = countDifferent(found->second, bits.at("cpu"));
+            }
+            std::cout << line.dump() << std::endl;
+        }
+    }
+    return 0;
+}
+
+} // namespace vdbcage::bench

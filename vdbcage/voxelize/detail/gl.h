@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstddef>
+
+#include <vdbcage/gl/objects.h>
+#include <vdbcage/gl/program.h>
+#include <vdbcage/voxelize/detail/backend.h>
+
+namespace vdbcage::detail {
+
+/// Voxelizes with the shaders of one OpenGL context, which must be current whenever a function of this is called, and
+/// when it is destroyed. The bits are those of voxelizeCpu.
+class GlVoxelizer {
+public:
+    /// How triangles become columns of voxels.
+    enum class Path {
+        compute, ///< a loop over the columns of each triangle
+        raster   ///< a fragment for each column of each triangle
+    };
+    /// Memory of the device for the voxels that are worked on at a time; more of them are done slab by slab.
+    static constexpr std::size_t usualGridBytes = std::size_t(128) << 20;
+
+    /// Compiles the shaders; `api` must outlive this. \throw DeviceError
+    GlVoxelizer(const gl::Api& api, Path path, std::size_t gridBytes = usualGridBytes);
+
+    /// As Backend. Uses TBB: a thread that waits must not take up work of others that need a context, see voxelizeGl.
+    BitGrid run(const Mesh& model, const Frame& frame, Interrupter* interrupter) const;
+
+private:
+    const gl::Api& api_;
+    Path path_;
+    std::size_t gridBytes_;
+    gl::ProgramObject program_;
+};
+
+} // namespace vdbcage::detail

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include <openvdb/Types.h>
+#include <vdbcage/mesh/mesh.h>
+#include <vdbcage/voxelize/detail/face_scan.h>
+#include <vdbcage/voxelize/detail/frame.h>
+
+namespace vdbcage::detail {
+
+/// The triangles of a model on the lattice, and for each slab of planes along x a list of those that reach into it, in
+/// the order of the faces. Quads are there under both diagonals.
+class SlabbedTriangles {
+public:
+    /// Slabs of `slabThickness` planes, the last may have fewer. TBB-parallel. O(faces + slabs reached by faces).
+    SlabbedTriangles(const Mesh& model, const Frame& frame, int slabThickness);
+
+    int slabCount() const { return slabCount_; }
+    int slabThickness() const { return slabThickness_; }
+    Span planes(int slab) const;
+
+    /// How many triangles reach into the slab.
+    std::size_t size(int slab) const { return begins_[index(slab) + 1] - begins_[index(slab)]; }
+    /// The i-th of them.
+    LatticeTriangle triangle(int slab, std::size_t i) const
+    {
+        const openvdb::Vec3I& face = faces_[members_[begins_[index(slab)] + i]];
+        return {{points_[face[0]], points_[face[1]], points_[face[2]]}};
+    }
+    /// Whether its crossings count: those of a quad do under one of its diagonals only.
+    bool counted(int slab, std::size_t i) const { return members_[begins_[index(slab)] + i] < counted_; }
+
+private:
+    static std::size_t index(int slab) { return static_cast<std::size_t>(slab); }
+    Span slabsOf(const openvdb::Vec3I& face) const;
+    void sortIntoSlabs();
+
+    std::vector<openvdb::Vec3i> points_; ///< lattice units, counted from the centre of the grid's first voxel
+    std::vector<openvdb::Vec3I> faces_;
+    std::size_t counted_; ///< the first so many faces count for parity
+    int slabThickness_, slabCount_, planes_;
+    std::vector<std::size_t> begins_; ///< by slab
+    std::vector<std::uint32_t> members_;
+};
+
+} // namespace vdbcage::detail
