@@ -1,5 +1,7 @@
 // The operators of smooth.h, decimate.h and tighten.h that work under a guard, put together from sweeps and collapses.
 
+#include <algorithm>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -7,13 +9,18 @@
 #include <vdbcage/surface/decimate.h>
 #include <vdbcage/surface/detail/guarded_decimate.h>
 #include <vdbcage/surface/detail/guarded_exchange.h>
+#include <vdbcage/surface/detail/guarded_quads.h>
 #include <vdbcage/surface/detail/guarded_sweeps.h>
+#include <vdbcage/surface/detail/quad_shape.h>
 #include <vdbcage/surface/smooth.h>
 #include <vdbcage/surface/tighten.h>
+#include <vdbcage/surface/triquad.h>
 
 namespace vdbcage {
 
 namespace {
+
+using Quads = detail::GuardedSurface::Quads;
 
 constexpr double samplesPerFace = 4; // of the distance to the model, where vertices are tightened
 
@@ -28,12 +35,19 @@ double areaPerSample(const detail::GuardedSurface& surface, std::size_t faces)
     return detail::area(surface) / (samplesPerFace * static_cast<double>(faces));
 }
 
+void tightenAndShake(detail::GuardedSurface& surface, const TightenOptions& options, Interrupter* interrupter)
+{
+    const std::size_t faces = surface.liveFaces();
+    detail::tighten(surface, options.sweeps, areaPerSample(surface, faces), interrupter);
+    detail::shake(surface, options.shakes, options.sweeps, areaPerSample(surface, faces), interrupter);
+}
+
 } // namespace
 
 Mesh smooth(const Mesh& surface, const BoundingGuard& guard, int sweeps, Interrupter* interrupter)
 {
     requireCount("sweeps", sweeps);
-    detail::GuardedSurface guarded(surface, guard.model());
+    detail::GuardedSurface guarded(surface, guard.model(), Quads::keep);
     detail::roundOff(guarded, sweeps, interrupter);
     return guarded.mesh();
 }
@@ -46,7 +60,7 @@ Mesh decimate(const Mesh& surface, const BoundingGuard& guard, const DecimateOpt
         throw InputError("faces: " + std::to_string(options.faces) +
                          " is not allowed; a closed surface has at least 4");
     }
-    detail::GuardedSurface guarded(surface, guard.model());
+    detail::GuardedSurface guarded(surface, guard.model(), Quads::split);
     detail::shrink(guarded, interrupter);
     // Quadrics know the surface that they were made from: one that was pulled onto the model on the way is better.
     const auto stops = effort == Effort::fast ? std::vector<std::size_t>{3} : std::vector<std::size_t>{4, 2};
@@ -71,11 +85,55 @@ Mesh tighten(const Mesh& cage, const BoundingGuard& guard, const TightenOptions&
 {
     requireCount("sweeps", options.sweeps);
     requireCount("shakes", options.shakes);
-    detail::GuardedSurface guarded(cage, guard.model());
+    detail::GuardedSurface guarded(cage, guard.model(), Quads::keep);
     if (guarded.liveFaces() == 0) return guarded.mesh();
-    detail::tighten(guarded, options.sweeps, areaPerSample(guarded, guarded.liveFaces()), interrupter);
-    detail::shake(guarded, options.shakes, options.sweeps, areaPerSample(guarded, guarded.liveFaces()), interrupter);
+    tightenAndShake(guarded, options, interrupter);
     return guarded.mesh();
+}
+
+Mesh triquad(const Mesh& surface, const BoundingGuard& guard, const BoundingTriquadOptions& options,
+             Interrupter* interrupter)
+{
+    constexpr int attempts = 5;
+    constexpr double aim = 0.99, goodEnough = 0.98; // of the faces
+    constexpr int sweepsBefore = 4;
+    if (options.faces < 4) {
+        throw InputError("faces: " + std::to_string(options.faces) +
+                         " is not allowed; a closed surface has at least 4");
+    }
+    detail::requireMergeAngle(options.mergeAngleDegrees);
+    requireCount("sweeps", options.tightening.sweeps);
+    requireCount("shakes", options.tightening.shakes);
+    const detail::GuardedSurface fine(surface, guard.model(), Quads::split);
+    if (fine.liveFaces() == 0) return fine.mesh();
+
+    // Pairing decides how many triangles become the faces wanted.
+    const auto wanted = static_cast<double>(options.faces);
+    double before = std::min(2 * wanted, static_cast<double>(fine.liveFaces()));
+    std::optional<detail::GuardedSurface> best;
+    std::size_t most = 0; // faces
+    for (int i = 0; i < attempts; ++i) {
+        detail::GuardedSurface paired = fine;
+        const auto target = static_cast<std::size_t>(std::max(wanted, before));
+        if (target < paired.liveFaces()) {
+            detail::collapseByQuadrics(paired, target, interrupter);
+            detail::tighten(paired, sweepsBefore, areaPerSample(paired, target), interrupter);
+        }
+        detail::pairUp(paired, options.mergeAngleDegrees, interrupter);
+        detail::tighten(paired, sweepsBefore, areaPerSample(paired, target), interrupter);
+        detail::pairUp(paired, options.mergeAngleDegrees, interrupter);
+        const std::size_t faces = paired.liveFaces() - paired.quads();
+        const bool isLeast = target <= options.faces, isMost = target >= fine.liveFaces();
+        if (faces <= options.faces ? !best || faces > most : isLeast && !best) {
+            best = std::move(paired);
+            most = faces;
+        }
+        const double share = static_cast<double>(faces) / wanted;
+        if (share <= 1 ? share >= goodEnough || isMost : isLeast) break;
+        before = i + 2 >= attempts && !best ? wanted : static_cast<double>(target) * aim / share;
+    }
+    tightenAndShake(*best, options.tightening, interrupter);
+    return best->mesh();
 }
 
 } // namespace vdbcage

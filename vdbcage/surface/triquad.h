@@ -3,7 +3,10 @@
 #include <functional>
 
 #include <vdbcage/core/export.h>
+#include <vdbcage/core/interrupter.h>
 #include <vdbcage/mesh/mesh.h>
+#include <vdbcage/surface/bounding_guard.h>
+#include <vdbcage/surface/tighten.h>
 
 namespace vdbcage {
 
@@ -19,5 +22,24 @@ struct TriquadOptions {
 /// \throw InputError (an angle out of range; no usable face)
 VDBCAGE_API Mesh triquad(const Mesh& triangles, const TriquadOptions& options = {},
                          const std::function<bool(const openvdb::Vec4I&)>& accept = {});
+
+struct BoundingTriquadOptions {
+    double mergeAngleDegrees =
+        30;                  ///< largest angle between a quad's triangles in the end, 0 to 180; 90 gives most quads
+    std::size_t faces = 400; ///< to end with, at most; a quad counts once; at least 4
+    TightenOptions tightening = {};
+};
+
+/// Makes triangles and quads of a surface that bounds `guard`'s model and keeps it so, each quad under both diagonals:
+/// the surface is decimated as far as pairing needs to reach `faces`; pairs become quads, flat and square ones that
+/// follow the directions of curvature first, then as many more as can be; where a diagonal would cut the model or the
+/// angle is too large, vertices are pushed outward; and the result is tightened with all four triangles of every quad
+/// under the guard. Quads are convex as above.
+/// A surface of twice the faces wanted gives the best result. More than the faces asked for are left only where
+/// decimation stops there. TBB-parallel, same result for any number of threads. \pre `surface` is closed, 2-manifold
+/// and bounds the model with the guard's clearance \throw InputError (options; not closed and 2-manifold), Cancelled
+/// O(n log n log m) for n faces and m of the model.
+VDBCAGE_API Mesh triquad(const Mesh& surface, const BoundingGuard& guard, const BoundingTriquadOptions& options,
+                         Interrupter* interrupter = nullptr);
 
 } // namespace vdbcage
