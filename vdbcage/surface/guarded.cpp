@@ -94,8 +94,9 @@ Mesh tighten(const Mesh& cage, const BoundingGuard& guard, const TightenOptions&
 Mesh triquad(const Mesh& surface, const BoundingGuard& guard, const BoundingTriquadOptions& options,
              Interrupter* interrupter)
 {
-    constexpr int attempts = 5;
-    constexpr double aim = 0.99, goodEnough = 0.98; // of the faces
+    constexpr int attempts = 6;
+    constexpr double aim = 0.99, goodEnough = 0.97; // of the faces
+    constexpr double firstGuess = 1.65;             // triangles for each of them
     constexpr int sweepsBefore = 4;
     if (options.faces < 4) {
         throw InputError("faces: " + std::to_string(options.faces) +
@@ -107,30 +108,33 @@ Mesh triquad(const Mesh& surface, const BoundingGuard& guard, const BoundingTriq
     const detail::GuardedSurface fine(surface, guard.model(), Quads::split);
     if (fine.liveFaces() == 0) return fine.mesh();
 
-    // Pairing decides how many triangles become the faces wanted.
+    // How many triangles become the faces wanted shows when they are paired; `low` of them do not become too many.
     const auto wanted = static_cast<double>(options.faces);
-    double before = std::min(2 * wanted, static_cast<double>(fine.liveFaces()));
+    double low = wanted, high = std::max(wanted, static_cast<double>(fine.liveFaces()));
+    double target = std::min(firstGuess * wanted, high);
     std::optional<detail::GuardedSurface> best;
-    std::size_t most = 0; // faces
+    double most = 0; // faces
     for (int i = 0; i < attempts; ++i) {
         detail::GuardedSurface paired = fine;
-        const auto target = static_cast<std::size_t>(std::max(wanted, before));
-        if (target < paired.liveFaces()) {
-            detail::collapseByQuadrics(paired, target, interrupter);
-            detail::tighten(paired, sweepsBefore, areaPerSample(paired, target), interrupter);
+        const auto triangles = static_cast<std::size_t>(target);
+        detail::collapseByQuadrics(paired, triangles, interrupter);
+        for (int k = 0; k < 2; ++k) {
+            detail::tighten(paired, sweepsBefore, areaPerSample(paired, triangles), interrupter);
+            detail::pairUp(paired, options.mergeAngleDegrees, interrupter);
         }
-        detail::pairUp(paired, options.mergeAngleDegrees, interrupter);
-        detail::tighten(paired, sweepsBefore, areaPerSample(paired, target), interrupter);
-        detail::pairUp(paired, options.mergeAngleDegrees, interrupter);
-        const std::size_t faces = paired.liveFaces() - paired.quads();
-        const bool isLeast = target <= options.faces, isMost = target >= fine.liveFaces();
-        if (faces <= options.faces ? !best || faces > most : isLeast && !best) {
+        const auto faces = static_cast<double>(paired.liveFaces() - paired.quads());
+        (faces <= wanted ? low : high) = target;
+        if (faces <= wanted && faces > most) {
             best = std::move(paired);
             most = faces;
         }
-        const double share = static_cast<double>(faces) / wanted;
-        if (share <= 1 ? share >= goodEnough || isMost : isLeast) break;
-        before = i + 2 >= attempts && !best ? wanted : static_cast<double>(target) * aim / share;
+        if ((most >= goodEnough * wanted) || high - low < 2) break;
+        target *= aim * wanted / faces;
+        if (!(target > low && target < high)) target = 0.5 * (low + high);
+    }
+    if (!best) {
+        best = fine;
+        detail::collapseByQuadrics(*best, options.faces, interrupter);
     }
     tightenAndShake(*best, options.tightening, interrupter);
     return best->mesh();

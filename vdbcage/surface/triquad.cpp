@@ -112,7 +112,7 @@ std::vector<Pair> findPairs(const Mesh& mesh, const Adjacency& adjacency, double
 
 } // namespace
 
-Mesh triquad(const Mesh& triangles, const TriquadOptions& options, const std::function<bool(const Vec4I&)>& accept)
+Mesh triquad(const Mesh& triangles, const TriquadOptions& options)
 {
     detail::requireMergeAngle(options.mergeAngleDegrees);
     requireUsable(triangles, "the mesh to merge into quads");
@@ -143,7 +143,6 @@ Mesh triquad(const Mesh& triangles, const TriquadOptions& options, const std::fu
                          [&](std::size_t face) { return face == first || face == second; }) != neighbours.end()) {
             continue;
         }
-        if (accept && !accept(pair.quad)) continue;
         partner[first] = second;
         partner[second] = first;
         adjacency.loseEdge(pair.quad[0]);

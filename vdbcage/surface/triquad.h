@@ -1,6 +1,6 @@
 #pragma once
 
-#include <functional>
+#include <cstddef>
 
 #include <vdbcage/core/export.h>
 #include <vdbcage/core/interrupter.h>
@@ -16,16 +16,14 @@ struct TriquadOptions {
 
 /// Merges pairs of triangles into quads, flattest and squarest pairs first. Quads are convex under both diagonals, with
 /// no corner above 160 degrees; no two faces come to share two edges, no inner point is left with fewer than three.
-/// `accept`, if set, has the last word on each pair: it is given the quad's corners (the merged edge runs from corner 0
-/// to corner 2). Points keep their order; quads of the input stay and come first. Any soup will do: edges that are not
-/// between two faces in opposite directions are left alone. O(n log n).
+/// The merged edge runs from a quad's corner 0 to corner 2. Points keep their order; quads of the input stay and come
+/// first. Any soup will do: edges that are not between two faces in opposite directions are left alone. O(n log n).
 /// \throw InputError (an angle out of range; no usable face)
-VDBCAGE_API Mesh triquad(const Mesh& triangles, const TriquadOptions& options = {},
-                         const std::function<bool(const openvdb::Vec4I&)>& accept = {});
+VDBCAGE_API Mesh triquad(const Mesh& triangles, const TriquadOptions& options = {});
 
 struct BoundingTriquadOptions {
-    double mergeAngleDegrees =
-        30;                  ///< largest angle between a quad's triangles in the end, 0 to 180; 90 gives most quads
+    /// Largest angle between the triangles of a quad in the end, under either diagonal, 0 to 180; 90 gives most quads.
+    double mergeAngleDegrees = 30;
     std::size_t faces = 400; ///< to end with, at most; a quad counts once; at least 4
     TightenOptions tightening = {};
 };

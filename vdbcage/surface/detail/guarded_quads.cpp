@@ -210,7 +210,8 @@ private:
         const std::size_t end = height > 0 ? 1 : 0;
         const auto vertex = [&](std::size_t i) { return ids[static_cast<int>(i)]; };
         for (const double share : {0.25, 0.5, 0.75, 1.0}) {
-            const Vec3d push = share * std::abs(height) * outward;
+            // Where the diagonals almost meet, more than rounding takes away.
+            const Vec3d push = share * (std::abs(height) + surface_.guard().clearance()) * outward;
             if (!moveBy(vertex(end), push)) continue;
             if (moveBy(vertex(end + 2), push)) {
                 if (surface_.makeQuad(f, g)) return true;
