@@ -209,6 +209,82 @@ BOOST_AUTO_TEST_CASE(changes_made_side_by_side_do_not_run_into_each_other)
     BOOST_TEST(!batch.apply(guarded.fanOf(2), guarded.point(2)));
 }
 
+// The quad of the next tests: two faces of a pyramid with eight sides that meet at the edge from the top, point 0, to
+// point 3. Its other diagonal, from point 2 to point 4, spans the plane x + y + z = 1 with the top.
+Mesh boxAt(double x, double y, double z)
+{
+    return test::joined(inLowerHalf, test::box({x - 0.02, y - 0.02, z - 0.02}, {x + 0.02, y + 0.02, z + 0.02}));
+}
+bool makesQuad(const Mesh& model, double minAngle = 0, double fold = 90)
+{
+    const BoundingGuard guard = guardOf(model, minAngle);
+    GuardedSurface guarded(bipyramid({0, 0, 0}, 1, 8), guard.model());
+    guarded.limitQuadFold(fold);
+    const bool made = guarded.makeQuad(0, 2);
+    const Mesh mesh = guarded.mesh();
+    BOOST_TEST(mesh.quads.size() == (made ? 1U : 0U));
+    BOOST_TEST(mesh.triangles.size() == (made ? 14U : 16U));
+    BOOST_TEST(guarded.quads() == mesh.quads.size());
+    return made;
+}
+
+BOOST_AUTO_TEST_CASE(a_quad_bounds_under_both_diagonals)
+{
+    BOOST_TEST(makesQuad(inLowerHalf));
+    BOOST_TEST(makesQuad(boxAt(0.27, 0.27, 0.37)));
+    BOOST_TEST(!makesQuad(boxAt(0.3, 0.3, 0.4)));    // the other diagonal's triangle cuts it
+    BOOST_TEST(!makesQuad(boxAt(0.33, 0.33, 0.46))); // it lies between the two
+    BOOST_TEST(!makesQuad(inLowerHalf, 30));         // the other triangles have corners of 22.5 degrees
+    BOOST_TEST(!makesQuad(inLowerHalf, 0, 10));
+}
+
+BOOST_AUTO_TEST_CASE(a_quad_bounds_under_both_diagonals_while_it_moves)
+{
+    const BoundingGuard guard = guardOf(boxAt(0.27, 0.27, 0.37));
+    GuardedSurface guarded(bipyramid({0, 0, 0}, 1, 8), guard.model());
+    const auto mayGo = [&](std::uint32_t v, const Vec3d& p) {
+        return guarded.allows(guarded.fanOf(v), guard.model().rounded(guard.model().scaled(p)));
+    };
+    const Vec3d cuts(0.8, 0, 0), concave(1.5, -1, 0), up(0, 0, 1.1);
+    for (const Vec3d& p : {cuts, concave, up}) BOOST_TEST(mayGo(2, p + (p == up ? Vec3d(1, 0, -1) : Vec3d(0.0))));
+    BOOST_TEST(mayGo(0, up));
+    BOOST_REQUIRE(guarded.makeQuad(0, 2));
+    BOOST_TEST(!mayGo(2, cuts));
+    BOOST_TEST(!mayGo(2, concave));
+    BOOST_TEST(mayGo(0, up));
+    // Both kinds of corner know each other, since their moves depend on each other.
+    for (const std::uint32_t v : {0U, 2U, 3U, 4U}) {
+        const auto near = guarded.neighbours(v);
+        for (const std::uint32_t w : {0U, 2U, 3U, 4U}) {
+            BOOST_TEST((v == w || std::count(near.begin(), near.end(), w) == 1));
+        }
+    }
+    guarded.splitQuad(2);
+    BOOST_TEST(guarded.quads() == 0U);
+    BOOST_TEST(mayGo(2, cuts));
+    BOOST_TEST(mayGo(2, concave));
+}
+
+BOOST_AUTO_TEST_CASE(a_part_between_the_diagonals_of_a_quad_stays_inside)
+{
+    // The part is inside at first; then a corner passes it under one diagonal only.
+    const Vec3d part(0.33, 0.33, 0.46);
+    const BoundingGuard guard = guardOf(boxAt(part[0], part[1], part[2]));
+    Mesh surface = bipyramid({0, 0, 0}, 1, 8);
+    surface.points[2] = Vec3d(1.6, 0, 0);
+    surface.points[4] = Vec3d(0, 1.6, 0);
+    surface.points[3] = Vec3d(1.1, 1.1, 0);
+    GuardedSurface guarded(surface, guard.model());
+    BOOST_REQUIRE(guarded.makeQuad(0, 2));
+    const auto mayGo = [&](const Vec3d& p) {
+        return guarded.allows(guarded.fanOf(2), guard.model().rounded(guard.model().scaled(p)));
+    };
+    BOOST_TEST(mayGo({1.5, 0, 0}));
+    BOOST_TEST(!mayGo({0.72, 0, 0})); // past the part, clear of it
+    guarded.splitQuad(0);
+    BOOST_TEST(mayGo({0.72, 0, 0}));
+}
+
 BOOST_AUTO_TEST_CASE(bad_options_and_surfaces_are_refused)
 {
     BOOST_CHECK_THROW(guardOf(inLowerHalf, 0, 0), InputError);

@@ -4,6 +4,7 @@
 #include <boost/test/unit_test.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <random>
@@ -15,6 +16,7 @@
 #include <vdbcage/surface/extract.h>
 #include <vdbcage/surface/smooth.h>
 #include <vdbcage/surface/tighten.h>
+#include <vdbcage/surface/triquad.h>
 
 #include "support/shapes.h"
 #include "support/solids.h"
@@ -90,6 +92,27 @@ double bending(const Mesh& mesh)
         sum += (mesh.points[edge.first] - mesh.points[edge.second]).length() * angle * angle;
     }
     return sum;
+}
+
+BoundingTriquadOptions quads(std::size_t faces, double degrees)
+{
+    BoundingTriquadOptions options;
+    options.faces = faces;
+    options.mergeAngleDegrees = degrees;
+    return options;
+}
+
+/// The largest angle between the normals of a quad's four triangles, one at each corner.
+double fold(const Mesh& mesh, const openvdb::Vec4I& quad)
+{
+    std::array<Vec3d, 4> normals;
+    for (int i = 0; i < 4; ++i) {
+        const Vec3d &p = mesh.points[quad[i]], &next = mesh.points[quad[(i + 1) % 4]],
+                    &last = mesh.points[quad[(i + 3) % 4]];
+        normals[std::size_t(i)] = (next - p).cross(last - p).unit();
+    }
+    const double least = std::min(normals[0].dot(normals[2]), normals[1].dot(normals[3]));
+    return std::acos(std::clamp(least, -1.0, 1.0)) * 180 / 3.14159265358979323846;
 }
 
 constexpr Effort efforts[] = {Effort::fast, Effort::fair, Effort::best};
@@ -188,6 +211,47 @@ BOOST_AUTO_TEST_CASE(smoothing_makes_it_rounder)
     BOOST_CHECK(same(smooth(tight, guard, 0), tight));
 }
 
+BOOST_AUTO_TEST_CASE(quads_bound_and_fold_as_little_as_asked)
+{
+    constexpr std::size_t faces = 80;
+    int reached = 0;
+    std::size_t count[3] = {0, 0, 0};
+    for (const Mesh& model : models()) {
+        const BoundingGuard guard(model);
+        const CageChecker checker(model);
+        const Mesh triangles = decimate(ball(24), guard, to(2 * faces), Effort::fast);
+        int i = 0;
+        for (const double degrees : {10.0, 30.0, 90.0}) {
+            const Mesh cage = triquad(triangles, guard, quads(faces, degrees));
+            BOOST_TEST(checker.check(cage).bounding()); // under every split
+            reached += faceCount(cage) <= faces;
+            for (const auto& quad : cage.quads) BOOST_TEST(fold(cage, quad) <= degrees + 1e-4); // rounded to float
+            count[i++] += cage.quads.size();
+            for (const Mesh& again : {tighten(cage, guard), smooth(cage, guard, 3)}) {
+                BOOST_TEST(checker.check(again).bounding());
+                BOOST_TEST(again.quads.size() == cage.quads.size());
+            }
+        }
+    }
+    BOOST_TEST(reached >= 16); // of 18, as above
+    BOOST_TEST(count[1] > count[0]);
+    BOOST_TEST(count[2] > count[1]);
+}
+
+BOOST_AUTO_TEST_CASE(most_faces_become_quads_and_stay_tight)
+{
+    constexpr std::size_t faces = 300;
+    const Mesh model = test::sphere({0, 0, 0}, 0.4, 40), start = ball(40);
+    const BoundingGuard guard(model);
+    const CageChecker checker(model);
+    const Mesh triangles = tighten(decimate(start, guard, to(faces)), guard);
+    const Mesh cage = triquad(decimate(start, guard, to(2 * faces)), guard, quads(faces, 30));
+    BOOST_TEST(faceCount(cage) <= faces);
+    BOOST_TEST(faceCount(cage) >= 0.9 * faces);
+    BOOST_TEST(cage.quads.size() >= 0.6 * double(faceCount(cage)));
+    BOOST_TEST(checker.check(cage).meanDistance < 1.1 * checker.check(triangles).meanDistance);
+}
+
 BOOST_AUTO_TEST_CASE(far_from_the_origin_and_at_any_size)
 {
     for (const double scale : {1e-90, 1e-6, 1.0, 1e6, 1e90}) {
@@ -208,7 +272,8 @@ BOOST_AUTO_TEST_CASE(threads_do_not_matter)
     const Mesh model = soup(4, 60, 0.1);
     const auto make = [&] {
         const BoundingGuard guard(model);
-        return smooth(tighten(decimate(ball(24), guard, to(80), Effort::best), guard), guard, 2);
+        const Mesh cage = triquad(decimate(ball(24), guard, to(160), Effort::best), guard, quads(80, 30));
+        return smooth(tighten(cage, guard), guard, 2);
     };
     const Mesh many = make();
     const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
@@ -221,7 +286,8 @@ BOOST_AUTO_TEST_CASE(cancelling_at_any_question_throws)
     const auto make = [&](Interrupter* interrupter) {
         const BoundingGuard guard(model, {}, interrupter);
         const Mesh cage = decimate(start, guard, to(40), Effort::best, interrupter);
-        return smooth(tighten(cage, guard, {}, interrupter), guard, 2, interrupter);
+        const Mesh tight = tighten(triquad(cage, guard, quads(20, 30), interrupter), guard, {}, interrupter);
+        return smooth(tight, guard, 2, interrupter);
     };
     test::StopAt never(1000000);
     make(&never);
@@ -245,6 +311,12 @@ BOOST_AUTO_TEST_CASE(bad_options_are_refused)
     options = {};
     options.shakes = 101;
     BOOST_CHECK_THROW(tighten(start, guard, options), InputError);
+    BOOST_CHECK_THROW(triquad(start, guard, quads(3, 30)), InputError);
+    BOOST_CHECK_THROW(triquad(start, guard, quads(30, -1)), InputError);
+    BOOST_CHECK_THROW(triquad(start, guard, quads(30, 181)), InputError);
+    BoundingTriquadOptions bad;
+    bad.tightening = options;
+    BOOST_CHECK_THROW(triquad(start, guard, bad), InputError);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -139,23 +139,6 @@ BOOST_AUTO_TEST_CASE(a_wider_angle_gives_more_quads)
     BOOST_TEST(merge(mesh, 40).quads.size() > 2 * merge(mesh, 5).quads.size());
 }
 
-BOOST_AUTO_TEST_CASE(accept_has_the_last_word)
-{
-    const Mesh mesh = animal();
-    const Mesh none = triquad(mesh, {}, [](const Vec4I&) { return false; });
-    BOOST_TEST(none.quads.empty());
-    BOOST_TEST((none.triangles == mesh.triangles));
-    std::vector<Vec4I> taken;
-    std::size_t asked = 0;
-    const Mesh half = triquad(mesh, {}, [&](const Vec4I& quad) {
-        if (++asked % 2) return false;
-        taken.push_back(quad);
-        return true;
-    });
-    BOOST_TEST((half.quads == taken));
-    BOOST_TEST(taken.size() > 5U);
-}
-
 BOOST_AUTO_TEST_CASE(concave_pairs_and_tetrahedra_stay_triangles)
 {
     Mesh dart;

@@ -22,8 +22,8 @@ const ElementNames& names(Element /*type*/)
 
 const std::vector<std::pair<const char*, CageFaces>>& names(CageFaces /*type*/)
 {
-    static const std::vector<std::pair<const char*, CageFaces>> list{{"triangles", CageFaces::triangles},
-                                                                     {"triquad", CageFaces::triquad}};
+    static const std::vector<std::pair<const char*, CageFaces>> list{
+        {"triangles", CageFaces::triangles}, {"triquad", CageFaces::triquad}, {"quads", CageFaces::quads}};
     return list;
 }
 

@@ -14,7 +14,8 @@ namespace vdbcage {
 /// Which faces a cage is made of.
 enum class CageFaces {
     triangles,
-    triquad ///< triangles, merged into quads where they are flat enough
+    triquad, ///< triangles, merged into quads where they are flat enough
+    quads    ///< as few triangles as can be
 };
 
 /// What becomes of parts of the model that the closing leaves apart.
@@ -36,7 +37,7 @@ struct CageOptions {
     double minAngle = 6;                        ///< degrees: no triangle angle gets smaller by decimation or tightening
     Effort effort = Effort::fair;               ///< time against tightness
     CageFaces mesh = CageFaces::triangles;      ///< triangles only, or quads too
-    double mergeAngle = 10;                     ///< degrees: flatter pairs of triangles become quads (triquad)
+    std::optional<double> mergeAngle;           ///< degrees: flatter pairs become quads; unset: as the faces ask
     Voxelizer voxelizer = Voxelizer::automatic; ///< what turns the model into voxels
     bool bounding = true;                       ///< only ever give a cage certified to bound the model
 };
@@ -66,7 +67,7 @@ void visitOptions(Options& options, Visit&& visit)
     visit(OptionInfo{"smooth", "K", "rounds it off: 0 is tightest", In::decimate, 0, 100}, options.smooth);
     visit(OptionInfo{"parts", "", "separate parts of the closing", In::decimate}, options.parts);
     visit(OptionInfo{"mesh", "", "faces of the cage", In::merge}, options.mesh);
-    visit(OptionInfo{"merge-angle", "DEG", "flatter pairs become quads", In::merge, 0, 180}, options.mergeAngle);
+    visit(OptionInfo{"merge-angle", "DEG", "largest fold of a quad", In::merge, 0, 180}, options.mergeAngle);
     visit(OptionInfo{"voxelizer", "", "what makes the voxels", In::voxelize}, options.voxelizer);
     visit(OptionInfo{"bounding", "", "only ever a certified cage", In::decimate}, options.bounding);
     visit(OptionInfo{"clearance", "F", "least distance to model", In::decimate, 1e-7, 0.1}, options.clearance);

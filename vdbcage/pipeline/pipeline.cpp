@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -207,11 +206,20 @@ private:
         return check;
     }
 
-    TriquadOptions mergeOptions(const CageOptions& options) const
+    static double mergeAngle(const CageOptions& options)
     {
+        constexpr double anyFold = 90, flat = 10, usual = 30;
+        const double automatic = options.mesh == CageFaces::quads ? anyFold : options.bounding ? usual : flat;
+        return options.mergeAngle.value_or(automatic);
+    }
+
+    /// Quads by merging alone, where no guard is needed.
+    static Mesh merged(const Mesh& triangles, const CageOptions& options)
+    {
+        if (options.mesh == CageFaces::triangles) return triangles;
         TriquadOptions merging;
-        merging.mergeAngleDegrees = options.mergeAngle;
-        return merging;
+        merging.mergeAngleDegrees = mergeAngle(options);
+        return triquad(triangles, merging);
     }
 
     Candidate makeUnguarded(const CageOptions& options, Interrupter* interrupter)
@@ -241,7 +249,7 @@ private:
             candidate.cage = candidate.decimated;
             candidate.repaired = true;
         }
-        if (options.mesh == CageFaces::triquad) candidate.cage = triquad(candidate.decimated, mergeOptions(options));
+        candidate.cage = merged(candidate.cage, options);
         return candidate;
     }
 
@@ -337,25 +345,43 @@ private:
     std::optional<Candidate> shrinkOnto(std::vector<Candidate> starts, const CageOptions& options,
                                         const BoundingGuard& guard, Interrupter* interrupter)
     {
+        const auto faces = static_cast<std::size_t>(options.faces);
+        DecimateOptions decimation;
+        decimation.faces = options.mesh == CageFaces::triangles ? faces : 2 * faces; // two triangles a quad
         {
             const Stage stage(interrupter, "decimate");
             tbb::parallel_for(std::size_t(0), starts.size(), [&](std::size_t i) {
                 starts[i].smoothed = starts[i].surface;
-                starts[i].decimated = decimate(starts[i].surface, guard, target(options), options.effort, interrupter);
+                starts[i].decimated = decimate(starts[i].surface, guard, decimation, options.effort, interrupter);
             });
         }
-        const auto hasTooMany = [&](const Candidate& candidate) {
-            return faceCount(candidate.decimated) > static_cast<std::size_t>(options.faces);
+        const auto keepAtMost = [&](std::size_t most, const Mesh Candidate::*mesh) {
+            const auto hasTooMany = [&](const Candidate& candidate) { return faceCount(candidate.*mesh) > most; };
+            starts.erase(std::remove_if(starts.begin(), starts.end(), hasTooMany), starts.end());
         };
-        starts.erase(std::remove_if(starts.begin(), starts.end(), hasTooMany), starts.end());
-        {
+        keepAtMost(decimation.faces, &Candidate::decimated);
+        TightenOptions tightening;
+        tightening.shakes = options.effort == Effort::fast ? 0 : options.effort == Effort::fair ? 1 : 6;
+        if (options.mesh == CageFaces::triangles) {
             const Stage stage(interrupter, "tighten");
-            TightenOptions tightening;
-            tightening.shakes = options.effort == Effort::fast ? 0 : options.effort == Effort::fair ? 1 : 6;
             tbb::parallel_for(std::size_t(0), starts.size(), [&](std::size_t i) {
-                Mesh& cage = starts[i].cage;
-                cage = tighten(starts[i].decimated, guard, tightening, interrupter);
-                if (options.smooth > 0) cage = vdbcage::smooth(cage, guard, options.smooth, interrupter);
+                starts[i].cage = tighten(starts[i].decimated, guard, tightening, interrupter);
+            });
+        } else {
+            const Stage stage(interrupter, "quads");
+            BoundingTriquadOptions pairing;
+            pairing.mergeAngleDegrees = mergeAngle(options);
+            pairing.faces = faces;
+            pairing.tightening = tightening;
+            tbb::parallel_for(std::size_t(0), starts.size(), [&](std::size_t i) {
+                starts[i].cage = triquad(starts[i].decimated, guard, pairing, interrupter);
+            });
+        }
+        keepAtMost(faces, &Candidate::cage);
+        if (options.smooth > 0) {
+            const Stage stage(interrupter, "smooth");
+            tbb::parallel_for(std::size_t(0), starts.size(), [&](std::size_t i) {
+                starts[i].cage = vdbcage::smooth(starts[i].cage, guard, options.smooth, interrupter);
             });
         }
         if (starts.size() > 1) {
@@ -368,37 +394,9 @@ private:
             });
         }
         for (Candidate& candidate : starts) {
-            if (!certify(candidate.cage, interrupter).bounding()) continue;
-            if (options.mesh == CageFaces::triquad) mergeCertified(options, candidate, interrupter);
-            return std::move(candidate);
+            if (certify(candidate.cage, interrupter).bounding()) return std::move(candidate);
         }
         return std::nullopt;
-    }
-
-    /// Quads that count under both diagonals: pairs that the verdict objects to are split again until it does not.
-    void mergeCertified(const CageOptions& options, Candidate& candidate, Interrupter* interrupter)
-    {
-        using Edge = std::pair<openvdb::Index32, openvdb::Index32>;
-        std::set<Edge> refused; // the pairs' common edges
-        const auto edge = [](const openvdb::Vec4I& quad) {
-            return Edge(std::min(quad[0], quad[2]), std::max(quad[0], quad[2]));
-        };
-        const Mesh triangles = candidate.cage;
-        for (;;) {
-            candidate.cage = triquad(triangles, mergeOptions(options),
-                                     [&](const openvdb::Vec4I& quad) { return refused.count(edge(quad)) == 0; });
-            if (candidate.cage.quads.empty()) return;
-            const CageCheck check = certify(candidate.cage, interrupter);
-            if (check.bounding()) return;
-            const std::size_t before = refused.size();
-            for (const std::uint32_t face : check.badFaces) {
-                if (face < candidate.cage.triangles.size()) continue;
-                refused.insert(edge(candidate.cage.quads[face - candidate.cage.triangles.size()]));
-            }
-            if (refused.size() == before) {
-                for (const openvdb::Vec4I& quad : candidate.cage.quads) refused.insert(edge(quad));
-            }
-        }
     }
 
     Candidate makeBox(const CageOptions& options, const BoundingGuard& guard)
@@ -411,7 +409,7 @@ private:
         candidate.surface = candidate.smoothed = candidate.decimated = boxMesh(box);
         if (floatSafe_) candidate.decimated = roundedToFloat(std::move(candidate.decimated));
         candidate.cage = candidate.decimated;
-        if (options.mesh == CageFaces::triquad) candidate.cage = triquad(candidate.decimated, mergeOptions(options));
+        candidate.cage = merged(candidate.cage, options);
         return candidate;
     }
 

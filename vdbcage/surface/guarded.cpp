@@ -1,5 +1,7 @@
 // The operators of smooth.h, decimate.h and tighten.h that work under a guard, put together from sweeps and collapses.
 
+#include <algorithm>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -7,13 +9,18 @@
 #include <vdbcage/surface/decimate.h>
 #include <vdbcage/surface/detail/guarded_decimate.h>
 #include <vdbcage/surface/detail/guarded_exchange.h>
+#include <vdbcage/surface/detail/guarded_quads.h>
 #include <vdbcage/surface/detail/guarded_sweeps.h>
+#include <vdbcage/surface/detail/quad_shape.h>
 #include <vdbcage/surface/smooth.h>
 #include <vdbcage/surface/tighten.h>
+#include <vdbcage/surface/triquad.h>
 
 namespace vdbcage {
 
 namespace {
+
+using Quads = detail::GuardedSurface::Quads;
 
 constexpr double samplesPerFace = 4; // of the distance to the model, where vertices are tightened
 
@@ -28,12 +35,19 @@ double areaPerSample(const detail::GuardedSurface& surface, std::size_t faces)
     return detail::area(surface) / (samplesPerFace * static_cast<double>(faces));
 }
 
+void tightenAndShake(detail::GuardedSurface& surface, const TightenOptions& options, Interrupter* interrupter)
+{
+    const std::size_t faces = surface.liveFaces();
+    detail::tighten(surface, options.sweeps, areaPerSample(surface, faces), interrupter);
+    detail::shake(surface, options.shakes, options.sweeps, areaPerSample(surface, faces), interrupter);
+}
+
 } // namespace
 
 Mesh smooth(const Mesh& surface, const BoundingGuard& guard, int sweeps, Interrupter* interrupter)
 {
     requireCount("sweeps", sweeps);
-    detail::GuardedSurface guarded(surface, guard.model());
+    detail::GuardedSurface guarded(surface, guard.model(), Quads::keep);
     detail::roundOff(guarded, sweeps, interrupter);
     return guarded.mesh();
 }
@@ -46,7 +60,7 @@ Mesh decimate(const Mesh& surface, const BoundingGuard& guard, const DecimateOpt
         throw InputError("faces: " + std::to_string(options.faces) +
                          " is not allowed; a closed surface has at least 4");
     }
-    detail::GuardedSurface guarded(surface, guard.model());
+    detail::GuardedSurface guarded(surface, guard.model(), Quads::split);
     detail::shrink(guarded, interrupter);
     // Quadrics know the surface that they were made from: one that was pulled onto the model on the way is better.
     const auto stops = effort == Effort::fast ? std::vector<std::size_t>{3} : std::vector<std::size_t>{4, 2};
@@ -71,11 +85,59 @@ Mesh tighten(const Mesh& cage, const BoundingGuard& guard, const TightenOptions&
 {
     requireCount("sweeps", options.sweeps);
     requireCount("shakes", options.shakes);
-    detail::GuardedSurface guarded(cage, guard.model());
+    detail::GuardedSurface guarded(cage, guard.model(), Quads::keep);
     if (guarded.liveFaces() == 0) return guarded.mesh();
-    detail::tighten(guarded, options.sweeps, areaPerSample(guarded, guarded.liveFaces()), interrupter);
-    detail::shake(guarded, options.shakes, options.sweeps, areaPerSample(guarded, guarded.liveFaces()), interrupter);
+    tightenAndShake(guarded, options, interrupter);
     return guarded.mesh();
+}
+
+Mesh triquad(const Mesh& surface, const BoundingGuard& guard, const BoundingTriquadOptions& options,
+             Interrupter* interrupter)
+{
+    constexpr int attempts = 6;
+    constexpr double aim = 0.99, goodEnough = 0.97; // of the faces
+    constexpr double firstGuess = 1.65;             // triangles for each of them
+    constexpr int sweepsBefore = 4;
+    if (options.faces < 4) {
+        throw InputError("faces: " + std::to_string(options.faces) +
+                         " is not allowed; a closed surface has at least 4");
+    }
+    detail::requireMergeAngle(options.mergeAngleDegrees);
+    requireCount("sweeps", options.tightening.sweeps);
+    requireCount("shakes", options.tightening.shakes);
+    const detail::GuardedSurface fine(surface, guard.model(), Quads::split);
+    if (fine.liveFaces() == 0) return fine.mesh();
+
+    // How many triangles become the faces wanted shows when they are paired; `low` of them do not become too many.
+    const auto wanted = static_cast<double>(options.faces);
+    double low = wanted, high = std::max(wanted, static_cast<double>(fine.liveFaces()));
+    double target = std::min(firstGuess * wanted, high);
+    std::optional<detail::GuardedSurface> best;
+    double most = 0; // faces
+    for (int i = 0; i < attempts; ++i) {
+        detail::GuardedSurface paired = fine;
+        const auto triangles = static_cast<std::size_t>(target);
+        detail::collapseByQuadrics(paired, triangles, interrupter);
+        for (int k = 0; k < 2; ++k) {
+            detail::tighten(paired, sweepsBefore, areaPerSample(paired, triangles), interrupter);
+            detail::pairUp(paired, options.mergeAngleDegrees, interrupter);
+        }
+        const auto faces = static_cast<double>(paired.liveFaces() - paired.quads());
+        (faces <= wanted ? low : high) = target;
+        if (faces <= wanted && faces > most) {
+            best = std::move(paired);
+            most = faces;
+        }
+        if ((most >= goodEnough * wanted) || high - low < 2) break;
+        target *= aim * wanted / faces;
+        if (!(target > low && target < high)) target = 0.5 * (low + high);
+    }
+    if (!best) {
+        best = fine;
+        detail::collapseByQuadrics(*best, options.faces, interrupter);
+    }
+    tightenAndShake(*best, options.tightening, interrupter);
+    return best->mesh();
 }
 
 } // namespace vdbcage

@@ -14,8 +14,9 @@ struct TightenOptions {
 
 /// Pulls a bounding surface onto its model: one vertex at a time goes to where the integral of the distance to the
 /// model over its star is least, as far as the guard allows, sliding along what it touches. Connectivity and vertex
-/// order stay; the mean distance never grows. Triangles only (quads are split). \pre `cage` is closed, 2-manifold, and
-/// bounds the guard's model with its clearance. \throw InputError, Cancelled. O(sweeps * (1 + shakes) * faces * log(model faces)).
+/// order stay; the mean distance never grows. Quads count under both diagonals, and are split where one does not bound.
+/// \pre `cage` is closed, 2-manifold, and bounds the guard's model with its clearance. \throw InputError, Cancelled.
+/// O(sweeps * (1 + shakes) * faces * log(model faces)).
 VDBCAGE_API Mesh tighten(const Mesh& cage, const BoundingGuard& guard, const TightenOptions& options = {},
                          Interrupter* interrupter = nullptr);
 

@@ -3,13 +3,12 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdint>
 #include <limits>
-#include <sstream>
 #include <tuple>
 
 #include <vdbcage/core/error.h>
+#include <vdbcage/surface/detail/quad_shape.h>
 
 namespace vdbcage {
 
@@ -20,15 +19,8 @@ using openvdb::Vec3d;
 using openvdb::Vec3I;
 using openvdb::Vec4I;
 
-constexpr double degrees = 180 / 3.14159265358979323846;
-constexpr double largestCornerDegrees = 160; // beyond this a quad looks like a triangle
 constexpr double angleRoundingDegrees = 1e-6;
 constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
-
-double angleDegrees(const Vec3d& a, const Vec3d& b)
-{
-    return std::atan2(a.cross(b).length(), a.dot(b)) * degrees;
-}
 
 /// One side of a face: from corner a to corner b. Sides are numbered face by face: 3 t + i for triangles, then quads.
 struct Side {
@@ -92,25 +84,6 @@ struct Pair {
     Vec4I quad;
 };
 
-/// Whether the quad is convex and unfolded under both diagonals, and how far its corners are from square.
-bool isConvex(const std::array<Vec3d, 4>& corners, double& largestDeviation)
-{
-    std::array<Vec3d, 4> normals; // of the triangle at each corner: two for each diagonal
-    Vec3d mean(0.0);
-    largestDeviation = 0;
-    for (std::size_t i = 0; i < 4; ++i) {
-        const Vec3d next = corners[(i + 1) % 4] - corners[i], previous = corners[(i + 3) % 4] - corners[i];
-        normals[i] = next.cross(previous);
-        const double corner = angleDegrees(next, previous);
-        if (corner > largestCornerDegrees) return false;
-        largestDeviation = std::max(largestDeviation, std::abs(corner - 90));
-        if (!normals[i].normalize(0)) return false;
-        mean += normals[i];
-    }
-    return std::all_of(normals.begin(), normals.end(), [&](const Vec3d& normal) { return normal.dot(mean) > 0; }) &&
-           normals[0].dot(normals[2]) > 0 && normals[1].dot(normals[3]) > 0;
-}
-
 std::vector<Pair> findPairs(const Mesh& mesh, const Adjacency& adjacency, double mergeAngleDegrees)
 {
     std::vector<Pair> pairs;
@@ -126,9 +99,10 @@ std::vector<Pair> findPairs(const Mesh& mesh, const Adjacency& adjacency, double
         for (int i = 0; i < 4; ++i) corners[std::size_t(i)] = mesh.points[quad[i]];
         const Vec3d edge = corners[2] - corners[0];
         const double dihedral =
-            angleDegrees((corners[1] - corners[0]).cross(edge), edge.cross(corners[3] - corners[0]));
+            detail::angleDegrees((corners[1] - corners[0]).cross(edge), edge.cross(corners[3] - corners[0]));
         double deviation;
-        if (!(dihedral <= mergeAngleDegrees + angleRoundingDegrees) || !isConvex(corners, deviation)) continue;
+        if (!(dihedral <= mergeAngleDegrees + angleRoundingDegrees) || !detail::isConvexQuad(corners, 0, deviation))
+            continue;
         pairs.push_back({dihedral + deviation, s, t, quad});
     }
     std::sort(pairs.begin(), pairs.end(),
@@ -138,13 +112,9 @@ std::vector<Pair> findPairs(const Mesh& mesh, const Adjacency& adjacency, double
 
 } // namespace
 
-Mesh triquad(const Mesh& triangles, const TriquadOptions& options, const std::function<bool(const Vec4I&)>& accept)
+Mesh triquad(const Mesh& triangles, const TriquadOptions& options)
 {
-    if (!(options.mergeAngleDegrees >= 0 && options.mergeAngleDegrees <= 180)) {
-        std::ostringstream text;
-        text << "tri-quad: the merge angle is " << options.mergeAngleDegrees << " degrees; it must be from 0 to 180";
-        throw InputError(text.str());
-    }
+    detail::requireMergeAngle(options.mergeAngleDegrees);
     requireUsable(triangles, "the mesh to merge into quads");
 
     Adjacency adjacency(triangles);
@@ -173,7 +143,6 @@ Mesh triquad(const Mesh& triangles, const TriquadOptions& options, const std::fu
                          [&](std::size_t face) { return face == first || face == second; }) != neighbours.end()) {
             continue;
         }
-        if (accept && !accept(pair.quad)) continue;
         partner[first] = second;
         partner[second] = first;
         adjacency.loseEdge(pair.quad[0]);

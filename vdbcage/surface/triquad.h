@@ -1,9 +1,12 @@
 #pragma once
 
-#include <functional>
+#include <cstddef>
 
 #include <vdbcage/core/export.h>
+#include <vdbcage/core/interrupter.h>
 #include <vdbcage/mesh/mesh.h>
+#include <vdbcage/surface/bounding_guard.h>
+#include <vdbcage/surface/tighten.h>
 
 namespace vdbcage {
 
@@ -13,11 +16,28 @@ struct TriquadOptions {
 
 /// Merges pairs of triangles into quads, flattest and squarest pairs first. Quads are convex under both diagonals, with
 /// no corner above 160 degrees; no two faces come to share two edges, no inner point is left with fewer than three.
-/// `accept`, if set, has the last word on each pair: it is given the quad's corners (the merged edge runs from corner 0
-/// to corner 2). Points keep their order; quads of the input stay and come first. Any soup will do: edges that are not
-/// between two faces in opposite directions are left alone. O(n log n).
+/// The merged edge runs from a quad's corner 0 to corner 2. Points keep their order; quads of the input stay and come
+/// first. Any soup will do: edges that are not between two faces in opposite directions are left alone. O(n log n).
 /// \throw InputError (an angle out of range; no usable face)
-VDBCAGE_API Mesh triquad(const Mesh& triangles, const TriquadOptions& options = {},
-                         const std::function<bool(const openvdb::Vec4I&)>& accept = {});
+VDBCAGE_API Mesh triquad(const Mesh& triangles, const TriquadOptions& options = {});
+
+struct BoundingTriquadOptions {
+    /// Largest angle between the triangles of a quad in the end, under either diagonal, 0 to 180; 90 gives most quads.
+    double mergeAngleDegrees = 30;
+    std::size_t faces = 400; ///< to end with, at most; a quad counts once; at least 4
+    TightenOptions tightening = {};
+};
+
+/// Makes triangles and quads of a surface that bounds `guard`'s model and keeps it so, each quad under both diagonals:
+/// the surface is decimated as far as pairing needs to reach `faces`; pairs become quads, flat and square ones that
+/// follow the directions of curvature first, then as many more as can be; where a diagonal would cut the model or the
+/// angle is too large, vertices are pushed outward; and the result is tightened with all four triangles of every quad
+/// under the guard. Quads are convex as above.
+/// A surface of twice the faces wanted gives the best result. More than the faces asked for are left only where
+/// decimation stops there. TBB-parallel, same result for any number of threads. \pre `surface` is closed, 2-manifold
+/// and bounds the model with the guard's clearance \throw InputError (options; not closed and 2-manifold), Cancelled
+/// O(n log n log m) for n faces and m of the model.
+VDBCAGE_API Mesh triquad(const Mesh& surface, const BoundingGuard& guard, const BoundingTriquadOptions& options,
+                         Interrupter* interrupter = nullptr);
 
 } // namespace vdbcage

@@ -170,10 +170,13 @@ DistanceMeasure::Fit DistanceMeasure::fit(const GuardedSurface& surface, const F
     const double least = 0.1 * guard_.clearance(); // distances below are not told apart
     Fit fit;
     double weights = 0;
-    for (const auto& edge : fan.rim) {
+    for (std::size_t k = 0; k < fan.rim.size(); ++k) {
+        const auto& edge = fan.rim[k];
+        const double share = surface.weight(fan.keptFaces[k]);
         const Corners t{centre, surface.point(edge[0]), surface.point(edge[1])};
         fit.reach = std::max({fit.reach, (t[1] - centre).length(), (t[2] - centre).length()});
-        forEachSample(t, seed, [&](double weight, double b0, const Vec3d& away, double d) {
+        forEachSample(t, seed, [&](double sampleWeight, double b0, const Vec3d& away, double d) {
+            const double weight = share * sampleWeight;
             fit.integral += weight * (power_ == Power::square ? d * d : d);
             if (!(d > 0)) return;
             // The sample asks d + b0 n delta to vanish.

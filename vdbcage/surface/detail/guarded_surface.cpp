@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <stdexcept>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/intersections.h>
 #include <vdbcage/core/error.h>
+#include <vdbcage/surface/detail/quad_shape.h>
 
 namespace vdbcage::detail {
 
@@ -239,13 +241,15 @@ void addApproach(const Corners& fan, const Corners& other, const Vec3d& at, doub
 
 } // namespace
 
-GuardedSurface::GuardedSurface(const Mesh& surface, const GuardModel& guard)
+GuardedSurface::GuardedSurface(const Mesh& surface, const GuardModel& guard, Quads quads)
     : guard_(guard), faces_(triangulate(surface))
 {
     points_.reserve(surface.points.size());
     for (const Vec3d& p : surface.points) points_.push_back(guard.rounded(guard.scaled(p)));
     facesOf_.resize(points_.size());
-    alive_.assign(faces_.size(), 1);
+    othersOf_.resize(points_.size());
+    life_.assign(faces_.size(), live);
+    quadAt_.assign(faces_.size(), Fan::none);
     liveFaces_ = faces_.size();
     std::vector<Box> boxes;
     boxes.reserve(faces_.size());
@@ -275,7 +279,10 @@ GuardedSurface::GuardedSurface(const Mesh& surface, const GuardModel& guard)
             throw InputError("surface: it is not a closed, oriented 2-manifold at point " + std::to_string(v));
         }
     }
-    tree_.build(boxes, alive_);
+    tree_.build(boxes, life_);
+    const auto triangles = static_cast<std::uint32_t>(surface.triangles.size());
+    if (quads == Quads::split) return;
+    for (std::uint32_t f = triangles; f < liveFaces_; f += 2) makeQuad(f, f + 1);
 }
 
 Corners GuardedSurface::corners(std::uint32_t f) const
@@ -291,7 +298,13 @@ std::vector<std::uint32_t> GuardedSurface::neighbours(std::uint32_t v) const
         const Vec3I& t = faces_[f];
         list.push_back(t[0] == v ? t[1] : t[1] == v ? t[2] : t[0]);
     }
+    for (const std::uint32_t f : othersOf_[v]) {
+        for (const int i : {0, 1, 2}) {
+            if (faces_[f][i] != v) list.push_back(faces_[f][i]);
+        }
+    }
     std::sort(list.begin(), list.end());
+    if (!othersOf_[v].empty()) list.erase(std::unique(list.begin(), list.end()), list.end());
     return list;
 }
 
@@ -299,9 +312,11 @@ Fan GuardedSurface::fanOf(std::uint32_t v) const
 {
     Fan fan;
     fan.centre = v;
+    fan.others = othersOf_[v].size();
     fan.oldFaces.assign(facesOf_[v].begin(), facesOf_[v].end());
+    fan.oldFaces.insert(fan.oldFaces.end(), othersOf_[v].begin(), othersOf_[v].end());
     fan.keptFaces = fan.oldFaces;
-    for (const std::uint32_t f : facesOf_[v]) {
+    for (const std::uint32_t f : fan.oldFaces) {
         const Vec3I& t = faces_[f];
         const int i = t[0] == v ? 0 : t[1] == v ? 1 : 2;
         fan.rim.push_back({t[(i + 1) % 3], t[(i + 2) % 3]});
@@ -382,8 +397,27 @@ bool GuardedSurface::isOld(const Fan& fan, std::uint32_t face) const
     return std::find(fan.oldFaces.begin(), fan.oldFaces.end(), face) != fan.oldFaces.end();
 }
 
+bool GuardedSurface::areAlternatives(std::uint32_t f, std::uint32_t g) const
+{
+    return f != Fan::none && quadAt_[f] != Fan::none && quadAt_[f] == quadAt_[g] && life_[f] != life_[g];
+}
+
+bool GuardedSurface::areConvexQuads(const Fan& fan, const Vec3d& p) const
+{
+    for (std::size_t i = fan.rim.size() - fan.others; i < fan.rim.size(); ++i) {
+        const Quad& quad = quads_[quadAt_[fan.keptFaces[i]]];
+        const Vec4I ids = quadOf(quad.halves[0], quad.halves[1]);
+        std::array<Vec3d, 4> places;
+        for (int k = 0; k < 4; ++k) places[static_cast<std::size_t>(k)] = ids[k] == fan.centre ? p : points_[ids[k]];
+        double deviation;
+        if (!isConvexQuad(places, leastQuadCosine_, deviation)) return false;
+    }
+    return true;
+}
+
 bool GuardedSurface::wellShaped(const Fan& fan, const Vec3d& p) const
 {
+    if (!areConvexQuads(fan, p)) return false;
     double least = 1;
     for (std::size_t i = 0; i < fan.rim.size(); ++i) least = std::min(least, detail::minSine(fanCorners(fan, i, p)));
     if (least >= guard().minSine()) return true;
@@ -407,9 +441,10 @@ bool GuardedSurface::clearOfSurface(const Fan& fan, const Vec3d& p) const
         boxes.push_back(Box::of(facets.back().corners));
         all.expand(boxes.back());
     }
-    if (!spreadOut(facets)) {
+    if (fan.others > 0 || !spreadOut(facets)) {
         for (std::size_t i = 0; i < n; ++i) {
             for (std::size_t j = i + 1; j < n; ++j) {
+                if (fan.others > 0 && areAlternatives(fan.keptFaces[i], fan.keptFaces[j])) continue;
                 if (meetBeyondShared(facets[i], facets[j])) return false;
             }
         }
@@ -419,7 +454,8 @@ bool GuardedSurface::clearOfSurface(const Fan& fan, const Vec3d& p) const
         if (std::none_of(boxes.begin(), boxes.end(), meets) || isOld(fan, face)) return true;
         const Facet other(faces_[face], corners(face));
         for (std::size_t i = 0; i < n; ++i) {
-            if (boxes[i].meets(box) && meetBeyondShared(facets[i], other)) return false;
+            if (!boxes[i].meets(box) || areAlternatives(fan.keptFaces[i], face)) continue;
+            if (meetBeyondShared(facets[i], other)) return false;
         }
         return true;
     });
@@ -436,18 +472,34 @@ bool GuardedSurface::allows(const Fan& fan, const Vec3d& p, std::uint32_t* hint)
         }
     }
     if (!clearOfSurface(fan, p)) return false;
+    return sweepsOverNothing(fan, p);
+}
+
+bool GuardedSurface::sweepsOverNothing(const Fan& fan, const Vec3d& p) const
+{
     Box box = Box::of(p);
     for (const auto& edge : fan.rim) box.expand(Box::of(points_[edge[0]]));
     if (fan.centre < vertices()) box.expand(Box::of(points_[fan.centre]));
     if (fan.removed != Fan::none) box.expand(Box::of(points_[fan.removed]));
     if (!guard().mayHoldPart(box)) return true;
-    std::vector<Corners> surface;
-    for (std::size_t i = 0; i < fan.rim.size(); ++i) surface.push_back(fanCorners(fan, i, p));
-    for (const std::uint32_t f : fan.oldFaces) {
-        const Corners t = corners(f);
-        surface.push_back({t[0], t[2], t[1]});
+    // The surface with every quad split by its halves' diagonal, then by the other. Parts of the model touch neither,
+    // so that one inside both is inside for every choice of diagonals.
+    for (const Life hidden : {underOther, live}) {
+        std::vector<Corners> surface;
+        const auto shows = [&](std::uint32_t f) {
+            return f == Fan::none || quadAt_[f] == Fan::none || life_[f] != hidden;
+        };
+        for (std::size_t i = 0; i < fan.rim.size(); ++i) {
+            if (shows(fan.keptFaces[i])) surface.push_back(fanCorners(fan, i, p));
+        }
+        for (const std::uint32_t f : fan.oldFaces) {
+            const Corners t = corners(f);
+            if (shows(f)) surface.push_back({t[0], t[2], t[1]});
+        }
+        if (guard().swept(surface, box)) return false;
+        if (fan.others == 0) break;
     }
-    return !guard().swept(surface, box);
+    return true;
 }
 
 void GuardedSurface::contacts(const Fan& fan, const Vec3d& from, const Vec3d& to,
@@ -486,6 +538,7 @@ void GuardedSurface::apply(const Fan& fan, const Vec3d& p)
     if (fan.centre == vertices()) {
         points_.push_back(p);
         facesOf_.emplace_back();
+        othersOf_.emplace_back();
         reconnect(fan);
         return;
     }
@@ -505,7 +558,7 @@ void GuardedSurface::reconnect(const Fan& fan)
             list.erase(std::find(list.begin(), list.end(), f));
         }
         if (std::find(fan.keptFaces.begin(), fan.keptFaces.end(), f) != fan.keptFaces.end()) continue;
-        alive_[f] = 0;
+        life_[f] = dead;
         --liveFaces_;
         tree_.remove(f);
     }
@@ -515,7 +568,8 @@ void GuardedSurface::reconnect(const Fan& fan)
         if (isNew) {
             f = faces();
             faces_.emplace_back();
-            alive_.push_back(1);
+            life_.push_back(live);
+            quadAt_.push_back(Fan::none);
             ++liveFaces_;
         }
         faces_[f] = Vec3I(fan.centre, fan.rim[i][0], fan.rim[i][1]);
@@ -527,13 +581,111 @@ void GuardedSurface::reconnect(const Fan& fan)
             tree_.update(f, box);
         }
     }
-    if (tree_.wantsBuild()) {
-        std::vector<Box> boxes(faces_.size());
-        for (std::uint32_t f = 0; f < faces_.size(); ++f) {
-            if (alive_[f]) boxes[f] = Box::of(corners(f));
-        }
-        tree_.build(boxes, alive_);
+    buildTreeIfWanted();
+}
+
+void GuardedSurface::buildTreeIfWanted()
+{
+    if (!tree_.wantsBuild()) return;
+    std::vector<Box> boxes(faces_.size());
+    for (std::uint32_t f = 0; f < faces_.size(); ++f) {
+        if (life_[f] != dead) boxes[f] = Box::of(corners(f));
     }
+    tree_.build(boxes, life_);
+}
+
+std::uint32_t GuardedSurface::otherHalf(std::uint32_t f) const
+{
+    if (quadAt_[f] == Fan::none) return Fan::none;
+    const auto& halves = quads_[quadAt_[f]].halves;
+    return halves[0] == f ? halves[1] : halves[0];
+}
+
+Vec4I GuardedSurface::quadOf(std::uint32_t f, std::uint32_t g) const
+{
+    const Vec3I &s = faces_[f], &t = faces_[g];
+    for (int i = 0; i < 3; ++i) {
+        for (int j = 0; j < 3; ++j) {
+            if (s[i] == t[(j + 1) % 3] && s[(i + 1) % 3] == t[j]) {
+                return {s[i], t[(j + 2) % 3], s[(i + 1) % 3], s[(i + 2) % 3]};
+            }
+        }
+    }
+    throw std::logic_error("two faces of a quad share no edge");
+}
+
+void GuardedSurface::limitQuadFold(double degrees)
+{
+    constexpr double radians = 3.14159265358979323846 / 180, rounding = 1e-12;
+    leastQuadCosine_ = degrees >= 90 ? 0 : std::cos(degrees * radians) - rounding;
+}
+
+bool GuardedSurface::makeQuad(std::uint32_t f, std::uint32_t g)
+{
+    const Vec4I ids = quadOf(f, g);
+    if (ids[1] == ids[3]) return false;
+    std::array<Vec3d, 4> places;
+    for (int k = 0; k < 4; ++k) places[static_cast<std::size_t>(k)] = points_[ids[k]];
+    double deviation;
+    if (!isConvexQuad(places, leastQuadCosine_, deviation)) return false;
+    const std::array<Facet, 2> facets{Facet(Vec3I(ids[0], ids[1], ids[3]), {places[0], places[1], places[3]}),
+                                      Facet(Vec3I(ids[1], ids[2], ids[3]), {places[1], places[2], places[3]})};
+    Box all = Box::of(places[0]);
+    for (const Facet& facet : facets) {
+        if (isDegenerate(facet.corners) || detail::minSine(facet.corners) < guard().minSine()) return false;
+        if (!guard().clear(facet.corners, TriangleTree::none, nullptr)) return false;
+        all.expand(Box::of(facet.corners));
+    }
+    if (meetBeyondShared(facets[0], facets[1])) return false;
+    const bool isFree = tree_.forEachOverlap(all, [&](std::uint32_t face, const Box& /*box*/) {
+        if (face == f || face == g) return true;
+        const Facet near(faces_[face], corners(face));
+        return !meetBeyondShared(facets[0], near) && !meetBeyondShared(facets[1], near);
+    });
+    if (!isFree) return false;
+    if (guard().mayHoldPart(all)) {
+        const Corners s = corners(f), t = corners(g);
+        if (guard().swept({facets[0].corners, facets[1].corners, {s[0], s[2], s[1]}, {t[0], t[2], t[1]}}, all)) {
+            return false;
+        }
+    }
+    auto number = static_cast<std::uint32_t>(quads_.size());
+    if (freeQuads_.empty()) {
+        quads_.emplace_back();
+    } else {
+        number = freeQuads_.back();
+        freeQuads_.pop_back();
+    }
+    quads_[number] = {{f, g}, {faces(), faces() + 1}};
+    quadAt_[f] = quadAt_[g] = number;
+    for (const Facet& facet : facets) {
+        const std::uint32_t o = faces();
+        faces_.push_back(facet.ids);
+        life_.push_back(underOther);
+        quadAt_.push_back(number);
+        for (const int k : {0, 1, 2}) othersOf_[facet.ids[k]].push_back(o);
+        tree_.insert(o, Box::of(facet.corners));
+    }
+    buildTreeIfWanted();
+    return true;
+}
+
+void GuardedSurface::splitQuad(std::uint32_t half)
+{
+    const std::uint32_t number = quadAt_[half];
+    const Quad quad = quads_[number];
+    for (const std::uint32_t f : quad.halves) quadAt_[f] = Fan::none;
+    for (const std::uint32_t o : quad.others) {
+        for (const int k : {0, 1, 2}) {
+            auto& list = othersOf_[faces_[o][k]];
+            list.erase(std::find(list.begin(), list.end(), o));
+        }
+        life_[o] = dead;
+        quadAt_[o] = Fan::none;
+        tree_.remove(o);
+    }
+    freeQuads_.push_back(number);
+    buildTreeIfWanted();
 }
 
 bool GuardedSurface::Batch::apply(const Fan& fan, const Vec3d& p)
@@ -565,8 +717,14 @@ Mesh GuardedSurface::mesh() const
         mesh.points.push_back(guard().unscaled(points_[v]));
     }
     for (std::uint32_t f = 0; f < faces_.size(); ++f) {
-        const Vec3I& t = faces_[f];
-        if (alive_[f]) mesh.triangles.emplace_back(number[t[0]], number[t[1]], number[t[2]]);
+        if (life_[f] != live) continue;
+        if (quadAt_[f] == Fan::none) {
+            const Vec3I& t = faces_[f];
+            mesh.triangles.emplace_back(number[t[0]], number[t[1]], number[t[2]]);
+        } else if (quads_[quadAt_[f]].halves[0] == f) {
+            const Vec4I q = quadOf(f, otherHalf(f));
+            mesh.quads.emplace_back(number[q[0]], number[q[1]], number[q[2]], number[q[3]]);
+        }
     }
     return mesh;
 }

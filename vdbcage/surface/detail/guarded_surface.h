@@ -6,10 +6,13 @@
 #include <vector>
 
 #include <boost/container/small_vector.hpp>
+#include <openvdb/math/Vec4.h>
 #include <vdbcage/surface/detail/guard_model.h>
 #include <vdbcage/surface/detail/refit_tree.h>
 
 namespace vdbcage::detail {
+
+using openvdb::Vec4I;
 
 /// A change to a surface: the triangles around one vertex, around both ends of an edge, or on both sides of an edge
 /// give way to a fan around a centre. Moving a vertex, collapsing an edge and splitting one are the same thing to the
@@ -24,6 +27,7 @@ struct Fan {
     Faces keptFaces;              ///< for each rim edge the old face that becomes its triangle; none: a new face
     /// Edges across from the centre, in the faces' direction.
     boost::container::small_vector<std::array<std::uint32_t, 2>, 16> rim;
+    std::size_t others = 0; ///< so many faces and rim edges at the ends of the lists are of quads' other diagonals
 };
 
 /// A plane that a fan's centre must stay beyond: normal . centre >= offset.
@@ -32,12 +36,19 @@ struct HalfSpace {
     double offset;
 };
 
-/// A closed triangle surface that bounds a model and is only changed in ways that keep it so. A value; copies share the
-/// guard.
+/// A closed surface that bounds a model and is only changed in ways that keep it so. A value; copies share the guard.
+///
+/// It is made of triangles; two that share an edge can be the halves of a quad. A quad bounds under both diagonals: for
+/// that the two triangles of its other diagonal, its others, go through the same tests as live faces, against all but
+/// its halves. Faces below are triangles; others have numbers among them, but are in no list unless it says so.
 class GuardedSurface {
 public:
-    /// Points are rounded as the guard asks, quads split. \throw InputError the surface is not a closed 2-manifold
-    GuardedSurface(const Mesh& surface, const GuardModel& guard);
+    enum class Quads {
+        split,
+        keep ///< where both diagonals are allowed; else they are split
+    };
+    /// Points are rounded as the guard asks. \throw InputError the surface is not a closed 2-manifold
+    GuardedSurface(const Mesh& surface, const GuardModel& guard, Quads quads = Quads::split);
 
     std::size_t liveFaces() const { return liveFaces_; }
     std::uint32_t faces() const { return static_cast<std::uint32_t>(faces_.size()); } ///< ever, numbers below
@@ -47,13 +58,14 @@ public:
     const std::vector<std::uint32_t>& facesOf(std::uint32_t v) const { return facesOf_[v]; }
     const Vec3I& face(std::uint32_t f) const { return faces_[f]; }
     Corners corners(std::uint32_t f) const;
-    /// The vertices joined to v by an edge, ascending.
+    /// The vertices joined to v by an edge, or by the other diagonal of a quad, or opposite to it in one; ascending.
     std::vector<std::uint32_t> neighbours(std::uint32_t v) const;
 
     Fan fanOf(std::uint32_t v) const;
     /// The fan that takes the place of the stars of both ends; false where the link condition forbids the collapse.
+    /// \pre there are no quads
     bool fanOf(std::uint32_t keep, std::uint32_t remove, Fan& fan) const;
-    /// The fan that splits the edge between two neighbours at a new vertex.
+    /// The fan that splits the edge between two neighbours at a new vertex. \pre there are no quads
     Fan fanOfSplit(std::uint32_t u, std::uint32_t v) const;
     /// The mean normal of what the fan replaces, of unit length (or zero).
     Vec3d outward(const Fan& fan) const;
@@ -66,10 +78,28 @@ public:
     /// Makes the change; it must have been allowed.
     void apply(const Fan& fan, const Vec3d& p);
 
+    std::size_t quads() const { return quads_.size() - freeQuads_.size(); }
+    /// The other half of the quad that a face belongs to, or Fan::none.
+    std::uint32_t otherHalf(std::uint32_t f) const;
+    /// The corners of a quad of two faces that share an edge, which runs from corner 0 to corner 2.
+    Vec4I quadOf(std::uint32_t f, std::uint32_t g) const;
+    /// No quad is made, and no vertex moved, so that the triangles of a quad meet at a larger angle, under either
+    /// diagonal; up to 90 degrees, and that unless it was set.
+    void limitQuadFold(double degrees);
+    /// Makes two faces that share an edge, and are in no quad, the halves of one, if it is convex and the guard allows
+    /// its others. Returns whether.
+    bool makeQuad(std::uint32_t f, std::uint32_t g);
+    /// The halves of a quad are triangles again.
+    void splitQuad(std::uint32_t half);
+    /// The weight of a face, or a quad's other, in a sum over the surface: a half if it shows under one diagonal only.
+    double weight(std::uint32_t f) const { return f != Fan::none && quadAt_[f] != Fan::none ? 0.5 : 1; }
+    /// The others at a vertex.
+    const std::vector<std::uint32_t>& othersOf(std::uint32_t v) const { return othersOf_[v]; }
+
     /// Changes that were each allowed on the surface as it was when the batch began, made one after the other.
     class Batch;
 
-    /// The live triangles, points that no face uses left out, order kept.
+    /// The live triangles and quads, points that no face uses left out, order kept.
     Mesh mesh() const;
     const GuardModel& guard() const { return guard_; }
 
@@ -78,14 +108,27 @@ private:
     bool wellShaped(const Fan& fan, const Vec3d& p) const;
     bool clearOfSurface(const Fan& fan, const Vec3d& p) const;
     bool isOld(const Fan& fan, std::uint32_t face) const;
+    bool sweepsOverNothing(const Fan& fan, const Vec3d& p) const;
+    bool areConvexQuads(const Fan& fan, const Vec3d& p) const;
     void reconnect(const Fan& fan);
+    void buildTreeIfWanted();
+    bool areAlternatives(std::uint32_t f, std::uint32_t g) const;
+
+    enum Life : char { dead, live, underOther };
+    struct Quad {
+        std::array<std::uint32_t, 2> halves, others;
+    };
 
     std::reference_wrapper<const GuardModel> guard_;
     std::vector<Vec3d> points_;
     std::vector<Vec3I> faces_;
-    std::vector<char> alive_;
-    std::vector<std::vector<std::uint32_t>> facesOf_;
+    std::vector<char> life_;
+    std::vector<std::vector<std::uint32_t>> facesOf_, othersOf_;
     std::size_t liveFaces_ = 0;
+    double leastQuadCosine_ = 0;
+    std::vector<Quad> quads_;
+    std::vector<std::uint32_t> freeQuads_; // of quads_, not in use
+    std::vector<std::uint32_t> quadAt_;    // by face: of quads_, or Fan::none
     RefitTree tree_;
 };
 

@@ -175,7 +175,10 @@ double integratedDistance(const GuardedSurface& surface, double areaPerSample)
     tbb::parallel_for(std::uint32_t(0), surface.vertices(), [&](std::uint32_t v) {
         std::uint32_t seed = TriangleTree::none;
         for (const std::uint32_t f : surface.facesOf(v)) {
-            if (surface.face(f)[0] == v) sums[v] += measure.integral(surface.corners(f), seed);
+            if (surface.face(f)[0] == v) sums[v] += surface.weight(f) * measure.integral(surface.corners(f), seed);
+        }
+        for (const std::uint32_t f : surface.othersOf(v)) {
+            if (surface.face(f)[0] == v) sums[v] += surface.weight(f) * measure.integral(surface.corners(f), seed);
         }
     });
     return std::accumulate(sums.begin(), sums.end(), 0.0);

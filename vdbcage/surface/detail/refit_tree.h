@@ -65,7 +65,8 @@ public:
         leafOf_[thing] = none;
     }
 
-    /// Calls visit(thing, itsBox) for each thing whose box meets `box`, until it answers false. Returns false if it stopped.
+    /// Calls visit(thing, itsBox) for each thing whose box meets `box`, until it answers false. Returns false if it
+    /// stopped.
     template <typename Visit>
     bool forEachOverlap(const Box& box, const Visit& visit) const
     {
