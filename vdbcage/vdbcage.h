@@ -21,5 +21,6 @@
 #include <vdbcage/volume/cavities.h>
 #include <vdbcage/volume/contour.h>
 #include <vdbcage/volume/morphology.h>
+#include <vdbcage/volume/scale_field.h>
 #include <vdbcage/volume/vdb_io.h>
 #include <vdbcage/voxelize/voxelize.h>

@@ -235,6 +235,42 @@ BOOST_DATA_TEST_CASE(erosion_is_the_dilation_of_the_complement, data::make(eleme
     BOOST_TEST(sameSet(*erode(*grid, radius, element), *expected));
 }
 
+BOOST_TEST_DECORATOR(*boost::unit_test::label("property"))
+BOOST_DATA_TEST_CASE(opening_is_the_dilation_of_the_erosion, data::make(elements) * data::make({0.0, 1.0, 2.5, 4.0}),
+                     element, radius)
+{
+    for (unsigned seed = 0; seed < 3; ++seed) {
+        const DenseSet set = randomBlobs(cubeAt(Coord(120, -133, 3), 14), seed, 20);
+        const auto grid = toGrid(set);
+        DenseSet roomy(grown(set.box(), static_cast<int>(radius) + 1));
+        for (auto c = set.box().begin(); c; ++c) roomy.set(*c, set[*c]);
+        const auto opened = openMask(*grid, radius, element);
+        BOOST_TEST(holds(*opened, dilatedByDefinition(erodedByDefinition(roomy, radius, element), radius, element)));
+        BOOST_TEST(isSubset(*opened, *grid));
+        BOOST_TEST(sameTree(*opened, *openMask(*opened, radius, element)));
+    }
+}
+
+BOOST_AUTO_TEST_CASE(bool_grids_of_any_transform)
+{
+    const auto mask = fatBlobs(50, 8);
+    auto bits = openvdb::BoolGrid::create(false);
+    bits->topologyUnion(*mask); // values stay false: only active states count
+    bits->setTransform(openvdb::math::Transform::createFrustumTransform(
+        openvdb::BBoxd(openvdb::Vec3d(-30), openvdb::Vec3d(30)), 0.5, 10));
+    bits->sparseFill(cubeAt(Coord(256), 8), true);
+    mask->sparseFill(cubeAt(Coord(256), 8), true);
+    const auto isSame = [&](const MaskGrid& fromBits, const MaskGrid& fromMask) {
+        return sameTree(fromBits, fromMask) && fromBits.transform() == bits->transform();
+    };
+    for (const Element element : elements) {
+        BOOST_TEST(isSame(*dilate(*bits, 4, element), *dilate(*mask, 4, element)));
+        BOOST_TEST(isSame(*erode(*bits, 2, element), *erode(*mask, 2, element)));
+        BOOST_TEST(isSame(*openMask(*bits, 2, element), *openMask(*mask, 2, element)));
+        BOOST_TEST(isSame(*closeMask(*bits, {4, 3, element}), *close(*mask, 4, 3, element)));
+    }
+}
+
 BOOST_DATA_TEST_CASE(one_and_two_threads_give_the_same, data::make(elements), element)
 {
     const auto grid = fatBlobs(160, 7);
@@ -365,6 +401,7 @@ BOOST_AUTO_TEST_CASE(bad_input_is_refused)
     for (const double radius : {-0.001, 512.01, infinity, -infinity, std::nan("")}) {
         BOOST_CHECK_THROW(dilate(*grid, radius), InputError);
         BOOST_CHECK_THROW(erode(*grid, radius), InputError);
+        BOOST_CHECK_THROW(openMask(*grid, radius), InputError);
         BOOST_CHECK_THROW(closeMask(*grid, {radius, 0, Element::cube}), InputError);
         BOOST_CHECK_THROW(closeMask(*grid, {4, radius, Element::cube}), InputError);
     }
@@ -377,6 +414,7 @@ BOOST_AUTO_TEST_CASE(bad_input_is_refused)
         far->tree().setValueOn(Coord(0, bad, 0));
         BOOST_CHECK_THROW(dilate(*far, 1), InputError);
         BOOST_CHECK_THROW(erode(*far, 1, Element::cube), InputError);
+        BOOST_CHECK_THROW(openMask(*far, 1), InputError);
         BOOST_CHECK_THROW(closeMask(*far), InputError);
     }
     auto corners = MaskGrid::create();

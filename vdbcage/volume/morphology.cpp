@@ -7,6 +7,7 @@
 
 #include <vdbcage/core/detail/mask_grid.h>
 #include <vdbcage/core/error.h>
+#include <vdbcage/volume/detail/close_options.h>
 #include <vdbcage/volume/detail/cube_pass.h>
 #include <vdbcage/volume/detail/sphere_pass.h>
 
@@ -14,6 +15,7 @@ namespace vdbcage {
 
 namespace {
 
+using openvdb::BoolGrid;
 using openvdb::MaskGrid;
 using openvdb::MaskTree;
 
@@ -53,6 +55,11 @@ MaskTree::Ptr erodeTree(const MaskTree& mask, const MaskTree* keep, double radiu
     return detail::erodeBySphere(mask, keep, squared(radius), progress);
 }
 
+MaskGrid::Ptr activeVoxels(const BoolGrid& grid)
+{
+    return detail::maskGridLike(grid, std::make_shared<MaskTree>(grid.tree(), false, true, openvdb::TopologyCopy()));
+}
+
 } // namespace
 
 MaskGrid::Ptr dilate(const MaskGrid& mask, double radiusVoxels, Element element, Interrupter* interrupter)
@@ -69,16 +76,47 @@ MaskGrid::Ptr erode(const MaskGrid& mask, double radiusVoxels, Element element, 
     return detail::maskGridLike(mask, erodeTree(mask.tree(), nullptr, radiusVoxels, element, {interrupter}));
 }
 
-MaskGrid::Ptr closeMask(const MaskGrid& solid, const CloseOptions& options, Interrupter* interrupter)
+MaskGrid::Ptr openMask(const MaskGrid& mask, double radiusVoxels, Element element, Interrupter* interrupter)
+{
+    requireRadius(radiusVoxels, "the opening radius", maximumRadius);
+    detail::requireSupportedCoordinates(mask.tree());
+    const detail::Progress progress{interrupter};
+    const auto eroded = erodeTree(mask.tree(), nullptr, radiusVoxels, element, progress.part(0, 2));
+    return detail::maskGridLike(mask, dilateTree(*eroded, radiusVoxels, element, progress.part(1, 2)));
+}
+
+void detail::requireValid(const CloseOptions& options)
 {
     requireRadius(options.closeRadiusVoxels, "the close radius", maximumRadius);
     requireRadius(options.erodeRadiusVoxels, "the erode radius", options.closeRadiusVoxels);
+}
+
+MaskGrid::Ptr closeMask(const MaskGrid& solid, const CloseOptions& options, Interrupter* interrupter)
+{
+    detail::requireValid(options);
     detail::requireSupportedCoordinates(solid.tree());
     const detail::Progress progress{interrupter};
     const auto dilated = dilateTree(solid.tree(), options.closeRadiusVoxels, options.element, progress.part(0, 2));
     // As the erode radius is not above the close radius, no voxel of the solid can be lost.
     return detail::maskGridLike(
         solid, erodeTree(*dilated, &solid.tree(), options.erodeRadiusVoxels, options.element, progress.part(1, 2)));
+}
+
+MaskGrid::Ptr dilate(const BoolGrid& mask, double radiusVoxels, Element element, Interrupter* interrupter)
+{
+    return dilate(*activeVoxels(mask), radiusVoxels, element, interrupter);
+}
+MaskGrid::Ptr erode(const BoolGrid& mask, double radiusVoxels, Element element, Interrupter* interrupter)
+{
+    return erode(*activeVoxels(mask), radiusVoxels, element, interrupter);
+}
+MaskGrid::Ptr openMask(const BoolGrid& mask, double radiusVoxels, Element element, Interrupter* interrupter)
+{
+    return openMask(*activeVoxels(mask), radiusVoxels, element, interrupter);
+}
+MaskGrid::Ptr closeMask(const BoolGrid& solid, const CloseOptions& options, Interrupter* interrupter)
+{
+    return closeMask(*activeVoxels(solid), options, interrupter);
 }
 
 } // namespace vdbcage

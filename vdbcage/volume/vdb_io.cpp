@@ -12,9 +12,9 @@
 #include <openvdb/io/Stream.h>
 #include <openvdb/tools/Prune.h>
 #include <vdbcage/core/atomic_file.h>
+#include <vdbcage/core/detail/mask_grid.h>
 #include <vdbcage/core/error.h>
 #include <vdbcage/core/version.h>
-#include <vdbcage/core/detail/mask_grid.h>
 
 namespace vdbcage {
 
@@ -79,16 +79,16 @@ MaskGrid::Ptr maskOfBits(const Grid& grid, const std::string& path)
         grid, path, +[](bool value, bool isOn) { return value && isOn; });
 }
 
-openvdb::GridBase::ConstPtr chosenGrid(const openvdb::GridPtrVec& grids, const std::string& path)
+openvdb::GridBase::Ptr chosenGrid(const openvdb::GridPtrVec& grids, const std::string& wanted, const std::string& path)
 {
     for (const auto& grid : grids) {
-        if (grid && grid->getName() == gridName) return grid;
+        if (grid && grid->getName() == wanted) return grid;
     }
     if (grids.size() == 1 && grids.front()) return grids.front();
     std::string names;
     for (const auto& grid : grids) names += (names.empty() ? "" : ", ") + (grid ? grid->getName() : std::string());
-    throw IoError(path +
-                  (grids.empty() ? ": holds no grid" : ": holds several grids but none named density: " + names));
+    throw IoError(
+        path + (grids.empty() ? ": holds no grid" : ": holds several grids but none named " + wanted + ": " + names));
 }
 
 MaskGrid::Ptr toMask(const openvdb::GridBase& grid, const std::string& path)
@@ -99,6 +99,30 @@ MaskGrid::Ptr toMask(const openvdb::GridBase& grid, const std::string& path)
     if (const auto* masks = dynamic_cast<const MaskGrid*>(&grid)) return maskOfBits(*masks, path);
     throw IoError(path + ": grid '" + grid.getName() + "' holds " + grid.valueType() +
                   " values; float, double, bool or mask is needed");
+}
+
+openvdb::GridBase::Ptr readGrid(const std::filesystem::path& path, const std::string& wanted)
+{
+    const std::string name = path.string();
+    std::error_code ignored;
+    if (std::filesystem::is_directory(path, ignored)) throw IoError(name + ": is a directory; a .vdb file is needed");
+    errno = 0;
+    std::ifstream stream(path, std::ios::binary);
+    if (!stream) throw IoError(name + ": cannot be read: " + std::generic_category().message(errno));
+    openvdb::initialize();
+    openvdb::GridPtrVecPtr grids;
+    try {
+        // OpenVDB does not look whether its reads succeed; the stream does.
+        stream.exceptions(std::ios::failbit | std::ios::badbit | std::ios::eofbit);
+        grids = openvdb::io::Stream(stream, false).getGrids();
+    } catch (const std::ios_base::failure&) {
+        throw IoError(name + ": is not a .vdb file, or is truncated");
+    } catch (const std::bad_alloc&) {
+        throw IoError(name + ": is damaged, or needs more memory than there is");
+    } catch (const std::exception& error) {
+        throw IoError(name + ": is not a .vdb file that can be read: " + error.what());
+    }
+    return chosenGrid(*grids, wanted, name);
 }
 
 } // namespace
@@ -125,26 +149,16 @@ void writeVdb(const MaskGrid& mask, const std::filesystem::path& path,
 
 MaskGrid::Ptr readVdb(const std::filesystem::path& path)
 {
-    const std::string name = path.string();
-    std::error_code ignored;
-    if (std::filesystem::is_directory(path, ignored)) throw IoError(name + ": is a directory; a .vdb file is needed");
-    errno = 0;
-    std::ifstream stream(path, std::ios::binary);
-    if (!stream) throw IoError(name + ": cannot be read: " + std::generic_category().message(errno));
-    openvdb::initialize();
-    openvdb::GridPtrVecPtr grids;
-    try {
-        // OpenVDB does not look whether its reads succeed; the stream does.
-        stream.exceptions(std::ios::failbit | std::ios::badbit | std::ios::eofbit);
-        grids = openvdb::io::Stream(stream, false).getGrids();
-    } catch (const std::ios_base::failure&) {
-        throw IoError(name + ": is not a .vdb file, or is truncated");
-    } catch (const std::bad_alloc&) {
-        throw IoError(name + ": is damaged, or needs more memory than there is");
-    } catch (const std::exception& error) {
-        throw IoError(name + ": is not a .vdb file that can be read: " + error.what());
-    }
-    return toMask(*chosenGrid(*grids, name), name);
+    return toMask(*readGrid(path, gridName), path.string());
+}
+
+FloatGrid::Ptr readFloatGrid(const std::filesystem::path& path, const std::string& wanted)
+{
+    const auto grid = readGrid(path, wanted);
+    auto floats = openvdb::gridPtrCast<FloatGrid>(grid);
+    if (floats) return floats;
+    throw IoError(path.string() + ": grid '" + grid->getName() + "' holds " + grid->valueType() +
+                  " values; float is needed");
 }
 
 } // namespace vdbcage

@@ -24,4 +24,8 @@ VDBCAGE_API void writeVdb(const openvdb::MaskGrid& mask, const std::filesystem::
 ///        or none at all, a grid of another type, a grid whose background is inside (it fills all of space)
 VDBCAGE_API openvdb::MaskGrid::Ptr readVdb(const std::filesystem::path& path);
 
+/// Reads a FloatGrid from a .vdb: its grid of this name (the first of them) or else its only grid.
+/// \throw IoError naming the path, as readVdb
+VDBCAGE_API openvdb::FloatGrid::Ptr readFloatGrid(const std::filesystem::path& path, const std::string& gridName);
+
 } // namespace vdbcage

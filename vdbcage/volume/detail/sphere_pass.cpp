@@ -14,6 +14,7 @@
 
 #include <vdbcage/volume/detail/contour_leaves.h>
 #include <vdbcage/volume/detail/sphere_reach.h>
+#include <vdbcage/volume/detail/varying_reach.h>
 
 namespace vdbcage::detail {
 
@@ -32,23 +33,25 @@ std::int64_t squaredGap(const CoordBBox& a, const CoordBBox& b)
 }
 
 // What one thread needs while it works on a part of a block.
+template <class Reach>
 struct WorkSpace {
     std::vector<NearLeaf> near;
     std::vector<std::uint64_t> reached; // by leaf: slots of the part
     // For each slot of the part the leaves that reach it: below from the front, above from the back, then those beside.
     std::vector<std::uint16_t> lists;
     std::array<std::array<std::size_t, 3>, 64> counts; // below, beside, above
-    SphereReach::Fronts fronts;
+    typename Reach::Work reach;
     std::array<Words, 64> open; // by slot of the part: the voxels that the pass may change
 };
 
+// Reach tells what is within reach: SphereReach or VaryingReach.
+template <class Reach>
 class SpherePass {
 public:
-    SpherePass(const MaskTree& base, const MaskTree* keep, ContourOf side, std::int64_t squaredRadius,
-               const std::vector<ContourBlock>& contour, Simd simd, const Progress& progress)
-        : base_(base), keep_(keep), side_(side), squaredRadius_(squaredRadius), contour_(contour), progress_(progress),
-          reach_(static_cast<int>(std::ceil(std::sqrt(static_cast<double>(squaredRadius))))),
-          sphere_(squaredRadius, simd)
+    SpherePass(const MaskTree& base, const MaskTree* keep, ContourOf side, std::int64_t largestSquare,
+               const Reach& reach, const std::vector<ContourBlock>& contour, const Progress& progress)
+        : base_(base), keep_(keep), side_(side), squaredRadius_(largestSquare), contour_(contour), progress_(progress),
+          radius_(static_cast<int>(std::ceil(std::sqrt(static_cast<double>(largestSquare))))), reach_(reach)
     {
     }
 
@@ -62,6 +65,8 @@ public:
     }
 
 private:
+    using Work = WorkSpace<Reach>;
+
     struct Target {
         Coord origin;
         Block base, keep;
@@ -74,7 +79,7 @@ private:
         std::vector<Coord> targets;
         for (const ContourBlock& block : contour_) {
             CoordBBox box = block.box;
-            box.expand(reach_);
+            box.expand(radius_);
             const Coord first = alignedTo(box.min(), blockSize), last = alignedTo(box.max(), blockSize);
             for (int x = first.x(); x <= last.x(); x += blockSize) {
                 for (int y = first.y(); y <= last.y(); y += blockSize) {
@@ -108,7 +113,7 @@ private:
     {
         const CoordBBox box = CoordBBox::createCube(target.origin, blockSize);
         CoordBBox around = box;
-        around.expand(reach_);
+        around.expand(radius_);
         const Coord first = alignedTo(around.min(), blockSize), last = alignedTo(around.max(), blockSize);
         for (int x = first.x(); x <= last.x(); x += blockSize) {
             for (int y = first.y(); y <= last.y(); y += blockSize) {
@@ -126,14 +131,15 @@ private:
         }
     }
 
-    void buildPart(const Target& target, int part, WorkSpace& work, BlockBuilder& builder) const
+    void buildPart(const Target& target, int part, Work& work, BlockBuilder& builder) const
     {
         const Coord firstSlot(part / 16 * partSlots, part / 4 % 4 * partSlots, part % 4 * partSlots);
         std::uint64_t open = findOpenVoxels(target, firstSlot, work);
         std::uint64_t covered = 0;
         if (open != 0) {
             gatherLeaves(target, firstSlot, work);
-            covered = open & sphere_.coveredSlots(work.near.data(), work.near.size(), open);
+            reach_.start(work.reach, cornerOf(target, firstSlot));
+            covered = open & reach_.coveredSlots(work.near.data(), work.near.size(), open, work.reach);
             open &= ~covered;
         }
         if (open != 0) open &= listLeaves(open, work);
@@ -146,7 +152,7 @@ private:
                 setChanged(builder, n, base, work.open[slot]);
             } else if ((open >> i & 1) != 0) {
                 setChanged(builder, n, base,
-                           sphere_.within(work.open[slot], i, work.near.data(), listsOf(slot, work), work.fronts));
+                           reach_.within(work.open[slot], i, work.near.data(), listsOf(slot, work), work.reach));
             } else {
                 builder.set(n, base);
             }
@@ -161,7 +167,7 @@ private:
     }
 
     // Tells which slots of the part have open voxels.
-    std::uint64_t findOpenVoxels(const Target& target, const Coord& firstSlot, WorkSpace& work) const
+    std::uint64_t findOpenVoxels(const Target& target, const Coord& firstSlot, Work& work) const
     {
         std::uint64_t found = 0;
         for (int i = 0; i < 64; ++i) {
@@ -179,9 +185,9 @@ private:
         return found;
     }
 
-    void gatherLeaves(const Target& target, const Coord& firstSlot, WorkSpace& work) const
+    void gatherLeaves(const Target& target, const Coord& firstSlot, Work& work) const
     {
-        const Coord corner = target.origin + slotOffset(slotIndex(firstSlot.x(), firstSlot.y(), firstSlot.z()));
+        const Coord corner = cornerOf(target, firstSlot);
         const CoordBBox box = CoordBBox::createCube(corner, partSlots * leafSize);
         work.near.clear();
         for (const auto& [block, group] : target.groups) {
@@ -202,15 +208,14 @@ private:
     }
 
     // Tells which of the open slots a leaf may reach.
-    std::uint64_t listLeaves(std::uint64_t open, WorkSpace& work) const
+    std::uint64_t listLeaves(std::uint64_t open, Work& work) const
     {
         std::uint64_t any = 0;
         const std::size_t size = work.near.size();
         for (auto& counts : work.counts) counts.fill(0);
         work.lists.resize(128 * size);
         work.reached.resize(size);
-        sphere_.reachedSlots(work.near.data(), size, work.reached.data());
-        SphereReach::start(work.fronts, size);
+        reach_.reachedSlots(work.near.data(), size, work.reached.data(), work.reach);
         for (std::size_t i = 0; i < size; ++i) {
             const std::uint64_t reached = work.reached[i] & open;
             if (reached == 0) continue;
@@ -237,12 +242,17 @@ private:
         return any;
     }
 
-    static SphereReach::Lists listsOf(std::size_t slot, const WorkSpace& work)
+    static SphereReach::Lists listsOf(std::size_t slot, const Work& work)
     {
         const std::size_t size = work.near.size();
         const std::uint16_t* const first = work.lists.data() + slot * 2 * size;
         const auto& counts = work.counts[slot];
         return {{first, first + size, first + size - counts[2]}, {counts[0], counts[1], counts[2]}};
+    }
+
+    static Coord cornerOf(const Target& target, const Coord& firstSlot)
+    {
+        return target.origin + slotOffset(slotIndex(firstSlot.x(), firstSlot.y(), firstSlot.z()));
     }
 
     static int slotOfBlock(const Coord& firstSlot, int i)
@@ -255,34 +265,55 @@ private:
     const MaskTree& base_;
     const MaskTree* keep_;
     ContourOf side_;
-    std::int64_t squaredRadius_;
+    std::int64_t squaredRadius_; // the largest
     const std::vector<ContourBlock>& contour_;
     Progress progress_;
-    int reach_; // the radius, rounded up
-    SphereReach sphere_;
-    tbb::enumerable_thread_specific<WorkSpace> workSpaces_;
+    int radius_; // the largest, rounded up
+    const Reach& reach_;
+    tbb::enumerable_thread_specific<Work> workSpaces_;
     std::atomic<std::size_t> partsDone_{0};
 };
 
-MaskTree::Ptr runPass(const MaskTree& base, const MaskTree* keep, ContourOf side, std::int64_t squaredRadius, Simd simd,
-                      const Progress& progress)
+template <class Reach>
+MaskTree::Ptr runPass(const MaskTree& base, const MaskTree* keep, ContourOf side, std::int64_t largestSquare,
+                      const Reach& reach, const Progress& progress)
 {
     const std::vector<ContourBlock> contour = contourBlocks(base, side, progress.part(0, 8));
     const Progress rest{progress.interrupter, progress.part(0, 8).to, progress.to};
-    return SpherePass(base, keep, side, squaredRadius, contour, simd, rest).run();
+    return SpherePass<Reach>(base, keep, side, largestSquare, reach, contour, rest).run();
+}
+
+std::int64_t largestSquare(const RadiusField& field, double factor)
+{
+    return field.squareOf(field.largest() * factor);
 }
 
 } // namespace
 
 MaskTree::Ptr dilateBySphere(const MaskTree& mask, std::int64_t squaredRadius, const Progress& progress, Simd simd)
 {
-    return runPass(mask, nullptr, ContourOf::mask, squaredRadius, simd, progress);
+    const SphereReach reach(squaredRadius, simd);
+    return runPass(mask, nullptr, ContourOf::mask, squaredRadius, reach, progress);
 }
 
 MaskTree::Ptr erodeBySphere(const MaskTree& mask, const MaskTree* keep, std::int64_t squaredRadius,
                             const Progress& progress, Simd simd)
 {
-    return runPass(mask, keep, ContourOf::complement, squaredRadius, simd, progress);
+    const SphereReach reach(squaredRadius, simd);
+    return runPass(mask, keep, ContourOf::complement, squaredRadius, reach, progress);
+}
+
+MaskTree::Ptr dilateByField(const MaskTree& mask, const RadiusField& field, const Progress& progress, Simd simd)
+{
+    const VaryingReach reach(field, 1, VaryingReach::By::target, simd);
+    return runPass(mask, nullptr, ContourOf::mask, largestSquare(field, 1), reach, progress);
+}
+
+MaskTree::Ptr erodeByField(const MaskTree& mask, const MaskTree* keep, const RadiusField& field, double factor,
+                           const Progress& progress, Simd simd)
+{
+    const VaryingReach reach(field, factor, VaryingReach::By::source, simd);
+    return runPass(mask, keep, ContourOf::complement, largestSquare(field, factor), reach, progress);
 }
 
 } // namespace vdbcage::detail

@@ -255,7 +255,7 @@ VDBCAGE_INLINE void frontVoxels(const Words& words, int sideX, int sideY, int si
 // Adds the front to `fronts` and tells where.
 template <int bytes>
 VDBCAGE_INLINE std::uint32_t findFront(int stride, const Words& words, int sideX, int sideY, int sideZ,
-                                       SphereReach::Fronts& fronts)
+                                       SphereReach::Work& fronts)
 {
     std::uint64_t front[8];
     frontVoxels<bytes>(words, sideX, sideY, sideZ, front);
@@ -285,7 +285,7 @@ VDBCAGE_INLINE int sideOf(int offset)
     return (offset > 0) - (offset < 0);
 }
 
-using Fronts = SphereReach::Fronts;
+using Fronts = SphereReach::Work;
 
 struct SlotQuery {
     const Words& open;
@@ -610,14 +610,17 @@ SphereReach::SphereReach(std::int64_t squaredRadius, Simd simd)
 }
 SphereReach::~SphereReach() = default;
 
-void SphereReach::reachedSlots(NearLeaf* near, std::size_t count, std::uint64_t* masks) const
+void SphereReach::reachedSlots(NearLeaf* near, std::size_t count, std::uint64_t* masks, Work& work) const
 {
+    work.starts.assign(count * 27, 0);
+    work.size = 1;
 #if VDBCAGE_WITH_AVX
     if (simd_ != Simd::plain) return reachedAvx2(*tables_, near, count, masks);
 #endif
     reachedPlain(*tables_, near, count, masks);
 }
-std::uint64_t SphereReach::coveredSlots(const NearLeaf* near, std::size_t count, std::uint64_t wanted) const
+std::uint64_t SphereReach::coveredSlots(const NearLeaf* near, std::size_t count, std::uint64_t wanted,
+                                        const Work& /*work*/) const
 {
 #if VDBCAGE_WITH_AVX
     if (simd_ != Simd::plain) return coveredAvx2(*tables_, near, count, wanted);
@@ -625,17 +628,15 @@ std::uint64_t SphereReach::coveredSlots(const NearLeaf* near, std::size_t count,
     return coveredPlain(*tables_, near, count, wanted);
 }
 
-void SphereReach::start(Fronts& fronts, std::size_t leaves)
+void SphereReach::start(Work& /*work*/, const Coord& /*corner*/) const
 {
-    fronts.starts.assign(leaves * 27, 0);
-    fronts.size = 1;
 }
 
-Words SphereReach::within(const Words& open, int slot, const NearLeaf* near, const Lists& lists, Fronts& fronts) const
+Words SphereReach::within(const Words& open, int slot, const NearLeaf* near, const Lists& lists, Work& work) const
 {
     const int x = slot >> 4, y = slot >> 2 & 3, z = slot & 3;
     const int slotPlace = x * tables_->slotStride() + y * lanes, rowPlace = 8 * (x * tables_->rowStride() + 8 * y);
-    return withinFunction(simd_, tables_->isSmall)(*tables_, {open, x, y, z, slotPlace, rowPlace, near, lists, fronts});
+    return withinFunction(simd_, tables_->isSmall)(*tables_, {open, x, y, z, slotPlace, rowPlace, near, lists, work});
 }
 
 } // namespace vdbcage::detail

@@ -33,13 +33,8 @@ public:
     SphereReach(std::int64_t squaredRadius, Simd simd);
     ~SphereReach();
 
-    /// For each of the `count` leaves at least the slots with a voxel within its reach. Completes the leaves.
-    void reachedSlots(NearLeaf* near, std::size_t count, std::uint64_t* masks) const;
-    /// Most of the `wanted` slots that lie wholly within reach of one leaf, and maybe others that do.
-    std::uint64_t coveredSlots(const NearLeaf* near, std::size_t count, std::uint64_t wanted) const;
-
     /// What one thread has found out about the leaves around the part that it works on.
-    struct Fronts {
+    struct Work {
         struct Voxel {
             std::int32_t place; ///< of its column in the tables, from that of the leaf's first column
             std::int32_t z;     ///< in the leaf; of leaves beside the slot the byte of all voxels in the column
@@ -48,15 +43,21 @@ public:
         std::vector<Voxel> voxels;         ///< a front is the number of its voxels and the voxels
         std::size_t size = 0;              ///< of the part of `voxels` that is in use
     };
-    static void start(Fronts& fronts, std::size_t leaves);
+    /// Starts a part with this corner.
+    void start(Work& work, const Coord& corner) const;
+    /// For each of the `count` leaves at least the slots with a voxel within its reach. Completes the leaves.
+    void reachedSlots(NearLeaf* near, std::size_t count, std::uint64_t* masks, Work& work) const;
+    /// Most of the `wanted` slots that lie wholly within reach of one leaf, and maybe others that do.
+    std::uint64_t coveredSlots(const NearLeaf* near, std::size_t count, std::uint64_t wanted, const Work& work) const;
 
     /// The leaves that may reach a slot, as indices: those below it, beside and above.
     struct Lists {
         const std::uint16_t* indices[3];
         std::size_t counts[3];
     };
-    /// The bits of `open` within reach of the listed leaves, in slot `slot` of the part. `fronts` was started with it.
-    Words within(const Words& open, int slot, const NearLeaf* near, const Lists& lists, Fronts& fronts) const;
+    /// The bits of `open` within reach of the listed leaves, in slot `slot` of the part. They were given to
+    /// reachedSlots before.
+    Words within(const Words& open, int slot, const NearLeaf* near, const Lists& lists, Work& work) const;
 
     struct Tables;
 

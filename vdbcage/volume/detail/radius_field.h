@@ -1,0 +1,62 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <openvdb/openvdb.h>
+#include <vdbcage/volume/detail/progress.h>
+#include <vdbcage/volume/scale_field.h>
+
+namespace vdbcage::detail {
+
+/// A radius for each voxel, as its square, a whole number, such that what a scatter erosion removes (all g with a q
+/// outside, |g - q|^2 <= square(q)) is removed by the q that have a face neighbour inside alone.
+///
+/// For this any g that q reaches, but by one step along an axis, must also be reached by a face neighbour of q that is
+/// nearer to g. A step towards g gains at least half a voxel, unless g is very near; so radii that change by less than
+/// half a voxel a step do, with squares a little below the radius' own where that is small (see leastRadius).
+class RadiusField {
+public:
+    /// For the voxels of `box`, in the index space of `voxels`. \throw InputError, Cancelled
+    RadiusField(const ScaleField& scale, const openvdb::math::Transform& voxels, double radius,
+                const openvdb::CoordBBox& box, const Progress& progress);
+
+    /// Whether the radius is `largest()` everywhere.
+    bool isUniform() const { return nodes_.empty(); }
+    double largest() const { return largest_; }
+    /// The squared radius at a voxel, of the radius times `factor` (0 to 1).
+    std::int32_t square(const openvdb::Coord& voxel, double factor) const;
+    /// Bounds of the radius (not squared) among the voxels of a slot.
+    struct Range {
+        float least, most;
+    };
+    Range rangeOfSlot(const openvdb::Coord& origin) const;
+    /// The largest square that a radius may stand for.
+    std::int32_t squareOf(double radius) const;
+
+private:
+    float radiusAt(const openvdb::Coord& voxel) const;
+    void sample(const ScaleField& scale, const openvdb::math::Transform& voxels, double radius,
+                const Progress& progress);
+    void clamp();
+    void findRanges();
+
+    std::size_t node(const openvdb::Coord& c) const // counted in nodes from the first
+    {
+        return (static_cast<std::size_t>(c.x()) * static_cast<std::size_t>(size_.y()) +
+                static_cast<std::size_t>(c.y())) *
+                   static_cast<std::size_t>(size_.z()) +
+               static_cast<std::size_t>(c.z());
+    }
+
+    int shift_ = 0;                    // nodes are at the multiples of 2^shift
+    openvdb::Coord first_, size_;      // in nodes
+    std::vector<float> nodes_;         // radii
+    openvdb::Coord firstSlot_, slots_; // in slots
+    std::vector<Range> ranges_;
+    float outside_ = 0; // the radius where there are no nodes
+    double largest_ = 0;
+    std::vector<double> leastRadius_; // by square: the least radius that may stand for it
+};
+
+} // namespace vdbcage::detail

@@ -1,0 +1,155 @@
+// Based on: adjunctions of varying structuring elements, Serra, Image Analysis and Mathematical Morphology II, 1988.
+#include <vdbcage/volume/scale_field.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+#include <sstream>
+
+#include <vdbcage/core/detail/mask_grid.h>
+#include <vdbcage/core/error.h>
+#include <vdbcage/volume/detail/close_options.h>
+#include <vdbcage/volume/detail/radius_field.h>
+#include <vdbcage/volume/detail/sphere_pass.h>
+#include <vdbcage/volume/vdb_io.h>
+
+namespace vdbcage {
+
+namespace {
+
+using openvdb::Coord;
+using openvdb::FloatGrid;
+using openvdb::MaskGrid;
+using openvdb::Vec3d;
+
+void require(bool isRight, const char* name, double value, const char* allowed)
+{
+    if (isRight) return;
+    std::ostringstream text;
+    text << name << " is " << value << "; it must be " << allowed;
+    throw InputError(text.str());
+}
+
+[[noreturn]] void refuse(const std::string& part)
+{
+    throw InputError(
+        "'" + part +
+        "' is not a scale field; it must be a .vdb file, sphere:X,Y,Z,RADIUS,SCALE or box:X,Y,Z,X,Y,Z,SCALE");
+}
+
+// The numbers after the colon, separated by commas.
+std::vector<double> numbers(const std::string& part, std::size_t count)
+{
+    std::vector<double> list;
+    const char *begin = part.data() + part.find(':') + 1, *const end = part.data() + part.size();
+    for (;;) {
+        double value = 0;
+        const auto parsed = std::from_chars(begin, end, value);
+        if (parsed.ec != std::errc() || !std::isfinite(value)) refuse(part);
+        list.push_back(value);
+        if (parsed.ptr == end) break;
+        if (*parsed.ptr != ',') refuse(part);
+        begin = parsed.ptr + 1;
+    }
+    if (list.size() != count) refuse(part);
+    return list;
+}
+
+} // namespace
+
+FloatGrid::Ptr scaleFromPoints(const std::vector<Vec3d>& points, const std::vector<float>& values, double voxelSize,
+                               double reach, Interrupter* interrupter)
+{
+    if (points.size() != values.size()) {
+        std::ostringstream text;
+        text << "there are " << values.size() << " values for " << points.size() << " points; it must be one for each";
+        throw InputError(text.str());
+    }
+    for (const float value : values) {
+        require(std::isfinite(value), "a value at a point", static_cast<double>(value), "finite");
+    }
+    require(voxelSize > 0 && std::isfinite(voxelSize), "the voxel size", voxelSize, "above 0");
+    require(reach > 0 && reach <= 64 * voxelSize, "the reach", reach, "above 0 and at most 64 voxels");
+    auto scale = FloatGrid::create(1.0F);
+    scale->setTransform(openvdb::math::Transform::createLinearTransform(voxelSize));
+    FloatGrid nearest(static_cast<float>(openvdb::math::Pow2(reach / voxelSize))); // squared distances in voxels
+    auto scales = scale->getAccessor();
+    auto distances = nearest.getAccessor();
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        if (i % 64 == 0) throwIfInterrupted(interrupter, static_cast<int>(100 * i / points.size()));
+        const Vec3d place = scale->worldToIndex(points[i]);
+        const Vec3d span(reach / voxelSize);
+        const openvdb::CoordBBox box(Coord::ceil(place - span), Coord::floor(place + span));
+        for (auto c = box.begin(); c; ++c) {
+            const auto distance = static_cast<float>(((*c).asVec3d() - place).lengthSqr());
+            const bool isFirst = !distances.isValueOn(*c);
+            if (isFirst ? distance > distances.getValue(*c) : distance >= distances.getValue(*c)) continue;
+            distances.setValue(*c, distance);
+            scales.setValue(*c, values[i]);
+        }
+    }
+    return scale;
+}
+
+ScaleField readScaleField(const std::string& text)
+{
+    ScaleField field;
+    if (text == "none") return field;
+    field.source = text;
+    for (std::size_t begin = 0; begin <= text.size();) {
+        const std::size_t end = std::min(text.find(';', begin), text.size());
+        const std::string part = text.substr(begin, end - begin);
+        begin = end + 1;
+        if (part.rfind("sphere:", 0) == 0) {
+            const auto n = numbers(part, 5);
+            field.regions.push_back({ScaleRegion::Shape::sphere, Vec3d(n[0], n[1], n[2]), Vec3d(0), n[3], n[4]});
+        } else if (part.rfind("box:", 0) == 0) {
+            const auto n = numbers(part, 7);
+            field.regions.push_back({ScaleRegion::Shape::box,
+                                     Vec3d(std::min(n[0], n[3]), std::min(n[1], n[4]), std::min(n[2], n[5])),
+                                     Vec3d(std::max(n[0], n[3]), std::max(n[1], n[4]), std::max(n[2], n[5])), 0, n[6]});
+        } else if (std::filesystem::path(part).extension() == ".vdb") {
+            if (field.grid) throw InputError("'" + part + "' is a second .vdb file; a scale field can have one");
+            field.grid = readFloatGrid(part, "scale");
+        } else {
+            refuse(part);
+        }
+    }
+    return field;
+}
+
+MaskGrid::Ptr dilate(const MaskGrid& mask, double radiusVoxels, const ScaleField& scale, Interrupter* interrupter)
+{
+    detail::requireValid({radiusVoxels, 0, Element::sphere});
+    const detail::Progress progress{interrupter};
+    const detail::RadiusField field(scale, mask.transform(), radiusVoxels, mask.evalActiveVoxelBoundingBox(),
+                                    progress.part(0, 10));
+    if (field.isUniform()) return dilate(mask, field.largest(), Element::sphere, interrupter);
+    detail::requireSupportedCoordinates(mask.tree());
+    return detail::maskGridLike(mask, detail::dilateByField(mask.tree(), field, {interrupter, 10, 100}));
+}
+
+MaskGrid::Ptr closeMask(const MaskGrid& solid, const CloseOptions& options, const ScaleField& scale,
+                        Interrupter* interrupter)
+{
+    detail::requireValid(options);
+    const detail::Progress progress{interrupter};
+    const detail::RadiusField field(scale, solid.transform(), options.closeRadiusVoxels,
+                                    solid.evalActiveVoxelBoundingBox(), progress.part(0, 10));
+    const double factor = options.closeRadiusVoxels > 0 ? options.erodeRadiusVoxels / options.closeRadiusVoxels : 0.0;
+    if (field.isUniform()) {
+        return closeMask(solid, {field.largest(), std::min(field.largest(), field.largest() * factor), options.element},
+                         interrupter);
+    }
+    if (options.element != Element::sphere) {
+        throw InputError("the cube has one radius everywhere; a scale field needs the sphere");
+    }
+    detail::requireSupportedCoordinates(solid.tree());
+    const detail::Progress rest{interrupter, 10, 100};
+    const auto dilated = detail::dilateByField(solid.tree(), field, rest.part(0, 2));
+    return detail::maskGridLike(
+        solid, detail::erodeByField(*dilated, &solid.tree(), field, std::min(factor, 1.0), rest.part(1, 2)));
+}
+
+} // namespace vdbcage

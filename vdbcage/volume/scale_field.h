@@ -1,0 +1,64 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <openvdb/openvdb.h>
+#include <vdbcage/core/export.h>
+#include <vdbcage/core/interrupter.h>
+#include <vdbcage/volume/morphology.h>
+
+/// Closing with a radius that varies in space: smaller where features matter, 0 where a hole has to stay.
+namespace vdbcage {
+
+/// A box or a sphere, in world space, where the radius is multiplied by `scale`.
+struct ScaleRegion {
+    enum class Shape { box, sphere };
+    Shape shape = Shape::sphere;
+    openvdb::Vec3d lower{0}, upper{0}; ///< box: its corners; sphere: `lower` is the centre
+    double radius = 0;                 ///< of the sphere
+    double scale = 1;                  ///< 0 to 8
+};
+
+/// What the radius of a closing is multiplied by, place by place: the grid's value (interpolated; in world space, so
+/// its voxels may be of any size) times the scale of every region around the place. No grid counts as 1 everywhere.
+struct ScaleField {
+    openvdb::FloatGrid::ConstPtr grid; ///< values cut to 0 to 8; its background holds outside; a linear transform
+    std::vector<ScaleRegion> regions;
+    std::string source = {}; ///< the text that it was read from; empty if it was made otherwise
+};
+
+/// A field from text: parts separated by semicolons, each `sphere:X,Y,Z,RADIUS,SCALE`, `box:X,Y,Z,X,Y,Z,SCALE` (two
+/// corners) or a .vdb file, whose grid `scale` (the first of them) or else only grid counts, a FloatGrid.
+/// "none" is no field. \throw InputError naming the part, IoError naming the file
+VDBCAGE_API ScaleField readScaleField(const std::string& text);
+
+/// A grid for ScaleField::grid from values at points, such as the vertices of a mesh: each voxel that a point is
+/// within `reach` of gets the nearest one's value (of equally near ones the first), all others 1. `voxelSize` and
+/// `reach` are world lengths. O(points (reach / voxelSize)^3).
+/// \throw InputError (as many values as points, finite; voxelSize and reach above 0, reach up to 64 voxels), Cancelled
+VDBCAGE_API openvdb::FloatGrid::Ptr scaleFromPoints(const std::vector<openvdb::Vec3d>& points,
+                                                    const std::vector<float>& values, double voxelSize, double reach,
+                                                    Interrupter* interrupter = nullptr);
+
+/// Every voxel with an active voxel of `mask` within its own radius: `radiusVoxels` times the field, clamped as below.
+/// \throw InputError, Cancelled as closeMask
+VDBCAGE_API openvdb::MaskGrid::Ptr dilate(const openvdb::MaskGrid& mask, double radiusVoxels, const ScaleField& scale,
+                                          Interrupter* interrupter = nullptr);
+
+/// The closing of `solid` by spheres, both radii of the options multiplied by the field, and clamped: from voxel to
+/// voxel along an axis a radius grows by half a voxel at most (so its slope is below 1 in every direction), and where
+/// the field is steeper the smaller radius spreads. The dilation asks, at each voxel, for a voxel of `solid` within the
+/// voxel's own radius; the erosion takes away all that is within a voxel's radius of a voxel outside, with the radius
+/// that the voxel outside has. So the two are adjoint, and the closing is extensive and increasing, and idempotent for
+/// equal radii, as with one radius everywhere; a field of 1 everywhere is exactly that.
+///
+/// The field is sampled at every h-th voxel and interpolated between, where h is the largest power of 2 that is
+/// not above a quarter of the close radius, 1 to 8. Costs about three times as much as one radius, and 4 / h^3 bytes
+/// for each voxel of the box where the field is not the same.
+/// \throw InputError (as closeMask; the cube, which has one radius only; scales negative, above 8 or not finite; a
+///        radius above 512 voxels; a grid whose transform is not linear; a field of more than 2^28 samples), Cancelled
+VDBCAGE_API openvdb::MaskGrid::Ptr closeMask(const openvdb::MaskGrid& solid, const CloseOptions& options,
+                                             const ScaleField& scale, Interrupter* interrupter = nullptr);
+
+} // namespace vdbcage
