@@ -6,6 +6,8 @@
 #include <vdbcage/core/error.h>
 #include <vdbcage/core/interrupter.h>
 #include <vdbcage/core/version.h>
+#include <vdbcage/deform/binding.h>
+#include <vdbcage/deform/weights_io.h>
 #include <vdbcage/mesh/mesh.h>
 #include <vdbcage/mesh/mesh_io.h>
 #include <vdbcage/mesh/topology.h>

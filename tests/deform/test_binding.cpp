@@ -1,0 +1,223 @@
+#include <boost/test/unit_test.hpp>
+
+#include <cmath>
+
+#include <deform/cages.h>
+#include <tbb/global_control.h>
+#include <vdbcage/core/error.h>
+#include <vdbcage/deform/binding.h>
+
+using namespace vdbcage;
+using openvdb::Vec3d;
+using test::Kind;
+using test::pointsInside;
+using test::Random;
+using test::randomCage;
+
+namespace {
+
+constexpr Coordinates families[] = {Coordinates::meanValue, Coordinates::green, Coordinates::likelihood};
+
+std::vector<Vec3d> jittered(std::vector<Vec3d> points, std::uint32_t seed, double by = 0.3)
+{
+    Random random(seed);
+    for (Vec3d& p : points) p += random(0, by) * random.direction();
+    return points;
+}
+
+double difference(const std::vector<Vec3d>& a, const std::vector<Vec3d>& b)
+{
+    BOOST_REQUIRE(a.size() == b.size());
+    double most = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) most = std::max(most, (a[i] - b[i]).length());
+    return most;
+}
+
+/// A bar along x, from -2 to 2 and 1 wide, of `pieces` rings of quads.
+Mesh bar(int pieces)
+{
+    Mesh mesh;
+    for (int i = 0; i <= pieces; ++i) {
+        for (int k = 0; k < 4; ++k) {
+            mesh.points.emplace_back(-2 + 4.0 * i / pieces, k == 1 || k == 2 ? 0.5 : -0.5, k > 1 ? 0.5 : -0.5);
+        }
+    }
+    const auto at = [](int i, int k) { return static_cast<openvdb::Index32>(4 * i + k % 4); };
+    for (int i = 0; i < pieces; ++i) {
+        for (int k = 0; k < 4; ++k) {
+            mesh.quads.emplace_back(at(i, k), at(i, k + 1), at(i + 1, k + 1), at(i + 1, k));
+        }
+    }
+    mesh.quads.emplace_back(at(0, 3), at(0, 2), at(0, 1), at(0, 0));
+    mesh.quads.emplace_back(at(pieces, 0), at(pieces, 1), at(pieces, 2), at(pieces, 3));
+    return mesh;
+}
+
+Vec3d bent(const Vec3d& p) // by a quarter turn over the middle half
+{
+    const double angle = std::clamp(p.x(), -1.0, 1.0) * 3.14159265358979323846 / 4;
+    const double radius = 4 / 3.14159265358979323846, over = p.x() - std::clamp(p.x(), -1.0, 1.0);
+    return {(radius - p.y()) * std::sin(angle) + over * std::cos(angle),
+            radius - (radius - p.y()) * std::cos(angle) + over * std::sin(angle), p.z()};
+}
+
+Vec3d twisted(const Vec3d& p) // by a quarter turn along the bar
+{
+    const double angle = p.x() * 3.14159265358979323846 / 8;
+    return {p.x(), p.y() * std::cos(angle) - p.z() * std::sin(angle),
+            p.y() * std::sin(angle) + p.z() * std::cos(angle)};
+}
+
+/// The mean over points of how far the deformation is from a similarity: the logarithm of the largest over the least
+/// principal stretch.
+template <typename Map>
+double distortion(const Mesh& cage, Coordinates family, const Map& map)
+{
+    Random random(1);
+    constexpr double step = 1e-3;
+    std::vector<Vec3d> points;
+    for (int i = 0; i < 200; ++i) {
+        const Vec3d p(random(-1.8, 1.8), random(-0.4, 0.4), random(-0.4, 0.4));
+        for (int axis = 0; axis < 3; ++axis) {
+            for (const double side : {-step, step}) {
+                points.push_back(p);
+                points.back()[axis] += side;
+            }
+        }
+    }
+    std::vector<Vec3d> posedCage = cage.points;
+    for (Vec3d& p : posedCage) p = map(p);
+    const std::vector<double> coordinates = computeCoordinates(cage, points, family);
+    const std::vector<Vec3d> handles = cageHandles(cage, posedCage, family);
+    double sum = 0;
+    for (std::size_t i = 0; i < points.size(); i += 6) {
+        double gram[3][3];
+        Vec3d gradient[3];
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            gradient[axis] = (test::weighted(coordinates, i + 2 * axis + 1, handles) -
+                              test::weighted(coordinates, i + 2 * axis, handles)) /
+                             (2 * step);
+        }
+        for (int r = 0; r < 3; ++r) {
+            for (int c = 0; c < 3; ++c) gram[r][c] = gradient[r].dot(gradient[c]);
+        }
+        for (int sweep = 0; sweep < 20; ++sweep) { // Jacobi's method for its eigenvalues
+            for (const auto& [p, q] : {std::pair{0, 1}, {0, 2}, {1, 2}}) {
+                const double angle = 0.5 * std::atan2(2 * gram[p][q], gram[q][q] - gram[p][p]);
+                const double c = std::cos(angle), s = std::sin(angle);
+                for (auto& row : gram) {
+                    const double a = row[p], b = row[q];
+                    row[p] = c * a - s * b;
+                    row[q] = s * a + c * b;
+                }
+                for (int k = 0; k < 3; ++k) {
+                    const double a = gram[p][k], b = gram[q][k];
+                    gram[p][k] = c * a - s * b;
+                    gram[q][k] = s * a + c * b;
+                }
+            }
+        }
+        const auto [least, most] = std::minmax({gram[0][0], gram[1][1], gram[2][2]});
+        sum += 0.5 * std::log(most / least);
+    }
+    return sum / (double(points.size()) / 6);
+}
+
+} // namespace
+
+BOOST_AUTO_TEST_SUITE(binding)
+
+BOOST_AUTO_TEST_CASE(poses_as_the_coordinates_say)
+{
+    for (const Coordinates family : families) {
+        const Mesh cage = randomCage(Kind::both, 20);
+        const std::vector<Vec3d> points = pointsInside(cage, 20, 50); // not a whole number of blocks
+        const Binding bound(cage, points, family);
+        BOOST_TEST(bound.points().size() == points.size());
+        BOOST_TEST((bound.pose(cage.points) == points)); // bit by bit
+        const std::vector<Vec3d> posedCage = jittered(cage.points, 1);
+        const std::vector<double> coordinates = computeCoordinates(cage, points, family);
+        const std::vector<Vec3d> handles = cageHandles(cage, posedCage, family);
+        BOOST_TEST(bound.handles() == handles.size());
+        std::vector<Vec3d> expected;
+        for (std::size_t i = 0; i < points.size(); ++i) expected.push_back(test::weighted(coordinates, i, handles));
+        const std::vector<Vec3d> posed = bound.pose(posedCage);
+        BOOST_TEST(difference(posed, expected) < 1e-6);
+        BOOST_TEST(difference(posed, points) > 0.02);
+
+        const std::vector<float> weights = bound.weights();
+        BOOST_REQUIRE(weights.size() == coordinates.size());
+        double off = 0;
+        for (std::size_t i = 0; i < weights.size(); ++i) off = std::max(off, std::abs(weights[i] - coordinates[i]));
+        BOOST_TEST(off < 1e-7);
+        const Binding read(cage, points, family, weights);
+        BOOST_TEST((read.pose(posedCage) == posed));
+        BOOST_CHECK_THROW(Binding(cage, points, family, {1.0F}), InputError);
+    }
+}
+
+BOOST_AUTO_TEST_CASE(updates_what_moved)
+{
+    for (const Coordinates family : families) {
+        const Mesh cage = randomCage(Kind::both, 21);
+        const std::vector<Vec3d> points = pointsInside(cage, 21, 40);
+        const Binding bound(cage, points, family);
+        const std::vector<Vec3d> first = jittered(cage.points, 2);
+        std::vector<Vec3d> second = first;
+        second[4] += Vec3d(0.1, 0.2, -0.1);
+        std::vector<Vec3d> posed = bound.pose(first);
+        bound.update(posed, first, second);
+        BOOST_TEST(difference(posed, bound.pose(second)) < 1e-6);
+        bound.update(posed, second, cage.points);
+        BOOST_TEST(difference(posed, points) < 1e-6);
+        posed.pop_back();
+        BOOST_CHECK_THROW(bound.update(posed, first, second), InputError);
+        BOOST_CHECK_EXCEPTION(bound.pose({Vec3d(0)}), InputError, [](const InputError& error) {
+            return std::string(error.what()) == "posed cage: it has 1 points; the cage has 26";
+        });
+        second[0].x() = std::nan("");
+        BOOST_CHECK_THROW(bound.pose(second), InputError);
+    }
+}
+
+BOOST_AUTO_TEST_CASE(poses_of_any_size_and_place)
+{
+    for (const double size : {1e-50, 1e50}) {
+        Mesh cage = randomCage(Kind::both, 22);
+        std::vector<Vec3d> points = pointsInside(cage, 22), posedCage = jittered(cage.points, 3);
+        const std::vector<Vec3d> expected = Binding(cage, points, Coordinates::green).pose(posedCage);
+        for (auto* list : {&cage.points, &points, &posedCage}) {
+            for (Vec3d& p : *list) p *= size;
+        }
+        std::vector<Vec3d> posed = Binding(cage, points, Coordinates::green).pose(posedCage);
+        for (Vec3d& p : posed) p /= size;
+        BOOST_TEST(difference(posed, expected) < 1e-5);
+    }
+}
+
+BOOST_AUTO_TEST_CASE(same_bytes_for_any_number_of_threads)
+{
+    const Mesh cage = randomCage(Kind::both, 23);
+    const std::vector<Vec3d> points = pointsInside(cage, 23, 2000), posedCage = jittered(cage.points, 4);
+    const Binding bound(cage, points, Coordinates::green);
+    const std::vector<Vec3d> posed = bound.pose(posedCage);
+    const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
+    BOOST_TEST((Binding(cage, points, Coordinates::green).pose(posedCage) == posed));
+}
+
+BOOST_AUTO_TEST_CASE(green_keeps_shapes)
+{
+    const Mesh quads = bar(8), triangles{quads.points, triangulate(quads), {}};
+    for (const Mesh* cage : {&quads, &triangles}) {
+        const double greenBend = distortion(*cage, Coordinates::green, bent);
+        const double meanBend = distortion(*cage, Coordinates::meanValue, bent);
+        const double greenTwist = distortion(*cage, Coordinates::green, twisted);
+        const double meanTwist = distortion(*cage, Coordinates::meanValue, twisted);
+        BOOST_TEST_MESSAGE("bend: green " << greenBend << ", mean value " << meanBend << "; twist: green " << greenTwist
+                                          << ", mean value " << meanTwist);
+        BOOST_TEST(greenBend < 0.8 * meanBend);
+        BOOST_TEST(greenTwist < meanTwist);
+    }
+}
+
+BOOST_AUTO_TEST_SUITE_END()

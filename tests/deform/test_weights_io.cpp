@@ -1,0 +1,97 @@
+#include <boost/test/unit_test.hpp>
+
+#include <cstring>
+
+#include <deform/cages.h>
+#include <support/temporary_folder.h>
+#include <vdbcage/core/error.h>
+#include <vdbcage/deform/weights_io.h>
+
+using namespace vdbcage;
+using openvdb::Vec3d;
+using test::Kind;
+using test::randomCage;
+using test::TemporaryFolder;
+
+namespace {
+
+const Mesh cage = randomCage(Kind::both, 30);
+const std::vector<Vec3d> points{Vec3d(0), Vec3d(0.1, 0.2, 0.3), Vec3d(-0.4, 0, 0.2)};
+
+std::string messageOf(const std::filesystem::path& path, const Mesh& other, const std::vector<Vec3d>& otherPoints)
+{
+    try {
+        readWeights(path, other, otherPoints);
+    } catch (const IoError& error) {
+        return error.what();
+    }
+    return "";
+}
+
+} // namespace
+
+BOOST_AUTO_TEST_SUITE(weights_io)
+
+BOOST_AUTO_TEST_CASE(reads_back_what_was_written)
+{
+    const TemporaryFolder folder;
+    for (const Coordinates family : {Coordinates::meanValue, Coordinates::green, Coordinates::likelihood}) {
+        const Binding binding(cage, points, family);
+        writeWeights(binding, folder / "w.npy");
+        const Binding back = readWeights(folder / "w.npy", cage, points);
+        BOOST_TEST((back.family() == family));
+        BOOST_TEST((back.weights() == binding.weights()));
+    }
+    writeWeights(Binding(cage, {}, Coordinates::green), folder / "none.npy");
+    BOOST_TEST(readWeights(folder / "none.npy", cage, {}).points().empty());
+}
+
+BOOST_AUTO_TEST_CASE(is_the_numpy_file_that_is_documented)
+{
+    const TemporaryFolder folder;
+    const Binding binding(cage, points, Coordinates::green);
+    writeWeights(binding, folder / "w.npy");
+    const std::string bytes = test::readText(folder / "w.npy");
+    BOOST_REQUIRE(bytes.size() > 10U);
+    BOOST_TEST(bytes.substr(0, 8) == std::string("\x93NUMPY\x01\x00", 8));
+    const std::size_t header = 10 + static_cast<unsigned char>(bytes[8]) + 256U * static_cast<unsigned char>(bytes[9]);
+    BOOST_TEST(header % 64 == 0U);
+    std::string text = bytes.substr(10, header - 10);
+    BOOST_TEST(text.back() == '\n');
+    text.erase(text.find_last_not_of(" \n") + 1);
+    BOOST_TEST(text == "{'descr': [('family', '|S8'), ('cage_hash', '<u8'), ('points_hash', '<u8'), ('weights', '<f4', "
+                       "(3, " +
+                           std::to_string(binding.handles()) + "))], 'fortran_order': False, 'shape': (), }");
+    BOOST_REQUIRE(bytes.size() == header + 24 + 4 * 3 * binding.handles());
+    BOOST_TEST(bytes.substr(header, 8) == std::string("green\0\0\0", 8));
+    std::vector<float> weights(3 * binding.handles());
+    std::memcpy(weights.data(), bytes.data() + header + 24, weights.size() * sizeof(float));
+    BOOST_TEST((weights == binding.weights()));
+}
+
+BOOST_AUTO_TEST_CASE(refuses_what_does_not_fit)
+{
+    const TemporaryFolder folder;
+    const std::string path = folder / "w.npy";
+    writeWeights(Binding(cage, points, Coordinates::meanValue), path);
+    Mesh other = cage;
+    other.points[3].x() += 1e-9;
+    BOOST_TEST(messageOf(path, other, points) == path + ": it was made for another cage");
+    other = cage;
+    std::swap(other.triangles[0], other.triangles[1]);
+    BOOST_TEST(messageOf(path, other, points) == path + ": it was made for another cage");
+    BOOST_TEST(messageOf(path, cage, {points[0], points[1]}) == path + ": it was made for another model");
+    BOOST_TEST(messageOf(path, cage, {points[1], points[0], points[2]}) == path + ": it was made for another model");
+
+    const std::string bytes = test::readText(path);
+    for (std::size_t size = 0; size < bytes.size(); size += 7) { // cut off anywhere
+        test::writeText(path, bytes.substr(0, size));
+        BOOST_TEST(messageOf(path, cage, points).find(path + ": it is ") == 0U);
+    }
+    test::writeText(path, "solid\n");
+    BOOST_TEST(messageOf(path, cage, points) == path + ": it is not a weights file of vdbcage");
+    BOOST_TEST(!messageOf(folder / "none.npy", cage, points).empty());
+    BOOST_TEST(!messageOf(folder.path(), cage, points).empty());
+}
+
+BOOST_AUTO_TEST_SUITE_END()

@@ -1,0 +1,98 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include <vdbcage/core/export.h>
+#include <vdbcage/core/interrupter.h>
+#include <vdbcage/mesh/mesh.h>
+
+namespace vdbcage {
+
+/// How a cage moves what is in it. Quads are bilinear patches, never two triangles.
+enum class Coordinates {
+    /// Mean value coordinates: Ju, Schaefer, Warren 2005 on triangles; Thiery, Memari, Boubekeur 2018 on quads. Defined
+    /// everywhere, also outside of the cage; smooth but on the cage, where they interpolate it. Can be negative.
+    meanValue,
+    /// Green coordinates: Lipman, Levin, Cohen-Or 2008 on triangles; Thiery, Boubekeur 2022 on quads. They follow the
+    /// faces' normals and nearly keep shapes, so the posed model does not touch the cage where the rest model does.
+    /// Inside and, as the limit from inside, on the cage; an error outside.
+    green,
+    /// Maximum likelihood coordinates, after Chang, Deng, Hormann 2023: never negative and the most local family here
+    /// (the weights fall as the third power of the distance). Chosen before harmonic coordinates because they need no
+    /// volume mesh, and so keep the rest pose and affine maps exactly at every point. Inside and on the cage, which
+    /// they
+    /// interpolate; an error outside.
+    likelihood,
+};
+
+/// "mvc", "green" or "mlc".
+VDBCAGE_API const char* coordinatesName(Coordinates family);
+
+/// The family of a name; "qmvc" and "qgc" are other names of "mvc" and "green", as their papers call them on quads.
+/// \throw InputError naming the families
+VDBCAGE_API Coordinates coordinatesNamed(const std::string& name);
+
+/// What coordinates are weights of, in the order of their columns: the points of the cage as posed; for Green
+/// coordinates then one stretched normal a triangle and four, at its corners, a quad. A stretched normal belongs to two
+/// edges that meet in a corner: it is as long as their parallelogram at rest is large, times how much the pose
+/// stretches it (the root mean square of the two principal stretches), over the longest side of the cage at rest.
+/// `posed` are the posed points of `cage`. O(cage). \throw InputError (not as many points, or one not finite)
+VDBCAGE_API std::vector<openvdb::Vec3d> cageHandles(const Mesh& cage, const std::vector<openvdb::Vec3d>& posed,
+                                                    Coordinates family);
+
+/// The coordinates of `points` in `cage`, in double: a row a point of as many columns as there are handles, row after
+/// row. Point i is the sum over the handles at rest, each times its weight, to 1e-12 of the cage's size; the weights of
+/// the cage's points have sum 1, and those of points that no face uses are 0. The weights are accurate to 1e-7, less
+/// where faces meet at a distance below 1e-7 of the cage's size; points at less than 1e-12 of it count as on the cage.
+/// The cage is closed and faces outward (self-intersections are not looked for); degenerate faces are allowed.
+/// O(points x faces), in parallel; the same for any number of threads. Quads cost several times what triangles do.
+/// \throw InputError (a cage that is not closed, faces inward or is flat; a point not finite; a point for which the
+///        family is not defined: the message has the first and how many), Cancelled
+VDBCAGE_API std::vector<double> computeCoordinates(const Mesh& cage, const std::vector<openvdb::Vec3d>& points,
+                                                   Coordinates family, Interrupter* interrupter = nullptr);
+
+/// Points bound to a cage: their coordinates in single precision, ready for posing. Posed points are the points at rest
+/// plus what the handles moved by, so the rest pose is exact.
+class VDBCAGE_API Binding {
+public:
+    /// Computes the coordinates; see computeCoordinates. Holds 4 bytes a point and handle. \throw InputError, Cancelled
+    Binding(const Mesh& cage, std::vector<openvdb::Vec3d> points, Coordinates family,
+            Interrupter* interrupter = nullptr);
+    /// Takes coordinates computed before: `weights` row after row, as of computeCoordinates.
+    /// \throw InputError (their number is not points times handles)
+    Binding(const Mesh& cage, std::vector<openvdb::Vec3d> points, Coordinates family,
+            const std::vector<float>& weights);
+
+    const Mesh& cage() const { return cage_; }
+    const std::vector<openvdb::Vec3d>& points() const { return points_; }
+    Coordinates family() const { return family_; }
+    /// The number of handles, so of weights a point.
+    std::size_t handles() const { return restHandles_.size(); }
+    /// The weights row after row, a row a point.
+    std::vector<float> weights() const;
+
+    /// Where the points are when the cage's points are at `cagePoints`. Costs reading the weights of the handles that
+    /// moved, once. The same for any number of threads.
+    /// \throw InputError (not as many points as the cage has, or one not finite)
+    std::vector<openvdb::Vec3d> pose(const std::vector<openvdb::Vec3d>& cagePoints) const;
+
+    /// Moves `posed`, which was posed by the cage `from`, to the pose of the cage `to`: only what moved between the two
+    /// is looked at. Each update rounds to about 1e-7 of the motion. \throw InputError as pose(); `posed` has another
+    /// number of points
+    void update(std::vector<openvdb::Vec3d>& posed, const std::vector<openvdb::Vec3d>& from,
+                const std::vector<openvdb::Vec3d>& to) const;
+
+private:
+    void add(const std::vector<openvdb::Vec3d>& fromHandles, const std::vector<openvdb::Vec3d>& toHandles,
+             std::vector<openvdb::Vec3d>& posed) const;
+
+    Mesh cage_;
+    std::vector<openvdb::Vec3d> points_;
+    Coordinates family_;
+    std::vector<openvdb::Vec3d> restHandles_;
+    std::vector<float> blocks_; // blocks of points; in a block handle by handle
+};
+
+} // namespace vdbcage

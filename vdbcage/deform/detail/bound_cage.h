@@ -1,0 +1,66 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include <vdbcage/mesh/mesh.h>
+
+namespace vdbcage::detail {
+
+/// Corners of a face seen from a point, counter-clockwise from outside. A triangle repeats its last corner: as a
+/// bilinear patch that is the same surface, and its barycentric coordinates are the patch's with the last two added.
+using Corners = std::array<openvdb::Vec3d, 4>;
+
+/// A cage as the coordinates need it, moved and scaled into the unit cube around the origin. Points closer to it than
+/// `touching` count as on it.
+class BoundCage {
+public:
+    static constexpr double touching = 1e-12;
+
+    struct Face {
+        std::array<openvdb::Index32, 4> at; ///< a triangle repeats its last corner
+        bool quad;
+    };
+    /// A point of the cage as a mean of a face's corners.
+    struct Place {
+        std::size_t face = 0;
+        std::array<double, 4> weights{};
+        double distance = 0; ///< to the point that was asked for
+    };
+
+    /// \throw InputError if the cage is not closed, faces inward or is flat
+    explicit BoundCage(const Mesh& cage);
+
+    const std::vector<openvdb::Vec3d>& points() const { return points_; }
+    const std::vector<Face>& faces() const { return faces_; } ///< triangles first
+
+    openvdb::Vec3d scaled(const openvdb::Vec3d& point) const { return (point - centre_) / size_; }
+
+    Corners cornersFrom(const Face& face, const openvdb::Vec3d& x) const;
+
+    /// The place nearest to `x`. O(faces).
+    Place nearest(const openvdb::Vec3d& x) const;
+    /// The place of face `face` nearest to `x`.
+    Place nearestOf(std::size_t face, const openvdb::Vec3d& x) const;
+
+    /// Changes the points' weights, as little as possible in the sum of squares, so that their sum stays and the sum of
+    /// the points times their weights grows by `missing`. Makes what was rounded or integrated reproduce affine maps.
+    void restore(const openvdb::Vec3d& missing, double* weights) const;
+
+private:
+    openvdb::Vec3d centre_{0};
+    double size_ = 1;
+    std::vector<openvdb::Vec3d> points_;
+    std::vector<Face> faces_;
+    std::vector<openvdb::Vec3d> restoring_; // per point: its weight's change per missing unit
+};
+
+/// The centre of the box of the cage's faces and its longest side.
+struct CageFrame {
+    explicit CageFrame(const Mesh& cage);
+    openvdb::Vec3d centre;
+    double size;
+};
+
+} // namespace vdbcage::detail

@@ -1,0 +1,148 @@
+// Based on: Lipman, Levin, Cohen-Or, "Green Coordinates", 2008; Thiery, Boubekeur, "Green Coordinates for Triquad Cages
+// in 3D", 2022; for the potentials of a triangle Wilton and others, "Potential Integrals for Uniform and Linear Source
+// Distributions on Polygonal and Polyhedral Domains", 1984.
+// Differs: the integrals over bilinear patches are integrated adaptively to a tolerance. All faces around an inner
+// point cover the whole sphere; what the computed solid angles lack of that (near edges rounding leaves 1e-16 over the
+// distance) belongs to the faces next to the point, so to the nearest place of the cage. This also defines points on
+// the cage, as the limit from inside. What is still missing of affine precision is restored at the end.
+
+#include <vdbcage/deform/detail/green.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include <vdbcage/deform/detail/patch_quadrature.h>
+
+namespace vdbcage::detail {
+
+using openvdb::Vec3d;
+
+namespace {
+
+constexpr double fourPi = 4 * 3.14159265358979323846;
+
+/// Of a face: what its corners' positions and its normals (a triangle has one) weigh.
+struct FacePart {
+    std::array<double, 4> positions{}, normals{};
+};
+
+FacePart integrated(const Corners& corners)
+{
+    FacePart part;
+    // What is left out next to the point counts for the solid angle only, which is completed at the nearest place.
+    samplePatch(corners, 1e-10, [&](const PatchSample& sample) {
+        const double square = sample.point.lengthSqr();
+        const double inverse = 1 / (fourPi * std::sqrt(square));
+        const double solid = sample.point.dot(sample.normal) / square * inverse;
+        for (std::size_t i = 0; i < 4; ++i) {
+            part.positions[i] += solid * sample.basis[i];
+            part.normals[i] += sample.area * inverse * sample.basis[i];
+        }
+    });
+    return part;
+}
+
+/// The integral of 1 / distance from the origin along the edge from `a` to `b`; 0 if it would be infinite.
+double edgePotential(const Vec3d& a, const Vec3d& b)
+{
+    const Vec3d edge = b - a;
+    const double length = edge.length();
+    if (!(length > 0)) return 0;
+    const Vec3d along = edge / length;
+    const double square = along.cross(a).lengthSqr();
+    // |a| + |b| - length without cancellation: each distance minus its share of the edge.
+    const auto excess = [&](double distance, double share) {
+        return share > 0 ? square / (distance + share) : distance - share;
+    };
+    const double gap = excess(a.length(), -a.dot(along)) + excess(b.length(), b.dot(along));
+    return gap > 0 ? std::log1p(2 * length / gap) : 0;
+}
+
+/// The closed form; `onFace`: the origin lies on the triangle, whose solid angle is left out.
+FacePart closedForm(const Corners& c, const Vec3d& areaNormal, bool onFace)
+{
+    const double area = areaNormal.length(); // twice the triangle's
+    const Vec3d normal = areaNormal / area;
+    double height = 0, solid = 0;
+    if (!onFace) {
+        height = normal.dot(c[0]);
+        const double la = c[0].length(), lb = c[1].length(), lc = c[2].length();
+        solid = 2 * std::atan2(c[0].dot(c[1].cross(c[2])),
+                               la * lb * lc + c[0].dot(c[1]) * lc + c[1].dot(c[2]) * la + c[2].dot(c[0]) * lb);
+    }
+    FacePart part;
+    double single = -height * solid;
+    Vec3d turned(0); // the sum over the edges of their unit vector times their potential
+    for (std::size_t i = 0; i < 3; ++i) {
+        const Vec3d &from = c[i], &to = c[(i + 1) % 3];
+        Vec3d along = to - from;
+        along /= along.length();
+        const double potential = edgePotential(from, to);
+        single += along.cross(normal).dot(from) * potential;
+        turned += potential * along;
+    }
+    for (std::size_t i = 0; i < 3; ++i) {
+        const Vec3d &from = c[(i + 1) % 3], &to = c[(i + 2) % 3];
+        const double atFoot = normal.dot(from.cross(to)) / area;
+        part.positions[i] = (atFoot * solid + height * turned.dot(to - from) / area) / fourPi;
+    }
+    part.normals[0] = single / (fourPi * area);
+    return part;
+}
+
+FacePart facePart(const Corners& corners, bool quad, bool onFace)
+{
+    if (quad) return integrated(corners);
+    const Vec3d a = corners[1] - corners[0], b = corners[2] - corners[0];
+    const Vec3d areaNormal = a.cross(b);
+    const double longest = std::max({a.lengthSqr(), b.lengthSqr(), (a - b).lengthSqr()});
+    if (areaNormal.length() > 1e-7 * longest) return closedForm(corners, areaNormal, onFace);
+    FacePart part = integrated(corners); // nearly degenerate
+    part.positions[2] += part.positions[3];
+    part.normals[0] += part.normals[1]; // the density of (u, v) on the triangle
+    return part;
+}
+
+} // namespace
+
+Vec3d stretchedNormal(const Vec3d& a, const Vec3d& b, const Vec3d& posedA, const Vec3d& posedB)
+{
+    const Vec3d normal = posedA.cross(posedB);
+    const double length = normal.length();
+    if (!(length > 0)) return Vec3d(0);
+    // The norm of the matrix posedA b^T - posedB a^T, which does not cancel for slivers as its expansion does.
+    double square = 0;
+    for (int i = 0; i < 3; ++i) square += (posedA[i] * b - posedB[i] * a).lengthSqr();
+    return std::sqrt(0.5 * square) / length * normal;
+}
+
+bool greenRow(const BoundCage& cage, const Vec3d& x, double* row)
+{
+    const std::size_t count = cage.points().size();
+    const BoundCage::Place nearest = cage.nearest(x);
+    const bool touches = nearest.distance <= BoundCage::touching;
+    std::fill(row, row + count, 0.0);
+    Vec3d missing = x;
+    double* normals = row + count;
+    for (std::size_t i = 0; i < cage.faces().size(); ++i) {
+        const BoundCage::Face& face = cage.faces()[i];
+        const Corners c = cage.cornersFrom(face, x);
+        const bool onFace = touches && !face.quad && cage.nearestOf(i, x).distance <= 2 * BoundCage::touching;
+        const FacePart part = facePart(c, face.quad, onFace);
+        for (std::size_t k = 0; k < 4; ++k) row[face.at[k]] += part.positions[k];
+        for (std::size_t k = 0; k < (face.quad ? 4 : 1); ++k) {
+            const std::size_t next = (k + 1) % 4, before = (k + 3) % 4;
+            *normals++ = part.normals[k];
+            missing -= part.normals[k] * (c[next] - c[k]).cross(c[before] - c[k]);
+        }
+    }
+    double lacking = 1;
+    for (std::size_t i = 0; i < count; ++i) lacking -= row[i];
+    if (!touches && std::abs(lacking) > 0.5) return false;
+    for (std::size_t k = 0; k < 4; ++k) row[cage.faces()[nearest.face].at[k]] += lacking * nearest.weights[k];
+    for (std::size_t i = 0; i < count; ++i) missing -= row[i] * cage.points()[i];
+    cage.restore(missing, row);
+    return true;
+}
+
+} // namespace vdbcage::detail

@@ -1,0 +1,12 @@
+#pragma once
+
+#include <openvdb/math/Vec3.h>
+#include <vdbcage/deform/detail/bound_cage.h>
+
+namespace vdbcage::detail {
+
+/// The coordinates of `x` (scaled) into `row`, one a point of the cage, none negative. False if `x` is outside of the
+/// cage, or if no non-negative combination of the faces is balanced around it.
+bool likelihoodRow(const BoundCage& cage, const openvdb::Vec3d& x, double* row);
+
+} // namespace vdbcage::detail

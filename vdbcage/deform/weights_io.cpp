@@ -1,0 +1,140 @@
+// Based on: NumPy Enhancement Proposal 1, "A Simple File Format for NumPy Arrays", version 1.0.
+
+#include <vdbcage/deform/weights_io.h>
+
+#include <cerrno>
+#include <charconv>
+#include <cstdint>
+#include <cstring>
+#include <fstream>
+#include <string>
+#include <system_error>
+
+#include <vdbcage/core/atomic_file.h>
+#include <vdbcage/core/error.h>
+
+namespace vdbcage {
+
+namespace {
+
+static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "reverse the bytes here");
+
+const std::string magic("\x93NUMPY\x01\x00", 8);
+const std::string beforeCounts = "{'descr': [('family', '|S8'), ('cage_hash', '<u8'), ('points_hash', '<u8'), "
+                                 "('weights', '<f4', (";
+const std::string afterCounts = "))], 'fortran_order': False, 'shape': (), }";
+
+/// What comes before the weights.
+struct Record {
+    char family[8] = {};
+    std::uint64_t cageHash = 0, pointsHash = 0;
+};
+static_assert(sizeof(Record) == 24, "written as it is in memory");
+
+class Hash {
+public:
+    void add(const void* data, std::size_t size)
+    {
+        for (std::size_t i = 0; i < size; ++i) {
+            value_ = (value_ ^ static_cast<const unsigned char*>(data)[i]) * 0x100000001b3U;
+        }
+    }
+    template <typename Item>
+    void add(const std::vector<Item>& items)
+    {
+        const std::uint64_t count = items.size();
+        add(&count, sizeof count);
+        add(items.data(), items.size() * sizeof(Item));
+    }
+    std::uint64_t value() const { return value_; }
+
+private:
+    std::uint64_t value_ = 0xcbf29ce484222325U;
+};
+
+Record recordOf(const Mesh& cage, const std::vector<openvdb::Vec3d>& points)
+{
+    Hash ofCage, ofPoints;
+    ofCage.add(cage.points);
+    ofCage.add(cage.triangles);
+    ofCage.add(cage.quads);
+    ofPoints.add(points);
+    Record record;
+    record.cageHash = ofCage.value();
+    record.pointsHash = ofPoints.value();
+    return record;
+}
+
+/// Magic, length and text, padded as NumPy does so that the data are aligned.
+std::string headerOf(std::size_t points, std::size_t handles)
+{
+    std::string text = beforeCounts + std::to_string(points) + ", " + std::to_string(handles) + afterCounts;
+    text.append(63 - (magic.size() + 2 + text.size()) % 64, ' ');
+    text += '\n';
+    return magic + char(text.size() & 0xFFU) + char(text.size() >> 8U) + text;
+}
+
+} // namespace
+
+void writeWeights(const Binding& binding, const std::filesystem::path& path)
+{
+    const std::vector<float> weights = binding.weights();
+    if (sizeof(Record) + weights.size() * sizeof(float) >= std::size_t(1) << 31U) {
+        throw InputError(path.string() + ": " + std::to_string(binding.points().size()) + " points times " +
+                         std::to_string(binding.handles()) +
+                         " handles do not fit in a weights file, which must be smaller than 2 GiB");
+    }
+    Record record = recordOf(binding.cage(), binding.points());
+    const std::string family = coordinatesName(binding.family());
+    std::memcpy(record.family, family.data(), family.size());
+    writeFileAtomically(path, [&](std::ostream& out) {
+        const std::string header = headerOf(binding.points().size(), binding.handles());
+        out.write(header.data(), static_cast<std::streamsize>(header.size()));
+        out.write(reinterpret_cast<const char*>(&record), sizeof record);
+        out.write(reinterpret_cast<const char*>(weights.data()),
+                  static_cast<std::streamsize>(weights.size() * sizeof(float)));
+    });
+}
+
+Binding readWeights(const std::filesystem::path& path, const Mesh& cage, std::vector<openvdb::Vec3d> points)
+{
+    const auto fail = [&](const std::string& problem) { throw IoError(path.string() + ": " + problem); };
+    errno = 0;
+    std::ifstream in(path, std::ios::binary);
+    if (!in || std::filesystem::is_directory(path)) {
+        fail("cannot be read: " + (errno != 0 ? std::generic_category().message(errno) : "it is not a file"));
+    }
+    std::string start(magic.size() + 2, '\0');
+    in.read(start.data(), static_cast<std::streamsize>(start.size()));
+    if (!in || start.compare(0, magic.size(), magic) != 0) fail("it is not a weights file of vdbcage");
+    const auto byteAt = [&](std::size_t i) { return static_cast<std::size_t>(static_cast<unsigned char>(start[i])); };
+    std::string text(byteAt(magic.size()) + 256 * byteAt(magic.size() + 1), '\0');
+    in.read(text.data(), static_cast<std::streamsize>(text.size()));
+    std::size_t rows = 0, columns = 0;
+    if (in && text.compare(0, beforeCounts.size(), beforeCounts) == 0) {
+        const char* const end = text.data() + text.size();
+        const auto first = std::from_chars(text.data() + beforeCounts.size(), end, rows);
+        if (end - first.ptr > 2) std::from_chars(first.ptr + 2, end, columns);
+    }
+    Record record;
+    in.read(reinterpret_cast<char*>(&record), sizeof record);
+    if (!in || start + text != headerOf(rows, columns)) fail("it is not a weights file of vdbcage, or truncated");
+
+    const Record expected = recordOf(cage, points);
+    if (record.cageHash != expected.cageHash) fail("it was made for another cage");
+    if (record.pointsHash != expected.pointsHash || rows != points.size()) fail("it was made for another model");
+    const std::string name(record.family, ::strnlen(record.family, sizeof record.family));
+    Coordinates family{};
+    try {
+        family = coordinatesNamed(name);
+    } catch (const InputError& error) {
+        fail(error.what());
+    }
+    if (columns != cageHandles(cage, cage.points, family).size()) fail("it has another number of handles");
+    std::vector<float> weights(rows * columns);
+    in.read(reinterpret_cast<char*>(weights.data()), static_cast<std::streamsize>(weights.size() * sizeof(float)));
+    if (!in) fail("it is truncated");
+    return Binding(cage, std::move(points), family, weights);
+}
+
+} // namespace vdbcage
