@@ -249,4 +249,36 @@ BOOST_AUTO_TEST_CASE(ctrl_c_stops_cleanly)
     BOOST_TEST(folder.entries() == 1U);
 }
 
+BOOST_AUTO_TEST_CASE(a_scale_field_from_a_file_and_from_regions)
+{
+    const TemporaryFolder folder;
+    openvdb::initialize();
+    const auto field = openvdb::FloatGrid::create(1.0F);
+    field->setName("scale");
+    field->sparseFill(openvdb::CoordBBox(openvdb::Coord(-1000), openvdb::Coord(1000)), 0.5F);
+    openvdb::io::File((folder / "half.vdb").string()).write({field});
+    const auto closedVoxels = [&](const std::vector<std::string>& more) {
+        std::vector<std::string> words{
+            command, "make",     bishop, "-o",       folder / "cage.obj",   "--faces", "100", "--resolution",
+            "32",    "--effort", "fast", "--report", folder / "report.json"};
+        words.insert(words.end(), more.begin(), more.end());
+        const auto result = runCommand(words);
+        BOOST_TEST(result.status == 0, result.err);
+        return readJson(folder / "report.json")["result"]["closed_voxels"].get<int>();
+    };
+    const int whole = closedVoxels({"--close-radius", "0.12"}), half = closedVoxels({"--close-radius", "0.06"});
+    BOOST_TEST(half < whole);
+    const std::string file = folder / "half.vdb";
+    // Not quite: the radii of a field are rounded down a little.
+    const int scaled = closedVoxels({"--close-radius", "0.12", "--scale-field", file});
+    BOOST_TEST(scaled <= half);
+    const int zero = closedVoxels({"--close-radius", "0.12", "--scale-field", "box:-1e3,-1e3,-1e3,1e3,1e3,1e3,0"});
+    BOOST_TEST(zero < scaled);
+    BOOST_TEST(zero == readJson(folder / "report.json")["result"]["solid_voxels"]);
+    BOOST_TEST(readJson(folder / "report.json")["options"]["scale-field"] == "box:-1e3,-1e3,-1e3,1e3,1e3,1e3,0");
+    const auto missing = runCommand({command, "make", bishop, "-o", folder / "no.obj", "--scale-field", "no.vdb"});
+    BOOST_TEST(missing.status == 1);
+    BOOST_TEST(missing.err.find("no.vdb") != std::string::npos, missing.err);
+}
+
 BOOST_AUTO_TEST_SUITE_END()

@@ -35,10 +35,10 @@ BOOST_AUTO_TEST_CASE(text_goes_in_and_comes_out)
 {
     CageOptions options;
     const std::vector<std::pair<std::string, std::string>> wanted{
-        {"faces", "100"},        {"resolution", "64"}, {"close-radius", "0.125"}, {"erode-radius", "0.0625"},
-        {"element", "cube"},     {"smooth", "7"},      {"parts", "merge"},        {"mesh", "triquad"},
-        {"merge-angle", "22.5"}, {"voxelizer", "cpu"}, {"bounding", "off"},       {"clearance", "0.001"},
-        {"min-angle", "2"},      {"effort", "best"}};
+        {"faces", "100"},       {"resolution", "64"},    {"close-radius", "0.125"}, {"erode-radius", "0.0625"},
+        {"element", "cube"},    {"scale-field", "none"}, {"smooth", "7"},           {"parts", "merge"},
+        {"mesh", "triquad"},    {"merge-angle", "22.5"}, {"voxelizer", "cpu"},      {"bounding", "off"},
+        {"clearance", "0.001"}, {"min-angle", "2"},      {"effort", "best"}};
     for (const auto& option : wanted) setOption(options, option.first, option.second);
     BOOST_CHECK(optionValues(options) == wanted);
     BOOST_CHECK(optionValues(CageOptions{}) != wanted);
@@ -54,6 +54,37 @@ BOOST_AUTO_TEST_CASE(text_goes_in_and_comes_out)
     BOOST_TEST(!options.resolution.has_value());
     BOOST_CHECK(options.parts == CageParts::merge);
     BOOST_CHECK(options.effort == Effort::best);
+}
+
+BOOST_AUTO_TEST_CASE(a_scale_field_is_given_as_text)
+{
+    CageOptions options;
+    const std::string text = "sphere:0,1,-2.5,0.5,0.25;box:0,3,0,1,1,1,0";
+    setOption(options, "scale-field", text);
+    const auto values = optionValues(options);
+    BOOST_TEST(std::count(values.begin(), values.end(), std::pair(std::string("scale-field"), text)) == 1);
+    BOOST_REQUIRE(options.scale.regions.size() == 2U);
+    const ScaleRegion &sphere = options.scale.regions[0], &box = options.scale.regions[1];
+    BOOST_CHECK(sphere.shape == ScaleRegion::Shape::sphere);
+    BOOST_TEST(sphere.lower == openvdb::Vec3d(0, 1, -2.5));
+    BOOST_TEST(sphere.radius == 0.5);
+    BOOST_TEST(sphere.scale == 0.25);
+    BOOST_CHECK(box.shape == ScaleRegion::Shape::box);
+    BOOST_TEST(box.lower == openvdb::Vec3d(0, 1, 0));
+    BOOST_TEST(box.upper == openvdb::Vec3d(1, 3, 1));
+    BOOST_TEST(box.scale == 0);
+    BOOST_CHECK_NO_THROW(requireValid(options));
+    setOption(options, "element", "cube");
+    BOOST_CHECK_EXCEPTION(requireValid(options), InputError,
+                          [](const InputError& error) { return names(error, "--scale-field"); });
+    setOption(options, "scale-field", "none");
+    BOOST_TEST(options.scale.regions.empty());
+    BOOST_CHECK_NO_THROW(requireValid(options));
+    for (const char* bad : {"sphere:0,0,0,1", "sphere:0,0,0,-1,1", "sphere:0,0,0,1,9", "box:0,0,0,1,1,1,x",
+                            "box:0,0,0,1,1,1,-0.1", "ball:0,0,0,1,1", "sphere:0,0,0,1,1;", ""}) {
+        BOOST_CHECK_EXCEPTION(setOption(options, "scale-field", bad), InputError,
+                              [](const InputError& error) { return names(error, "--scale-field"); });
+    }
 }
 
 BOOST_AUTO_TEST_CASE(what_is_not_allowed_is_refused_by_name_value_and_range)

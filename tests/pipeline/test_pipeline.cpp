@@ -281,4 +281,58 @@ BOOST_AUTO_TEST_CASE(a_cage_bounds_its_model_however_another_program_splits_the_
     }
 }
 
+BOOST_AUTO_TEST_CASE(a_scale_field_keeps_a_handle_that_closes_otherwise)
+{
+    // Two rings side by side; a close radius that fills both.
+    Mesh right = test::torus(1, 0.4, 40, 16);
+    for (openvdb::Vec3d& point : right.points) point.x() += 4;
+    const Mesh model = test::joined(test::torus(1, 0.4, 40, 16), right);
+    CageOptions options = coarse();
+    options.resolution = 48;
+    options.faces = 400;
+    options.closeRadius = 0.14;
+    Pipeline pipeline(model);
+    pipeline.run(options);
+    BOOST_TEST(pipeline.report().solidParts == 2U);
+    BOOST_TEST(pipeline.report().solidHandles == 2);
+    BOOST_TEST(pipeline.report().parts == 1U);
+    BOOST_TEST(pipeline.report().handles == 0);
+    ScaleRegion region;
+    region.lower = openvdb::Vec3d(0, 0, 0);
+    region.radius = 1.2;
+    region.scale = 0;
+    options.scale.regions = {region};
+    pipeline.run(options);
+    BOOST_TEST(pipeline.report().handles == 1);
+    BOOST_TEST(pipeline.report().check.bounding());
+    BOOST_TEST(pipeline.report().check.genus == 1);
+    // Another field of a program's own, and the same closing again without one.
+    options.scale.regions[0].lower.x() = 4;
+    pipeline.run(options);
+    BOOST_TEST(pipeline.report().handles == 1);
+    BOOST_CHECK(!pipeline.closed()->tree().isValueOn(
+        openvdb::Coord::round(pipeline.closed()->worldToIndex(openvdb::Vec3d(4, 0, 0)))));
+    options.scale = {};
+    pipeline.run(options);
+    BOOST_TEST(pipeline.report().handles == 0);
+}
+
+BOOST_AUTO_TEST_CASE(cavities_are_filled_and_reported)
+{
+    // A hollow cube with a hole in its top that the closing shuts.
+    Mesh model = test::box({0, 0, 0}, {1, 1, 0.15});
+    for (const auto& wall : {test::box({0, 0, 0}, {0.15, 1, 1}), test::box({0.85, 0, 0}, {1, 1, 1}),
+                             test::box({0, 0, 0}, {1, 0.15, 1}), test::box({0, 0.85, 0}, {1, 1, 1}),
+                             test::box({0, 0, 0.85}, {0.45, 1, 1}), test::box({0.55, 0, 0.85}, {1, 1, 1}),
+                             test::box({0, 0, 0.85}, {1, 0.45, 1}), test::box({0, 0.55, 0.85}, {1, 1, 1})}) {
+        model = test::joined(model, wall);
+    }
+    CageOptions options = coarse();
+    options.closeRadius = 0.1;
+    Pipeline pipeline(model);
+    pipeline.run(options);
+    BOOST_TEST(pipeline.report().cavitiesFilled == 1U);
+    BOOST_TEST(pipeline.report().parts == 1U);
+}
+
 BOOST_AUTO_TEST_SUITE_END()

@@ -72,16 +72,64 @@ double memoryPeak(const Work& work)
     return processMemory("VmHWM") - before;
 }
 
+double threadSeconds()
+{
+    timespec now{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+    return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+/// How long the thread that asks has worked between two questions at most.
+class GapClock : public Interrupter {
+public:
+    bool wasInterrupted(int percent) override
+    {
+        const double now = threadSeconds();
+        if (now - last_ > seconds) {
+            seconds = now - last_;
+            percentAfter = percent;
+        }
+        last_ = now;
+        ++questions;
+        return false;
+    }
+    double seconds = 0;
+    int percentAfter = 0; ///< the progress at its end
+    int questions = 0;
+
+private:
+    double last_ = threadSeconds();
+};
+
+/// The largest gap between two questions on one thread, of several runs the least: gaps are only ever longer for what
+/// others do on the machine.
+template <class Work>
+Json largestGap(int runs, const Work& work)
+{
+    const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
+    GapClock least;
+    for (int i = 0; i < runs; ++i) {
+        GapClock clock;
+        const MaskGrid::Ptr result = work(clock);
+        clock.wasInterrupted(100); // the end counts as one
+        if (i == 0 || clock.seconds < least.seconds) least = clock;
+    }
+    return {{"largest_gap_cpu_ms", 1000 * least.seconds},
+            {"gap_ends_at_percent", least.percentAfter},
+            {"questions", least.questions}};
+}
+
 double mebibytes(const MaskTree& tree)
 {
     return static_cast<double>(tree.memUsage()) / (1 << 20);
 }
 
-Json measure(const std::string& model, int resolution, int radius, Element element, int runs, bool compare)
+Json measure(const std::string& model, int resolution, int radius, const CageOptions& shape, int runs, bool compare)
 {
     VoxelizeOptions voxels;
     voxels.resolution = resolution;
     const auto solid = voxelize(readMesh(model), voxels);
+    const Element element = shape.element;
     const double r = radius;
     MaskGrid::Ptr dilated, closed;
     const double memory = memoryPeak([&] { closed = closeMask(*solid, {r, r, element}); });
@@ -99,6 +147,14 @@ Json measure(const std::string& model, int resolution, int radius, Element eleme
     line["closing"] = toJson(ours);
     line["closing"]["memory_peak_mib"] = memory;
     line["closing"]["memory_peak_beyond_trees_mib"] = memory - mebibytes(dilated->tree()) - mebibytes(closed->tree());
+    line["interrupter"] = largestGap(runs, [&](GapClock& clock) { return closeMask(*solid, {r, r, element}, &clock); });
+    if (element == Element::sphere && (shape.scale.grid || !shape.scale.regions.empty())) {
+        const auto close = [&](Interrupter* watcher) {
+            return closeMask(*solid, {r, r, element}, shape.scale, watcher);
+        };
+        line["scaled"] = toJson(cost(runs, [&] { close(nullptr); }));
+        line["scaled"]["interrupter"] = largestGap(runs, [&](GapClock& clock) { return close(&clock); });
+    }
     if (!compare) return line;
     dilated.reset();
     MaskTree::Ptr other;
@@ -123,16 +179,18 @@ Json measure(const std::string& model, int resolution, int radius, Element eleme
 
 int runClosing(int argc, char** argv)
 {
-    std::string model, elementName = "sphere";
+    std::string model, elementName = "sphere", scale = "none";
     int resolution = 256, radius = 0, threads = tbb::info::default_concurrency(), runs = 3;
     bool alone = false;
     CLI::App app("vdbcage-bench closing: time and memory of dilating, eroding and closing a model's voxels, least of\n"
-                 "several runs, beside an alternative: for the sphere two exact distance transforms of the dense box,\n"
-                 "for the cube OpenVDB's dilateActiveValues and erodeActiveValues. A JSON line");
+                 "several runs, and the longest work between two questions to the interrupter, beside an alternative:\n"
+                 "for the sphere two exact distance transforms of the dense box, for the cube OpenVDB's\n"
+                 "dilateActiveValues and erodeActiveValues. A JSON line");
     app.add_option("--model", model, "the model to voxelize")->required()->type_name("MODEL");
     app.add_option("--resolution", resolution, "voxels along the longest side [256]")->type_name("N");
     app.add_option("--radius", radius, "in whole voxels [resolution / 16]")->type_name("K");
     app.add_option("--element", elementName, "[sphere]")->type_name("sphere|cube");
+    app.add_option("--scale-field", scale, "also close with it [none]")->type_name("FILE.vdb|REGION");
     app.add_option("--threads", threads, "[all]")->type_name("N");
     app.add_option("--runs", runs, "how many to take the least of [3]")->type_name("N");
     app.add_flag("--alone", alone, "without the alternative");
@@ -143,8 +201,9 @@ int runClosing(int argc, char** argv)
     requirePositive("--runs", runs);
     CageOptions options;
     setOption(options, "element", elementName);
+    setOption(options, "scale-field", scale);
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
-    std::cout << measure(model, resolution, radius, options.element, runs, !alone).dump() << std::endl;
+    std::cout << measure(model, resolution, radius, options, runs, !alone).dump() << std::endl;
     return 0;
 }
 

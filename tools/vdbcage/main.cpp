@@ -25,6 +25,8 @@ constexpr Command commands[] = {
     {"make", "make a cage for a model", runMake},
     {"check", "examine a cage against its model", runCheck},
     {"render", "draw models, cages and volumes into a picture", runRender},
+    {"bind", "compute how a cage moves a model", runBind},
+    {"deform", "move a model by its posed cage", runDeform},
     {"repair", "mend a cage that was made elsewhere", runRepair},
 };
 
@@ -45,6 +47,7 @@ public:
     {
         std::string text = app->get_description() + "\n\n";
         for (const CLI::Option* option : app->get_options()) {
+            if (option == app->get_help_ptr()) continue; // whoever reads this has found it
             std::string left;
             for (const std::string& name : option->get_snames()) left += "-" + name + " ";
             for (const std::string& name : option->get_lnames()) left += "--" + name + " ";

@@ -87,8 +87,10 @@ void addStages(const Pipeline& pipeline, const MakeArguments& arguments, Interru
         outputs.add(folder / (std::string(stage) + ".obj"), [&](const fs::path& path) { writeMesh(mesh, path); });
     };
     volume("solid", *pipeline.solid());
-    volume("dilated", *dilate(*pipeline.solid(), pipeline.report().closeRadius * pipeline.report().resolution,
-                              arguments.options.element, interrupter));
+    const double radius = pipeline.report().closeRadius * pipeline.report().resolution;
+    volume("dilated", arguments.options.element == Element::cube
+                          ? *dilate(*pipeline.solid(), radius, Element::cube, interrupter)
+                          : *dilate(*pipeline.solid(), radius, arguments.options.scale, interrupter));
     volume("closed", *pipeline.closed());
     volume("contour", *contour(*pipeline.closed(), interrupter));
     surface("surface", pipeline.surface());
@@ -115,6 +117,16 @@ void printSummary(const MakeArguments& arguments, const Pipeline& pipeline, cons
     }
     if (!report.voxels.fallback.empty()) {
         std::cerr << "  voxels by the CPU: " << report.voxels.fallback << '\n';
+    }
+    if (report.cavitiesFilled > 0) {
+        std::cerr << "  " << report.cavitiesFilled << " hollows inside the closing were filled\n";
+    }
+    const bool isSameThroughout = report.solidParts == report.parts && report.parts == check.components &&
+                                  report.solidHandles == report.handles && report.handles == check.genus;
+    if (report.start == CageStart::closing && !isSameThroughout) {
+        std::cerr << "  parts and handles: " << report.solidParts << " and " << report.solidHandles << " of the solid, "
+                  << report.parts << " and " << report.handles << " of the closing, " << check.components << " and "
+                  << check.genus << " of the cage\n";
     }
     if (!arguments.verbose) return;
     for (const StageTime& stage : stages) {

@@ -63,6 +63,10 @@ Json toJson(const CageReport& report)
             {"start", start},
             {"repaired", report.repaired},
             {"cavities_filled", report.cavitiesFilled},
+            {"solid_parts", report.solidParts},
+            {"solid_handles", report.solidHandles},
+            {"start_parts", report.parts},
+            {"start_handles", report.handles},
             {"solid_voxels", report.solidVoxels},
             {"closed_voxels", report.closedVoxels}};
 }

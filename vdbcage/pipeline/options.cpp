@@ -115,6 +115,11 @@ struct ToText {
     {
         return value ? numberText(*value) : "auto";
     }
+    std::string operator()(const ScaleField& value) const
+    {
+        if (!value.source.empty()) return value.source;
+        return value.grid || !value.regions.empty() ? "given" : "none";
+    }
     template <typename Name>
     std::string operator()(Name value) const
     {
@@ -141,6 +146,14 @@ struct FromText {
             field = parseNumber<Number>(info, text, whole ? "auto or a whole number" : "auto or a number");
         }
     }
+    void operator()(ScaleField& field) const
+    {
+        try {
+            field = readScaleField(text);
+        } catch (const InputError& error) {
+            throw InputError("--" + std::string(info.name) + ": " + error.what());
+        }
+    }
     template <typename Name>
     void operator()(Name& field) const
     {
@@ -165,7 +178,7 @@ struct RequireRange {
         if (value) requireInRange(info, *value);
     }
     template <typename Name>
-    void operator()(Name /*value*/) const
+    void operator()(const Name& /*value*/) const
     {
     }
 };
@@ -180,6 +193,7 @@ struct Placeholder {
     {
         return "auto|" + std::string(info.symbol);
     }
+    std::string operator()(const ScaleField& /*value*/) const { return info.symbol; }
     template <typename Name>
     std::string operator()(Name /*value*/) const
     {
@@ -194,7 +208,7 @@ std::vector<OptionText> describeOptions()
     std::vector<OptionText> list;
     const CageOptions defaults;
     visitOptions(defaults, [&](const OptionInfo& info, const auto& field) {
-        const bool isNumber = info.symbol[0] != '\0';
+        const bool isNumber = info.least < info.most;
         list.push_back(
             {info.name, Placeholder{info}(field), info.help, isNumber ? rangeText(info) : "", ToText{}(field)});
     });
@@ -232,6 +246,10 @@ void requireValid(const CageOptions& options)
         throw InputError("--erode-radius: '" + numberText(*options.erodeRadius) +
                          "' is not allowed; it must be at most the close radius, " +
                          (options.closeRadius ? numberText(*options.closeRadius) : "which has to be given too"));
+    }
+    if (options.element != Element::sphere && ToText{}(options.scale) != "none") {
+        throw InputError("--scale-field: '" + ToText{}(options.scale) +
+                         "' is not allowed with --element cube; it must be none, or the element sphere");
     }
 }
 

@@ -7,6 +7,7 @@
 #include <vdbcage/core/export.h>
 #include <vdbcage/surface/decimate.h>
 #include <vdbcage/volume/morphology.h>
+#include <vdbcage/volume/scale_field.h>
 #include <vdbcage/voxelize/voxelize.h>
 
 namespace vdbcage {
@@ -31,6 +32,7 @@ struct CageOptions {
     std::optional<double> closeRadius;          ///< gaps up to twice this wide are bridged; unset: as the faces allow
     std::optional<double> erodeRadius;          ///< at most the close radius, which must be set; unset: equal to it
     Element element = Element::sphere;          ///< structuring element of the closing
+    ScaleField scale;                           ///< what the close radius is multiplied by in places; for the sphere
     int smooth = 0;                             ///< sweeps of smoothing at the end: rounder, and less tight, with more
     CageParts parts = CageParts::keep;          ///< what becomes of separate parts of the closing
     double clearance = 1e-6;                    ///< least distance from model to cage
@@ -64,6 +66,8 @@ void visitOptions(Options& options, Visit&& visit)
     visit(OptionInfo{"close-radius", "F", "bridges gaps up to twice it", In::close, 0, 0.25}, options.closeRadius);
     visit(OptionInfo{"erode-radius", "F", "if less, leaves an offset", In::close, 0, 0.25}, options.erodeRadius);
     visit(OptionInfo{"element", "", "shape of the closing", In::close}, options.element);
+    visit(OptionInfo{"scale-field", "FILE.vdb|REGION", "multiplies the close radius in places", In::close},
+          options.scale);
     visit(OptionInfo{"smooth", "K", "rounds it off: 0 is tightest", In::decimate, 0, 100}, options.smooth);
     visit(OptionInfo{"parts", "", "separate parts of the closing", In::decimate}, options.parts);
     visit(OptionInfo{"mesh", "", "faces of the cage", In::merge}, options.mesh);

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -41,6 +42,17 @@ std::string keyUpTo(const CageOptions& options, PipelineStage last)
         if (info.stage <= last) key += values[i].first + '=' + values[i].second + ' ';
         ++i;
     });
+    // A scale field made by a program has no text of its own.
+    if (last >= PipelineStage::close) {
+        std::ostringstream text;
+        text.precision(17);
+        text << options.scale.grid.get();
+        for (const ScaleRegion& region : options.scale.regions) {
+            text << ' ' << static_cast<int>(region.shape) << region.lower << region.upper << region.radius << ' '
+                 << region.scale;
+        }
+        key += text.str();
+    }
     return key;
 }
 
@@ -96,12 +108,18 @@ public:
         if (options.bounding && !best.check.bounding()) {
             throw Error("the cage could not be certified; this is a defect of vdbcage, please report the model");
         }
+        const MeshTopology before = analyzeTopology(extractSurface(*solid_, interrupter), interrupter);
+        const MeshTopology after = analyzeTopology(best.surface, interrupter);
         report_.check = best.check;
         report_.floatSafe = floatSafe_ && options.bounding;
         report_.resolution = best.voxels.resolution;
         report_.closeRadius = best.voxels.closeRadius;
         report_.offsetVoxels = best.offset;
         report_.start = best.start;
+        report_.solidParts = before.components();
+        report_.solidHandles = before.genus();
+        report_.parts = after.components();
+        report_.handles = after.genus();
         report_.repaired = best.repaired;
         best_ = std::move(best);
         cageKey_ = key;
@@ -142,8 +160,9 @@ private:
         closing.closeRadiusVoxels = voxels.closeRadius * voxels.resolution;
         closing.erodeRadiusVoxels = options.erodeRadius.value_or(voxels.closeRadius) * voxels.resolution;
         closing.element = options.element;
-        const auto closed = closeMask(*solid_, closing, interrupter);
+        const auto closed = closeMask(*solid_, closing, options.scale, interrupter);
         closed_ = fillCavities(*closed, &report_.cavitiesFilled, interrupter);
+        scaleGrid_ = options.scale.grid;
         report_.closedVoxels = static_cast<std::size_t>(closed_->activeVoxelCount());
         closedKey_ = key;
     }
@@ -416,6 +435,7 @@ private:
     Mesh model_;
     bool floatSafe_ = false;
     openvdb::MaskGrid::Ptr solid_, closed_;
+    openvdb::FloatGrid::ConstPtr scaleGrid_; // that closed_ was made with: kept, so that no other gets its address
     std::unique_ptr<CageChecker> checker_;
     std::string solidKey_, closedKey_, cageKey_; // what the values were made with; empty: nothing
     Candidate best_;

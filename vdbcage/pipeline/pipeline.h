@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 
 #include <openvdb/openvdb.h>
@@ -30,6 +31,10 @@ struct CageReport {
     CageStart start = CageStart::closing;
     bool repaired = false;          ///< an unguarded cage was not valid and went through repair()
     std::size_t cavitiesFilled = 0; ///< hollows inside the closing that were filled
+    std::size_t solidParts = 0;     ///< separate surfaces of the model's voxels, inner ones too
+    std::int64_t solidHandles = 0;  ///< and handles, tunnels through them, of all of them
+    std::size_t parts = 0;          ///< the same of what the cage was made from: the closing, grown a little
+    std::int64_t handles = 0;
     std::size_t solidVoxels = 0, closedVoxels = 0;
 };
 

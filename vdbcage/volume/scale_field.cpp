@@ -77,16 +77,19 @@ FloatGrid::Ptr scaleFromPoints(const std::vector<Vec3d>& points, const std::vect
     auto scales = scale->getAccessor();
     auto distances = nearest.getAccessor();
     for (std::size_t i = 0; i < points.size(); ++i) {
-        if (i % 64 == 0) throwIfInterrupted(interrupter, static_cast<int>(100 * i / points.size()));
         const Vec3d place = scale->worldToIndex(points[i]);
         const Vec3d span(reach / voxelSize);
-        const openvdb::CoordBBox box(Coord::ceil(place - span), Coord::floor(place + span));
-        for (auto c = box.begin(); c; ++c) {
-            const auto distance = static_cast<float>(((*c).asVec3d() - place).lengthSqr());
-            const bool isFirst = !distances.isValueOn(*c);
-            if (isFirst ? distance > distances.getValue(*c) : distance >= distances.getValue(*c)) continue;
-            distances.setValue(*c, distance);
-            scales.setValue(*c, values[i]);
+        const Coord lower = Coord::ceil(place - span), upper = Coord::floor(place + span);
+        for (int x = lower.x(); x <= upper.x(); ++x) {
+            throwIfInterrupted(interrupter, static_cast<int>(100 * i / points.size()));
+            const openvdb::CoordBBox slice(Coord(x, lower.y(), lower.z()), Coord(x, upper.y(), upper.z()));
+            for (auto c = slice.begin(); c; ++c) {
+                const auto distance = static_cast<float>(((*c).asVec3d() - place).lengthSqr());
+                const bool isFirst = !distances.isValueOn(*c);
+                if (isFirst ? distance > distances.getValue(*c) : distance >= distances.getValue(*c)) continue;
+                distances.setValue(*c, distance);
+                scales.setValue(*c, values[i]);
+            }
         }
     }
     return scale;
@@ -115,6 +118,7 @@ ScaleField readScaleField(const std::string& text)
         } else {
             refuse(part);
         }
+        if (!field.regions.empty()) detail::requireValid(field.regions.back());
     }
     return field;
 }

@@ -16,7 +16,7 @@ struct ScaleRegion {
     enum class Shape { box, sphere };
     Shape shape = Shape::sphere;
     openvdb::Vec3d lower{0}, upper{0}; ///< box: its corners; sphere: `lower` is the centre
-    double radius = 0;                 ///< of the sphere
+    double radius = 0;                 ///< of the sphere, at least 0
     double scale = 1;                  ///< 0 to 8
 };
 
@@ -56,8 +56,9 @@ VDBCAGE_API openvdb::MaskGrid::Ptr dilate(const openvdb::MaskGrid& mask, double 
 /// The field is sampled at every h-th voxel and interpolated between, where h is the largest power of 2 that is
 /// not above a quarter of the close radius, 1 to 8. Costs about three times as much as one radius, and 4 / h^3 bytes
 /// for each voxel of the box where the field is not the same.
-/// \throw InputError (as closeMask; the cube, which has one radius only; scales negative, above 8 or not finite; a
-///        radius above 512 voxels; a grid whose transform is not linear; a field of more than 2^28 samples), Cancelled
+/// \throw InputError (as closeMask; the cube, which has one radius only; a region's scale outside 0 to 8 or its radius
+///        negative; a grid's value not finite; a radius above 512 voxels; a grid whose transform is not linear; a field
+///        of more than 2^28 samples), Cancelled
 VDBCAGE_API openvdb::MaskGrid::Ptr closeMask(const openvdb::MaskGrid& solid, const CloseOptions& options,
                                              const ScaleField& scale, Interrupter* interrupter = nullptr);
 

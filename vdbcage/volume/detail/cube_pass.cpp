@@ -135,10 +135,12 @@ public:
         for (const auto& [origin, slots] : blocks_) origins.push_back(origin);
         return origins;
     }
-    MaskTree::Ptr tree() const
+    MaskTree::Ptr tree(const Progress& progress) const
     {
         std::vector<BuiltBlock> built(built_.size());
+        std::atomic<std::size_t> done{0};
         tbb::parallel_for(std::size_t{0}, built_.size(), [&](std::size_t i) {
+            progress.check(done++, built_.size());
             BlockBuilder builder(built_[i].origin);
             for (int n = 0; n < slotsPerBlock; ++n) builder.set(n, built_[i].slot(n));
             built[i] = builder.finish();
@@ -328,8 +330,8 @@ private:
 MaskTree::Ptr threePasses(const MaskTree& mask, Side side, int radius, const Progress& progress)
 {
     SlotSet set(mask);
-    for (int i = 0; i < 3; ++i) set = AxisPass(set, side, radius, progress.part(i, 3)).run();
-    return set.tree();
+    for (int i = 0; i < 3; ++i) set = AxisPass(set, side, radius, progress.part(i, 4)).run();
+    return set.tree(progress.part(3, 4));
 }
 
 } // namespace

@@ -49,22 +49,16 @@ std::vector<double> leastRadii(int largest)
 }
 
 // The largest value of a grid, cut to what is allowed. Checks that all are finite.
-double largestValue(const openvdb::FloatGrid& grid)
+double largestValue(const openvdb::FloatGrid& grid, const Progress& progress)
 {
     float largest = grid.background();
+    std::size_t count = 0;
     for (auto value = grid.cbeginValueAll(); value; ++value) {
+        if (count++ % 4096 == 0) progress.check(0, 1);
         if (!std::isfinite(*value)) throw InputError("the scale field has a value that is not finite");
         largest = std::max(largest, *value);
     }
     return std::clamp(static_cast<double>(largest), 0.0, largestScale);
-}
-
-void requireScale(double scale)
-{
-    if (scale >= 0 && scale <= largestScale) return; // false for NaN
-    std::ostringstream text;
-    text << "the scale of a region is " << scale << "; it must be between 0 and " << largestScale;
-    throw InputError(text.str());
 }
 
 void expand(BBoxd& box, const openvdb::math::Transform& voxels, const Vec3d& lower, const Vec3d& upper)
@@ -81,7 +75,7 @@ BBoxd extentOf(const ScaleField& scale, const openvdb::math::Transform& voxels)
 {
     BBoxd box;
     for (const ScaleRegion& region : scale.regions) {
-        requireScale(region.scale);
+        requireValid(region);
         if (region.shape == ScaleRegion::Shape::box) {
             expand(box, voxels, region.lower, region.upper);
         } else {
@@ -122,6 +116,23 @@ bool contains(const ScaleRegion& region, const Vec3d& point)
 
 } // namespace
 
+void requireValid(const ScaleRegion& region)
+{
+    const auto require = [](bool isRight, const char* name, const auto& value, const auto&... allowed) {
+        if (isRight) return;
+        std::ostringstream text;
+        text << name << " of a region is " << value << "; it must be ";
+        (text << ... << allowed);
+        throw InputError(text.str());
+    };
+    // NaN is refused by every comparison.
+    require(region.scale >= 0 && region.scale <= largestScale, "the scale", region.scale, "between 0 and ",
+            largestScale);
+    require(region.radius >= 0 && std::isfinite(region.radius), "the radius", region.radius, "at least 0");
+    require(region.lower.isFinite(), "the place", region.lower, "finite");
+    require(region.upper.isFinite(), "the upper corner", region.upper, "finite");
+}
+
 RadiusField::RadiusField(const ScaleField& scale, const openvdb::math::Transform& voxels, double radius,
                          const CoordBBox& box, const Progress& progress)
     : shift_(spacingShift(radius))
@@ -133,7 +144,7 @@ RadiusField::RadiusField(const ScaleField& scale, const openvdb::math::Transform
     BBoxd extent = extentOf(scale, voxels);
     if (!box.empty() && !extent.empty()) {
         // A small radius spreads until it has grown to the largest one, from beyond the box too.
-        double scales = scale.grid ? largestValue(*scale.grid) : 1.0;
+        double scales = scale.grid ? largestValue(*scale.grid, progress) : 1.0;
         for (const ScaleRegion& region : scale.regions) scales *= std::max(1.0, region.scale);
         const double most = radius * std::min(scales, largestScale);
         if (most > largestRadius) {
@@ -161,8 +172,8 @@ RadiusField::RadiusField(const ScaleField& scale, const openvdb::math::Transform
             text << "the scale field needs " << count << " samples; there may be 2^28";
             throw InputError(text.str());
         }
-        sample(scale, voxels, radius, progress);
-        clamp();
+        sample(scale, voxels, radius, progress.part(0, 3));
+        clamp(progress.part(1, 3));
         if (std::all_of(nodes_.begin(), nodes_.end(), [&](float r) { return r == outside_; })) {
             nodes_.clear();
             nodes_.shrink_to_fit();
@@ -171,7 +182,7 @@ RadiusField::RadiusField(const ScaleField& scale, const openvdb::math::Transform
     for (const float node : nodes_) largest_ = std::max(largest_, static_cast<double>(node));
     if (!isUniform()) {
         leastRadius_ = leastRadii(static_cast<int>(largest_) + 1);
-        findRanges();
+        findRanges(progress.part(2, 3));
     }
 }
 
@@ -203,13 +214,14 @@ void RadiusField::sample(const ScaleField& scale, const openvdb::math::Transform
 }
 
 // Each node becomes the least of all nodes' radii, each plus the steepest growth along the axes on the way from there.
-void RadiusField::clamp()
+void RadiusField::clamp(const Progress& progress)
 {
     const auto growth = static_cast<float>(steepest * (1 << shift_));
     for (int axis = 0; axis < 3; ++axis) {
         const int u = (axis + 1) % 3, v = (axis + 2) % 3;
         tbb::parallel_for(0, size_[u], [&](int i) {
             for (int j = 0; j < size_[v]; ++j) {
+                if (j % 16 == 0) progress.check(static_cast<std::size_t>(axis), 3);
                 Coord c;
                 c[u] = i;
                 c[v] = j;
@@ -257,7 +269,7 @@ std::int32_t RadiusField::square(const Coord& voxel, double factor) const
     return squareOf(static_cast<double>(radiusAt(voxel)) * factor);
 }
 
-void RadiusField::findRanges()
+void RadiusField::findRanges(const Progress& progress)
 {
     const int perSlot = leafSize >> shift_;
     for (int axis = 0; axis < 3; ++axis) {
@@ -268,6 +280,7 @@ void RadiusField::findRanges()
                    static_cast<std::size_t>(slots_.z()));
     tbb::parallel_for(0, slots_.x(), [&](int x) {
         for (int y = 0; y < slots_.y(); ++y) {
+            progress.check(static_cast<std::size_t>(x), static_cast<std::size_t>(slots_.x()));
             for (int z = 0; z < slots_.z(); ++z) {
                 Coord corner = firstSlot_ + Coord(x, y, z); // then its first node
                 for (int axis = 0; axis < 3; ++axis)

@@ -9,6 +9,9 @@
 
 namespace vdbcage::detail {
 
+/// \throw InputError (a scale or a radius out of range, a coordinate that is not finite)
+void requireValid(const ScaleRegion& region);
+
 /// A radius for each voxel, as its square, a whole number, such that what a scatter erosion removes (all g with a q
 /// outside, |g - q|^2 <= square(q)) is removed by the q that have a face neighbour inside alone.
 ///
@@ -38,8 +41,8 @@ private:
     float radiusAt(const openvdb::Coord& voxel) const;
     void sample(const ScaleField& scale, const openvdb::math::Transform& voxels, double radius,
                 const Progress& progress);
-    void clamp();
-    void findRanges();
+    void clamp(const Progress& progress);
+    void findRanges(const Progress& progress);
 
     std::size_t node(const openvdb::Coord& c) const // counted in nodes from the first
     {

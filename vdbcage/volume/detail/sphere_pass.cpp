@@ -58,9 +58,9 @@ public:
     MaskTree::Ptr run()
     {
         const std::vector<Coord> targets = targetBlocks();
+        parts_ = 64 * targets.size();
         std::vector<BuiltBlock> built(targets.size());
-        tbb::parallel_for(std::size_t{0}, targets.size(),
-                          [&](std::size_t i) { built[i] = build(targets[i], targets.size()); });
+        tbb::parallel_for(std::size_t{0}, targets.size(), [&](std::size_t i) { built[i] = build(targets[i]); });
         return assemble(fullParts(base_), std::move(built));
     }
 
@@ -97,13 +97,13 @@ private:
         return targets;
     }
 
-    BuiltBlock build(const Coord& origin, std::size_t targetCount)
+    BuiltBlock build(const Coord& origin)
     {
         Target target{origin, blockAt(base_, origin), keep_ ? blockAt(*keep_, origin) : Block(), {}};
         gatherGroups(target);
         BlockBuilder builder(origin);
         tbb::parallel_for(0, 64, [&](int part) {
-            progress_.check(partsDone_++, 64 * targetCount);
+            progress_.check(partsDone_++, parts_);
             buildPart(target, part, workSpaces_.local(), builder);
         });
         return builder.finish();
@@ -151,6 +151,7 @@ private:
             if ((covered >> i & 1) != 0) {
                 setChanged(builder, n, base, work.open[slot]);
             } else if ((open >> i & 1) != 0) {
+                if (i % 4 == 3) progress_.check(partsDone_, parts_); // these take time with large radii
                 setChanged(builder, n, base,
                            reach_.within(work.open[slot], i, work.near.data(), listsOf(slot, work), work.reach));
             } else {
@@ -271,6 +272,7 @@ private:
     int radius_; // the largest, rounded up
     const Reach& reach_;
     tbb::enumerable_thread_specific<Work> workSpaces_;
+    std::size_t parts_ = 0;
     std::atomic<std::size_t> partsDone_{0};
 };
 
@@ -292,14 +294,14 @@ std::int64_t largestSquare(const RadiusField& field, double factor)
 
 MaskTree::Ptr dilateBySphere(const MaskTree& mask, std::int64_t squaredRadius, const Progress& progress, Simd simd)
 {
-    const SphereReach reach(squaredRadius, simd);
+    const SphereReach reach(squaredRadius, simd, progress.part(0, 100));
     return runPass(mask, nullptr, ContourOf::mask, squaredRadius, reach, progress);
 }
 
 MaskTree::Ptr erodeBySphere(const MaskTree& mask, const MaskTree* keep, std::int64_t squaredRadius,
                             const Progress& progress, Simd simd)
 {
-    const SphereReach reach(squaredRadius, simd);
+    const SphereReach reach(squaredRadius, simd, progress.part(0, 100));
     return runPass(mask, keep, ContourOf::complement, squaredRadius, reach, progress);
 }
 

@@ -48,14 +48,14 @@ int gap(int position, int lower, int upper)
 } // namespace
 
 struct SphereReach::Tables {
-    explicit Tables(std::int64_t squared)
+    Tables(std::int64_t squared, const Progress& progress)
         : squaredRadius(squared), reach(static_cast<int>(std::ceil(std::sqrt(static_cast<double>(squared))))),
           isSmall(reach <= smallRadius), slotReach((reach + 7) / 8 + 1), rowReach(8 * slotReach + 7),
           coordinates(2 * margin() + 32)
     {
         while ((squaredRadius >> shift) > std::numeric_limits<std::int16_t>::max() / 3 - 1) ++shift;
         limit = static_cast<std::int16_t>(squaredRadius >> shift);
-        isSmall ? fillHeights(smallRows, smallSlots) : fillHeights(largeRows, largeSlots);
+        isSmall ? fillHeights(smallRows, smallSlots, progress) : fillHeights(largeRows, largeSlots, progress);
         fillSquares();
     }
 
@@ -107,12 +107,13 @@ struct SphereReach::Tables {
 private:
     int margin() const { return reach + 40; }
     template <class T>
-    void fillHeights(std::vector<T>& rows, std::vector<T>& slots)
+    void fillHeights(std::vector<T>& rows, std::vector<T>& slots, const Progress& progress)
     {
         // One quarter of the disc; the rest is its mirror image.
         const int size = rowReach + 8;
         std::vector<T> heights(static_cast<std::size_t>(size * size));
         for (int dx = 0; dx < size; ++dx) {
+            if (dx % 32 == 0) progress.check(0, 1);
             for (int dy = 0; dy < size; ++dy) {
                 heights[static_cast<std::size_t>(dx * size + dy)] =
                     static_cast<T>(none<T> + heightAt(dx, dy, squaredRadius));
@@ -120,11 +121,13 @@ private:
         }
         const auto at = [&](int dx, int dy) { return heights[static_cast<std::size_t>(dx * size + dy)]; };
         for (int dx = -rowReach; dx <= rowReach; ++dx) {
+            if (dx % 32 == 0) progress.check(0, 1);
             for (int dy = -rowReach; dy <= rowReach + 7; ++dy) {
                 for (int x = 0; x < 8; ++x) rows.push_back(at(std::abs(dx + x), std::abs(dy)));
             }
         }
         for (int dx = -slotReach; dx <= slotReach; ++dx) {
+            progress.check(0, 1);
             for (int dy = -slotReach; dy <= slotReach; ++dy) {
                 for (int y = 0; y < 8; ++y) {
                     for (int x = 0; x < 8; ++x) slots.push_back(at(gap(8 * dx + x, 0, 7), gap(8 * dy + y, 0, 7)));
@@ -604,8 +607,8 @@ WithinFunction withinFunction(Simd simd, bool isSmall)
 
 } // namespace
 
-SphereReach::SphereReach(std::int64_t squaredRadius, Simd simd)
-    : tables_(std::make_unique<Tables>(squaredRadius)), simd_(simd)
+SphereReach::SphereReach(std::int64_t squaredRadius, Simd simd, const Progress& progress)
+    : tables_(std::make_unique<Tables>(squaredRadius, progress)), simd_(simd)
 {
 }
 SphereReach::~SphereReach() = default;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include <vdbcage/volume/detail/contour_leaves.h>
+#include <vdbcage/volume/detail/progress.h>
 #include <vdbcage/volume/detail/simd.h>
 
 namespace vdbcage::detail {
@@ -29,8 +30,8 @@ struct NearLeaf {
 /// Const once it is made: threads share one. Memory: 32 r^2 bytes (64 r^2 beyond smallRadius).
 class SphereReach {
 public:
-    /// `squaredRadius` up to 512^2; `simd` must be supported.
-    SphereReach(std::int64_t squaredRadius, Simd simd);
+    /// `squaredRadius` up to 512^2; `simd` must be supported. \throw Cancelled
+    SphereReach(std::int64_t squaredRadius, Simd simd, const Progress& progress);
     ~SphereReach();
 
     /// What one thread has found out about the leaves around the part that it works on.
