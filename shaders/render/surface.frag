@@ -3,6 +3,7 @@
 
 in vec3 viewPosition;
 in vec3 viewNormal;
+in vec3 ownColour;
 
 uniform vec4 colour; // sRGB
 
@@ -31,7 +32,7 @@ void main()
 
     // Darker where the surface turns away, so that a light model stands out from a white background.
     const float turn = mix(0.70, 1.0, smoothstep(0.0, 0.65, dot(normal, toEye)));
-    const vec3 albedo = turn * pow(colour.rgb, vec3(2.2));
+    const vec3 albedo = turn * pow(colour.rgb * ownColour, vec3(2.2));
     const float inside = gl_FrontFacing ? 1.0 : 0.55; // one sees where a surface is open or turned inside out
     const vec3 light = inside * (albedo * (key + fill + back + sky) + gloss);
     result = vec4(pow(clamp(light, 0.0, 1.0), vec3(1.0 / 2.2)), 1.0);

@@ -117,11 +117,17 @@ BOOST_AUTO_TEST_CASE(closings_beside_alternatives)
             BOOST_TEST(line[part].contains("cpu_seconds"));
             BOOST_TEST(line[part].contains("wall_seconds"));
         }
+        BOOST_TEST(line["interrupter"]["questions"] > 1);
+        BOOST_TEST(line["interrupter"]["largest_gap_cpu_ms"] > 0);
         BOOST_TEST(line["alternative"]["same_voxels"] == true);
         BOOST_TEST(line.contains("times_faster"));
     }
-    const json alone = linesOf({"closing", "--model", bishop, "--resolution", "32", "--alone"}).at(0);
+    const json alone =
+        linesOf({"closing", "--model", bishop, "--resolution", "32", "--alone", "--scale-field", "sphere:0,0,0,2,0.5"})
+            .at(0);
     BOOST_TEST(alone["radius_voxels"] == 2);
+    BOOST_TEST(alone["scaled"]["cpu_seconds"] > 0);
+    BOOST_TEST(alone["scaled"]["interrupter"]["largest_gap_cpu_ms"] > 0);
     BOOST_TEST(!alone.contains("alternative"));
 }
 
@@ -177,6 +183,21 @@ BOOST_AUTO_TEST_CASE(bad_arguments)
             BOOST_TEST(result.err.find(wrong.mention) != std::string::npos, result.err);
         }
     }
+}
+
+BOOST_AUTO_TEST_CASE(binding_and_posing)
+{
+    const auto lines = linesOf({"deform", bishop, "--faces", "50", "--points", "100", "--mesh", "triangles",
+                                "--coordinates", "mvc,green", "--runs", "2"});
+    BOOST_REQUIRE(lines.size() == 2U);
+    for (const json& line : lines) {
+        BOOST_TEST(line["points"] == 100);
+        BOOST_TEST(line["cage_triangles"] <= 50);
+        for (const char* work : {"bind", "pose", "update_of_one_vertex"}) {
+            BOOST_TEST(line[work]["cpu_seconds"].get<double>() >= 0);
+        }
+    }
+    BOOST_TEST(lines[1]["handles"] == lines[0]["handles"].get<int>() + lines[0]["cage_triangles"].get<int>());
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -43,7 +43,7 @@ BOOST_AUTO_TEST_SUITE(help)
 
 BOOST_AUTO_TEST_CASE(help_fits_a_screen)
 {
-    for (const char* name : {"make", "check", "render", "repair"}) {
+    for (const char* name : {"make", "check", "render", "bind", "deform", "repair"}) {
         const auto result = runCommand({command, name, "--help"});
         BOOST_TEST(result.status == 0);
         BOOST_TEST(result.err.empty());
@@ -93,7 +93,7 @@ BOOST_AUTO_TEST_CASE(without_arguments_there_is_a_short_help)
 {
     const auto result = runCommand({command});
     BOOST_TEST(result.status == 1);
-    for (const char* name : {"make", "check", "render", "repair"}) {
+    for (const char* name : {"make", "check", "render", "bind", "deform", "repair"}) {
         BOOST_TEST(result.err.find(name) != std::string::npos);
     }
     BOOST_TEST(runCommand({command, "--version"}).out.rfind("vdbcage ", 0) == 0U);

@@ -248,4 +248,31 @@ BOOST_AUTO_TEST_CASE(writing_replaces_a_file_and_a_failed_one_leaves_it)
     BOOST_TEST(folder.entries() == 1U);
 }
 
+BOOST_AUTO_TEST_CASE(moved_obj_keeps_all_but_positions_and_normals)
+{
+    const TemporaryFolder folder;
+    const std::string before = "# a tent\r\nmtllib my.mtl\\\no tent\n",
+                      between = "vt 0 0\nvt 1 0.5\n\ng left right\nusemtl red v 1 2 3\ns 1\n"
+                                "f 1/1/1 2/2/1 3/1/1 4/2/1 5//1 # five\nf -5/1/2 -4/1/2 -2\nl 1 2\n";
+    test::writeText(folder / "model.obj", before + "v 0 0 0\nv  2 0 0 0.5 0.25 1\nv 2 2 0\\\n 1\nv 1 3 0\n\tv 0 2 0\n" +
+                                              "vn 0 0 1\nvn 0 1 0\nvn 1 0 0\n" + between);
+    // A quarter turn about x: (x, y, z) to (x, -z, y).
+    std::vector<Vec3d> points = readMesh(folder / "model.obj").points;
+    for (Vec3d& p : points) p = Vec3d(p.x(), -p.z(), p.y());
+    writeMoved(folder / "model.obj", points, folder / "moved.obj");
+    BOOST_TEST(test::readText(folder / "moved.obj") ==
+               before + "v 0 -0 0\nv  2 -0 0 0.5 0.25 1\nv 2 -0 2\\\n 1\nv 1 -0 3\n\tv 0 -0 2\n" +
+                   "vn 0 -1 0\nvn 0 0 1\nvn 1 0 0\n" + between);
+    BOOST_TEST((readMesh(folder / "moved.obj").points == points));
+
+    writeMoved(folder / "model.obj", points, folder / "moved.ply");
+    BOOST_TEST((readMesh(folder / "moved.ply").points == points));
+    points.pop_back();
+    BOOST_CHECK_THROW(writeMoved(folder / "model.obj", points, folder / "a.obj"), InputError);
+    points.emplace_back(0, std::nan(""), 0);
+    BOOST_CHECK_THROW(writeMoved(folder / "model.obj", points, folder / "a.obj"), InputError);
+    BOOST_CHECK_THROW(writeMoved(folder / "none.obj", points, folder / "a.obj"), Error);
+    BOOST_TEST(!std::filesystem::exists(folder / "a.obj"));
+}
+
 BOOST_AUTO_TEST_SUITE_END()

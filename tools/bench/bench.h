@@ -16,6 +16,7 @@ using Json = nlohmann::ordered_json;
 int runStages(int argc, char** argv);
 int runCage(int argc, char** argv);
 int runClosing(int argc, char** argv);
+int runDeform(int argc, char** argv);
 int runVoxelize(int argc, char** argv);
 
 /// Gives `app` a flag for every option of a cage but those in `except`; it sets `options`. The flags in use and their

@@ -14,6 +14,7 @@ int main(int argc, char** argv)
         if (argc > 1 && std::string(argv[1]) == "cage") return bench::runCage(argc, argv);
         if (argc > 1 && std::string(argv[1]) == "closing") return bench::runClosing(argc, argv);
         if (argc > 1 && std::string(argv[1]) == "voxelize") return bench::runVoxelize(argc, argv);
+        if (argc > 1 && std::string(argv[1]) == "deform") return bench::runDeform(argc, argv);
         return bench::runStages(argc, argv);
     } catch (const std::exception& error) {
         std::fprintf(stderr, "vdbcage-bench: error: %s\n", error.what());

@@ -51,7 +51,8 @@ int runStages(int argc, char** argv)
     CLI::App app("vdbcage-bench " VDBCAGE_VERSION ": stage times and peak memory of whole runs, as JSON lines.\n"
                  "vdbcage-bench cage --help: tightness of cages beside plain decimation\n"
                  "vdbcage-bench closing --help: dilation, erosion and closing beside alternatives\n"
-                 "vdbcage-bench voxelize --help: the voxelizers side by side");
+                 "vdbcage-bench voxelize --help: the voxelizers side by side\n"
+                 "vdbcage-bench deform --help: binding and posing");
     app.add_option("models", models, "models to measure on")->required()->type_name("MODEL...");
     app.add_option("--resolutions", resolutions, "list of resolutions [32,64,128,256,512]")
         ->delimiter(',')

@@ -11,6 +11,8 @@ namespace vdbcage::tool {
 int runMake(std::vector<std::string> arguments);
 int runCheck(std::vector<std::string> arguments);
 int runRender(std::vector<std::string> arguments);
+int runBind(std::vector<std::string> arguments);
+int runDeform(std::vector<std::string> arguments);
 int runRepair(std::vector<std::string> arguments);
 
 /// Reads `arguments` into `app`, whose help is laid out one option a line. Returns false if help was asked for (and

@@ -72,6 +72,11 @@ void requireScene(const Scene& scene)
             requireUsable(*layer.mesh, "picture: a mesh");
             requireColour("a layer's colour", layer.colour);
             requireFraction("a layer's tint", layer.tint);
+            for (const Colour& colour : layer.pointColours) requireColour("a point's colour", colour);
+            if (!layer.pointColours.empty() && layer.pointColours.size() != layer.mesh->points.size()) {
+                fail("a layer has " + std::to_string(layer.pointColours.size()) + " colours of points; its mesh has " +
+                     std::to_string(layer.mesh->points.size()) + " points");
+            }
         }
     }
 }
@@ -129,14 +134,15 @@ struct Shape {
     GLsizei cornerCount = 0, segmentCount = 0;
 };
 
-gl::VertexArray describe(const Api& api, const gl::Buffer& buffer, std::size_t stride, GLuint divisor)
+/// `vectors` vectors each: position, normal and colour; from and to.
+gl::VertexArray describe(const Api& api, const gl::Buffer& buffer, GLuint vectors, GLuint divisor)
 {
+    constexpr auto size = static_cast<GLuint>(sizeof(Vec3f));
     gl::VertexArray layout = gl::makeVertexArray(api);
-    api.VertexArrayVertexBuffer(layout.name(), 0, buffer.name(), 0, static_cast<GLsizei>(stride));
+    api.VertexArrayVertexBuffer(layout.name(), 0, buffer.name(), 0, static_cast<GLsizei>(vectors * size));
     api.VertexArrayBindingDivisor(layout.name(), 0, divisor);
-    for (const GLuint attribute : {0U, 1U}) { // two vectors each: position and normal, from and to
-        api.VertexArrayAttribFormat(layout.name(), attribute, 3, GL_FLOAT, GL_FALSE,
-                                    attribute * static_cast<GLuint>(sizeof(Vec3f)));
+    for (GLuint attribute = 0; attribute < vectors; ++attribute) {
+        api.VertexArrayAttribFormat(layout.name(), attribute, 3, GL_FLOAT, GL_FALSE, attribute * size);
         api.VertexArrayAttribBinding(layout.name(), attribute, 0);
         api.EnableVertexArrayAttrib(layout.name(), attribute);
     }
@@ -147,10 +153,10 @@ Shape upload(const Api& api, const Geometry& geometry)
 {
     Shape shape;
     shape.corners = gl::makeBuffer(api, geometry.corners);
-    shape.faces = describe(api, shape.corners, sizeof(Corner), 0);
+    shape.faces = describe(api, shape.corners, 3, 0);
     shape.cornerCount = static_cast<GLsizei>(geometry.corners.size());
     shape.segments = gl::makeBuffer(api, geometry.segments);
-    shape.lines = describe(api, shape.segments, sizeof(Segment), 1);
+    shape.lines = describe(api, shape.segments, 2, 1);
     shape.segmentCount = static_cast<GLsizei>(geometry.segments.size());
     return shape;
 }
@@ -382,7 +388,7 @@ Picture renderScene(const Scene& scene, int width, int height)
         const Frame frame(scene.sameView ? all : boxes[i]);
         for (const Layer& layer : scene.panels[i]) {
             const double crease = layer.style == LayerStyle::shaded ? creaseDegrees : 0;
-            geometries[i].push_back(makeGeometry(*layer.mesh, frame, crease));
+            geometries[i].push_back(makeGeometry(*layer.mesh, frame, crease, layer.pointColours));
         }
     }
 

@@ -23,6 +23,8 @@ struct Layer {
     LayerStyle style = LayerStyle::shaded;
     Colour colour{};   ///< of the faces, of a wireframe's lines
     float tint = 0.0F; ///< opacity of a wireframe's faces in [0, 1], 0: none
+    /// Of a solid surface: a colour for each point of the mesh, by which `colour` is multiplied; empty: none.
+    std::vector<Colour> pointColours = {};
 };
 
 /// A clay model; a cage around it; voxels.

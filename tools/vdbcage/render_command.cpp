@@ -1,8 +1,11 @@
+#include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <map>
 
 #include <vdbcage/core/atomic_file.h>
 #include <vdbcage/core/error.h>
+#include <vdbcage/deform/binding.h>
 #include <vdbcage/mesh/mesh_io.h>
 #include <vdbcage/surface/extract.h>
 #include <vdbcage/volume/vdb_io.h>
@@ -34,6 +37,43 @@ Size parseSize(const std::string& text)
                          std::to_string(maximumPictureSize));
     }
     return size;
+}
+
+/// A colour for each weight: from blue, negative, over light grey to red. The largest size of a weight has the full
+/// colour; the square root between makes small weights visible too.
+std::vector<Colour> divergingColours(const std::vector<double>& weights)
+{
+    constexpr Colour negative{0.17F, 0.32F, 0.80F}, zero{0.90F, 0.90F, 0.88F}, positive{0.76F, 0.10F, 0.12F};
+    double most = 0;
+    for (const double weight : weights) most = std::max(most, std::abs(weight));
+    std::vector<Colour> colours;
+    for (const double weight : weights) {
+        const auto share = static_cast<float>(most > 0 ? std::sqrt(std::abs(weight) / most) : 0);
+        const Colour& end = weight < 0 ? negative : positive;
+        Colour colour{};
+        for (std::size_t k = 0; k < 3; ++k) colour[k] = zero[k] + share * (end[k] - zero[k]);
+        colours.push_back(colour);
+    }
+    return colours;
+}
+
+/// Colours the first layer of a panel by the weights of point `vertex` of the second, a cage.
+void colourByInfluence(std::vector<Layer>& panel, int vertex, Coordinates family)
+{
+    if (panel.size() < 2) throw InputError("--influence: a panel needs a model and its cage");
+    const Mesh &model = *panel[0].mesh, &cage = *panel[1].mesh;
+    if (vertex < 0 || static_cast<std::size_t>(vertex) >= cage.points.size()) {
+        throw InputError("--influence: " + std::to_string(vertex) + " is not a vertex of the cage; 0 to " +
+                         std::to_string(cage.points.size() - 1) + " are");
+    }
+    const std::vector<double> coordinates = computeCoordinates(cage, model.points, family);
+    const std::size_t handles = coordinates.size() / model.points.size();
+    std::vector<double> weights;
+    for (std::size_t i = 0; i < model.points.size(); ++i) {
+        weights.push_back(coordinates[i * handles + static_cast<std::size_t>(vertex)]);
+    }
+    panel[0].colour = {1, 1, 1};
+    panel[0].pointColours = divergingColours(weights);
 }
 
 /// The option's text names the range itself.
@@ -80,11 +120,17 @@ int runRender(std::vector<std::string> words)
     app.add_option("--elevation", scene.view.elevationDegrees, "above the horizon, -90 to 90 [18]")
         ->type_name("DEG")
         ->check(inRange(-90, 90));
+    int vertex = 0;
+    std::string family = "mvc";
+    CLI::Option* influence =
+        app.add_option("--influence", vertex, "colour models by a cage vertex's weight")->type_name("VERTEX");
+    app.add_option("--coordinates", family, "of the weight: mvc, green or mlc [mvc]")->type_name("FAMILY");
     app.add_flag("--same-view", scene.sameView, "one scale and place for all panels");
     if (!parse(app, std::move(words))) return exitGood;
     requirePngExtension(picture);
     requireWritable(picture);
     const Size size = parseSize(sizeText);
+    const Coordinates coordinates = coordinatesNamed(family);
 
     std::map<std::string, Mesh> meshes; // by file: many panels can show the same model; layers point at them
     scene.panels.emplace_back();
@@ -103,6 +149,9 @@ int runRender(std::vector<std::string> words)
     }
     for (const auto& panel : scene.panels) {
         if (panel.empty()) throw InputError("a panel has no file; write FILE... / FILE...");
+    }
+    if (influence->count() > 0) {
+        for (auto& panel : scene.panels) colourByInfluence(panel, vertex, coordinates);
     }
     writePng(renderScene(scene, size.width, size.height), picture);
     return exitGood;

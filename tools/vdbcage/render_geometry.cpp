@@ -204,7 +204,8 @@ Vec3d Frame::scaled(const Vec3d& point) const
     return {std::ldexp(point.x(), -exponent_), std::ldexp(point.y(), -exponent_), std::ldexp(point.z(), -exponent_)};
 }
 
-Geometry makeGeometry(const Mesh& mesh, const Frame& frame, double creaseDegrees)
+Geometry makeGeometry(const Mesh& mesh, const Frame& frame, double creaseDegrees,
+                      const std::vector<Vec3f>& pointColours)
 {
     const Soup soup = makeSoup(mesh, frame);
     const std::vector<Side> sides = makeSides(soup);
@@ -214,8 +215,10 @@ Geometry makeGeometry(const Mesh& mesh, const Frame& frame, double creaseDegrees
     for (const Face& face : soup.faces) {
         for (int second = 1; second + 1 < face.size; ++second) {
             for (const int i : {0, second, second + 1}) {
+                const std::size_t corner = face.first + static_cast<std::size_t>(i);
                 geometry.corners.push_back(
-                    {toFloat(soup.point(face, i)), toFloat(normals[face.first + static_cast<std::size_t>(i)])});
+                    {toFloat(soup.point(face, i)), toFloat(normals[corner]),
+                     pointColours.empty() ? Vec3f{1, 1, 1} : pointColours[soup.corners[corner]]});
             }
         }
     }

@@ -30,6 +30,7 @@ private:
 struct Corner {
     Vec3f position;
     Vec3f normal; ///< unit, or zero where a face has no area
+    Vec3f colour; ///< of the point, white if it has none
 };
 struct Segment {
     Vec3f from, to;
@@ -42,7 +43,9 @@ struct Geometry {
 };
 
 /// Points at the same place count as one. Normals are angle-weighted means over the faces that are joined around a
-/// point by edges whose faces meet at less than `creaseDegrees`; 0: every face is flat. O(n log n) in the faces.
-Geometry makeGeometry(const Mesh& mesh, const Frame& frame, double creaseDegrees);
+/// point by edges whose faces meet at less than `creaseDegrees`; 0: every face is flat. `pointColours` has one for each
+/// point or none. O(n log n) in the faces.
+Geometry makeGeometry(const Mesh& mesh, const Frame& frame, double creaseDegrees,
+                      const std::vector<Vec3f>& pointColours = {});
 
 } // namespace vdbcage::render

@@ -15,6 +15,7 @@
 #include <vdbcage/core/atomic_file.h>
 #include <vdbcage/core/error.h>
 #include <vdbcage/mesh/detail/formats.h>
+#include <vdbcage/mesh/detail/moved_obj.h>
 
 namespace vdbcage {
 
@@ -85,6 +86,33 @@ private:
     int descriptor_;
 };
 
+/// All of a model file. \throw IoError
+std::string readFile(const std::filesystem::path& path)
+{
+    const std::string name = path.string();
+    std::error_code error;
+    const std::filesystem::file_status status = std::filesystem::status(path, error);
+    if (std::filesystem::is_directory(status)) throw IoError(name + ": is a directory; a file is needed");
+    formatOf(path);
+    // Pipes and devices have no size and may never end.
+    if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
+        throw IoError(name + ": is not a regular file");
+    }
+    std::string bytes = File(path).readAll();
+    if (bytes.empty()) throw IoError(name + ": the file is empty");
+    return bytes;
+}
+
+void requireFinitePoints(const std::vector<openvdb::Vec3d>& points, const std::string& name)
+{
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const openvdb::Vec3d& p = points[i];
+        if (!std::isfinite(p.x()) || !std::isfinite(p.y()) || !std::isfinite(p.z())) {
+            throw InputError(name + ": point " + std::to_string(i) + " is not finite");
+        }
+    }
+}
+
 } // namespace
 
 void requireMeshExtension(const std::filesystem::path& path)
@@ -94,21 +122,11 @@ void requireMeshExtension(const std::filesystem::path& path)
 
 Mesh readMesh(const std::filesystem::path& path, ReadSummary* summary)
 {
-    const std::string name = path.string();
-    std::error_code error;
-    const std::filesystem::file_status status = std::filesystem::status(path, error);
-    if (std::filesystem::is_directory(status)) throw IoError(name + ": is a directory; a file is needed");
-    const Format& format = formatOf(path);
-    // Pipes and devices have no size and may never end.
-    if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
-        throw IoError(name + ": is not a regular file");
-    }
     try {
-        const std::string bytes = File(path).readAll();
-        if (bytes.empty()) throw IoError(name + ": the file is empty");
-        return format.parse(bytes, name, summary);
+        const std::string bytes = readFile(path);
+        return formatOf(path).parse(bytes, path.string(), summary);
     } catch (const std::bad_alloc&) {
-        throw IoError(name + ": there is not enough memory to read it");
+        throw IoError(path.string() + ": there is not enough memory to read it");
     }
 }
 
@@ -117,13 +135,28 @@ void writeMesh(const Mesh& mesh, const std::filesystem::path& path)
     const std::string name = path.string();
     const Format& format = formatOf(path);
     requireUsable(mesh, name.c_str());
-    for (std::size_t i = 0; i < mesh.points.size(); ++i) {
-        const openvdb::Vec3d& p = mesh.points[i];
-        if (!std::isfinite(p.x()) || !std::isfinite(p.y()) || !std::isfinite(p.z())) {
-            throw InputError(name + ": point " + std::to_string(i) + " is not finite");
-        }
-    }
+    requireFinitePoints(mesh.points, name);
     writeFileAtomically(path, [&](std::ostream& out) { format.write(mesh, name, out); });
+}
+
+void writeMoved(const std::filesystem::path& original, const std::vector<openvdb::Vec3d>& points,
+                const std::filesystem::path& path)
+{
+    const std::string name = path.string();
+    const bool isObj = formatOf(original).parse == detail::parseObj && formatOf(path).parse == detail::parseObj;
+    requireFinitePoints(points, name);
+    Mesh mesh = readMesh(original);
+    if (mesh.points.size() != points.size()) {
+        throw InputError(name + ": " + std::to_string(points.size()) + " positions were given; " + original.string() +
+                         " has " + std::to_string(mesh.points.size()) + " points");
+    }
+    if (isObj) {
+        const std::string text = detail::movedObj(readFile(original), original.string(), points);
+        writeFileAtomically(path, [&](std::ostream& out) { out << text; });
+    } else {
+        mesh.points = points;
+        writeMesh(mesh, path);
+    }
 }
 
 } // namespace vdbcage

@@ -42,4 +42,12 @@ VDBCAGE_API Mesh readMesh(const std::filesystem::path& path, ReadSummary* summar
 /// \throw InputError if the mesh is not usable (see requireUsable) or any of its points is not finite
 VDBCAGE_API void writeMesh(const Mesh& mesh, const std::filesystem::path& path);
 
+/// Writes the model file `original` to `path` with its points at `points`, in the order of readMesh. From OBJ to OBJ
+/// all else stays byte by byte: polygons of any size, texture coordinates, groups, materials, comments, what stands
+/// behind the coordinates of a point; but for normals, which are turned as the faces around them turn. Other formats
+/// get what readMesh finds in `original`: points and faces. The file appears whole or not at all. \throw InputError if
+/// `points` are not as many as the model's, or not finite; IoError as readMesh and writeMesh
+VDBCAGE_API void writeMoved(const std::filesystem::path& original, const std::vector<openvdb::Vec3d>& points,
+                            const std::filesystem::path& path);
+
 } // namespace vdbcage

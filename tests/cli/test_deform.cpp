@@ -1,0 +1,173 @@
+#include <boost/test/unit_test.hpp>
+
+#include <algorithm>
+
+#include <support/read_png.h>
+#include <support/run_command.h>
+#include <support/shapes.h>
+#include <vdbcage/deform/binding.h>
+#include <vdbcage/mesh/mesh_io.h>
+
+using namespace vdbcage;
+using openvdb::Vec3d;
+using test::runCommand;
+using test::TemporaryFolder;
+
+namespace {
+
+const std::string command = VDBCAGE_COMMAND;
+
+/// A folder with a cage, its poses as frames 8 to 11, and a model within that has all that an OBJ can have.
+struct Scene {
+    Scene()
+    {
+        cage = test::sphere({}, 2, 5);
+        writeMesh(cage, folder / "cage.obj");
+        for (int frame = 8; frame <= 11; ++frame) {
+            Mesh posed = cage;
+            for (Vec3d& p : posed.points) p.x() *= 1 + 0.1 * (frame - 8);
+            char name[32];
+            std::snprintf(name, sizeof name, "posed.%04d.obj", frame);
+            writeMesh(posed, folder / name);
+        }
+        test::writeText(folder / "model.obj", "mtllib a.mtl\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv -1 0 0\nvt 0 0\nvn 0 0 1\n"
+                                              "g part\nusemtl red\nf 1/1/1 2/1/1 3/1/1\nf 1//1 3//1 4//1\n");
+        model = readMesh(folder / "model.obj");
+    }
+    std::string at(const std::string& name) const { return folder / name; }
+
+    TemporaryFolder folder;
+    Mesh cage, model;
+};
+
+double difference(const std::vector<Vec3d>& a, const std::vector<Vec3d>& b)
+{
+    BOOST_REQUIRE(a.size() == b.size());
+    double most = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) most = std::max(most, (a[i] - b[i]).length());
+    return most;
+}
+
+void expectRefusal(const Scene& scene, std::vector<std::string> words, const std::string& mention)
+{
+    words.insert(words.begin(), command);
+    const std::size_t before = scene.folder.entries();
+    const auto result = runCommand(words);
+    BOOST_TEST(result.status == 1);
+    BOOST_TEST(std::count(result.err.begin(), result.err.end(), '\n') == 1, result.err);
+    BOOST_TEST(result.err.find(mention) != std::string::npos, result.err + " lacks " + mention);
+    BOOST_TEST(scene.folder.entries() == before);
+}
+
+} // namespace
+
+BOOST_AUTO_TEST_SUITE(deform)
+
+BOOST_AUTO_TEST_CASE(bind_and_deform)
+{
+    const Scene scene;
+    const std::string cage = scene.at("cage.obj"), model = scene.at("model.obj"), posed = scene.at("posed.0010.obj");
+    for (const char* family : {"mvc", "qmvc", "green", "qgc", "mlc"}) {
+        const std::string weights = scene.at("w.npy");
+        const auto bound = runCommand({command, "bind", cage, model, "-o", weights, "--coordinates", family});
+        BOOST_TEST(bound.status == 0, bound.err);
+        BOOST_TEST(bound.err.find("4 points") != std::string::npos, bound.err);
+        const auto stored =
+            runCommand({command, "deform", cage, posed, model, "-o", scene.at("a.obj"), "--weights", weights});
+        BOOST_TEST(stored.status == 0, stored.err);
+        const auto fresh =
+            runCommand({command, "deform", cage, posed, model, "-o", scene.at("b.obj"), "--coordinates", family, "-q"});
+        BOOST_TEST(fresh.status == 0);
+        BOOST_TEST(fresh.err.empty(), fresh.err);
+        const std::string text = test::readText(scene.at("a.obj"));
+        BOOST_TEST(text == test::readText(scene.at("b.obj")));
+        for (const char* kept : {"mtllib a.mtl\n", "usemtl red\nf 1/1/1 2/1/1 3/1/1\nf 1//1 3//1 4//1\n", "g part\n"}) {
+            BOOST_TEST(text.find(kept) != std::string::npos, text);
+        }
+        const Binding binding(scene.cage, scene.model.points, coordinatesNamed(family));
+        BOOST_TEST(difference(readMesh(scene.at("a.obj")).points, binding.pose(readMesh(posed).points)) == 0);
+    }
+    // The rest pose gives back the model, byte by byte but for the normals.
+    BOOST_TEST(runCommand({command, "deform", cage, cage, model, "-o", scene.at("rest.obj")}).status == 0);
+    BOOST_TEST((readMesh(scene.at("rest.obj")).points == scene.model.points));
+}
+
+BOOST_AUTO_TEST_CASE(sequences)
+{
+    const Scene scene;
+    test::writeText(scene.at("posed.12.obj"), "not of the pattern");
+    const auto result = runCommand({command, "deform", scene.at("cage.obj"), scene.at("posed.%04d.obj"),
+                                    scene.at("model.obj"), "-o", scene.at("out.%d.ply")});
+    BOOST_TEST(result.status == 0, result.err);
+    BOOST_TEST(result.err.find("4 poses") != std::string::npos, result.err);
+    for (int frame = 8; frame <= 11; ++frame) {
+        std::vector<Vec3d> expected = scene.model.points;
+        for (Vec3d& p : expected) p.x() *= 1 + 0.1 * (frame - 8);
+        BOOST_TEST(difference(readMesh(scene.at("out." + std::to_string(frame) + ".ply")).points, expected) < 1e-6);
+    }
+    BOOST_TEST(!std::filesystem::exists(scene.at("out.12.ply")));
+    // One bad frame and none is written.
+    writeMesh(test::box(Vec3d(-1), Vec3d(1)), scene.at("posed.0010.obj"));
+    expectRefusal(scene,
+                  {"deform", scene.at("cage.obj"), scene.at("posed.%04d.obj"), scene.at("model.obj"), "-o",
+                   scene.at("next.%d.ply")},
+                  "posed.0010.obj: has 8 points, 0 triangles and 6 quads; the cage");
+}
+
+BOOST_AUTO_TEST_CASE(wrong_pairs)
+{
+    const Scene scene;
+    const std::string cage = scene.at("cage.obj"), model = scene.at("model.obj"), posed = scene.at("posed.0009.obj"),
+                      weights = scene.at("w.npy"), out = scene.at("out.obj");
+    BOOST_TEST(runCommand({command, "bind", cage, model, "-o", weights, "-q"}).status == 0);
+    expectRefusal(scene, {"deform", posed, cage, model, "-o", out, "--weights", weights}, "made for another cage");
+    expectRefusal(scene, {"deform", cage, posed, cage, "-o", out, "--weights", weights}, "made for another model");
+    expectRefusal(scene, {"deform", cage, posed, model, "-o", out, "--weights", weights, "--coordinates", "green"},
+                  "has mvc coordinates; --coordinates asks for green");
+    expectRefusal(scene, {"deform", cage, posed, model, "-o", out, "--weights", model}, "not a weights file");
+    expectRefusal(scene, {"deform", cage, model, model, "-o", out}, "model.obj: has 4 points");
+    expectRefusal(scene, {"deform", cage, posed, model, "-o", model}, "would be overwritten");
+    expectRefusal(scene, {"deform", cage, posed, model, "-o", scene.at("out.%d.obj")}, "must have a frame number");
+    expectRefusal(scene, {"deform", cage, scene.at("no.%d.obj"), model, "-o", scene.at("out.%d.obj")},
+                  "no file of this");
+    expectRefusal(scene, {"deform", cage, posed, model, "-o", out, "--coordinates", "best"},
+                  "there are mvc, green, mlc");
+    expectRefusal(scene, {"bind", cage, model, "-o", scene.at("w.txt")}, ".npy");
+    expectRefusal(scene, {"bind", model, model, "-o", scene.at("v.npy")}, "model.obj: it is not closed");
+    writeMesh(test::box(Vec3d(1), Vec3d(3)), scene.at("outside.obj"));
+    for (const char* family : {"green", "mlc"}) {
+        expectRefusal(scene, {"bind", cage, scene.at("outside.obj"), "-o", scene.at("v.npy"), "--coordinates", family},
+                      "outside.obj: point ");
+    }
+}
+
+BOOST_AUTO_TEST_CASE(influence_pictures)
+{
+    const Scene scene;
+    writeMesh(test::sphere({}, 1.9, 8), scene.at("ball.obj"));
+    const std::string picture = scene.at("picture.png");
+    const auto draw = [&](const std::string& vertex) {
+        const auto result =
+            runCommand({command, "render", scene.at("ball.obj"), scene.at("cage.obj"), "-o", picture, "--size",
+                        "200x200", "--influence", vertex, "--azimuth", "0", "--elevation", "0"});
+        BOOST_TEST(result.status == 0, result.err);
+        const Picture read = test::readPng(picture);
+        int redness = -255; // of the reddest pixel near the middle
+        for (std::size_t y = 80; y < 120; ++y) {
+            for (std::size_t x = 80; x < 120; ++x) {
+                const std::uint8_t* pixel = &read.rgb[3 * (y * 200 + x)];
+                redness = std::max(redness, int(pixel[0]) - int(pixel[2]));
+            }
+        }
+        return redness;
+    };
+    // The cage's first point is at +z, in front of the middle, its last behind it.
+    BOOST_TEST(draw("0") > 50);
+    BOOST_TEST(draw(std::to_string(scene.cage.points.size() - 1)) < 20);
+    std::filesystem::remove(picture);
+    expectRefusal(scene, {"render", scene.at("ball.obj"), scene.at("cage.obj"), "-o", picture, "--influence", "9999"},
+                  "9999 is not a vertex of the cage; 0 to 41 are");
+    expectRefusal(scene, {"render", scene.at("ball.obj"), "-o", picture, "--influence", "0"}, "a model and its cage");
+}
+
+BOOST_AUTO_TEST_SUITE_END()

@@ -1,0 +1,150 @@
+#include <iostream>
+#include <optional>
+
+#include <vdbcage/core/atomic_file.h>
+#include <vdbcage/core/error.h>
+#include <vdbcage/deform/weights_io.h>
+#include <vdbcage/mesh/mesh_io.h>
+
+#include "commands.h"
+#include "frames.h"
+#include "interrupt.h"
+#include "outputs.h"
+
+namespace vdbcage::tool {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* familyHelp = "mvc (qmvc), green (qgc) or mlc [mvc]";
+
+/// An objection to the points or the cage names its file.
+Binding bindFiles(const fs::path& cagePath, const Mesh& cage, const fs::path& modelPath, const Mesh& model,
+                  const std::string& family, Interrupter* interrupter)
+{
+    try {
+        return Binding(cage, model.points, coordinatesNamed(family), interrupter);
+    } catch (const InputError& error) {
+        const std::string text = error.what();
+        for (const auto& [prefix, path] : {std::pair{std::string("cage: "), cagePath}, {"points: ", modelPath}}) {
+            if (text.compare(0, prefix.size(), prefix) == 0) {
+                throw InputError(path.string() + ": " + text.substr(prefix.size()));
+            }
+        }
+        throw;
+    }
+}
+
+/// \throw InputError unless the posed cage has the faces of the cage at rest
+void requireSameFaces(const fs::path& posedPath, const Mesh& posed, const fs::path& cagePath, const Mesh& cage)
+{
+    // Readers split quads that are concave, which a pose may make of any: only the sum tells.
+    const auto triangles = [](const Mesh& mesh) { return mesh.triangles.size() + 2 * mesh.quads.size(); };
+    const auto counts = [](const Mesh& mesh) {
+        return std::to_string(mesh.points.size()) + " points, " + std::to_string(mesh.triangles.size()) +
+               " triangles and " + std::to_string(mesh.quads.size()) + " quads";
+    };
+    if (posed.points.size() != cage.points.size() || triangles(posed) != triangles(cage)) {
+        throw InputError(posedPath.string() + ": has " + counts(posed) + "; the cage " + cagePath.string() + " has " +
+                         counts(cage));
+    }
+}
+
+} // namespace
+
+int runBind(std::vector<std::string> words)
+{
+    fs::path cagePath, modelPath, output;
+    std::string family = "mvc";
+    bool quiet = false;
+    CLI::App app("vdbcage bind CAGE MODEL -o WEIGHTS.npy [OPTIONS]\n"
+                 "Computes the weights by which the cage moves the model's points.\n"
+                 "For vdbcage deform --weights, and for NumPy:\n"
+                 "numpy.load(\"WEIGHTS.npy\")[\"weights\"] is float32, points x handles.",
+                 "bind");
+    app.add_option("cage", cagePath)->required()->type_name("CAGE");
+    app.add_option("model", modelPath)->required()->type_name("MODEL");
+    app.add_option("-o,--output", output, "the weights to write")->required()->type_name("WEIGHTS.npy");
+    app.add_option("--coordinates", family, familyHelp)->type_name("FAMILY");
+    app.add_flag("-q,--quiet", quiet, "print nothing but errors");
+    if (!parse(app, std::move(words))) return exitGood;
+    coordinatesNamed(family);
+    if (output.extension() != ".npy") {
+        throw InputError(output.string() + ": weights are written as .npy; the name must end so");
+    }
+    requireWritable(output);
+
+    std::optional<Progress> progress(quiet);
+    const Mesh cage = readMesh(cagePath), model = readMesh(modelPath);
+    const Binding binding = bindFiles(cagePath, cage, modelPath, model, family, &*progress);
+    writeWeights(binding, output);
+    progress.reset();
+    if (!quiet) {
+        std::cerr << output.string() << ": " << binding.points().size() << " points, " << binding.handles()
+                  << " handles, " << coordinatesName(binding.family()) << '\n';
+    }
+    return exitGood;
+}
+
+int runDeform(std::vector<std::string> words)
+{
+    fs::path cagePath, posedPath, modelPath, output, weights;
+    std::string family = "mvc";
+    bool quiet = false;
+    CLI::App app("vdbcage deform CAGE POSED_CAGE MODEL -o OUT [OPTIONS]\n"
+                 "Moves the model as its cage moved. A sequence has the frame's number in the\n"
+                 "names of POSED_CAGE and OUT: cage.%04d.obj. From OBJ to OBJ all stays as it\n"
+                 "was but positions and normals.",
+                 "deform");
+    app.add_option("cage", cagePath)->required()->type_name("CAGE");
+    app.add_option("posed", posedPath)->required()->type_name("POSED_CAGE");
+    app.add_option("model", modelPath)->required()->type_name("MODEL");
+    app.add_option("-o,--output", output, "the posed model to write")->required()->type_name("OUT");
+    CLI::Option* familyOption = app.add_option("--coordinates", family, familyHelp)->type_name("FAMILY");
+    app.add_option("--weights", weights, "of vdbcage bind, else they are computed")->type_name("WEIGHTS.npy");
+    app.add_flag("-q,--quiet", quiet, "print nothing but errors");
+    if (!parse(app, std::move(words))) return exitGood;
+    coordinatesNamed(family);
+    requireMeshExtension(output);
+    if (isPattern(posedPath) != isPattern(output)) {
+        throw InputError("POSED_CAGE and OUT: both or none must have a frame number, as in cage.%04d.obj");
+    }
+    const std::vector<Frame> frames = findFrames(posedPath);
+    for (const Frame& frame : frames) {
+        const fs::path out = framePath(output, frame.number);
+        requireWritable(out);
+        for (const fs::path& input : {cagePath, frame.path, modelPath, weights}) {
+            std::error_code error;
+            if (fs::equivalent(out, input, error)) {
+                throw InputError(out.string() + ": is one of the inputs; it would be overwritten");
+            }
+        }
+    }
+
+    std::optional<Progress> progress(quiet);
+    const Mesh cage = readMesh(cagePath), model = readMesh(modelPath);
+    const Binding binding = weights.empty() ? bindFiles(cagePath, cage, modelPath, model, family, &*progress)
+                                            : readWeights(weights, cage, model.points);
+    if (!weights.empty() && familyOption->count() > 0 && binding.family() != coordinatesNamed(family)) {
+        throw InputError(weights.string() + ": has " + coordinatesName(binding.family()) +
+                         " coordinates; --coordinates asks for " + family);
+    }
+    Outputs outputs;
+    for (const Frame& frame : frames) {
+        throwIfInterrupted(&*progress);
+        const Mesh posed = readMesh(frame.path);
+        requireSameFaces(frame.path, posed, cagePath, cage);
+        outputs.add(framePath(output, frame.number),
+                    [&](const fs::path& path) { writeMoved(modelPath, binding.pose(posed.points), path); });
+    }
+    outputs.commit();
+    progress.reset();
+    if (!quiet) {
+        std::cerr << output.string() << ": " << frames.size() << (frames.size() == 1 ? " pose" : " poses") << " of "
+                  << model.points.size() << " points\n";
+    }
+    return exitGood;
+}
+
+} // namespace vdbcage::tool
