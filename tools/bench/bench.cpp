@@ -1,6 +1,8 @@
 #include "bench.h"
 
 #include <algorithm>
+#include <chrono>
+#include <ctime>
 
 #include <spawn.h>
 #include <sys/resource.h>
@@ -49,6 +51,20 @@ Json usage()
     ::getrusage(RUSAGE_SELF, &used);
     return {{"cpu_seconds", seconds(used.ru_utime) + seconds(used.ru_stime)},
             {"memory_peak_mib", static_cast<double>(used.ru_maxrss) / 1024}};
+}
+
+Cost costSoFar()
+{
+    timespec cpu{};
+    ::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &cpu);
+    const auto wall = std::chrono::steady_clock::now().time_since_epoch();
+    return {std::chrono::duration<double>(wall).count(),
+            static_cast<double>(cpu.tv_sec) + 1e-9 * static_cast<double>(cpu.tv_nsec)};
+}
+
+Json toJson(const Cost& cost)
+{
+    return {{"wall_seconds", cost.wallSeconds}, {"cpu_seconds", cost.cpuSeconds}};
 }
 
 Json toJson(const std::vector<StageTime>& stages)

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -29,6 +30,41 @@ void requirePositive(const char* option, int count);
 
 /// What this process has used so far: "cpu_seconds" and "memory_peak_mib".
 Json usage();
+
+/// What work has cost, in seconds: of the clock, and of all of the process's threads.
+struct Cost {
+    double wallSeconds = 0, cpuSeconds = 0;
+};
+
+/// What the process has cost since some fixed moment; only differences mean anything.
+Cost costSoFar();
+
+template <class Work>
+Cost costOf(const Work& work)
+{
+    const Cost before = costSoFar();
+    work();
+    const Cost after = costSoFar();
+    return {after.wallSeconds - before.wallSeconds, after.cpuSeconds - before.cpuSeconds};
+}
+
+/// The least of each: times are only ever longer for what others do on the machine.
+inline Cost leastOf(const Cost& a, const Cost& b)
+{
+    return {std::min(a.wallSeconds, b.wallSeconds), std::min(a.cpuSeconds, b.cpuSeconds)};
+}
+
+/// The least of several runs of `work`.
+template <class Work>
+Cost leastCost(int runs, const Work& work)
+{
+    Cost least = costOf(work);
+    for (int i = 1; i < runs; ++i) least = leastOf(least, costOf(work));
+    return least;
+}
+
+/// "wall_seconds" and "cpu_seconds".
+Json toJson(const Cost& cost);
 
 /// The stages by name: "stage_seconds" of wall clock, "stage_cpu_seconds" of all threads.
 Json toJson(const std::vector<StageTime>& stages);

@@ -23,32 +23,6 @@ namespace {
 using openvdb::MaskGrid;
 using openvdb::MaskTree;
 
-struct Cost {
-    double cpuSeconds = 0, wallSeconds = 0;
-};
-
-/// The least of several runs of `work`: times are only ever longer for what others do on the machine.
-template <class Work>
-Cost cost(int runs, const Work& work)
-{
-    Cost least;
-    for (int i = 0; i < runs; ++i) {
-        const auto began = std::chrono::steady_clock::now();
-        const std::clock_t cpuBegan = std::clock();
-        work();
-        const double cpu = static_cast<double>(std::clock() - cpuBegan) / CLOCKS_PER_SEC;
-        const double wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
-        least.cpuSeconds = i == 0 ? cpu : std::min(least.cpuSeconds, cpu);
-        least.wallSeconds = i == 0 ? wall : std::min(least.wallSeconds, wall);
-    }
-    return least;
-}
-
-Json toJson(const Cost& cost)
-{
-    return {{"cpu_seconds", cost.cpuSeconds}, {"wall_seconds", cost.wallSeconds}};
-}
-
 /// A line of /proc/self/status in MiB, as VmHWM.
 double processMemory(const std::string& name)
 {
@@ -141,9 +115,9 @@ Json measure(const std::string& model, int resolution, int radius, const CageOpt
               {"threads", tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism)},
               {"solid_voxels", solid->activeVoxelCount()},
               {"closed_voxels", closed->activeVoxelCount()},
-              {"dilation", toJson(cost(runs, [&] { dilate(*solid, r, element); }))},
-              {"erosion", toJson(cost(runs, [&] { erode(*dilated, r, element); }))}};
-    const Cost ours = cost(runs, [&] { closeMask(*solid, {r, r, element}); });
+              {"dilation", toJson(leastCost(runs, [&] { dilate(*solid, r, element); }))},
+              {"erosion", toJson(leastCost(runs, [&] { erode(*dilated, r, element); }))}};
+    const Cost ours = leastCost(runs, [&] { closeMask(*solid, {r, r, element}); });
     line["closing"] = toJson(ours);
     line["closing"]["memory_peak_mib"] = memory;
     line["closing"]["memory_peak_beyond_trees_mib"] = memory - mebibytes(dilated->tree()) - mebibytes(closed->tree());
@@ -152,7 +126,7 @@ Json measure(const std::string& model, int resolution, int radius, const CageOpt
         const auto close = [&](Interrupter* watcher) {
             return closeMask(*solid, {r, r, element}, shape.scale, watcher);
         };
-        line["scaled"] = toJson(cost(runs, [&] { close(nullptr); }));
+        line["scaled"] = toJson(leastCost(runs, [&] { close(nullptr); }));
         line["scaled"]["interrupter"] = largestGap(runs, [&](GapClock& clock) { return close(&clock); });
     }
     if (!compare) return line;
@@ -160,7 +134,7 @@ Json measure(const std::string& model, int resolution, int radius, const CageOpt
     MaskTree::Ptr other;
     Cost theirs;
     const double theirMemory = memoryPeak([&] {
-        theirs = cost(1, [&] {
+        theirs = leastCost(1, [&] {
             other = element == Element::sphere ? closeByDenseDistances(solid->tree(), radius)
                                                : closeByRepetition(solid->tree(), radius);
         });

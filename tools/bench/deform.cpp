@@ -1,6 +1,5 @@
 // vdbcage-bench deform: what binding points to cages and posing them costs, per family of coordinates.
 
-#include <algorithm>
 #include <cmath>
 #include <iostream>
 
@@ -17,37 +16,6 @@ namespace vdbcage::bench {
 namespace {
 
 using openvdb::Vec3d;
-
-struct Seconds {
-    double wall = 0, cpu = 0;
-};
-
-template <class Work>
-Seconds timed(const Work& work)
-{
-    const auto began = std::chrono::steady_clock::now();
-    const std::clock_t cpuBegan = std::clock();
-    work();
-    return {std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count(),
-            static_cast<double>(std::clock() - cpuBegan) / CLOCKS_PER_SEC};
-}
-
-/// The least of several runs.
-template <class Work>
-Seconds least(int runs, const Work& work)
-{
-    Seconds best = timed(work);
-    for (int i = 1; i < runs; ++i) {
-        const Seconds next = timed(work);
-        best = {std::min(best.wall, next.wall), std::min(best.cpu, next.cpu)};
-    }
-    return best;
-}
-
-Json toJson(const Seconds& seconds)
-{
-    return {{"wall_seconds", seconds.wall}, {"cpu_seconds", seconds.cpu}};
-}
 
 /// `count` points of the model's faces, as many of each face, evenly over it.
 std::vector<Vec3d> pointsOn(const Mesh& model, std::size_t count)
@@ -70,13 +38,13 @@ std::vector<Vec3d> pointsOn(const Mesh& model, std::size_t count)
 void measure(const std::string& name, const Mesh& cage, const std::vector<Vec3d>& points, Coordinates family, int runs)
 {
     Binding binding(cage, {}, family);
-    const Seconds bind = timed([&] { binding = Binding(cage, points, family); });
+    const Cost bind = costOf([&] { binding = Binding(cage, points, family); });
     std::vector<Vec3d> posed = cage.points, oneMoved = cage.points, result;
     for (std::size_t i = 0; i < posed.size(); ++i) posed[i] *= 1 + 0.1 * static_cast<double>(i % 3);
     oneMoved[0] *= 1.1;
-    const Seconds pose = least(runs, [&] { result = binding.pose(posed); });
+    const Cost pose = leastCost(runs, [&] { result = binding.pose(posed); });
     result = points;
-    const Seconds update = least(runs, [&] { binding.update(result, cage.points, oneMoved); });
+    const Cost update = leastCost(runs, [&] { binding.update(result, cage.points, oneMoved); });
     std::cout << Json{{"model", name},
                       {"cage_triangles", cage.triangles.size()},
                       {"cage_quads", cage.quads.size()},

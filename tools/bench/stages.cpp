@@ -18,13 +18,13 @@ void measure(const std::string& model, int threads, const CageOptions& options)
 {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
     StageClock clock;
-    const auto began = std::chrono::steady_clock::now();
+    const double began = costSoFar().wallSeconds;
     std::optional<Stage> reading(std::in_place, &clock, "read");
     Mesh mesh = readMesh(model);
     reading.reset();
     Pipeline pipeline(std::move(mesh));
     pipeline.run(options, &clock);
-    const double wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+    const double wall = costSoFar().wallSeconds - began;
     const CageReport& report = pipeline.report();
     Json line{{"model", model},
               {"faces", faceCount(pipeline.model())},

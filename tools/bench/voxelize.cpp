@@ -25,20 +25,15 @@ using detail::BitGrid;
 using detail::Frame;
 using detail::GlVoxelizer;
 
-double now()
-{
-    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
-
 /// The context and shaders that are used again and again, and what it took to make them.
 class Device {
 public:
-    Device() : began_(now()), current_(context_.makeCurrent()), contextMade_(now())
+    Device() : began_(costSoFar().wallSeconds), current_(context_.makeCurrent()), contextMade_(costSoFar().wallSeconds)
     {
         compute_ = std::make_unique<GlVoxelizer>(context_.api(), GlVoxelizer::Path::compute);
-        computeMade_ = now();
+        computeMade_ = costSoFar().wallSeconds;
         raster_ = std::make_unique<GlVoxelizer>(context_.api(), GlVoxelizer::Path::raster);
-        rasterMade_ = now();
+        rasterMade_ = costSoFar().wallSeconds;
     }
     const GlVoxelizer& voxelizer(const std::string& name) const { return name == "gl-raster" ? *raster_ : *compute_; }
     Json description() const
@@ -89,17 +84,6 @@ std::size_t countDifferent(const BitGrid& a, const BitGrid& b)
 
 /// One way to voxelize on one model at one resolution, into a VDB grid.
 using Run = std::function<void()>;
-
-struct Cost {
-    double wall = 1e300, cpu = 1e300; ///< seconds, the least of several runs
-    void measure(const Run& run)
-    {
-        const double wallBefore = now(), cpuBefore = usage()["cpu_seconds"];
-        run();
-        wall = std::min(wall, now() - wallBefore);
-        cpu = std::min(cpu, usage()["cpu_seconds"].get<double>() - cpuBefore);
-    }
-};
 
 } // namespace
 
@@ -161,16 +145,18 @@ int runVoxelize(int argc, char** argv)
             }
             std::map<std::string, Cost> costs;
             for (int k = 0; k < repeat; ++k) {
-                for (const auto& run : runs) costs[run.first].measure(run.second);
+                for (const auto& run : runs) {
+                    const Cost cost = costOf(run.second);
+                    costs[run.first] = k == 0 ? cost : leastOf(costs[run.first], cost);
+                }
             }
             Json line{{"model", path}, {"faces", faceCount(model)}, {"resolution", resolution}, {"threads", threads}};
             for (const auto& entry : costs) {
                 const Cost& cost = entry.second;
                 Json& result = line[entry.first];
-                result = {{"wall_seconds", cost.wall},
-                          {"cpu_seconds", cost.cpu},
-                          {"wall_ratio", cost.wall / costs["cpu"].wall},
-                          {"cpu_ratio", cost.cpu / costs["cpu"].cpu}};
+                result = toJson(cost);
+                result["wall_ratio"] = cost.wallSeconds / costs["cpu"].wallSeconds;
+                result["cpu_ratio"] = cost.cpuSeconds / costs["cpu"].cpuSeconds;
                 const auto found = bits.find(entry.first);
                 if (found != bits.end()) result["different_voxels"] = countDifferent(found->second, bits.at("cpu"));
             }

@@ -7,6 +7,7 @@
 #include <new>
 #include <string_view>
 #include <system_error>
+#include <utility>
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -103,6 +104,19 @@ std::string readFile(const std::filesystem::path& path)
     return bytes;
 }
 
+/// \param text may be null; else gets all of the file
+Mesh readMesh(const std::filesystem::path& path, ReadSummary* summary, std::string* text)
+{
+    try {
+        std::string bytes = readFile(path);
+        Mesh mesh = formatOf(path).parse(bytes, path.string(), summary);
+        if (text) *text = std::move(bytes);
+        return mesh;
+    } catch (const std::bad_alloc&) {
+        throw IoError(path.string() + ": there is not enough memory to read it");
+    }
+}
+
 void requireFinitePoints(const std::vector<openvdb::Vec3d>& points, const std::string& name)
 {
     for (std::size_t i = 0; i < points.size(); ++i) {
@@ -122,12 +136,7 @@ void requireMeshExtension(const std::filesystem::path& path)
 
 Mesh readMesh(const std::filesystem::path& path, ReadSummary* summary)
 {
-    try {
-        const std::string bytes = readFile(path);
-        return formatOf(path).parse(bytes, path.string(), summary);
-    } catch (const std::bad_alloc&) {
-        throw IoError(path.string() + ": there is not enough memory to read it");
-    }
+    return readMesh(path, summary, nullptr);
 }
 
 void writeMesh(const Mesh& mesh, const std::filesystem::path& path)
@@ -145,14 +154,15 @@ void writeMoved(const std::filesystem::path& original, const std::vector<openvdb
     const std::string name = path.string();
     const bool isObj = formatOf(original).parse == detail::parseObj && formatOf(path).parse == detail::parseObj;
     requireFinitePoints(points, name);
-    Mesh mesh = readMesh(original);
+    std::string text;
+    Mesh mesh = readMesh(original, nullptr, &text);
     if (mesh.points.size() != points.size()) {
         throw InputError(name + ": " + std::to_string(points.size()) + " positions were given; " + original.string() +
                          " has " + std::to_string(mesh.points.size()) + " points");
     }
     if (isObj) {
-        const std::string text = detail::movedObj(readFile(original), original.string(), points);
-        writeFileAtomically(path, [&](std::ostream& out) { out << text; });
+        const std::string moved = detail::movedObj(text, original.string(), points);
+        writeFileAtomically(path, [&](std::ostream& out) { out << moved; });
     } else {
         mesh.points = points;
         writeMesh(mesh, path);

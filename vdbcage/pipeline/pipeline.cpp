@@ -108,18 +108,14 @@ public:
         if (options.bounding && !best.check.bounding()) {
             throw Error("the cage could not be certified; this is a defect of vdbcage, please report the model");
         }
-        const MeshTopology before = analyzeTopology(extractSurface(*solid_, interrupter), interrupter);
-        const MeshTopology after = analyzeTopology(best.surface, interrupter);
         report_.check = best.check;
         report_.floatSafe = floatSafe_ && options.bounding;
         report_.resolution = best.voxels.resolution;
         report_.closeRadius = best.voxels.closeRadius;
         report_.offsetVoxels = best.offset;
         report_.start = best.start;
-        report_.solidParts = before.components();
-        report_.solidHandles = before.genus();
-        report_.parts = after.components();
-        report_.handles = after.genus();
+        report_.parts = best.topology.components();
+        report_.handles = best.topology.genus();
         report_.repaired = best.repaired;
         best_ = std::move(best);
         cageKey_ = key;
@@ -141,6 +137,7 @@ public:
         double offset = 0;
         CageStart start = CageStart::closing;
         Mesh surface, smoothed, decimated, cage;
+        MeshTopology topology; // of the surface
         CageCheck check;
         bool repaired = false;
     };
@@ -179,6 +176,9 @@ private:
         voxels.voxelizer = options.voxelizer;
         solid_ = voxelize(model_, voxels, interrupter, &report_.voxels);
         report_.solidVoxels = static_cast<std::size_t>(solid_->activeVoxelCount());
+        const MeshTopology topology = analyzeTopology(extractSurface(*solid_, interrupter), interrupter);
+        report_.solidParts = topology.components();
+        report_.solidHandles = topology.genus();
         solidKey_ = key;
     }
 
@@ -250,6 +250,7 @@ private:
         {
             const Stage stage(interrupter, "surface");
             candidate.surface = extractSurface(*closed_, interrupter);
+            candidate.topology = analyzeTopology(candidate.surface, interrupter);
         }
         {
             const Stage stage(interrupter, "smooth");
@@ -259,24 +260,17 @@ private:
         }
         {
             const Stage stage(interrupter, "decimate");
-            candidate.decimated = decimate(candidate.smoothed, target(options), interrupter);
+            DecimateOptions target;
+            target.faces = static_cast<std::size_t>(options.faces);
+            candidate.decimated = decimate(candidate.smoothed, target, interrupter);
         }
         if (floatSafe_) candidate.decimated = roundedToFloat(std::move(candidate.decimated));
-        candidate.cage = candidate.decimated;
-        if (hasRepair() && !certify(candidate.cage, interrupter).valid()) {
+        if (hasRepair() && !certify(candidate.decimated, interrupter).valid()) {
             candidate.decimated = repair(candidate.decimated, nullptr, interrupter);
-            candidate.cage = candidate.decimated;
             candidate.repaired = true;
         }
-        candidate.cage = merged(candidate.cage, options);
+        candidate.cage = merged(candidate.decimated, options);
         return candidate;
-    }
-
-    static DecimateOptions target(const CageOptions& options)
-    {
-        DecimateOptions target;
-        target.faces = static_cast<std::size_t>(options.faces);
-        return target;
     }
 
     /// The first rung of the ladder that leads to few enough faces, or else a cage from a block, or else the box.
@@ -319,7 +313,7 @@ private:
             candidate.voxels.resolution = static_cast<int>(std::lround(scale * voxels.resolution));
             updateClosed(options, candidate.voxels, interrupter);
             start(candidate, *closed_, guard, interrupter);
-            if (fewEnoughHandles(candidate.surface, options, interrupter)) starts.push_back(std::move(candidate));
+            if (fewEnoughHandles(candidate.topology, options)) starts.push_back(std::move(candidate));
             if (!several || starts.empty()) break;
         }
         return starts;
@@ -330,23 +324,22 @@ private:
                       Interrupter* interrupter)
     {
         const Stage stage(interrupter, "surface");
-        candidate.offset = 0;
-        candidate.surface = extractSurface(solid, interrupter);
-        if (guard.isClear(candidate.surface)) return;
-        // A point off the grown solid lies that far, less a voxel's diagonal, from the model.
+        // A point off the grown solid lies that far, less a voxel's diagonal, from the model: the last is clear.
         const double diagonal = std::sqrt(3.0), voxel = solid.voxelSize()[0];
-        candidate.offset = 1;
-        candidate.surface = extractSurface(*dilate(solid, candidate.offset, Element::sphere, interrupter), interrupter);
-        if (guard.isClear(candidate.surface)) return;
-        candidate.offset = std::ceil(guard.clearance() / voxel + diagonal);
-        candidate.surface = extractSurface(*dilate(solid, candidate.offset, Element::sphere, interrupter), interrupter);
+        for (const double offset : {0.0, 1.0, std::ceil(guard.clearance() / voxel + diagonal)}) {
+            candidate.offset = offset;
+            candidate.surface = offset > 0
+                                    ? extractSurface(*dilate(solid, offset, Element::sphere, interrupter), interrupter)
+                                    : extractSurface(solid, interrupter);
+            if (guard.isClear(candidate.surface)) break;
+        }
+        candidate.topology = analyzeTopology(candidate.surface, interrupter);
     }
 
     /// Whether parts and handles leave faces enough for the shape: a part needs about 8, a handle 12.
-    static bool fewEnoughHandles(const Mesh& surface, const CageOptions& options, Interrupter* interrupter)
+    static bool fewEnoughHandles(const MeshTopology& topology, const CageOptions& options)
     {
         constexpr double share = 0.15; // of the faces
-        const MeshTopology topology = analyzeTopology(surface, interrupter);
         const auto parts = static_cast<double>(topology.components());
         if (options.parts == CageParts::merge && parts > 1) return false;
         return 8 * (parts - 1) + 12 * static_cast<double>(topology.genus()) <= share * options.faces;
@@ -427,8 +420,8 @@ private:
         candidate.start = CageStart::box;
         candidate.surface = candidate.smoothed = candidate.decimated = boxMesh(box);
         if (floatSafe_) candidate.decimated = roundedToFloat(std::move(candidate.decimated));
-        candidate.cage = candidate.decimated;
-        candidate.cage = merged(candidate.cage, options);
+        candidate.topology = analyzeTopology(candidate.surface, nullptr);
+        candidate.cage = merged(candidate.decimated, options);
         return candidate;
     }
 

@@ -70,7 +70,7 @@ public:
     openvdb::MaskGrid::ConstPtr closed() const; ///< its closing, cavities filled
     const Mesh& surface() const;                ///< what the cage was made from, quads
     const Mesh& smoothed() const;               ///< bounding off: the surface smoothed; else the surface
-    const Mesh& decimated() const;
+    const Mesh& decimated() const;              ///< triangles: about twice the faces where pairs become quads
     const Mesh& cage() const;
     const CageReport& report() const;
 

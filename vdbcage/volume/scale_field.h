@@ -54,9 +54,10 @@ VDBCAGE_API openvdb::MaskGrid::Ptr dilate(const openvdb::MaskGrid& mask, double 
 /// equal radii, as with one radius everywhere; a field of 1 everywhere is exactly that.
 ///
 /// The field is sampled at every h-th voxel and interpolated between, where h is the largest power of 2 that is
-/// not above a quarter of the close radius, 1 to 8. Costs about three times as much as one radius, and 4 / h^3 bytes
-/// for each voxel of the box where the field is not the same.
-/// \throw InputError (as closeMask; the cube, which has one radius only; a region's scale outside 0 to 8 or its radius
+/// not above a quarter of the close radius, 1 to 8. Where radii vary, some below 3.5 voxels reach as if they were up to
+/// 0.27 less: so that the rule for neighbours holds on the lattice of voxels too. Costs about three times as much as
+/// one radius, and 4 / h^3 bytes for each voxel of the box where the field is not the same. \throw InputError (as
+/// closeMask; the cube, which has one radius only; a region's scale outside 0 to 8 or its radius
 ///        negative; a grid's value not finite; a radius above 512 voxels; a grid whose transform is not linear; a field
 ///        of more than 2^28 samples), Cancelled
 VDBCAGE_API openvdb::MaskGrid::Ptr closeMask(const openvdb::MaskGrid& solid, const CloseOptions& options,

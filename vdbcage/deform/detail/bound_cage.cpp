@@ -20,7 +20,7 @@ struct Weights {
     double distance = std::numeric_limits<double>::infinity();
 };
 
-Vec3d blend(const Corners& corners, const std::array<double, 4>& weights)
+Vec3d blend(const PatchCorners& corners, const std::array<double, 4>& weights)
 {
     Vec3d sum(0);
     for (std::size_t i = 0; i < 4; ++i) sum += weights[i] * corners[i];
@@ -32,14 +32,14 @@ std::array<double, 4> bilinear(double u, double v)
     return {(1 - u) * (1 - v), u * (1 - v), u * v, (1 - u) * v};
 }
 
-void consider(const Corners& corners, const std::array<double, 4>& weights, Weights& best)
+void consider(const PatchCorners& corners, const std::array<double, 4>& weights, Weights& best)
 {
     const double distance = blend(corners, weights).length();
     if (distance < best.distance) best = {weights, distance};
 }
 
 /// The point of an edge that is nearest to the origin.
-void considerEdge(const Corners& corners, std::size_t i, std::size_t j, Weights& best)
+void considerEdge(const PatchCorners& corners, std::size_t i, std::size_t j, Weights& best)
 {
     const Vec3d edge = corners[j] - corners[i];
     const double square = edge.lengthSqr();
@@ -50,7 +50,7 @@ void considerEdge(const Corners& corners, std::size_t i, std::size_t j, Weights&
     consider(corners, weights, best);
 }
 
-void considerInsideTriangle(const Corners& c, Weights& best)
+void considerInsideTriangle(const PatchCorners& c, Weights& best)
 {
     const Vec3d normal = (c[1] - c[0]).cross(c[2] - c[0]);
     const double square = normal.lengthSqr();
@@ -60,7 +60,7 @@ void considerInsideTriangle(const Corners& c, Weights& best)
 }
 
 /// Newton's method from the best of a few places.
-void considerInsidePatch(const Corners& c, Weights& best)
+void considerInsidePatch(const PatchCorners& c, Weights& best)
 {
     double u = 0.5, v = 0.5, least = std::numeric_limits<double>::infinity();
     for (int i = 1; i <= 7; i += 2) {
@@ -91,7 +91,7 @@ void considerInsidePatch(const Corners& c, Weights& best)
     consider(c, bilinear(u, v), best);
 }
 
-Weights nearestToOrigin(const Corners& corners, bool quad)
+Weights nearestToOrigin(const PatchCorners& corners, bool quad)
 {
     Weights best;
     if (quad) {
@@ -143,7 +143,7 @@ BoundCage::BoundCage(const Mesh& cage)
         }
     }
     for (const Face& face : faces_) {
-        const Corners c = cornersFrom(face, Vec3d(0));
+        const PatchCorners c = cornersFrom(face, Vec3d(0));
         volume += 0.5 * (c[0].dot(c[1].cross(c[2])) + c[0].dot(c[2].cross(c[3])) + c[0].dot(c[1].cross(c[3])) +
                          c[1].dot(c[2].cross(c[3])));
     }
@@ -170,7 +170,7 @@ BoundCage::BoundCage(const Mesh& cage)
     }
 }
 
-Corners BoundCage::cornersFrom(const Face& face, const Vec3d& x) const
+PatchCorners BoundCage::cornersFrom(const Face& face, const Vec3d& x) const
 {
     return {points_[face.at[0]] - x, points_[face.at[1]] - x, points_[face.at[2]] - x, points_[face.at[3]] - x};
 }
@@ -186,7 +186,7 @@ BoundCage::Place BoundCage::nearest(const Vec3d& x) const
     Place best;
     best.distance = std::numeric_limits<double>::infinity();
     for (std::size_t face = 0; face < faces_.size(); ++face) {
-        const Corners c = cornersFrom(faces_[face], x);
+        const PatchCorners c = cornersFrom(faces_[face], x);
         const Vec3d middle = 0.25 * (c[0] + c[1] + c[2] + c[3]);
         double reach = 0;
         for (const Vec3d& corner : c) reach = std::max(reach, (corner - middle).lengthSqr());

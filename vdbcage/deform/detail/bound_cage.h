@@ -10,7 +10,7 @@ namespace vdbcage::detail {
 
 /// Corners of a face seen from a point, counter-clockwise from outside. A triangle repeats its last corner: as a
 /// bilinear patch that is the same surface, and its barycentric coordinates are the patch's with the last two added.
-using Corners = std::array<openvdb::Vec3d, 4>;
+using PatchCorners = std::array<openvdb::Vec3d, 4>;
 
 /// A cage as the coordinates need it, moved and scaled into the unit cube around the origin. Points closer to it than
 /// `touching` count as on it.
@@ -37,7 +37,7 @@ public:
 
     openvdb::Vec3d scaled(const openvdb::Vec3d& point) const { return (point - centre_) / size_; }
 
-    Corners cornersFrom(const Face& face, const openvdb::Vec3d& x) const;
+    PatchCorners cornersFrom(const Face& face, const openvdb::Vec3d& x) const;
 
     /// The place nearest to `x`. O(faces).
     Place nearest(const openvdb::Vec3d& x) const;

@@ -26,7 +26,7 @@ struct FacePart {
     std::array<double, 4> positions{}, normals{};
 };
 
-FacePart integrated(const Corners& corners)
+FacePart integrated(const PatchCorners& corners)
 {
     FacePart part;
     // What is left out next to the point counts for the solid angle only, which is completed at the nearest place.
@@ -59,7 +59,7 @@ double edgePotential(const Vec3d& a, const Vec3d& b)
 }
 
 /// The closed form; `onFace`: the origin lies on the triangle, whose solid angle is left out.
-FacePart closedForm(const Corners& c, const Vec3d& areaNormal, bool onFace)
+FacePart closedForm(const PatchCorners& c, const Vec3d& areaNormal, bool onFace)
 {
     const double area = areaNormal.length(); // twice the triangle's
     const Vec3d normal = areaNormal / area;
@@ -90,7 +90,7 @@ FacePart closedForm(const Corners& c, const Vec3d& areaNormal, bool onFace)
     return part;
 }
 
-FacePart facePart(const Corners& corners, bool quad, bool onFace)
+FacePart facePart(const PatchCorners& corners, bool quad, bool onFace)
 {
     if (quad) return integrated(corners);
     const Vec3d a = corners[1] - corners[0], b = corners[2] - corners[0];
@@ -126,7 +126,7 @@ bool greenRow(const BoundCage& cage, const Vec3d& x, double* row)
     double* normals = row + count;
     for (std::size_t i = 0; i < cage.faces().size(); ++i) {
         const BoundCage::Face& face = cage.faces()[i];
-        const Corners c = cage.cornersFrom(face, x);
+        const PatchCorners c = cage.cornersFrom(face, x);
         const bool onFace = touches && !face.quad && cage.nearestOf(i, x).distance <= 2 * BoundCage::touching;
         const FacePart part = facePart(c, face.quad, onFace);
         for (std::size_t k = 0; k < 4; ++k) row[face.at[k]] += part.positions[k];

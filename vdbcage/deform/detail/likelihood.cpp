@@ -92,7 +92,7 @@ bool likelihoodRow(const BoundCage& cage, const Vec3d& x, double* row)
     std::vector<Vec3d> vectors;
     double winding = 0; // along every line through the point the nearest face weighs most: positive if inside
     for (const BoundCage::Face& face : cage.faces()) {
-        const Corners c = cage.cornersFrom(face, x);
+        const PatchCorners c = cage.cornersFrom(face, x);
         std::array<double, 4> w = meanValueWeights(c, face.quad);
         Vec3d vector(0);
         for (std::size_t k = 0; k < 4; ++k) {

@@ -17,7 +17,7 @@ using openvdb::Vec3d;
 
 namespace {
 
-std::array<double, 4> integrated(const Corners& corners)
+std::array<double, 4> integrated(const PatchCorners& corners)
 {
     std::array<double, 4> weights{};
     // Pieces of the least size matter only to points that count as on the cage.
@@ -30,7 +30,7 @@ std::array<double, 4> integrated(const Corners& corners)
 }
 
 /// False if the closed form would cancel.
-bool closedForm(const Corners& c, std::array<double, 4>& weights)
+bool closedForm(const PatchCorners& c, std::array<double, 4>& weights)
 {
     std::array<Vec3d, 3> crosses; // of the edge opposite the corner
     Vec3d mean(0);                // the integral of the direction
@@ -55,7 +55,7 @@ bool closedForm(const Corners& c, std::array<double, 4>& weights)
 
 } // namespace
 
-std::array<double, 4> meanValueWeights(const Corners& corners, bool quad)
+std::array<double, 4> meanValueWeights(const PatchCorners& corners, bool quad)
 {
     std::array<double, 4> weights;
     if (!quad && closedForm(corners, weights)) return weights;

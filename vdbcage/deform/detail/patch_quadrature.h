@@ -30,11 +30,11 @@ struct PatchSample {
 ///
 /// Pieces smaller than `least` (in the units of the corners) are left out.
 template <typename Visit>
-void samplePatch(const Corners& corners, double least, const Visit& visit)
+void samplePatch(const PatchCorners& corners, double least, const Visit& visit)
 {
     using openvdb::Vec3d;
     struct Piece {
-        Corners c;
+        PatchCorners c;
         double u, v, du, dv;
     };
     constexpr double digits = 9 * 2.302585092994046; // of the tolerance
@@ -46,7 +46,7 @@ void samplePatch(const Corners& corners, double least, const Visit& visit)
     stack[top++] = {corners, 0, 0, 1, 1};
     while (top > 0) {
         const Piece piece = stack[--top];
-        const Corners& c = piece.c;
+        const PatchCorners& c = piece.c;
         const Vec3d middle = 0.25 * (c[0] + c[1] + c[2] + c[3]);
         const double away = middle.length();
         double reach = 0, front = away;

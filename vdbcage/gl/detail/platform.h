@@ -50,7 +50,6 @@ public:
 private:
     void* address(const char* symbol) const;
 
-    std::string name_;
     void* handle_;
 };
 

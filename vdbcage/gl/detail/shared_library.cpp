@@ -17,7 +17,7 @@ std::string lastProblem()
 } // namespace
 
 SharedLibrary::SharedLibrary(const char* name)
-    : name_(name), handle_(::dlopen(name, RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE))
+    : handle_(::dlopen(name, RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE))
 {
     if (!handle_) throw DeviceError("OpenGL: " + lastProblem());
 }

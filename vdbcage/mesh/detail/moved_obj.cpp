@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include <vdbcage/mesh/detail/number_text.h>
-#include <vdbcage/mesh/detail/text_cursor.h>
+#include <vdbcage/mesh/detail/obj_syntax.h>
 
 namespace vdbcage::detail {
 
@@ -30,7 +30,7 @@ struct Statements {
 
 Statements read(std::string_view bytes, const std::string& name)
 {
-    TextCursor in(bytes, name, TextSyntax{'#', /*continuesLines=*/true});
+    TextCursor in(bytes, name, objSyntax);
     Statements statements;
     const auto triple = [&](std::vector<Triple>& to) {
         in.atLineEnd(); // skips blanks
@@ -47,20 +47,17 @@ Statements read(std::string_view bytes, const std::string& name)
             triple(statements.points);
         } else if (keyword == "vn") {
             triple(statements.normals);
-        } else if (keyword == "f" || keyword == "fo") {
+        } else if (isObjFace(keyword)) {
             std::vector<Corner> face;
             while (!in.atLineEnd()) {
-                std::int64_t point = 0, unused = 0, normal = 0;
-                if (!in.integerPrefix(point)) break; // not in a file that was read before
-                if (in.skipCharacter('/')) in.integerPrefix(unused);
-                if (in.skipCharacter('/')) in.integerPrefix(normal);
-                face.push_back({resolved(point, statements.points.size()),
-                                normal == 0 ? none : resolved(normal, statements.normals.size())});
+                ObjCorner corner;
+                if (!readObjCorner(in, corner)) break; // not in a file that was read before
+                face.push_back({resolved(corner.point, statements.points.size()),
+                                corner.normal == 0 ? none : resolved(corner.normal, statements.normals.size())});
             }
             statements.faces.push_back(std::move(face));
-        } else if (keyword == "o" || keyword == "g" || keyword == "usemtl" || keyword == "mtllib" ||
-                   keyword == "usemap" || keyword == "maplib") {
-            in.nextLine(); // names, of which the last may be a path that ends with a backslash
+        } else if (isObjNameStatement(keyword)) {
+            in.nextLine();
             continue;
         }
         in.nextStatement();

@@ -6,10 +6,10 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <initializer_list>
 #include <utility>
 #include <vector>
 
+#include <vdbcage/mesh/detail/obj_syntax.h>
 #include <vdbcage/mesh/detail/output_buffer.h>
 #include <vdbcage/mesh/detail/polygon_soup.h>
 #include <vdbcage/mesh/detail/text_cursor.h>
@@ -18,12 +18,10 @@ namespace vdbcage::detail {
 
 namespace {
 
-bool isOneOf(std::string_view word, std::initializer_list<std::string_view> words)
+/// What stands for geometry that is no face.
+bool isOtherElement(std::string_view keyword)
 {
-    for (const std::string_view candidate : words) {
-        if (word == candidate) return true;
-    }
-    return false;
+    return keyword == "p" || keyword == "l" || keyword == "curv" || keyword == "curv2" || keyword == "surf";
 }
 
 /// Words that no program's dialect has: a sign of a file that is no OBJ.
@@ -40,7 +38,7 @@ bool looksLikeKeyword(std::string_view word)
 class ObjParser {
 public:
     ObjParser(std::string_view bytes, const std::string& name)
-        : in_(bytes, name, TextSyntax{'#', /*continuesLines=*/true}), name_(name),
+        : in_(bytes, name, objSyntax), name_(name),
           endsWithinLine_(!bytes.empty() && bytes.back() != '\n' && bytes.back() != '\r')
     {
     }
@@ -68,11 +66,11 @@ private:
         const std::string_view keyword = in_.word();
         if (keyword == "v") {
             point();
-        } else if (keyword == "f" || keyword == "fo") {
+        } else if (isObjFace(keyword)) {
             face(start);
-        } else if (isOneOf(keyword, {"o", "g", "usemtl", "mtllib", "usemap", "maplib"})) {
-            in_.nextLine(); // names, of which the last may be a path that ends with a backslash
-        } else if (isOneOf(keyword, {"p", "l", "curv", "curv2", "surf"})) {
+        } else if (isObjNameStatement(keyword)) {
+            in_.nextLine();
+        } else if (isOtherElement(keyword)) {
             ++soup_.ignoredElements;
             in_.nextStatement();
         } else if (looksLikeKeyword(keyword)) {
@@ -97,10 +95,10 @@ private:
     void face(const char* start)
     {
         face_.clear();
-        unsigned firstForm = 0;
+        int firstForm = 0;
         bool sameForm = true;
         while (!in_.atLineEnd()) {
-            const unsigned form = corner();
+            const int form = corner();
             if (face_.size() == 1) firstForm = form;
             sameForm = sameForm && form == firstForm;
         }
@@ -112,21 +110,15 @@ private:
         in_.nextLine();
     }
 
-    /// v, v/vt, v//vn or v/vt/vn; returns which of the parts are there.
-    unsigned corner()
+    /// Returns the corner's form.
+    int corner()
     {
         const char* where = in_.position();
-        std::int64_t index = 0;
-        std::int64_t unused = 0;
-        const bool hasIndex = in_.integerPrefix(index);
-        unsigned form = 0;
-        for (unsigned part = 1; part <= 2 && hasIndex && in_.skipCharacter('/'); ++part) {
-            form |= part << 2U;
-            if (in_.integerPrefix(unused)) form |= part;
-        }
-        if (!hasIndex || !in_.atWordEnd()) {
+        ObjCorner read;
+        if (!readObjCorner(in_, read) || !in_.atWordEnd()) {
             in_.fail(where, "the corner " + in_.quoted(where) + " is none of v, v/vt, v//vn and v/vt/vn");
         }
+        const std::int64_t index = read.point;
         const std::uint64_t points = soup_.points.size();
         if (index == 0) in_.fail(where, "the corner " + in_.quoted(where) + " has index 0; points count from 1");
         if (index < 0 && std::uint64_t(-(index + 1)) >= points) failOutOfRange(where, points);
@@ -134,7 +126,7 @@ private:
         // Only the highest so far is kept: it is the first to be out of range for some number of points.
         if (at >= points && (ahead_.empty() || at > ahead_.back().index)) ahead_.push_back({at, where});
         face_.push_back(static_cast<openvdb::Index32>(at));
-        return form;
+        return read.form;
     }
 
     /// A file whose last line has no end may be whole or cut off. Points that nothing uses tell: without them a cut-off

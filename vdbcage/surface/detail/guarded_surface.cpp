@@ -5,123 +5,13 @@
 #include <map>
 #include <stdexcept>
 
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-#include <CGAL/intersections.h>
 #include <vdbcage/core/error.h>
+#include <vdbcage/surface/detail/facet.h>
 #include <vdbcage/surface/detail/quad_shape.h>
 
 namespace vdbcage::detail {
 
 namespace {
-
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-
-Kernel::Point_3 exact(const Vec3d& p)
-{
-    return {p[0], p[1], p[2]};
-}
-
-Kernel::Triangle_3 exact(const Corners& t)
-{
-    return {exact(t[0]), exact(t[1]), exact(t[2])};
-}
-
-bool isDegenerate(const Corners& t)
-{
-    return CGAL::collinear(exact(t[0]), exact(t[1]), exact(t[2]));
-}
-
-/// The plane of a triangle, to tell sides without exact arithmetic where that is safe.
-class Plane {
-public:
-    explicit Plane(const Corners& t) : corner_(t[0])
-    {
-        const Vec3d u = t[1] - t[0], v = t[2] - t[0];
-        normal_ = u.cross(v);
-        error2_ = 1e-28 * u.lengthSqr() * v.lengthSqr();
-    }
-    /// -1, 0, 1: on which side p lies; 0 where rounding could decide.
-    int side(const Vec3d& p) const
-    {
-        const Vec3d w = p - corner_;
-        const double volume = normal_.dot(w);
-        if (!(volume * volume > error2_ * w.lengthSqr())) return 0;
-        return volume > 0 ? 1 : -1;
-    }
-
-    /// Twice the area long.
-    const Vec3d& normal() const { return normal_; }
-
-private:
-    Vec3d corner_, normal_;
-    double error2_;
-};
-
-/// A triangle of a surface.
-struct Facet {
-    Vec3I ids;
-    Corners corners;
-    Plane plane;
-
-    Facet(const Vec3I& vertices, const Corners& places) : ids(vertices), corners(places), plane(places) {}
-    const Vec3d& corner(int i) const { return corners[static_cast<std::size_t>(i % 3)]; }
-};
-
-/// The sine of the smallest angle of a triangle.
-double minSine(const Corners& t)
-{
-    const double a = (t[1] - t[2]).lengthSqr(), b = (t[2] - t[0]).lengthSqr(), c = (t[0] - t[1]).lengthSqr();
-    const double twiceArea = (t[1] - t[0]).cross(t[2] - t[0]).length();
-    const double longest = std::max({a, b, c}), shortest = std::min({a, b, c});
-    const double middle = a + b + c - longest - shortest;
-    const double product = std::sqrt(longest * middle);
-    return product > 0 ? twiceArea / product : 0;
-}
-
-/// Whether two triangles of a surface meet in more than the vertices that they share.
-bool meetBeyondShared(const Facet& a, const Facet& b)
-{
-    std::array<int, 3> inA{}, inB{};
-    int shared = 0;
-    for (int i = 0; i < 3; ++i) {
-        for (int j = 0; j < 3; ++j) {
-            if (a.ids[i] != b.ids[j]) continue;
-            inA[static_cast<std::size_t>(shared)] = i;
-            inB[static_cast<std::size_t>(shared)] = j;
-            ++shared;
-        }
-    }
-    if (shared == 0) {
-        // One plane between them settles most pairs.
-        const auto apart = [](const Facet& one, const Facet& other) {
-            const int side = one.plane.side(other.corners[0]);
-            return side != 0 && one.plane.side(other.corners[1]) == side && one.plane.side(other.corners[2]) == side;
-        };
-        return !apart(a, b) && !apart(b, a) && CGAL::do_intersect(exact(a.corners), exact(b.corners));
-    }
-    if (shared == 1) {
-        const auto apart = [](const Facet& one, const Facet& other, int tip) {
-            const int side = one.plane.side(other.corner(tip + 1));
-            return side != 0 && one.plane.side(other.corner(tip + 2)) == side;
-        };
-        const int i = inA[0], j = inB[0];
-        if (apart(a, b, j) || apart(b, a, i)) return false;
-        const Kernel::Segment_3 acrossA(exact(a.corner(i + 1)), exact(a.corner(i + 2)));
-        const Kernel::Segment_3 acrossB(exact(b.corner(j + 1)), exact(b.corner(j + 2)));
-        return CGAL::do_intersect(exact(a.corners), acrossB) || CGAL::do_intersect(exact(b.corners), acrossA);
-    }
-    if (shared == 2) {
-        // Folded onto each other, or not at all.
-        const Vec3d& q = b.corner(3 - inB[0] - inB[1]);
-        if (a.plane.side(q) != 0) return false;
-        const Vec3d &u = a.corner(inA[0]), &v = a.corner(inA[1]), &p = a.corner(3 - inA[0] - inA[1]);
-        return CGAL::coplanar(exact(u), exact(v), exact(p), exact(q)) &&
-               CGAL::coplanar_orientation(exact(u), exact(v), exact(p), exact(q)) == CGAL::POSITIVE;
-    }
-    return true;
-}
-
-using Facets = boost::container::small_vector<Facet, 16>;
 
 /// The weights of t's corners that give p's foot in its plane; zeros for a degenerate t.
 Vec3d barycentric(const Vec3d& p, const Corners& t)
@@ -132,30 +22,6 @@ Vec3d barycentric(const Vec3d& p, const Corners& t)
     if (!(determinant > 0)) return Vec3d(0.0);
     const double b = (wu * vv - wv * uv) / determinant, c = (wv * uu - wu * uv) / determinant;
     return {1 - b - c, b, c};
-}
-
-/// Whether, seen along some direction, the fan lies spread out around its centre without overlap: then no two of its
-/// triangles can meet beyond what they share. No answer but false where rounding could matter.
-bool spreadOut(const Facets& facets)
-{
-    Vec3d direction(0.0);
-    for (const Facet& f : facets) direction += f.plane.normal();
-    const double length = direction.length();
-    if (!(length > 0)) return false;
-    direction /= length;
-    const Vec3d& centre = facets.front().corners[0];
-    const Vec3d axis = std::abs(direction[0]) < 0.6 ? Vec3d(1, 0, 0) : Vec3d(0, 1, 0);
-    Vec3d x = axis.cross(direction);
-    x /= x.length();
-    const Vec3d y = direction.cross(x);
-    int rounds = 0; // times that the rim crosses the positive x axis
-    for (const Facet& f : facets) {
-        const Vec3d a = f.corners[1] - centre, b = f.corners[2] - centre;
-        const double ax = a.dot(x), ay = a.dot(y), bx = b.dot(x), by = b.dot(y), cross = ax * by - ay * bx;
-        if (!(cross > 0 && cross * cross > 1e-24 * a.lengthSqr() * b.lengthSqr())) return false;
-        rounds += ay < 0 && by >= 0; // a turn to the left by less than half a round
-    }
-    return rounds == 1;
 }
 
 /// What a triangle hits first when its corner 0 moves in a straight line.
@@ -280,8 +146,8 @@ GuardedSurface::GuardedSurface(const Mesh& surface, const GuardModel& guard, Qua
         }
     }
     tree_.build(boxes, life_);
-    const auto triangles = static_cast<std::uint32_t>(surface.triangles.size());
     if (quads == Quads::split) return;
+    const auto triangles = static_cast<std::uint32_t>(surface.triangles.size());
     for (std::uint32_t f = triangles; f < liveFaces_; f += 2) makeQuad(f, f + 1);
 }
 
@@ -419,13 +285,13 @@ bool GuardedSurface::wellShaped(const Fan& fan, const Vec3d& p) const
 {
     if (!areConvexQuads(fan, p)) return false;
     double least = 1;
-    for (std::size_t i = 0; i < fan.rim.size(); ++i) least = std::min(least, detail::minSine(fanCorners(fan, i, p)));
+    for (std::size_t i = 0; i < fan.rim.size(); ++i) least = std::min(least, minSine(fanCorners(fan, i, p)));
     if (least >= guard().minSine()) return true;
     double before = 1;
-    for (const std::uint32_t f : fan.oldFaces) before = std::min(before, detail::minSine(corners(f)));
+    for (const std::uint32_t f : fan.oldFaces) before = std::min(before, minSine(corners(f)));
     if (!(least >= before)) return false;
     for (std::size_t i = 0; i < fan.rim.size(); ++i) {
-        if (isDegenerate(fanCorners(fan, i, p))) return false;
+        if (hasNoArea(fanCorners(fan, i, p))) return false;
     }
     return true;
 }
@@ -632,7 +498,7 @@ bool GuardedSurface::makeQuad(std::uint32_t f, std::uint32_t g)
                                       Facet(Vec3I(ids[1], ids[2], ids[3]), {places[1], places[2], places[3]})};
     Box all = Box::of(places[0]);
     for (const Facet& facet : facets) {
-        if (isDegenerate(facet.corners) || detail::minSine(facet.corners) < guard().minSine()) return false;
+        if (hasNoArea(facet.corners) || minSine(facet.corners) < guard().minSine()) return false;
         if (!guard().clear(facet.corners, TriangleTree::none, nullptr)) return false;
         all.expand(Box::of(facet.corners));
     }
