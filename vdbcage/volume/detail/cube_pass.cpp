@@ -38,71 +38,90 @@ Words turned(const Words& words)
     return w;
 }
 
-// A block between two passes. Slots go by number: 0 is empty, 1 full, n the words at n - 2.
+// A block between two passes. Slots go by kind: 0 is empty, 1 full, k the words at k - 2.
 struct FlatBlock {
     Coord origin;
-    std::vector<std::uint16_t> slots = std::vector<std::uint16_t>(slotsPerBlock, 0);
+    std::vector<std::uint16_t> kinds = std::vector<std::uint16_t>(slotsPerBlock, 0);
     std::vector<Words> words;
 
     void set(int n, const Words& bits)
     {
-        auto& slot = slots[static_cast<std::size_t>(n)];
+        auto& kind = kinds[static_cast<std::size_t>(n)];
         if (bits == emptyWords || bits == fullWords) {
-            slot = bits == fullWords ? 1 : 0;
+            kind = bits == fullWords ? 1 : 0;
         } else {
             words.push_back(bits);
-            slot = static_cast<std::uint16_t>(words.size() + 1);
+            kind = static_cast<std::uint16_t>(words.size() + 1);
         }
-    }
-    const std::uint64_t* slot(int n) const
-    {
-        const std::size_t i = slots[static_cast<std::size_t>(n)];
-        return i > 1 ? words[i - 2].data() : i == 1 ? fullWords.data() : emptyWords.data();
     }
     bool isUniform() const
     {
-        return words.empty() && std::adjacent_find(slots.begin(), slots.end(), std::not_equal_to<>()) == slots.end();
+        return words.empty() && std::adjacent_find(kinds.begin(), kinds.end(), std::not_equal_to<>()) == kinds.end();
     }
-    bool isFull() const { return slots[0] == 1 && isUniform(); }
+    bool isFull() const { return kinds[0] == 1 && isUniform(); }
 };
 
-// A block of a tree or between two passes.
-class Slots {
-public:
-    Slots(const Block& block) : block_(block) {}
-    Slots(const FlatBlock& flat)
-    {
-        if (flat.isUniform()) {
-            block_ = Block(flat.isFull());
+FlatBlock flattened(const MaskBlock& node)
+{
+    FlatBlock flat;
+    flat.origin = node.origin();
+    for (auto tile = node.cbeginValueOn(); tile; ++tile) flat.kinds[tile.pos()] = 1;
+    Words words;
+    for (auto leaf = node.cbeginChildOn(); leaf; ++leaf) {
+        std::copy_n(leaf->buffer().data(), words.size(), words.begin());
+        flat.set(static_cast<int>(leaf.pos()), words);
+    }
+    return flat;
+}
+
+BuiltBlock treeBlock(const FlatBlock& flat)
+{
+    BuiltBlock built{flat.origin, nullptr, flat.isFull()};
+    if (flat.isUniform()) return built;
+    built.node = std::make_unique<MaskBlock>(flat.origin, false, false);
+    for (int n = 0; n < slotsPerBlock; ++n) {
+        const std::size_t kind = flat.kinds[static_cast<std::size_t>(n)];
+        if (kind == 0) continue;
+        if (kind == 1) {
+            built.node->addTile(static_cast<openvdb::Index>(n), true, true);
         } else {
-            flat_ = &flat;
+            auto leaf = std::make_unique<MaskLeaf>(flat.origin + slotOffset(n));
+            std::copy(flat.words[kind - 2].begin(), flat.words[kind - 2].end(), leaf->buffer().data());
+            built.node->addChild(leaf.release());
         }
     }
-    bool isFull() const { return !flat_ && block_.isFull(); }
-    bool isEmpty() const { return !flat_ && block_.isEmpty(); }
-    const std::uint64_t* slot(int n) const { return flat_ ? flat_->slot(n) : block_.slot(n); }
+    return built;
+}
 
-private:
-    Block block_;
-    const FlatBlock* flat_ = nullptr;
+// One block of a mask: flat, or uniformly full or empty.
+struct Slots {
+    const FlatBlock* flat = nullptr;
+    bool full = false; // where it is uniform
+
+    bool isFull() const { return !flat && full; }
+    bool isEmpty() const { return !flat && !full; }
 };
 
-// A mask by its blocks, without the nodes of a tree: a tree's (which must live on), or what a pass made.
+// A mask by its blocks, without the nodes of a tree.
 class SlotSet {
 public:
-    explicit SlotSet(const MaskTree& tree) : full_(fullParts(tree))
+    SlotSet(const MaskTree& tree, const Progress& progress) : full_(fullParts(tree))
     {
-        for (const Coord& origin : shellBlocks(tree)) {
-            if (const Block block = blockAt(tree, origin); block.isNode()) blocks_.emplace(origin, block);
-        }
-        addFullParts();
+        std::vector<const MaskBlock*> nodes;
+        tree.getNodes(nodes);
+        flat_.resize(nodes.size());
+        std::atomic<std::size_t> done{0};
+        tbb::parallel_for(std::size_t{0}, nodes.size(), [&](std::size_t i) {
+            progress.check(done++, nodes.size());
+            flat_[i] = flattened(*nodes[i]);
+        });
+        index();
     }
     // The full parts, with the blocks in their places.
-    SlotSet(FullParts full, std::vector<FlatBlock> built) : built_(std::move(built)), full_(std::move(full))
+    SlotSet(FullParts full, std::vector<FlatBlock> flat) : flat_(std::move(flat)), full_(std::move(full))
     {
         std::set<Coord> broken; // full regions that no longer are
-        for (const FlatBlock& block : built_) {
-            blocks_.emplace(block.origin, block);
+        for (const FlatBlock& block : flat_) {
             if (!block.isFull()) broken.insert(alignedTo(block.origin, regionSize));
         }
         const auto isBroken = [&](const Coord& region) {
@@ -111,12 +130,14 @@ public:
             return true;
         };
         full_.regions.erase(std::remove_if(full_.regions.begin(), full_.regions.end(), isBroken), full_.regions.end());
-        const auto isBuilt = [&](const Coord& block) { return blocks_.count(block) > 0; };
-        full_.blocks.erase(std::remove_if(full_.blocks.begin(), full_.blocks.end(), isBuilt), full_.blocks.end());
-        for (const FlatBlock& block : built_) {
+        std::set<Coord> origins;
+        for (const FlatBlock& block : flat_) origins.insert(block.origin);
+        const auto isReplaced = [&](const Coord& block) { return origins.count(block) > 0; };
+        full_.blocks.erase(std::remove_if(full_.blocks.begin(), full_.blocks.end(), isReplaced), full_.blocks.end());
+        for (const FlatBlock& block : flat_) {
             if (block.isFull()) full_.blocks.push_back(block.origin);
         }
-        addFullParts();
+        index();
     }
 
     SlotSet(SlotSet&&) = default; // a copy would look at the other's blocks
@@ -125,7 +146,8 @@ public:
     Slots at(const Coord& origin) const
     {
         const auto found = blocks_.find(origin);
-        return found != blocks_.end() ? found->second : Block(regions_.count(alignedTo(origin, regionSize)) > 0);
+        return found != blocks_.end() ? found->second
+                                      : Slots{nullptr, regions_.count(alignedTo(origin, regionSize)) > 0};
     }
     const FullParts& full() const { return full_; }
     // The blocks where the mask may begin or end.
@@ -137,49 +159,58 @@ public:
     }
     MaskTree::Ptr tree(const Progress& progress) const
     {
-        std::vector<BuiltBlock> built(built_.size());
+        std::vector<BuiltBlock> built(flat_.size());
         std::atomic<std::size_t> done{0};
-        tbb::parallel_for(std::size_t{0}, built_.size(), [&](std::size_t i) {
-            progress.check(done++, built_.size());
-            BlockBuilder builder(built_[i].origin);
-            for (int n = 0; n < slotsPerBlock; ++n) builder.set(n, built_[i].slot(n));
-            built[i] = builder.finish();
+        tbb::parallel_for(std::size_t{0}, flat_.size(), [&](std::size_t i) {
+            progress.check(done++, flat_.size());
+            built[i] = treeBlock(flat_[i]);
         });
         return assemble(full_, std::move(built));
     }
 
 private:
-    void addFullParts()
+    void index()
     {
+        for (const FlatBlock& block : flat_) {
+            blocks_.emplace(block.origin, block.isUniform() ? Slots{nullptr, block.isFull()} : Slots{&block, false});
+        }
         regions_.insert(full_.regions.begin(), full_.regions.end());
-        for (const Coord& origin : full_.blocks) blocks_.insert_or_assign(origin, Block(true));
+        for (const Coord& origin : full_.blocks) blocks_.insert_or_assign(origin, Slots{nullptr, true});
     }
 
-    std::vector<FlatBlock> built_;
+    std::vector<FlatBlock> flat_;
     FullParts full_;
     std::map<Coord, Slots> blocks_;
     std::set<Coord> regions_; // the full ones
 };
 
+// The kinds of a plane of slots of a uniform block.
+using Plane = std::array<std::uint16_t, slotsPerAxis * slotsPerAxis>;
+constexpr Plane emptyPlane{};
+constexpr Plane fullPlane = [] {
+    Plane plane{};
+    for (std::uint16_t& kind : plane) kind = 1;
+    return plane;
+}();
+
 // One pass along x. Everything is said for a dilation; for an erosion it holds for the complement.
 class AxisPass {
 public:
     AxisPass(const SlotSet& mask, Side side, int radius, const Progress& progress)
-        : mask_(mask), flip_(side == Side::complement ? ~0ULL : 0), radius_(radius), wholeSlots_(radius / leafSize),
-          rest_(radius % leafSize), slotReach_(wholeSlots_ + (rest_ > 0 ? 1 : 0)),
-          blockReach_((radius + blockSize - 1) / blockSize), progress_(progress)
+        : mask_(mask), flip_(side == Side::complement ? ~0ULL : 0), none_(flip_ != 0 ? 1 : 0), all_(flip_ != 0 ? 0 : 1),
+          radius_(radius), wholeSlots_(static_cast<std::size_t>(radius / leafSize)), rest_(radius % leafSize),
+          slotReach_(wholeSlots_ + (rest_ > 0 ? 1 : 0)), blockReach_((radius + blockSize - 1) / blockSize),
+          progress_(progress)
     {
-        if (flip_ != 0) std::swap(none_, all_);
     }
 
     SlotSet run()
     {
-        const std::vector<Coord> targets = targetBlocks();
-        std::vector<FlatBlock> built(targets.size());
+        const std::vector<Row> rows = targetRows();
+        std::vector<FlatBlock> built(rows.empty() ? 0 : rows.back().start + rows.back().blocks);
         std::atomic<std::size_t> done{0};
-        tbb::parallel_for(std::size_t{0}, targets.size(), [&](std::size_t i) {
-            progress_.check(done++, targets.size());
-            built[i] = build(targets[i]);
+        tbb::parallel_for(std::size_t{0}, rows.size(), [&](std::size_t i) {
+            build(rows[i], &built[rows[i].start], [&] { progress_.check(done++, rows.size() * slotsPerAxis); });
         });
         FullParts full = mask_.full();
         for (auto* origins : {&full.regions, &full.blocks}) {
@@ -189,11 +220,19 @@ public:
     }
 
 private:
+    // Blocks side by side along x, which share most of what they look at.
+    struct Row {
+        Coord first;
+        std::size_t blocks;
+        std::size_t start; // of its blocks among those of all rows
+    };
+    static constexpr std::size_t longestRow = 8; // shorter ones for more threads
+
     bool isFull(const Slots& block) const { return flip_ != 0 ? block.isEmpty() : block.isFull(); }
     bool isEmpty(const Slots& block) const { return flip_ != 0 ? block.isFull() : block.isEmpty(); }
 
     // The blocks that are not full but have something in reach.
-    std::vector<Coord> targetBlocks() const
+    std::vector<Row> targetRows() const
     {
         std::vector<Coord> targets;
         for (const Coord& origin : mask_.shell()) {
@@ -201,7 +240,7 @@ private:
                 targets.push_back(origin.offsetBy(step * blockSize, 0, 0));
             }
         }
-        std::sort(targets.begin(), targets.end());
+        std::sort(targets.begin(), targets.end(), [](const Coord& a, const Coord& b) { return turned(a) < turned(b); });
         targets.erase(std::unique(targets.begin(), targets.end()), targets.end());
         const auto isSettled = [&](const Coord& origin) {
             if (isFull(mask_.at(origin))) return true;
@@ -211,88 +250,170 @@ private:
             return true;
         };
         targets.erase(std::remove_if(targets.begin(), targets.end(), isSettled), targets.end());
-        return targets;
+        std::vector<Row> rows;
+        for (std::size_t i = 0; i < targets.size(); ++i) {
+            const bool continues = !rows.empty() && rows.back().blocks < longestRow &&
+                                   targets[i] == targets[i - 1].offsetBy(blockSize, 0, 0);
+            if (continues) {
+                ++rows.back().blocks;
+            } else {
+                rows.push_back({targets[i], 1, i});
+            }
+        }
+        return rows;
     }
 
-    // The slots of one line along x, from slotReach_ before the block to as many behind it.
-    struct Line {
-        std::vector<const std::uint64_t*> slots;
-        std::vector<std::uint64_t> any; // of each slot the voxels of all its words in one
+    // What a row can see: by slot along x, from slotReach_ before its first to as many behind its last.
+    struct View {
+        std::vector<const std::uint16_t*> kinds; // of the plane of slots there, first along z
+        std::vector<const Words*> words;         // that they stand for
+        // Of one line of slots along x:
+        std::vector<const std::uint64_t*> line; // their words
+        std::vector<std::uint64_t> any;         // the voxels of all words of each in one
+        std::vector<std::uint64_t> sums;        // of `any`, of `summed` slots from each on
+        std::size_t summed = 1;
     };
 
-    FlatBlock build(const Coord& origin) const
+    template <class Check>
+    void build(const Row& row, FlatBlock* result, const Check& check) const
     {
-        std::vector<Slots> blocks;
-        for (int step = -blockReach_; step <= blockReach_; ++step) {
-            blocks.push_back(mask_.at(origin.offsetBy(step * blockSize, 0, 0)));
+        for (std::size_t i = 0; i < row.blocks; ++i) {
+            const Coord origin = row.first.offsetBy(static_cast<int>(i) * blockSize, 0, 0);
+            result[i].origin = turned(origin);
+            if (none_ != 0) result[i].kinds.assign(slotsPerBlock, none_);
+            if (const FlatBlock* const before = mask_.at(origin).flat) result[i].words.reserve(before->words.size());
         }
-        FlatBlock result;
-        result.origin = turned(origin);
-        if (flip_ != 0) result.slots.assign(slotsPerBlock, 1);
-        const auto size = static_cast<std::size_t>(slotsPerAxis + 2 * slotReach_);
-        Line line{std::vector<const std::uint64_t*>(size), std::vector<std::uint64_t>(size)};
+        View view = look(row);
         for (int y = 0; y < slotsPerAxis; ++y) {
+            check();
+            const Lines lines = compareLines(view, y);
             for (int z = 0; z < slotsPerAxis; ++z) {
-                if (!readLine(blocks, y, z, line)) continue;
-                for (int x = 0; x < slotsPerAxis; ++x) {
-                    Words near = smear(line, static_cast<std::size_t>(x + slotReach_));
-                    if (near == emptyWords) continue;
-                    for (std::uint64_t& word : near) word ^= flip_;
-                    result.set(slotIndex(y, z, x), near == fullWords || near == emptyWords ? near : turned(near));
+                const int start = slotIndex(y, z, 0); // turned
+                if (lines.isNone(z)) continue;
+                if (lines.isAll(z)) {
+                    for (std::size_t i = 0; i < row.blocks; ++i) {
+                        std::fill_n(result[i].kinds.begin() + start, slotsPerAxis, all_);
+                    }
+                    continue;
                 }
+                readLine(view, slotIndex(0, y, z));
+                for (std::size_t i = 0; i < row.blocks; ++i) smearLine(view, i, start, result[i]);
             }
         }
-        return result;
     }
 
-    // Returns whether there is anything.
-    bool readLine(const std::vector<Slots>& blocks, int y, int z, Line& line) const
+    View look(const Row& row) const
     {
-        std::uint64_t all = 0;
-        for (std::size_t i = 0; i < line.slots.size(); ++i) {
-            const int x = static_cast<int>(i) - slotReach_ + blockReach_ * slotsPerAxis;
-            const std::uint64_t* const words =
-                blocks[static_cast<std::size_t>(x / slotsPerAxis)].slot(slotIndex(x % slotsPerAxis, y, z));
-            line.slots[i] = words;
-            std::uint64_t any = words == all_ ? ~0ULL : 0;
-            if (words != none_ && words != all_) {
-                for (int k = 0; k < leafSize; ++k) any |= words[k] ^ flip_;
+        View view;
+        const int reach = static_cast<int>(slotReach_), size = static_cast<int>(row.blocks) * slotsPerAxis;
+        for (int block = -blockReach_; block < static_cast<int>(row.blocks) + blockReach_; ++block) {
+            const Slots slots = mask_.at(row.first.offsetBy(block * blockSize, 0, 0));
+            for (int i = 0; i < slotsPerAxis; ++i) {
+                const int x = block * slotsPerAxis + i;
+                if (x < -reach || x >= size + reach) continue;
+                view.kinds.push_back(slots.flat ? &slots.flat->kinds[static_cast<std::size_t>(slotIndex(i, 0, 0))]
+                                                : (slots.full ? fullPlane : emptyPlane).data());
+                view.words.push_back(slots.flat ? slots.flat->words.data() : nullptr);
             }
-            line.any[i] = any;
-            all |= any;
         }
-        return all != 0;
+        view.line.resize(view.kinds.size());
+        view.any.resize(view.kinds.size());
+        return view;
+    }
+
+    // Of the 16 lines at one y: which have slots that are not none, and not all.
+    struct Lines {
+        std::array<std::uint16_t, slotsPerAxis> some{}, open{};
+        bool isNone(int z) const { return some[static_cast<std::size_t>(z)] == 0; }
+        bool isAll(int z) const { return open[static_cast<std::size_t>(z)] == 0; }
+    };
+    Lines compareLines(const View& view, int y) const
+    {
+        Lines lines;
+        for (const std::uint16_t* plane : view.kinds) {
+            const std::uint16_t* const kinds = plane + slotIndex(0, y, 0);
+            for (std::size_t z = 0; z < slotsPerAxis; ++z) {
+                lines.some[z] = static_cast<std::uint16_t>(lines.some[z] | (kinds[z] ^ none_));
+                lines.open[z] = static_cast<std::uint16_t>(lines.open[z] | (kinds[z] ^ all_));
+            }
+        }
+        return lines;
+    }
+
+    // The line through slot n of the planes.
+    void readLine(View& view, int n) const
+    {
+        const std::size_t size = view.kinds.size();
+        for (std::size_t i = 0; i < size; ++i) {
+            const std::size_t kind = view.kinds[i][n];
+            if (kind < 2) {
+                view.line[i] = kind == 0 ? emptyWords.data() : fullWords.data();
+                view.any[i] = kind == none_ ? 0 : ~0ULL;
+                continue;
+            }
+            const Words& words = view.words[i][kind - 2];
+            std::uint64_t any = 0;
+            for (const std::uint64_t word : words) any |= word ^ flip_;
+            view.line[i] = words.data();
+            view.any[i] = any;
+        }
+        // Sums of more and more slots, by doubling, up to those that lie wholly in reach of all of one.
+        view.sums = view.any;
+        view.summed = 1;
+        for (; 2 * view.summed < 2 * wholeSlots_; view.summed *= 2) {
+            for (std::size_t i = 0; i + view.summed < size; ++i) view.sums[i] |= view.sums[i + view.summed];
+        }
+    }
+
+    // The slots of one block of the row on the line; they start at slot `start` of the result.
+    void smearLine(const View& view, std::size_t block, int start, FlatBlock& result) const
+    {
+        for (std::size_t x = 0; x < slotsPerAxis; ++x) {
+            const std::size_t own = slotReach_ + block * slotsPerAxis + x;
+            const int n = start + static_cast<int>(x);
+            const std::uint64_t inner = innerOf(view, own);
+            if (inner == ~0ULL) {
+                result.kinds[static_cast<std::size_t>(n)] = all_;
+            } else if ((inner | view.any[own - slotReach_] | view.any[own + slotReach_] | view.any[own - wholeSlots_] |
+                        view.any[own + wholeSlots_]) != 0) {
+                Words near = smear(view, own, inner);
+                for (std::uint64_t& word : near) word ^= flip_;
+                result.set(n, turned(near));
+            }
+        }
+    }
+
+    // The voxels of all slots that lie wholly in reach of all of slot `own`, in one.
+    std::uint64_t innerOf(const View& view, std::size_t own) const
+    {
+        if (wholeSlots_ == 0) return view.line[own] == (flip_ != 0 ? emptyWords : fullWords).data() ? ~0ULL : 0;
+        return view.sums[own + 1 - wholeSlots_] | view.sums[own + wholeSlots_ - view.summed];
     }
 
     // The result at slot `own` of the line.
-    Words smear(const Line& line, std::size_t own) const
+    Words smear(const View& view, std::size_t own, std::uint64_t inner) const
     {
-        // Slots that are wholly within reach of all voxels of this one.
-        std::uint64_t inner = line.slots[own] == all_ ? ~0ULL : 0;
-        const auto whole = static_cast<std::size_t>(wholeSlots_);
-        for (std::size_t i = own + 1 - whole; i + 1 <= own + whole && inner != ~0ULL; ++i) inner |= line.any[i];
         Words near;
         near.fill(inner);
-        if (inner == ~0ULL) return near;
-        if (whole == 0) {
-            smearWithin(line.slots[own], near);
+        if (wholeSlots_ == 0) {
+            smearWithin(view, own, near);
         } else {
-            addSums(line.slots[own - whole], true, 0, near);
-            addSums(line.slots[own + whole], false, 0, near);
+            addSums(view, own - wholeSlots_, true, 0, near);
+            addSums(view, own + wholeSlots_, false, 0, near);
         }
         if (rest_ > 0) {
-            addSums(line.slots[own - whole - 1], true, leafSize, near);
-            addSums(line.slots[own + whole + 1], false, leafSize, near);
+            addSums(view, own - wholeSlots_ - 1, true, leafSize, near);
+            addSums(view, own + wholeSlots_ + 1, false, leafSize, near);
         }
         return near;
     }
 
     // Within one slot, of a radius below its size.
-    void smearWithin(const std::uint64_t* words, Words& near) const
+    void smearWithin(const View& view, std::size_t own, Words& near) const
     {
-        if (words == none_) return;
+        if (view.any[own] == 0) return;
         for (int from = 0; from < leafSize; ++from) {
-            const std::uint64_t word = words[from] ^ flip_;
+            const std::uint64_t word = view.line[own][from] ^ flip_;
             const int last = std::min(from + radius_, leafSize - 1);
             for (int to = std::max(from - radius_, 0); to <= last; ++to) near[static_cast<std::size_t>(to)] |= word;
         }
@@ -300,9 +421,10 @@ private:
 
     // From a slot at the end of the reach, before or behind this one. Counted from its end next to this slot, and here
     // from the end next to it, the words 0 to 7 - (to - rest + beyond) of it reach word `to`.
-    void addSums(const std::uint64_t* words, bool before, int beyond, Words& near) const
+    void addSums(const View& view, std::size_t slot, bool before, int beyond, Words& near) const
     {
-        if (words == none_) return;
+        if (view.any[slot] == 0) return;
+        const std::uint64_t* const words = view.line[slot];
         std::uint64_t sum = 0;
         std::array<std::uint64_t, 8> sums; // of the words 0 to i
         for (std::size_t i = 0; i < 8; ++i) {
@@ -319,19 +441,20 @@ private:
 
     const SlotSet& mask_;
     std::uint64_t flip_;
-    const std::uint64_t* none_ = emptyWords.data(); // the uniform slots, as seen from this side
-    const std::uint64_t* all_ = fullWords.data();
+    std::uint16_t none_, all_; // the uniform kinds, as seen from this side
     int radius_;
-    int wholeSlots_, rest_; // the radius is as many slots and voxels
-    int slotReach_, blockReach_;
+    std::size_t wholeSlots_;
+    int rest_; // the radius is as many slots and voxels
+    std::size_t slotReach_;
+    int blockReach_;
     Progress progress_;
 };
 
 MaskTree::Ptr threePasses(const MaskTree& mask, Side side, int radius, const Progress& progress)
 {
-    SlotSet set(mask);
-    for (int i = 0; i < 3; ++i) set = AxisPass(set, side, radius, progress.part(i, 4)).run();
-    return set.tree(progress.part(3, 4));
+    SlotSet set(mask, progress.part(0, 5));
+    for (int i = 1; i < 4; ++i) set = AxisPass(set, side, radius, progress.part(i, 5)).run();
+    return set.tree(progress.part(4, 5));
 }
 
 } // namespace

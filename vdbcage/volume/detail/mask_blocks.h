@@ -46,7 +46,6 @@ public:
     explicit Block(const MaskBlock* node) : node_(node) {}
     explicit Block(bool full) : full_(full) {}
 
-    bool isNode() const { return node_ != nullptr; }
     /// Uniform, and so without a node. (A node can be full or empty too, where nobody pruned it.)
     bool isFull() const { return full_; }
     bool isEmpty() const { return !node_ && !full_; }
