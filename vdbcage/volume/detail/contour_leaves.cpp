@@ -9,64 +9,105 @@ namespace vdbcage::detail {
 
 namespace {
 
-// The slots of one block with a border of one slot of its six neighbours, as pointers to their words.
+// The slots of one block with a border of one slot of its six neighbours.
 class PaddedSlots {
 public:
-    PaddedSlots(const MaskTree& tree, const Coord& origin) : slots_(size * size * size, emptyWords.data())
+    PaddedSlots(const MaskTree& tree, const Coord& origin) : own_(blockAt(tree, origin))
     {
-        const Block block = blockAt(tree, origin);
-        for (int n = 0; n < slotsPerBlock; ++n) slots_[inner(n)] = block.slot(n);
+        own_.forEachSlot(
+            [&](int n, const std::uint64_t* slot) { kinds_[at(n >> 8, n >> 4 & 15, n & 15)] = kindOf(slot); });
         for (int axis = 0; axis < 3; ++axis) {
             for (const bool upper : {false, true}) {
-                Coord neighbour = origin;
-                neighbour[axis] += upper ? blockSize : -blockSize;
-                copyFace(blockAt(tree, neighbour), axis, upper);
+                Coord beside = origin;
+                beside[axis] += upper ? blockSize : -blockSize;
+                const Block neighbour = neighbours_[index(axis, upper)] = blockAt(tree, beside);
+                if (!neighbour.isEmpty()) copyFace(neighbour, axis, upper);
             }
         }
     }
-    static std::size_t inner(int n) { return at((n >> 8) + 1, ((n >> 4) & 15) + 1, (n & 15) + 1); }
-    const std::uint64_t* operator[](std::size_t i) const { return slots_[i]; }
 
-    static constexpr std::size_t stepY = 18, stepX = stepY * stepY;
+    // Of each 4^3 slots of the block the bits 16 x + 4 y + z of those that may hold contour: all but the ones that are
+    // uniform, and either empty of the set or equal to their six neighbours.
+    std::array<std::uint64_t, 64> candidates(bool ofComplement) const
+    {
+        const std::uint8_t none = ofComplement ? full : empty;
+        std::array<std::uint64_t, 64> groups{};
+        for (int x = 0; x < slotsPerAxis; ++x) {
+            for (int y = 0; y < slotsPerAxis; ++y) {
+                const std::uint8_t* const own = &kinds_[at(x, y, 0)];
+                std::array<std::uint8_t, slotsPerAxis> differs; // side by side, for vectors
+                for (std::ptrdiff_t z = 0; z < slotsPerAxis; ++z) {
+                    const std::uint8_t kind = own[z];
+                    const int others = (own[z - stepX] ^ kind) | (own[z + stepX] ^ kind) | (own[z - stepY] ^ kind) |
+                                       (own[z + stepY] ^ kind) | (own[z - 1] ^ kind) | (own[z + 1] ^ kind);
+                    differs[static_cast<std::size_t>(z)] =
+                        static_cast<std::uint8_t>((kind == mixed) | ((kind != none) & (others != 0)));
+                }
+                for (int z = 0; z < slotsPerAxis; ++z) {
+                    const int group = 16 * (x >> 2) + 4 * (y >> 2) + (z >> 2),
+                              slot = 16 * (x & 3) + 4 * (y & 3) + (z & 3);
+                    groups[static_cast<std::size_t>(group)] |= std::uint64_t{differs[static_cast<std::size_t>(z)]}
+                                                               << slot;
+                }
+            }
+        }
+        return groups;
+    }
+
+    // The words of a slot, -1 to 16 along one axis, else 0 to 15.
+    const std::uint64_t* words(Coord slot) const
+    {
+        for (int axis = 0; axis < 3; ++axis) {
+            if (slot[axis] >= 0 && slot[axis] < slotsPerAxis) continue;
+            const bool upper = slot[axis] > 0;
+            slot[axis] = upper ? 0 : slotsPerAxis - 1;
+            return neighbours_[index(axis, upper)].slot(slotIndex(slot.x(), slot.y(), slot.z()));
+        }
+        return own_.slot(slotIndex(slot.x(), slot.y(), slot.z()));
+    }
 
 private:
-    static constexpr std::size_t size = 18;
+    using Kind = std::uint8_t;
+    static constexpr Kind empty = 0, full = 1, mixed = 2;
+    static constexpr std::ptrdiff_t size = 18, stepY = size, stepX = size * size;
+
     static std::size_t at(int x, int y, int z)
     {
-        return static_cast<std::size_t>(x) * stepX + static_cast<std::size_t>(y) * stepY + static_cast<std::size_t>(z);
+        return static_cast<std::size_t>((x + 1) * stepX + (y + 1) * stepY + z + 1);
+    }
+    static std::size_t index(int axis, bool upper) { return static_cast<std::size_t>(2 * axis + (upper ? 1 : 0)); }
+    static Kind kindOf(const std::uint64_t* words)
+    {
+        return words == emptyWords.data() ? empty : words == fullWords.data() ? full : mixed;
     }
     void copyFace(const Block& neighbour, int axis, bool upper)
     {
-        if (neighbour.isEmpty()) return;
         for (int i = 0; i < slotsPerAxis; ++i) {
             for (int j = 0; j < slotsPerAxis; ++j) {
-                std::array<int, 3> from{}, to{};
-                const auto u = static_cast<std::size_t>(axis), v = (u + 1) % 3, w = (u + 2) % 3;
-                from[u] = upper ? 0 : slotsPerAxis - 1;
-                to[u] = upper ? slotsPerAxis + 1 : 0;
-                from[v] = i;
-                from[w] = j;
-                to[v] = i + 1;
-                to[w] = j + 1;
-                slots_[at(to[0], to[1], to[2])] = neighbour.slot(slotIndex(from[0], from[1], from[2]));
+                Coord from, to;
+                from[axis] = upper ? 0 : slotsPerAxis - 1;
+                to[axis] = upper ? slotsPerAxis : -1;
+                from[(axis + 1) % 3] = to[(axis + 1) % 3] = i;
+                from[(axis + 2) % 3] = to[(axis + 2) % 3] = j;
+                kinds_[at(to.x(), to.y(), to.z())] = kindOf(neighbour.slot(slotIndex(from.x(), from.y(), from.z())));
             }
         }
     }
 
-    std::vector<const std::uint64_t*> slots_;
+    Block own_;
+    std::array<Block, 6> neighbours_;
+    std::array<Kind, size * size * size> kinds_{};
 };
 
-// The contour within slot i of the padded slots; false if there is none. `flip` is ~0 for the complement.
-bool contourWords(const PaddedSlots& slots, std::size_t i, std::uint64_t flip, Words& contour)
+// The contour within a slot; false if there is none. `flip` is ~0 for the complement.
+bool contourWords(const PaddedSlots& slots, const Coord& slot, std::uint64_t flip, Words& contour)
 {
-    const std::uint64_t* const own = slots[i];
-    if (own == (flip != 0 ? fullWords.data() : emptyWords.data())) return false;
-    const std::uint64_t *const xLower = slots[i - PaddedSlots::stepX], *const xUpper = slots[i + PaddedSlots::stepX];
-    const std::uint64_t *const yLower = slots[i - PaddedSlots::stepY], *const yUpper = slots[i + PaddedSlots::stepY];
-    const std::uint64_t *const zLower = slots[i - 1], *const zUpper = slots[i + 1];
-    // Uniform slots share their words, so that deep inside and far outside nothing is read.
-    if (own == xLower && own == xUpper && own == yLower && own == yUpper && own == zLower && own == zUpper)
-        return false;
+    const std::uint64_t* const own = slots.words(slot);
+    const std::uint64_t *const
+        xLower = slots.words(slot.offsetBy(-1, 0, 0)),
+        *const xUpper = slots.words(slot.offsetBy(1, 0, 0)), *const yLower = slots.words(slot.offsetBy(0, -1, 0)),
+        *const yUpper = slots.words(slot.offsetBy(0, 1, 0)), *const zLower = slots.words(slot.offsetBy(0, 0, -1)),
+        *const zUpper = slots.words(slot.offsetBy(0, 0, 1));
     constexpr std::uint64_t firstZ = 0x0101010101010101ULL, lastZ = firstZ << 7;
     std::uint64_t any = 0;
     for (std::size_t x = 0; x < 8; ++x) {
@@ -104,14 +145,17 @@ ContourBlock contourOfBlock(const MaskTree& tree, const Coord& origin, std::uint
 {
     constexpr int groupSlots = 4; // a group is 4^3 slots
     const PaddedSlots slots(tree, origin);
+    const auto candidates = slots.candidates(flip != 0);
     ContourBlock result{origin, {}, {}, {}, {}};
     Words words;
     for (int group = 0; group < 64; ++group) {
         const Coord first(group / 16 * groupSlots, group / 4 % 4 * groupSlots, group % 4 * groupSlots);
         ContourGroup found{{}, result.leaves.size(), 0};
-        for (int i = 0; i < 64; ++i) {
-            const int n = slotIndex(first.x() + i / 16, first.y() + i / 4 % 4, first.z() + i % 4);
-            if (!contourWords(slots, PaddedSlots::inner(n), flip, words)) continue;
+        for (std::uint64_t left = candidates[static_cast<std::size_t>(group)]; left != 0; left &= left - 1) {
+            const int i = __builtin_ctzll(left);
+            const Coord slot = first.offsetBy(i / 16, i / 4 % 4, i % 4);
+            if (!contourWords(slots, slot, flip, words)) continue;
+            const int n = slotIndex(slot.x(), slot.y(), slot.z());
             const BitBox& box = result.leaves.emplace_back(contourLeaf(n, words)).box;
             result.words.push_back(words);
             const Coord corner = origin + slotOffset(n);

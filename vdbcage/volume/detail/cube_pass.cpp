@@ -65,12 +65,11 @@ FlatBlock flattened(const MaskBlock& node)
 {
     FlatBlock flat;
     flat.origin = node.origin();
-    for (auto tile = node.cbeginValueOn(); tile; ++tile) flat.kinds[tile.pos()] = 1;
-    Words words;
-    for (auto leaf = node.cbeginChildOn(); leaf; ++leaf) {
-        std::copy_n(leaf->buffer().data(), words.size(), words.begin());
-        flat.set(static_cast<int>(leaf.pos()), words);
-    }
+    Block(&node).forEachSlot([&](int n, const std::uint64_t* slot) {
+        Words words;
+        std::copy_n(slot, words.size(), words.begin());
+        flat.set(n, words);
+    });
     return flat;
 }
 

@@ -105,13 +105,17 @@ FullParts fullParts(const MaskTree& tree)
 
 void BlockBuilder::set(int n, const std::uint64_t* words)
 {
+    const auto i = static_cast<std::size_t>(n);
     if (words == emptyWords.data()) return;
+    if (words == fullWords.data()) {
+        full_[i] = 1;
+        return;
+    }
     std::uint64_t any = 0, all = ~0ULL;
     for (int x = 0; x < leafSize; ++x) {
         any |= words[x];
         all &= words[x];
     }
-    const auto i = static_cast<std::size_t>(n);
     if (all == ~0ULL) {
         full_[i] = 1;
     } else if (any != 0) {

@@ -59,6 +59,20 @@ public:
         return node_->isValueMaskOn(i) ? fullWords.data() : emptyWords.data();
     }
 
+    /// Calls visit(n, slot(n)) for every slot that is not empty, in no order. (A leaf without bits may be among them.)
+    template <class Visit>
+    void forEachSlot(const Visit& visit) const
+    {
+        if (!node_) {
+            for (int n = 0; full_ && n < slotsPerBlock; ++n) visit(n, fullWords.data());
+            return;
+        }
+        for (auto tile = node_->cbeginValueOn(); tile; ++tile) visit(static_cast<int>(tile.pos()), fullWords.data());
+        for (auto leaf = node_->cbeginChildOn(); leaf; ++leaf) {
+            visit(static_cast<int>(leaf.pos()), leaf->buffer().data());
+        }
+    }
+
 private:
     const MaskBlock* node_ = nullptr;
     bool full_ = false;

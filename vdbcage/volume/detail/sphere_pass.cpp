@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include <tbb/enumerable_thread_specific.h>
@@ -35,13 +36,18 @@ std::int64_t squaredGap(const CoordBBox& a, const CoordBBox& b)
 // What one thread needs while it works on a part of a block.
 template <class Reach>
 struct WorkSpace {
-    std::vector<NearLeaf> near;
-    std::vector<std::uint64_t> reached; // by leaf: slots of the part
+    std::vector<std::pair<std::int64_t, std::size_t>> gaps; // of the groups that reach the part: square, which
+    std::vector<NearLeaf> near;                             // their leaves, or samples of them
+    std::vector<std::uint64_t> reached;                     // by leaf: slots of the part
     // For each slot of the part the leaves that reach it: below from the front, above from the back, then those beside.
     std::vector<std::uint16_t> lists;
     std::array<std::array<std::size_t, 3>, 64> counts; // below, beside, above
+    std::optional<Coord> block;                        // that `reach` knows about
     typename Reach::Work reach;
-    std::array<Words, 64> open; // by slot of the part: the voxels that the pass may change
+    // By slot of the part: its voxels, and those that the pass may change.
+    std::array<const std::uint64_t*, 64> base;
+    std::array<const Words*, 64> open;
+    std::array<Words, 64> partlyOpen;
 };
 
 // Reach tells what is within reach: SphereReach or VaryingReach.
@@ -70,7 +76,13 @@ private:
     struct Target {
         Coord origin;
         Block base, keep;
-        std::vector<std::pair<const ContourBlock*, const ContourGroup*>> groups; // those that reach it
+        struct Group {
+            const ContourBlock* block;
+            const ContourGroup* group;
+            std::size_t firstId; // its leaves are numbered from here
+        };
+        std::vector<Group> groups; // those that reach it
+        std::size_t leaves = 0;    // of all groups
     };
 
     // The blocks in reach of the contour that the pass may change.
@@ -99,7 +111,7 @@ private:
 
     BuiltBlock build(const Coord& origin)
     {
-        Target target{origin, blockAt(base_, origin), keep_ ? blockAt(*keep_, origin) : Block(), {}};
+        Target target{origin, blockAt(base_, origin), keep_ ? blockAt(*keep_, origin) : Block(), {}, 0};
         gatherGroups(target);
         BlockBuilder builder(origin);
         tbb::parallel_for(0, 64, [&](int part) {
@@ -124,7 +136,9 @@ private:
                                          [](const ContourBlock& block, const Coord& c) { return block.origin < c; });
                     if (found == contour_.end() || found->origin != origin) continue;
                     for (const ContourGroup& group : found->groups) {
-                        if (squaredGap(group.box, box) <= squaredRadius_) target.groups.emplace_back(&*found, &group);
+                        if (squaredGap(group.box, box) > squaredRadius_) continue;
+                        target.groups.push_back({&*found, &group, target.leaves});
+                        target.leaves += group.end - group.begin;
                     }
                 }
             }
@@ -137,23 +151,26 @@ private:
         std::uint64_t open = findOpenVoxels(target, firstSlot, work);
         std::uint64_t covered = 0;
         if (open != 0) {
-            gatherLeaves(target, firstSlot, work);
-            reach_.start(work.reach, cornerOf(target, firstSlot));
+            const Coord corner = cornerOf(target, firstSlot);
+            const std::size_t leaves = selectGroups(target, corner, work), stride = leaves / samples + 1;
+            gatherLeaves(target, corner, stride, work);
+            reach_.startPart(work.reach, corner);
             covered = open & reach_.coveredSlots(work.near.data(), work.near.size(), open, work.reach);
             open &= ~covered;
+            if (open != 0 && stride > 1) gatherLeaves(target, corner, 1, work);
         }
-        if (open != 0) open &= listLeaves(open, work);
+        if (open != 0) open &= listLeaves(target, open, work);
         for (int i = 0; i < 64; ++i) {
             const auto slot = static_cast<std::size_t>(i);
             const int n = slotOfBlock(firstSlot, i);
-            const std::uint64_t* const base = target.base.slot(n);
+            const std::uint64_t* const base = work.base[slot];
             // The open voxels within reach change sides.
             if ((covered >> i & 1) != 0) {
-                setChanged(builder, n, base, work.open[slot]);
+                setChanged(builder, n, base, *work.open[slot]);
             } else if ((open >> i & 1) != 0) {
                 if (i % 4 == 3) progress_.check(partsDone_, parts_); // these take time with large radii
                 setChanged(builder, n, base,
-                           reach_.within(work.open[slot], i, work.near.data(), listsOf(slot, work), work.reach));
+                           reach_.within(*work.open[slot], i, work.near.data(), listsOf(slot, work), work.reach));
             } else {
                 builder.set(n, base);
             }
@@ -172,13 +189,22 @@ private:
     {
         std::uint64_t found = 0;
         for (int i = 0; i < 64; ++i) {
+            const auto slot = static_cast<std::size_t>(i);
             const int n = slotOfBlock(firstSlot, i);
-            const std::uint64_t* const base = target.base.slot(n);
-            const std::uint64_t* const keep = target.keep.slot(n);
-            Words& open = work.open[static_cast<std::size_t>(i)];
+            const std::uint64_t* const base = work.base[slot] = target.base.slot(n);
+            const std::uint64_t* const keep = side_ == ContourOf::mask ? base : target.keep.slot(n);
+            const std::uint64_t* const settled = (side_ == ContourOf::mask ? fullWords : emptyWords).data();
+            if (base == settled || keep == fullWords.data()) continue;
+            if (keep == emptyWords.data() && (base == emptyWords.data() || base == fullWords.data())) {
+                work.open[slot] = &fullWords;
+                found |= std::uint64_t{1} << i;
+                continue;
+            }
+            Words& open = work.partlyOpen[slot];
+            work.open[slot] = &open;
             std::uint64_t any = 0;
             for (std::size_t x = 0; x < 8; ++x) {
-                open[x] = side_ == ContourOf::mask ? ~base[x] : base[x] & ~keep[x];
+                open[x] = (side_ == ContourOf::mask ? ~0ULL : base[x]) & ~keep[x];
                 any |= open[x];
             }
             found |= std::uint64_t{any != 0} << i;
@@ -186,18 +212,37 @@ private:
         return found;
     }
 
-    void gatherLeaves(const Target& target, const Coord& firstSlot, Work& work) const
+    // The nearest first. Returns how many leaves they have.
+    std::size_t selectGroups(const Target& target, const Coord& corner, Work& work) const
     {
-        const Coord corner = cornerOf(target, firstSlot);
         const CoordBBox box = CoordBBox::createCube(corner, partSlots * leafSize);
+        work.gaps.clear();
+        std::size_t leaves = 0;
+        for (std::size_t i = 0; i < target.groups.size(); ++i) {
+            const ContourGroup& group = *target.groups[i].group;
+            const std::int64_t gap = squaredGap(group.box, box);
+            if (gap > squaredRadius_) continue;
+            work.gaps.emplace_back(gap, i);
+            leaves += group.end - group.begin;
+        }
+        std::sort(work.gaps.begin(), work.gaps.end());
+        return leaves;
+    }
+
+    // One of `stride` leaves of the selected groups.
+    static void gatherLeaves(const Target& target, const Coord& corner, std::size_t stride, Work& work)
+    {
         work.near.clear();
-        for (const auto& [block, group] : target.groups) {
-            if (squaredGap(group->box, box) > squaredRadius_) continue;
+        std::size_t skip = 0; // leaves until the next
+        for (const auto& [gap, index] : work.gaps) {
+            const auto& [block, group, firstId] = target.groups[index];
             const Coord voxels = block->origin - corner,
                         offset(voxels.x() >> 3, voxels.y() >> 3, voxels.z() >> 3); // in slots
-            for (std::size_t i = group->begin; i < group->end; ++i) {
+            std::size_t i = group->begin + skip;
+            for (; i < group->end; i += stride) {
                 const ContourLeaf& leaf = block->leaves[i];
                 NearLeaf& near = work.near.emplace_back();
+                near.id = static_cast<std::uint32_t>(firstId + i - group->begin);
                 near.words = &block->words[i];
                 near.x = static_cast<std::int16_t>(offset.x() + (leaf.slot >> 8));
                 near.y = static_cast<std::int16_t>(offset.y() + (leaf.slot >> 4 & 15));
@@ -205,17 +250,20 @@ private:
                 near.box = leaf.box;
                 near.sample = leaf.sample;
             }
+            skip = i - group->end;
         }
     }
 
     // Tells which of the open slots a leaf may reach.
-    std::uint64_t listLeaves(std::uint64_t open, Work& work) const
+    std::uint64_t listLeaves(const Target& target, std::uint64_t open, Work& work) const
     {
         std::uint64_t any = 0;
         const std::size_t size = work.near.size();
         for (auto& counts : work.counts) counts.fill(0);
-        work.lists.resize(128 * size);
+        if (work.lists.size() < 128 * size) work.lists.resize(128 * size);
         work.reached.resize(size);
+        if (work.block != target.origin) reach_.startBlock(work.reach, target.leaves);
+        work.block = target.origin;
         reach_.reachedSlots(work.near.data(), size, work.reached.data(), work.reach);
         for (std::size_t i = 0; i < size; ++i) {
             const std::uint64_t reached = work.reached[i] & open;
@@ -261,7 +309,8 @@ private:
         return slotIndex(firstSlot.x() + i / 16, firstSlot.y() + i / 4 % 4, firstSlot.z() + i % 4);
     }
 
-    static constexpr int partSlots = 4; // along an axis
+    static constexpr int partSlots = 4;        // along an axis
+    static constexpr std::size_t samples = 48; // leaves that may cover slots alone: more hardly settle more
 
     const MaskTree& base_;
     const MaskTree* keep_;

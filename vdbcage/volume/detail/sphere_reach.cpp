@@ -341,17 +341,19 @@ private:
         const NearLeaf& near = query.near[leaf];
         const int sideX = sideOf(query.x - near.x), sideY = sideOf(query.y - near.y);
         std::uint32_t& start =
-            query.fronts.starts[leaf * 27 + static_cast<std::size_t>(9 * sideX + 3 * sideY + sideZ + 13)];
+            query.fronts
+                .starts[std::size_t{near.id} * 27 + static_cast<std::size_t>(9 * sideX + 3 * sideY + sideZ + 13)];
         if (start == 0) start = findFront<bytes>(tables.rowStride(), *near.words, sideX, sideY, sideZ, query.fronts);
         return &query.fronts.voxels[start];
     }
 
-    // The leaf nearest to the slot, by their slots. After it others have less to add.
+    // A leaf near the slot, by their slots: the nearest of the first few. After it others have less to add.
     static VDBCAGE_INLINE std::size_t nearest(const SlotQuery& query, const std::uint16_t* indices, std::size_t count)
     {
+        constexpr std::size_t few = 8;
         int least = std::numeric_limits<int>::max();
         std::size_t found = 0;
-        for (std::size_t n = 0; n < count; ++n) {
+        for (std::size_t n = 0; n < std::min(count, few); ++n) {
             const NearLeaf& near = query.near[indices[n]];
             const int dx = query.x - near.x, dy = query.y - near.y, dz = query.z - near.z,
                       distance = dx * dx + dy * dy + dz * dz;
@@ -482,7 +484,6 @@ template <int bytes>
 struct MaskKernel {
     using Vector = typename VectorOf<std::int16_t, bytes>::type;
     static constexpr int count = 32 / bytes;
-    static constexpr std::size_t samples = 48; // more hardly settle more
 
     // The slots where the squares along the three axes add up to the limit or less. `y` has each of its four values
     // four times.
@@ -542,8 +543,7 @@ struct MaskKernel {
                                                 std::uint64_t wanted)
     {
         std::uint64_t result = 0;
-        const std::size_t stride = total / samples + 1;
-        for (std::size_t n = 0; n < total && (wanted & ~result) != 0; n += stride) {
+        for (std::size_t n = 0; n < total && (wanted & ~result) != 0; ++n) {
             const NearLeaf& leaf = near[n];
             const auto &farX = tables.squares(8 * leaf.x + leaf.sample[0]),
                        &farZ = tables.squares(8 * leaf.z + leaf.sample[2]);
@@ -613,10 +613,8 @@ SphereReach::SphereReach(std::int64_t squaredRadius, Simd simd, const Progress& 
 }
 SphereReach::~SphereReach() = default;
 
-void SphereReach::reachedSlots(NearLeaf* near, std::size_t count, std::uint64_t* masks, Work& work) const
+void SphereReach::reachedSlots(NearLeaf* near, std::size_t count, std::uint64_t* masks, const Work& /*work*/) const
 {
-    work.starts.assign(count * 27, 0);
-    work.size = 1;
 #if VDBCAGE_WITH_AVX
     if (simd_ != Simd::plain) return reachedAvx2(*tables_, near, count, masks);
 #endif
@@ -631,7 +629,12 @@ std::uint64_t SphereReach::coveredSlots(const NearLeaf* near, std::size_t count,
     return coveredPlain(*tables_, near, count, wanted);
 }
 
-void SphereReach::start(Work& /*work*/, const Coord& /*corner*/) const
+void SphereReach::startBlock(Work& work, std::size_t leaves) const
+{
+    work.starts.assign(leaves * 27, 0);
+    work.size = 1;
+}
+void SphereReach::startPart(Work& /*work*/, const Coord& /*corner*/) const
 {
 }
 

@@ -13,6 +13,7 @@ namespace vdbcage::detail {
 /// A contour leaf as seen from a part: a cube of 4^3 slots.
 struct NearLeaf {
     const Words* words;
+    std::uint32_t id;     ///< among all that are near the block of the part
     std::int16_t x, y, z; ///< its slot, counted from the part's first
     BitBox box;
     std::array<std::int8_t, 3> sample;
@@ -34,21 +35,23 @@ public:
     SphereReach(std::int64_t squaredRadius, Simd simd, const Progress& progress);
     ~SphereReach();
 
-    /// What one thread has found out about the leaves around the part that it works on.
+    /// What one thread has found out about the leaves around the block that it works on.
     struct Work {
         struct Voxel {
             std::int32_t place; ///< of its column in the tables, from that of the leaf's first column
             std::int32_t z;     ///< in the leaf; of leaves beside the slot the byte of all voxels in the column
         };
-        std::vector<std::uint32_t> starts; ///< by leaf and direction to a slot: where its front is, 0 if not yet there
-        std::vector<Voxel> voxels;         ///< a front is the number of its voxels and the voxels
-        std::size_t size = 0;              ///< of the part of `voxels` that is in use
+        std::vector<std::uint32_t>
+            starts;                ///< by leaf's id and direction to a slot: where its front is, 0 if not yet there
+        std::vector<Voxel> voxels; ///< a front is the number of its voxels and the voxels
+        std::size_t size = 0;      ///< of the part of `voxels` that is in use
     };
-    /// Starts a part with this corner.
-    void start(Work& work, const Coord& corner) const;
+    /// Starts a block with leaves that are numbered from 0, then each part of it, with its corner.
+    void startBlock(Work& work, std::size_t leaves) const;
+    void startPart(Work& work, const Coord& corner) const;
     /// For each of the `count` leaves at least the slots with a voxel within its reach. Completes the leaves.
-    void reachedSlots(NearLeaf* near, std::size_t count, std::uint64_t* masks, Work& work) const;
-    /// Most of the `wanted` slots that lie wholly within reach of one leaf, and maybe others that do.
+    void reachedSlots(NearLeaf* near, std::size_t count, std::uint64_t* masks, const Work& work) const;
+    /// The `wanted` slots that lie wholly within reach of the sample of one of the `count` leaves, and maybe others.
     std::uint64_t coveredSlots(const NearLeaf* near, std::size_t count, std::uint64_t wanted, const Work& work) const;
 
     /// The leaves that may reach a slot, as indices: those below it, beside and above.

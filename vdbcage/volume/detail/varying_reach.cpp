@@ -129,7 +129,13 @@ VDBCAGE_TARGET_AVX2 void findWithinAvx2(const Words& open, const std::int32_t* l
 
 } // namespace
 
-void VaryingReach::start(Work& work, const Coord& corner) const
+void VaryingReach::startBlock(Work& work, std::size_t leaves) const
+{
+    work.starts.assign(leaves, 0);
+    work.sites.resize(1);
+}
+
+void VaryingReach::startPart(Work& work, const Coord& corner) const
 {
     work.corner = corner;
     work.leastSquare.fill(0);
@@ -146,9 +152,8 @@ void VaryingReach::start(Work& work, const Coord& corner) const
 std::uint64_t VaryingReach::coveredSlots(const NearLeaf* near, std::size_t count, std::uint64_t wanted,
                                          const Work& work) const
 {
-    constexpr std::size_t samples = 48; // more hardly settle more
     std::uint64_t covered = 0;
-    for (std::size_t n = 0; n < count && (wanted & ~covered) != 0; n += count / samples + 1) {
+    for (std::size_t n = 0; n < count && (wanted & ~covered) != 0; ++n) {
         const NearLeaf& leaf = near[n];
         const Coord place(8 * leaf.x + leaf.sample[0], 8 * leaf.y + leaf.sample[1], 8 * leaf.z + leaf.sample[2]);
         auto limits = work.leastSquare;
@@ -158,10 +163,8 @@ std::uint64_t VaryingReach::coveredSlots(const NearLeaf* near, std::size_t count
     return covered;
 }
 
-void VaryingReach::reachedSlots(NearLeaf* near, std::size_t count, std::uint64_t* masks, Work& work) const
+void VaryingReach::reachedSlots(NearLeaf* near, std::size_t count, std::uint64_t* masks, const Work& work) const
 {
-    work.starts.assign(count, 0);
-    work.sites.resize(1);
     for (std::size_t n = 0; n < count; ++n) {
         const NearLeaf& leaf = near[n];
         const int x = 8 * leaf.x, y = 8 * leaf.y, z = 8 * leaf.z;
@@ -191,8 +194,9 @@ Words VaryingReach::within(const Words& open, int slot, const NearLeaf* near, co
             const std::size_t index = lists.indices[side][n];
             const NearLeaf& leaf = near[index];
             const Coord place(8 * leaf.x, 8 * leaf.y, 8 * leaf.z);
-            if (work.starts[index] == 0) {
-                work.starts[index] = static_cast<std::uint32_t>(work.sites.size());
+            std::uint32_t& start = work.starts[leaf.id];
+            if (start == 0) {
+                start = static_cast<std::uint32_t>(work.sites.size());
                 work.sites.push_back({});
                 for (int x = 0; x < leafSize; ++x) {
                     for (std::uint64_t word = (*leaf.words)[static_cast<std::size_t>(x)]; word != 0; word &= word - 1) {
@@ -200,11 +204,11 @@ Words VaryingReach::within(const Words& open, int slot, const NearLeaf* near, co
                         const Coord voxel = work.corner + place + Coord(x, bit >> 3, bit & 7);
                         const std::int32_t square = by_ == By::source ? field_.square(voxel, factor_) : 0;
                         work.sites.push_back({x, bit >> 3, bit & 7, square});
-                        ++work.sites[work.starts[index]].x;
+                        ++work.sites[start].x;
                     }
                 }
             }
-            const auto* const first = &work.sites[work.starts[index]];
+            const auto* const first = &work.sites[start];
             const Coord from = place - offset;
             const Leaf sites{from.x(), from.y(), from.z(), first + 1, first + 1 + first->x};
             const std::int32_t most = work.mostSquare[static_cast<std::size_t>(slot)];

@@ -28,15 +28,16 @@ public:
         Coord corner; ///< of the part
         std::array<std::int32_t, 64> leastSquare,
             mostSquare;                    ///< of the voxels of each slot; 0 where the source's count
-        std::vector<std::uint32_t> starts; ///< by leaf: of its sites, 0 if not yet there
+        std::vector<std::uint32_t> starts; ///< by leaf's id: of its sites, 0 if not yet there
         std::vector<Site> sites;           ///< of a leaf: first one whose x is their number
         std::vector<std::int32_t> planes;  ///< by x: least squared distance in the plane, of each (y, z)
         std::vector<int> used;             ///< the x that have a plane
         std::vector<char> isUsed;
     };
-    void start(Work& work, const Coord& corner) const;
+    void startBlock(Work& work, std::size_t leaves) const;
+    void startPart(Work& work, const Coord& corner) const;
     std::uint64_t coveredSlots(const NearLeaf* near, std::size_t count, std::uint64_t wanted, const Work& work) const;
-    void reachedSlots(NearLeaf* near, std::size_t count, std::uint64_t* masks, Work& work) const;
+    void reachedSlots(NearLeaf* near, std::size_t count, std::uint64_t* masks, const Work& work) const;
     Words within(const Words& open, int slot, const NearLeaf* near, const SphereReach::Lists& lists, Work& work) const;
 
 private:
