@@ -13,8 +13,8 @@
 
 #include <tbb/parallel_for.h>
 
-#include <vdbcage/volume/detail/mask_blocks.h>
 #include <vdbcage/core/detail/mask_grid.h>
+#include <vdbcage/volume/detail/mask_blocks.h>
 
 namespace vdbcage {
 

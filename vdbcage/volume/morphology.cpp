@@ -82,7 +82,9 @@ MaskGrid::Ptr openMask(const MaskGrid& mask, double radiusVoxels, Element elemen
     detail::requireSupportedCoordinates(mask.tree());
     const detail::Progress progress{interrupter};
     const auto eroded = erodeTree(mask.tree(), nullptr, radiusVoxels, element, progress.part(0, 2));
-    return detail::maskGridLike(mask, dilateTree(*eroded, radiusVoxels, element, progress.part(1, 2)));
+    const auto opened = dilateTree(*eroded, radiusVoxels, element, progress.part(1, 2));
+    detail::release(*eroded, {interrupter, 100, 100});
+    return detail::maskGridLike(mask, opened);
 }
 
 void detail::requireValid(const CloseOptions& options)
@@ -98,8 +100,10 @@ MaskGrid::Ptr closeMask(const MaskGrid& solid, const CloseOptions& options, Inte
     const detail::Progress progress{interrupter};
     const auto dilated = dilateTree(solid.tree(), options.closeRadiusVoxels, options.element, progress.part(0, 2));
     // As the erode radius is not above the close radius, no voxel of the solid can be lost.
-    return detail::maskGridLike(
-        solid, erodeTree(*dilated, &solid.tree(), options.erodeRadiusVoxels, options.element, progress.part(1, 2)));
+    const auto closed =
+        erodeTree(*dilated, &solid.tree(), options.erodeRadiusVoxels, options.element, progress.part(1, 2));
+    detail::release(*dilated, {interrupter, 100, 100});
+    return detail::maskGridLike(solid, closed);
 }
 
 MaskGrid::Ptr dilate(const BoolGrid& mask, double radiusVoxels, Element element, Interrupter* interrupter)

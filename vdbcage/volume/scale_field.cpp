@@ -152,8 +152,9 @@ MaskGrid::Ptr closeMask(const MaskGrid& solid, const CloseOptions& options, cons
     detail::requireSupportedCoordinates(solid.tree());
     const detail::Progress rest{interrupter, 10, 100};
     const auto dilated = detail::dilateByField(solid.tree(), field, rest.part(0, 2));
-    return detail::maskGridLike(
-        solid, detail::erodeByField(*dilated, &solid.tree(), field, std::min(factor, 1.0), rest.part(1, 2)));
+    const auto closed = detail::erodeByField(*dilated, &solid.tree(), field, std::min(factor, 1.0), rest.part(1, 2));
+    detail::release(*dilated, {interrupter, 100, 100});
+    return detail::maskGridLike(solid, closed);
 }
 
 } // namespace vdbcage

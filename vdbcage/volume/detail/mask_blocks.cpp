@@ -1,10 +1,12 @@
 #include <vdbcage/volume/detail/mask_blocks.h>
 
 #include <algorithm>
+#include <atomic>
 #include <map>
 #include <set>
 #include <sstream>
 
+#include <tbb/parallel_for.h>
 #include <vdbcage/core/error.h>
 
 namespace vdbcage::detail {
@@ -172,6 +174,18 @@ MaskTree::Ptr assemble(const FullParts& full, std::vector<BuiltBlock> built)
         }
     }
     return tree;
+}
+
+void release(MaskTree& tree, const Progress& progress)
+{
+    std::vector<MaskBlock*> stolen;
+    tree.stealNodes(stolen);
+    std::vector<std::unique_ptr<MaskBlock>> blocks(stolen.begin(), stolen.end());
+    std::atomic<std::size_t> done{0};
+    tbb::parallel_for(std::size_t{0}, blocks.size(), [&](std::size_t i) {
+        progress.check(done++, blocks.size());
+        blocks[i].reset();
+    });
 }
 
 void requireSupportedCoordinates(const MaskTree& tree)

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <openvdb/openvdb.h>
+#include <vdbcage/volume/detail/progress.h>
 
 /// A sparse mask seen as the nodes of its tree, the view that every algorithm of this room works on.
 ///
@@ -131,6 +132,10 @@ private:
 /// The tree of the full parts with the built blocks put in their place (each origin once). It is the smallest tree of
 /// its set: no empty node, no full one, so equal sets give equal trees.
 MaskTree::Ptr assemble(const FullParts& full, std::vector<BuiltBlock> built);
+
+/// Frees a tree that nobody else has, block by block: all at once would be long without a question to the interrupter.
+/// \throw Cancelled
+void release(MaskTree& tree, const Progress& progress);
 
 /// Checks that there is room around the active voxels for the arithmetic on coordinates: all within [-2^30, 2^30).
 /// \throw InputError

@@ -36,9 +36,9 @@ std::int64_t squaredGap(const CoordBBox& a, const CoordBBox& b)
 // What one thread needs while it works on a part of a block.
 template <class Reach>
 struct WorkSpace {
-    std::vector<std::pair<std::int64_t, std::size_t>> gaps; // of the groups that reach the part: square, which
-    std::vector<NearLeaf> near;                             // their leaves, or samples of them
-    std::vector<std::uint64_t> reached;                     // by leaf: slots of the part
+    std::vector<std::size_t> groups;    // that reach the part
+    std::vector<NearLeaf> near;         // their leaves, or samples of them
+    std::vector<std::uint64_t> reached; // by leaf: slots of the part
     // For each slot of the part the leaves that reach it: below from the front, above from the back, then those beside.
     std::vector<std::uint16_t> lists;
     std::array<std::array<std::size_t, 3>, 64> counts; // below, beside, above
@@ -212,20 +212,22 @@ private:
         return found;
     }
 
-    // The nearest first. Returns how many leaves they have.
+    // A nearest one first. Returns how many leaves they have.
     std::size_t selectGroups(const Target& target, const Coord& corner, Work& work) const
     {
         const CoordBBox box = CoordBBox::createCube(corner, partSlots * leafSize);
-        work.gaps.clear();
+        work.groups.clear();
         std::size_t leaves = 0;
+        std::int64_t least = squaredRadius_ + 1;
         for (std::size_t i = 0; i < target.groups.size(); ++i) {
             const ContourGroup& group = *target.groups[i].group;
             const std::int64_t gap = squaredGap(group.box, box);
             if (gap > squaredRadius_) continue;
-            work.gaps.emplace_back(gap, i);
+            work.groups.push_back(i);
             leaves += group.end - group.begin;
+            if (gap < least) std::swap(work.groups.front(), work.groups.back());
+            least = std::min(least, gap);
         }
-        std::sort(work.gaps.begin(), work.gaps.end());
         return leaves;
     }
 
@@ -234,7 +236,7 @@ private:
     {
         work.near.clear();
         std::size_t skip = 0; // leaves until the next
-        for (const auto& [gap, index] : work.gaps) {
+        for (const std::size_t index : work.groups) {
             const auto& [block, group, firstId] = target.groups[index];
             const Coord voxels = block->origin - corner,
                         offset(voxels.x() >> 3, voxels.y() >> 3, voxels.z() >> 3); // in slots
