@@ -7,6 +7,7 @@
 #include <vdbcage/core/interrupter.h>
 #include <vdbcage/core/version.h>
 #include <vdbcage/deform/binding.h>
+#include <vdbcage/deform/inversions.h>
 #include <vdbcage/deform/weights_io.h>
 #include <vdbcage/mesh/mesh.h>
 #include <vdbcage/mesh/mesh_io.h>

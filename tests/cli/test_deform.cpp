@@ -114,6 +114,46 @@ BOOST_AUTO_TEST_CASE(sequences)
                   "posed.0010.obj: has 8 points, 0 triangles and 6 quads; the cage");
 }
 
+BOOST_AUTO_TEST_CASE(a_walk_without_inverted_triangles)
+{
+    const TemporaryFolder folder;
+    const std::string creature = std::string(VDBCAGE_MODELS) + "/creature.obj", cage = folder / "cage.obj";
+    BOOST_TEST(runCommand({command, "make", creature, "-o", cage, "-q"}).status == 0);
+    const auto walk = runCommand({VDBCAGE_WALK, cage, folder / "walk"});
+    BOOST_REQUIRE_MESSAGE(walk.status == 0, walk.err);
+    const Mesh whole = readMesh(creature);
+    Mesh part; // of the triangles, each with points of its own
+    const std::vector<openvdb::Vec3I> triangles = triangulate(whole);
+    for (std::size_t i = 0; i < triangles.size(); i += 8) {
+        const auto first = static_cast<openvdb::Index32>(part.points.size());
+        part.triangles.emplace_back(first, first + 1, first + 2);
+        for (int k = 0; k < 3; ++k) part.points.push_back(whole.points[triangles[i][k]]);
+    }
+    writeMesh(part, folder / "part.ply");
+    const auto result = runCommand({command, "deform", cage, folder / "walk/walk.%04d.obj", folder / "part.ply", "-o",
+                                    folder / "out.%04d.ply", "--coordinates", "green", "--inversions"});
+    BOOST_TEST(result.status == 0, result.err);
+    std::string expected;
+    for (const char* frame : {"00", "01", "02", "03", "04", "05", "06", "07", "08", "09", "10", "11"}) {
+        expected +=
+            folder / (std::string("walk/walk.00") + frame + ".obj: a valid cage, 0 of 4632 triangles inverted\n");
+    }
+    BOOST_TEST(result.out == expected);
+}
+
+BOOST_AUTO_TEST_CASE(counts_inverted_triangles)
+{
+    const Scene scene;
+    Mesh mirrored = scene.cage;
+    for (Vec3d& p : mirrored.points) p.x() *= -1;
+    writeMesh(mirrored, scene.at("mirrored.obj"));
+    const auto result = runCommand({command, "deform", scene.at("cage.obj"), scene.at("mirrored.obj"),
+                                    scene.at("model.obj"), "-o", scene.at("out.obj"), "--inversions", "-q"});
+    BOOST_TEST(result.status == 0, result.err);
+    BOOST_TEST(result.err == "");
+    BOOST_TEST(result.out == scene.at("mirrored.obj") + ": NOT a valid cage, 2 of 2 triangles inverted\n");
+}
+
 BOOST_AUTO_TEST_CASE(wrong_pairs)
 {
     const Scene scene;

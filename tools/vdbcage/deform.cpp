@@ -1,8 +1,10 @@
 #include <iostream>
 #include <optional>
 
+#include <vdbcage/check/check.h>
 #include <vdbcage/core/atomic_file.h>
 #include <vdbcage/core/error.h>
+#include <vdbcage/deform/inversions.h>
 #include <vdbcage/deform/weights_io.h>
 #include <vdbcage/mesh/mesh_io.h>
 
@@ -51,6 +53,26 @@ void requireSameFaces(const fs::path& posedPath, const Mesh& posed, const fs::pa
     }
 }
 
+/// A line a frame: how many triangles of the model the pose turns inside out, and whether the posed cage is one.
+std::string describeInversions(const Binding& binding, const Mesh& model, const std::vector<Frame>& frames,
+                               const std::vector<Mesh>& posedCages, Interrupter* interrupter)
+{
+    std::vector<std::vector<openvdb::Vec3d>> poses;
+    for (const Mesh& posed : posedCages) poses.push_back(posed.points);
+    const auto inverted = invertedTriangles(binding, model, poses, interrupter);
+    const CageChecker checker(model, interrupter);
+    CheckOptions options;
+    options.measure = false;
+    std::string text;
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+        const bool valid = checker.check(posedCages[i], options, interrupter).valid();
+        text += frames[i].path.string() + ": " + (valid ? "a valid cage" : "NOT a valid cage") + ", " +
+                std::to_string(inverted[i].size()) + " of " + std::to_string(triangulate(model).size()) +
+                " triangles inverted\n";
+    }
+    return text;
+}
+
 } // namespace
 
 int runBind(std::vector<std::string> words)
@@ -91,7 +113,7 @@ int runDeform(std::vector<std::string> words)
 {
     fs::path cagePath, posedPath, modelPath, output, weights;
     std::string family = "mvc";
-    bool quiet = false;
+    bool quiet = false, inversions = false;
     CLI::App app("vdbcage deform CAGE POSED_CAGE MODEL -o OUT [OPTIONS]\n"
                  "Moves the model as its cage moved. A sequence has the frame's number in the\n"
                  "names of POSED_CAGE and OUT: cage.%04d.obj. From OBJ to OBJ all stays as it\n"
@@ -103,6 +125,7 @@ int runDeform(std::vector<std::string> words)
     app.add_option("-o,--output", output, "the posed model to write")->required()->type_name("OUT");
     CLI::Option* familyOption = app.add_option("--coordinates", family, familyHelp)->type_name("FAMILY");
     app.add_option("--weights", weights, "of vdbcage bind, else they are computed")->type_name("WEIGHTS.npy");
+    app.add_flag("--inversions", inversions, "print how many triangles each pose inverts");
     app.add_flag("-q,--quiet", quiet, "print nothing but errors");
     if (!parse(app, std::move(words))) return exitGood;
     coordinatesNamed(family);
@@ -130,6 +153,7 @@ int runDeform(std::vector<std::string> words)
         throw InputError(weights.string() + ": has " + coordinatesName(binding.family()) +
                          " coordinates; --coordinates asks for " + family);
     }
+    std::vector<Mesh> posedCages; // kept for what is printed
     Outputs outputs;
     for (const Frame& frame : frames) {
         throwIfInterrupted(&*progress);
@@ -137,9 +161,12 @@ int runDeform(std::vector<std::string> words)
         requireSameFaces(frame.path, posed, cagePath, cage);
         outputs.add(framePath(output, frame.number),
                     [&](const fs::path& path) { writeMoved(modelPath, binding.pose(posed.points), path); });
+        if (inversions) posedCages.push_back(posed);
     }
+    const std::string report = inversions ? describeInversions(binding, model, frames, posedCages, &*progress) : "";
     outputs.commit();
     progress.reset();
+    std::cout << report;
     if (!quiet) {
         std::cerr << output.string() << ": " << frames.size() << (frames.size() == 1 ? " pose" : " poses") << " of "
                   << model.points.size() << " points\n";

