@@ -63,12 +63,12 @@ std::string describeInversions(const Binding& binding, const Mesh& model, const 
     const CageChecker checker(model, interrupter);
     CheckOptions options;
     options.measure = false;
+    const std::size_t triangles = triangulate(model).size();
     std::string text;
     for (std::size_t i = 0; i < frames.size(); ++i) {
         const bool valid = checker.check(posedCages[i], options, interrupter).valid();
         text += frames[i].path.string() + ": " + (valid ? "a valid cage" : "NOT a valid cage") + ", " +
-                std::to_string(inverted[i].size()) + " of " + std::to_string(triangulate(model).size()) +
-                " triangles inverted\n";
+                std::to_string(inverted[i].size()) + " of " + std::to_string(triangles) + " triangles inverted\n";
     }
     return text;
 }

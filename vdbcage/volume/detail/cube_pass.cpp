@@ -117,8 +117,10 @@ public:
         index();
     }
     // The full parts, with the blocks in their places.
-    SlotSet(FullParts full, std::vector<FlatBlock> flat) : flat_(std::move(flat)), full_(std::move(full))
+    SlotSet(FullParts full, std::vector<FlatBlock> flat, const Progress& progress)
+        : flat_(std::move(flat)), full_(std::move(full))
     {
+        progress.check(1, 1);
         std::set<Coord> broken; // full regions that no longer are
         for (const FlatBlock& block : flat_) {
             if (!block.isFull()) broken.insert(alignedTo(block.origin, regionSize));
@@ -129,6 +131,7 @@ public:
             return true;
         };
         full_.regions.erase(std::remove_if(full_.regions.begin(), full_.regions.end(), isBroken), full_.regions.end());
+        progress.check(1, 1);
         std::set<Coord> origins;
         for (const FlatBlock& block : flat_) origins.insert(block.origin);
         const auto isReplaced = [&](const Coord& block) { return origins.count(block) > 0; };
@@ -136,6 +139,7 @@ public:
         for (const FlatBlock& block : flat_) {
             if (block.isFull()) full_.blocks.push_back(block.origin);
         }
+        progress.check(1, 1);
         index();
     }
 
@@ -205,6 +209,7 @@ public:
 
     SlotSet run()
     {
+        progress_.check(0, 1);
         const std::vector<Row> rows = targetRows();
         std::vector<FlatBlock> built(rows.empty() ? 0 : rows.back().start + rows.back().blocks);
         std::atomic<std::size_t> done{0};
@@ -215,7 +220,7 @@ public:
         for (auto* origins : {&full.regions, &full.blocks}) {
             for (Coord& origin : *origins) origin = turned(origin);
         }
-        return {std::move(full), std::move(built)};
+        return {std::move(full), std::move(built), progress_};
     }
 
 private:
@@ -241,6 +246,7 @@ private:
         }
         std::sort(targets.begin(), targets.end(), [](const Coord& a, const Coord& b) { return turned(a) < turned(b); });
         targets.erase(std::unique(targets.begin(), targets.end()), targets.end());
+        progress_.check(0, 1);
         const auto isSettled = [&](const Coord& origin) {
             if (isFull(mask_.at(origin))) return true;
             for (int step = -blockReach_; step <= blockReach_; ++step) {
