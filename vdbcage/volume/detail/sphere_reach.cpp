@@ -451,6 +451,14 @@ private:
             for (++front; front != end; ++front) {
                 Signed heights[C::count];
                 std::memcpy(&heights, corner + front->place, sizeof heights);
+                // Most columns are reached whole or not at all.
+                Vector some{};
+                for (int i = 0; i < C::count; ++i) {
+                    const Vector isWhole = reinterpret_cast<Vector>(heights[i] > static_cast<S>(none<T> + 7));
+                    found.v[i] |= isWhole;
+                    some |= reinterpret_cast<Vector>(heights[i] > static_cast<S>(none<T>)) & open.v[i] & ~found.v[i];
+                }
+                if (!isAny<Vector>(some)) continue;
                 // A voxel more up and down with each voxel more of height.
                 auto byte = static_cast<unsigned>(front->z);
                 for (int height = 0;; ++height) {
