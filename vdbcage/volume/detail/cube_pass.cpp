@@ -365,7 +365,7 @@ private:
         // Sums of more and more slots, by doubling, up to those that lie wholly in reach of all of one.
         view.sums = view.any;
         view.summed = 1;
-        for (; 2 * view.summed < 2 * wholeSlots_; view.summed *= 2) {
+        for (; view.summed < wholeSlots_; view.summed *= 2) {
             for (std::size_t i = 0; i + view.summed < size; ++i) view.sums[i] |= view.sums[i + view.summed];
         }
     }
