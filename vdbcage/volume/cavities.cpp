@@ -329,7 +329,7 @@ MaskGrid::Ptr fillCavities(const MaskGrid& mask, std::size_t* cavities, Interrup
         for (int axis = 0; axis < 3; ++axis) {
             for (const bool upper : {false, true}) {
                 Coord neighbour = nodes[i].origin();
-                neighbour[axis] += upper ? blockSize : -blockSize;
+                neighbour[static_cast<std::size_t>(axis)] += upper ? blockSize : -blockSize;
                 const auto other = nodeAt.find(neighbour);
                 if (other == nodeAt.end()) {
                     if (!blockAt(tree, neighbour).isEmpty()) continue;

@@ -16,7 +16,7 @@ public:
     {
         own_.forEachSlot(
             [&](int n, const std::uint64_t* slot) { kinds_[at(n >> 8, n >> 4 & 15, n & 15)] = kindOf(slot); });
-        for (int axis = 0; axis < 3; ++axis) {
+        for (std::size_t axis = 0; axis < 3; ++axis) {
             for (const bool upper : {false, true}) {
                 Coord beside = origin;
                 beside[axis] += upper ? blockSize : -blockSize;
@@ -57,7 +57,7 @@ public:
     // The words of a slot, -1 to 16 along one axis, else 0 to 15.
     const std::uint64_t* words(Coord slot) const
     {
-        for (int axis = 0; axis < 3; ++axis) {
+        for (std::size_t axis = 0; axis < 3; ++axis) {
             if (slot[axis] >= 0 && slot[axis] < slotsPerAxis) continue;
             const bool upper = slot[axis] > 0;
             slot[axis] = upper ? 0 : slotsPerAxis - 1;
@@ -75,12 +75,12 @@ private:
     {
         return static_cast<std::size_t>((x + 1) * stepX + (y + 1) * stepY + z + 1);
     }
-    static std::size_t index(int axis, bool upper) { return static_cast<std::size_t>(2 * axis + (upper ? 1 : 0)); }
+    static std::size_t index(std::size_t axis, bool upper) { return 2 * axis + (upper ? 1 : 0); }
     static Kind kindOf(const std::uint64_t* words)
     {
         return words == emptyWords.data() ? empty : words == fullWords.data() ? full : mixed;
     }
-    void copyFace(const Block& neighbour, int axis, bool upper)
+    void copyFace(const Block& neighbour, std::size_t axis, bool upper)
     {
         for (int i = 0; i < slotsPerAxis; ++i) {
             for (int j = 0; j < slotsPerAxis; ++j) {
@@ -180,7 +180,7 @@ std::vector<ContourBlock> contourBlocks(const MaskTree& tree, ContourOf side, co
     if (side == ContourOf::complement) {
         const std::size_t own = origins.size();
         for (std::size_t i = 0; i < own; ++i) {
-            for (int axis = 0; axis < 3; ++axis) {
+            for (std::size_t axis = 0; axis < 3; ++axis) {
                 for (const int step : {-blockSize, blockSize}) {
                     Coord neighbour = origins[i];
                     neighbour[axis] += step;

@@ -43,7 +43,7 @@ bool isUniformlyFull(const MaskBlock& node)
 
 // The blocks along the face of a region on one side of one axis.
 template <class Visit>
-void forEachFaceBlock(const Coord& region, int axis, bool upper, const Visit& visit)
+void forEachFaceBlock(const Coord& region, std::size_t axis, bool upper, const Visit& visit)
 {
     for (int i = 0; i < blocksPerRegionAxis; ++i) {
         for (int j = 0; j < blocksPerRegionAxis; ++j) {
@@ -82,7 +82,7 @@ std::vector<Coord> facesOfRegions(const std::vector<Coord>& regions)
     const std::set<Coord> all(regions.begin(), regions.end());
     std::vector<Coord> blocks;
     for (const Coord& region : regions) {
-        for (int axis = 0; axis < 3; ++axis) {
+        for (std::size_t axis = 0; axis < 3; ++axis) {
             for (const bool upper : {false, true}) {
                 Coord neighbour = region;
                 neighbour[axis] += upper ? regionSize : -regionSize;

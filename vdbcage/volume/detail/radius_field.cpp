@@ -158,9 +158,10 @@ RadiusField::RadiusField(const ScaleField& scale, const openvdb::math::Transform
         around.expand(spread + most + 2); // radii are asked for as far from the box as they reach
         extent.expand(spread);
         double count = 1;
-        for (int axis = 0; axis < 3; ++axis) {
-            const double lower = std::max(around.min()[axis], extent.min()[axis]),
-                         upper = std::min(around.max()[axis], extent.max()[axis]);
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const int i = static_cast<int>(axis); // as OpenVDB's vectors have it, other than its Coord
+            const double lower = std::max(around.min()[i], extent.min()[i]),
+                         upper = std::min(around.max()[i], extent.max()[i]);
             if (lower > upper) return;
             const double unit = 1 << shift_;
             first_[axis] = static_cast<int>(std::floor(lower / unit));
@@ -217,11 +218,11 @@ void RadiusField::sample(const ScaleField& scale, const openvdb::math::Transform
 void RadiusField::clamp(const Progress& progress)
 {
     const auto growth = static_cast<float>(steepest * (1 << shift_));
-    for (int axis = 0; axis < 3; ++axis) {
-        const int u = (axis + 1) % 3, v = (axis + 2) % 3;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const std::size_t u = (axis + 1) % 3, v = (axis + 2) % 3;
         tbb::parallel_for(0, size_[u], [&](int i) {
             for (int j = 0; j < size_[v]; ++j) {
-                if (j % 16 == 0) progress.check(static_cast<std::size_t>(axis), 3);
+                if (j % 16 == 0) progress.check(axis, 3);
                 Coord c;
                 c[u] = i;
                 c[v] = j;
@@ -243,11 +244,11 @@ void RadiusField::clamp(const Progress& progress)
 float RadiusField::radiusAt(const Coord& voxel) const
 {
     const Coord cell(voxel.x() >> shift_, voxel.y() >> shift_, voxel.z() >> shift_), place = cell - first_;
-    for (int axis = 0; axis < 3; ++axis) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
         if (place[axis] < 0 || place[axis] + 1 >= size_[axis]) return outside_;
     }
     const float unit = 1.0F / static_cast<float>(1 << shift_);
-    const auto weight = [&](int axis) { return static_cast<float>(voxel[axis] & ((1 << shift_) - 1)) * unit; };
+    const auto weight = [&](std::size_t axis) { return static_cast<float>(voxel[axis] & ((1 << shift_) - 1)) * unit; };
     const auto mix = [](float a, float b, float t) { return a + (b - a) * t; };
     const std::size_t corner = node(place), y = static_cast<std::size_t>(size_.z()),
                       x = y * static_cast<std::size_t>(size_.y());
@@ -272,7 +273,7 @@ std::int32_t RadiusField::square(const Coord& voxel, double factor) const
 void RadiusField::findRanges(const Progress& progress)
 {
     const int perSlot = leafSize >> shift_;
-    for (int axis = 0; axis < 3; ++axis) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
         firstSlot_[axis] = (first_[axis] << shift_) >> 3;
         slots_[axis] = (((first_[axis] + size_[axis] - 1) << shift_) >> 3) + 1 - firstSlot_[axis];
     }
@@ -283,13 +284,14 @@ void RadiusField::findRanges(const Progress& progress)
             progress.check(static_cast<std::size_t>(x), static_cast<std::size_t>(slots_.x()));
             for (int z = 0; z < slots_.z(); ++z) {
                 Coord corner = firstSlot_ + Coord(x, y, z); // then its first node
-                for (int axis = 0; axis < 3; ++axis)
+                for (std::size_t axis = 0; axis < 3; ++axis)
                     corner[axis] = ((corner[axis] * leafSize) >> shift_) - first_[axis];
                 Range range{outside_, outside_};
                 bool isFirst = true;
                 for (auto c = CoordBBox(corner, corner.offsetBy(perSlot)).begin(); c; ++c) {
                     bool isNode = true;
-                    for (int axis = 0; axis < 3; ++axis) isNode = isNode && (*c)[axis] >= 0 && (*c)[axis] < size_[axis];
+                    for (std::size_t axis = 0; axis < 3; ++axis)
+                        isNode = isNode && (*c)[axis] >= 0 && (*c)[axis] < size_[axis];
                     const float value = isNode ? nodes_[node(*c)] : outside_;
                     range.least = isFirst ? value : std::min(range.least, value);
                     range.most = isFirst ? value : std::max(range.most, value);
@@ -307,7 +309,7 @@ void RadiusField::findRanges(const Progress& progress)
 RadiusField::Range RadiusField::rangeOfSlot(const Coord& origin) const
 {
     const Coord slot = Coord(origin.x() >> 3, origin.y() >> 3, origin.z() >> 3) - firstSlot_;
-    for (int axis = 0; axis < 3; ++axis) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
         if (slot[axis] < 0 || slot[axis] >= slots_[axis]) return {outside_, outside_};
     }
     return ranges_[(static_cast<std::size_t>(slot.x()) * static_cast<std::size_t>(slots_.y()) +

@@ -26,7 +26,7 @@ using openvdb::CoordBBox;
 std::int64_t squaredGap(const CoordBBox& a, const CoordBBox& b)
 {
     std::int64_t sum = 0;
-    for (int axis = 0; axis < 3; ++axis) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
         const std::int64_t gap = std::max({a.min()[axis] - b.max()[axis], b.min()[axis] - a.max()[axis], 0});
         sum += gap * gap;
     }

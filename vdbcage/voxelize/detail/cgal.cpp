@@ -168,7 +168,7 @@ private:
         });
     }
 
-    void crossAlong(int axis, Coord ijk)
+    void crossAlong(std::size_t axis, Coord ijk)
     {
         const int u = axis == 0 ? 1 : 0, v = axis == 2 ? 1 : 2;
         // The ray at a distance of so many half voxels from the first centre.

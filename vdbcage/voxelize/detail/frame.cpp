@@ -56,8 +56,9 @@ Frame makeFrame(const Mesh& model, int resolution)
     };
     openvdb::Coord low, high;
     for (int axis = 0; axis < 3; ++axis) {
-        low[axis] = (lattice(box.min(), axis) - latticeReach + latticeStep - 1) >> latticeBits;
-        high[axis] = (lattice(box.max(), axis) + latticeReach) >> latticeBits;
+        const auto i = static_cast<std::size_t>(axis); // as OpenVDB's Coord has it, other than its vectors
+        low[i] = (lattice(box.min(), axis) - latticeReach + latticeStep - 1) >> latticeBits;
+        high[i] = (lattice(box.max(), axis) + latticeReach) >> latticeBits;
     }
     frame.voxels = openvdb::CoordBBox(low, high);
     return frame;
