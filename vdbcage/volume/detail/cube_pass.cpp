@@ -43,6 +43,7 @@ struct FlatBlock {
     Coord origin;
     std::vector<std::uint16_t> kinds = std::vector<std::uint16_t>(slotsPerBlock, 0);
     std::vector<Words> words;
+    bool isUniform = true; // as finish() found
 
     void set(int n, const Words& bits)
     {
@@ -54,11 +55,13 @@ struct FlatBlock {
             kind = static_cast<std::uint16_t>(words.size() + 1);
         }
     }
-    bool isUniform() const
+    // When all slots are set.
+    void finish()
     {
-        return words.empty() && std::adjacent_find(kinds.begin(), kinds.end(), std::not_equal_to<>()) == kinds.end();
+        isUniform =
+            words.empty() && std::adjacent_find(kinds.begin(), kinds.end(), std::not_equal_to<>()) == kinds.end();
     }
-    bool isFull() const { return kinds[0] == 1 && isUniform(); }
+    bool isFull() const { return kinds[0] == 1 && isUniform; }
 };
 
 FlatBlock flattened(const MaskBlock& node)
@@ -70,13 +73,14 @@ FlatBlock flattened(const MaskBlock& node)
         std::copy_n(slot, words.size(), words.begin());
         flat.set(n, words);
     });
+    flat.finish();
     return flat;
 }
 
 BuiltBlock treeBlock(const FlatBlock& flat)
 {
     BuiltBlock built{flat.origin, nullptr, flat.isFull()};
-    if (flat.isUniform()) return built;
+    if (flat.isUniform) return built;
     built.node = std::make_unique<MaskBlock>(flat.origin, false, false);
     for (int n = 0; n < slotsPerBlock; ++n) {
         const std::size_t kind = flat.kinds[static_cast<std::size_t>(n)];
@@ -175,7 +179,7 @@ private:
     void index()
     {
         for (const FlatBlock& block : flat_) {
-            blocks_.emplace(block.origin, block.isUniform() ? Slots{nullptr, block.isFull()} : Slots{&block, false});
+            blocks_.emplace(block.origin, block.isUniform ? Slots{nullptr, block.isFull()} : Slots{&block, false});
         }
         regions_.insert(full_.regions.begin(), full_.regions.end());
         for (const Coord& origin : full_.blocks) blocks_.insert_or_assign(origin, Slots{nullptr, true});
@@ -305,6 +309,7 @@ private:
                 for (std::size_t i = 0; i < row.blocks; ++i) smearLine(view, i, start, result[i]);
             }
         }
+        for (std::size_t i = 0; i < row.blocks; ++i) result[i].finish();
     }
 
     View look(const Row& row) const
