@@ -102,12 +102,11 @@ private:
 // The contour within a slot; false if there is none. `flip` is ~0 for the complement.
 bool contourWords(const PaddedSlots& slots, const Coord& slot, std::uint64_t flip, Words& contour)
 {
-    const std::uint64_t* const own = slots.words(slot);
-    const std::uint64_t *const
-        xLower = slots.words(slot.offsetBy(-1, 0, 0)),
-        *const xUpper = slots.words(slot.offsetBy(1, 0, 0)), *const yLower = slots.words(slot.offsetBy(0, -1, 0)),
-        *const yUpper = slots.words(slot.offsetBy(0, 1, 0)), *const zLower = slots.words(slot.offsetBy(0, 0, -1)),
-        *const zUpper = slots.words(slot.offsetBy(0, 0, 1));
+    const auto wordsAt = [&](int x, int y, int z) { return slots.words(slot.offsetBy(x, y, z)); };
+    const std::uint64_t* const own = wordsAt(0, 0, 0);
+    const std::uint64_t *const xLower = wordsAt(-1, 0, 0), *const xUpper = wordsAt(1, 0, 0);
+    const std::uint64_t *const yLower = wordsAt(0, -1, 0), *const yUpper = wordsAt(0, 1, 0);
+    const std::uint64_t *const zLower = wordsAt(0, 0, -1), *const zUpper = wordsAt(0, 0, 1);
     constexpr std::uint64_t firstZ = 0x0101010101010101ULL, lastZ = firstZ << 7;
     std::uint64_t any = 0;
     for (std::size_t x = 0; x < 8; ++x) {

@@ -79,21 +79,12 @@ FlatBlock flattened(const MaskBlock& node)
 
 BuiltBlock treeBlock(const FlatBlock& flat)
 {
-    BuiltBlock built{flat.origin, nullptr, flat.isFull()};
-    if (flat.isUniform) return built;
-    built.node = std::make_unique<MaskBlock>(flat.origin, false, false);
+    BlockBuilder builder(flat.origin);
     for (int n = 0; n < slotsPerBlock; ++n) {
         const std::size_t kind = flat.kinds[static_cast<std::size_t>(n)];
-        if (kind == 0) continue;
-        if (kind == 1) {
-            built.node->addTile(static_cast<openvdb::Index>(n), true, true);
-        } else {
-            auto leaf = std::make_unique<MaskLeaf>(flat.origin + slotOffset(n));
-            std::copy(flat.words[kind - 2].begin(), flat.words[kind - 2].end(), leaf->buffer().data());
-            built.node->addChild(leaf.release());
-        }
+        if (kind > 0) builder.set(n, kind == 1 ? fullWords.data() : flat.words[kind - 2].data());
     }
-    return built;
+    return builder.finish();
 }
 
 // One block of a mask: flat, or uniformly full or empty.

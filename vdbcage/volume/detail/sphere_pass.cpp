@@ -159,7 +159,11 @@ private:
             open &= ~covered;
             if (open != 0 && stride > 1) gatherLeaves(target, corner, 1, work);
         }
-        if (open != 0) open &= listLeaves(target, open, work);
+        if (open != 0) {
+            if (work.block != target.origin) reach_.startBlock(work.reach, target.leaves);
+            work.block = target.origin;
+            open &= listLeaves(open, work);
+        }
         for (int i = 0; i < 64; ++i) {
             const auto slot = static_cast<std::size_t>(i);
             const int n = slotOfBlock(firstSlot, i);
@@ -257,15 +261,13 @@ private:
     }
 
     // Tells which of the open slots a leaf may reach.
-    std::uint64_t listLeaves(const Target& target, std::uint64_t open, Work& work) const
+    std::uint64_t listLeaves(std::uint64_t open, Work& work) const
     {
         std::uint64_t any = 0;
         const std::size_t size = work.near.size();
         for (auto& counts : work.counts) counts.fill(0);
         if (work.lists.size() < 128 * size) work.lists.resize(128 * size);
         work.reached.resize(size);
-        if (work.block != target.origin) reach_.startBlock(work.reach, target.leaves);
-        work.block = target.origin;
         reach_.reachedSlots(work.near.data(), size, work.reached.data(), work.reach);
         for (std::size_t i = 0; i < size; ++i) {
             const std::uint64_t reached = work.reached[i] & open;
