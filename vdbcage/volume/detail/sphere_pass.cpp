@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -36,13 +37,14 @@ std::int64_t squaredGap(const CoordBBox& a, const CoordBBox& b)
 // What one thread needs while it works on a part of a block.
 template <class Reach>
 struct WorkSpace {
-    std::vector<std::size_t> groups;    // that reach the part
-    std::vector<NearLeaf> near;         // their leaves, or samples of them
-    std::vector<std::uint64_t> reached; // by leaf: slots of the part
-    // For each slot of the part the leaves that reach it: below from the front, above from the back, then those beside.
+    std::vector<std::size_t> groups; // that reach the part
+    std::vector<NearLeaf> near;      // their leaves, or samples of them
+    // Those that may reach open slots, by where they are along z: see SphereReach::Leaves.
+    std::vector<std::uint16_t> order;
+    // For each pile of slots of the part those that may reach open ones.
     std::vector<std::uint16_t> lists;
-    std::array<std::array<std::size_t, 3>, 64> counts; // below, beside, above
-    std::optional<Coord> block;                        // that `reach` knows about
+    std::array<std::array<std::size_t, 6>, 16> ends;
+    std::optional<Coord> block; // that `reach` knows about
     typename Reach::Work reach;
     // By slot of the part: its voxels, and those that the pass may change.
     std::array<const std::uint64_t*, 64> base;
@@ -164,19 +166,30 @@ private:
             work.block = target.origin;
             open &= listLeaves(open, work);
         }
-        for (int i = 0; i < 64; ++i) {
-            const auto slot = static_cast<std::size_t>(i);
-            const int n = slotOfBlock(firstSlot, i);
-            const std::uint64_t* const base = work.base[slot];
-            // The open voxels within reach change sides.
-            if ((covered >> i & 1) != 0) {
-                setChanged(builder, n, base, *work.open[slot]);
-            } else if ((open >> i & 1) != 0) {
-                if (i % 4 == 3) progress_.check(partsDone_, parts_); // these take time with large radii
-                setChanged(builder, n, base,
-                           reach_.within(*work.open[slot], i, work.near.data(), listsOf(slot, work), work.reach));
-            } else {
-                builder.set(n, base);
+        // The open voxels within reach change sides.
+        for (int pile = 0; pile < 16; ++pile) {
+            const int first = 4 * pile;
+            SphereReach::Pile pileOpen{};
+            for (std::size_t z = 0; z < 4; ++z) {
+                const std::size_t i = static_cast<std::size_t>(first) + z;
+                if ((open >> i & 1) != 0) pileOpen[z] = work.open[i];
+            }
+            std::array<Words, 4> change;
+            if ((open >> first & 15) != 0) {
+                progress_.check(partsDone_, parts_); // these take time with large radii
+                change = reach_.within(pileOpen, pile, work.near.data(), leavesOf(pile, work), work.reach);
+            }
+            for (int z = 0; z < 4; ++z) {
+                const int i = first + z, n = slotOfBlock(firstSlot, i);
+                const auto slot = static_cast<std::size_t>(i);
+                const std::uint64_t* const base = work.base[slot];
+                if ((covered >> i & 1) != 0) {
+                    setChanged(builder, n, base, *work.open[slot]);
+                } else if ((open >> i & 1) != 0) {
+                    setChanged(builder, n, base, change[static_cast<std::size_t>(z)]);
+                } else {
+                    builder.set(n, base);
+                }
             }
         }
     }
@@ -263,44 +276,48 @@ private:
     // Tells which of the open slots a leaf may reach.
     std::uint64_t listLeaves(std::uint64_t open, Work& work) const
     {
-        std::uint64_t any = 0;
+        constexpr std::uint64_t bottoms = 0x1111111111111111ULL; // the first slot of each pile
         const std::size_t size = work.near.size();
-        for (auto& counts : work.counts) counts.fill(0);
-        if (work.lists.size() < 128 * size) work.lists.resize(128 * size);
-        work.reached.resize(size);
-        reach_.reachedSlots(work.near.data(), size, work.reached.data(), work.reach);
+        reach_.reachedSlots(work.near.data(), size, work.reach);
+        std::uint64_t any = 0;
+        std::array<std::size_t, 7> starts{};
+        const auto kindOf = [&](const NearLeaf& leaf) {
+            return static_cast<std::size_t>(std::clamp(leaf.z + 1, 0, partSlots + 1));
+        };
+        for (const NearLeaf& leaf : work.near) {
+            if ((leaf.reached & open) == 0) continue;
+            any |= leaf.reached & open;
+            ++starts[kindOf(leaf) + 1];
+        }
+        std::partial_sum(starts.begin(), starts.end(), starts.begin());
+        const auto kindEnds = starts;
+        if (work.order.size() < size) work.order.resize(size);
         for (std::size_t i = 0; i < size; ++i) {
-            const std::uint64_t reached = work.reached[i] & open;
-            if (reached == 0) continue;
-            any |= reached;
-            const int z = work.near[i].z;
-            constexpr std::uint64_t column = 0x1111111111111111ULL; // the slots of the part with z = 0
-            std::uint64_t below = 0, beside = 0;
-            for (int k = 0; k < partSlots; ++k) {
-                if (z < k) below |= column << k;
-                if (z == k) beside |= column << k;
-            }
-            const auto list = [&](std::uint64_t slots, std::size_t side) {
-                for (; slots != 0; slots &= slots - 1) {
-                    const auto slot = static_cast<std::size_t>(__builtin_ctzll(slots));
-                    const std::size_t n = work.counts[slot][side]++;
-                    const std::size_t place = side == 0 ? n : side == 1 ? size + n : size - 1 - n;
-                    work.lists[slot * 2 * size + place] = static_cast<std::uint16_t>(i);
+            if ((work.near[i].reached & open) == 0) continue;
+            work.order[starts[kindOf(work.near[i])]++] = static_cast<std::uint16_t>(i);
+        }
+        if (work.lists.size() < 16 * size) work.lists.resize(16 * size);
+        std::array<std::size_t, 16> counts{};
+        for (std::size_t kind = 0; kind < 6; ++kind) {
+            for (std::size_t k = kindEnds[kind]; k < kindEnds[kind + 1]; ++k) {
+                const std::uint16_t i = work.order[k];
+                std::uint64_t piles = work.near[i].reached & open;
+                piles |= piles >> 2;
+                piles |= piles >> 1;
+                for (piles &= bottoms; piles != 0; piles &= piles - 1) {
+                    const auto pile = static_cast<std::size_t>(__builtin_ctzll(piles)) / 4;
+                    work.lists[pile * size + counts[pile]++] = i;
                 }
-            };
-            list(reached & below, 0);
-            list(reached & beside, 1);
-            list(reached & ~(below | beside), 2);
+            }
+            for (std::size_t pile = 0; pile < 16; ++pile) work.ends[pile][kind] = counts[pile];
         }
         return any;
     }
 
-    static SphereReach::Lists listsOf(std::size_t slot, const Work& work)
+    static SphereReach::Leaves leavesOf(int pile, const Work& work)
     {
-        const std::size_t size = work.near.size();
-        const std::uint16_t* const first = work.lists.data() + slot * 2 * size;
-        const auto& counts = work.counts[slot];
-        return {{first, first + size, first + size - counts[2]}, {counts[0], counts[1], counts[2]}};
+        const auto i = static_cast<std::size_t>(pile);
+        return {work.lists.data() + i * work.near.size(), work.ends[i]};
     }
 
     static Coord cornerOf(const Target& target, const Coord& firstSlot)

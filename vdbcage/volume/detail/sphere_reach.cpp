@@ -290,52 +290,71 @@ VDBCAGE_INLINE int sideOf(int offset)
 
 using Fronts = SphereReach::Work;
 
-struct SlotQuery {
-    const Words& open;
-    int x, y, z;             // the slot
+struct PileQuery {
+    const SphereReach::Pile& open;
+    int x, y;                // of the pile, in slots
     int slotPlace, rowPlace; // of it in the tables, from the part's first
     const NearLeaf* near;
-    const SphereReach::Lists& lists;
+    const SphereReach::Leaves& leaves;
     Fronts& fronts;
 };
 
 template <class T, int bytes>
 class Kernel {
 public:
-    static VDBCAGE_INLINE Words within(const Tables& tables, const SlotQuery& query)
+    static VDBCAGE_INLINE void within(const Tables& tables, const PileQuery& query, Words* result)
     {
-        Words openBytes = query.open;
-        transposeBytes(openBytes); // now word y, byte x, bit z
-        T openLanes[lanes];
-        for (std::size_t i = 0; i < lanes; ++i)
-            openLanes[i] = reinterpret_cast<const std::uint8_t*>(openBytes.data())[i];
-        C open, found;
-        open.load(openLanes);
-        found.fill(0);
-        if (vertical(tables, query, 1, open, found) && vertical(tables, query, -1, open, found)) {
-            lateral(tables, query, open, found);
+        C open[levels], found[levels];
+        for (std::size_t z = 0; z < levels; ++z) {
+            found[z].fill(0);
+            query.open[z] ? load(*query.open[z], open[z]) : open[z].fill(0);
         }
-        T foundLanes[lanes];
-        found.store(foundLanes);
-        Words words;
-        for (std::size_t i = 0; i < lanes; ++i)
-            reinterpret_cast<std::uint8_t*>(words.data())[i] = static_cast<std::uint8_t>(foundLanes[i]);
-        transposeBytes(words);
-        for (std::size_t x = 0; x < 8; ++x) words[x] &= query.open[x];
-        return words;
+        if (vertical(tables, query, 1, open, found) && vertical(tables, query, -1, open, found)) {
+            for (std::size_t z = 0; z < levels; ++z) {
+                if (query.open[z]) lateral(tables, query, z, open[z], found[z]);
+            }
+        }
+        for (std::size_t z = 0; z < levels; ++z) {
+            if (query.open[z]) store(found[z], *query.open[z], result[z]);
+        }
     }
 
 private:
     using C = Columns<T, bytes>;
     using Vector = typename C::Vector;
+    static constexpr std::size_t levels = 4; // of a pile
 
+    // From and to one number for each column, bit z of it its voxel z.
+    static VDBCAGE_INLINE void load(const Words& words, C& columns)
+    {
+        Words byColumn = words;
+        transposeBytes(byColumn); // now word y, byte x, bit z
+        T numbers[lanes];
+        for (std::size_t i = 0; i < lanes; ++i) numbers[i] = reinterpret_cast<const std::uint8_t*>(byColumn.data())[i];
+        columns.load(numbers);
+    }
+    static VDBCAGE_INLINE void store(const C& columns, const Words& mask, Words& words)
+    {
+        T numbers[lanes];
+        columns.store(numbers);
+        for (std::size_t i = 0; i < lanes; ++i)
+            reinterpret_cast<std::uint8_t*>(words.data())[i] = static_cast<std::uint8_t>(numbers[i]);
+        transposeBytes(words);
+        for (std::size_t x = 0; x < 8; ++x) words[x] &= mask[x];
+    }
     static VDBCAGE_INLINE void load(Vector& v, const T* row, int i)
     {
         std::memcpy(&v, row + i * bytes / static_cast<int>(sizeof(T)), bytes);
     }
+    static VDBCAGE_INLINE bool isAny(const C& columns)
+    {
+        Vector all = columns.v[0];
+        for (int i = 1; i < C::count; ++i) all |= columns.v[i];
+        return detail::isAny<Vector>(all);
+    }
 
-    // The front of a leaf towards a slot.
-    static VDBCAGE_INLINE const Fronts::Voxel* frontOf(const Tables& tables, const SlotQuery& query, std::size_t leaf,
+    // The front of a leaf towards the pile.
+    static VDBCAGE_INLINE const Fronts::Voxel* frontOf(const Tables& tables, const PileQuery& query, std::size_t leaf,
                                                        int sideZ)
     {
         const NearLeaf& near = query.near[leaf];
@@ -347,15 +366,15 @@ private:
         return &query.fronts.voxels[start];
     }
 
-    // A leaf near the slot, by their slots: the nearest of the first few. After it others have less to add.
-    static VDBCAGE_INLINE std::size_t nearest(const SlotQuery& query, const std::uint16_t* indices, std::size_t count)
+    // A leaf near a slot, by their slots: the nearest of a few. After it others have less to add.
+    static VDBCAGE_INLINE std::size_t nearest(const PileQuery& query, int z, std::size_t begin, std::size_t end)
     {
         constexpr std::size_t few = 8;
         int least = std::numeric_limits<int>::max();
-        std::size_t found = 0;
-        for (std::size_t n = 0; n < std::min(count, few); ++n) {
-            const NearLeaf& near = query.near[indices[n]];
-            const int dx = query.x - near.x, dy = query.y - near.y, dz = query.z - near.z,
+        std::size_t found = begin;
+        for (std::size_t n = begin; n < std::min(begin + few, end); ++n) {
+            const NearLeaf& near = query.near[query.leaves.indices[n]];
+            const int dx = query.x - near.x, dy = query.y - near.y, dz = z - near.z,
                       distance = dx * dx + dy * dy + dz * dz;
             found = distance < least ? n : found;
             least = std::min(least, distance);
@@ -363,32 +382,95 @@ private:
         return found;
     }
 
-    // From the leaves below (side 1) or above (-1). Returns whether any are left open.
-    static VDBCAGE_INLINE bool vertical(const Tables& tables, const SlotQuery& query, int side, C& open, C& found)
+    // Heights in each column, from before a slot's first voxel on: how high its voxels up to the first open one are,
+    // and up to the last one. Those of the slot and of all behind it, where `next` is of the next.
+    struct Heights {
+        C first, last;
+    };
+    static constexpr T never = static_cast<T>(std::numeric_limits<T>::max() - 8 * static_cast<int>(levels));
+    static VDBCAGE_INLINE void openHeights(const C& open, int side, Heights& heights)
     {
-        const std::size_t count = query.lists.counts[1 - side];
-        if (count == 0) return true;
-        // Heights in each column: that reached, no more than the last open voxel needs, no less than before the first.
-        C reached, needed;
         for (int i = 0; i < C::count; ++i) {
-            reached.v[i] = Vector{} + std::numeric_limits<T>::max();
-            needed.v[i] = Vector{} + none<T>;
+            // What the slots behind have found, from this one on.
+            Vector first = heights.first.v[i] + static_cast<T>(leafSize), last = heights.last.v[i];
+            last += reinterpret_cast<Vector>(last > none<T>) & static_cast<T>(leafSize);
             for (int k = 7; k >= 0; --k) {
                 const T bit = static_cast<T>(side > 0 ? 1 << k : 128 >> k), before = static_cast<T>(none<T> + k),
                         after = static_cast<T>(before + 1);
                 const Vector isOpen = reinterpret_cast<Vector>((open.v[i] & bit) != 0);
-                reached.v[i] = (isOpen & before) | (~isOpen & reached.v[i]);
-                raiseTo<Vector>(needed.v[i], isOpen & after);
+                first = (isOpen & before) | (~isOpen & first);
+                raiseTo<Vector>(last, isOpen & after);
+            }
+            heights.first.v[i] = first;
+            heights.last.v[i] = last;
+        }
+    }
+
+    // Slot by slot from the leaves below (side 1) or above (-1). Returns whether any voxels are left open.
+    static VDBCAGE_INLINE bool vertical(const Tables& tables, const PileQuery& query, int side, C* open, C* found)
+    {
+        const auto levelAt = [&](std::size_t step) { return side > 0 ? step : levels - 1 - step; };
+        Heights heights[levels]; // by step
+        std::size_t firstStep = levels, lastStep = 0;
+        for (std::size_t step = levels; step-- > 0;) {
+            if (step + 1 < levels) {
+                heights[step] = heights[step + 1];
+            } else {
+                heights[step].first.fill(never);
+                heights[step].last.fill(none<T>);
+            }
+            const C& here = open[levelAt(step)];
+            openHeights(here, side, heights[step]);
+            if (!isAny(here)) continue;
+            if (firstStep == levels) lastStep = step;
+            firstStep = step;
+        }
+        if (firstStep == levels) return false;
+        C reached = heights[firstStep].first;
+        const auto& ends = query.leaves.ends;
+        for (std::size_t step = firstStep; step <= lastStep; ++step) {
+            const std::size_t level = levelAt(step);
+            // Those before the first slot, then those beside the one before.
+            const std::size_t begin = side < 0 ? ends[level + 1] : step == firstStep ? 0 : ends[level - 1];
+            const std::size_t end = side > 0 ? ends[level] : step == firstStep ? ends[levels + 1] : ends[level + 2];
+            if (step > firstStep) {
+                for (int i = 0; i < C::count; ++i) {
+                    reached.v[i] -= static_cast<T>(leafSize);
+                    raiseTo<Vector>(reached.v[i], heights[step].first.v[i]);
+                }
+            }
+            if (begin < end)
+                raise(tables, query, static_cast<int>(level), side, begin, end, heights[step].last, reached);
+            for (int i = 0; i < C::count; ++i) {
+                Vector bits{};
+                for (int k = 0; k < 8; ++k) {
+                    const T bit = static_cast<T>(side > 0 ? 1 << k : 128 >> k), before = static_cast<T>(none<T> + k);
+                    bits |= reinterpret_cast<Vector>(reached.v[i] > before) & bit;
+                }
+                found[level].v[i] |= bits & open[level].v[i];
+                open[level].v[i] &= ~bits;
             }
         }
+        for (std::size_t level = 0; level < levels; ++level) {
+            if (isAny(open[level])) return true;
+        }
+        return false;
+    }
+
+    // Raises the heights reached by those of the listed leaves, no higher than needed.
+    static VDBCAGE_INLINE void raise(const Tables& tables, const PileQuery& query, int z, int side, std::size_t begin,
+                                     std::size_t end, const C& needed, C& reached)
+    {
         const T* const slots = tables.slots<T>() + query.slotPlace;
         const T* const rows = tables.rows<T>() + query.rowPlace;
-        const std::size_t first = nearest(query, query.lists.indices[1 - side], count);
-        for (std::size_t n = 0; n <= count; ++n) {
-            const std::size_t index = query.lists.indices[1 - side][n == 0 ? first : n - 1];
+        const std::uint64_t slot = std::uint64_t{1} << (16 * query.x + 4 * query.y + z);
+        const std::size_t first = nearest(query, z, begin, end);
+        for (std::size_t n = begin; n <= end; ++n) {
+            const std::size_t index = query.leaves.indices[n == begin ? first : n - 1];
             const NearLeaf& near = query.near[index];
+            if ((near.reached & slot) == 0) continue; // and so not those behind it
             // Distance below the slot's first voxel (above the last) of the leaf's z = 0.
-            const int base = side > 0 ? 8 * (query.z - near.z) : 8 * (near.z - query.z) - 7;
+            const int base = side > 0 ? 8 * (z - near.z) : 8 * (near.z - z) - 7;
             const T least = static_cast<T>(side > 0 ? base - near.box.upper[2] : base + near.box.lower[2]);
             const T* const best = slots + near.slotPlace;
             Vector gain{};
@@ -400,11 +482,12 @@ private:
                 raiseTo<Vector>(most, reached.v[i]);
                 gain |= most ^ reached.v[i];
             }
-            if (!isAny<Vector>(gain)) continue;
+            if (!detail::isAny<Vector>(gain)) continue;
             const Fronts::Voxel* front = frontOf(tables, query, index, side);
             const T* const corner = rows + near.rowPlace;
-            const Fronts::Voxel* const end = front + front->place + 1;
-            for (++front; front != end; ++front) {
+            const Fronts::Voxel* const last = front + front->place;
+            while (front != last) {
+                ++front;
                 const T depth = static_cast<T>(side > 0 ? base - front->z : base + front->z);
                 for (int i = 0; i < C::count; ++i) {
                     Vector height;
@@ -413,29 +496,18 @@ private:
                 }
             }
         }
-        Vector left{};
-        for (int i = 0; i < C::count; ++i) {
-            Vector bits{};
-            for (int k = 0; k < 8; ++k) {
-                const T bit = static_cast<T>(side > 0 ? 1 << k : 128 >> k), before = static_cast<T>(none<T> + k);
-                bits |= reinterpret_cast<Vector>(reached.v[i] > before) & bit;
-            }
-            found.v[i] |= bits & open.v[i];
-            open.v[i] &= ~bits;
-            left |= open.v[i];
-        }
-        return isAny<Vector>(left);
     }
 
     // From the leaves beside the slot.
-    static VDBCAGE_INLINE void lateral(const Tables& tables, const SlotQuery& query, const C& open, C& found)
+    static VDBCAGE_INLINE void lateral(const Tables& tables, const PileQuery& query, std::size_t z, const C& open,
+                                       C& found)
     {
         using S = std::make_signed_t<T>;
         using Signed = typename VectorOf<S, bytes>::type; // heights keep their order as signed numbers
         const T* const slots = tables.slots<T>() + query.slotPlace;
         const T* const rows = tables.rows<T>() + query.rowPlace;
-        for (std::size_t n = 0; n < query.lists.counts[1]; ++n) {
-            const std::size_t index = query.lists.indices[1][n];
+        for (std::size_t n = query.leaves.ends[z]; n < query.leaves.ends[z + 1]; ++n) {
+            const std::size_t index = query.leaves.indices[n];
             const NearLeaf& near = query.near[index];
             const T* const best = slots + near.slotPlace;
             Vector gain{};
@@ -444,7 +516,7 @@ private:
                 load(most, best, i);
                 gain |= reinterpret_cast<Vector>(most != none<T>) & open.v[i] & ~found.v[i];
             }
-            if (!isAny<Vector>(gain)) continue;
+            if (!detail::isAny<Vector>(gain)) continue;
             const Fronts::Voxel* front = frontOf(tables, query, index, 0);
             const T* const corner = rows + near.rowPlace;
             const Fronts::Voxel* const end = front + front->place + 1;
@@ -458,7 +530,7 @@ private:
                     found.v[i] |= isWhole;
                     some |= reinterpret_cast<Vector>(heights[i] > static_cast<S>(none<T>)) & open.v[i] & ~found.v[i];
                 }
-                if (!isAny<Vector>(some)) continue;
+                if (!detail::isAny<Vector>(some)) continue;
                 // A voxel more up and down with each voxel more of height.
                 auto byte = static_cast<unsigned>(front->z);
                 for (int height = 0;; ++height) {
@@ -521,7 +593,7 @@ struct MaskKernel {
         return word;
     }
 
-    static VDBCAGE_INLINE void reached(const Tables& tables, NearLeaf* near, std::size_t total, std::uint64_t* result)
+    static VDBCAGE_INLINE void reached(const Tables& tables, NearLeaf* near, std::size_t total)
     {
         for (std::size_t n = 0; n < total; ++n) {
             NearLeaf& leaf = near[n];
@@ -543,7 +615,7 @@ struct MaskKernel {
             std::memcpy(alongX, &nearX, sizeof alongX);
             leaf.slotPlace = tables.slotPlace(-leaf.x, -leaf.y);
             leaf.rowPlace = tables.rowPlace(-x, -y);
-            result[n] = within(alongX, nearY, quad(lowZ.below) | quad(highZ.above), tables.limit);
+            leaf.reached = within(alongX, nearY, quad(lowZ.below) | quad(highZ.above), tables.limit);
         }
     }
 
@@ -564,18 +636,16 @@ struct MaskKernel {
     }
 };
 
-using WithinFunction = Words (*)(const Tables&, const SlotQuery&);
-using ReachedFunction = void (*)(const Tables&, NearLeaf*, std::size_t, std::uint64_t*);
-using CoveredFunction = std::uint64_t (*)(const Tables&, const NearLeaf*, std::size_t, std::uint64_t);
+using WithinFunction = void (*)(const Tables&, const PileQuery&, Words*);
 
 template <class T>
-Words withinPlain(const Tables& tables, const SlotQuery& query)
+void withinPlain(const Tables& tables, const PileQuery& query, Words* result)
 {
-    return Kernel<T, 16>::within(tables, query);
+    Kernel<T, 16>::within(tables, query, result);
 }
-void reachedPlain(const Tables& tables, NearLeaf* near, std::size_t count, std::uint64_t* result)
+void reachedPlain(const Tables& tables, NearLeaf* near, std::size_t count)
 {
-    MaskKernel<16>::reached(tables, near, count, result);
+    MaskKernel<16>::reached(tables, near, count);
 }
 std::uint64_t coveredPlain(const Tables& tables, const NearLeaf* near, std::size_t count, std::uint64_t wanted)
 {
@@ -583,13 +653,13 @@ std::uint64_t coveredPlain(const Tables& tables, const NearLeaf* near, std::size
 }
 #if VDBCAGE_WITH_AVX
 template <class T>
-VDBCAGE_TARGET_AVX2 Words withinAvx2(const Tables& tables, const SlotQuery& query)
+VDBCAGE_TARGET_AVX2 void withinAvx2(const Tables& tables, const PileQuery& query, Words* result)
 {
-    return Kernel<T, 32>::within(tables, query);
+    Kernel<T, 32>::within(tables, query, result);
 }
-VDBCAGE_TARGET_AVX2 void reachedAvx2(const Tables& tables, NearLeaf* near, std::size_t count, std::uint64_t* result)
+VDBCAGE_TARGET_AVX2 void reachedAvx2(const Tables& tables, NearLeaf* near, std::size_t count)
 {
-    MaskKernel<32>::reached(tables, near, count, result);
+    MaskKernel<32>::reached(tables, near, count);
 }
 VDBCAGE_TARGET_AVX2 std::uint64_t coveredAvx2(const Tables& tables, const NearLeaf* near, std::size_t count,
                                               std::uint64_t wanted)
@@ -597,9 +667,9 @@ VDBCAGE_TARGET_AVX2 std::uint64_t coveredAvx2(const Tables& tables, const NearLe
     return MaskKernel<32>::covered(tables, near, count, wanted);
 }
 template <class T>
-VDBCAGE_TARGET_AVX512 Words withinAvx512(const Tables& tables, const SlotQuery& query)
+VDBCAGE_TARGET_AVX512 void withinAvx512(const Tables& tables, const PileQuery& query, Words* result)
 {
-    return Kernel<T, 64>::within(tables, query);
+    Kernel<T, 64>::within(tables, query, result);
 }
 #endif
 
@@ -621,12 +691,12 @@ SphereReach::SphereReach(std::int64_t squaredRadius, Simd simd, const Progress& 
 }
 SphereReach::~SphereReach() = default;
 
-void SphereReach::reachedSlots(NearLeaf* near, std::size_t count, std::uint64_t* masks, const Work& /*work*/) const
+void SphereReach::reachedSlots(NearLeaf* near, std::size_t count, const Work& /*work*/) const
 {
 #if VDBCAGE_WITH_AVX
-    if (simd_ != Simd::plain) return reachedAvx2(*tables_, near, count, masks);
+    if (simd_ != Simd::plain) return reachedAvx2(*tables_, near, count);
 #endif
-    reachedPlain(*tables_, near, count, masks);
+    reachedPlain(*tables_, near, count);
 }
 std::uint64_t SphereReach::coveredSlots(const NearLeaf* near, std::size_t count, std::uint64_t wanted,
                                         const Work& /*work*/) const
@@ -646,11 +716,15 @@ void SphereReach::startPart(Work& /*work*/, const Coord& /*corner*/) const
 {
 }
 
-Words SphereReach::within(const Words& open, int slot, const NearLeaf* near, const Lists& lists, Work& work) const
+std::array<Words, 4> SphereReach::within(const Pile& open, int pile, const NearLeaf* near, const Leaves& leaves,
+                                         Work& work) const
 {
-    const int x = slot >> 4, y = slot >> 2 & 3, z = slot & 3;
+    const int x = pile >> 2, y = pile & 3;
     const int slotPlace = x * tables_->slotStride() + y * lanes, rowPlace = 8 * (x * tables_->rowStride() + 8 * y);
-    return withinFunction(simd_, tables_->isSmall)(*tables_, {open, x, y, z, slotPlace, rowPlace, near, lists, work});
+    std::array<Words, 4> result;
+    withinFunction(simd_, tables_->isSmall)(*tables_, {open, x, y, slotPlace, rowPlace, near, leaves, work},
+                                            result.data());
+    return result;
 }
 
 } // namespace vdbcage::detail

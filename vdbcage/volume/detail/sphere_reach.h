@@ -17,16 +17,19 @@ struct NearLeaf {
     std::int16_t x, y, z; ///< its slot, counted from the part's first
     BitBox box;
     std::array<std::int8_t, 3> sample;
-    std::int32_t slotPlace, rowPlace; ///< of the part's first slot in the tables: SphereReach::reachedSlots sets them
+    // Set by reachedSlots:
+    std::uint64_t reached;            ///< at least the slots of the part with a voxel within its reach
+    std::int32_t slotPlace, rowPlace; ///< of the part's first slot in the tables
 };
 
 /// Which voxels lie within a sphere's reach of contour voxels: a rough answer for the 64 slots of a part at once, and
-/// an exact one for the voxels of a slot. Slot (x, y, z) of a part is bit 16 x + 4 y + z.
+/// an exact one for the voxels of a pile of slots. Slot (x, y, z) of a part is bit 16 x + 4 y + z; its piles are the
+/// four slots along z.
 ///
 /// Exact: a contour voxel q reaches, in each column along z, the voxels up to h(dx, dy) above and below it. Of contour
 /// voxels below a slot so the largest q.z + h tells all, column by column, in bytes side by side (16-bit integers
-/// beyond smallRadius). Voxels hidden behind others of their leaf are left out before, and leaves that can add nothing
-/// too.
+/// beyond smallRadius), and for the next slot above too. Voxels hidden behind others of their leaf are left out before,
+/// and leaves that can add nothing too.
 ///
 /// Const once it is made: threads share one. Memory: 32 r^2 bytes (64 r^2 beyond smallRadius).
 class SphereReach {
@@ -49,19 +52,23 @@ public:
     /// Starts a block with leaves that are numbered from 0, then each part of it, with its corner.
     void startBlock(Work& work, std::size_t leaves) const;
     void startPart(Work& work, const Coord& corner) const;
-    /// For each of the `count` leaves at least the slots with a voxel within its reach. Completes the leaves.
-    void reachedSlots(NearLeaf* near, std::size_t count, std::uint64_t* masks, const Work& work) const;
+    /// Completes the `count` leaves.
+    void reachedSlots(NearLeaf* near, std::size_t count, const Work& work) const;
     /// The `wanted` slots that lie wholly within reach of the sample of one of the `count` leaves, and maybe others.
     std::uint64_t coveredSlots(const NearLeaf* near, std::size_t count, std::uint64_t wanted, const Work& work) const;
 
-    /// The leaves that may reach a slot, as indices: those below it, beside and above.
-    struct Lists {
-        const std::uint16_t* indices[3];
-        std::size_t counts[3];
+    /// The leaves that may reach a pile of slots, as indices: first those below it, then those beside its first slot
+    /// and so on, at last those above.
+    struct Leaves {
+        const std::uint16_t* indices;
+        std::array<std::size_t, 6> ends; ///< of each kind
     };
-    /// The bits of `open` within reach of the listed leaves, in slot `slot` of the part. They were given to
-    /// reachedSlots before.
-    Words within(const Words& open, int slot, const NearLeaf* near, const Lists& lists, Work& work) const;
+    /// By slot of a pile: its open voxels, or none.
+    using Pile = std::array<const Words*, 4>;
+    /// Those of the open voxels of pile 4 x + y of the part that are within reach of the listed leaves, which were
+    /// given to reachedSlots before; anything where a slot has none.
+    std::array<Words, 4> within(const Pile& open, int pile, const NearLeaf* near, const Leaves& leaves,
+                                Work& work) const;
 
     struct Tables;
 

@@ -163,24 +163,34 @@ std::uint64_t VaryingReach::coveredSlots(const NearLeaf* near, std::size_t count
     return covered;
 }
 
-void VaryingReach::reachedSlots(NearLeaf* near, std::size_t count, std::uint64_t* masks, const Work& work) const
+void VaryingReach::reachedSlots(NearLeaf* near, std::size_t count, const Work& work) const
 {
     for (std::size_t n = 0; n < count; ++n) {
-        const NearLeaf& leaf = near[n];
+        NearLeaf& leaf = near[n];
         const int x = 8 * leaf.x, y = 8 * leaf.y, z = 8 * leaf.z;
         auto limits = work.mostSquare;
         if (by_ == By::source) {
             const auto most = field_.rangeOfSlot(work.corner.offsetBy(x, y, z)).most;
             limits.fill(field_.squareOf(static_cast<double>(most) * factor_));
         }
-        masks[n] = slotsWithin(nearSquares(x + leaf.box.lower[0], x + leaf.box.upper[0]),
-                               nearSquares(y + leaf.box.lower[1], y + leaf.box.upper[1]),
-                               nearSquares(z + leaf.box.lower[2], z + leaf.box.upper[2]), limits);
+        leaf.reached = slotsWithin(nearSquares(x + leaf.box.lower[0], x + leaf.box.upper[0]),
+                                   nearSquares(y + leaf.box.lower[1], y + leaf.box.upper[1]),
+                                   nearSquares(z + leaf.box.lower[2], z + leaf.box.upper[2]), limits);
     }
 }
 
-Words VaryingReach::within(const Words& open, int slot, const NearLeaf* near, const SphereReach::Lists& lists,
-                           Work& work) const
+std::array<Words, 4> VaryingReach::within(const SphereReach::Pile& open, int pile, const NearLeaf* near,
+                                          const SphereReach::Leaves& leaves, Work& work) const
+{
+    std::array<Words, 4> result;
+    for (std::size_t z = 0; z < open.size(); ++z) {
+        if (open[z]) result[z] = withinSlot(*open[z], 4 * pile + static_cast<int>(z), near, leaves, work);
+    }
+    return result;
+}
+
+Words VaryingReach::withinSlot(const Words& open, int slot, const NearLeaf* near, const SphereReach::Leaves& leaves,
+                               Work& work) const
 {
     const Coord offset(slot / 16 * 8, slot / 4 % 4 * 8, slot % 4 * 8), origin = work.corner + offset;
     const int span = static_cast<int>(field_.largest()) + 16; // a leaf in reach, and its far side
@@ -189,37 +199,35 @@ Words VaryingReach::within(const Words& open, int slot, const NearLeaf* near, co
     work.isUsed.resize(planes, 0);
     for (const int x : work.used) work.isUsed[static_cast<std::size_t>(x + span)] = 0;
     work.used.clear();
-    for (int side = 0; side < 3; ++side) {
-        for (std::size_t n = 0; n < lists.counts[side]; ++n) {
-            const std::size_t index = lists.indices[side][n];
-            const NearLeaf& leaf = near[index];
-            const Coord place(8 * leaf.x, 8 * leaf.y, 8 * leaf.z);
-            std::uint32_t& start = work.starts[leaf.id];
-            if (start == 0) {
-                start = static_cast<std::uint32_t>(work.sites.size());
-                work.sites.push_back({});
-                for (int x = 0; x < leafSize; ++x) {
-                    for (std::uint64_t word = (*leaf.words)[static_cast<std::size_t>(x)]; word != 0; word &= word - 1) {
-                        const int bit = __builtin_ctzll(word);
-                        const Coord voxel = work.corner + place + Coord(x, bit >> 3, bit & 7);
-                        const std::int32_t square = by_ == By::source ? field_.square(voxel, factor_) : 0;
-                        work.sites.push_back({x, bit >> 3, bit & 7, square});
-                        ++work.sites[start].x;
-                    }
+    for (std::size_t n = 0; n < leaves.ends.back(); ++n) {
+        const NearLeaf& leaf = near[leaves.indices[n]];
+        if ((leaf.reached >> slot & 1) == 0) continue;
+        const Coord place(8 * leaf.x, 8 * leaf.y, 8 * leaf.z);
+        std::uint32_t& start = work.starts[leaf.id];
+        if (start == 0) {
+            start = static_cast<std::uint32_t>(work.sites.size());
+            work.sites.push_back({});
+            for (int x = 0; x < leafSize; ++x) {
+                for (std::uint64_t word = (*leaf.words)[static_cast<std::size_t>(x)]; word != 0; word &= word - 1) {
+                    const int bit = __builtin_ctzll(word);
+                    const Coord voxel = work.corner + place + Coord(x, bit >> 3, bit & 7);
+                    const std::int32_t square = by_ == By::source ? field_.square(voxel, factor_) : 0;
+                    work.sites.push_back({x, bit >> 3, bit & 7, square});
+                    ++work.sites[start].x;
                 }
             }
-            const auto* const first = &work.sites[start];
-            const Coord from = place - offset;
-            const Leaf sites{from.x(), from.y(), from.z(), first + 1, first + 1 + first->x};
-            const std::int32_t most = work.mostSquare[static_cast<std::size_t>(slot)];
-#if VDBCAGE_WITH_AVX
-            if (simd_ != Simd::plain) {
-                addLeafAvx2(sites, most, span, work);
-                continue;
-            }
-#endif
-            addLeafPlain(sites, most, span, work);
         }
+        const auto* const first = &work.sites[start];
+        const Coord from = place - offset;
+        const Leaf sites{from.x(), from.y(), from.z(), first + 1, first + 1 + first->x};
+        const std::int32_t most = work.mostSquare[static_cast<std::size_t>(slot)];
+#if VDBCAGE_WITH_AVX
+        if (simd_ != Simd::plain) {
+            addLeafAvx2(sites, most, span, work);
+            continue;
+        }
+#endif
+        addLeafPlain(sites, most, span, work);
     }
     std::array<std::int32_t, 512> limits{};
     if (by_ == By::target) {

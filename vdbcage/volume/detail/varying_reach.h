@@ -37,10 +37,14 @@ public:
     void startBlock(Work& work, std::size_t leaves) const;
     void startPart(Work& work, const Coord& corner) const;
     std::uint64_t coveredSlots(const NearLeaf* near, std::size_t count, std::uint64_t wanted, const Work& work) const;
-    void reachedSlots(NearLeaf* near, std::size_t count, std::uint64_t* masks, const Work& work) const;
-    Words within(const Words& open, int slot, const NearLeaf* near, const SphereReach::Lists& lists, Work& work) const;
+    void reachedSlots(NearLeaf* near, std::size_t count, const Work& work) const;
+    std::array<Words, 4> within(const SphereReach::Pile& open, int pile, const NearLeaf* near,
+                                const SphereReach::Leaves& leaves, Work& work) const;
 
 private:
+    Words withinSlot(const Words& open, int slot, const NearLeaf* near, const SphereReach::Leaves& leaves,
+                     Work& work) const;
+
     const RadiusField& field_;
     double factor_;
     By by_;
