@@ -149,11 +149,11 @@ private:
 
     void buildPart(const Target& target, int part, Work& work, BlockBuilder& builder) const
     {
-        const Coord firstSlot(part / 16 * partSlots, part / 4 % 4 * partSlots, part % 4 * partSlots);
+        const int firstSlot = slotIndex(part / 16 * partSlots, part / 4 % 4 * partSlots, part % 4 * partSlots);
         std::uint64_t open = findOpenVoxels(target, firstSlot, work);
         std::uint64_t covered = 0;
         if (open != 0) {
-            const Coord corner = cornerOf(target, firstSlot);
+            const Coord corner = target.origin + slotOffset(firstSlot);
             const std::size_t leaves = selectGroups(target, corner, work), stride = leaves / samples + 1;
             gatherLeaves(target, corner, stride, work);
             reach_.startPart(work.reach, corner);
@@ -202,7 +202,7 @@ private:
     }
 
     // Tells which slots of the part have open voxels.
-    std::uint64_t findOpenVoxels(const Target& target, const Coord& firstSlot, Work& work) const
+    std::uint64_t findOpenVoxels(const Target& target, int firstSlot, Work& work) const
     {
         std::uint64_t found = 0;
         for (int i = 0; i < 64; ++i) {
@@ -320,15 +320,8 @@ private:
         return {work.lists.data() + i * work.near.size(), work.ends[i]};
     }
 
-    static Coord cornerOf(const Target& target, const Coord& firstSlot)
-    {
-        return target.origin + slotOffset(slotIndex(firstSlot.x(), firstSlot.y(), firstSlot.z()));
-    }
-
-    static int slotOfBlock(const Coord& firstSlot, int i)
-    {
-        return slotIndex(firstSlot.x() + i / 16, firstSlot.y() + i / 4 % 4, firstSlot.z() + i % 4);
-    }
+    // The slot of the block that is bit i of the part.
+    static int slotOfBlock(int firstSlot, int i) { return firstSlot + slotIndex(i / 16, i / 4 % 4, i % 4); }
 
     static constexpr int partSlots = 4;        // along an axis
     static constexpr std::size_t samples = 48; // leaves that may cover slots alone: more hardly settle more

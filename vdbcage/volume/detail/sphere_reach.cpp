@@ -372,7 +372,8 @@ private:
         constexpr std::size_t few = 8;
         int least = std::numeric_limits<int>::max();
         std::size_t found = begin;
-        for (std::size_t n = begin; n < std::min(begin + few, end); ++n) {
+        const std::size_t stride = (end - begin) / few + 1;
+        for (std::size_t n = begin; n < end; n += stride) {
             const NearLeaf& near = query.near[query.leaves.indices[n]];
             const int dx = query.x - near.x, dy = query.y - near.y, dz = z - near.z,
                       distance = dx * dx + dy * dy + dz * dz;

@@ -42,7 +42,7 @@ public:
     struct Work {
         struct Voxel {
             std::int32_t place; ///< of its column in the tables, from that of the leaf's first column
-            std::int32_t z;     ///< in the leaf; of leaves beside the slot the byte of all voxels in the column
+            std::int32_t z;     ///< in the leaf; beside the slot the byte of all voxels in the column
         };
         std::vector<std::uint32_t>
             starts;                ///< by leaf's id and direction to a slot: where its front is, 0 if not yet there
