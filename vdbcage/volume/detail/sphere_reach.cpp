@@ -383,27 +383,30 @@ private:
         return found;
     }
 
-    // Heights in each column, from before a slot's first voxel on: how high its voxels up to the first open one are,
-    // and up to the last one. Those of the slot and of all behind it, where `next` is of the next.
+    // How high in each column the voxels are up to the first open one, and up to the last one, of a slot and all behind
+    // it.
     struct Heights {
         C first, last;
     };
     static constexpr T never = static_cast<T>(std::numeric_limits<T>::max() - 8 * static_cast<int>(levels));
-    static VDBCAGE_INLINE void openHeights(const C& open, int side, Heights& heights)
+    // From those of the slot behind.
+    static VDBCAGE_INLINE void stepBack(Heights& heights)
     {
         for (int i = 0; i < C::count; ++i) {
-            // What the slots behind have found, from this one on.
-            Vector first = heights.first.v[i] + static_cast<T>(leafSize), last = heights.last.v[i];
-            last += reinterpret_cast<Vector>(last > none<T>) & static_cast<T>(leafSize);
+            heights.first.v[i] += static_cast<T>(leafSize);
+            heights.last.v[i] += reinterpret_cast<Vector>(heights.last.v[i] > none<T>) & static_cast<T>(leafSize);
+        }
+    }
+    static VDBCAGE_INLINE void include(const C& open, int side, Heights& heights)
+    {
+        for (int i = 0; i < C::count; ++i) {
             for (int k = 7; k >= 0; --k) {
                 const T bit = static_cast<T>(side > 0 ? 1 << k : 128 >> k), before = static_cast<T>(none<T> + k),
                         after = static_cast<T>(before + 1);
                 const Vector isOpen = reinterpret_cast<Vector>((open.v[i] & bit) != 0);
-                first = (isOpen & before) | (~isOpen & first);
-                raiseTo<Vector>(last, isOpen & after);
+                heights.first.v[i] = (isOpen & before) | (~isOpen & heights.first.v[i]);
+                raiseTo<Vector>(heights.last.v[i], isOpen & after);
             }
-            heights.first.v[i] = first;
-            heights.last.v[i] = last;
         }
     }
 
@@ -411,19 +414,21 @@ private:
     static VDBCAGE_INLINE bool vertical(const Tables& tables, const PileQuery& query, int side, C* open, C* found)
     {
         const auto levelAt = [&](std::size_t step) { return side > 0 ? step : levels - 1 - step; };
-        Heights heights[levels]; // by step
-        std::size_t firstStep = levels, lastStep = 0;
+        Heights heights[levels];                      // by step
+        std::size_t firstStep = levels, lastStep = 0; // with open voxels
         for (std::size_t step = levels; step-- > 0;) {
-            if (step + 1 < levels) {
+            const C& here = open[levelAt(step)];
+            const bool isOpen = isAny(here);
+            if (firstStep < levels) {
                 heights[step] = heights[step + 1];
-            } else {
+                stepBack(heights[step]);
+            } else if (isOpen) {
                 heights[step].first.fill(never);
                 heights[step].last.fill(none<T>);
+                lastStep = step;
             }
-            const C& here = open[levelAt(step)];
-            openHeights(here, side, heights[step]);
-            if (!isAny(here)) continue;
-            if (firstStep == levels) lastStep = step;
+            if (!isOpen) continue;
+            include(here, side, heights[step]);
             firstStep = step;
         }
         if (firstStep == levels) return false;
@@ -442,6 +447,7 @@ private:
             }
             if (begin < end)
                 raise(tables, query, static_cast<int>(level), side, begin, end, heights[step].last, reached);
+            if (!isAny(open[level])) continue;
             for (int i = 0; i < C::count; ++i) {
                 Vector bits{};
                 for (int k = 0; k < 8; ++k) {
