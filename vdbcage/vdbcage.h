@@ -11,6 +11,7 @@
 #include <vdbcage/deform/weights_io.h>
 #include <vdbcage/mesh/mesh.h>
 #include <vdbcage/mesh/mesh_io.h>
+#include <vdbcage/mesh/symmetry.h>
 #include <vdbcage/mesh/topology.h>
 #include <vdbcage/pipeline/options.h>
 #include <vdbcage/pipeline/pipeline.h>
@@ -23,6 +24,7 @@
 #include <vdbcage/surface/triquad.h>
 #include <vdbcage/volume/cavities.h>
 #include <vdbcage/volume/contour.h>
+#include <vdbcage/volume/mirror.h>
 #include <vdbcage/volume/morphology.h>
 #include <vdbcage/volume/scale_field.h>
 #include <vdbcage/volume/vdb_io.h>

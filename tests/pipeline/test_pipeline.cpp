@@ -4,6 +4,7 @@
 #include <map>
 
 #include <support/shapes.h>
+#include <support/symmetric.h>
 #include <support/temporary_folder.h>
 #include <tbb/global_control.h>
 #include <vdbcage/core/error.h>
@@ -333,6 +334,102 @@ BOOST_AUTO_TEST_CASE(cavities_are_filled_and_reported)
     pipeline.run(options);
     BOOST_TEST(pipeline.report().cavitiesFilled == 1U);
     BOOST_TEST(pipeline.report().parts == 1U);
+}
+
+BOOST_AUTO_TEST_CASE(symmetric_models_get_symmetric_cages)
+{
+    Mesh model = test::joined(test::torus(1, 0.3, 40, 16), test::sphere({0, 0.2, 1.5}, 0.7, 10));
+    for (openvdb::Vec3d& p : model.points) p += openvdb::Vec3d(7.1, -3, 0.25);
+    for (const CageFaces kind : {CageFaces::triangles, CageFaces::triquad, CageFaces::quads}) {
+        CageOptions options = coarse();
+        options.resolution = kind == CageFaces::quads ? 33 : 32; // between voxels, and through their centres
+        options.mesh = kind;
+        options.smooth = kind == CageFaces::triangles ? 2 : 0;
+        options.symmetry = CageSymmetry::automatic;
+        Pipeline made(model);
+        const Mesh& cage = made.run(options);
+        BOOST_REQUIRE(made.report().symmetry);
+        const Symmetry found = *made.report().symmetry;
+        BOOST_TEST(found.plane.axis == 0);
+        BOOST_TEST(std::abs(found.plane.offset - 7.1) < 1e-5);
+        BOOST_TEST(found.deviation < 1e-4);
+        BOOST_TEST(made.report().noSymmetry == "");
+        BOOST_CHECK(test::isSymmetric(cage, found.plane));
+        BOOST_TEST(faceCount(cage) <= 200U);
+        BOOST_TEST(faceCount(cage) > 180U);
+        BOOST_TEST(checkCage(cage, model).bounding());
+        BOOST_TEST(made.report().floatSafe);
+        if (kind != CageFaces::triangles) continue;
+        // Without being asked for there is none.
+        options.symmetry = CageSymmetry::off;
+        BOOST_CHECK(!test::isSymmetric(made.run(options), found.plane));
+        BOOST_CHECK(!made.report().symmetry);
+        BOOST_TEST(made.report().noSymmetry == "");
+        BOOST_CHECK(sameMesh(made.cage(), makeCage(model, options)));
+    }
+}
+
+BOOST_AUTO_TEST_CASE(a_plane_that_is_asked_for_is_obeyed)
+{
+    const Mesh model = test::joined(test::sphere({0, 0, 0}, 1, 12), test::box({1.2, 0.1, 0.2}, {2, 0.9, 0.7}));
+    CageOptions options = coarse();
+    const CageSymmetry planes[] = {CageSymmetry::x, CageSymmetry::y, CageSymmetry::z};
+    for (const int axis : {0, 1, 2}) {
+        options.symmetry = planes[axis];
+        Pipeline made(model);
+        const Mesh& cage = made.run(options);
+        BOOST_REQUIRE(made.report().symmetry);
+        const SymmetryPlane plane = made.report().symmetry->plane;
+        BOOST_TEST(plane.axis == axis);
+        BOOST_TEST(made.report().symmetry->deviation > 0.01);
+        BOOST_CHECK(test::isSymmetric(cage, plane));
+        BOOST_TEST(checkCage(cage, model).bounding());
+        BOOST_TEST(checkCage(cage, test::mirrored(model, plane)).bounding());
+    }
+    // None is found, and it is as if none had been looked for.
+    options.symmetry = CageSymmetry::automatic;
+    Pipeline made(model);
+    const Mesh found = made.run(options);
+    BOOST_CHECK(!made.report().symmetry);
+    BOOST_TEST(made.report().noSymmetry != "");
+    options.symmetry = CageSymmetry::off;
+    BOOST_CHECK(sameMesh(found, makeCage(model, options)));
+    options.symmetry = CageSymmetry::x;
+    options.bounding = false;
+    BOOST_CHECK_THROW(made.run(options), InputError);
+}
+
+BOOST_AUTO_TEST_CASE(voxels_are_symmetric_whatever_the_scale_and_are_kept)
+{
+    CageOptions options = coarse();
+    options.symmetry = CageSymmetry::y;
+    options.closeRadius = 0.03;
+    options.scale = readScaleField("sphere:0,1,0,0.5,0.25");
+    Pipeline made(saturn());
+    Watcher watcher;
+    made.run(options, &watcher);
+    BOOST_REQUIRE(made.report().symmetry);
+    BOOST_CHECK(test::isSymmetric(made.surface(), made.report().symmetry->plane));
+    options.faces = 190;
+    const Mesh again = made.run(options, &watcher);
+    BOOST_TEST(watcher.runs["voxelize"] == 1);
+    BOOST_TEST(watcher.runs["close"] == 1);
+    BOOST_CHECK(sameMesh(again, makeCage(saturn(), options)));
+}
+
+BOOST_AUTO_TEST_CASE(symmetric_cages_of_the_fewest_faces)
+{
+    CageOptions options = coarse();
+    options.symmetry = CageSymmetry::automatic;
+    options.faces = 12;
+    for (const Mesh& model : {saturn(), test::box({0, 0, 0}, {1, 2, 3}), test::torus(1, 0.05, 24, 6)}) {
+        Pipeline made(model);
+        const Mesh& cage = made.run(options);
+        BOOST_TEST(faceCount(cage) <= 12U);
+        BOOST_TEST(made.report().check.bounding());
+        BOOST_REQUIRE(made.report().symmetry);
+        BOOST_CHECK(test::isSymmetric(cage, made.report().symmetry->plane));
+    }
 }
 
 BOOST_AUTO_TEST_SUITE_END()

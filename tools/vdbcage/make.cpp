@@ -115,6 +115,17 @@ void printSummary(const MakeArguments& arguments, const Pipeline& pipeline, cons
     } else if (report.start == CageStart::box) {
         std::cerr << "  this is the model's bounding box: nothing tighter with so few faces was certified\n";
     }
+    if (report.symmetry) {
+        const SymmetryPlane& plane = report.symmetry->plane;
+        const bool isFound = arguments.options.symmetry == CageSymmetry::automatic;
+        std::ostringstream offset; // with as many digits as it needs
+        offset << plane.offset;
+        std::cerr << "  symmetric in the plane "
+                  << "xyz"[plane.axis] << " = " << offset.str() << (isFound ? ", found" : ", asked for")
+                  << "; the model is, within " << 100 * report.symmetry->deviation << " % of its longest side\n";
+    } else if (!report.noSymmetry.empty()) {
+        std::cerr << "  not symmetric: " << report.noSymmetry << '\n';
+    }
     if (!report.voxels.fallback.empty()) {
         std::cerr << "  voxels by the CPU: " << report.voxels.fallback << '\n';
     }

@@ -54,7 +54,15 @@ Json toJson(const CageReport& report)
     const char* start = report.start == CageStart::closing ? "closing"
                         : report.start == CageStart::block ? "block"
                                                            : "box";
+    Json symmetry = nullptr;
+    if (report.symmetry) {
+        symmetry = {{"axis", std::string(1, "xyz"[report.symmetry->plane.axis])},
+                    {"offset", report.symmetry->plane.offset},
+                    {"deviation", report.symmetry->deviation}};
+    }
     return {{"float_safe", report.floatSafe},
+            {"symmetry", symmetry},
+            {"no_symmetry", report.noSymmetry},
             {"offset_voxels", report.offsetVoxels},
             {"resolution", report.resolution},
             {"voxelizer", nameOf(report.voxels.voxelizer)},

@@ -41,6 +41,16 @@ const std::vector<std::pair<const char*, CageParts>>& names(CageParts /*type*/)
     return list;
 }
 
+const std::vector<std::pair<const char*, CageSymmetry>>& names(CageSymmetry /*type*/)
+{
+    static const std::vector<std::pair<const char*, CageSymmetry>> list{{"auto", CageSymmetry::automatic},
+                                                                        {"off", CageSymmetry::off},
+                                                                        {"x", CageSymmetry::x},
+                                                                        {"y", CageSymmetry::y},
+                                                                        {"z", CageSymmetry::z}};
+    return list;
+}
+
 const std::vector<std::pair<const char*, Effort>>& names(Effort /*type*/)
 {
     static const std::vector<std::pair<const char*, Effort>> list{
@@ -246,6 +256,11 @@ void requireValid(const CageOptions& options)
         throw InputError("--erode-radius: '" + numberText(*options.erodeRadius) +
                          "' is not allowed; it must be at most the close radius, " +
                          (options.closeRadius ? numberText(*options.closeRadius) : "which has to be given too"));
+    }
+    const bool asksForSymmetry = options.symmetry != CageSymmetry::automatic && options.symmetry != CageSymmetry::off;
+    if (!options.bounding && asksForSymmetry) {
+        throw InputError("--symmetry: '" + ToText{}(options.symmetry) +
+                         "' is not allowed with --bounding off; it must be auto or off");
     }
     if (options.element != Element::sphere && ToText{}(options.scale) != "none") {
         throw InputError("--scale-field: '" + ToText{}(options.scale) +

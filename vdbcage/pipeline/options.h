@@ -25,6 +25,15 @@ enum class CageParts {
     merge ///< one cage around everything
 };
 
+/// In which plane a cage is symmetric.
+enum class CageSymmetry {
+    automatic, ///< in one across x, y or z, where the model is
+    off,
+    x, ///< in the plane across x in which the model is, as far as it is
+    y,
+    z
+};
+
 /// Everything that decides how a cage comes out. Lengths are fractions of the model's longest side.
 struct CageOptions {
     int faces = 400;                            ///< faces of the cage, at most; a quad counts once
@@ -40,6 +49,7 @@ struct CageOptions {
     Effort effort = Effort::fair;               ///< time against tightness
     CageFaces mesh = CageFaces::triangles;      ///< triangles only, or quads too
     std::optional<double> mergeAngle;           ///< degrees: flatter pairs become quads; unset: as the faces ask
+    CageSymmetry symmetry = CageSymmetry::off;  ///< exactly symmetric cages; bounding only
     Voxelizer voxelizer = Voxelizer::automatic; ///< what turns the model into voxels
     bool bounding = true;                       ///< only ever give a cage certified to bound the model
 };
@@ -72,7 +82,12 @@ void visitOptions(Options& options, Visit&& visit)
     visit(OptionInfo{"parts", "", "separate parts of the closing", In::decimate}, options.parts);
     visit(OptionInfo{"mesh", "", "faces of the cage", In::merge}, options.mesh);
     visit(OptionInfo{"merge-angle", "DEG", "largest fold of a quad", In::merge, 0, 180}, options.mergeAngle);
-    visit(OptionInfo{"voxelizer", "", "what makes the voxels", In::voxelize}, options.voxelizer);
+    visit(OptionInfo{"symmetry", "", "symmetric cages of symmetric models", In::voxelize}, options.symmetry);
+    visit(OptionInfo{"voxelizer",
+                     ""
+                     "",
+                     "what makes the voxels", In::voxelize},
+          options.voxelizer);
     visit(OptionInfo{"bounding", "", "only ever a certified cage", In::decimate}, options.bounding);
     visit(OptionInfo{"clearance", "F", "least distance to model", In::decimate, 1e-7, 0.1}, options.clearance);
     visit(OptionInfo{"min-angle", "DEG", "floor for triangle angles", In::decimate, 0, 30}, options.minAngle);

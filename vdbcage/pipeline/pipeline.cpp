@@ -17,6 +17,7 @@
 #include <vdbcage/core/detail/mask_grid.h>
 #include <vdbcage/core/detail/nearest_float.h>
 #include <vdbcage/core/error.h>
+#include <vdbcage/mesh/symmetry.h>
 #include <vdbcage/mesh/topology.h>
 #include <vdbcage/surface/bounding_guard.h>
 #include <vdbcage/surface/decimate.h>
@@ -26,6 +27,7 @@
 #include <vdbcage/surface/tighten.h>
 #include <vdbcage/surface/triquad.h>
 #include <vdbcage/volume/cavities.h>
+#include <vdbcage/volume/mirror.h>
 #include <vdbcage/volume/morphology.h>
 
 namespace vdbcage {
@@ -65,6 +67,18 @@ Mesh roundedToFloat(Mesh mesh)
 double longestSide(const openvdb::BBoxd& box)
 {
     return box.extents()[static_cast<int>(box.maxExtent())];
+}
+
+/// The box of a box and its mirror image.
+openvdb::BBoxd withMirrorImage(const openvdb::BBoxd& box, const SymmetryPlane& plane)
+{
+    openvdb::Vec3d low = box.min(), high = box.max();
+    const double reach = std::max(high[plane.axis] - plane.offset, plane.offset - low[plane.axis]);
+    low[plane.axis] = plane.offset - reach;
+    high[plane.axis] = plane.offset + reach;
+    openvdb::BBoxd both = box; // rounding must not make it smaller
+    both.expand(openvdb::BBoxd(low, high));
+    return both;
 }
 
 /// The six faces of `box`, each as two triangles facing outward.
@@ -117,6 +131,10 @@ public:
         report_.parts = best.topology.components();
         report_.handles = best.topology.genus();
         report_.repaired = best.repaired;
+        if (!options.bounding) {
+            report_.symmetry.reset();
+            report_.noSymmetry.clear();
+        }
         best_ = std::move(best);
         cageKey_ = key;
     }
@@ -130,6 +148,7 @@ public:
     struct Voxels {
         int resolution;
         double closeRadius;
+        std::optional<SymmetryPlane> plane = {}; ///< across the middle of the voxels: the index resolution / 2
     };
     /// A cage and what it was made from.
     struct Candidate {
@@ -148,7 +167,8 @@ private:
     {
         options.resolution = voxels.resolution;
         options.closeRadius = voxels.closeRadius;
-        updateSolid(options, interrupter);
+        if (!voxels.plane) options.symmetry = CageSymmetry::off;
+        updateSolid(options, voxels, interrupter);
         const std::string key = keyUpTo(options, PipelineStage::close);
         if (key == closedKey_) return;
         closedKey_.clear();
@@ -157,24 +177,34 @@ private:
         closing.closeRadiusVoxels = voxels.closeRadius * voxels.resolution;
         closing.erodeRadiusVoxels = options.erodeRadius.value_or(voxels.closeRadius) * voxels.resolution;
         closing.element = options.element;
-        const auto closed = closeMask(*solid_, closing, options.scale, interrupter);
+        auto closed = closeMask(*solid_, closing, options.scale, interrupter);
+        // The scale may be anything.
+        if (voxels.plane) closed = mirroredToo(*closed, voxels, interrupter);
         closed_ = fillCavities(*closed, &report_.cavitiesFilled, interrupter);
         scaleGrid_ = options.scale.grid;
         report_.closedVoxels = static_cast<std::size_t>(closed_->activeVoxelCount());
         closedKey_ = key;
     }
 
-    void updateSolid(const CageOptions& options, Interrupter* interrupter)
+    static openvdb::MaskGrid::Ptr mirroredToo(const openvdb::MaskGrid& mask, const Voxels& voxels,
+                                              Interrupter* interrupter)
+    {
+        return withMirrorImage(mask, voxels.plane->axis, voxels.resolution, interrupter);
+    }
+
+    void updateSolid(const CageOptions& options, const Voxels& voxels, Interrupter* interrupter)
     {
         const std::string key = keyUpTo(options, PipelineStage::voxelize);
         if (key == solidKey_) return;
         solidKey_.clear();
         closedKey_.clear();
         const Stage stage(interrupter, "voxelize");
-        VoxelizeOptions voxels;
-        voxels.resolution = options.resolution.value();
-        voxels.voxelizer = options.voxelizer;
-        solid_ = voxelize(model_, voxels, interrupter, &report_.voxels);
+        VoxelizeOptions voxelization;
+        voxelization.resolution = voxels.resolution;
+        voxelization.voxelizer = options.voxelizer;
+        if (voxels.plane) voxelization.box = withMirrorImage(boundingBox(model_), *voxels.plane);
+        solid_ = voxelize(model_, voxelization, interrupter, &report_.voxels);
+        if (voxels.plane) solid_ = mirroredToo(*solid_, voxels, interrupter);
         report_.solidVoxels = static_cast<std::size_t>(solid_->activeVoxelCount());
         const MeshTopology topology = analyzeTopology(extractSurface(*solid_, interrupter), interrupter);
         report_.solidParts = topology.components();
@@ -273,30 +303,64 @@ private:
         return candidate;
     }
 
-    /// The first rung of the ladder that leads to few enough faces, or else a cage from a block, or else the box.
+    /// The plane found or given.
+    std::optional<Symmetry> planeFor(const CageOptions& options, Interrupter* interrupter)
+    {
+        constexpr double tolerance = 0.005; // below the distance of a tight cage of some hundred faces
+        if (options.symmetry == CageSymmetry::off) return std::nullopt;
+        const Stage stage(interrupter, "symmetry");
+        if (options.symmetry == CageSymmetry::automatic) return findSymmetry(model_, tolerance, interrupter);
+        const int axis = options.symmetry == CageSymmetry::x ? 0 : options.symmetry == CageSymmetry::y ? 1 : 2;
+        return bestSymmetry(model_, axis, interrupter);
+    }
+
+    /// A symmetric cage where there is a plane, or else one that is not.
     Candidate makeBounding(const CageOptions& options, Interrupter* interrupter)
     {
-        GuardOptions guardOptions;
-        guardOptions.clearance = options.clearance;
-        guardOptions.minAngleDegrees = options.minAngle;
-        const BoundingGuard guard(model_, guardOptions, interrupter);
+        GuardOptions guarding;
+        guarding.clearance = options.clearance;
+        guarding.minAngleDegrees = options.minAngle;
+        report_.symmetry = planeFor(options, interrupter);
+        report_.noSymmetry.clear();
+        if (report_.symmetry) {
+            guarding.symmetry = report_.symmetry->plane;
+            const BoundingGuard guard(model_, guarding, interrupter);
+            report_.symmetry->plane = *guard.symmetry();
+            if (auto candidate = shrinkStarts(options, guard, interrupter)) return *candidate;
+            report_.symmetry.reset();
+            report_.noSymmetry = "no symmetric cage with so few faces was certified";
+        } else if (options.symmetry != CageSymmetry::off) {
+            report_.noSymmetry = "the model is not symmetric across x, y or z";
+        }
+        guarding.symmetry.reset();
+        const BoundingGuard guard(model_, guarding, interrupter);
+        const auto candidate = shrinkStarts(options, guard, interrupter);
+        return candidate ? *candidate : makeBox(options, guard);
+    }
+
+    /// The first rung of the ladder that leads to few enough faces, or else a cage from a block; nothing if that has
+    /// too many too.
+    std::optional<Candidate> shrinkStarts(const CageOptions& options, const BoundingGuard& guard,
+                                          Interrupter* interrupter)
+    {
         constexpr int blockResolution = 32; // a block has no detail that more could show
-        for (const Voxels& voxels : ladder(options)) {
+        for (Voxels voxels : ladder(options)) {
+            voxels.plane = guard.symmetry();
             std::vector<Candidate> starts = startsFrom(voxels, options, guard, interrupter);
             if (starts.empty()) continue;
             auto candidate = shrinkOnto(std::move(starts), options, guard, interrupter);
             if (!candidate) continue;
             updateClosed(options, candidate->voxels, interrupter);
-            return *candidate;
+            return candidate;
         }
         Candidate block;
         block.start = CageStart::block;
         block.voxels = ladder(options).back();
         block.voxels.resolution = std::min(block.voxels.resolution, blockResolution);
+        block.voxels.plane = guard.symmetry();
         updateClosed(options, block.voxels, interrupter);
         start(block, *blockAround(*closed_), guard, interrupter);
-        auto candidate = shrinkOnto({block}, options, guard, interrupter);
-        return candidate ? *candidate : makeBox(options, guard);
+        return shrinkOnto({block}, options, guard, interrupter);
     }
 
     /// What cages may be shrunk from with voxels like these: nothing if there are too many handles. Among few faces the
@@ -328,12 +392,25 @@ private:
         const double diagonal = std::sqrt(3.0), voxel = solid.voxelSize()[0];
         for (const double offset : {0.0, 1.0, std::ceil(guard.clearance() / voxel + diagonal)}) {
             candidate.offset = offset;
-            candidate.surface = offset > 0
-                                    ? extractSurface(*dilate(solid, offset, Element::sphere, interrupter), interrupter)
-                                    : extractSurface(solid, interrupter);
+            openvdb::MaskGrid::Ptr grown;
+            if (offset > 0) grown = dilate(solid, offset, Element::sphere, interrupter);
+            const openvdb::MaskGrid& mask = grown ? *grown : solid;
+            candidate.surface =
+                guard.symmetry() ? guard.symmetrized(symmetricSurface(mask, candidate.voxels, interrupter), voxel / 4)
+                                 : extractSurface(mask, interrupter);
             if (guard.isClear(candidate.surface)) break;
         }
         candidate.topology = analyzeTopology(candidate.surface, interrupter);
+    }
+
+    /// The surface of a mask that is symmetric: so is what is added to make it well-composed.
+    static Mesh symmetricSurface(const openvdb::MaskGrid& mask, const Voxels& voxels, Interrupter* interrupter)
+    {
+        for (auto both = mirroredToo(mask, voxels, interrupter);;) {
+            const auto composed = makeWellComposed(*both, interrupter);
+            both = mirroredToo(*composed, voxels, interrupter);
+            if (both->activeVoxelCount() == composed->activeVoxelCount()) return extractSurface(*composed, interrupter);
+        }
     }
 
     /// Whether parts and handles leave faces enough for the shape: a part needs about 8, a handle 12.
@@ -374,6 +451,7 @@ private:
         keepAtMost(decimation.faces, &Candidate::decimated);
         TightenOptions tightening;
         tightening.shakes = options.effort == Effort::fast ? 0 : options.effort == Effort::fair ? 1 : 6;
+        if (guard.symmetry()) tightening.shakes *= 3; // in the time that half a surface saves
         if (options.mesh == CageFaces::triangles) {
             const Stage stage(interrupter, "tighten");
             tbb::parallel_for(std::size_t(0), starts.size(), [&](std::size_t i) {

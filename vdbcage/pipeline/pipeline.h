@@ -3,12 +3,15 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
+#include <string>
 
 #include <openvdb/openvdb.h>
 #include <vdbcage/check/check.h>
 #include <vdbcage/core/export.h>
 #include <vdbcage/core/interrupter.h>
 #include <vdbcage/mesh/mesh.h>
+#include <vdbcage/mesh/symmetry.h>
 #include <vdbcage/pipeline/options.h>
 
 namespace vdbcage {
@@ -29,11 +32,13 @@ struct CageReport {
     double closeRadius = 0;  ///< fraction of the longest side, as given or chosen
     double offsetVoxels = 0; ///< how far the closing had to be grown to keep the clearance
     CageStart start = CageStart::closing;
-    bool repaired = false;          ///< an unguarded cage was not valid and went through repair()
-    std::size_t cavitiesFilled = 0; ///< hollows inside the closing that were filled
-    std::size_t solidParts = 0;     ///< separate surfaces of the model's voxels, inner ones too
-    std::int64_t solidHandles = 0;  ///< and handles, tunnels through them, of all of them
-    std::size_t parts = 0;          ///< the same of what the cage was made from: the closing, grown a little
+    std::optional<Symmetry> symmetry; ///< the plane in which the cage is exactly symmetric, and how far the model is
+    std::string noSymmetry;           ///< why there is none; empty if there is, or it was not asked for
+    bool repaired = false;            ///< an unguarded cage was not valid and went through repair()
+    std::size_t cavitiesFilled = 0;   ///< hollows inside the closing that were filled
+    std::size_t solidParts = 0;       ///< separate surfaces of the model's voxels, inner ones too
+    std::int64_t solidHandles = 0;    ///< and handles, tunnels through them, of all of them
+    std::size_t parts = 0;            ///< the same of what the cage was made from: the closing, grown a little
     std::int64_t handles = 0;
     std::size_t solidVoxels = 0, closedVoxels = 0;
 };
@@ -48,6 +53,11 @@ struct CageReport {
 /// given, it is closed more, then voxelized more coarsely (Effort::best at few faces also tries some coarser
 /// resolutions side by side and keeps the tightest cage); where that is not enough, the cage is shrunk from a solid
 /// block, and the last resort is the model's bounding box. So there are never more faces than asked for.
+///
+/// Where a plane of symmetry is found or given, voxels are united with their mirror image and everything after is done
+/// on one half, under a guard that knows the plane: the cage is exactly symmetric, point for point and face for face,
+/// has an edge wherever it meets the plane, and bounds the mirror image of the model too. If no such cage reaches the
+/// face count, one without symmetry is made, and the report says so.
 class VDBCAGE_API Pipeline {
 public:
     /// \throw InputError the model has no usable face (see requireUsable)
@@ -58,10 +68,10 @@ public:
 
     /// Makes the cage for `options` and returns it; valid until the next run. If it throws, the intermediates and the
     /// cage of the run before may be gone, but the pipeline can run again.
-    /// Stages reported to `interrupter`: voxelize, close, surface, smooth (bounding off only), decimate, tighten
-    /// (bounding only), certify; some more than once.
-    /// The cage can have fewer faces than asked, and more only where the topology of the closing does not allow fewer
-    /// and `bounding` is off. \throw InputError, DeviceError, Cancelled
+    /// Stages reported to `interrupter`: symmetry (bounding only), voxelize, close, surface, smooth (bounding off
+    /// only), decimate, tighten (bounding only), certify; some more than once. The cage can have fewer faces than
+    /// asked, and more only where the topology of the closing does not allow fewer and `bounding` is off. \throw
+    /// InputError, DeviceError, Cancelled
     const Mesh& run(const CageOptions& options, Interrupter* interrupter = nullptr);
 
     const Mesh& model() const;

@@ -5,10 +5,12 @@
 #include <vdbcage/surface/bounding_guard.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <limits>
 #include <sstream>
+#include <string>
 #include <utility>
 
 #include <tbb/blocked_range.h>
@@ -195,6 +197,26 @@ bool comesTooNear(const Corners& triangle, const Separator& separator, const Cor
            nearness(triangle, other).squaredDistance < clearance * clearance;
 }
 
+/// Adds the mirror image in a plane, and leaves out the triangles behind it, where coordinates are less.
+void addMirrorImage(const SymmetryPlane& plane, std::vector<Vec3d>& points, std::vector<Vec3I>& triangles)
+{
+    const auto count = static_cast<openvdb::Index32>(points.size());
+    points.reserve(2 * points.size());
+    for (openvdb::Index32 i = 0; i < count; ++i) {
+        points.push_back(points[i]);
+        points.back()[plane.axis] = 2 * plane.offset - points[i][plane.axis];
+    }
+    std::vector<Vec3I> kept;
+    kept.reserve(2 * triangles.size());
+    for (const Vec3I& t : triangles) {
+        const auto [low, high] =
+            std::minmax({points[t[0]][plane.axis], points[t[1]][plane.axis], points[t[2]][plane.axis]});
+        if (high >= plane.offset) kept.push_back(t);
+        if (low < plane.offset) kept.emplace_back(t[0] + count, t[2] + count, t[1] + count);
+    }
+    triangles = std::move(kept);
+}
+
 } // namespace
 
 GuardModel::GuardModel(const Mesh& model, const GuardOptions& options, Interrupter* interrupter)
@@ -208,7 +230,18 @@ GuardModel::GuardModel(const Mesh& model, const GuardOptions& options, Interrupt
     };
     require("clearance", options.clearance, 1e-7, 0.1);
     require("min angle", options.minAngleDegrees, 0, 30);
-    const openvdb::BBoxd box = boundingBox(model);
+    openvdb::BBoxd box = boundingBox(model);
+    if (options.symmetry) {
+        const int axis = options.symmetry->axis;
+        if (axis < 0 || axis > 2) {
+            throw InputError("symmetry axis: " + std::to_string(axis) + " is not allowed; it must be 0, 1 or 2");
+        }
+        const double twice = 2 * options.symmetry->offset;
+        openvdb::Vec3d low = box.min(), high = box.max();
+        low[axis] = twice - box.max()[axis];
+        high[axis] = twice - box.min()[axis];
+        box.expand(openvdb::BBoxd(low, high));
+    }
     const double side = box.extents()[static_cast<int>(box.maxExtent())];
     scale_ = std::ldexp(1.0, -std::ilogb(side));
     clearance_ = options.clearance * side * scale_;
@@ -216,18 +249,26 @@ GuardModel::GuardModel(const Mesh& model, const GuardOptions& options, Interrupt
     minSine_ = std::max(1e-6, std::sin(options.minAngleDegrees * pi / 180));
     roundsToFloat_ = fitsFloat(box);
     if (roundsToFloat_) clearance_ = std::max(clearance_, 4 * floatRounding(box) * scale_);
-    const std::vector<Vec3I> triangles = everySplit(model);
+    std::vector<Vec3I> triangles = everySplit(model);
     std::vector<Vec3d> points;
     points.reserve(model.points.size());
     for (const Vec3d& p : model.points) points.push_back(scaled(p));
+    if (options.symmetry) {
+        // Surfaces reach little farther than the model: multiples of the step up to four times as far are floats, or
+        // doubles with some bits to spare for the rounding of points that are to be symmetric.
+        step_ = std::ldexp(scale_, std::ilogb(farthest(box)) + (roundsToFloat_ ? 2 - 23 : 2 - 50));
+        const double offset = step_ * std::round(options.symmetry->offset * scale_ / step_);
+        symmetry_ = SymmetryPlane{options.symmetry->axis, offset};
+        addMirrorImage(*symmetry_, points, triangles);
+    }
     tree_ = TriangleTree(points, triangles, interrupter);
 
-    UnionFind sets(model.points.size());
+    UnionFind sets(points.size());
     for (const Vec3I& t : triangles) {
         sets.unite(t[0], t[1]);
         sets.unite(t[1], t[2]);
     }
-    std::vector<bool> seen(model.points.size(), false);
+    std::vector<bool> seen(points.size(), false);
     std::vector<Vec3I> partPoints;
     for (const Vec3I& t : triangles) {
         const std::uint32_t root = sets.find(t[0]);
@@ -249,9 +290,22 @@ Vec3d GuardModel::unscaled(const Vec3d& p) const
 
 Vec3d GuardModel::rounded(const Vec3d& p) const
 {
-    if (!roundsToFloat_) return p;
-    return {nearestFloat(p[0] / scale_) * scale_, nearestFloat(p[1] / scale_) * scale_,
-            nearestFloat(p[2] / scale_) * scale_};
+    Vec3d rounded = p;
+    if (roundsToFloat_) {
+        rounded = {nearestFloat(p[0] / scale_) * scale_, nearestFloat(p[1] / scale_) * scale_,
+                   nearestFloat(p[2] / scale_) * scale_};
+    }
+    if (symmetry_) {
+        const auto [axis, offset] = *symmetry_;
+        rounded[axis] = offset + step_ * std::round((p[axis] - offset) / step_);
+    }
+    return rounded;
+}
+
+Vec3d GuardModel::mirrored(Vec3d p) const
+{
+    p[symmetry_->axis] = 2 * symmetry_->offset - p[symmetry_->axis];
+    return p;
 }
 
 bool GuardModel::clear(const Corners& triangle, std::uint32_t hint, std::uint32_t* blocker) const
@@ -322,16 +376,70 @@ bool BoundingGuard::isClear(const Mesh& surface) const
 {
     const std::vector<openvdb::Vec3I> triangles = everySplit(surface);
     const auto point = [&](openvdb::Index32 i) { return model_->rounded(model_->scaled(surface.points[i])); };
+    const auto isClear = [&](const detail::Corners& t) {
+        if (!model_->clear(t, detail::TriangleTree::none, nullptr)) return false;
+        // What is behind the plane of symmetry comes as near as its mirror image.
+        return !model_->symmetry() ||
+               model_->clear({model_->mirrored(t[0]), model_->mirrored(t[1]), model_->mirrored(t[2])},
+                             detail::TriangleTree::none, nullptr);
+    };
     return tbb::parallel_reduce(
         tbb::blocked_range<std::size_t>(0, triangles.size(), 256), true,
         [&](const tbb::blocked_range<std::size_t>& range, bool clear) {
             for (std::size_t i = range.begin(); i < range.end() && clear; ++i) {
                 const openvdb::Vec3I& t = triangles[i];
-                clear = model_->clear({point(t[0]), point(t[1]), point(t[2])}, detail::TriangleTree::none, nullptr);
+                clear = isClear({point(t[0]), point(t[1]), point(t[2])});
             }
             return clear;
         },
         [](bool a, bool b) { return a && b; });
+}
+
+std::optional<SymmetryPlane> BoundingGuard::symmetry() const
+{
+    auto plane = model_->symmetry();
+    if (plane) plane->offset = model_->unscaled(openvdb::Vec3d(plane->offset))[0];
+    return plane;
+}
+
+Mesh BoundingGuard::symmetrized(const Mesh& surface, double snap) const
+{
+    using openvdb::Index32;
+    const int axis = model_->symmetry()->axis;
+    const double offset = model_->symmetry()->offset;
+    const double least = offset + model_->scaled(openvdb::Vec3d(snap))[0];
+    std::vector<openvdb::Vec3d> places;
+    places.reserve(surface.points.size());
+    for (const openvdb::Vec3d& point : surface.points) {
+        openvdb::Vec3d p = model_->scaled(point);
+        if (p[axis] <= least) p[axis] = offset;
+        places.push_back(model_->rounded(p));
+    }
+    const auto isBeyond = [&](Index32 i) { return places[i][axis] > offset; };
+    // The number of each point and of its mirror image, once a face has asked for them.
+    constexpr Index32 unused = ~Index32(0);
+    std::vector<std::array<Index32, 2>> numbers(places.size(), {unused, unused});
+    Mesh result;
+    const auto number = [&](Index32 i, std::size_t side) {
+        auto& known = numbers[i];
+        if (known[side] == unused) {
+            known[side] = static_cast<Index32>(result.points.size());
+            result.points.push_back(model_->unscaled(side == 0 ? places[i] : model_->mirrored(places[i])));
+            if (!isBeyond(i)) known[1 - side] = known[side];
+        }
+        return known[side];
+    };
+    for (const openvdb::Vec3I& t : surface.triangles) {
+        if (!isBeyond(t[0]) && !isBeyond(t[1]) && !isBeyond(t[2])) continue;
+        result.triangles.emplace_back(number(t[0], 0), number(t[1], 0), number(t[2], 0));
+        result.triangles.emplace_back(number(t[0], 1), number(t[2], 1), number(t[1], 1));
+    }
+    for (const openvdb::Vec4I& q : surface.quads) {
+        if (!isBeyond(q[0]) && !isBeyond(q[1]) && !isBeyond(q[2]) && !isBeyond(q[3])) continue;
+        result.quads.emplace_back(number(q[0], 0), number(q[1], 0), number(q[2], 0), number(q[3], 0));
+        result.quads.emplace_back(number(q[0], 1), number(q[3], 1), number(q[2], 1), number(q[1], 1));
+    }
+    return result;
 }
 
 } // namespace vdbcage

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include <vdbcage/core/export.h>
 #include <vdbcage/core/interrupter.h>
 #include <vdbcage/mesh/mesh.h>
+#include <vdbcage/mesh/symmetry.h>
 
 namespace vdbcage {
 
@@ -17,6 +19,8 @@ struct GuardOptions {
     /// model, at least four times the rounding of its largest coordinate.
     double clearance = 1e-6;
     double minAngleDegrees = 6; ///< no move makes a triangle angle smaller than this (or than it was), 0 to 30
+    /// If set, surfaces are exactly symmetric in it and stay so, and bound the model and its mirror image.
+    std::optional<SymmetryPlane> symmetry = {};
 };
 
 /// Keeps a surface bounding while it is changed: built once from a model (any polygon soup), it lets smooth, decimate
@@ -29,6 +33,10 @@ struct GuardOptions {
 /// surface are decided exactly, distances up to a few units of 2^-52 of the sizes involved, far below any clearance;
 /// all on the coordinates as they will be written: points are rounded to float where float can hold the model.
 /// Immutable; any number of threads may use one at the same time. Building: O(n log n) in the model's faces.
+///
+/// With a plane of symmetry coordinates across it are rounded to multiples of one number, fine enough for the largest
+/// of them, so that the mirror image of every point is exact. The operators then take surfaces only that are exactly
+/// symmetric, with no face across the plane, and work on one half of them, in half of the time.
 class VDBCAGE_API BoundingGuard {
 public:
     /// \throw InputError (an unusable model, options out of range), Cancelled
@@ -41,6 +49,15 @@ public:
     double clearance() const;
     /// Whether every face of `surface` keeps the clearance (quads: under both diagonals). In parallel.
     bool isClear(const Mesh& surface) const;
+
+    /// The plane of symmetry, if one was asked for: moved by less than the rounding of coordinates.
+    std::optional<SymmetryPlane> symmetry() const;
+    /// The part of a closed surface on the side of the plane of symmetry where coordinates are larger, and its mirror
+    /// image: rounded, exactly symmetric. Faces across the plane are cut off there, by moving corners that lie behind
+    /// it, or before it by at most `snap` (world units), onto it. Of quads made by extractSurface from voxels that are
+    /// symmetric in the plane the result is closed and 2-manifold; `snap` is then a quarter of a voxel.
+    /// \pre there is a plane of symmetry
+    Mesh symmetrized(const Mesh& surface, double snap) const;
 
     /// For the operators of this library.
     const detail::GuardModel& model() const { return *model_; }

@@ -61,21 +61,22 @@ Mesh decimate(const Mesh& surface, const BoundingGuard& guard, const DecimateOpt
                          " is not allowed; a closed surface has at least 4");
     }
     detail::GuardedSurface guarded(surface, guard.model(), Quads::split);
+    const std::size_t faces = options.faces / guarded.copies();
     detail::shrink(guarded, interrupter);
     // Quadrics know the surface that they were made from: one that was pulled onto the model on the way is better.
     const auto stops = effort == Effort::fast ? std::vector<std::size_t>{3} : std::vector<std::size_t>{4, 2};
     for (const std::size_t stop : stops) {
-        detail::collapseByQuadrics(guarded, stop * options.faces, interrupter);
-        detail::tighten(guarded, sweepsAtStop, areaPerSample(guarded, 2 * options.faces), interrupter);
+        detail::collapseByQuadrics(guarded, stop * faces, interrupter);
+        detail::tighten(guarded, sweepsAtStop, areaPerSample(guarded, 2 * faces), interrupter);
     }
-    detail::collapseByQuadrics(guarded, options.faces, interrupter);
+    detail::collapseByQuadrics(guarded, faces, interrupter);
     // Where the model is in the way of every collapse, there is room farther out (the model's longest side is 1 to 2).
-    for (double push = 0.02; guarded.liveFaces() > options.faces && push < 1; push *= 2) {
+    for (double push = 0.02; guarded.liveFaces() > faces && push < 1; push *= 2) {
         detail::inflate(guarded, push, interrupter);
-        detail::collapseByQuadrics(guarded, options.faces, interrupter);
+        detail::collapseByQuadrics(guarded, faces, interrupter);
     }
     if (effort == Effort::best) {
-        detail::tighten(guarded, TightenOptions().sweeps, areaPerSample(guarded, options.faces), interrupter);
+        detail::tighten(guarded, TightenOptions().sweeps, areaPerSample(guarded, faces), interrupter);
         detail::exchange(guarded, exchangeRounds, interrupter);
     }
     return guarded.mesh();
@@ -109,11 +110,12 @@ Mesh triquad(const Mesh& surface, const BoundingGuard& guard, const BoundingTriq
     if (fine.liveFaces() == 0) return fine.mesh();
 
     // How many triangles become the faces wanted shows when they are paired; `low` of them do not become too many.
-    const auto wanted = static_cast<double>(options.faces);
+    const std::size_t most = options.faces / fine.copies();
+    const auto wanted = static_cast<double>(most);
     double low = wanted, high = std::max(wanted, static_cast<double>(fine.liveFaces()));
     double target = std::min(firstGuess * wanted, high);
     std::optional<detail::GuardedSurface> best;
-    double most = 0; // faces
+    double reached = 0; // faces
     for (int i = 0; i < attempts; ++i) {
         detail::GuardedSurface paired = fine;
         const auto triangles = static_cast<std::size_t>(target);
@@ -124,17 +126,17 @@ Mesh triquad(const Mesh& surface, const BoundingGuard& guard, const BoundingTriq
         }
         const auto faces = static_cast<double>(paired.liveFaces() - paired.quads());
         (faces <= wanted ? low : high) = target;
-        if (faces <= wanted && faces > most) {
+        if (faces <= wanted && faces > reached) {
             best = std::move(paired);
-            most = faces;
+            reached = faces;
         }
-        if ((most >= goodEnough * wanted) || high - low < 2) break;
+        if ((reached >= goodEnough * wanted) || high - low < 2) break;
         target *= aim * wanted / faces;
         if (!(target > low && target < high)) target = 0.5 * (low + high);
     }
     if (!best) {
         best = fine;
-        detail::collapseByQuadrics(*best, options.faces, interrupter);
+        detail::collapseByQuadrics(*best, most, interrupter);
     }
     tightenAndShake(*best, options.tightening, interrupter);
     return best->mesh();

@@ -37,7 +37,7 @@ openvdb::MaskGrid::Ptr voxelize(const Mesh& model, const VoxelizeOptions& option
                          " is allowed");
     }
     requireUsable(model, "model");
-    const detail::Frame frame = detail::makeFrame(model, options.resolution);
+    const detail::Frame frame = detail::makeFrame(model, options.resolution, options.box);
     VoxelizeReport done;
     done.voxelizer = options.voxelizer;
     const auto run = [&] {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include <openvdb/openvdb.h>
@@ -20,6 +21,8 @@ enum class Voxelizer {
 struct VoxelizeOptions {
     int resolution = 128; ///< voxels along the model's longest side, 1 to 4096
     Voxelizer voxelizer = Voxelizer::automatic;
+    /// The voxels are laid out as for a model with this bounding box, which must hold the model's own; unset: that one.
+    std::optional<openvdb::BBoxd> box = {};
 };
 
 /// How voxelize() did it.
@@ -47,10 +50,10 @@ struct VoxelizeReport {
 /// neither touched nor inside joins to the outside, so the solid has no cavities. Orientation plays no part. Open,
 /// self-intersecting and multi-part models become solids too: a bowl is filled to its rim.
 ///
-/// \throw InputError the resolution is out of range; what requireUsable() refuses; the longest side is not in
-///        [1e-100, 1e100]; a voxel is smaller than 2^-37 (7e-12) of the largest absolute coordinate, so that a model
-///        far from the origin has no room for its digits. DeviceError there is no OpenGL 4.5 or it fails, cgal is not
-///        in this build; never with automatic and cpu. Cancelled
+/// \throw InputError the resolution is out of range; what requireUsable() refuses; the box does not hold the model, or
+///        its longest side is not in [1e-100, 1e100]; a voxel is smaller than 2^-37 (7e-12) of the largest absolute
+///        coordinate, so that a model far from the origin has no room for its digits. DeviceError there is no
+///        OpenGL 4.5 or it fails, cgal is not in this build; never with automatic and cpu. Cancelled
 ///
 /// Cost: O(faces + touched voxels + box / 64) time, where box is the number of voxels of the bounding box, at most
 /// (resolution + 1)^3; box / 7 bytes and a few planes a thread, up to box / 5 bytes more where much of the box is

@@ -115,7 +115,7 @@ bool descend(const GuardedSurface& surface, const Fan& fan, Vec3d& p, const Quad
         if (length > 0.5 * limit.reach) delta *= 0.5 * limit.reach / length;
         delta *= share;
         if (!(delta.length() > leastStep * limit.reach)) return false;
-        const Vec3d target = surface.guard().rounded(p + delta);
+        const Vec3d target = surface.rounded(fan, p + delta);
         if (!surface.allows(fan, target, &blocker)) {
             const std::size_t before = halfSpaces.size();
             surface.contacts(fan, p, target, halfSpaces);
@@ -189,6 +189,14 @@ DistanceMeasure::Fit DistanceMeasure::fit(const GuardedSurface& surface, const F
             }
             weights += wbb;
         });
+    }
+    if (fan.onPlane) {
+        // With the other half what pulls across the plane cancels.
+        const int across = guard_.symmetry()->axis;
+        for (int i = 0; i < 3; ++i) {
+            if (i != across) fit.change.curvature[i][across] = fit.change.curvature[across][i] = 0;
+        }
+        fit.change.slope[across] = 0;
     }
     // Flat fans say nothing of moves along themselves: a little stiffness keeps these small.
     for (int i = 0; i < 3; ++i) fit.change.curvature[i][i] += 0.01 * weights;

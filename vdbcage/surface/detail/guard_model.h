@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include <vdbcage/mesh/detail/triangle_tree.h>
@@ -30,6 +31,11 @@ public:
     Vec3d unscaled(const Vec3d& p) const;
     /// `p` as it will be written.
     Vec3d rounded(const Vec3d& p) const;
+    /// In these units too. What is said of the model below is said of the model and its mirror image, where both are
+    /// on the side of the plane where coordinates are larger (or across it): no nearer part is on the other side.
+    const std::optional<SymmetryPlane>& symmetry() const { return symmetry_; }
+    /// The mirror image of a point that is rounded: exact. \pre there is a plane of symmetry
+    Vec3d mirrored(Vec3d p) const;
     /// Whether `triangle` keeps the clearance; if not and `blocker` is set, the item of a face it comes too near to.
     /// `hint` is an item to try first (TriangleTree::none: nothing to try).
     bool clear(const Corners& triangle, std::uint32_t hint, std::uint32_t* blocker) const;
@@ -51,6 +57,8 @@ private:
     TriangleTree tree_;
     TriangleTree parts_; // a point of each connected part, as a degenerate triangle
     double scale_ = 1, clearance_ = 0, minSine_ = 0;
+    std::optional<SymmetryPlane> symmetry_;
+    double step_ = 0; // across the plane coordinates are rounded to multiples of it
     bool roundsToFloat_ = false;
 };
 

@@ -54,6 +54,7 @@ public:
         : surface_(surface), quadrics_(surface.vertices()), stamp_(surface.vertices(), 0)
     {
         if (surface.vertices() > 0) origin_ = surface.point(0);
+        if (surface.guard().symmetry()) origin_ = surface.ontoPlane(origin_);
         for (std::uint32_t v = 0; v < surface.vertices(); ++v) {
             for (const std::uint32_t f : surface.facesOf(v)) {
                 const Corners t = surface.corners(f);
@@ -148,6 +149,9 @@ private:
     {
         Quadric q = quadrics_[u];
         q += quadrics_[v];
+        const bool uOnPlane = surface_.isOnPlane(u), vOnPlane = surface_.isOnPlane(v);
+        if (uOnPlane || vOnPlane) q.symmetrize(surface_.guard().symmetry()->axis);
+        if (uOnPlane && vOnPlane) q += Quadric(q); // both halves, for as many faces as others save in one
         return q;
     }
 
@@ -160,7 +164,9 @@ private:
     Vec3d optimum(const Quadric& q, std::uint32_t u, std::uint32_t v) const
     {
         constexpr double stiffness = 1e-3;
-        const Vec3d a = surface_.point(u), b = surface_.point(v), middle = 0.5 * (a + b);
+        const Vec3d a = surface_.point(u), b = surface_.point(v);
+        const bool onPlane = surface_.isOnPlane(u) || surface_.isOnPlane(v);
+        const Vec3d middle = onPlane ? surface_.ontoPlane(0.5 * (a + b)) : 0.5 * (a + b);
         Vec3d place;
         if (!q.bestPlace(stiffness, place)) return middle;
         place += origin_;
@@ -206,7 +212,7 @@ private:
         std::uint32_t blocker = TriangleTree::none;
         for (const Vec3d& at : {best, best + 0.1 * up, best + 0.25 * up, best + 0.5 * up, a, b, middle + 0.1 * up,
                                 middle + 0.35 * up, middle + 0.8 * up}) {
-            Vec3d place = surface_.guard().rounded(at);
+            Vec3d place = surface_.rounded(fan, at);
             if (!surface_.allows(fan, place, &blocker)) continue;
             if (slides && at != best) slide(fan, q, best, place);
             return place;
@@ -342,16 +348,18 @@ private:
         Candidate candidate{{0, u, v, stamp_[u], stamp_[v]}, std::nullopt, 0};
         double before = 0;
         for (const std::uint32_t f : fan.oldFaces) before += faceIntegral_[f];
+        const double share = 2.0 / static_cast<double>(fan.oldFaces.size() - fan.rim.size()); // of two faces saved
         std::uint32_t seed = seed_[u];
         if (onlyEstimate) {
-            const DistanceMeasure::Fit fit = measure_.fit(surface_, fan, middle, seed);
-            candidate.edge.cost = std::max(0.0, fit.integral + leastChange(fit.change)) - before;
+            const Vec3d at = fan.onPlane ? surface_.ontoPlane(middle) : middle;
+            const DistanceMeasure::Fit fit = measure_.fit(surface_, fan, at, seed);
+            candidate.edge.cost = share * (std::max(0.0, fit.integral + leastChange(fit.change)) - before);
             return candidate;
         }
         const Vec3d up = surface_.outward(fan) * (a - b).length();
         std::uint32_t blocker = TriangleTree::none;
         for (const Vec3d& at : {middle, a, b, middle + 0.1 * up, middle + 0.25 * up, middle + 0.5 * up, middle + up}) {
-            const Vec3d rounded = surface_.guard().rounded(at);
+            const Vec3d rounded = surface_.rounded(fan, at);
             if (surface_.allows(fan, rounded, &blocker)) {
                 candidate.place = rounded;
                 break;
@@ -362,7 +370,7 @@ private:
         for (int i = 0; i < improvements; ++i) {
             if (!measure_.improve(surface_, fan, *candidate.place, fit, seed)) break;
         }
-        candidate.edge.cost = fit.integral - before;
+        candidate.edge.cost = share * (fit.integral - before);
         return candidate;
     }
 
@@ -388,7 +396,7 @@ private:
         if (!measure_.improve(surface_, star, p, fit, seed_[v])) return;
         surface_.apply(star, p);
         for (const std::uint32_t f : surface_.facesOf(v)) measureFace(f, seed_[v]);
-        for (const auto& edge : star.rim) ++stamp_[edge[0]];
+        for (const std::uint32_t w : surface_.neighbours(v)) ++stamp_[w];
     }
 
     void measureFace(std::uint32_t f, std::uint32_t& seed)

@@ -18,7 +18,7 @@ namespace vdbcage::detail {
 namespace {
 
 struct Split {
-    double gain;
+    double gain; ///< for two more faces
     std::uint32_t u, v;
     Vec3d place;
 };
@@ -36,14 +36,15 @@ std::optional<Split> trySplit(const GuardedSurface& surface, const DistanceMeasu
     for (const std::uint32_t f : fan.oldFaces) before += measure.integral(surface.corners(f), seed);
     // On the edge, or a little off, since its middle is rounded.
     for (const double off : {0.0, 1e-5, 1e-3, 0.03}) {
-        Vec3d place = surface.guard().rounded(surface.point(u) + 0.5 * along + off * up);
+        Vec3d place = surface.rounded(fan, surface.point(u) + 0.5 * along + off * up);
         if (!surface.allows(fan, place)) continue;
         DistanceMeasure::Fit fit = measure.fit(surface, fan, place, seed);
         for (int i = 0; i < improvements; ++i) {
             if (!measure.improve(surface, fan, place, fit, seed)) break;
         }
         if (!(fit.integral < before)) return std::nullopt;
-        return Split{before - fit.integral, u, v, place};
+        const auto added = static_cast<double>(fan.rim.size() - fan.oldFaces.size());
+        return Split{2 / added * (before - fit.integral), u, v, place};
     }
     return std::nullopt;
 }
@@ -67,7 +68,7 @@ void splitBest(GuardedSurface& surface, std::size_t faces, double areaPerSample)
         if (surface.liveFaces() >= faces) return;
         const Fan fan = surface.fanOfSplit(split.u, split.v);
         const auto wasChanged = [&](std::uint32_t f) { return changed[f] != 0; };
-        if (fan.oldFaces.size() != 2 || std::any_of(fan.oldFaces.begin(), fan.oldFaces.end(), wasChanged)) continue;
+        if (fan.oldFaces.empty() || std::any_of(fan.oldFaces.begin(), fan.oldFaces.end(), wasChanged)) continue;
         if (!surface.allows(fan, split.place)) continue;
         surface.apply(fan, split.place);
         for (const std::uint32_t f : surface.facesOf(fan.centre)) changed[f] = 1;

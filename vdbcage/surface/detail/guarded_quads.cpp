@@ -37,6 +37,14 @@ struct Pair {
 std::vector<Mat3d> curvatureTensors(const GuardedSurface& surface)
 {
     std::vector<Mat3d> tensors(surface.vertices(), Mat3d::zero());
+    const auto add = [&](std::uint32_t v, const Vec3d& edge, const Vec3d& m, const Vec3d& n) {
+        const double length = edge.length();
+        if (!(length > 0)) return;
+        const double bend = std::atan2(m.cross(n).dot(edge) / length, m.dot(n)) / length;
+        for (int k = 0; k < 3; ++k) {
+            for (int l = 0; l < 3; ++l) tensors[v][k][l] += bend * edge[k] * edge[l];
+        }
+    };
     for (std::uint32_t v = 0; v < surface.vertices(); ++v) {
         for (const std::uint32_t f : surface.facesOf(v)) {
             for (const std::uint32_t g : surface.facesOf(v)) {
@@ -46,15 +54,26 @@ std::vector<Mat3d> curvatureTensors(const GuardedSurface& surface)
                     for (int j = 0; j < 3; ++j) {
                         if (s[i] != t[(j + 1) % 3] || s[(i + 1) % 3] != t[j]) continue;
                         const Vec3d edge = surface.point(s[(i + 1) % 3]) - surface.point(s[i]);
-                        const double length = edge.length();
-                        if (!(length > 0)) continue;
-                        const Vec3d m = areaNormal(surface.corners(f)), n = areaNormal(surface.corners(g));
-                        const double bend = std::atan2(m.cross(n).dot(edge) / length, m.dot(n)) / length;
-                        for (int k = 0; k < 3; ++k) {
-                            for (int l = 0; l < 3; ++l) tensors[v][k][l] += bend * edge[k] * edge[l];
-                        }
+                        add(v, edge, areaNormal(surface.corners(f)), areaNormal(surface.corners(g)));
                     }
                 }
+            }
+        }
+        if (!surface.isOnPlane(v)) continue;
+        // The other half adds the mirror image of these edges, and both meet in edges on the plane.
+        const int across = surface.guard().symmetry()->axis;
+        for (int k = 0; k < 3; ++k) {
+            for (int l = 0; l < 3; ++l) tensors[v][k][l] *= (k == across) == (l == across) ? 2 : 0;
+        }
+        for (const std::uint32_t f : surface.facesOf(v)) {
+            const Vec3I& t = surface.face(f);
+            for (int i = 0; i < 3; ++i) {
+                const std::uint32_t a = t[i], b = t[(i + 1) % 3];
+                if ((a != v && b != v) || !surface.isOnPlane(a) || !surface.isOnPlane(b)) continue;
+                const Vec3d normal = areaNormal(surface.corners(f));
+                Vec3d image = normal;
+                image[across] = -image[across];
+                add(v, surface.point(b) - surface.point(a), normal, image);
             }
         }
     }
@@ -132,7 +151,7 @@ private:
     bool isFace(std::uint32_t f) const { return neighbours_[f][0] != Fan::none; }
     bool isFree(std::uint32_t f) const { return surface_.otherHalf(f) == Fan::none; }
 
-    /// The face across side i of f.
+    /// The face across side i of f; f itself, if that side is on the plane of symmetry.
     std::uint32_t across(std::uint32_t f, int i) const
     {
         const std::uint32_t a = surface_.face(f)[i], b = surface_.face(f)[(i + 1) % 3];
@@ -142,7 +161,7 @@ private:
                 if (t[j] == b && t[(j + 1) % 3] == a) return g;
             }
         }
-        return f; // not on a closed surface
+        return f;
     }
 
     std::array<Vec3d, 4> cornersOf(std::uint32_t f, std::uint32_t g) const
@@ -183,7 +202,11 @@ private:
         std::vector<std::uint32_t> around;
         for (const std::uint32_t half : {f, g}) {
             for (const std::uint32_t h : neighbours_[half]) {
-                if (h != f && h != g) around.push_back(polygon(h));
+                if (h == half) {
+                    around.push_back(Fan::none); // across the plane of symmetry, its own image
+                } else if (h != f && h != g) {
+                    around.push_back(polygon(h));
+                }
             }
         }
         std::sort(around.begin(), around.end());
@@ -192,7 +215,8 @@ private:
         for (const int end : {0, 2}) {
             std::set<std::uint32_t> polygons;
             for (const std::uint32_t h : surface_.facesOf(ids[end])) polygons.insert(polygon(h));
-            if (polygons.size() < 4) return false; // one less afterwards
+            const std::size_t sides = surface_.isOnPlane(ids[end]) ? 2 : 1;
+            if (sides * (polygons.size() - 1) < 3) return false; // one less afterwards
         }
         return true;
     }
@@ -225,7 +249,7 @@ private:
     bool moveBy(std::uint32_t v, const Vec3d& by)
     {
         const Fan fan = surface_.fanOf(v);
-        const Vec3d target = surface_.guard().rounded(surface_.point(v) + by);
+        const Vec3d target = surface_.rounded(fan, surface_.point(v) + by);
         if (!surface_.allows(fan, target)) return false;
         surface_.apply(fan, target);
         return true;

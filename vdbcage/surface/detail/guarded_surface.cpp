@@ -105,6 +105,13 @@ void addApproach(const Corners& fan, const Corners& other, const Vec3d& at, doub
     halfSpaces.push_back({apart, apart.dot(at) + (clearance - distance) / weight});
 }
 
+/// A triangle beginning with its least corner.
+Vec3I fromLeast(const Vec3I& t)
+{
+    if (t[0] < t[1] && t[0] < t[2]) return t;
+    return t[1] < t[2] ? Vec3I(t[1], t[2], t[0]) : Vec3I(t[2], t[0], t[1]);
+}
+
 } // namespace
 
 GuardedSurface::GuardedSurface(const Mesh& surface, const GuardModel& guard, Quads quads)
@@ -112,6 +119,8 @@ GuardedSurface::GuardedSurface(const Mesh& surface, const GuardModel& guard, Qua
 {
     points_.reserve(surface.points.size());
     for (const Vec3d& p : surface.points) points_.push_back(guard.rounded(guard.scaled(p)));
+    auto firstOfQuads = static_cast<std::uint32_t>(surface.triangles.size());
+    if (guard.symmetry()) firstOfQuads = takeHalf(firstOfQuads);
     facesOf_.resize(points_.size());
     othersOf_.resize(points_.size());
     life_.assign(faces_.size(), live);
@@ -124,31 +133,112 @@ GuardedSurface::GuardedSurface(const Mesh& surface, const GuardModel& guard, Qua
         boxes.push_back(Box::of(corners(f)));
     }
     for (std::uint32_t v = 0; v < points_.size(); ++v) {
-        // Around each vertex of a closed oriented 2-manifold the rim is one cycle.
-        std::map<std::uint32_t, std::uint32_t> next;
-        for (const std::uint32_t f : facesOf_[v]) {
-            const Vec3I& t = faces_[f];
-            const int i = t[0] == v ? 0 : t[1] == v ? 1 : 2;
-            next[t[(i + 1) % 3]] = t[(i + 2) % 3];
-        }
-        std::size_t steps = 0;
-        if (!next.empty()) {
-            std::uint32_t at = next.begin()->first;
-            do {
-                const auto step = next.find(at);
-                if (step == next.end()) break;
-                at = step->second;
-                ++steps;
-            } while (at != next.begin()->first && steps <= next.size());
-        }
-        if (steps != facesOf_[v].size() || next.size() != steps) {
+        if (!isManifoldAt(v)) {
             throw InputError("surface: it is not a closed, oriented 2-manifold at point " + std::to_string(v));
         }
     }
     tree_.build(boxes, life_);
     if (quads == Quads::split) return;
-    const auto triangles = static_cast<std::uint32_t>(surface.triangles.size());
-    for (std::uint32_t f = triangles; f < liveFaces_; f += 2) makeQuad(f, f + 1);
+    const std::uint32_t end = faces();
+    for (std::uint32_t f = firstOfQuads; f < end; f += 2) makeQuad(f, f + 1);
+}
+
+std::uint32_t GuardedSurface::takeHalf(std::uint32_t firstOfQuads)
+{
+    const int axis = guard().symmetry()->axis;
+    const double offset = guard().symmetry()->offset;
+    const auto side = [&](std::uint32_t v) { return (points_[v][axis] > offset) - (points_[v][axis] < offset); };
+    std::vector<Vec3I> beyond, behind; // the faces
+    std::vector<std::uint32_t> used;   // the vertices beyond
+    std::uint32_t firstQuad = 0;
+    for (std::uint32_t f = 0; f < faces(); ++f) {
+        const Vec3I& t = faces_[f];
+        const auto [least, most] = std::minmax({side(t[0]), side(t[1]), side(t[2])});
+        if (least == most && least == 0) {
+            throw InputError("surface: face " + std::to_string(f) + " lies in the plane of symmetry");
+        }
+        if (least < 0 && most > 0) {
+            throw InputError("surface: face " + std::to_string(f) + " lies across the plane of symmetry");
+        }
+        (most > 0 ? beyond : behind).push_back(t);
+        if (most > 0 && f < firstOfQuads) ++firstQuad;
+        for (const int i : {0, 1, 2}) {
+            if (most > 0 && side(t[i]) > 0) used.push_back(t[i]);
+        }
+    }
+    std::sort(used.begin(), used.end());
+    used.erase(std::unique(used.begin(), used.end()), used.end());
+    const auto isBefore = [&](std::uint32_t v, std::uint32_t w) { return points_[v] < points_[w]; };
+    std::sort(used.begin(), used.end(), isBefore);
+    for (Vec3I& t : behind) {
+        for (const int i : {0, 1, 2}) {
+            if (side(t[i]) == 0) continue;
+            const Vec3d image = guard().mirrored(points_[t[i]]);
+            const auto found = std::lower_bound(used.begin(), used.end(), image,
+                                                [&](std::uint32_t v, const Vec3d& p) { return points_[v] < p; });
+            if (found == used.end() || points_[*found] != image) {
+                throw InputError("surface: point " + std::to_string(t[i]) + " has no mirror image");
+            }
+            t[i] = *found;
+        }
+        t = fromLeast(Vec3I(t[0], t[2], t[1]));
+    }
+    std::vector<Vec3I> sorted;
+    for (const Vec3I& t : beyond) sorted.push_back(fromLeast(t));
+    std::sort(sorted.begin(), sorted.end());
+    std::sort(behind.begin(), behind.end());
+    if (sorted != behind) throw InputError("surface: it is not symmetric: a face has no mirror image");
+    faces_ = std::move(beyond);
+    return firstQuad;
+}
+
+bool GuardedSurface::isManifoldAt(std::uint32_t v) const
+{
+    // Around each vertex of a closed oriented 2-manifold the rim is one cycle; on the plane of symmetry, a path from
+    // plane to plane, off it on the way.
+    std::map<std::uint32_t, std::uint32_t> next;
+    for (const std::uint32_t f : facesOf_[v]) {
+        const Vec3I& t = faces_[f];
+        const int i = t[0] == v ? 0 : t[1] == v ? 1 : 2;
+        next[t[(i + 1) % 3]] = t[(i + 2) % 3];
+    }
+    if (next.size() != facesOf_[v].size()) return false;
+    if (next.empty()) return true;
+    std::uint32_t first = next.begin()->first;
+    if (isOnPlane(v)) {
+        std::size_t starts = 0;
+        for (const auto& step : next) {
+            if (!isOnPlane(step.first)) continue;
+            first = step.first;
+            ++starts;
+        }
+        if (starts != 1 || next.size() < 2) return false;
+    }
+    std::uint32_t at = first;
+    for (std::size_t steps = 1; steps <= next.size(); ++steps) {
+        const auto step = next.find(at);
+        if (step == next.end()) return false;
+        at = step->second;
+        if (at == first && steps < next.size()) return false;
+    }
+    return isOnPlane(v) ? at != first && isOnPlane(at) : at == first;
+}
+
+bool GuardedSurface::isOnPlane(std::uint32_t v) const
+{
+    const auto& plane = guard().symmetry();
+    return plane && points_[v][plane->axis] == plane->offset;
+}
+
+Vec3d GuardedSurface::ontoPlane(Vec3d p) const
+{
+    p[guard().symmetry()->axis] = guard().symmetry()->offset;
+    return p;
+}
+
+Vec3d GuardedSurface::rounded(const Fan& fan, const Vec3d& p) const
+{
+    return guard().rounded(fan.onPlane ? ontoPlane(p) : p);
 }
 
 Corners GuardedSurface::corners(std::uint32_t f) const
@@ -159,10 +249,12 @@ Corners GuardedSurface::corners(std::uint32_t f) const
 
 std::vector<std::uint32_t> GuardedSurface::neighbours(std::uint32_t v) const
 {
+    const bool halved = isOnPlane(v); // one of them is the last corner of a face only
     std::vector<std::uint32_t> list;
     for (const std::uint32_t f : facesOf_[v]) {
         const Vec3I& t = faces_[f];
         list.push_back(t[0] == v ? t[1] : t[1] == v ? t[2] : t[0]);
+        if (halved) list.push_back(t[0] == v ? t[2] : t[1] == v ? t[0] : t[1]);
     }
     for (const std::uint32_t f : othersOf_[v]) {
         for (const int i : {0, 1, 2}) {
@@ -170,7 +262,7 @@ std::vector<std::uint32_t> GuardedSurface::neighbours(std::uint32_t v) const
         }
     }
     std::sort(list.begin(), list.end());
-    if (!othersOf_[v].empty()) list.erase(std::unique(list.begin(), list.end()), list.end());
+    if (halved || !othersOf_[v].empty()) list.erase(std::unique(list.begin(), list.end()), list.end());
     return list;
 }
 
@@ -178,6 +270,7 @@ Fan GuardedSurface::fanOf(std::uint32_t v) const
 {
     Fan fan;
     fan.centre = v;
+    fan.onPlane = isOnPlane(v);
     fan.others = othersOf_[v].size();
     fan.oldFaces.assign(facesOf_[v].begin(), facesOf_[v].end());
     fan.oldFaces.insert(fan.oldFaces.end(), othersOf_[v].begin(), othersOf_[v].end());
@@ -192,7 +285,9 @@ Fan GuardedSurface::fanOf(std::uint32_t v) const
 
 bool GuardedSurface::fanOf(std::uint32_t keep, std::uint32_t remove, Fan& fan) const
 {
-    // Link condition: the ends have two common neighbours, no more, and something is left.
+    // Link condition: the ends have two common neighbours, no more (on the plane of symmetry, where the half ends,
+    // one), and something is left.
+    const bool keepOnPlane = isOnPlane(keep), removeOnPlane = isOnPlane(remove);
     const auto a = neighbours(keep), b = neighbours(remove);
     std::size_t common = 0;
     for (auto i = a.begin(), j = b.begin(); i != a.end() && j != b.end();) {
@@ -201,9 +296,11 @@ bool GuardedSurface::fanOf(std::uint32_t keep, std::uint32_t remove, Fan& fan) c
         i += first;
         j += second;
     }
-    if (common != 2 || a.size() + b.size() < 8) return false;
     fan = Fan{};
     fan.centre = keep;
+    fan.onPlane = keepOnPlane || removeOnPlane;
+    if (common != (keepOnPlane && removeOnPlane ? 1U : 2U)) return false;
+    if (!fan.onPlane && a.size() + b.size() < 8) return false;
     fan.removed = remove;
     for (const std::uint32_t v : {keep, remove}) {
         for (const std::uint32_t f : facesOf_[v]) {
@@ -220,13 +317,18 @@ bool GuardedSurface::fanOf(std::uint32_t keep, std::uint32_t remove, Fan& fan) c
             fan.rim.push_back({t[(i + 1) % 3], t[(i + 2) % 3]});
         }
     }
-    return fan.rim.size() >= 3;
+    if (!fan.onPlane) return fan.rim.size() >= 3;
+    // From the plane to the plane, off it on the way.
+    std::size_t onPlane = 0;
+    for (const auto& edge : fan.rim) onPlane += std::size_t(isOnPlane(edge[0])) + std::size_t(isOnPlane(edge[1]));
+    return onPlane == 2 && fan.rim.size() >= 2;
 }
 
 Fan GuardedSurface::fanOfSplit(std::uint32_t u, std::uint32_t v) const
 {
     Fan fan;
     fan.centre = vertices();
+    fan.onPlane = isOnPlane(u) && isOnPlane(v);
     for (const std::uint32_t f : facesOf_[u]) {
         const Vec3I& t = faces_[f];
         for (int i = 0; i < 3; ++i) {
@@ -249,6 +351,7 @@ Vec3d GuardedSurface::outward(const Fan& fan) const
         const Corners t = corners(f);
         normal += (t[1] - t[0]).cross(t[2] - t[0]);
     }
+    if (fan.onPlane) normal[guard().symmetry()->axis] = 0;
     const double length = normal.length();
     return length > 0 ? normal / length : Vec3d(0.0);
 }
@@ -307,7 +410,7 @@ bool GuardedSurface::clearOfSurface(const Fan& fan, const Vec3d& p) const
         boxes.push_back(Box::of(facets.back().corners));
         all.expand(boxes.back());
     }
-    if (fan.others > 0 || !spreadOut(facets)) {
+    if (fan.others > 0 || fan.onPlane || !spreadOut(facets)) {
         for (std::size_t i = 0; i < n; ++i) {
             for (std::size_t j = i + 1; j < n; ++j) {
                 if (fan.others > 0 && areAlternatives(fan.keptFaces[i], fan.keptFaces[j])) continue;
@@ -327,8 +430,15 @@ bool GuardedSurface::clearOfSurface(const Fan& fan, const Vec3d& p) const
     });
 }
 
+bool GuardedSurface::isBehindPlane(const Fan& fan, const Vec3d& p) const
+{
+    const auto& plane = guard().symmetry();
+    return plane && (fan.onPlane ? p[plane->axis] != plane->offset : p[plane->axis] <= plane->offset);
+}
+
 bool GuardedSurface::allows(const Fan& fan, const Vec3d& p, std::uint32_t* hint) const
 {
+    if (isBehindPlane(fan, p)) return false;
     if (!wellShaped(fan, p)) return false;
     std::uint32_t blocker = hint ? *hint : TriangleTree::none;
     for (std::size_t i = 0; i < fan.rim.size(); ++i) {
@@ -344,9 +454,17 @@ bool GuardedSurface::allows(const Fan& fan, const Vec3d& p, std::uint32_t* hint)
 bool GuardedSurface::sweepsOverNothing(const Fan& fan, const Vec3d& p) const
 {
     Box box = Box::of(p);
-    for (const auto& edge : fan.rim) box.expand(Box::of(points_[edge[0]]));
+    for (const auto& edge : fan.rim) {
+        for (const std::uint32_t v : edge) box.expand(Box::of(points_[v]));
+    }
     if (fan.centre < vertices()) box.expand(Box::of(points_[fan.centre]));
     if (fan.removed != Fan::none) box.expand(Box::of(points_[fan.removed]));
+    const auto image = [&](const Corners& t) {
+        return Corners{guard().mirrored(t[0]), guard().mirrored(t[2]), guard().mirrored(t[1])};
+    };
+    if (fan.onPlane) {
+        for (const Vec3d& corner : {box.lo, box.hi}) box.expand(Box::of(guard().mirrored(corner)));
+    }
     if (!guard().mayHoldPart(box)) return true;
     // The surface with every quad split by its halves' diagonal, then by the other. Parts of the model touch neither,
     // so that one inside both is inside for every choice of diagonals.
@@ -361,6 +479,10 @@ bool GuardedSurface::sweepsOverNothing(const Fan& fan, const Vec3d& p) const
         for (const std::uint32_t f : fan.oldFaces) {
             const Corners t = corners(f);
             if (shows(f)) surface.push_back({t[0], t[2], t[1]});
+        }
+        if (fan.onPlane) {
+            const std::size_t half = surface.size();
+            for (std::size_t i = 0; i < half; ++i) surface.push_back(image(surface[i]));
         }
         if (guard().swept(surface, box)) return false;
         if (fan.others == 0) break;
@@ -397,6 +519,24 @@ void GuardedSurface::contacts(const Fan& fan, const Vec3d& from, const Vec3d& to
             return true;
         });
     }
+    if (!guard().symmetry()) return;
+    Vec3d across(0.0);
+    across[guard().symmetry()->axis] = 1;
+    if (!fan.onPlane) {
+        if (isBehindPlane(fan, to)) halfSpaces.push_back({across, guard().symmetry()->offset + clearance});
+        return;
+    }
+    // The centre moves in the plane: so do the half-spaces.
+    constexpr double leastSine = 1e-6;
+    std::size_t kept = 0;
+    for (HalfSpace& h : halfSpaces) {
+        const double height = h.normal.dot(across);
+        const Vec3d normal = h.normal - height * across;
+        const double length = normal.length();
+        if (!(length > leastSine)) continue;
+        halfSpaces[kept++] = {normal / length, (h.offset - height * guard().symmetry()->offset) / length};
+    }
+    halfSpaces.resize(kept);
 }
 
 void GuardedSurface::apply(const Fan& fan, const Vec3d& p)
@@ -489,7 +629,7 @@ void GuardedSurface::limitQuadFold(double degrees)
 bool GuardedSurface::makeQuad(std::uint32_t f, std::uint32_t g)
 {
     const Vec4I ids = quadOf(f, g);
-    if (ids[1] == ids[3]) return false;
+    if (ids[1] == ids[3] || (isOnPlane(ids[1]) && isOnPlane(ids[3]))) return false;
     std::array<Vec3d, 4> places;
     for (int k = 0; k < 4; ++k) places[static_cast<std::size_t>(k)] = points_[ids[k]];
     double deviation;
@@ -560,8 +700,10 @@ bool GuardedSurface::Batch::apply(const Fan& fan, const Vec3d& p)
     if (touched(fan.centre) || (fan.removed != Fan::none && touched(fan.removed))) return false;
     Box box = Box::of(p);
     for (const auto& edge : fan.rim) {
-        if (touched(edge[0])) return false;
-        box.expand(Box::of(surface_.point(edge[0])));
+        for (const std::uint32_t v : edge) {
+            if (touched(v)) return false;
+            box.expand(Box::of(surface_.point(v)));
+        }
     }
     const auto meets = [&](const Box& other) { return box.meets(other); };
     if (std::any_of(boxes_.begin(), boxes_.end(), meets) && !surface_.clearOfSurface(fan, p)) return false;
@@ -591,6 +733,24 @@ Mesh GuardedSurface::mesh() const
             const Vec4I q = quadOf(f, otherHalf(f));
             mesh.quads.emplace_back(number[q[0]], number[q[1]], number[q[2]], number[q[3]]);
         }
+    }
+    if (!guard().symmetry()) return mesh;
+    std::vector<std::uint32_t> image(mesh.points.size());
+    for (std::uint32_t v = 0; v < points_.size(); ++v) {
+        if (!isVertex(v)) continue;
+        image[number[v]] = number[v];
+        if (isOnPlane(v)) continue;
+        image[number[v]] = static_cast<std::uint32_t>(mesh.points.size());
+        mesh.points.push_back(guard().unscaled(guard().mirrored(points_[v])));
+    }
+    const std::size_t triangles = mesh.triangles.size(), quads = mesh.quads.size();
+    for (std::size_t i = 0; i < triangles; ++i) {
+        const Vec3I t = mesh.triangles[i];
+        mesh.triangles.emplace_back(image[t[0]], image[t[2]], image[t[1]]);
+    }
+    for (std::size_t i = 0; i < quads; ++i) {
+        const Vec4I q = mesh.quads[i];
+        mesh.quads.emplace_back(image[q[0]], image[q[3]], image[q[2]], image[q[1]]);
     }
     return mesh;
 }

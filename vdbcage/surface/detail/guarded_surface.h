@@ -22,6 +22,7 @@ struct Fan {
     using Faces = boost::container::small_vector<std::uint32_t, 16>;
 
     std::uint32_t centre = none;  ///< the vertex that moves, survives the collapse, or is new: then it is vertices()
+    bool onPlane = false;         ///< the centre is, or comes to be, on the plane of symmetry: this is half of a fan
     std::uint32_t removed = none; ///< the vertex that goes in a collapse
     Faces oldFaces;               ///< those that give way
     Faces keptFaces;              ///< for each rim edge the old face that becomes its triangle; none: a new face
@@ -41,20 +42,32 @@ struct HalfSpace {
 /// It is made of triangles; two that share an edge can be the halves of a quad. A quad bounds under both diagonals: for
 /// that the two triangles of its other diagonal, its others, go through the same tests as live faces, against all but
 /// its halves. Faces below are triangles; others have numbers among them, but are in no list unless it says so.
+///
+/// Where the guard has a plane of symmetry, this is the half of the surface beyond it, and all counts are of the half.
+/// The other half is its mirror image and not stored: vertices on the plane, where the half ends, stay on it, all
+/// others stay beyond it, and no edge but those where the half ends has both its ends on the plane; so the halves can
+/// meet in nothing but vertices and edges on the plane, and what is allowed here is allowed there.
 class GuardedSurface {
 public:
     enum class Quads {
         split,
         keep ///< where both diagonals are allowed; else they are split
     };
-    /// Points are rounded as the guard asks. \throw InputError the surface is not a closed 2-manifold
+    /// Points are rounded as the guard asks. \throw InputError the surface is not a closed 2-manifold, or not
+    /// symmetric where the guard has a plane
     GuardedSurface(const Mesh& surface, const GuardModel& guard, Quads quads = Quads::split);
 
+    /// How many times this the surface is: 2 where the guard has a plane of symmetry, else 1.
+    std::size_t copies() const { return guard().symmetry() ? 2 : 1; }
     std::size_t liveFaces() const { return liveFaces_; }
     std::uint32_t faces() const { return static_cast<std::uint32_t>(faces_.size()); } ///< ever, numbers below
     std::uint32_t vertices() const { return static_cast<std::uint32_t>(points_.size()); }
     bool isVertex(std::uint32_t v) const { return !facesOf_[v].empty(); }
     const Vec3d& point(std::uint32_t v) const { return points_[v]; }
+    /// Whether a vertex is on the plane of symmetry.
+    bool isOnPlane(std::uint32_t v) const;
+    /// The nearest point on the plane of symmetry. \pre there is one
+    Vec3d ontoPlane(Vec3d p) const;
     const std::vector<std::uint32_t>& facesOf(std::uint32_t v) const { return facesOf_[v]; }
     const Vec3I& face(std::uint32_t f) const { return faces_[f]; }
     Corners corners(std::uint32_t f) const;
@@ -69,6 +82,8 @@ public:
     Fan fanOfSplit(std::uint32_t u, std::uint32_t v) const;
     /// The mean normal of what the fan replaces, of unit length (or zero).
     Vec3d outward(const Fan& fan) const;
+    /// `p` as a place of the fan's centre: on the plane of symmetry where it has to be, rounded as the guard asks.
+    Vec3d rounded(const Fan& fan, const Vec3d& p) const;
 
     /// Whether the fan may have its centre at `p` (rounded as the guard asks). `hint` is a blocker to try first and
     /// gets the one that was found.
@@ -99,11 +114,15 @@ public:
     /// Changes that were each allowed on the surface as it was when the batch began, made one after the other.
     class Batch;
 
-    /// The live triangles and quads, points that no face uses left out, order kept.
+    /// The live triangles and quads, points that no face uses left out, order kept; then the mirror image of them all.
     Mesh mesh() const;
     const GuardModel& guard() const { return guard_; }
 
 private:
+    /// Keeps the faces beyond the plane; returns the number of the first half of a quad among them.
+    std::uint32_t takeHalf(std::uint32_t firstOfQuads);
+    bool isManifoldAt(std::uint32_t v) const;
+    bool isBehindPlane(const Fan& fan, const Vec3d& p) const;
     Corners fanCorners(const Fan& fan, std::size_t i, const Vec3d& p) const;
     bool wellShaped(const Fan& fan, const Vec3d& p) const;
     bool clearOfSurface(const Fan& fan, const Vec3d& p) const;

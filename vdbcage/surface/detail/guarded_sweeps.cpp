@@ -81,18 +81,27 @@ std::vector<std::uint32_t> allVertices(const GuardedSurface& surface)
     return list;
 }
 
+/// The mean of a value, added to a zero `sum`, of the vertices around the fan's centre; on the plane of symmetry of
+/// both halves' together, as far as it is not turned over by the mirror image.
+template <typename Sum, typename Value>
+Sum ringMean(const Fan& fan, Sum sum, const Value& value)
+{
+    for (const auto& edge : fan.rim) {
+        sum += value(edge[0]);
+        if (fan.onPlane) sum += value(edge[1]); // twice within the rim, once at its ends
+    }
+    return sum / static_cast<double>((fan.onPlane ? 2 : 1) * fan.rim.size());
+}
+
 Vec3d ringAverage(const GuardedSurface& surface, const Fan& fan)
 {
-    Vec3d average(0.0);
-    for (const auto& edge : fan.rim) average += surface.point(edge[0]);
-    return average / static_cast<double>(fan.rim.size());
+    const Vec3d average = ringMean(fan, Vec3d(0.0), [&](std::uint32_t v) { return surface.point(v); });
+    return fan.onPlane ? surface.ontoPlane(average) : average;
 }
 
 double meanSpoke(const GuardedSurface& surface, const Fan& fan)
 {
-    double sum = 0;
-    for (const auto& edge : fan.rim) sum += (surface.point(edge[0]) - surface.point(fan.centre)).length();
-    return sum / static_cast<double>(fan.rim.size());
+    return ringMean(fan, 0.0, [&](std::uint32_t v) { return (surface.point(v) - surface.point(fan.centre)).length(); });
 }
 
 /// The first of the places on the way to `goal` that is allowed.
@@ -102,7 +111,7 @@ std::optional<Vec3d> towards(const GuardedSurface& surface, const Fan& fan, cons
     const Vec3d& p = surface.point(fan.centre);
     std::uint32_t blocker = TriangleTree::none;
     for (const double step : steps) {
-        const Vec3d target = surface.guard().rounded(p + step * (goal - p));
+        const Vec3d target = surface.rounded(fan, p + step * (goal - p));
         if (surface.allows(fan, target, &blocker)) return target;
     }
     return std::nullopt;
@@ -157,9 +166,7 @@ void roundOff(GuardedSurface& surface, int sweeps, Interrupter* interrupter)
         sweep(
             surface, vertices, interrupter,
             [&](std::uint32_t v, const Fan& fan) {
-                Vec3d around(0.0);
-                for (const auto& edge : fan.rim) around += toAverage[edge[0]];
-                around /= static_cast<double>(fan.rim.size());
+                const Vec3d around = ringMean(fan, Vec3d(0.0), [&](std::uint32_t w) { return toAverage[w]; });
                 const Vec3d room = outward * meanSpoke(surface, fan) * surface.outward(fan);
                 return towards(surface, fan, surface.point(v) + 0.7 * toAverage[v] - 0.7 * around + room,
                                {1.0, 0.5, 0.2});
@@ -214,7 +221,7 @@ void tighten(GuardedSurface& surface, int sweeps, double areaPerSample, Interrup
                 gain += before[v] - after[v];
                 if (before[v] - after[v] < sleepBelow * before[v]) return;
                 stir[v] = 1;
-                for (const auto& edge : fan.rim) stir[edge[0]] = 1;
+                for (const auto& edge : fan.rim) stir[edge[0]] = stir[edge[1]] = 1;
             });
         if (!(gain > stopBelow * total)) break;
         awake.clear();

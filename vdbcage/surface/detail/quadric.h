@@ -54,6 +54,16 @@ public:
         return *this;
     }
 
+    /// Becomes the mean of itself and its mirror image in the plane through the origin across `axis` (0 to 2): of the
+    /// places in that plane, each costs as much as before.
+    void symmetrize(int axis)
+    {
+        if (axis != 2) xy_ = 0;
+        if (axis != 1) xz_ = 0;
+        if (axis != 0) yz_ = 0;
+        linear_[axis] = first_[axis] = 0;
+    }
+
     /// The cost of the place `p`, at least 0; `spreadWeight` is that of the spread.
     double cost(const openvdb::Vec3d& p, double spreadWeight) const
     {

@@ -26,9 +26,13 @@ int latticeCoordinate(double coordinate, double center, double voxelSize, int re
 
 } // namespace
 
-Frame makeFrame(const Mesh& model, int resolution)
+Frame makeFrame(const Mesh& model, int resolution, const std::optional<openvdb::BBoxd>& given)
 {
-    const openvdb::BBoxd box = boundingBox(model);
+    const openvdb::BBoxd own = boundingBox(model), box = given.value_or(own);
+    for (int axis = 0; axis < 3; ++axis) {
+        if (own.min()[axis] >= box.min()[axis] && own.max()[axis] <= box.max()[axis]) continue;
+        throw InputError("model: its bounding box is not within the box given for the voxels");
+    }
     const openvdb::Vec3d sides = box.max() - box.min();
     const double side = std::max({sides.x(), sides.y(), sides.z()});
     if (!(side >= smallestSide && side <= largestSide)) {

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include <openvdb/Types.h>
+#include <openvdb/math/BBox.h>
 #include <openvdb/math/Coord.h>
 #include <openvdb/math/Transform.h>
 #include <vdbcage/mesh/mesh.h>
@@ -26,10 +28,11 @@ struct Frame {
     openvdb::CoordBBox voxels; ///< every voxel that a face can touch, index space, inclusive
 };
 
-/// The frame of `model`, which must have passed requireUsable. O(faces).
-/// \throw InputError the longest side is not in [1e-100, 1e100], or a voxel is smaller than 2^-37 of the largest
+/// The frame of `model`, which must have passed requireUsable, or of a model with the bounding box `box`. O(faces).
+/// \throw InputError `box` does not hold the model, the longest side is not in [1e-100, 1e100], or a voxel is smaller
+/// than 2^-37 of the largest
 ///        absolute coordinate
-Frame makeFrame(const Mesh& model, int resolution);
+Frame makeFrame(const Mesh& model, int resolution, const std::optional<openvdb::BBoxd>& box = {});
 
 /// Index space to world space: a uniform scale and a translation. Unlike OpenVDB's own constructors it takes any voxel
 /// size, also those below 1.44e-5.

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <optional>
+
+#include <vdbcage/core/export.h>
+#include <vdbcage/core/interrupter.h>
+#include <vdbcage/mesh/mesh.h>
+
+namespace vdbcage {
+
+/// A plane across an axis.
+struct SymmetryPlane {
+    int axis = 0;      ///< 0, 1, 2: x, y, z
+    double offset = 0; ///< of its points along the axis, world units
+};
+
+/// How well a model agrees with its mirror image.
+struct Symmetry {
+    SymmetryPlane plane;
+    /// Almost all of the surface (99 % of its area) is no farther than this from its mirror image, fraction of the
+    /// model's longest side.
+    double deviation = 0;
+};
+
+/// The plane across `axis` (0 to 2) in which the model agrees best with its mirror image: from the middle of its
+/// bounding box moved to where the samples of the surface, mirrored, lie on it as well as can be. Any soup will do.
+/// \throw InputError (axis; what requireUsable refuses), Cancelled O(faces log faces), in parallel.
+/// Based on: Besl and McKay, A Method for Registration of 3-D Shapes, 1992 (nearest points as counterparts).
+VDBCAGE_API Symmetry bestSymmetry(const Mesh& model, int axis, Interrupter* interrupter = nullptr);
+
+/// The best of the three, if its deviation is at most `tolerance`.
+VDBCAGE_API std::optional<Symmetry> findSymmetry(const Mesh& model, double tolerance,
+                                                 Interrupter* interrupter = nullptr);
+
+} // namespace vdbcage
