@@ -210,6 +210,31 @@ BOOST_AUTO_TEST_CASE(every_question_can_cancel)
     }
 }
 
+BOOST_AUTO_TEST_CASE(voxels_are_laid_out_by_the_box_that_is_given)
+{
+    const Mesh model = test::sphere(Vec3d(0.5, -1, 2), 1, 9);
+    VoxelizeOptions options{20, Voxelizer::cpu, boundingBox(model)};
+    const auto own = voxelize(model, {20});
+    BOOST_CHECK(sameVoxels(*own, *voxelize(model, options)));
+    // A side of 4 instead of 2, twice the voxels, from the same low corner on x: equal ones, moved by half of what was
+    // added before them on the other axes.
+    options.box->max() += Vec3d(2, 1, 1);
+    options.box->min() -= Vec3d(0, 1, 1);
+    options.resolution = 40;
+    const auto moved = voxelize(model, options);
+    std::size_t found = 0;
+    for (auto voxel = own->tree().cbeginValueOn(); voxel; ++voxel) {
+        openvdb::CoordBBox box;
+        voxel.getBoundingBox(box);
+        for (auto at = box.begin(); at; ++at) found += moved->tree().isValueOn((*at).offsetBy(0, 10, 10));
+    }
+    BOOST_TEST(found == own->activeVoxelCount());
+    BOOST_TEST(found == moved->activeVoxelCount());
+    BOOST_TEST((moved->indexToWorld(Vec3d(20)) - Vec3d(1.5, -1, 2)).length() < 1e-12); // the middle of the box
+    options.box->max()[1] -= 1.5;
+    BOOST_CHECK_THROW(voxelize(model, options), InputError);
+}
+
 BOOST_AUTO_TEST_CASE(what_cannot_be_voxelized_is_refused_with_the_value_and_what_is_allowed)
 {
     const Mesh model = test::box(Vec3d(0), Vec3d(1));
