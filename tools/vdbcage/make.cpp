@@ -154,9 +154,7 @@ void printSummary(const MakeArguments& arguments, const Pipeline& pipeline, cons
 int runMake(std::vector<std::string> words)
 {
     MakeArguments arguments;
-    CLI::App app("vdbcage make MODEL -o CAGE [OPTIONS]\n"
-                 "Makes a coarse closed mesh that bounds MODEL. Files: .obj .off .ply .stl",
-                 "make");
+    CLI::App app("vdbcage make MODEL -o CAGE [OPTIONS]: bounds MODEL (.obj .off .ply .stl)", "make");
     app.add_option("model", arguments.model)->required()->type_name("MODEL");
     app.add_option("-o,--output", arguments.cage, "the cage to write")->required()->type_name("CAGE");
     for (const OptionText& option : describeOptions()) {
