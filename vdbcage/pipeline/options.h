@@ -83,11 +83,7 @@ void visitOptions(Options& options, Visit&& visit)
     visit(OptionInfo{"mesh", "", "faces of the cage", In::merge}, options.mesh);
     visit(OptionInfo{"merge-angle", "DEG", "largest fold of a quad", In::merge, 0, 180}, options.mergeAngle);
     visit(OptionInfo{"symmetry", "", "symmetric cages of symmetric models", In::voxelize}, options.symmetry);
-    visit(OptionInfo{"voxelizer",
-                     ""
-                     "",
-                     "what makes the voxels", In::voxelize},
-          options.voxelizer);
+    visit(OptionInfo{"voxelizer", "", "what makes the voxels", In::voxelize}, options.voxelizer);
     visit(OptionInfo{"bounding", "", "only ever a certified cage", In::decimate}, options.bounding);
     visit(OptionInfo{"clearance", "F", "least distance to model", In::decimate, 1e-7, 0.1}, options.clearance);
     visit(OptionInfo{"min-angle", "DEG", "floor for triangle angles", In::decimate, 0, 30}, options.minAngle);
