@@ -105,7 +105,7 @@ BOOST_AUTO_TEST_CASE(random_soups_agree_with_the_plainest_count, *boost::unit_te
         for (unsigned defect = random() % 4; defect > 0; --defect) {
             switch (random() % 3) {
             case 0:
-                mesh.quads.erase(mesh.quads.begin() + random() % mesh.quads.size());
+                mesh.quads.erase(mesh.quads.begin() + static_cast<std::ptrdiff_t>(random() % mesh.quads.size()));
                 break;
             case 1: {
                 openvdb::Vec4I& quad = mesh.quads[random() % mesh.quads.size()];

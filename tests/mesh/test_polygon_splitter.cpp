@@ -269,7 +269,7 @@ BOOST_AUTO_TEST_CASE(senseless_polygons_still_give_two_triangles_less_than_corne
 
 BOOST_AUTO_TEST_CASE(alternatives_hold_every_triangle_of_every_fan)
 {
-    for (const std::size_t n : {4, 5, 8, 9, 20, 64}) {
+    for (const std::size_t n : {4U, 5U, 8U, 9U, 20U, 64U}) {
         std::vector<openvdb::Index32> face(n);
         for (std::size_t i = 0; i < n; ++i) face[i] = static_cast<openvdb::Index32>(10 + i);
         std::vector<openvdb::Vec3I> triangles;

@@ -56,7 +56,7 @@ BOOST_AUTO_TEST_SUITE(refit_tree)
 
 BOOST_AUTO_TEST_CASE(finds_what_a_list_finds_while_things_come_move_and_go)
 {
-    for (const std::size_t atFirst : {0, 1, 2, 60}) {
+    for (const std::size_t atFirst : {0U, 1U, 2U, 60U}) {
         Boxes random(static_cast<unsigned>(atFirst));
         std::vector<Box> boxes;
         for (std::size_t i = 0; i < atFirst; ++i) boxes.push_back(random.next());

@@ -76,7 +76,7 @@ inline DenseSet randomBlobs(const CoordBBox& box, unsigned seed, int count = 8)
     DenseSet set(box);
     for (int i = 0; i < count; ++i) {
         Coord centre;
-        for (int axis = 0; axis < 3; ++axis) centre[axis] = between(box.min()[axis], box.max()[axis]);
+        for (std::size_t axis = 0; axis < 3; ++axis) centre[axis] = between(box.min()[axis], box.max()[axis]);
         const int radius = between(0, 5);
         const bool isBall = random() % 2 == 0, isHole = random() % 4 == 0;
         CoordBBox around = grown(CoordBBox(centre, centre), radius);
@@ -96,7 +96,7 @@ inline MaskGrid::Ptr fatBlobs(int size, unsigned seed = 1)
     auto grid = MaskGrid::create();
     for (int i = 0; i < 12; ++i) {
         Coord centre;
-        for (int axis = 0; axis < 3; ++axis) {
+        for (std::size_t axis = 0; axis < 3; ++axis) {
             centre[axis] = static_cast<int>(random() % static_cast<unsigned>(size)) - size / 2;
         }
         const int radius = size / 16 + static_cast<int>(random() % static_cast<unsigned>(size / 8));

@@ -21,7 +21,7 @@ void floodFrom(const Coord& seed, const DenseSet& set, DenseSet& reached)
     while (!stack.empty()) {
         const Coord c = stack.back();
         stack.pop_back();
-        for (int axis = 0; axis < 3; ++axis) {
+        for (std::size_t axis = 0; axis < 3; ++axis) {
             for (const int step : {-1, 1}) {
                 Coord next = c;
                 next[axis] += step;

@@ -15,7 +15,7 @@ DenseSet contourByDefinition(const DenseSet& set)
     DenseSet result(set.box());
     for (auto c = set.box().begin(); c; ++c) {
         bool isInner = true;
-        for (int axis = 0; axis < 3; ++axis) {
+        for (std::size_t axis = 0; axis < 3; ++axis) {
             for (const int step : {-1, 1}) {
                 Coord neighbour = *c;
                 neighbour[axis] += step;

@@ -167,7 +167,7 @@ BOOST_DATA_TEST_CASE(closing_by_large_radii_equals_the_definition, data::make({1
     const Coord first = set.box().min(), size = set.box().dim();
     for (int i = 0; i < 600; ++i) {
         Coord p;
-        for (int axis = 0; axis < 3; ++axis) {
+        for (std::size_t axis = 0; axis < 3; ++axis) {
             p[axis] = first[axis] + static_cast<int>(random() % static_cast<unsigned>(size[axis]));
         }
         bool isKept = dilated[p];
@@ -248,7 +248,7 @@ BOOST_AUTO_TEST_CASE(radii_obey_the_field_and_the_slope)
             // Far enough from the sphere to have grown back.
             const double rise = (std::sqrt(squaredLength(*c)) - 9) / 2 + 0.25 * radius;
             BOOST_REQUIRE(r <= std::max(rise * std::sqrt(3.0), 0.25 * radius) + 3);
-            for (int axis = 0; axis < 3; ++axis) {
+            for (std::size_t axis = 0; axis < 3; ++axis) {
                 Coord next = *c;
                 ++next[axis];
                 // Squares are rounded down: by up to 0.6 of a voxel where radii are small.

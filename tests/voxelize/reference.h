@@ -137,14 +137,14 @@ private:
             walk.push_back(ijk);
         };
         for (const openvdb::Coord& ijk : box) {
-            for (int axis = 0; axis < 3; ++axis) {
+            for (std::size_t axis = 0; axis < 3; ++axis) {
                 if (ijk[axis] == box.min()[axis] || ijk[axis] == box.max()[axis]) enter(ijk);
             }
         }
         while (!walk.empty()) {
             const openvdb::Coord ijk = walk.back();
             walk.pop_back();
-            for (int axis = 0; axis < 3; ++axis) {
+            for (std::size_t axis = 0; axis < 3; ++axis) {
                 for (const int step : {-1, 1}) {
                     openvdb::Coord next = ijk;
                     next[axis] += step;

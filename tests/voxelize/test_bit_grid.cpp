@@ -129,7 +129,7 @@ std::size_t countAfterWalk(const BitGrid& bits)
     while (!walk.empty()) {
         const Coord ijk = walk.back();
         walk.pop_back();
-        for (int axis = 0; axis < 3; ++axis) {
+        for (std::size_t axis = 0; axis < 3; ++axis) {
             for (const int step : {-1, 1}) {
                 Coord next = ijk;
                 next[axis] += step;

@@ -131,7 +131,7 @@ BOOST_AUTO_TEST_CASE(a_box_gets_as_many_voxels_on_both_sides)
         const openvdb::CoordBBox box = mask->evalActiveVoxelBoundingBox();
         BOOST_TEST(box.min().x() == 0);
         BOOST_TEST(box.max().x() == resolution);
-        for (int axis = 0; axis < 3; ++axis) BOOST_TEST(box.min()[axis] + box.max()[axis] == resolution);
+        for (std::size_t axis = 0; axis < 3; ++axis) BOOST_TEST(box.min()[axis] + box.max()[axis] == resolution);
         BOOST_TEST(mask->activeVoxelCount() == box.volume());
         BOOST_TEST(mask->voxelSize().x() == 2.0 / resolution);
         BOOST_TEST((mask->indexToWorld(Vec3d(0.5 * resolution)) - Vec3d(6, 5.65, 5.45)).length() < 1e-14);
