@@ -394,8 +394,13 @@ BOOST_AUTO_TEST_CASE(a_plane_that_is_asked_for_is_obeyed)
     BOOST_TEST(made.report().noSymmetry != "");
     options.symmetry = CageSymmetry::off;
     BOOST_CHECK(sameMesh(found, makeCage(model, options)));
-    options.symmetry = CageSymmetry::x;
     options.bounding = false;
+    made.run(options);
+    BOOST_TEST(made.report().noSymmetry == "");
+    options.symmetry = CageSymmetry::automatic; // not silently left out
+    made.run(options);
+    BOOST_TEST(made.report().noSymmetry == "bounding is off");
+    options.symmetry = CageSymmetry::x;
     BOOST_CHECK_THROW(made.run(options), InputError);
 }
 

@@ -21,9 +21,12 @@
 #include "support/shapes.h"
 #include "support/solids.h"
 #include "support/stop_at.h"
+#include "surface/targets.h"
 
 using namespace vdbcage;
 using openvdb::Vec3d;
+using test::quads;
+using test::to;
 
 namespace {
 
@@ -65,13 +68,6 @@ std::vector<Mesh> models()
             test::joined(test::box({-0.2, -0.2, -0.2}, {0, 0, 0}), test::box({0, 0, 0}, {0.2, 0.2, 0.2}))};
 }
 
-DecimateOptions to(std::size_t faces)
-{
-    DecimateOptions options;
-    options.faces = faces;
-    return options;
-}
-
 bool same(const Mesh& a, const Mesh& b)
 {
     return a.points == b.points && a.triangles == b.triangles && a.quads == b.quads;
@@ -92,14 +88,6 @@ double bending(const Mesh& mesh)
         sum += (mesh.points[edge.first] - mesh.points[edge.second]).length() * angle * angle;
     }
     return sum;
-}
-
-BoundingTriquadOptions quads(std::size_t faces, double degrees)
-{
-    BoundingTriquadOptions options;
-    options.faces = faces;
-    options.mergeAngleDegrees = degrees;
-    return options;
 }
 
 /// The largest angle between the normals of a quad's four triangles, one at each corner.

@@ -22,9 +22,12 @@
 #include "support/shapes.h"
 #include "support/solids.h"
 #include "support/symmetric.h"
+#include "surface/targets.h"
 
 using namespace vdbcage;
 using openvdb::Vec3d;
+using test::quads;
+using test::to;
 
 namespace {
 
@@ -84,21 +87,6 @@ Mesh ball(int axis, int sum)
 Mesh start(const BoundingGuard& guard, int axis, int sum)
 {
     return guard.symmetrized(ball(axis, sum), snap);
-}
-
-DecimateOptions to(std::size_t faces)
-{
-    DecimateOptions options;
-    options.faces = faces;
-    return options;
-}
-
-BoundingTriquadOptions quads(std::size_t faces, double degrees)
-{
-    BoundingTriquadOptions options;
-    options.faces = faces;
-    options.mergeAngleDegrees = degrees;
-    return options;
 }
 
 bool same(const Mesh& a, const Mesh& b)

@@ -131,10 +131,6 @@ public:
         report_.parts = best.topology.components();
         report_.handles = best.topology.genus();
         report_.repaired = best.repaired;
-        if (!options.bounding) {
-            report_.symmetry.reset();
-            report_.noSymmetry.clear();
-        }
         best_ = std::move(best);
         cageKey_ = key;
     }
@@ -273,6 +269,8 @@ private:
 
     Candidate makeUnguarded(const CageOptions& options, Interrupter* interrupter)
     {
+        report_.symmetry.reset();
+        report_.noSymmetry = options.symmetry == CageSymmetry::off ? "" : "bounding is off";
         constexpr int removeSteps = 3; // smoothing that takes the steps of the voxels away
         Candidate candidate;
         candidate.voxels = ladder(options).front();

@@ -304,18 +304,19 @@ class Kernel {
 public:
     static VDBCAGE_INLINE void within(const Tables& tables, const PileQuery& query, Words* result)
     {
-        C open[levels], found[levels];
+        C open[levels]; // and left so
         for (std::size_t z = 0; z < levels; ++z) {
-            found[z].fill(0);
             query.open[z] ? load(*query.open[z], open[z]) : open[z].fill(0);
         }
-        if (vertical(tables, query, 1, open, found) && vertical(tables, query, -1, open, found)) {
+        if (vertical(tables, query, 1, open) && vertical(tables, query, -1, open)) {
             for (std::size_t z = 0; z < levels; ++z) {
-                if (query.open[z]) lateral(tables, query, z, open[z], found[z]);
+                if (query.open[z]) lateral(tables, query, z, open[z]);
             }
         }
         for (std::size_t z = 0; z < levels; ++z) {
-            if (query.open[z]) store(found[z], *query.open[z], result[z]);
+            if (!query.open[z]) continue;
+            store(open[z], result[z]);
+            for (std::size_t x = 0; x < 8; ++x) result[z][x] ^= (*query.open[z])[x];
         }
     }
 
@@ -333,14 +334,13 @@ private:
         for (std::size_t i = 0; i < lanes; ++i) numbers[i] = reinterpret_cast<const std::uint8_t*>(byColumn.data())[i];
         columns.load(numbers);
     }
-    static VDBCAGE_INLINE void store(const C& columns, const Words& mask, Words& words)
+    static VDBCAGE_INLINE void store(const C& columns, Words& words)
     {
         T numbers[lanes];
         columns.store(numbers);
         for (std::size_t i = 0; i < lanes; ++i)
             reinterpret_cast<std::uint8_t*>(words.data())[i] = static_cast<std::uint8_t>(numbers[i]);
         transposeBytes(words);
-        for (std::size_t x = 0; x < 8; ++x) words[x] &= mask[x];
     }
     static VDBCAGE_INLINE void load(Vector& v, const T* row, int i)
     {
@@ -411,7 +411,7 @@ private:
     }
 
     // Slot by slot from the leaves below (side 1) or above (-1). Returns whether any voxels are left open.
-    static VDBCAGE_INLINE bool vertical(const Tables& tables, const PileQuery& query, int side, C* open, C* found)
+    static VDBCAGE_INLINE bool vertical(const Tables& tables, const PileQuery& query, int side, C* open)
     {
         const auto levelAt = [&](std::size_t step) { return side > 0 ? step : levels - 1 - step; };
         Heights heights[levels];                      // by step
@@ -454,7 +454,6 @@ private:
                     const T bit = static_cast<T>(side > 0 ? 1 << k : 128 >> k), before = static_cast<T>(none<T> + k);
                     bits |= reinterpret_cast<Vector>(reached.v[i] > before) & bit;
                 }
-                found[level].v[i] |= bits & open[level].v[i];
                 open[level].v[i] &= ~bits;
             }
         }
@@ -506,8 +505,7 @@ private:
     }
 
     // From the leaves beside the slot.
-    static VDBCAGE_INLINE void lateral(const Tables& tables, const PileQuery& query, std::size_t z, const C& open,
-                                       C& found)
+    static VDBCAGE_INLINE void lateral(const Tables& tables, const PileQuery& query, std::size_t z, C& open)
     {
         using S = std::make_signed_t<T>;
         using Signed = typename VectorOf<S, bytes>::type; // heights keep their order as signed numbers
@@ -521,7 +519,7 @@ private:
             for (int i = 0; i < C::count; ++i) {
                 Vector most;
                 load(most, best, i);
-                gain |= reinterpret_cast<Vector>(most != none<T>) & open.v[i] & ~found.v[i];
+                gain |= reinterpret_cast<Vector>(most != none<T>) & open.v[i];
             }
             if (!detail::isAny<Vector>(gain)) continue;
             const Fronts::Voxel* front = frontOf(tables, query, index, 0);
@@ -534,8 +532,8 @@ private:
                 Vector some{};
                 for (int i = 0; i < C::count; ++i) {
                     const Vector isWhole = reinterpret_cast<Vector>(heights[i] > static_cast<S>(none<T> + 7));
-                    found.v[i] |= isWhole;
-                    some |= reinterpret_cast<Vector>(heights[i] > static_cast<S>(none<T>)) & open.v[i] & ~found.v[i];
+                    open.v[i] &= ~isWhole;
+                    some |= reinterpret_cast<Vector>(heights[i] > static_cast<S>(none<T>)) & open.v[i];
                 }
                 if (!detail::isAny<Vector>(some)) continue;
                 // A voxel more up and down with each voxel more of height.
@@ -544,7 +542,7 @@ private:
                     const S least = static_cast<S>(none<T> + height);
                     const T bits = static_cast<T>(byte);
                     for (int i = 0; i < C::count; ++i)
-                        found.v[i] |= reinterpret_cast<Vector>(heights[i] > least) & bits;
+                        open.v[i] &= ~(reinterpret_cast<Vector>(heights[i] > least) & bits);
                     if (byte == 0xFF) break;
                     byte |= (byte << 1 | byte >> 1) & 0xFF;
                 }
