@@ -15,6 +15,7 @@ namespace vdbcage {
 
 namespace {
 
+using detail::CubeStep;
 using openvdb::BoolGrid;
 using openvdb::MaskGrid;
 using openvdb::MaskTree;
@@ -43,16 +44,40 @@ int wholeVoxels(double radius)
 
 MaskTree::Ptr dilateTree(const MaskTree& mask, double radius, Element element, const detail::Progress& progress)
 {
-    if (element == Element::cube) return detail::dilateByCube(mask, wholeVoxels(radius), progress);
-    return detail::dilateBySphere(mask, squared(radius), progress);
+    if (element == Element::sphere) return detail::dilateBySphere(mask, squared(radius), progress);
+    return detail::applyCube(mask, {{CubeStep::dilation, wholeVoxels(radius)}}, progress);
 }
 
-// `keep` may be null; it must be a subset of the result.
-MaskTree::Ptr erodeTree(const MaskTree& mask, const MaskTree* keep, double radius, Element element,
-                        const detail::Progress& progress)
+MaskTree::Ptr erodeTree(const MaskTree& mask, double radius, Element element, const detail::Progress& progress)
 {
-    if (element == Element::cube) return detail::erodeByCube(mask, wholeVoxels(radius), progress);
-    return detail::erodeBySphere(mask, keep, squared(radius), progress);
+    if (element == Element::sphere) return detail::erodeBySphere(mask, nullptr, squared(radius), progress);
+    return detail::applyCube(mask, {{CubeStep::erosion, wholeVoxels(radius)}}, progress);
+}
+
+MaskTree::Ptr openTree(const MaskTree& mask, double radius, Element element, const detail::Progress& progress)
+{
+    if (element == Element::cube) {
+        const int r = wholeVoxels(radius);
+        return detail::applyCube(mask, {{CubeStep::erosion, r}, {CubeStep::dilation, r}}, progress);
+    }
+    const auto eroded = erodeTree(mask, radius, element, progress.part(0, 2));
+    const auto opened = dilateTree(*eroded, radius, element, progress.part(1, 2));
+    detail::release(*eroded, progress.end());
+    return opened;
+}
+
+MaskTree::Ptr closeTree(const MaskTree& mask, const CloseOptions& options, const detail::Progress& progress)
+{
+    const double dilation = options.closeRadiusVoxels, erosion = options.erodeRadiusVoxels;
+    if (options.element == Element::cube) {
+        return detail::applyCube(
+            mask, {{CubeStep::dilation, wholeVoxels(dilation)}, {CubeStep::erosion, wholeVoxels(erosion)}}, progress);
+    }
+    const auto dilated = dilateTree(mask, dilation, options.element, progress.part(0, 2));
+    // As the erode radius is not above the close radius, no voxel of the mask can be lost.
+    const auto closed = detail::erodeBySphere(*dilated, &mask, squared(erosion), progress.part(1, 2));
+    detail::release(*dilated, progress.end());
+    return closed;
 }
 
 MaskGrid::Ptr activeVoxels(const BoolGrid& grid)
@@ -73,18 +98,14 @@ MaskGrid::Ptr erode(const MaskGrid& mask, double radiusVoxels, Element element, 
 {
     requireRadius(radiusVoxels, "the erosion radius", maximumRadius);
     detail::requireSupportedCoordinates(mask.tree());
-    return detail::maskGridLike(mask, erodeTree(mask.tree(), nullptr, radiusVoxels, element, {interrupter}));
+    return detail::maskGridLike(mask, erodeTree(mask.tree(), radiusVoxels, element, {interrupter}));
 }
 
 MaskGrid::Ptr openMask(const MaskGrid& mask, double radiusVoxels, Element element, Interrupter* interrupter)
 {
     requireRadius(radiusVoxels, "the opening radius", maximumRadius);
     detail::requireSupportedCoordinates(mask.tree());
-    const detail::Progress progress{interrupter};
-    const auto eroded = erodeTree(mask.tree(), nullptr, radiusVoxels, element, progress.part(0, 2));
-    const auto opened = dilateTree(*eroded, radiusVoxels, element, progress.part(1, 2));
-    detail::release(*eroded, {interrupter, 100, 100});
-    return detail::maskGridLike(mask, opened);
+    return detail::maskGridLike(mask, openTree(mask.tree(), radiusVoxels, element, {interrupter}));
 }
 
 void detail::requireValid(const CloseOptions& options)
@@ -97,13 +118,7 @@ MaskGrid::Ptr closeMask(const MaskGrid& solid, const CloseOptions& options, Inte
 {
     detail::requireValid(options);
     detail::requireSupportedCoordinates(solid.tree());
-    const detail::Progress progress{interrupter};
-    const auto dilated = dilateTree(solid.tree(), options.closeRadiusVoxels, options.element, progress.part(0, 2));
-    // As the erode radius is not above the close radius, no voxel of the solid can be lost.
-    const auto closed =
-        erodeTree(*dilated, &solid.tree(), options.erodeRadiusVoxels, options.element, progress.part(1, 2));
-    detail::release(*dilated, {interrupter, 100, 100});
-    return detail::maskGridLike(solid, closed);
+    return detail::maskGridLike(solid, closeTree(solid.tree(), options, {interrupter}));
 }
 
 MaskGrid::Ptr dilate(const BoolGrid& mask, double radiusVoxels, Element element, Interrupter* interrupter)

@@ -5,12 +5,10 @@
 
 #include <algorithm>
 #include <atomic>
-#include <functional>
-#include <map>
-#include <set>
 
 #include <tbb/parallel_for.h>
 
+#include <vdbcage/volume/detail/slot_set.h>
 #include <vdbcage/volume/detail/word_bits.h>
 
 namespace vdbcage::detail {
@@ -38,165 +36,26 @@ Words turned(const Words& words)
     return w;
 }
 
-// A block between two passes. Slots go by kind: 0 is empty, 1 full, k the words at k - 2.
-struct FlatBlock {
-    Coord origin;
-    std::vector<std::uint16_t> kinds = std::vector<std::uint16_t>(slotsPerBlock, 0);
-    std::vector<Words> words;
-    bool isUniform = true; // as finish() found
+// For one stretch, 16 planes or, transposed, 16 z with the bits of a lane along x.
+using Stretch = std::array<std::uint64_t, slotsPerAxis>;
 
-    void set(int n, const Words& bits)
-    {
-        auto& kind = kinds[static_cast<std::size_t>(n)];
-        if (bits == emptyWords || bits == fullWords) {
-            kind = bits == fullWords ? 1 : 0;
-        } else {
-            words.push_back(bits);
-            kind = static_cast<std::uint16_t>(words.size() + 1);
-        }
-    }
-    // When all slots are set.
-    void finish()
-    {
-        isUniform =
-            words.empty() && std::adjacent_find(kinds.begin(), kinds.end(), std::not_equal_to<>()) == kinds.end();
-    }
-    bool isFull() const { return kinds[0] == 1 && isUniform; }
-};
-
-FlatBlock flattened(const MaskBlock& node)
+// Replaces every value by the union of as many as it returns from there on (fewer at the end): the largest power of two
+// that is at most `count`, so that two of them, overlapping, are the union of `count`.
+std::size_t uniteAhead(std::uint64_t* values, std::size_t size, std::size_t count)
 {
-    FlatBlock flat;
-    flat.origin = node.origin();
-    Block(&node).forEachSlot([&](int n, const std::uint64_t* slot) {
-        Words words;
-        std::copy_n(slot, words.size(), words.begin());
-        flat.set(n, words);
-    });
-    flat.finish();
-    return flat;
+    std::size_t united = 1;
+    for (; 2 * united <= count; united *= 2) {
+        for (std::size_t i = 0; i + united < size; ++i) values[i] |= values[i + united];
+    }
+    return united;
 }
-
-BuiltBlock treeBlock(const FlatBlock& flat)
-{
-    BlockBuilder builder(flat.origin);
-    for (int n = 0; n < slotsPerBlock; ++n) {
-        const std::size_t kind = flat.kinds[static_cast<std::size_t>(n)];
-        if (kind > 0) builder.set(n, kind == 1 ? fullWords.data() : flat.words[kind - 2].data());
-    }
-    return builder.finish();
-}
-
-// One block of a mask: flat, or uniformly full or empty.
-struct Slots {
-    const FlatBlock* flat = nullptr;
-    bool full = false; // where it is uniform
-
-    bool isFull() const { return !flat && full; }
-    bool isEmpty() const { return !flat && !full; }
-};
-
-// A mask by its blocks, without the nodes of a tree.
-class SlotSet {
-public:
-    SlotSet(const MaskTree& tree, const Progress& progress) : full_(fullParts(tree))
-    {
-        std::vector<const MaskBlock*> nodes;
-        tree.getNodes(nodes);
-        flat_.resize(nodes.size());
-        std::atomic<std::size_t> done{0};
-        tbb::parallel_for(std::size_t{0}, nodes.size(), [&](std::size_t i) {
-            progress.check(done++, nodes.size());
-            flat_[i] = flattened(*nodes[i]);
-        });
-        index();
-    }
-    // The full parts, with the blocks in their places.
-    SlotSet(FullParts full, std::vector<FlatBlock> flat, const Progress& progress)
-        : flat_(std::move(flat)), full_(std::move(full))
-    {
-        progress.check(1, 1);
-        std::set<Coord> broken; // full regions that no longer are
-        for (const FlatBlock& block : flat_) {
-            if (!block.isFull()) broken.insert(alignedTo(block.origin, regionSize));
-        }
-        const auto isBroken = [&](const Coord& region) {
-            if (broken.count(region) == 0) return false;
-            forEachBlock(region, [&](const Coord& block) { full_.blocks.push_back(block); });
-            return true;
-        };
-        full_.regions.erase(std::remove_if(full_.regions.begin(), full_.regions.end(), isBroken), full_.regions.end());
-        progress.check(1, 1);
-        std::set<Coord> origins;
-        for (const FlatBlock& block : flat_) origins.insert(block.origin);
-        const auto isReplaced = [&](const Coord& block) { return origins.count(block) > 0; };
-        full_.blocks.erase(std::remove_if(full_.blocks.begin(), full_.blocks.end(), isReplaced), full_.blocks.end());
-        for (const FlatBlock& block : flat_) {
-            if (block.isFull()) full_.blocks.push_back(block.origin);
-        }
-        progress.check(1, 1);
-        index();
-    }
-
-    SlotSet(SlotSet&&) = default; // a copy would look at the other's blocks
-    SlotSet& operator=(SlotSet&&) = default;
-
-    Slots at(const Coord& origin) const
-    {
-        const auto found = blocks_.find(origin);
-        return found != blocks_.end() ? found->second
-                                      : Slots{nullptr, regions_.count(alignedTo(origin, regionSize)) > 0};
-    }
-    const FullParts& full() const { return full_; }
-    // The blocks where the mask may begin or end.
-    std::vector<Coord> shell() const
-    {
-        std::vector<Coord> origins = facesOfRegions(full_.regions);
-        for (const auto& [origin, slots] : blocks_) origins.push_back(origin);
-        return origins;
-    }
-    MaskTree::Ptr tree(const Progress& progress) const
-    {
-        std::vector<BuiltBlock> built(flat_.size());
-        std::atomic<std::size_t> done{0};
-        tbb::parallel_for(std::size_t{0}, flat_.size(), [&](std::size_t i) {
-            progress.check(done++, flat_.size());
-            built[i] = treeBlock(flat_[i]);
-        });
-        return assemble(full_, std::move(built));
-    }
-
-private:
-    void index()
-    {
-        for (const FlatBlock& block : flat_) {
-            blocks_.emplace(block.origin, block.isUniform ? Slots{nullptr, block.isFull()} : Slots{&block, false});
-        }
-        regions_.insert(full_.regions.begin(), full_.regions.end());
-        for (const Coord& origin : full_.blocks) blocks_.insert_or_assign(origin, Slots{nullptr, true});
-    }
-
-    std::vector<FlatBlock> flat_;
-    FullParts full_;
-    std::map<Coord, Slots> blocks_;
-    std::set<Coord> regions_; // the full ones
-};
-
-// The kinds of a plane of slots of a uniform block.
-using Plane = std::array<std::uint16_t, slotsPerAxis * slotsPerAxis>;
-constexpr Plane emptyPlane{};
-constexpr Plane fullPlane = [] {
-    Plane plane{};
-    for (std::uint16_t& kind : plane) kind = 1;
-    return plane;
-}();
 
 // One pass along x. Everything is said for a dilation; for an erosion it holds for the complement.
 class AxisPass {
 public:
     AxisPass(const SlotSet& mask, Side side, int radius, const Progress& progress)
-        : mask_(mask), flip_(side == Side::complement ? ~0ULL : 0), none_(flip_ != 0 ? 1 : 0), all_(flip_ != 0 ? 0 : 1),
-          radius_(radius), wholeSlots_(static_cast<std::size_t>(radius / leafSize)), rest_(radius % leafSize),
+        : mask_(mask), flip_(side == Side::complement ? ~0ULL : 0), radius_(radius),
+          wholeSlots_(static_cast<std::size_t>(radius / leafSize)), rest_(radius % leafSize),
           slotReach_(wholeSlots_ + (rest_ > 0 ? 1 : 0)), blockReach_((radius + blockSize - 1) / blockSize),
           progress_(progress)
     {
@@ -263,15 +122,30 @@ private:
         return rows;
     }
 
-    // What a row can see: by slot along x, from slotReach_ before its first to as many behind its last.
+    // What a row can see: its blocks and those in reach on both sides, slot by slot along x.
     struct View {
-        std::vector<const std::uint16_t*> kinds; // of the plane of slots there, first along z
-        std::vector<const Words*> words;         // that they stand for
+        explicit View(std::size_t blockCount)
+            : blocks(blockCount), mixedLines(blockCount), fullLines(blockCount), line(slotsPerAxis * blockCount),
+              any(line.size()), united(line.size())
+        {
+            for (auto* stretches : {&some, &full}) {
+                for (auto& stretch : *stretches) stretch.resize(line.size());
+            }
+        }
+        std::vector<const FlatBlock*> blocks; // null: uniform
+        std::array<std::vector<std::uint64_t>, stretchesPerPlane> some, full;
+        // Of one stretch, by block:
+        std::vector<Stretch> mixedLines, fullLines;
         // Of one line of slots along x:
         std::vector<const std::uint64_t*> line; // their words
         std::vector<std::uint64_t> any;         // the voxels of all words of each in one
-        std::vector<std::uint64_t> sums;        // of `any`, of `summed` slots from each on
-        std::size_t summed = 1;
+        std::vector<std::uint64_t> united;      // of `any`, of `unitedCount` slots from each on
+        std::size_t unitedCount = 1;
+    };
+    // Of one stretch of a row, by block: lines of slots that are full for certain, and that are to be looked at.
+    struct Verdict {
+        std::vector<Stretch> full, open;
+        bool isSettled = true; // nothing open
     };
 
     template <class Check>
@@ -280,125 +154,178 @@ private:
         for (std::size_t i = 0; i < row.blocks; ++i) {
             const Coord origin = row.first.offsetBy(static_cast<int>(i) * blockSize, 0, 0);
             result[i].origin = turned(origin);
-            if (none_ != 0) result[i].kinds.assign(slotsPerBlock, none_);
             if (const FlatBlock* const before = mask_.at(origin).flat) result[i].words.reserve(before->words.size());
         }
         View view = look(row);
-        for (int y = 0; y < slotsPerAxis; ++y) {
-            check();
-            const Lines lines = compareLines(view, y);
-            for (int z = 0; z < slotsPerAxis; ++z) {
-                const int start = slotIndex(y, z, 0); // turned
-                if (lines.isNone(z)) continue;
-                if (lines.isAll(z)) {
-                    for (std::size_t i = 0; i < row.blocks; ++i) {
-                        std::fill_n(result[i].kinds.begin() + start, slotsPerAxis, all_);
-                    }
-                    continue;
-                }
-                readLine(view, slotIndex(0, y, z));
-                for (std::size_t i = 0; i < row.blocks; ++i) smearLine(view, i, start, result[i]);
+        for (std::size_t stretch = 0; stretch < stretchesPerPlane; ++stretch) {
+            const Verdict verdict = settle(view, row.blocks, stretch);
+            if (!verdict.isSettled) turnLines(view, stretch);
+            for (std::size_t lane = 0; lane < 4; ++lane) {
+                check();
+                for (std::size_t z = 0; z < slotsPerAxis; ++z) buildLine(verdict, {stretch, lane, z}, view, result);
             }
         }
-        for (std::size_t i = 0; i < row.blocks; ++i) result[i].finish();
+        for (std::size_t i = 0; i < row.blocks; ++i) {
+            for (std::size_t n = 0; n < FlatBlock::wordCount && flip_ != 0; ++n) {
+                const std::uint64_t some = result[i].some[n];
+                result[i].some[n] = ~result[i].full[n];
+                result[i].full[n] = ~some;
+            }
+            result[i].finish();
+        }
     }
 
     View look(const Row& row) const
     {
-        View view;
-        const int reach = static_cast<int>(slotReach_), size = static_cast<int>(row.blocks) * slotsPerAxis;
-        for (int block = -blockReach_; block < static_cast<int>(row.blocks) + blockReach_; ++block) {
-            const Slots slots = mask_.at(row.first.offsetBy(block * blockSize, 0, 0));
-            for (int i = 0; i < slotsPerAxis; ++i) {
-                const int x = block * slotsPerAxis + i;
-                if (x < -reach || x >= size + reach) continue;
-                view.kinds.push_back(slots.flat ? &slots.flat->kinds[static_cast<std::size_t>(slotIndex(i, 0, 0))]
-                                                : (slots.full ? fullPlane : emptyPlane).data());
-                view.words.push_back(slots.flat ? slots.flat->words.data() : nullptr);
+        const std::size_t blocks = row.blocks + 2 * static_cast<std::size_t>(blockReach_);
+        View view(blocks);
+        for (std::size_t b = 0; b < blocks; ++b) {
+            const Slots slots = mask_.at(row.first.offsetBy((static_cast<int>(b) - blockReach_) * blockSize, 0, 0));
+            view.blocks[b] = slots.flat;
+            for (std::size_t i = 0; i < FlatBlock::wordCount; ++i) {
+                const std::uint64_t some = slots.flat ? slots.flat->some[i] : slots.full ? ~0ULL : 0;
+                const std::uint64_t full = slots.flat ? slots.flat->full[i] : some;
+                const std::size_t stretch = i % stretchesPerPlane, x = slotsPerAxis * b + i / stretchesPerPlane;
+                view.some[stretch][x] = flip_ != 0 ? ~full : some;
+                view.full[stretch][x] = flip_ != 0 ? ~some : full;
             }
         }
-        view.line.resize(view.kinds.size());
-        view.any.resize(view.kinds.size());
         return view;
     }
 
-    // Of the 16 lines at one y: which have slots that are not none, and not all.
-    struct Lines {
-        std::array<std::uint16_t, slotsPerAxis> some{}, open{};
-        bool isNone(int z) const { return some[static_cast<std::size_t>(z)] == 0; }
-        bool isAll(int z) const { return open[static_cast<std::size_t>(z)] == 0; }
+    // The slots of the row's blocks at this place in `values`, each united with `reach` on both sides.
+    std::vector<Stretch> unitedAround(std::vector<std::uint64_t> values, std::size_t reach, std::size_t blocks) const
+    {
+        const std::size_t count = uniteAhead(values.data(), values.size(), 2 * reach + 1);
+        std::vector<Stretch> result(blocks);
+        std::size_t own = static_cast<std::size_t>(blockReach_) * slotsPerAxis;
+        for (Stretch& block : result) {
+            for (std::uint64_t& slots : block) {
+                slots = values[own - reach] | values[own + reach + 1 - count];
+                ++own;
+            }
+        }
+        return result;
+    }
+
+    // What whole slots tell: one that is full fills all that lie wholly in its reach.
+    Verdict settle(const View& view, std::size_t blocks, std::size_t stretch) const
+    {
+        Verdict verdict;
+        verdict.full = unitedAround(view.full[stretch], std::max(wholeSlots_, std::size_t{1}) - 1, blocks);
+        verdict.open = unitedAround(view.some[stretch], slotReach_, blocks);
+        for (std::size_t i = 0; i < blocks; ++i) {
+            for (std::size_t x = 0; x < slotsPerAxis; ++x) {
+                verdict.open[i][x] &= ~verdict.full[i][x];
+                if (verdict.open[i][x] != 0) verdict.isSettled = false;
+            }
+            transposeLanes(verdict.full[i]);
+            transposeLanes(verdict.open[i]);
+        }
+        return verdict;
+    }
+
+    void turnLines(View& view, std::size_t stretch) const
+    {
+        for (std::size_t b = 0; b < view.blocks.size(); ++b) {
+            for (std::size_t x = 0; x < slotsPerAxis; ++x) {
+                const std::size_t i = slotsPerAxis * b + x;
+                view.fullLines[b][x] = view.full[stretch][i];
+                view.mixedLines[b][x] = view.some[stretch][i] & ~view.full[stretch][i];
+            }
+            transposeLanes(view.fullLines[b]);
+            transposeLanes(view.mixedLines[b]);
+        }
+    }
+
+    // A line of slots along x.
+    struct Line {
+        std::size_t stretch, lane, z;
+
+        std::size_t y() const { return 4 * stretch + lane; }
+        // Of lines of its stretch: the bits of this one, by x.
+        std::uint16_t of(const Stretch& lines) const { return static_cast<std::uint16_t>(lines[z] >> (16 * lane)); }
     };
-    Lines compareLines(const View& view, int y) const
-    {
-        Lines lines;
-        for (const std::uint16_t* plane : view.kinds) {
-            const std::uint16_t* const kinds = plane + slotIndex(0, y, 0);
-            for (std::size_t z = 0; z < slotsPerAxis; ++z) {
-                lines.some[z] = static_cast<std::uint16_t>(lines.some[z] | (kinds[z] ^ none_));
-                lines.open[z] = static_cast<std::uint16_t>(lines.open[z] | (kinds[z] ^ all_));
-            }
-        }
-        return lines;
-    }
 
-    // The line through slot n of the planes.
-    void readLine(View& view, int n) const
+    void buildLine(const Verdict& verdict, const Line& line, View& view, FlatBlock* result) const
     {
-        const std::size_t size = view.kinds.size();
-        for (std::size_t i = 0; i < size; ++i) {
-            const std::size_t kind = view.kinds[i][n];
-            if (kind < 2) {
-                view.line[i] = kind == 0 ? emptyWords.data() : fullWords.data();
-                view.any[i] = kind == none_ ? 0 : ~0ULL;
-                continue;
-            }
-            const Words& words = view.words[i][kind - 2];
-            std::uint64_t any = 0;
-            for (const std::uint64_t word : words) any |= word ^ flip_;
-            view.line[i] = words.data();
-            view.any[i] = any;
+        const auto isOpen = [&](const Stretch& lines) { return line.of(lines) != 0; };
+        const auto first = std::find_if(verdict.open.begin(), verdict.open.end(), isOpen);
+        if (first != verdict.open.end()) {
+            const auto last = std::find_if(verdict.open.rbegin(), verdict.open.rend(), isOpen).base(); // one behind
+            readLine(line, static_cast<std::size_t>(first - verdict.open.begin()),
+                     static_cast<std::size_t>(last - verdict.open.begin()) + 2 * static_cast<std::size_t>(blockReach_),
+                     view);
         }
-        // Sums of more and more slots, by doubling, up to those that lie wholly in reach of all of one.
-        view.sums = view.any;
-        view.summed = 1;
-        for (; view.summed < wholeSlots_; view.summed *= 2) {
-            for (std::size_t i = 0; i + view.summed < size; ++i) view.sums[i] |= view.sums[i + view.summed];
+        // Turned, the slots of a block on this line are a quarter of a word.
+        const std::size_t n = (slotsPerAxis * line.y() + line.z) / 4, shift = 16 * (line.z % 4);
+        for (std::size_t i = 0; i < verdict.full.size(); ++i) {
+            std::uint64_t full = line.of(verdict.full[i]), some = full;
+            for (unsigned open = line.of(verdict.open[i]); open != 0; open &= open - 1) {
+                const auto x = static_cast<std::size_t>(__builtin_ctz(open));
+                const Words near = smear(view, (i + static_cast<std::size_t>(blockReach_)) * slotsPerAxis + x);
+                if (near == emptyWords) continue;
+                some |= 1ULL << x;
+                if (near == fullWords) {
+                    full |= 1ULL << x;
+                } else {
+                    result[i].words.push_back(turned(flipped(near)));
+                }
+            }
+            result[i].some[n] |= some << shift;
+            result[i].full[n] |= full << shift;
         }
     }
 
-    // The slots of one block of the row on the line; they start at slot `start` of the result.
-    void smearLine(const View& view, std::size_t block, int start, FlatBlock& result) const
+    Words flipped(Words words) const
     {
-        for (std::size_t x = 0; x < slotsPerAxis; ++x) {
-            const std::size_t own = slotReach_ + block * slotsPerAxis + x;
-            const int n = start + static_cast<int>(x);
-            const std::uint64_t inner = innerOf(view, own);
-            if (inner == ~0ULL) {
-                result.kinds[static_cast<std::size_t>(n)] = all_;
-            } else if ((inner | view.any[own - slotReach_] | view.any[own + slotReach_] | view.any[own - wholeSlots_] |
-                        view.any[own + wholeSlots_]) != 0) {
-                Words near = smear(view, own, inner);
-                for (std::uint64_t& word : near) word ^= flip_;
-                result.set(n, turned(near));
-            }
-        }
+        for (std::uint64_t& word : words) word ^= flip_;
+        return words;
     }
 
-    // The voxels of all slots that lie wholly in reach of all of slot `own`, in one.
-    std::uint64_t innerOf(const View& view, std::size_t own) const
+    // From one block of the view to another, which is not included.
+    void readLine(const Line& line, std::size_t first, std::size_t last, View& view) const
     {
-        if (wholeSlots_ == 0) return view.line[own] == (flip_ != 0 ? emptyWords : fullWords).data() ? ~0ULL : 0;
-        return view.sums[own + 1 - wholeSlots_] | view.sums[own + wholeSlots_ - view.summed];
+        for (std::size_t b = first; b < last; ++b) {
+            const std::uint64_t full = line.of(view.fullLines[b]);
+            for (std::size_t x = 0; x < slotsPerAxis; ++x) {
+                view.any[slotsPerAxis * b + x] = 0 - ((full >> x) & 1);
+                view.line[slotsPerAxis * b + x] = (flip_ != 0 ? emptyWords : fullWords).data();
+            }
+            for (unsigned mixed = line.of(view.mixedLines[b]); mixed != 0; mixed &= mixed - 1) {
+                const auto x = static_cast<std::size_t>(__builtin_ctz(mixed));
+                const Words& words = mixedWords(*view.blocks[b], x, line);
+                std::uint64_t any = 0;
+                for (const std::uint64_t word : words) any |= word ^ flip_;
+                view.any[slotsPerAxis * b + x] = any;
+                view.line[slotsPerAxis * b + x] = words.data();
+            }
+        }
+        const auto from = static_cast<std::ptrdiff_t>(slotsPerAxis * first);
+        std::copy(view.any.begin() + from, view.any.begin() + static_cast<std::ptrdiff_t>(slotsPerAxis * last),
+                  view.united.begin() + from);
+        view.unitedCount = uniteAhead(view.united.data() + from, slotsPerAxis * (last - first),
+                                      2 * std::max(wholeSlots_, std::size_t{1}) - 1);
+    }
+
+    const Words& mixedWords(const FlatBlock& block, std::size_t x, const Line& line) const
+    {
+        const std::size_t n = stretchesPerPlane * x + line.stretch;
+        const auto mixed = static_cast<std::uint16_t>((block.some[n] & ~block.full[n]) >> (16 * line.lane));
+        const auto before = static_cast<std::uint16_t>(mixed & ((1U << line.z) - 1));
+        return block.words[block.firstWords[4 * n + line.lane] + bitCount(before)];
     }
 
     // The result at slot `own` of the line.
-    Words smear(const View& view, std::size_t own, std::uint64_t inner) const
+    Words smear(const View& view, std::size_t own) const
     {
-        Words near;
-        near.fill(inner);
+        Words near{};
         if (wholeSlots_ == 0) {
             smearWithin(view, own, near);
         } else {
+            // All slots that lie wholly in reach of all of this one.
+            near.fill(view.united[own + 1 - wholeSlots_] | view.united[own + wholeSlots_ - view.unitedCount]);
+            if (near[0] == ~0ULL) return near;
             addSums(view, own - wholeSlots_, true, 0, near);
             addSums(view, own + wholeSlots_, false, 0, near);
         }
@@ -442,7 +369,6 @@ private:
 
     const SlotSet& mask_;
     std::uint64_t flip_;
-    std::uint16_t none_, all_; // the uniform kinds, as seen from this side
     int radius_;
     std::size_t wholeSlots_;
     int rest_; // the radius is as many slots and voxels
@@ -451,23 +377,20 @@ private:
     Progress progress_;
 };
 
-MaskTree::Ptr threePasses(const MaskTree& mask, Side side, int radius, const Progress& progress)
-{
-    SlotSet set(mask, progress.part(0, 5));
-    for (int i = 1; i < 4; ++i) set = AxisPass(set, side, radius, progress.part(i, 5)).run();
-    return set.tree(progress.part(4, 5));
-}
-
 } // namespace
 
-MaskTree::Ptr dilateByCube(const MaskTree& mask, int radius, const Progress& progress)
+MaskTree::Ptr applyCube(const MaskTree& mask, std::initializer_list<CubeStep> steps, const Progress& progress)
 {
-    return threePasses(mask, Side::mask, radius, progress);
-}
-
-MaskTree::Ptr erodeByCube(const MaskTree& mask, int radius, const Progress& progress)
-{
-    return threePasses(mask, Side::complement, radius, progress);
+    const int parts = 3 * static_cast<int>(steps.size()) + 2;
+    int part = 0;
+    SlotSet set(mask, progress.part(part++, parts));
+    for (const CubeStep& step : steps) {
+        const Side side = step.kind == CubeStep::dilation ? Side::mask : Side::complement;
+        for (int axis = 0; axis < 3; ++axis) {
+            set = AxisPass(set, side, step.radius, progress.part(part++, parts)).run();
+        }
+    }
+    return set.tree(progress.part(part, parts));
 }
 
 } // namespace vdbcage::detail

@@ -1,14 +1,20 @@
 #pragma once
 
+#include <initializer_list>
+
 #include <vdbcage/volume/detail/mask_blocks.h>
 #include <vdbcage/volume/detail/progress.h>
 
 namespace vdbcage::detail {
 
-/// The voxels p with a voxel q of `mask` such that max |p - q| <= radius.
-MaskTree::Ptr dilateByCube(const MaskTree& mask, int radius, const Progress& progress);
+/// One dilation or erosion by the cube of the voxels within `radius` along every axis.
+struct CubeStep {
+    enum Kind { dilation, erosion } kind;
+    int radius; ///< in voxels
+};
 
-/// The voxels p such that every q with max |p - q| <= radius is in `mask`.
-MaskTree::Ptr erodeByCube(const MaskTree& mask, int radius, const Progress& progress);
+/// The mask after the steps, one after the other; only the last result becomes a tree.
+/// Cost: per step O(blocks on the mask's surface), whatever the radius.
+MaskTree::Ptr applyCube(const MaskTree& mask, std::initializer_list<CubeStep> steps, const Progress& progress);
 
 } // namespace vdbcage::detail

@@ -27,4 +27,28 @@ inline void transposeBytes(Words& w)
     for (const std::size_t i : {0U, 2U, 4U, 6U}) swapBits(w[i], w[i + 1], 0x00FF00FF00FF00FFULL, 8);
 }
 
+/// Each word is four lanes of 16 bits: in every lane, bit z of word x goes to bit x of word z.
+inline void transposeLanes(std::array<std::uint64_t, 16>& w)
+{
+    const auto swapApart = [&](std::size_t distance, std::uint64_t mask) {
+        for (std::size_t i = 0; i < w.size(); ++i) {
+            if ((i & distance) == 0) swapBits(w[i], w[i + distance], mask, static_cast<int>(distance));
+        }
+    };
+    swapApart(8, 0x00FF00FF00FF00FFULL);
+    swapApart(4, 0x0F0F0F0F0F0F0F0FULL);
+    swapApart(2, 0x3333333333333333ULL);
+    swapApart(1, 0x5555555555555555ULL);
+}
+
+/// How many bits are set. (The builtin calls a function where the processor may lack the instruction.)
+inline unsigned bitCount(std::uint16_t bits)
+{
+    unsigned v = bits;
+    v -= (v >> 1) & 0x5555U;
+    v = (v & 0x3333U) + ((v >> 2) & 0x3333U);
+    v = (v + (v >> 4)) & 0x0F0FU;
+    return (v + (v >> 8)) & 0x1FU;
+}
+
 } // namespace vdbcage::detail

@@ -1,0 +1,139 @@
+#include <vdbcage/volume/detail/slot_set.h>
+
+#include <algorithm>
+#include <atomic>
+
+#include <tbb/parallel_for.h>
+
+#include <vdbcage/volume/detail/word_bits.h>
+
+namespace vdbcage::detail {
+
+namespace {
+
+FlatBlock flattened(const MaskBlock& node)
+{
+    FlatBlock flat;
+    flat.origin = node.origin();
+    flat.words.reserve(node.childCount());
+    for (auto tile = node.cbeginValueOn(); tile; ++tile) {
+        flat.full[tile.pos() / 64] |= 1ULL << (tile.pos() % 64);
+    }
+    flat.some = flat.full;
+    for (auto leaf = node.cbeginChildOn(); leaf; ++leaf) {
+        Words words;
+        std::copy_n(leaf->buffer().data(), words.size(), words.begin());
+        if (words == emptyWords) continue;
+        const std::uint64_t bit = 1ULL << (leaf.pos() % 64);
+        flat.some[leaf.pos() / 64] |= bit;
+        if (words == fullWords) {
+            flat.full[leaf.pos() / 64] |= bit;
+        } else {
+            flat.words.push_back(words);
+        }
+    }
+    flat.finish();
+    return flat;
+}
+
+BuiltBlock treeBlock(const FlatBlock& flat)
+{
+    BlockBuilder builder(flat.origin);
+    auto words = flat.words.begin();
+    for (std::size_t i = 0; i < FlatBlock::wordCount; ++i) {
+        for (std::uint64_t rest = flat.some[i]; rest != 0; rest &= rest - 1) {
+            const int bit = __builtin_ctzll(rest);
+            const bool isFull = ((flat.full[i] >> bit) & 1) != 0;
+            builder.set(static_cast<int>(i) * 64 + bit, isFull ? fullWords.data() : (words++)->data());
+        }
+    }
+    return builder.finish();
+}
+
+} // namespace
+
+void FlatBlock::finish()
+{
+    std::size_t before = 0;
+    for (std::size_t i = 0; i < wordCount; ++i) {
+        for (std::size_t lane = 0; lane < 4; ++lane) {
+            firstWords[4 * i + lane] = static_cast<std::uint16_t>(before);
+            before += bitCount(static_cast<std::uint16_t>((some[i] & ~full[i]) >> (16 * lane)));
+        }
+    }
+    const auto isAll = [](std::uint64_t word) { return [word](std::uint64_t other) { return other == word; }; };
+    isUniform = std::all_of(some.begin(), some.end(), isAll(0)) || std::all_of(full.begin(), full.end(), isAll(~0ULL));
+}
+
+SlotSet::SlotSet(const MaskTree& tree, const Progress& progress) : full_(fullParts(tree))
+{
+    std::vector<const MaskBlock*> nodes;
+    tree.getNodes(nodes);
+    flat_.resize(nodes.size());
+    std::atomic<std::size_t> done{0};
+    tbb::parallel_for(std::size_t{0}, nodes.size(), [&](std::size_t i) {
+        progress.check(done++, nodes.size());
+        flat_[i] = flattened(*nodes[i]);
+    });
+    indexFlat();
+    indexFull();
+}
+
+SlotSet::SlotSet(FullParts full, std::vector<FlatBlock> flat, const Progress& progress)
+    : flat_(std::move(flat)), full_(std::move(full))
+{
+    progress.check(1, 1);
+    indexFlat();
+    std::unordered_set<Coord> broken; // full regions that no longer are
+    for (const FlatBlock& block : flat_) {
+        if (!block.isFull()) broken.insert(alignedTo(block.origin, regionSize));
+    }
+    const auto isBroken = [&](const Coord& region) {
+        if (broken.count(region) == 0) return false;
+        forEachBlock(region, [&](const Coord& block) { full_.blocks.push_back(block); });
+        return true;
+    };
+    full_.regions.erase(std::remove_if(full_.regions.begin(), full_.regions.end(), isBroken), full_.regions.end());
+    progress.check(1, 1);
+    const auto isReplaced = [&](const Coord& block) { return blocks_.count(block) > 0; };
+    full_.blocks.erase(std::remove_if(full_.blocks.begin(), full_.blocks.end(), isReplaced), full_.blocks.end());
+    for (const FlatBlock& block : flat_) {
+        if (block.isFull()) full_.blocks.push_back(block.origin);
+    }
+    progress.check(1, 1);
+    indexFull();
+}
+
+std::vector<Coord> SlotSet::shell() const
+{
+    std::vector<Coord> origins = facesOfRegions(full_.regions);
+    for (const auto& [origin, slots] : blocks_) origins.push_back(origin);
+    return origins;
+}
+
+MaskTree::Ptr SlotSet::tree(const Progress& progress) const
+{
+    std::vector<BuiltBlock> built(flat_.size());
+    std::atomic<std::size_t> done{0};
+    tbb::parallel_for(std::size_t{0}, flat_.size(), [&](std::size_t i) {
+        progress.check(done++, flat_.size());
+        built[i] = treeBlock(flat_[i]);
+    });
+    return assemble(full_, std::move(built));
+}
+
+void SlotSet::indexFlat()
+{
+    blocks_.reserve(flat_.size() + full_.blocks.size());
+    for (const FlatBlock& block : flat_) {
+        blocks_.emplace(block.origin, block.isUniform ? Slots{nullptr, block.isFull()} : Slots{&block, false});
+    }
+}
+
+void SlotSet::indexFull()
+{
+    regions_.insert(full_.regions.begin(), full_.regions.end());
+    for (const Coord& origin : full_.blocks) blocks_.insert_or_assign(origin, Slots{nullptr, true});
+}
+
+} // namespace vdbcage::detail
