@@ -92,19 +92,25 @@ private:
     // The blocks that are not full but have something in reach.
     std::vector<Row> targetRows() const
     {
+        std::vector<Coord> shell = mask_.shell();
+        const auto isBefore = [](const Coord& a, const Coord& b) { return turned(a) < turned(b); }; // x last
+        std::sort(shell.begin(), shell.end(), isBefore);
+        progress_.check(0, 1);
         std::vector<Coord> targets;
-        for (const Coord& origin : mask_.shell()) {
+        for (const Coord& origin : shell) {
             for (int step = -blockReach_; step <= blockReach_; ++step) {
-                targets.push_back(origin.offsetBy(step * blockSize, 0, 0));
+                const Coord near = origin.offsetBy(step * blockSize, 0, 0);
+                if (targets.empty() || isBefore(targets.back(), near)) targets.push_back(near);
             }
         }
-        std::sort(targets.begin(), targets.end(), [](const Coord& a, const Coord& b) { return turned(a) < turned(b); });
-        targets.erase(std::unique(targets.begin(), targets.end()), targets.end());
-        progress_.check(0, 1);
         const auto isSettled = [&](const Coord& origin) {
-            if (isFull(mask_.at(origin))) return true;
-            for (int step = -blockReach_; step <= blockReach_; ++step) {
-                if (!isEmpty(mask_.at(origin.offsetBy(step * blockSize, 0, 0)))) return false;
+            const Slots own = mask_.at(origin);
+            if (isFull(own)) return true;
+            if (!isEmpty(own)) return false;
+            for (int step = 1; step <= blockReach_; ++step) {
+                for (const int x : {-step, step}) {
+                    if (!isEmpty(mask_.at(origin.offsetBy(x * blockSize, 0, 0)))) return false;
+                }
             }
             return true;
         };
