@@ -177,6 +177,7 @@ private:
                 result[i].some[n] = ~result[i].full[n];
                 result[i].full[n] = ~some;
             }
+            result[i].words = std::vector<Words>(result[i].words); // no longer than it must be: it is read from cache
             result[i].finish();
         }
     }
