@@ -89,6 +89,20 @@ private:
     bool isFull(const Slots& block) const { return flip_ != 0 ? block.isEmpty() : block.isFull(); }
     bool isEmpty(const Slots& block) const { return flip_ != 0 ? block.isFull() : block.isEmpty(); }
 
+    // Whether a block so many blocks before or behind another has anything in reach of it.
+    bool isWithin(const Slots& block, int distance, bool before) const
+    {
+        if (!block.flat) return !isEmpty(block);
+        const std::size_t away = static_cast<std::size_t>(distance - 1) * slotsPerAxis;
+        const std::size_t planes = std::min(slotReach_ - away, std::size_t{slotsPerAxis});
+        const std::size_t count = stretchesPerPlane * planes, first = before ? FlatBlock::wordCount - count : 0;
+        std::uint64_t any = 0;
+        for (std::size_t i = first; i < first + count; ++i) {
+            any |= flip_ != 0 ? ~block.flat->full[i] : block.flat->some[i];
+        }
+        return any != 0;
+    }
+
     // The blocks that are not full but have something in reach.
     std::vector<Row> targetRows() const
     {
@@ -108,9 +122,8 @@ private:
             if (isFull(own)) return true;
             if (!isEmpty(own)) return false;
             for (int step = 1; step <= blockReach_; ++step) {
-                for (const int x : {-step, step}) {
-                    if (!isEmpty(mask_.at(origin.offsetBy(x * blockSize, 0, 0)))) return false;
-                }
+                if (isWithin(mask_.at(origin.offsetBy(-step * blockSize, 0, 0)), step, true)) return false;
+                if (isWithin(mask_.at(origin.offsetBy(step * blockSize, 0, 0)), step, false)) return false;
             }
             return true;
         };

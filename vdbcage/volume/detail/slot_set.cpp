@@ -38,16 +38,24 @@ FlatBlock flattened(const MaskBlock& node)
 
 BuiltBlock treeBlock(const FlatBlock& flat)
 {
-    BlockBuilder builder(flat.origin);
+    BuiltBlock built{flat.origin, nullptr, flat.isFull()};
+    if (flat.isUniform) return built;
+    built.node = std::make_unique<MaskBlock>(flat.origin, false, false);
     auto words = flat.words.begin();
     for (std::size_t i = 0; i < FlatBlock::wordCount; ++i) {
         for (std::uint64_t rest = flat.some[i]; rest != 0; rest &= rest - 1) {
-            const int bit = __builtin_ctzll(rest);
-            const bool isFull = ((flat.full[i] >> bit) & 1) != 0;
-            builder.set(static_cast<int>(i) * 64 + bit, isFull ? fullWords.data() : (words++)->data());
+            const int bit = __builtin_ctzll(rest), n = static_cast<int>(i) * 64 + bit;
+            if (((flat.full[i] >> bit) & 1) != 0) {
+                built.node->addTile(static_cast<openvdb::Index>(n), true, true);
+            } else {
+                auto leaf = std::make_unique<MaskLeaf>(flat.origin + slotOffset(n));
+                std::copy(words->begin(), words->end(), leaf->buffer().data());
+                ++words;
+                built.node->addChild(leaf.release());
+            }
         }
     }
-    return builder.finish();
+    return built;
 }
 
 } // namespace
