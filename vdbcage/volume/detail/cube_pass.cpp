@@ -65,7 +65,7 @@ public:
     {
         progress_.check(0, 1);
         const std::vector<Row> rows = targetRows();
-        std::vector<FlatBlock> built(rows.empty() ? 0 : rows.back().start + rows.back().blocks);
+        std::vector<std::unique_ptr<FlatBlock>> built(rows.empty() ? 0 : rows.back().start + rows.back().blocks);
         std::atomic<std::size_t> done{0};
         tbb::parallel_for(std::size_t{0}, rows.size(), [&](std::size_t i) {
             build(rows[i], &built[rows[i].start], [&] { progress_.check(done++, rows.size() * slotsPerAxis); });
@@ -168,12 +168,13 @@ private:
     };
 
     template <class Check>
-    void build(const Row& row, FlatBlock* result, const Check& check) const
+    void build(const Row& row, std::unique_ptr<FlatBlock>* result, const Check& check) const
     {
         for (std::size_t i = 0; i < row.blocks; ++i) {
+            result[i] = std::make_unique<FlatBlock>();
             const Coord origin = row.first.offsetBy(static_cast<int>(i) * blockSize, 0, 0);
-            result[i].origin = turned(origin);
-            if (const FlatBlock* const before = mask_.at(origin).flat) result[i].words.reserve(before->words.size());
+            result[i]->origin = turned(origin);
+            if (const FlatBlock* const before = mask_.at(origin).flat) result[i]->words.reserve(before->words.size());
         }
         View view = look(row);
         for (std::size_t stretch = 0; stretch < stretchesPerPlane; ++stretch) {
@@ -186,12 +187,12 @@ private:
         }
         for (std::size_t i = 0; i < row.blocks; ++i) {
             for (std::size_t n = 0; n < FlatBlock::wordCount && flip_ != 0; ++n) {
-                const std::uint64_t some = result[i].some[n];
-                result[i].some[n] = ~result[i].full[n];
-                result[i].full[n] = ~some;
+                const std::uint64_t some = result[i]->some[n];
+                result[i]->some[n] = ~result[i]->full[n];
+                result[i]->full[n] = ~some;
             }
-            result[i].words = std::vector<Words>(result[i].words); // no longer than it must be: it is read from cache
-            result[i].finish();
+            result[i]->words = std::vector<Words>(result[i]->words); // no longer than it must be: it is read from cache
+            result[i]->finish();
         }
     }
 
@@ -267,7 +268,7 @@ private:
         std::uint16_t of(const Stretch& lines) const { return static_cast<std::uint16_t>(lines[z] >> (16 * lane)); }
     };
 
-    void buildLine(const Verdict& verdict, const Line& line, View& view, FlatBlock* result) const
+    void buildLine(const Verdict& verdict, const Line& line, View& view, const std::unique_ptr<FlatBlock>* result) const
     {
         const auto isOpen = [&](const Stretch& lines) { return line.of(lines) != 0; };
         const auto first = std::find_if(verdict.open.begin(), verdict.open.end(), isOpen);
@@ -289,11 +290,11 @@ private:
                 if (near == fullWords) {
                     full |= 1ULL << x;
                 } else {
-                    result[i].words.push_back(turned(flipped(near)));
+                    result[i]->words.push_back(turned(flipped(near)));
                 }
             }
-            result[i].some[n] |= some << shift;
-            result[i].full[n] |= full << shift;
+            result[i]->some[n] |= some << shift;
+            result[i]->full[n] |= full << shift;
         }
     }
 

@@ -11,9 +11,10 @@ namespace vdbcage::detail {
 
 namespace {
 
-FlatBlock flattened(const MaskBlock& node)
+std::unique_ptr<FlatBlock> flattened(const MaskBlock& node)
 {
-    FlatBlock flat;
+    auto made = std::make_unique<FlatBlock>();
+    FlatBlock& flat = *made;
     flat.origin = node.origin();
     flat.words.reserve(node.childCount());
     for (auto tile = node.cbeginValueOn(); tile; ++tile) {
@@ -33,7 +34,7 @@ FlatBlock flattened(const MaskBlock& node)
         }
     }
     flat.finish();
-    return flat;
+    return made;
 }
 
 BuiltBlock treeBlock(const FlatBlock& flat)
@@ -87,14 +88,14 @@ SlotSet::SlotSet(const MaskTree& tree, const Progress& progress) : full_(fullPar
     indexFull();
 }
 
-SlotSet::SlotSet(FullParts full, std::vector<FlatBlock> flat, const Progress& progress)
+SlotSet::SlotSet(FullParts full, std::vector<std::unique_ptr<FlatBlock>> flat, const Progress& progress)
     : flat_(std::move(flat)), full_(std::move(full))
 {
     progress.check(1, 1);
     indexFlat();
     std::unordered_set<Coord> broken; // full regions that no longer are
-    for (const FlatBlock& block : flat_) {
-        if (!block.isFull()) broken.insert(alignedTo(block.origin, regionSize));
+    for (const auto& block : flat_) {
+        if (!block->isFull()) broken.insert(alignedTo(block->origin, regionSize));
     }
     const auto isBroken = [&](const Coord& region) {
         if (broken.count(region) == 0) return false;
@@ -105,8 +106,8 @@ SlotSet::SlotSet(FullParts full, std::vector<FlatBlock> flat, const Progress& pr
     progress.check(1, 1);
     const auto isReplaced = [&](const Coord& block) { return blocks_.count(block) > 0; };
     full_.blocks.erase(std::remove_if(full_.blocks.begin(), full_.blocks.end(), isReplaced), full_.blocks.end());
-    for (const FlatBlock& block : flat_) {
-        if (block.isFull()) full_.blocks.push_back(block.origin);
+    for (const auto& block : flat_) {
+        if (block->isFull()) full_.blocks.push_back(block->origin);
     }
     progress.check(1, 1);
     indexFull();
@@ -125,7 +126,7 @@ MaskTree::Ptr SlotSet::tree(const Progress& progress) const
     std::atomic<std::size_t> done{0};
     tbb::parallel_for(std::size_t{0}, flat_.size(), [&](std::size_t i) {
         progress.check(done++, flat_.size());
-        built[i] = treeBlock(flat_[i]);
+        built[i] = treeBlock(*flat_[i]);
     });
     return assemble(full_, std::move(built));
 }
@@ -133,8 +134,8 @@ MaskTree::Ptr SlotSet::tree(const Progress& progress) const
 void SlotSet::indexFlat()
 {
     blocks_.reserve(flat_.size() + full_.blocks.size());
-    for (const FlatBlock& block : flat_) {
-        blocks_.emplace(block.origin, block.isUniform ? Slots{nullptr, block.isFull()} : Slots{&block, false});
+    for (const auto& block : flat_) {
+        blocks_.emplace(block->origin, block->isUniform ? Slots{nullptr, block->isFull()} : Slots{block.get(), false});
     }
 }
 

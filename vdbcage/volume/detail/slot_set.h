@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <unordered_map>
 #include <unordered_set>
 #include <vector>
@@ -45,10 +46,7 @@ public:
     /// \throw Cancelled, as the others
     SlotSet(const MaskTree& tree, const Progress& progress);
     /// The full parts, with the blocks (each origin once) in their places.
-    SlotSet(FullParts full, std::vector<FlatBlock> flat, const Progress& progress);
-
-    SlotSet(SlotSet&&) = default; // a copy would look at the other's blocks
-    SlotSet& operator=(SlotSet&&) = default;
+    SlotSet(FullParts full, std::vector<std::unique_ptr<FlatBlock>> flat, const Progress& progress);
 
     Slots at(const Coord& origin) const
     {
@@ -65,7 +63,7 @@ private:
     void indexFlat();
     void indexFull();
 
-    std::vector<FlatBlock> flat_;
+    std::vector<std::unique_ptr<FlatBlock>> flat_;
     FullParts full_;
     std::unordered_map<Coord, Slots> blocks_;
     std::unordered_set<Coord> regions_; // the full ones
