@@ -215,7 +215,7 @@ private:
         constexpr int usual = 64, finest = 512, coarsest = 16;
         // The surface should have several times the faces that the cage is to have; still more gain little.
         const double wanted =
-            (options.effort == Effort::fast ? 0.75 : 1.0) * usual * std::sqrt(std::max(1.0, options.faces / 1000.0));
+            (options.effort == Effort::fast ? 2.0 / 3 : 1.0) * usual * std::sqrt(std::max(1.0, options.faces / 1000.0));
         const int resolution = options.resolution.value_or(std::min(finest, static_cast<int>(std::ceil(wanted))));
         std::vector<Voxels> list{{resolution, options.closeRadius.value_or(leastRadius)}};
         if (!options.closeRadius) {
