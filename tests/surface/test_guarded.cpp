@@ -226,6 +226,48 @@ BOOST_AUTO_TEST_CASE(quads_bound_and_fold_as_little_as_asked)
     BOOST_TEST(count[2] > count[1]);
 }
 
+/// Pairs of points joined more than once when each quad is split by its other diagonal: 0 on a manifold.
+std::size_t doubledDiagonals(const Mesh& mesh)
+{
+    std::map<std::pair<openvdb::Index32, openvdb::Index32>, int> joined;
+    const auto join = [&](openvdb::Index32 a, openvdb::Index32 b) { return ++joined[std::minmax(a, b)]; };
+    for (const auto& t : mesh.triangles) {
+        for (int i = 0; i < 3; ++i) join(t[i], t[(i + 1) % 3]);
+    }
+    for (const auto& q : mesh.quads) {
+        for (int i = 0; i < 4; ++i) join(q[i], q[(i + 1) % 4]);
+    }
+    std::size_t doubled = 0;
+    for (const auto& q : mesh.quads) {
+        for (int i = 0; i < 2; ++i) doubled += join(q[i], q[i + 2]) > 1;
+    }
+    return doubled;
+}
+
+BOOST_AUTO_TEST_CASE(as_many_quads_as_asked_also_where_it_is_hard)
+{
+    // Random triangles leave sharp valleys and ridges, where few pairs are convex.
+    constexpr std::size_t faces = 120;
+    for (const unsigned seed : {1U, 5U, 6U}) {
+        const Mesh model = soup(seed, 30, 0.15);
+        const BoundingGuard guard(model);
+        const CageChecker checker(model);
+        const Mesh start = ball(24), fine = decimate(start, guard, to(5 * faces / 2));
+        BoundingTriquadOptions options = quads(faces, 90);
+        std::size_t last = 0;
+        for (const double share : {0.0, 0.65, 0.85}) {
+            options.quads = share;
+            const Mesh cage = triquad(fine, guard, options);
+            BOOST_TEST(checker.check(cage).bounding());
+            BOOST_TEST(faceCount(cage) <= faces);
+            BOOST_TEST(double(cage.quads.size()) >= share * double(faceCount(cage)));
+            BOOST_TEST(cage.quads.size() >= last);
+            BOOST_TEST(doubledDiagonals(cage) == 0U);
+            last = cage.quads.size();
+        }
+    }
+}
+
 BOOST_AUTO_TEST_CASE(most_faces_become_quads_and_stay_tight)
 {
     constexpr std::size_t faces = 300;
@@ -302,6 +344,11 @@ BOOST_AUTO_TEST_CASE(bad_options_are_refused)
     BOOST_CHECK_THROW(triquad(start, guard, quads(3, 30)), InputError);
     BOOST_CHECK_THROW(triquad(start, guard, quads(30, -1)), InputError);
     BOOST_CHECK_THROW(triquad(start, guard, quads(30, 181)), InputError);
+    for (const double share : {-0.01, 1.01, std::nan("")}) {
+        BoundingTriquadOptions wrong = quads(30, 30);
+        wrong.quads = share;
+        BOOST_CHECK_THROW(triquad(start, guard, wrong), InputError);
+    }
     BoundingTriquadOptions bad;
     bad.tightening = options;
     BOOST_CHECK_THROW(triquad(start, guard, bad), InputError);
