@@ -226,6 +226,47 @@ BOOST_AUTO_TEST_CASE(quads_bound_and_fold_as_little_as_asked)
     BOOST_TEST(count[2] > count[1]);
 }
 
+BOOST_AUTO_TEST_CASE(a_quad_whose_corners_across_are_joined_is_split)
+{
+    // A roof over two lobes that meet in the edge from 1 to 3: the roof's other diagonal, too.
+    Mesh cage;
+    cage.points = {{0, -1, 0.2}, {-1, 0, 0}, {0, 1, 0.2}, {1, 0, 0}, {0, -1, -1}, {0, 1, -1}};
+    cage.triangles = {{3, 0, 4}, {0, 1, 4}, {1, 3, 4}, {2, 3, 5}, {1, 2, 5}, {3, 1, 5}};
+    cage.quads = {{0, 3, 2, 1}};
+    const BoundingGuard guard(test::sphere({0, -0.5, -0.2}, 0.05, 6));
+    TightenOptions none;
+    none.sweeps = 0;
+    const Mesh result = tighten(cage, guard, none);
+    BOOST_TEST(result.quads.empty());
+    BOOST_TEST(result.triangles.size() == 8U);
+    // With the bottom's edge from 4 to 5 instead it stays.
+    cage.triangles = {{3, 0, 4}, {0, 1, 4}, {1, 5, 4}, {5, 3, 4}, {2, 3, 5}, {1, 2, 5}};
+    BOOST_TEST(tighten(cage, guard, none).quads.size() == 1U);
+}
+
+BOOST_AUTO_TEST_CASE(as_many_quads_as_asked_also_where_it_is_hard)
+{
+    // Random triangles leave sharp valleys and ridges, where few pairs are convex.
+    constexpr std::size_t faces = 120;
+    for (const unsigned seed : {1U, 5U, 6U}) {
+        const Mesh model = soup(seed, 30, 0.15);
+        const BoundingGuard guard(model);
+        const CageChecker checker(model);
+        const Mesh start = ball(24), fine = decimate(start, guard, to(5 * faces / 2));
+        BoundingTriquadOptions options = quads(faces, 90);
+        std::size_t last = 0;
+        for (const double share : {0.0, 0.65, 0.85}) {
+            options.quads = share;
+            const Mesh cage = triquad(fine, guard, options);
+            BOOST_TEST(checker.check(cage).bounding());
+            BOOST_TEST(faceCount(cage) <= faces);
+            BOOST_TEST(double(cage.quads.size()) >= share * double(faceCount(cage)));
+            BOOST_TEST(cage.quads.size() >= last);
+            last = cage.quads.size();
+        }
+    }
+}
+
 BOOST_AUTO_TEST_CASE(most_faces_become_quads_and_stay_tight)
 {
     constexpr std::size_t faces = 300;
@@ -302,6 +343,11 @@ BOOST_AUTO_TEST_CASE(bad_options_are_refused)
     BOOST_CHECK_THROW(triquad(start, guard, quads(3, 30)), InputError);
     BOOST_CHECK_THROW(triquad(start, guard, quads(30, -1)), InputError);
     BOOST_CHECK_THROW(triquad(start, guard, quads(30, 181)), InputError);
+    for (const double share : {-0.01, 1.01, std::nan("")}) {
+        BoundingTriquadOptions wrong = quads(30, 30);
+        wrong.quads = share;
+        BOOST_CHECK_THROW(triquad(start, guard, wrong), InputError);
+    }
     BoundingTriquadOptions bad;
     bad.tightening = options;
     BOOST_CHECK_THROW(triquad(start, guard, bad), InputError);

@@ -16,7 +16,7 @@ namespace vdbcage {
 enum class CageFaces {
     triangles,
     triquad, ///< triangles, merged into quads where they are flat enough
-    quads    ///< as few triangles as can be
+    quads    ///< of at least 87 % of the faces, where it can
 };
 
 /// What becomes of parts of the model that the closing leaves apart.

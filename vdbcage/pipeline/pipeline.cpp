@@ -434,7 +434,8 @@ private:
     {
         const auto faces = static_cast<std::size_t>(options.faces);
         DecimateOptions decimation;
-        decimation.faces = options.mesh == CageFaces::triangles ? faces : 2 * faces; // two triangles a quad
+        // Two triangles a quad, and some that vanish.
+        decimation.faces = options.mesh == CageFaces::triangles ? faces : 5 * faces / 2;
         {
             const Stage stage(interrupter, "decimate");
             tbb::parallel_for(std::size_t(0), starts.size(), [&](std::size_t i) {
@@ -457,9 +458,11 @@ private:
             });
         } else {
             const Stage stage(interrupter, "quads");
+            constexpr double mostlyQuads = 0.875; // more cost a third of the tightness on models with edges
             BoundingTriquadOptions pairing;
             pairing.mergeAngleDegrees = mergeAngle(options);
             pairing.faces = faces;
+            if (options.mesh == CageFaces::quads) pairing.quads = mostlyQuads;
             pairing.tightening = tightening;
             tbb::parallel_for(std::size_t(0), starts.size(), [&](std::size_t i) {
                 starts[i].cage = triquad(starts[i].decimated, guard, pairing, interrupter);

@@ -42,6 +42,29 @@ void tightenAndShake(detail::GuardedSurface& surface, const TightenOptions& opti
     detail::shake(surface, options.shakes, options.sweeps, areaPerSample(surface, faces), interrupter);
 }
 
+/// Pairs up the triangles of a surface in rounds, until enough are quads.
+void makeQuads(detail::GuardedSurface& surface, const BoundingTriquadOptions& options, Interrupter* interrupter)
+{
+    constexpr int rounds = 6;
+    constexpr int sweepsBefore = 4;
+    double room = 0;
+    for (int round = 0; round < rounds; ++round) {
+        detail::tighten(surface, sweepsBefore, areaPerSample(surface, surface.liveFaces()), interrupter);
+        // The other diagonals need about as much room as the first ones have; it is made before pairing, since quads
+        // hold their vertices. Then only what is still triangles gets more.
+        if (round == 0) room = detail::medianDistance(surface);
+        detail::inflateTriangles(surface, room, interrupter);
+        detail::PairingOptions pairing{};
+        pairing.mergeAngleDegrees = options.mergeAngleDegrees;
+        pairing.share = options.quads;
+        pairing.reach = static_cast<std::size_t>(round) + 2;
+        pairing.collapses = round > 0;
+        detail::pairUp(surface, pairing, interrupter);
+        if (detail::quadShare(surface) >= options.quads) return;
+        room *= 2;
+    }
+}
+
 } // namespace
 
 Mesh smooth(const Mesh& surface, const BoundingGuard& guard, int sweeps, Interrupter* interrupter)
@@ -97,13 +120,14 @@ Mesh triquad(const Mesh& surface, const BoundingGuard& guard, const BoundingTriq
 {
     constexpr int attempts = 6;
     constexpr double aim = 0.99, goodEnough = 0.97; // of the faces
-    constexpr double firstGuess = 1.65;             // triangles for each of them
-    constexpr int sweepsBefore = 4;
     if (options.faces < 4) {
         throw InputError("faces: " + std::to_string(options.faces) +
                          " is not allowed; a closed surface has at least 4");
     }
     detail::requireMergeAngle(options.mergeAngleDegrees);
+    if (!(options.quads >= 0 && options.quads <= 1)) {
+        throw InputError("quads: " + std::to_string(options.quads) + " is not allowed; it must be 0 to 1");
+    }
     requireCount("sweeps", options.tightening.sweeps);
     requireCount("shakes", options.tightening.shakes);
     const detail::GuardedSurface fine(surface, guard.model(), Quads::split);
@@ -113,17 +137,14 @@ Mesh triquad(const Mesh& surface, const BoundingGuard& guard, const BoundingTriq
     const std::size_t most = options.faces / fine.copies();
     const auto wanted = static_cast<double>(most);
     double low = wanted, high = std::max(wanted, static_cast<double>(fine.liveFaces()));
-    double target = std::min(firstGuess * wanted, high);
+    double target = std::min((1 + options.quads) * wanted, high);
     std::optional<detail::GuardedSurface> best;
     double reached = 0; // faces
     for (int i = 0; i < attempts; ++i) {
         detail::GuardedSurface paired = fine;
         const auto triangles = static_cast<std::size_t>(target);
         detail::collapseByQuadrics(paired, triangles, interrupter);
-        for (int k = 0; k < 2; ++k) {
-            detail::tighten(paired, sweepsBefore, areaPerSample(paired, triangles), interrupter);
-            detail::pairUp(paired, options.mergeAngleDegrees, interrupter);
-        }
+        makeQuads(paired, options, interrupter);
         const auto faces = static_cast<double>(paired.liveFaces() - paired.quads());
         (faces <= wanted ? low : high) = target;
         if (faces <= wanted && faces > reached) {

@@ -22,21 +22,23 @@ struct TriquadOptions {
 VDBCAGE_API Mesh triquad(const Mesh& triangles, const TriquadOptions& options = {});
 
 struct BoundingTriquadOptions {
-    /// Largest angle between the triangles of a quad in the end, under either diagonal, 0 to 180; 90 gives most quads.
+    /// Largest angle between the triangles of a quad in the end, under either diagonal, 0 to 180; 90 allows most.
     double mergeAngleDegrees = 30;
     std::size_t faces = 400; ///< to end with, at most; a quad counts once; at least 4
+    double quads = 0.62;     ///< the part of the faces to be quads, 0 to 1; more where they cost no distance
     TightenOptions tightening = {};
 };
 
 /// Makes triangles and quads of a surface that bounds `guard`'s model and keeps it so, each quad under both diagonals:
-/// the surface is decimated as far as pairing needs to reach `faces`; pairs become quads, flat and square ones that
-/// follow the directions of curvature first, then as many more as can be; where a diagonal would cut the model or the
-/// angle is too large, vertices are pushed outward; and the result is tightened with all four triangles of every quad
-/// under the guard. Quads are convex as above.
-/// A surface of twice the faces wanted gives the best result. More than the faces asked for are left only where
-/// decimation stops there. TBB-parallel, same result for any number of threads. \pre `surface` is closed, 2-manifold
-/// and bounds the model with the guard's clearance \throw InputError (options; not closed and 2-manifold), Cancelled
-/// O(n log n log m) for n faces and m of the model.
+/// the surface is decimated as far as pairing needs to reach `faces`, and given a little room; pairs become quads, flat
+/// and square ones that follow the directions of curvature first. Until enough of the faces are quads, triangles are
+/// then paired across the quads between them, or vanish in twos, with ever more room; and the result is tightened with
+/// all four triangles of every quad under the guard. Quads are convex as above, and no two polygons come to share two
+/// edges, under either diagonal.
+/// A surface of two to three times the faces wanted gives the best result. More than the faces asked for are left only
+/// where decimation stops there. TBB-parallel, same result for any number of threads. \pre `surface` is closed,
+/// 2-manifold and bounds the model with the guard's clearance \throw InputError (options; not closed and 2-manifold),
+/// Cancelled O(n log n log m) for n faces and m of the model.
 VDBCAGE_API Mesh triquad(const Mesh& surface, const BoundingGuard& guard, const BoundingTriquadOptions& options,
                          Interrupter* interrupter = nullptr);
 

@@ -1,19 +1,22 @@
 // Based on: Cohen-Steiner and Morvan, "Restricted Delaunay Triangulations and Normal Cycle", 2003 (curvature tensors
 // from dihedral angles, for the directions that quads follow); Edmonds, "Paths, Trees, and Flowers", 1965 (paths that
 // alternate between pairs and none).
-// Differs: a pair must also pass the guard, which pushes vertices; so pairs are taken greedily and paths are short.
+// Differs: a pair must also pass the guard, which pushes vertices; so pairs are taken greedily and paths are short. On
+// them a quad is split along either diagonal, and a path may end in a collapse.
 
 #include <vdbcage/surface/detail/guarded_quads.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <initializer_list>
 #include <set>
 #include <tuple>
 #include <utility>
 #include <vector>
 
 #include <openvdb/math/Mat3.h>
+#include <vdbcage/surface/detail/guarded_sweeps.h>
 #include <vdbcage/surface/detail/quad_shape.h>
 
 namespace vdbcage::detail {
@@ -30,6 +33,7 @@ Vec3d areaNormal(const Corners& t)
 /// Two faces that share an edge.
 struct Pair {
     double score; ///< in degrees, less is better
+    double loss;  ///< as Pairing::lossOf
     std::uint32_t f, g;
 };
 
@@ -104,19 +108,14 @@ double misalignment(const std::array<Vec3d, 4>& corners, const Mat3d& tensor)
 
 class Pairing {
 public:
-    Pairing(GuardedSurface& surface, double mergeAngleDegrees, Interrupter* interrupter)
-        : surface_(surface), mergeAngle_(mergeAngleDegrees), interrupter_(interrupter),
-          neighbours_(surface.faces(), {Fan::none, Fan::none, Fan::none})
+    Pairing(GuardedSurface& surface, const PairingOptions& options, Interrupter* interrupter)
+        : surface_(surface), options_(options), interrupter_(interrupter), distancePerFace_(distancePerFace(surface))
     {
         const std::vector<Mat3d> tensors = curvatureTensors(surface);
-        for (std::uint32_t v = 0; v < surface.vertices(); ++v) {
-            for (const std::uint32_t f : surface.facesOf(v)) {
-                if (surface.face(f)[0] != v) continue; // each face once
-                for (int i = 0; i < 3; ++i) {
-                    const std::uint32_t g = across(f, i);
-                    neighbours_[f][static_cast<std::size_t>(i)] = g;
-                    if (f < g) addPair(f, g, tensors);
-                }
+        for (const std::uint32_t f : triangles()) {
+            for (int i = 0; i < 3; ++i) {
+                const std::uint32_t g = across(f, i);
+                if (f < g && isFree(g)) addPair(f, g, tensors);
             }
         }
         std::sort(pairs_.begin(), pairs_.end(), [](const Pair& a, const Pair& b) {
@@ -124,44 +123,91 @@ public:
         });
     }
 
+    /// One face less, the others being as many and as good, takes `distancePerFace_` away: pairs that cost more are
+    /// made for the share alone.
     void pairGreedily()
     {
-        for (const Pair& pair : pairs_) {
-            throwIfInterrupted(interrupter_);
-            if (isFree(pair.f) && isFree(pair.g)) makeQuad(pair.f, pair.g);
+        for (const bool dear : {false, true}) {
+            for (const Pair& pair : pairs_) {
+                throwIfInterrupted(interrupter_);
+                if (dear && isEnough()) return;
+                if (dear == (pair.loss > 1) && isFree(pair.f) && isFree(pair.g)) makeQuad(pair.f, pair.g);
+            }
         }
     }
 
-    /// Pairs up free faces by taking pairs on the way between them apart.
+    /// Pairs up triangles by taking quads on the way between them apart, as few as will do.
     void pairMore()
     {
-        constexpr std::size_t longest = 5; // pairs made on a path
-        for (std::uint32_t f = 0; f < neighbours_.size(); ++f) {
-            if (!isFace(f)) continue;
-            for (std::size_t most = 1; most <= longest && isFree(f); ++most) {
-                throwIfInterrupted(interrupter_);
-                int tries = 0;
-                std::vector<std::uint32_t> path{f};
-                extend(path, most, tries);
+        for (const std::uint32_t f : triangles()) {
+            for (std::size_t most = 1; most <= options_.reach && isTriangle(f); ++most) {
+                if (isEnough()) return;
+                search(f, most, End::quad);
+            }
+        }
+    }
+
+    /// Takes triangles away in twos, those with the shortest edges and the nearest to each other first.
+    void collapseMore()
+    {
+        for (std::size_t most = 1; most <= options_.reach; ++most) {
+            std::vector<std::pair<double, std::uint32_t>> order;
+            for (const std::uint32_t f : triangles()) {
+                const Corners t = surface_.corners(f);
+                order.emplace_back(
+                    std::min({(t[1] - t[0]).lengthSqr(), (t[2] - t[1]).lengthSqr(), (t[0] - t[2]).lengthSqr()}), f);
+            }
+            std::sort(order.begin(), order.end());
+            for (const auto& next : order) {
+                if (isEnough()) return;
+                if (isTriangle(next.second)) search(next.second, most, End::collapse);
             }
         }
     }
 
 private:
-    bool isFace(std::uint32_t f) const { return neighbours_[f][0] != Fan::none; }
-    bool isFree(std::uint32_t f) const { return surface_.otherHalf(f) == Fan::none; }
+    enum class End { quad, collapse }; ///< what is made of the two triangles at the end of a path
 
-    /// The face across side i of f; f itself, if that side is on the plane of symmetry.
+    static double distancePerFace(const GuardedSurface& surface)
+    {
+        constexpr double samplesPerFace = 4;
+        const auto faces = static_cast<double>(surface.liveFaces());
+        return integratedDistance(surface, area(surface) / (samplesPerFace * faces)) / faces;
+    }
+
+    bool isEnough() const { return quadShare(surface_) >= options_.share; }
+    bool isFree(std::uint32_t f) const { return surface_.otherHalf(f) == Fan::none; }
+    bool isTriangle(std::uint32_t f) const { return surface_.isFace(f) && isFree(f); }
+
+    /// The faces that are in no quad.
+    std::vector<std::uint32_t> triangles() const
+    {
+        std::vector<std::uint32_t> list;
+        for (std::uint32_t f = 0; f < surface_.faces(); ++f) {
+            if (isTriangle(f)) list.push_back(f);
+        }
+        return list;
+    }
+
+    /// The face across side i of a face, or of a quad's other; f itself, if that side is on the plane of symmetry or a
+    /// diagonal of an other.
     std::uint32_t across(std::uint32_t f, int i) const
     {
         const std::uint32_t a = surface_.face(f)[i], b = surface_.face(f)[(i + 1) % 3];
         for (const std::uint32_t g : surface_.facesOf(a)) {
-            const Vec3I& t = surface_.face(g);
-            for (int j = 0; j < 3; ++j) {
-                if (t[j] == b && t[(j + 1) % 3] == a) return g;
-            }
+            if (sideOf(g, b, a) >= 0) return g;
         }
         return f;
+    }
+
+    /// The side of a face that goes from a to b, or -1.
+    int sideOf(std::uint32_t f, std::uint32_t a, std::uint32_t b) const
+    {
+        const Vec3I& t = surface_.face(f);
+        for (int i = 0; i < 3; ++i) {
+            if (t[i] == a && t[(i + 1) % 3] == b) return i;
+        }
+        return -1;
     }
 
     std::array<Vec3d, 4> cornersOf(std::uint32_t f, std::uint32_t g) const
@@ -170,23 +216,33 @@ private:
         return {surface_.point(ids[0]), surface_.point(ids[1]), surface_.point(ids[2]), surface_.point(ids[3])};
     }
 
+    /// What the surface moves away from the model, at least, to bound under both diagonals: the volume between them,
+    /// in parts of `distancePerFace_`.
+    double lossOf(const std::array<Vec3d, 4>& corners) const
+    {
+        const Vec3d both = (corners[2] - corners[0]).cross(corners[3] - corners[1]);
+        return std::abs(both.dot(corners[0] - corners[1])) / 6 / distancePerFace_;
+    }
+
     /// Whether the guard may get a quad out of two faces by pushing.
     bool isPromising(std::uint32_t f, std::uint32_t g, double& angle, double& deviation) const
     {
         constexpr double mostFlattened = 2.5;
         angle = angleDegrees(areaNormal(surface_.corners(f)), areaNormal(surface_.corners(g)));
-        return angle <= mostFlattened * mergeAngle_ && isConvexQuad(cornersOf(f, g), 0, deviation);
+        return angle <= mostFlattened * options_.mergeAngleDegrees && isConvexQuad(cornersOf(f, g), 0, deviation);
     }
 
     void addPair(std::uint32_t f, std::uint32_t g, const std::vector<Mat3d>& tensors)
     {
-        constexpr double alignmentDegrees = 45;
+        constexpr double alignmentDegrees = 45, lossDegrees = 30;
         double angle, deviation;
         const auto corners = cornersOf(f, g);
         if (!isPromising(f, g, angle, deviation)) return;
         const Vec4I ids = surface_.quadOf(f, g);
         const Mat3d tensor = tensors[ids[0]] + tensors[ids[1]] + tensors[ids[2]] + tensors[ids[3]];
-        pairs_.push_back({angle + deviation + alignmentDegrees * misalignment(corners, tensor), f, g});
+        const double loss = lossOf(corners);
+        pairs_.push_back(
+            {angle + deviation + alignmentDegrees * misalignment(corners, tensor) + lossDegrees * loss, loss, f, g});
     }
 
     /// A face and its other half have one number.
@@ -201,7 +257,8 @@ private:
     {
         std::vector<std::uint32_t> around;
         for (const std::uint32_t half : {f, g}) {
-            for (const std::uint32_t h : neighbours_[half]) {
+            for (int i = 0; i < 3; ++i) {
+                const std::uint32_t h = across(half, i);
                 if (h == half) {
                     around.push_back(Fan::none); // across the plane of symmetry, its own image
                 } else if (h != f && h != g) {
@@ -255,57 +312,138 @@ private:
         return true;
     }
 
-    /// Looks for ways on from the end of a path free, half, other half, half, other half, ... to another free face, and
-    /// takes the first that the guard allows. Returns whether the search is over.
-    bool extend(std::vector<std::uint32_t>& path, std::size_t most, int& tries)
+    void search(std::uint32_t f, std::size_t most, End last)
+    {
+        throwIfInterrupted(interrupter_);
+        int tries = 0;
+        std::vector<std::uint32_t> path{f};
+        extend(path, most, last, tries);
+    }
+
+    /// Looks for ways on from the end of a path to another triangle, and takes the first that the guard allows. A path
+    /// is a triangle, then for each quad on the way the half, or other, that is paired with what is before it and the
+    /// one left over, then a triangle; 2 `most` faces in all. Returns whether the search is over.
+    bool extend(std::vector<std::uint32_t>& path, std::size_t most, End last, int& tries)
     {
         constexpr int mostTries = 40;
         const std::uint32_t end = path.back();
-        for (const std::uint32_t next : neighbours_[end]) {
-            if (std::find(path.begin(), path.end(), next) != path.end()) continue;
+        for (int i = 0; i < 3; ++i) {
+            const std::uint32_t a = surface_.face(end)[i], b = surface_.face(end)[(i + 1) % 3];
+            const std::uint32_t next = across(end, i);
+            if (next == end || isOnPath(path, next)) continue;
             double angle, deviation;
-            if (!isPromising(end, next, angle, deviation)) continue;
-            const std::uint32_t half = surface_.otherHalf(next);
-            path.push_back(next);
-            if (half == Fan::none) {
-                if (path.size() == 2 * most && (exchange(path) || ++tries >= mostTries)) return true;
-            } else if (path.size() < 2 * most) {
-                path.push_back(half);
-                if (extend(path, most, tries)) return true;
+            if (isFree(next)) {
+                if (path.size() + 1 < 2 * most) continue;
+                if (last == End::quad && !isPromising(end, next, angle, deviation)) continue;
+                path.push_back(next);
+                if (exchange(path, last) || ++tries >= mostTries) return true;
                 path.pop_back();
+                continue;
             }
-            path.pop_back();
+            if (path.size() + 1 >= 2 * most) continue;
+            const auto& others = surface_.othersIn(next);
+            const std::uint32_t other = others[sideOf(others[0], b, a) >= 0 ? 0 : 1];
+            for (const std::uint32_t half : {next, other}) {
+                if (!isPromising(end, half, angle, deviation)) continue;
+                path.push_back(half);
+                path.push_back(surface_.otherHalf(half));
+                if (extend(path, most, last, tries)) return true;
+                path.resize(path.size() - 2);
+            }
         }
         return false;
     }
 
-    bool exchange(const std::vector<std::uint32_t>& path)
+    bool isOnPath(const std::vector<std::uint32_t>& path, std::uint32_t f) const
+    {
+        const bool isFree = this->isFree(f);
+        return std::any_of(path.begin(), path.end(), [&](std::uint32_t g) {
+            if (g == f) return true;
+            if (isFree || this->isFree(g)) return false;
+            const auto& others = surface_.othersIn(f);
+            return g == surface_.otherHalf(f) || g == others[0] || g == others[1];
+        });
+    }
+
+    bool exchange(const std::vector<std::uint32_t>& path, End last)
     {
         GuardedSurface before = surface_;
-        for (std::size_t i = 1; i + 1 < path.size(); i += 2) surface_.splitQuad(path[i]);
+        for (std::size_t i = 1; i + 1 < path.size(); i += 2) {
+            if (!surface_.isFace(path[i])) surface_.flipQuad(path[i]);
+            surface_.splitQuad(path[i]);
+        }
         for (std::size_t i = 0; i < path.size(); i += 2) {
-            if (makeQuad(path[i], path[i + 1])) continue;
+            const bool isLast = i + 2 == path.size();
+            if (isLast && last == End::collapse ? collapse(path[i], path[i + 1]) : makeQuad(path[i], path[i + 1])) {
+                continue;
+            }
             surface_ = std::move(before);
             return false;
         }
         return true;
     }
 
+    /// Collapses the edge between two triangles; all quads stay, or the surface is left in pieces of what it was.
+    bool collapse(std::uint32_t f, std::uint32_t g)
+    {
+        const Vec4I ids = surface_.quadOf(f, g);
+        const std::uint32_t keep = std::min(ids[0], ids[2]), remove = std::max(ids[0], ids[2]);
+        const std::vector<std::array<std::uint32_t, 2>> quads = splitQuadsAt({keep, remove});
+        Fan fan;
+        if (!surface_.fanOf(keep, remove, fan)) return false;
+        const Vec3d a = surface_.point(keep), b = surface_.point(remove), middle = 0.5 * (a + b);
+        const Vec3d up = surface_.outward(fan) * (a - b).length();
+        const GuardedSurface before = surface_;
+        for (const Vec3d& at :
+             {middle, a, b, middle + 0.1 * up, a + 0.1 * up, b + 0.1 * up, middle + 0.3 * up, middle + 0.6 * up}) {
+            const Vec3d place = surface_.rounded(fan, at);
+            if (!surface_.allows(fan, place)) continue;
+            surface_.apply(fan, place);
+            if (std::all_of(quads.begin(), quads.end(), [&](const auto& quad) { return makeQuad(quad[0], quad[1]); })) {
+                return true;
+            }
+            surface_ = before;
+        }
+        return false;
+    }
+
+    /// Returns their halves.
+    std::vector<std::array<std::uint32_t, 2>> splitQuadsAt(std::initializer_list<std::uint32_t> vertices)
+    {
+        std::vector<std::array<std::uint32_t, 2>> quads;
+        for (const std::uint32_t v : vertices) {
+            for (const std::uint32_t f : surface_.facesOf(v)) {
+                if (isFree(f)) continue;
+                quads.push_back({f, surface_.otherHalf(f)});
+                surface_.splitQuad(f);
+            }
+        }
+        return quads;
+    }
+
     GuardedSurface& surface_;
-    double mergeAngle_;
+    PairingOptions options_;
     Interrupter* interrupter_;
-    std::vector<std::array<std::uint32_t, 3>> neighbours_; // by face, across its sides
+    double distancePerFace_;
     std::vector<Pair> pairs_;
 };
 
 } // namespace
 
-void pairUp(GuardedSurface& surface, double mergeAngleDegrees, Interrupter* interrupter)
+double quadShare(const GuardedSurface& surface)
 {
-    surface.limitQuadFold(mergeAngleDegrees);
-    Pairing pairing(surface, mergeAngleDegrees, interrupter);
+    const auto faces = static_cast<double>(surface.liveFaces() - surface.quads());
+    return faces > 0 ? static_cast<double>(surface.quads()) / faces : 1;
+}
+
+void pairUp(GuardedSurface& surface, const PairingOptions& options, Interrupter* interrupter)
+{
+    if (surface.liveFaces() == 0) return;
+    surface.limitQuadFold(options.mergeAngleDegrees);
+    Pairing pairing(surface, options, interrupter);
     pairing.pairGreedily();
     pairing.pairMore();
+    if (options.collapses) pairing.collapseMore();
 }
 
 } // namespace vdbcage::detail

@@ -1,14 +1,28 @@
 #pragma once
 
+#include <cstddef>
+
 #include <vdbcage/core/interrupter.h>
 #include <vdbcage/surface/detail/guarded_surface.h>
 
 namespace vdbcage::detail {
 
-/// Makes pairs of faces quads, under the guard: flat, square ones along the directions of curvature first, then others
-/// where that leaves fewer triangles. No quad's triangles meet at more than `mergeAngleDegrees` (as
-/// GuardedSurface::limitQuadFold, which this sets). Where a pair is too folded, or its other diagonal in the model's
-/// way, the lower diagonal's ends are pushed outward. Serial; O(n log n log m) for n faces and m of the model.
-void pairUp(GuardedSurface& surface, double mergeAngleDegrees, Interrupter* interrupter);
+struct PairingOptions {
+    double mergeAngleDegrees; ///< no quad's triangles meet at more (as GuardedSurface::limitQuadFold, which is set)
+    double share;             ///< of the faces that are to be quads
+    std::size_t reach;        ///< so many pairs are made anew to bring two triangles together, at most
+    bool collapses;           ///< whether edges may be collapsed for it
+};
+
+/// The part of the faces that are quads, 0 to 1.
+double quadShare(const GuardedSurface& surface);
+
+/// Makes pairs of faces quads, under the guard: first, flat and square ones along the directions of curvature before
+/// others, all that cost no more distance to the model than a face less brings. Then, until the share is reached, the
+/// other pairs; then triangles are brought together through the quads between them, each of which is split along
+/// either diagonal and paired anew; and last two that are so brought together, but are no quad, vanish by collapsing
+/// the edge between them. Where a pair is too folded, or its other diagonal in the model's way, the lower diagonal's
+/// ends are pushed outward. Serial; O(n log n log m) for n faces and m of the model.
+void pairUp(GuardedSurface& surface, const PairingOptions& options, Interrupter* interrupter);
 
 } // namespace vdbcage::detail

@@ -603,8 +603,9 @@ void GuardedSurface::buildTreeIfWanted()
 std::uint32_t GuardedSurface::otherHalf(std::uint32_t f) const
 {
     if (quadAt_[f] == Fan::none) return Fan::none;
-    const auto& halves = quads_[quadAt_[f]].halves;
-    return halves[0] == f ? halves[1] : halves[0];
+    const Quad& quad = quads_[quadAt_[f]];
+    const auto& both = life_[f] == live ? quad.halves : quad.others;
+    return both[0] == f ? both[1] : both[0];
 }
 
 Vec4I GuardedSurface::quadOf(std::uint32_t f, std::uint32_t g) const
@@ -630,6 +631,9 @@ bool GuardedSurface::makeQuad(std::uint32_t f, std::uint32_t g)
 {
     const Vec4I ids = quadOf(f, g);
     if (ids[1] == ids[3] || (isOnPlane(ids[1]) && isOnPlane(ids[3]))) return false;
+    // Two corners joined by an edge elsewhere would share two once the quad is split between them.
+    const auto joined = neighbours(ids[1]);
+    if (std::binary_search(joined.begin(), joined.end(), ids[3])) return false;
     std::array<Vec3d, 4> places;
     for (int k = 0; k < 4; ++k) places[static_cast<std::size_t>(k)] = points_[ids[k]];
     double deviation;
@@ -692,6 +696,23 @@ void GuardedSurface::splitQuad(std::uint32_t half)
     }
     freeQuads_.push_back(number);
     buildTreeIfWanted();
+}
+
+void GuardedSurface::flipQuad(std::uint32_t half)
+{
+    Quad& quad = quads_[quadAt_[half]];
+    const auto move = [&](std::uint32_t f, std::vector<std::vector<std::uint32_t>>& from,
+                          std::vector<std::vector<std::uint32_t>>& to, Life life) {
+        for (const int k : {0, 1, 2}) {
+            auto& list = from[faces_[f][k]];
+            list.erase(std::find(list.begin(), list.end(), f));
+            to[faces_[f][k]].push_back(f);
+        }
+        life_[f] = life;
+    };
+    for (const std::uint32_t f : quad.halves) move(f, facesOf_, othersOf_, underOther);
+    for (const std::uint32_t f : quad.others) move(f, othersOf_, facesOf_, live);
+    std::swap(quad.halves, quad.others);
 }
 
 bool GuardedSurface::Batch::apply(const Fan& fan, const Vec3d& p)

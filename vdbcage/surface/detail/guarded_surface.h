@@ -94,18 +94,24 @@ public:
     void apply(const Fan& fan, const Vec3d& p);
 
     std::size_t quads() const { return quads_.size() - freeQuads_.size(); }
-    /// The other half of the quad that a face belongs to, or Fan::none.
+    /// The other half of the quad that a face belongs to, or Fan::none; for a quad's other, the second of these.
     std::uint32_t otherHalf(std::uint32_t f) const;
     /// The corners of a quad of two faces that share an edge, which runs from corner 0 to corner 2.
     Vec4I quadOf(std::uint32_t f, std::uint32_t g) const;
     /// No quad is made, and no vertex moved, so that the triangles of a quad meet at a larger angle, under either
     /// diagonal; up to 90 degrees, and that unless it was set.
     void limitQuadFold(double degrees);
-    /// Makes two faces that share an edge, and are in no quad, the halves of one, if it is convex and the guard allows
-    /// its others. Returns whether.
+    /// Makes two faces that share an edge, and are in no quad, the halves of one, if it is convex, its other diagonal
+    /// joins no two vertices that are joined already, and the guard allows its others. Returns whether.
     bool makeQuad(std::uint32_t f, std::uint32_t g);
     /// The halves of a quad are triangles again.
     void splitQuad(std::uint32_t half);
+    /// The halves of a quad become its others, and its others its halves: the same quad, about to be split otherwise.
+    void flipQuad(std::uint32_t half);
+    /// Whether a face is one, not a quad's other and not gone.
+    bool isFace(std::uint32_t f) const { return life_[f] == live; }
+    /// The others of the quad that a half belongs to.
+    const std::array<std::uint32_t, 2>& othersIn(std::uint32_t half) const { return quads_[quadAt_[half]].others; }
     /// The weight of a face, or a quad's other, in a sum over the surface: a half if it shows under one diagonal only.
     double weight(std::uint32_t f) const { return f != Fan::none && quadAt_[f] != Fan::none ? 0.5 : 1; }
     /// The others at a vertex.

@@ -4,6 +4,7 @@
 #include <vdbcage/surface/detail/guarded_sweeps.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <optional>
 #include <vector>
@@ -117,6 +118,16 @@ std::optional<Vec3d> towards(const GuardedSurface& surface, const Fan& fan, cons
     return std::nullopt;
 }
 
+void pushOut(GuardedSurface& surface, const std::vector<std::uint32_t>& vertices, double by, Interrupter* interrupter)
+{
+    sweep(
+        surface, vertices, interrupter,
+        [&](std::uint32_t v, const Fan& fan) {
+            return towards(surface, fan, surface.point(v) + by * surface.outward(fan), {1.0, 0.5, 0.2});
+        },
+        [](std::uint32_t, const Fan&, bool) {});
+}
+
 } // namespace
 
 double area(const GuardedSurface& surface)
@@ -145,12 +156,18 @@ void shrink(GuardedSurface& surface, Interrupter* interrupter)
 
 void inflate(GuardedSurface& surface, double by, Interrupter* interrupter)
 {
-    sweep(
-        surface, allVertices(surface), interrupter,
-        [&](std::uint32_t v, const Fan& fan) {
-            return towards(surface, fan, surface.point(v) + by * surface.outward(fan), {1.0, 0.5, 0.2});
-        },
-        [](std::uint32_t, const Fan&, bool) {});
+    pushOut(surface, allVertices(surface), by, interrupter);
+}
+
+void inflateTriangles(GuardedSurface& surface, double by, Interrupter* interrupter)
+{
+    const auto isTriangle = [&](std::uint32_t f) { return surface.otherHalf(f) == Fan::none; };
+    std::vector<std::uint32_t> vertices;
+    for (const std::uint32_t v : allVertices(surface)) {
+        const auto& faces = surface.facesOf(v);
+        if (std::any_of(faces.begin(), faces.end(), isTriangle)) vertices.push_back(v);
+    }
+    pushOut(surface, vertices, by, interrupter);
 }
 
 void roundOff(GuardedSurface& surface, int sweeps, Interrupter* interrupter)
@@ -173,6 +190,22 @@ void roundOff(GuardedSurface& surface, int sweeps, Interrupter* interrupter)
             },
             [](std::uint32_t, const Fan&, bool) {});
     }
+}
+
+double medianDistance(const GuardedSurface& surface)
+{
+    std::vector<double> distances;
+    for (std::uint32_t v = 0; v < surface.vertices(); ++v) {
+        for (const std::uint32_t f : surface.facesOf(v)) {
+            if (surface.face(f)[0] != v) continue; // each face once
+            const Corners t = surface.corners(f);
+            distances.push_back(std::sqrt(surface.guard().tree().closest((t[0] + t[1] + t[2]) / 3.0).squaredDistance));
+        }
+    }
+    if (distances.empty()) return 0;
+    const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
+    std::nth_element(distances.begin(), middle, distances.end());
+    return *middle;
 }
 
 double integratedDistance(const GuardedSurface& surface, double areaPerSample)

@@ -5,7 +5,7 @@
 #include <vdbcage/core/interrupter.h>
 #include <vdbcage/surface/detail/guarded_surface.h>
 
-/// Operators that move every vertex of a surface and leave its connectivity, under the guard. Vertices that are not
+/// Operators that move the vertices of a surface and leave its connectivity, under the guard. Vertices that are not
 /// neighbours are moved side by side; the result is the same for any number of threads.
 namespace vdbcage::detail {
 
@@ -20,6 +20,9 @@ void tighten(GuardedSurface& surface, int sweeps, double areaPerSample, Interrup
 /// Moves every vertex outward.
 void inflate(GuardedSurface& surface, double by, Interrupter* interrupter);
 
+/// Moves the vertices of triangles that are in no quad outward.
+void inflateTriangles(GuardedSurface& surface, double by, Interrupter* interrupter);
+
 /// Pushes all vertices outward a little and tightens again, up to `times`; what did not bring the surface nearer to the
 /// model is undone, and then it is pushed less. Frees vertices that hold each other.
 void shake(GuardedSurface& surface, int times, int sweeps, double areaPerSample, Interrupter* interrupter);
@@ -29,6 +32,9 @@ void roundOff(GuardedSurface& surface, int sweeps, Interrupter* interrupter);
 
 /// The total area of the surface.
 double area(const GuardedSurface& surface);
+
+/// The median over the triangles of their centroids' distance to the model; 0 without any.
+double medianDistance(const GuardedSurface& surface);
 
 /// The integral of the distance to the model over the surface. In parallel.
 double integratedDistance(const GuardedSurface& surface, double areaPerSample);
