@@ -153,6 +153,23 @@ BOOST_AUTO_TEST_CASE(only_stale_stages_run_again)
     made.run(options, &voxels);
     BOOST_TEST(voxels.runs["voxelize"] == 1);
     BOOST_CHECK(sameMesh(made.cage(), makeCage(saturn(), options)));
+
+    for (const char* symmetry : {"auto", "y"}) {
+        setOption(options, "symmetry", symmetry);
+        Watcher found;
+        made.run(options, &found);
+        BOOST_TEST(found.runs["symmetry"] == 1);
+        options.faces -= 10;
+        Watcher kept;
+        made.run(options, &kept);
+        BOOST_TEST(kept.runs["symmetry"] == 0);
+        BOOST_TEST(kept.runs["decimate"] > 0);
+        BOOST_CHECK(made.report().symmetry.has_value());
+        BOOST_CHECK(sameMesh(made.cage(), makeCage(saturn(), options)));
+    }
+    setOption(options, "symmetry", "off");
+    made.run(options);
+    BOOST_CHECK(!made.report().symmetry);
 }
 
 BOOST_AUTO_TEST_CASE(scaled_and_moved_models_get_the_scaled_and_moved_cage)

@@ -62,6 +62,12 @@ Cost costSoFar()
             static_cast<double>(cpu.tv_sec) + 1e-9 * static_cast<double>(cpu.tv_nsec)};
 }
 
+Cost costSince(const Cost& before)
+{
+    const Cost now = costSoFar();
+    return {now.wallSeconds - before.wallSeconds, now.cpuSeconds - before.cpuSeconds};
+}
+
 Json toJson(const Cost& cost)
 {
     return {{"wall_seconds", cost.wallSeconds}, {"cpu_seconds", cost.cpuSeconds}};

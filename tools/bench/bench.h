@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -39,13 +40,21 @@ struct Cost {
 /// What the process has cost since some fixed moment; only differences mean anything.
 Cost costSoFar();
 
+/// What it has cost since `before`.
+Cost costSince(const Cost& before);
+
+/// What `work` costs; to free what it returns is not part of it.
 template <class Work>
 Cost costOf(const Work& work)
 {
     const Cost before = costSoFar();
-    work();
-    const Cost after = costSoFar();
-    return {after.wallSeconds - before.wallSeconds, after.cpuSeconds - before.cpuSeconds};
+    if constexpr (std::is_void_v<decltype(work())>) {
+        work();
+        return costSince(before);
+    } else {
+        const auto result = work();
+        return costSince(before);
+    }
 }
 
 /// The least of each: times are only ever longer for what others do on the machine.

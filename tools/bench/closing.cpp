@@ -93,19 +93,6 @@ Json largestGap(int runs, const Work& work)
             {"questions", least.questions}};
 }
 
-/// The least of several runs that each make a grid; to free it is not part of them.
-template <class Make>
-Cost leastCostOfGrid(int runs, const Make& make)
-{
-    Cost least;
-    for (int i = 0; i < runs; ++i) {
-        MaskGrid::Ptr result;
-        const Cost cost = costOf([&] { result = make(); });
-        least = i == 0 ? cost : leastOf(least, cost);
-    }
-    return least;
-}
-
 double mebibytes(const MaskTree& tree)
 {
     return static_cast<double>(tree.memUsage()) / (1 << 20);
@@ -128,9 +115,9 @@ Json measure(const std::string& model, int resolution, int radius, const CageOpt
               {"threads", tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism)},
               {"solid_voxels", solid->activeVoxelCount()},
               {"closed_voxels", closed->activeVoxelCount()},
-              {"dilation", toJson(leastCostOfGrid(runs, [&] { return dilate(*solid, r, element); }))},
-              {"erosion", toJson(leastCostOfGrid(runs, [&] { return erode(*dilated, r, element); }))}};
-    const Cost ours = leastCostOfGrid(runs, [&] { return closeMask(*solid, {r, r, element}); });
+              {"dilation", toJson(leastCost(runs, [&] { return dilate(*solid, r, element); }))},
+              {"erosion", toJson(leastCost(runs, [&] { return erode(*dilated, r, element); }))}};
+    const Cost ours = leastCost(runs, [&] { return closeMask(*solid, {r, r, element}); });
     line["closing"] = toJson(ours);
     line["closing"]["memory_peak_mib"] = memory;
     // The cube's closing makes no tree of the dilation.
@@ -141,7 +128,7 @@ Json measure(const std::string& model, int resolution, int radius, const CageOpt
         const auto close = [&](Interrupter* watcher) {
             return closeMask(*solid, {r, r, element}, shape.scale, watcher);
         };
-        line["scaled"] = toJson(leastCostOfGrid(runs, [&] { return close(nullptr); }));
+        line["scaled"] = toJson(leastCost(runs, [&] { return close(nullptr); }));
         line["scaled"]["interrupter"] = largestGap(runs, [&](GapClock& clock) { return close(&clock); });
     }
     if (!compare) return line;

@@ -301,15 +301,19 @@ private:
         return candidate;
     }
 
-    /// The plane found or given.
-    std::optional<Symmetry> planeFor(const CageOptions& options, Interrupter* interrupter)
+    /// The plane found or given; the model has the same one in every run.
+    const std::optional<Symmetry>& planeFor(CageSymmetry wanted, Interrupter* interrupter)
     {
         constexpr double tolerance = 0.005; // below the distance of a tight cage of some hundred faces
-        if (options.symmetry == CageSymmetry::off) return std::nullopt;
+        if (wanted == soughtSymmetry_) return symmetry_;
         const Stage stage(interrupter, "symmetry");
-        if (options.symmetry == CageSymmetry::automatic) return findSymmetry(model_, tolerance, interrupter);
-        const int axis = options.symmetry == CageSymmetry::x ? 0 : options.symmetry == CageSymmetry::y ? 1 : 2;
-        return bestSymmetry(model_, axis, interrupter);
+        if (wanted == CageSymmetry::automatic) {
+            symmetry_ = findSymmetry(model_, tolerance, interrupter);
+        } else {
+            symmetry_ = bestSymmetry(model_, wanted == CageSymmetry::x ? 0 : wanted == CageSymmetry::y ? 1 : 2, interrupter);
+        }
+        soughtSymmetry_ = wanted;
+        return symmetry_;
     }
 
     /// A symmetric cage where there is a plane, or else one that is not.
@@ -318,7 +322,8 @@ private:
         GuardOptions guarding;
         guarding.clearance = options.clearance;
         guarding.minAngleDegrees = options.minAngle;
-        report_.symmetry = planeFor(options, interrupter);
+        report_.symmetry.reset();
+        if (options.symmetry != CageSymmetry::off) report_.symmetry = planeFor(options.symmetry, interrupter);
         report_.noSymmetry.clear();
         if (report_.symmetry) {
             guarding.symmetry = report_.symmetry->plane;
@@ -509,6 +514,8 @@ private:
     openvdb::MaskGrid::Ptr solid_, closed_;
     openvdb::FloatGrid::ConstPtr scaleGrid_; // that closed_ was made with: kept, so that no other gets its address
     std::unique_ptr<CageChecker> checker_;
+    CageSymmetry soughtSymmetry_ = CageSymmetry::off; // what was asked for `symmetry_`; off: nothing yet
+    std::optional<Symmetry> symmetry_;
     std::string solidKey_, closedKey_, cageKey_; // what the values were made with; empty: nothing
     Candidate best_;
     CageReport report_;

@@ -153,7 +153,7 @@ MaskGrid::Ptr closeMask(const MaskGrid& solid, const CloseOptions& options, cons
     const detail::Progress rest{interrupter, 10, 100};
     const auto dilated = detail::dilateByField(solid.tree(), field, rest.part(0, 2));
     const auto closed = detail::erodeByField(*dilated, &solid.tree(), field, std::min(factor, 1.0), rest.part(1, 2));
-    detail::release(*dilated, {interrupter, 100, 100});
+    detail::release(*dilated, rest.end());
     return detail::maskGridLike(solid, closed);
 }
 

@@ -22,7 +22,8 @@ double quadShare(const GuardedSurface& surface);
 /// other pairs; then triangles are brought together through the quads between them, each of which is split along
 /// either diagonal and paired anew; and last two that are so brought together, but are no quad, vanish by collapsing
 /// the edge between them. Where a pair is too folded, or its other diagonal in the model's way, the lower diagonal's
-/// ends are pushed outward. Serial; O(n log n log m) for n faces and m of the model.
+/// ends are pushed outward. Serial; O(n log n log m) for n faces and m of the model, and O(n) for each way that is
+/// tried to bring two triangles together, which keeps a copy to go back to.
 void pairUp(GuardedSurface& surface, const PairingOptions& options, Interrupter* interrupter);
 
 } // namespace vdbcage::detail

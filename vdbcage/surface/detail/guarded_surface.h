@@ -7,6 +7,7 @@
 
 #include <boost/container/small_vector.hpp>
 #include <openvdb/math/Vec4.h>
+#include <vdbcage/surface/detail/contact_half_spaces.h>
 #include <vdbcage/surface/detail/guard_model.h>
 #include <vdbcage/surface/detail/refit_tree.h>
 
@@ -29,12 +30,6 @@ struct Fan {
     /// Edges across from the centre, in the faces' direction.
     boost::container::small_vector<std::array<std::uint32_t, 2>, 16> rim;
     std::size_t others = 0; ///< so many faces and rim edges at the ends of the lists are of quads' other diagonals
-};
-
-/// A plane that a fan's centre must stay beyond: normal . centre >= offset.
-struct HalfSpace {
-    Vec3d normal;
-    double offset;
 };
 
 /// A closed surface that bounds a model and is only changed in ways that keep it so. A value; copies share the guard.

@@ -170,13 +170,14 @@ private:
     template <class Check>
     void build(const Row& row, std::unique_ptr<FlatBlock>* result, const Check& check) const
     {
+        View view = look(row);
         for (std::size_t i = 0; i < row.blocks; ++i) {
             result[i] = std::make_unique<FlatBlock>();
-            const Coord origin = row.first.offsetBy(static_cast<int>(i) * blockSize, 0, 0);
-            result[i]->origin = turned(origin);
-            if (const FlatBlock* const before = mask_.at(origin).flat) result[i]->words.reserve(before->words.size());
+            result[i]->origin = turned(row.first.offsetBy(static_cast<int>(i) * blockSize, 0, 0));
+            if (const FlatBlock* const before = view.blocks[i + static_cast<std::size_t>(blockReach_)]) {
+                result[i]->words.reserve(before->words.size());
+            }
         }
-        View view = look(row);
         for (std::size_t stretch = 0; stretch < stretchesPerPlane; ++stretch) {
             const Verdict verdict = settle(view, row.blocks, stretch);
             if (!verdict.isSettled) turnLines(view, stretch);

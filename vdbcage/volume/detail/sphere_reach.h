@@ -10,6 +10,8 @@
 
 namespace vdbcage::detail {
 
+struct SphereTables;
+
 /// A contour leaf as seen from a part: a cube of 4^3 slots.
 struct NearLeaf {
     const Words* words;
@@ -70,10 +72,8 @@ public:
     std::array<Words, 4> within(const Pile& open, int pile, const NearLeaf* near, const Leaves& leaves,
                                 Work& work) const;
 
-    struct Tables;
-
 private:
-    std::unique_ptr<const Tables> tables_;
+    std::unique_ptr<const SphereTables> tables_;
     Simd simd_;
 };
 

@@ -1,0 +1,84 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include <vdbcage/volume/detail/progress.h>
+
+namespace vdbcage::detail {
+
+constexpr int lanes = 64;        // the columns of a slot: column (x, y) is lane 8 y + x
+constexpr int smallRadius = 120; // largest radius, rounded up, for which heights fit bytes
+
+// Heights are kept above `none`, which stands for no voxel at all, so that differences of bytes stay above 0.
+template <class T>
+constexpr T none = 0;
+template <>
+constexpr std::uint8_t none<std::uint8_t> = 128;
+
+/// What a sphere's reach depends on but the voxels: heights above them and squares of distances along an axis.
+struct SphereTables {
+    /// \throw Cancelled
+    SphereTables(std::int64_t squared, const Progress& progress);
+
+    // Height above a contour voxel at (-dx, -dy) seen from column (x, y) of a slot: [rowPlace(dx, dy) + lane].
+    template <class T>
+    const T* rows() const
+    {
+        if constexpr (sizeof(T) == 1)
+            return smallRows.data();
+        else
+            return largeRows.data();
+    }
+    int rowStride() const { return (2 * rowReach + 8) * 8; } // to the next dx; the next dy is 8 away
+    int rowPlace(int dx, int dy) const { return (dx + rowReach) * rowStride() + (dy + rowReach) * 8; }
+    // The same for contour voxels anywhere in the columns of a slot at the offset (-dx, -dy), in slots.
+    template <class T>
+    const T* slots() const
+    {
+        if constexpr (sizeof(T) == 1)
+            return smallSlots.data();
+        else
+            return largeSlots.data();
+    }
+    int slotStride() const { return (2 * slotReach + 1) * lanes; } // to the next dx; the next dy is 64 away
+    int slotPlace(int dx, int dy) const { return (dx + slotReach) * slotStride() + (dy + slotReach) * lanes; }
+
+    std::int64_t squaredRadius;
+    int reach; // the radius, rounded up
+    bool isSmall;
+    int slotReach, rowReach; // largest offsets that are asked for, in slots and voxels
+    int coordinates;
+
+    // Squared distances along one axis, by a voxel's coordinate in the part, to its four slots: divided by 2^shift,
+    // rounded down (near) or up (far), and cut just above the limit.
+    struct Squares {
+        std::array<std::int16_t, 4> below, above; // to the near end, of a slot that is below or above it, else 0
+        std::array<std::int16_t, 4> far;          // to the far end
+    };
+    const Squares& squares(int coordinate) const { return squares_[static_cast<std::size_t>(coordinate + margin())]; }
+    struct WideSquares { // each four times
+        std::array<std::int16_t, 16> below, above, far;
+    };
+    const WideSquares& wideSquares(int coordinate) const
+    {
+        return wideSquares_[static_cast<std::size_t>(coordinate + margin())];
+    }
+    std::int16_t limit = 0;
+
+private:
+    int margin() const { return reach + 40; }
+    template <class T>
+    void fillHeights(std::vector<T>& rows, std::vector<T>& slots, const Progress& progress);
+    void fillSquares();
+
+    int shift = 0;
+    std::vector<std::uint8_t> smallRows, smallSlots;
+    std::vector<std::int16_t> largeRows, largeSlots;
+    std::vector<Squares> squares_;
+    std::vector<WideSquares> wideSquares_;
+};
+
+} // namespace vdbcage::detail
