@@ -310,7 +310,11 @@ private:
         if (wanted == CageSymmetry::automatic) {
             symmetry_ = findSymmetry(model_, tolerance, interrupter);
         } else {
-            symmetry_ = bestSymmetry(model_, wanted == CageSymmetry::x ? 0 : wanted == CageSymmetry::y ? 1 : 2, interrupter);
+            symmetry_ = bestSymmetry(model_,
+                                     wanted == CageSymmetry::x   ? 0
+                                     : wanted == CageSymmetry::y ? 1
+                                                                 : 2,
+                                     interrupter);
         }
         soughtSymmetry_ = wanted;
         return symmetry_;
