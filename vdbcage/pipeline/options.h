@@ -45,7 +45,7 @@ struct CageOptions {
     int smooth = 0;                             ///< sweeps of smoothing at the end: rounder, and less tight, with more
     CageParts parts = CageParts::keep;          ///< what becomes of separate parts of the closing
     double clearance = 1e-6;                    ///< least distance from model to cage
-    double minAngle = 6;                        ///< degrees: no triangle angle gets smaller by decimation or tightening
+    std::optional<double> minAngle;             ///< degrees: no triangle angle gets smaller; unset: by the effort
     Effort effort = Effort::fair;               ///< time against tightness
     CageFaces mesh = CageFaces::triangles;      ///< triangles only, or quads too
     std::optional<double> mergeAngle;           ///< degrees: flatter pairs become quads; unset: as the faces ask

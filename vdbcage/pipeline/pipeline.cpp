@@ -214,8 +214,8 @@ private:
         constexpr double leastRadius = 0.03, greatestRadius = 0.24;
         constexpr int usual = 64, finest = 512, coarsest = 16;
         // The surface should have several times the faces that the cage is to have; still more gain little.
-        const double wanted =
-            (options.effort == Effort::fast ? 2.0 / 3 : 1.0) * usual * std::sqrt(std::max(1.0, options.faces / 1000.0));
+        const double share = options.effort == Effort::fast ? 2.0 / 3 : options.effort == Effort::fair ? 5.0 / 6 : 1.0;
+        const double wanted = share * usual * std::sqrt(std::max(1.0, options.faces / 1000.0));
         const int resolution = options.resolution.value_or(std::min(finest, static_cast<int>(std::ceil(wanted))));
         std::vector<Voxels> list{{resolution, options.closeRadius.value_or(leastRadius)}};
         if (!options.closeRadius) {
@@ -256,6 +256,14 @@ private:
         constexpr double anyFold = 90, flat = 10, usual = 30;
         const double automatic = options.mesh == CageFaces::quads ? anyFold : options.bounding ? usual : flat;
         return options.mergeAngle.value_or(automatic);
+    }
+
+    /// The wide one costs up to 5 % of the tightness: too much where that or time is all that counts.
+    static double minAngle(const CageOptions& options)
+    {
+        constexpr double wide = 10, usual = 6;
+        const bool isWide = options.mesh == CageFaces::triangles && options.effort == Effort::fair;
+        return options.minAngle.value_or(isWide ? wide : usual);
     }
 
     /// Quads by merging alone, where no guard is needed.
@@ -325,7 +333,7 @@ private:
     {
         GuardOptions guarding;
         guarding.clearance = options.clearance;
-        guarding.minAngleDegrees = options.minAngle;
+        guarding.minAngleDegrees = minAngle(options);
         report_.symmetry.reset();
         if (options.symmetry != CageSymmetry::off) report_.symmetry = planeFor(options.symmetry, interrupter);
         report_.noSymmetry.clear();
@@ -445,11 +453,13 @@ private:
         DecimateOptions decimation;
         // Two triangles a quad, and some that vanish.
         decimation.faces = options.mesh == CageFaces::triangles ? faces : 5 * faces / 2;
+        // Pairing decimates on: what is to be gained by exchanging vertices is gained only by the last decimation.
+        const Effort effort = options.mesh == CageFaces::triangles ? options.effort : Effort::fast;
         {
             const Stage stage(interrupter, "decimate");
             tbb::parallel_for(std::size_t(0), starts.size(), [&](std::size_t i) {
                 starts[i].smoothed = starts[i].surface;
-                starts[i].decimated = decimate(starts[i].surface, guard, decimation, options.effort, interrupter);
+                starts[i].decimated = decimate(starts[i].surface, guard, decimation, effort, interrupter);
             });
         }
         const auto keepAtMost = [&](std::size_t most, const Mesh Candidate::*mesh) {
@@ -458,7 +468,7 @@ private:
         };
         keepAtMost(decimation.faces, &Candidate::decimated);
         TightenOptions tightening;
-        tightening.shakes = options.effort == Effort::fast ? 0 : options.effort == Effort::fair ? 2 : 6;
+        tightening.shakes = options.effort == Effort::fast ? 0 : options.effort == Effort::fair ? 1 : 10;
         if (guard.symmetry()) tightening.shakes *= 3; // in the time that half a surface saves
         if (options.mesh == CageFaces::triangles) {
             const Stage stage(interrupter, "tighten");

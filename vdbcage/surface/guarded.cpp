@@ -78,7 +78,8 @@ Mesh smooth(const Mesh& surface, const BoundingGuard& guard, int sweeps, Interru
 Mesh decimate(const Mesh& surface, const BoundingGuard& guard, const DecimateOptions& options, Effort effort,
               Interrupter* interrupter)
 {
-    constexpr int sweepsAtStop = 2, exchangeRounds = 3;
+    constexpr std::size_t stop = 3; // times the faces
+    constexpr int sweepsAtStop = 2;
     if (options.faces < 4) {
         throw InputError("faces: " + std::to_string(options.faces) +
                          " is not allowed; a closed surface has at least 4");
@@ -87,20 +88,19 @@ Mesh decimate(const Mesh& surface, const BoundingGuard& guard, const DecimateOpt
     const std::size_t faces = options.faces / guarded.copies();
     detail::shrink(guarded, interrupter);
     // Quadrics know the surface that they were made from: one that was pulled onto the model on the way is better.
-    const auto stops = effort == Effort::fast ? std::vector<std::size_t>{3} : std::vector<std::size_t>{4, 2};
-    for (const std::size_t stop : stops) {
-        detail::collapseByQuadrics(guarded, stop * faces, interrupter);
-        detail::tighten(guarded, sweepsAtStop, areaPerSample(guarded, 2 * faces), interrupter);
-    }
+    detail::collapseByQuadrics(guarded, stop * faces, interrupter);
+    detail::tighten(guarded, sweepsAtStop, areaPerSample(guarded, 2 * faces), interrupter);
     detail::collapseByQuadrics(guarded, faces, interrupter);
     // Where the model is in the way of every collapse, there is room farther out (the model's longest side is 1 to 2).
     for (double push = 0.02; guarded.liveFaces() > faces && push < 1; push *= 2) {
         detail::inflate(guarded, push, interrupter);
         detail::collapseByQuadrics(guarded, faces, interrupter);
     }
-    if (effort == Effort::best) {
-        detail::tighten(guarded, TightenOptions().sweeps, areaPerSample(guarded, faces), interrupter);
-        detail::exchange(guarded, exchangeRounds, interrupter);
+    if (effort != Effort::fast) {
+        const int sweeps = effort == Effort::fair ? 4 : TightenOptions().sweeps,
+                  rounds = effort == Effort::fair ? 2 : 8;
+        detail::tighten(guarded, sweeps, areaPerSample(guarded, faces), interrupter);
+        detail::exchange(guarded, rounds, interrupter);
     }
     return guarded.mesh();
 }

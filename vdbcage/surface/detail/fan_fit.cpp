@@ -91,12 +91,6 @@ std::optional<openvdb::Mat3d> inverseCholesky(const openvdb::Mat3d& a)
 
 } // namespace
 
-double leastChange(const Quadratic& change)
-{
-    const auto inverse = inverseCholesky(change.curvature);
-    return inverse ? -0.5 * (inverse->transpose() * change.slope).lengthSqr() : 0;
-}
-
 bool descend(const GuardedSurface& surface, const Fan& fan, Vec3d& p, const Quadratic& change, const StepLimit& limit,
              const std::function<bool(const Vec3d&)>& accepts)
 {
@@ -158,9 +152,7 @@ void DistanceMeasure::forEachSample(const Corners& t, std::uint32_t& seed, const
 double DistanceMeasure::integral(const Corners& t, std::uint32_t& seed) const
 {
     double sum = 0;
-    forEachSample(t, seed, [&](double weight, double /*b0*/, const Vec3d& /*away*/, double d) {
-        sum += weight * (power_ == Power::square ? d * d : d);
-    });
+    forEachSample(t, seed, [&](double weight, double /*b0*/, const Vec3d& /*away*/, double d) { sum += weight * d; });
     return sum;
 }
 
@@ -177,11 +169,11 @@ DistanceMeasure::Fit DistanceMeasure::fit(const GuardedSurface& surface, const F
         fit.reach = std::max({fit.reach, (t[1] - centre).length(), (t[2] - centre).length()});
         forEachSample(t, seed, [&](double sampleWeight, double b0, const Vec3d& away, double d) {
             const double weight = share * sampleWeight;
-            fit.integral += weight * (power_ == Power::square ? d * d : d);
+            fit.integral += weight * d;
             if (!(d > 0)) return;
             // The sample asks d + b0 n delta to vanish.
             const Vec3d n = away / d;
-            const double w = power_ == Power::square ? 2 * weight : weight / std::max(d, least);
+            const double w = weight / std::max(d, least);
             const double wb = w * b0, wbb = wb * b0;
             for (int i = 0; i < 3; ++i) {
                 for (int j = 0; j < 3; ++j) fit.change.curvature[i][j] += wbb * n[i] * n[j];

@@ -14,9 +14,6 @@ struct Quadratic {
     Vec3d slope{0.0};
 };
 
-/// The least value of `change` anywhere, which is negative or 0; 0 where it has none.
-double leastChange(const Quadratic& change);
-
 /// How far a centre may go at once.
 struct StepLimit {
     double reach;     ///< no step is longer than half of it, nor shorter than a thousandth
@@ -29,17 +26,12 @@ struct StepLimit {
 bool descend(const GuardedSurface& surface, const Fan& fan, Vec3d& p, const Quadratic& change, const StepLimit& limit,
              const std::function<bool(const Vec3d&)>& accepts);
 
-/// How far a surface is from the model: the integral of the distance, or of its square, over triangles, by sampling. A
-/// triangle is cut into k x k equal ones, each counted at its centroid, k growing with the triangle's size.
+/// How far a surface is from the model: the integral of the distance over triangles, by sampling. A triangle is cut
+/// into k x k equal ones, each counted at its centroid, k growing with the triangle's size.
 class DistanceMeasure {
 public:
-    enum class Power { distance, square };
-
     /// `areaPerSample` in world units squared.
-    DistanceMeasure(const GuardModel& guard, double areaPerSample, Power power)
-        : guard_(guard), areaPerSample_(areaPerSample), power_(power)
-    {
-    }
+    DistanceMeasure(const GuardModel& guard, double areaPerSample) : guard_(guard), areaPerSample_(areaPerSample) {}
 
     /// The integral over a triangle. `seed` is an item near it and gets a better one.
     double integral(const Corners& t, std::uint32_t& seed) const;
@@ -64,7 +56,6 @@ private:
 
     const GuardModel& guard_;
     double areaPerSample_;
-    Power power_;
 };
 
 } // namespace vdbcage::detail

@@ -1,8 +1,7 @@
 // Based on: Garland, Heckbert, "Surface Simplification Using Quadric Error Metrics", 1997.
 //           Sander, Gu, Gortler, Hoppe, Snyder, "Silhouette Clipping", 2000 (decimation that stays outside).
 // Differs: every collapse has to pass the guard, its vertex pushed outward until it does and then drawn along what it
-// touches to where its quadric is least; collapses can also be ordered by the measured change of the distance to the
-// model.
+// touches to where its quadric is least.
 
 #include <vdbcage/surface/detail/guarded_decimate.h>
 
@@ -10,12 +9,10 @@
 #include <cmath>
 #include <optional>
 #include <queue>
-#include <unordered_map>
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 #include <vdbcage/surface/detail/fan_fit.h>
-#include <vdbcage/surface/detail/guarded_sweeps.h>
 #include <vdbcage/surface/detail/quadric.h>
 
 namespace vdbcage::detail {
@@ -243,198 +240,11 @@ private:
     std::priority_queue<Candidate> queue_;
 };
 
-class MeasuredCollapser {
-public:
-    MeasuredCollapser(GuardedSurface& surface, std::size_t faces)
-        : surface_(surface), faces_(faces),
-          measure_(surface.guard(), area(surface) / static_cast<double>(faces) / samplesPerFace,
-                   DistanceMeasure::Power::square),
-          stamp_(surface.vertices(), 0), seed_(surface.vertices(), TriangleTree::none)
-    {
-    }
-
-    void run(Interrupter* interrupter)
-    {
-        std::size_t facesAtLastFill = 0;
-        while (surface_.liveFaces() > faces_) {
-            throwIfInterrupted(interrupter);
-            if (pending_.empty() && queue_.empty()) {
-                // What was blocked may be free since its surroundings changed.
-                if (surface_.liveFaces() == facesAtLastFill) return;
-                facesAtLastFill = surface_.liveFaces();
-                for (const Edge& edge : allEdges(surface_)) pending_.push_back({edge, true});
-                measureFaces();
-            }
-            gatherFront();
-            if (!pending_.empty()) {
-                measurePending();
-            } else if (!queue_.empty()) {
-                collapse(pop());
-            }
-        }
-    }
-
-private:
-    static constexpr double samplesPerFace = 4; ///< of the size they have in the end
-    static constexpr int improvements = 2;
-    static constexpr std::size_t batch = 8; ///< edges measured side by side at the front of the queue
-
-    /// Without a place its cost is an estimate of the best one's, allowed or not.
-    struct Candidate {
-        QueuedEdge edge;
-        std::optional<Vec3d> place;
-        std::uint32_t issue; // of several entries of one edge only the latest counts
-
-        bool operator<(const Candidate& o) const { return edge < o.edge; }
-    };
-    struct Pending {
-        Edge edge;
-        bool onlyEstimate; // until it comes to the front of the queue
-
-        bool operator<(const Pending& o) const { return edge < o.edge; }
-        bool operator==(const Pending& o) const { return edge == o.edge; }
-    };
-
-    static std::uint64_t key(const Edge& edge) { return std::uint64_t(edge.first) << 32U | edge.second; }
-
-    Candidate pop()
-    {
-        const Candidate top = queue_.top();
-        queue_.pop();
-        return top;
-    }
-
-    /// Takes entries off the front of the queue that no longer count (dropped), whose surroundings changed, or that
-    /// were only estimated (pending), until one stands there that may be collapsed.
-    void gatherFront()
-    {
-        std::size_t gathered = 0;
-        while (!queue_.empty() && gathered < batch) {
-            const Candidate& top = queue_.top();
-            const QueuedEdge& e = top.edge;
-            const Edge edge(e.u, e.v);
-            if (top.issue == latest_[key(edge)] && surface_.isVertex(e.u) && surface_.isVertex(e.v)) {
-                const bool isCurrent = e.stampU == stamp_[e.u] && e.stampV == stamp_[e.v];
-                if (isCurrent && top.place) return;
-                pending_.push_back({edge, !isCurrent});
-                ++gathered;
-            }
-            queue_.pop();
-        }
-    }
-
-    void measurePending()
-    {
-        std::sort(pending_.begin(), pending_.end());
-        pending_.erase(std::unique(pending_.begin(), pending_.end()), pending_.end());
-        std::vector<std::optional<Candidate>> results(pending_.size());
-        tbb::parallel_for(std::size_t(0), pending_.size(), [&](std::size_t i) {
-            results[i] = measure(pending_[i].edge.first, pending_[i].edge.second, pending_[i].onlyEstimate);
-        });
-        for (std::size_t i = 0; i < pending_.size(); ++i) {
-            const std::uint32_t issue = ++latest_[key(pending_[i].edge)];
-            if (!results[i]) continue;
-            results[i]->issue = issue;
-            queue_.push(*results[i]);
-        }
-        pending_.clear();
-    }
-
-    std::optional<Candidate> measure(std::uint32_t u, std::uint32_t v, bool onlyEstimate) const
-    {
-        Fan fan;
-        if (!surface_.fanOf(u, v, fan)) return std::nullopt;
-        const Vec3d a = surface_.point(u), b = surface_.point(v), middle = 0.5 * (a + b);
-        Candidate candidate{{0, u, v, stamp_[u], stamp_[v]}, std::nullopt, 0};
-        double before = 0;
-        for (const std::uint32_t f : fan.oldFaces) before += faceIntegral_[f];
-        const double share = 2.0 / static_cast<double>(fan.oldFaces.size() - fan.rim.size()); // of two faces saved
-        std::uint32_t seed = seed_[u];
-        if (onlyEstimate) {
-            const Vec3d at = fan.onPlane ? surface_.ontoPlane(middle) : middle;
-            const DistanceMeasure::Fit fit = measure_.fit(surface_, fan, at, seed);
-            candidate.edge.cost = share * (std::max(0.0, fit.integral + leastChange(fit.change)) - before);
-            return candidate;
-        }
-        const Vec3d up = surface_.outward(fan) * (a - b).length();
-        std::uint32_t blocker = TriangleTree::none;
-        for (const Vec3d& at : {middle, a, b, middle + 0.1 * up, middle + 0.25 * up, middle + 0.5 * up, middle + up}) {
-            const Vec3d rounded = surface_.rounded(fan, at);
-            if (surface_.allows(fan, rounded, &blocker)) {
-                candidate.place = rounded;
-                break;
-            }
-        }
-        if (!candidate.place) return std::nullopt;
-        DistanceMeasure::Fit fit = measure_.fit(surface_, fan, *candidate.place, seed);
-        for (int i = 0; i < improvements; ++i) {
-            if (!measure_.improve(surface_, fan, *candidate.place, fit, seed)) break;
-        }
-        candidate.edge.cost = share * (fit.integral - before);
-        return candidate;
-    }
-
-    void collapse(const Candidate& candidate)
-    {
-        const std::uint32_t u = candidate.edge.u;
-        Fan fan;
-        if (!surface_.fanOf(u, candidate.edge.v, fan) || !surface_.allows(fan, *candidate.place)) return;
-        surface_.apply(fan, *candidate.place);
-        const auto ring = surface_.neighbours(u);
-        for (const std::uint32_t f : surface_.facesOf(u)) measureFace(f, seed_[u]);
-        ++stamp_[u];
-        for (const std::uint32_t w : ring) ++stamp_[w];
-        for (const std::uint32_t w : ring) pullIn(w);
-        for (const std::uint32_t w : ring) pending_.push_back({std::minmax(u, w), true});
-    }
-
-    void pullIn(std::uint32_t v)
-    {
-        const Fan star = surface_.fanOf(v);
-        Vec3d p = surface_.point(v);
-        DistanceMeasure::Fit fit = measure_.fit(surface_, star, p, seed_[v]);
-        if (!measure_.improve(surface_, star, p, fit, seed_[v])) return;
-        surface_.apply(star, p);
-        for (const std::uint32_t f : surface_.facesOf(v)) measureFace(f, seed_[v]);
-        for (const std::uint32_t w : surface_.neighbours(v)) ++stamp_[w];
-    }
-
-    void measureFace(std::uint32_t f, std::uint32_t& seed)
-    {
-        faceIntegral_[f] = measure_.integral(surface_.corners(f), seed);
-    }
-
-    void measureFaces()
-    {
-        faceIntegral_.resize(surface_.faces());
-        tbb::parallel_for(std::uint32_t(0), surface_.vertices(), [&](std::uint32_t v) {
-            for (const std::uint32_t f : surface_.facesOf(v)) {
-                if (surface_.face(f)[0] == v) measureFace(f, seed_[v]);
-            }
-        });
-    }
-
-    GuardedSurface& surface_;
-    std::size_t faces_;
-    DistanceMeasure measure_;
-    std::vector<std::uint32_t> stamp_; // grows when a face at the vertex changes
-    std::vector<std::uint32_t> seed_;
-    std::vector<double> faceIntegral_;
-    std::vector<Pending> pending_; // to be measured
-    std::priority_queue<Candidate> queue_;
-    std::unordered_map<std::uint64_t, std::uint32_t> latest_; // issue of each edge's entry that counts
-};
-
 } // namespace
 
 void collapseByQuadrics(GuardedSurface& surface, std::size_t faces, Interrupter* interrupter)
 {
     QuadricCollapser(surface).run(faces, interrupter);
-}
-
-void collapseByMeasure(GuardedSurface& surface, std::size_t faces, Interrupter* interrupter)
-{
-    MeasuredCollapser(surface, faces).run(interrupter);
 }
 
 } // namespace vdbcage::detail

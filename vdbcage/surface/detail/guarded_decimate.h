@@ -12,9 +12,4 @@ namespace vdbcage::detail {
 /// nothing more is allowed. O(n log n) and fast.
 void collapseByQuadrics(GuardedSurface& surface, std::size_t faces, Interrupter* interrupter);
 
-/// Collapses edges by the measured growth of the integral of squared distance to the model, and pulls in the ring after
-/// each collapse, until `faces` are left or nothing more is allowed. Sees what the quadrics of a coarse surface have
-/// forgotten, at ten times the cost.
-void collapseByMeasure(GuardedSurface& surface, std::size_t faces, Interrupter* interrupter);
-
 } // namespace vdbcage::detail

@@ -27,7 +27,6 @@ struct Split {
 std::optional<Split> trySplit(const GuardedSurface& surface, const DistanceMeasure& measure, std::uint32_t u,
                               std::uint32_t v)
 {
-    constexpr int improvements = 3;
     const Fan fan = surface.fanOfSplit(u, v);
     const Vec3d along = surface.point(v) - surface.point(u);
     const Vec3d up = surface.outward(fan) * along.length();
@@ -39,9 +38,7 @@ std::optional<Split> trySplit(const GuardedSurface& surface, const DistanceMeasu
         Vec3d place = surface.rounded(fan, surface.point(u) + 0.5 * along + off * up);
         if (!surface.allows(fan, place)) continue;
         DistanceMeasure::Fit fit = measure.fit(surface, fan, place, seed);
-        for (int i = 0; i < improvements; ++i) {
-            if (!measure.improve(surface, fan, place, fit, seed)) break;
-        }
+        measure.improve(surface, fan, place, fit, seed);
         if (!(fit.integral < before)) return std::nullopt;
         const auto added = static_cast<double>(fan.rim.size() - fan.oldFaces.size());
         return Split{2 / added * (before - fit.integral), u, v, place};
@@ -52,7 +49,7 @@ std::optional<Split> trySplit(const GuardedSurface& surface, const DistanceMeasu
 /// Splits edges, those that gain most first, until there are `faces`; no two splits of one round touch the same face.
 void splitBest(GuardedSurface& surface, std::size_t faces, double areaPerSample)
 {
-    const DistanceMeasure measure(surface.guard(), areaPerSample, DistanceMeasure::Power::distance);
+    const DistanceMeasure measure(surface.guard(), areaPerSample);
     std::vector<std::vector<Split>> found(surface.vertices());
     tbb::parallel_for(std::uint32_t(0), surface.vertices(), [&](std::uint32_t u) {
         for (const std::uint32_t v : surface.neighbours(u)) {
@@ -84,14 +81,14 @@ void exchange(GuardedSurface& surface, int rounds, Interrupter* interrupter)
     const std::size_t faces = surface.liveFaces();
     if (faces == 0) return;
     const double areaPerSample = area(surface) / (samplesPerFace * static_cast<double>(faces));
-    double share = 0.5; // of the faces that are added and taken away again
+    double share = 1; // of the faces that are added, as far as that goes, and taken away again
     double distance = integratedDistance(surface, areaPerSample);
     for (int i = 0; i < rounds; ++i) {
         GuardedSurface changed = surface;
         const auto added = static_cast<std::size_t>(share * static_cast<double>(faces));
         splitBest(changed, faces + added, areaPerSample);
         tighten(changed, sweeps, areaPerSample, interrupter);
-        collapseByMeasure(changed, faces, interrupter);
+        collapseByQuadrics(changed, faces, interrupter);
         tighten(changed, sweeps, areaPerSample, interrupter);
         const double after = integratedDistance(changed, areaPerSample);
         if (changed.liveFaces() <= faces && after < distance) {

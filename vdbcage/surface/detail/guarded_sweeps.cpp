@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numeric>
 #include <optional>
 #include <vector>
@@ -128,6 +129,70 @@ void pushOut(GuardedSurface& surface, const std::vector<std::uint32_t>& vertices
         [](std::uint32_t, const Fan&, bool) {});
 }
 
+/// The integral of the distance to the model over each face and each quad's other, by number.
+std::vector<double> distances(const GuardedSurface& surface, double areaPerSample)
+{
+    const DistanceMeasure measure(surface.guard(), areaPerSample);
+    std::vector<double> integrals(surface.faces(), 0);
+    tbb::parallel_for(std::uint32_t(0), surface.vertices(), [&](std::uint32_t v) {
+        std::uint32_t seed = TriangleTree::none;
+        for (const auto* list : {&surface.facesOf(v), &surface.othersOf(v)}) {
+            for (const std::uint32_t f : *list) {
+                if (surface.face(f)[0] != v) continue; // each once
+                integrals[f] = surface.weight(f) * measure.integral(surface.corners(f), seed);
+            }
+        }
+    });
+    return integrals;
+}
+
+double sum(const std::vector<double>& values)
+{
+    return std::accumulate(values.begin(), values.end(), 0.0);
+}
+
+/// For each vertex what a value of the faces is around it, those near it counted most.
+std::vector<double> gathered(const GuardedSurface& surface, const std::vector<double>& ofFaces)
+{
+    constexpr int rings = 2; // beyond the vertex's own
+    const std::vector<std::uint32_t> vertices = allVertices(surface);
+    std::vector<double> around(surface.vertices(), 0);
+    for (const std::uint32_t v : vertices) {
+        for (const auto* list : {&surface.facesOf(v), &surface.othersOf(v)}) {
+            for (const std::uint32_t f : *list) around[v] += ofFaces[f];
+        }
+    }
+    for (int i = 0; i < rings; ++i) {
+        std::vector<double> wider = around;
+        for (const std::uint32_t v : vertices) {
+            for (const std::uint32_t w : surface.neighbours(v)) wider[v] += around[w];
+        }
+        around = std::move(wider);
+    }
+    return around;
+}
+
+/// Moves the vertices around which `growth`, by face, is above 0 back to where they were `before`, if they may.
+void undoWhereGrown(GuardedSurface& surface, const GuardedSurface& before, const std::vector<double>& growth,
+                    Interrupter* interrupter)
+{
+    constexpr int passes = 3; // one that its neighbours are in the way of may go when these are back
+    const std::vector<double> around = gathered(surface, growth);
+    std::vector<std::uint32_t> vertices = allVertices(surface);
+    const auto isBetter = [&](std::uint32_t v) { return !(around[v] > 0); };
+    vertices.erase(std::remove_if(vertices.begin(), vertices.end(), isBetter), vertices.end());
+    for (int i = 0; i < passes; ++i) {
+        sweep(
+            surface, vertices, interrupter,
+            [&](std::uint32_t v, const Fan& fan) -> std::optional<Vec3d> {
+                const Vec3d& place = before.point(v);
+                if (surface.point(v) == place || !surface.allows(fan, place)) return std::nullopt;
+                return place;
+            },
+            [](std::uint32_t, const Fan&, bool) {});
+    }
+}
+
 } // namespace
 
 double area(const GuardedSurface& surface)
@@ -210,18 +275,7 @@ double medianDistance(const GuardedSurface& surface)
 
 double integratedDistance(const GuardedSurface& surface, double areaPerSample)
 {
-    const DistanceMeasure measure(surface.guard(), areaPerSample, DistanceMeasure::Power::distance);
-    std::vector<double> sums(surface.vertices(), 0);
-    tbb::parallel_for(std::uint32_t(0), surface.vertices(), [&](std::uint32_t v) {
-        std::uint32_t seed = TriangleTree::none;
-        for (const std::uint32_t f : surface.facesOf(v)) {
-            if (surface.face(f)[0] == v) sums[v] += surface.weight(f) * measure.integral(surface.corners(f), seed);
-        }
-        for (const std::uint32_t f : surface.othersOf(v)) {
-            if (surface.face(f)[0] == v) sums[v] += surface.weight(f) * measure.integral(surface.corners(f), seed);
-        }
-    });
-    return std::accumulate(sums.begin(), sums.end(), 0.0);
+    return sum(distances(surface, areaPerSample));
 }
 
 void tighten(GuardedSurface& surface, int sweeps, double areaPerSample, Interrupter* interrupter)
@@ -229,7 +283,7 @@ void tighten(GuardedSurface& surface, int sweeps, double areaPerSample, Interrup
     constexpr double sleepBelow = 0.002; // a smaller part gained: not tried again until a neighbour moves
     constexpr double stopBelow = 0.002;  // the same for a whole sweep
     constexpr int gentleSweeps = 6;
-    const DistanceMeasure measure(surface.guard(), areaPerSample, DistanceMeasure::Power::distance);
+    const DistanceMeasure measure(surface.guard(), areaPerSample);
     const std::size_t n = surface.vertices();
     std::vector<std::uint32_t> seed(n, TriangleTree::none);
     std::vector<double> before(n, 0), after(n, 0);
@@ -267,15 +321,19 @@ void tighten(GuardedSurface& surface, int sweeps, double areaPerSample, Interrup
 void shake(GuardedSurface& surface, int times, int sweeps, double areaPerSample, Interrupter* interrupter)
 {
     if (surface.liveFaces() == 0) return;
-    double distance = integratedDistance(surface, areaPerSample);
+    std::vector<double> now = distances(surface, areaPerSample);
     double push = 0.3; // of the mean distance
     for (int i = 0; i < times; ++i) {
         GuardedSurface shaken = surface;
-        inflate(shaken, push * distance / area(surface), interrupter);
+        inflate(shaken, push * sum(now) / area(surface), interrupter);
         tighten(shaken, sweeps, areaPerSample, interrupter);
-        const double after = integratedDistance(shaken, areaPerSample);
-        if (after < distance) {
-            distance = after;
+        std::vector<double> growth = distances(shaken, areaPerSample);
+        std::transform(growth.begin(), growth.end(), now.begin(), growth.begin(), std::minus<>());
+        undoWhereGrown(shaken, surface, growth, interrupter);
+        tighten(shaken, sweeps, areaPerSample, interrupter);
+        std::vector<double> after = distances(shaken, areaPerSample);
+        if (sum(after) < sum(now)) {
+            now = std::move(after);
             surface = std::move(shaken);
         } else {
             push *= 0.5;

@@ -23,8 +23,9 @@ void inflate(GuardedSurface& surface, double by, Interrupter* interrupter);
 /// Moves the vertices of triangles that are in no quad outward.
 void inflateTriangles(GuardedSurface& surface, double by, Interrupter* interrupter);
 
-/// Pushes all vertices outward a little and tightens again, up to `times`; what did not bring the surface nearer to the
-/// model is undone, and then it is pushed less. Frees vertices that hold each other.
+/// Pushes all vertices outward a little and tightens again, `times` times. Where that did not bring the surface nearer
+/// to the model it is undone, as far as the guard allows; if it has not on the whole, everywhere, and then it is pushed
+/// less. Frees vertices that hold each other.
 void shake(GuardedSurface& surface, int times, int sweeps, double areaPerSample, Interrupter* interrupter);
 
 /// Sweeps of HC Laplacian smoothing: towards the average of the neighbours, less what that would shrink the surface.
