@@ -156,7 +156,7 @@ std::vector<Vec3d> closePoints(const Mesh& cage, std::uint32_t seed)
     return points;
 }
 
-/// The sums of rows' absolute values, of normals' times the product of their edges in units of the cage.
+/// The sums of rows' absolute values, of normals' times the square of their edges' mean in units of the cage.
 std::vector<double> sizesOf(const std::vector<double>& coordinates, const Mesh& cage, Coordinates family)
 {
     openvdb::BBoxd box;
@@ -164,14 +164,13 @@ std::vector<double> sizesOf(const std::vector<double>& coordinates, const Mesh& 
     const double size = box.extents()[int(box.maxExtent())];
     std::vector<double> reaches(cage.points.size(), 1.0);
     if (family == Coordinates::green) {
-        const auto edge = [&](std::size_t a, std::size_t b) {
-            return (cage.points[a] - cage.points[b]).length() / size;
+        const auto add = [&](openvdb::Index32 corner, openvdb::Index32 next, openvdb::Index32 before) {
+            const Vec3d &at = cage.points[corner], &a = cage.points[next], &b = cage.points[before];
+            reaches.push_back(std::pow(0.5 * ((a - at).length() + (b - at).length()) / size, 2));
         };
-        for (const auto& t : cage.triangles) reaches.push_back(edge(t[0], t[1]) * edge(t[0], t[2]));
-        for (const auto& q : cage.quads) {
-            for (int k = 0; k < 4; ++k) {
-                reaches.push_back(edge(q[k], q[(k + 1) % 4]) * edge(q[k], q[(k + 3) % 4]));
-            }
+        for (const openvdb::Vec3I& t : cage.triangles) add(t[0], t[1], t[2]);
+        for (const openvdb::Vec4I& q : cage.quads) {
+            for (int k = 0; k < 4; ++k) add(q[k], q[(k + 1) % 4], q[(k + 3) % 4]);
         }
     }
     std::vector<double> sizes;

@@ -65,10 +65,10 @@ VDBCAGE_API std::vector<float> computeWeights(const Mesh& cage, const std::vecto
 /// Points bound to a cage: their coordinates in single precision, ready for posing. Posed points are the points at rest
 /// plus what the handles moved by, so the rest pose is exact.
 ///
-/// Of points that are close together few have their weights held, the others combinations of theirs. For that a posed
-/// point is off by at most 1e-6 of the cage's size, times the sum of its weights' absolute values (of normals' times
-/// the product of their edges), if no point of the cage moves farther than this size and no edge gets more than twice
-/// as long. Rounding of floats is of that order, too.
+/// Of points that are close together only some have their weights held; the others' are combinations of these. For that
+/// a posed point is off by at most 1e-6 of the cage's size, times the sum of its weights' absolute values (of normals'
+/// times the square of their edges' mean length), where no point of the cage moves farther than this size and no edge
+/// gets more than twice as long. Rounding to floats adds about 1e-7 of the motion.
 class VDBCAGE_API Binding {
 public:
     /// Computes the coordinates; see computeCoordinates. \throw InputError, Cancelled
@@ -84,18 +84,18 @@ public:
     Coordinates family() const { return family_; }
     /// The number of handles, so of weights a point.
     std::size_t handles() const { return restHandles_.size(); }
-    /// What the weights take: at most 4 bytes a point and handle, less the closer together points are for the faces
-    /// around them: with hundreds of points a face about a third.
+    /// The memory that the weights take: 4 bytes a point and handle, or less where points are close together for their
+    /// distance from faces; a third where there are hundreds of points a face.
     std::size_t weightBytes() const;
 
-    /// Where the points are when the cage's points are at `cagePoints`. Costs reading the weights of the handles that
-    /// moved and the combinations once. The same for any number of threads.
+    /// Where the points are when the cage's points are at `cagePoints`. Costs reading the weights held of the handles
+    /// that moved, and the combinations, once. The same for any number of threads.
     /// \throw InputError (not as many points as the cage has, or one not finite)
     std::vector<openvdb::Vec3d> pose(const std::vector<openvdb::Vec3d>& cagePoints) const;
 
-    /// Moves `posed`, which was posed by the cage `from`, to the pose of the cage `to`: only what moved between the two
-    /// is looked at. Each update rounds to about 1e-7 of the motion. \throw InputError as pose(); `posed` has another
-    /// number of points
+    /// Moves `posed`, which was posed by the cage `from`, to the pose of the cage `to`: only handles that moved between
+    /// the two are looked at. Each update rounds to about 1e-7 of the motion. \throw InputError as pose(); `posed` has
+    /// another number of points
     void update(std::vector<openvdb::Vec3d>& posed, const std::vector<openvdb::Vec3d>& from,
                 const std::vector<openvdb::Vec3d>& to) const;
 
