@@ -1,6 +1,6 @@
 // Based on: the papers of each family, see detail/.
 // Differs: a pose adds what the handles moved by to the rest pose, instead of summing up their positions. So single
-// precision suffices, the rest pose is exact, and handles that do not move cost nothing.
+// precision suffices, the rest pose is exact, and the weights of handles that do not move are not read.
 
 #include <vdbcage/deform/binding.h>
 
@@ -91,9 +91,10 @@ void forEachNormal(const Mesh& cage, const Take& take)
 class RowMaker {
 public:
     RowMaker(const Mesh& mesh, const std::vector<Vec3d>& points, Coordinates family, Interrupter* interrupter)
-        : points_(points), family_(family), interrupter_(interrupter), columns_(handleCount(mesh, family)),
-          cage_((requireFinite(points, "points"), mesh)), undefined_(points.size(), 0)
+        : points_(points), family_(family), interrupter_(interrupter), columns_(handleCount(mesh, family)), cage_(mesh),
+          undefined_(points.size(), 0)
     {
+        requireFinite(points, "points");
     }
 
     /// Computes `count` rows in parallel, in pieces: those of the points `pointOf` 0, 1 and so on. `take` gets the
@@ -156,8 +157,8 @@ std::vector<Number> computeRows(const Mesh& cage, const std::vector<Vec3d>& poin
     return rows;
 }
 
-/// How far handles go, in units of the cage, where its points go as far as it is large and its edges stretch by some
-/// factor: normals in proportion to their edges.
+/// How far handles go, in units of the cage: its points as far as it is large, and normals, which stretch with their
+/// edges, as far as these would let them.
 std::vector<float> reachesOf(const Mesh& cage, Coordinates family)
 {
     std::vector<float> reaches(cage.points.size(), 1.0F);
@@ -286,8 +287,8 @@ void Binding::add(const std::vector<Vec3d>& fromHandles, const std::vector<Vec3d
     const double size = detail::CageFrame(cage_).size;
     std::vector<detail::HandleMove> moves;
     for (std::size_t k = 0; k < toHandles.size(); ++k) {
-        if (fromHandles[k] != toHandles[k])
-            moves.push_back({k, openvdb::Vec3f((toHandles[k] - fromHandles[k]) / size)});
+        if (fromHandles[k] == toHandles[k]) continue;
+        moves.push_back({k, openvdb::Vec3f((toHandles[k] - fromHandles[k]) / size)});
     }
     if (!moves.empty()) weights_->move(moves, size, posed);
 }

@@ -16,8 +16,8 @@ using openvdb::Vec3f;
 
 namespace {
 
-// The larger a block, the fewer of its points are held, but the more it takes to combine the others and to find how: at
-// this size a tenth of computing the weights.
+// The larger a block, the fewer of its points are held (of 100000 in a cage of 400 quads 50 % by 128, 33 % by 256), but
+// the longer it takes to combine the others, and to find out how: at this size 3 to 16 % of computing the weights.
 constexpr std::size_t blockSize = 256;
 // Points of a group are side by side, so that one weight's worth of work is the same for all of them.
 constexpr std::size_t groupSize = 16;
@@ -27,13 +27,13 @@ constexpr std::size_t movesAhead = 24;
 // So many moves are summed up at a time: rounding grows with the length of a sum.
 constexpr std::size_t movesTogether = 64;
 
-/// How far what moves a group, `at` floats from where its weights begin, goes.
+/// What moves a group, by how much: its weights are `at` floats behind the first of the group.
 struct Move {
     std::uint32_t at;
     float x, y, z;
 };
 
-/// The moves of a group of `rows` rows of weights, and after them the places to ask for: those of the next groups.
+/// All that moves a group; behind, for lookAhead(), where the weights of the same in the next groups are.
 class Moves {
 public:
     void clear() { moves_.clear(); }
