@@ -1,6 +1,7 @@
 #include <boost/test/unit_test.hpp>
 
 #include <algorithm>
+#include <cstring>
 
 #include <support/read_png.h>
 #include <support/run_command.h>
@@ -86,6 +87,12 @@ BOOST_AUTO_TEST_CASE(bind_and_deform)
         }
         const Binding binding(scene.cage, scene.model.points, coordinatesNamed(family));
         BOOST_TEST(difference(readMesh(scene.at("a.obj")).points, binding.pose(readMesh(posed).points)) == 0);
+        const std::vector<float> computed =
+            computeWeights(scene.cage, scene.model.points, coordinatesNamed(family)); // all that a float tells
+        const std::string file = test::readText(weights);
+        BOOST_REQUIRE(file.size() > computed.size() * sizeof(float));
+        BOOST_TEST((std::memcmp(file.data() + file.size() - computed.size() * sizeof(float), computed.data(),
+                                computed.size() * sizeof(float)) == 0));
     }
     // The rest pose gives back the model, byte by byte but for the normals.
     BOOST_TEST(runCommand({command, "deform", cage, cage, model, "-o", scene.at("rest.obj")}).status == 0);

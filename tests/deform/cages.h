@@ -29,12 +29,13 @@ private:
 enum class Kind { triangles, quads, both };
 constexpr Kind kinds[] = {Kind::triangles, Kind::quads, Kind::both};
 
-/// A ball of about radius 1 whose points are pushed in and out, so that no quad is planar.
-inline Mesh randomCage(Kind kind, std::uint32_t seed, double bumps = 0.2)
+/// A ball of about radius 1 whose points are pushed in and out, so that no quad is planar; `fineness` squared times as
+/// many faces.
+inline Mesh randomCage(Kind kind, std::uint32_t seed, double bumps = 0.2, int fineness = 1)
 {
     Mesh mesh;
-    if (kind == Kind::quads) { // a box, its sides split in four, blown up
-        const int n = 2;
+    if (kind == Kind::quads) { // a box, its sides split, blown up
+        const int n = 2 * fineness;
         const auto at = [&](int x, int y, int z) { // points inside the box stay unused
             return static_cast<openvdb::Index32>((x * (n + 1) + y) * (n + 1) + z);
         };
@@ -53,10 +54,10 @@ inline Mesh randomCage(Kind kind, std::uint32_t seed, double bumps = 0.2)
             }
         }
         for (Vec3d& p : mesh.points) {
-            if (p.length() > 0) p *= 0.5 + 0.5 / p.length();
+            if (p.length() > 0) p *= 0.5 + 0.5 * fineness / p.length();
         }
     } else {
-        mesh = sphere(Vec3d(0), 1, 4);
+        mesh = sphere(Vec3d(0), 1, 4 * fineness);
         if (kind == Kind::triangles) mesh = {mesh.points, triangulate(mesh), {}};
     }
     Random random(seed);

@@ -132,6 +132,55 @@ Distortion distortion(const Mesh& cage, const std::vector<Vec3d>& places, Coordi
     return {sum / double(all.size()), all[all.size() * 95 / 100]};
 }
 
+/// Many points in front of a few places of the cage, near and far, some of them twice.
+std::vector<Vec3d> closePoints(const Mesh& cage, std::uint32_t seed)
+{
+    Random random(seed);
+    std::vector<Vec3d> points;
+    for (const double depth : {1e-9, 1e-3, 0.05, 0.5, 0.95}) {
+        std::vector<Vec3d> corners; // of a triangle or quad, the last twice
+        const auto face = static_cast<std::size_t>(1000 * depth) * 7;
+        for (int k = 0; k < 4; ++k) {
+            corners.push_back(cage.points[!cage.quads.empty() && (face % 2 == 0 || cage.triangles.empty())
+                                              ? cage.quads[face % cage.quads.size()][k]
+                                              : cage.triangles[face % cage.triangles.size()][std::min(k, 2)]]);
+        }
+        for (int i = 0; i < 150; ++i) {
+            const double u = random(0.2, 0.6), v = random(0.1, 0.5);
+            const Vec3d low = (1 - u) * corners[0] + u * corners[1], high = (1 - u) * corners[3] + u * corners[2];
+            points.push_back((1 - depth) * ((1 - v) * low + v * high));
+        }
+    }
+    const std::vector<Vec3d> some(points.begin(), points.begin() + 40);
+    points.insert(points.end(), some.begin(), some.end());
+    return points;
+}
+
+/// The sums of rows' absolute values, of normals' times the square of their edges' mean in units of the cage.
+std::vector<double> sizesOf(const std::vector<double>& coordinates, const Mesh& cage, Coordinates family)
+{
+    openvdb::BBoxd box;
+    for (const Vec3d& p : cage.points) box.expand(p);
+    const double size = box.extents()[int(box.maxExtent())];
+    std::vector<double> reaches(cage.points.size(), 1.0);
+    if (family == Coordinates::green) {
+        const auto add = [&](openvdb::Index32 corner, openvdb::Index32 next, openvdb::Index32 before) {
+            const Vec3d &at = cage.points[corner], &a = cage.points[next], &b = cage.points[before];
+            reaches.push_back(std::pow(0.5 * ((a - at).length() + (b - at).length()) / size, 2));
+        };
+        for (const openvdb::Vec3I& t : cage.triangles) add(t[0], t[1], t[2]);
+        for (const openvdb::Vec4I& q : cage.quads) {
+            for (int k = 0; k < 4; ++k) add(q[k], q[(k + 1) % 4], q[(k + 3) % 4]);
+        }
+    }
+    std::vector<double> sizes;
+    for (std::size_t i = 0; i < coordinates.size(); i += reaches.size()) {
+        sizes.push_back(0);
+        for (std::size_t k = 0; k < reaches.size(); ++k) sizes.back() += reaches[k] * std::abs(coordinates[i + k]);
+    }
+    return sizes;
+}
+
 } // namespace
 
 BOOST_AUTO_TEST_SUITE(binding)
@@ -140,7 +189,7 @@ BOOST_AUTO_TEST_CASE(poses_as_the_coordinates_say)
 {
     for (const Coordinates family : families) {
         const Mesh cage = randomCage(Kind::both, 20);
-        const std::vector<Vec3d> points = pointsInside(cage, 20, 50); // not a whole number of blocks
+        const std::vector<Vec3d> points = pointsInside(cage, 20, 50); // not a whole number of groups
         const Binding bound(cage, points, family);
         BOOST_TEST(bound.points().size() == points.size());
         BOOST_TEST((bound.pose(cage.points) == points)); // bit by bit
@@ -154,14 +203,55 @@ BOOST_AUTO_TEST_CASE(poses_as_the_coordinates_say)
         BOOST_TEST(difference(posed, expected) < 1e-6);
         BOOST_TEST(difference(posed, points) > 0.02);
 
-        const std::vector<float> weights = bound.weights();
+        const std::vector<float> weights = computeWeights(cage, points, family);
         BOOST_REQUIRE(weights.size() == coordinates.size());
-        double off = 0;
-        for (std::size_t i = 0; i < weights.size(); ++i) off = std::max(off, std::abs(weights[i] - coordinates[i]));
-        BOOST_TEST(off < 1e-7);
-        const Binding read(cage, points, family, weights);
-        BOOST_TEST((read.pose(posedCage) == posed));
+        std::size_t off = 0;
+        for (std::size_t i = 0; i < weights.size(); ++i) off += weights[i] != static_cast<float>(coordinates[i]);
+        BOOST_TEST(off == 0U);
+        BOOST_TEST((Binding(cage, points, family, weights).pose(posedCage) == posed));
         BOOST_CHECK_THROW(Binding(cage, points, family, {1.0F}), InputError);
+        std::vector<Vec3d> nowhere = points;
+        nowhere[7].y() = std::nan("");
+        BOOST_CHECK_THROW(Binding(cage, nowhere, family, weights), InputError);
+    }
+}
+
+BOOST_AUTO_TEST_CASE(combinations_are_within_their_bound)
+{
+    for (const Kind kind : test::kinds) {
+        for (const Coordinates family : families) {
+            const Mesh cage = randomCage(kind, 24, 0.1, 2);
+            const std::vector<Vec3d> points = closePoints(cage, 25);
+            const Binding bound(cage, points, family);
+            BOOST_TEST(bound.weightBytes() < 3 * points.size() * bound.handles()); // there are combinations
+            BOOST_TEST((bound.pose(cage.points) == points));
+            const std::vector<double> coordinates = computeCoordinates(cage, points, family);
+            const std::vector<double> sizes = sizesOf(coordinates, cage, family);
+            const auto offBy = [&](const std::vector<Vec3d>& posedCage) { // relative to the bound
+                const std::vector<Vec3d> handles = cageHandles(cage, posedCage, family);
+                const std::vector<Vec3d> posed = bound.pose(posedCage);
+                std::vector<double> off;
+                for (std::size_t i = 0; i < points.size(); ++i) {
+                    off.push_back((posed[i] - test::weighted(coordinates, i, handles)).length() / sizes[i]);
+                }
+                return off;
+            };
+            const std::vector<Vec3d> jitter = jittered(cage.points, 26, 0.1);
+            const std::vector<double> off = offBy(jitter);
+            BOOST_TEST(*std::max_element(off.begin(), off.end()) < 1e-7);
+            std::vector<Vec3d> updated = bound.pose(jittered(cage.points, 27, 0.1));
+            bound.update(updated, jittered(cage.points, 27, 0.1), jitter);
+            BOOST_TEST(difference(updated, bound.pose(jitter)) < 1e-7);
+            // Point by point of the cage: what the moves add up to if all signs are the worst.
+            std::vector<double> sums(points.size(), 0.0);
+            for (std::size_t k = 0; k < cage.points.size(); ++k) {
+                std::vector<Vec3d> posedCage = cage.points;
+                posedCage[k].x() += 0.01;
+                const std::vector<double> offOfOne = offBy(posedCage);
+                for (std::size_t i = 0; i < points.size(); ++i) sums[i] += offOfOne[i] / 0.01;
+            }
+            BOOST_TEST(*std::max_element(sums.begin(), sums.end()) < 1e-6);
+        }
     }
 }
 
@@ -206,12 +296,26 @@ BOOST_AUTO_TEST_CASE(poses_of_any_size_and_place)
 
 BOOST_AUTO_TEST_CASE(same_bytes_for_any_number_of_threads)
 {
-    const Mesh cage = randomCage(Kind::both, 23);
-    const std::vector<Vec3d> points = pointsInside(cage, 23, 2000), posedCage = jittered(cage.points, 4);
+    const Mesh cage = randomCage(Kind::both, 23, 0.1, 2);
+    std::vector<Vec3d> points = pointsInside(cage, 23, 2000);
+    const std::vector<Vec3d> close = closePoints(cage, 24), posedCage = jittered(cage.points, 4);
+    points.insert(points.end(), close.begin(), close.end());
     const Binding bound(cage, points, Coordinates::green);
-    const std::vector<Vec3d> posed = bound.pose(posedCage);
+    BOOST_TEST(bound.weightBytes() < 4 * points.size() * bound.handles());
+    const auto poseAndUpdate = [&](const Binding& binding) {
+        std::vector<Vec3d> posed = binding.pose(posedCage);
+        binding.update(posed, posedCage, cage.points);
+        const std::vector<Vec3d> again = binding.pose(posedCage);
+        posed.insert(posed.end(), again.begin(), again.end());
+        return posed;
+    };
+    const std::vector<Vec3d> posed = poseAndUpdate(bound);
+    int differ = 0;
+    for (int i = 0; i < 50; ++i) differ += poseAndUpdate(bound) != posed; // threads join in at times only
+    BOOST_TEST(differ == 0);
     const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
-    BOOST_TEST((Binding(cage, points, Coordinates::green).pose(posedCage) == posed));
+    BOOST_TEST((poseAndUpdate(bound) == posed));
+    BOOST_TEST((poseAndUpdate(Binding(cage, points, Coordinates::green)) == posed));
 }
 
 BOOST_AUTO_TEST_CASE(green_keeps_shapes)

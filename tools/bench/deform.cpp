@@ -55,7 +55,7 @@ void measure(const std::string& name, const Mesh& cage, const std::vector<Vec3d>
                       {"bind", toJson(bind)},
                       {"pose", toJson(pose)},
                       {"update_of_one_vertex", toJson(update)},
-                      {"weights_mib", static_cast<double>(points.size() * binding.handles()) * 4 / (1 << 20)}}
+                      {"weights_mib", static_cast<double>(binding.weightBytes()) / (1 << 20)}}
                      .dump()
               << std::endl;
 }

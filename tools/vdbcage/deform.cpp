@@ -21,12 +21,12 @@ namespace fs = std::filesystem;
 
 constexpr const char* familyHelp = "mvc (qmvc), green (qgc) or mlc [mvc]";
 
-/// An objection to the points or the cage names its file.
-Binding bindFiles(const fs::path& cagePath, const Mesh& cage, const fs::path& modelPath, const Mesh& model,
-                  const std::string& family, Interrupter* interrupter)
+/// What `bind` returns; its objection to the points or the cage names their file.
+template <typename Bind>
+auto bindFiles(const fs::path& cagePath, const fs::path& modelPath, const Bind& bind)
 {
     try {
-        return Binding(cage, model.points, coordinatesNamed(family), interrupter);
+        return bind();
     } catch (const InputError& error) {
         const std::string text = error.what();
         for (const auto& [prefix, path] : {std::pair{std::string("cage: "), cagePath}, {"points: ", modelPath}}) {
@@ -91,7 +91,7 @@ int runBind(std::vector<std::string> words)
     app.add_option("--coordinates", family, familyHelp)->type_name("FAMILY");
     app.add_flag("-q,--quiet", quiet, "print nothing but errors");
     if (!parse(app, std::move(words))) return exitGood;
-    coordinatesNamed(family);
+    const Coordinates coordinates = coordinatesNamed(family);
     if (output.extension() != ".npy") {
         throw InputError(output.string() + ": weights are written as .npy; the name must end so");
     }
@@ -99,12 +99,14 @@ int runBind(std::vector<std::string> words)
 
     std::optional<Progress> progress(quiet);
     const Mesh cage = readMesh(cagePath), model = readMesh(modelPath);
-    const Binding binding = bindFiles(cagePath, cage, modelPath, model, family, &*progress);
-    writeWeights(binding, output);
+    const std::vector<float> weights =
+        bindFiles(cagePath, modelPath, [&] { return computeWeights(cage, model.points, coordinates, &*progress); });
+    writeWeights(cage, model.points, coordinates, weights, output);
     progress.reset();
     if (!quiet) {
-        std::cerr << output.string() << ": " << binding.points().size() << " points, " << binding.handles()
-                  << " handles, " << coordinatesName(binding.family()) << '\n';
+        std::cerr << output.string() << ": " << model.points.size() << " points, "
+                  << cageHandles(cage, cage.points, coordinates).size() << " handles, " << coordinatesName(coordinates)
+                  << '\n';
     }
     return exitGood;
 }
@@ -147,8 +149,10 @@ int runDeform(std::vector<std::string> words)
 
     std::optional<Progress> progress(quiet);
     const Mesh cage = readMesh(cagePath), model = readMesh(modelPath);
-    const Binding binding = weights.empty() ? bindFiles(cagePath, cage, modelPath, model, family, &*progress)
-                                            : readWeights(weights, cage, model.points);
+    const Binding binding =
+        weights.empty() ? bindFiles(cagePath, modelPath,
+                                    [&] { return Binding(cage, model.points, coordinatesNamed(family), &*progress); })
+                        : readWeights(weights, cage, model.points);
     if (!weights.empty() && familyOption->count() > 0 && binding.family() != coordinatesNamed(family)) {
         throw InputError(weights.string() + ": has " + coordinatesName(binding.family()) +
                          " coordinates; --coordinates asks for " + family);

@@ -1,6 +1,6 @@
 // Based on: the papers of each family, see detail/.
 // Differs: a pose adds what the handles moved by to the rest pose, instead of summing up their positions. So single
-// precision suffices, the rest pose is exact, and handles that do not move cost nothing.
+// precision suffices, the rest pose is exact, and the weights of handles that do not move are not read.
 
 #include <vdbcage/deform/binding.h>
 
@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <utility>
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
@@ -16,6 +17,7 @@
 #include <vdbcage/deform/detail/green.h>
 #include <vdbcage/deform/detail/likelihood.h>
 #include <vdbcage/deform/detail/mean_value.h>
+#include <vdbcage/deform/detail/weight_blocks.h>
 #include <vdbcage/mesh/detail/number_text.h>
 
 namespace vdbcage {
@@ -74,54 +76,104 @@ std::size_t handleCount(const Mesh& cage, Coordinates family)
            (family == Coordinates::green ? cage.triangles.size() + 4 * cage.quads.size() : std::size_t(0));
 }
 
-/// Computes the rows in parallel, in pieces; `take` gets the number of each row and the row, any order.
+/// Calls `take` with what each normal of Green coordinates belongs to, in their order: the corner, the next and the one
+/// before.
 template <typename Take>
-void forEachRow(const Mesh& mesh, const std::vector<Vec3d>& points, Coordinates family, Interrupter* interrupter,
-                const Take& take)
+void forEachNormal(const Mesh& cage, const Take& take)
+{
+    for (const openvdb::Vec3I& t : cage.triangles) take(t[0], t[1], t[2]);
+    for (const openvdb::Vec4I& q : cage.quads) {
+        for (int k = 0; k < 4; ++k) take(q[k], q[(k + 1) % 4], q[(k + 3) % 4]);
+    }
+}
+
+/// Computes rows of coordinates, from any number of threads.
+class RowMaker {
+public:
+    RowMaker(const Mesh& mesh, const std::vector<Vec3d>& points, Coordinates family, Interrupter* interrupter)
+        : points_(points), family_(family), interrupter_(interrupter), columns_(handleCount(mesh, family)), cage_(mesh),
+          undefined_(points.size(), 0)
+    {
+        requireFinite(points, "points");
+    }
+
+    /// Computes `count` rows in parallel, in pieces: those of the points `pointOf` 0, 1 and so on. `take` gets the
+    /// number and the row of those that are defined, in any order.
+    template <typename PointOf, typename Take>
+    void make(std::size_t count, const PointOf& pointOf, const Take& take)
+    {
+        tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, 16), [&](const auto& range) {
+            throwIfInterrupted(interrupter_);
+            std::vector<double> row(columns_);
+            for (std::size_t i = range.begin(); i < range.end(); ++i) {
+                const std::size_t point = pointOf(i);
+                const Vec3d x = cage_.scaled(points_[point]);
+                const bool defined = isFinite(x) && entry(family_).row(cage_, x, row.data()) &&
+                                     std::all_of(row.begin(), row.end(), [](double w) { return std::isfinite(w); });
+                if (defined) {
+                    take(i, row);
+                } else {
+                    undefined_[point] = 1;
+                }
+            }
+        });
+    }
+
+    /// \throw InputError if the family is not defined at a point whose row was asked for
+    void requireDefined() const
+    {
+        const auto first = std::find(undefined_.begin(), undefined_.end(), 1);
+        if (first == undefined_.end()) return;
+        const auto index = static_cast<std::size_t>(first - undefined_.begin());
+        throw InputError("points: point " + std::to_string(index) + " at " + text(points_[index]) + " and " +
+                         std::to_string(std::count(first, undefined_.end(), 1) - 1) + " others have no " +
+                         entry(family_).name + " coordinates in this cage; " +
+                         (family_ == Coordinates::meanValue ? "they are too far away" : "all must be inside of it"));
+    }
+
+private:
+    const std::vector<Vec3d>& points_;
+    Coordinates family_;
+    Interrupter* interrupter_;
+    std::size_t columns_;
+    detail::BoundCage cage_;
+    std::vector<char> undefined_;
+};
+
+template <typename Number>
+std::vector<Number> computeRows(const Mesh& cage, const std::vector<Vec3d>& points, Coordinates family,
+                                Interrupter* interrupter)
 {
     const Stage stage(interrupter, "bind");
-    requireFinite(points, "points");
-    const detail::BoundCage cage(mesh);
-    const std::size_t columns = handleCount(mesh, family);
-    std::vector<char> undefined(points.size(), 0);
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, points.size(), 16), [&](const auto& range) {
-        throwIfInterrupted(interrupter);
-        std::vector<double> row(columns);
-        for (std::size_t i = range.begin(); i < range.end(); ++i) {
-            const Vec3d x = cage.scaled(points[i]);
-            const bool defined = isFinite(x) && entry(family).row(cage, x, row.data()) &&
-                                 std::all_of(row.begin(), row.end(), [](double w) { return std::isfinite(w); });
-            if (defined) {
-                take(i, row);
-            } else {
-                undefined[i] = 1;
-            }
-        }
-    });
-    const auto first = std::find(undefined.begin(), undefined.end(), 1);
-    if (first == undefined.end()) return;
-    const auto index = static_cast<std::size_t>(first - undefined.begin());
-    throw InputError("points: point " + std::to_string(index) + " at " + text(points[index]) + " and " +
-                     std::to_string(std::count(first, undefined.end(), 1) - 1) + " others have no " +
-                     entry(family).name + " coordinates in this cage; " +
-                     (family == Coordinates::meanValue ? "they are too far away" : "all must be inside of it"));
+    RowMaker maker(cage, points, family, interrupter);
+    std::vector<Number> rows(points.size() * handleCount(cage, family));
+    maker.make(
+        points.size(), [](std::size_t i) { return i; },
+        [&](std::size_t i, const std::vector<double>& row) {
+            std::transform(row.begin(), row.end(), rows.begin() + static_cast<std::ptrdiff_t>(i * row.size()),
+                           [](double weight) { return static_cast<Number>(weight); });
+        });
+    maker.requireDefined();
+    return rows;
 }
 
-// Points of a block are side by side, so that one weight's worth of work is the same for all of them.
-constexpr std::size_t blockSize = 16;
-// Posing is as fast as weights come from memory, and processors by themselves do not look ahead far enough: weights are
-// asked for this many moves before their turn, which takes four tenths off the time (AMD Zen).
-constexpr std::size_t movesAhead = 24;
-
-std::size_t blocksOf(std::size_t points)
+/// How far handles go, in units of the cage: its points as far as it is large, and normals, which stretch with their
+/// edges, as far as these would let them.
+std::vector<float> reachesOf(const Mesh& cage, Coordinates family)
 {
-    return (points + blockSize - 1) / blockSize;
-}
-
-/// Where handle 0 of point `i` is; the next handle is blockSize further.
-std::size_t blockOffset(std::size_t i, std::size_t handles)
-{
-    return i / blockSize * blockSize * handles + i % blockSize;
+    std::vector<float> reaches(cage.points.size(), 1.0F);
+    if (family != Coordinates::green) return reaches;
+    const double size = detail::CageFrame(cage).size;
+    const auto addNormal = [&](openvdb::Index32 corner, openvdb::Index32 next, openvdb::Index32 before) {
+        const auto edge = [&](openvdb::Index32 to) {
+            return (cage.points[to] / size - cage.points[corner] / size).length();
+        };
+        // No less than the edges' product, and not zero if one of them is.
+        const double mean = 0.5 * (edge(next) + edge(before));
+        reaches.push_back(static_cast<float>(mean * mean));
+    };
+    forEachNormal(cage, addNormal);
+    return reaches;
 }
 
 } // namespace
@@ -156,61 +208,63 @@ std::vector<Vec3d> cageHandles(const Mesh& cage, const std::vector<Vec3d>& posed
         handles.push_back(size * detail::stretchedNormal(edge(cage.points, next), edge(cage.points, before),
                                                          edge(posed, next), edge(posed, before)));
     };
-    for (const openvdb::Vec3I& t : cage.triangles) addNormal(t[0], t[1], t[2]);
-    for (const openvdb::Vec4I& q : cage.quads) {
-        for (int k = 0; k < 4; ++k) addNormal(q[k], q[(k + 1) % 4], q[(k + 3) % 4]);
-    }
+    forEachNormal(cage, addNormal);
     return handles;
 }
 
 std::vector<double> computeCoordinates(const Mesh& cage, const std::vector<Vec3d>& points, Coordinates family,
                                        Interrupter* interrupter)
 {
-    const std::size_t columns = handleCount(cage, family);
-    std::vector<double> coordinates(points.size() * columns);
-    forEachRow(cage, points, family, interrupter, [&](std::size_t i, const std::vector<double>& row) {
-        std::copy(row.begin(), row.end(), coordinates.begin() + static_cast<std::ptrdiff_t>(i * columns));
-    });
-    return coordinates;
+    return computeRows<double>(cage, points, family, interrupter);
+}
+
+std::vector<float> computeWeights(const Mesh& cage, const std::vector<Vec3d>& points, Coordinates family,
+                                  Interrupter* interrupter)
+{
+    return computeRows<float>(cage, points, family, interrupter);
 }
 
 Binding::Binding(const Mesh& cage, std::vector<Vec3d> points, Coordinates family, Interrupter* interrupter)
     : cage_(cage), points_(std::move(points)), family_(family)
 {
-    blocks_.resize(blocksOf(points_.size()) * blockSize * handleCount(cage, family));
-    forEachRow(cage, points_, family, interrupter, [&](std::size_t i, const std::vector<double>& row) {
-        float* to = blocks_.data() + blockOffset(i, row.size());
-        for (std::size_t k = 0; k < row.size(); ++k) to[k * blockSize] = static_cast<float>(row[k]);
-    });
-    restHandles_ = cageHandles(cage, cage.points, family);
+    const Stage stage(interrupter, "bind");
+    RowMaker maker(cage_, points_, family_, interrupter);
+    restHandles_ = cageHandles(cage_, cage_.points, family_);
+    weights_ = std::make_shared<detail::WeightBlocks>(
+        points_, reachesOf(cage_, family_), [&](const std::vector<std::uint32_t>& block, std::vector<float>& rows) {
+            maker.make(
+                block.size(), [&](std::size_t i) { return block[i]; },
+                [&](std::size_t i, const std::vector<double>& row) {
+                    float* const to = rows.data() + i * row.size();
+                    for (std::size_t k = 0; k < row.size(); ++k) to[k] = static_cast<float>(row[k]);
+                });
+        });
+    maker.requireDefined();
 }
 
 Binding::Binding(const Mesh& cage, std::vector<Vec3d> points, Coordinates family, const std::vector<float>& weights)
     : cage_(cage), points_(std::move(points)), family_(family)
 {
     requireUsable(cage, "cage");
+    requireFinite(points_, "points");
     restHandles_ = cageHandles(cage, cage.points, family);
     if (weights.size() != points_.size() * handles()) {
         throw InputError("weights: there are " + std::to_string(weights.size()) + "; " +
                          std::to_string(points_.size()) + " points and " + std::to_string(handles()) +
                          " handles need " + std::to_string(points_.size() * handles()));
     }
-    blocks_.resize(blocksOf(points_.size()) * blockSize * handles());
-    for (std::size_t i = 0; i < points_.size(); ++i) {
-        float* to = blocks_.data() + blockOffset(i, handles());
-        for (std::size_t k = 0; k < handles(); ++k) to[k * blockSize] = weights[i * handles() + k];
-    }
+    weights_ = std::make_shared<detail::WeightBlocks>(
+        points_, reachesOf(cage_, family_), [&](const std::vector<std::uint32_t>& block, std::vector<float>& rows) {
+            for (std::size_t i = 0; i < block.size(); ++i) {
+                std::copy_n(weights.begin() + static_cast<std::ptrdiff_t>(block[i] * handles()), handles(),
+                            rows.begin() + static_cast<std::ptrdiff_t>(i * handles()));
+            }
+        });
 }
 
-std::vector<float> Binding::weights() const
+std::size_t Binding::weightBytes() const
 {
-    std::vector<float> weights;
-    weights.reserve(points_.size() * handles());
-    for (std::size_t i = 0; i < points_.size(); ++i) {
-        const float* from = blocks_.data() + blockOffset(i, handles());
-        for (std::size_t k = 0; k < handles(); ++k) weights.push_back(from[k * blockSize]);
-    }
-    return weights;
+    return weights_->bytes();
 }
 
 std::vector<Vec3d> Binding::pose(const std::vector<Vec3d>& cagePoints) const
@@ -229,46 +283,14 @@ void Binding::update(std::vector<Vec3d>& posed, const std::vector<Vec3d>& from, 
 void Binding::add(const std::vector<Vec3d>& fromHandles, const std::vector<Vec3d>& toHandles,
                   std::vector<Vec3d>& posed) const
 {
-    struct Move {
-        std::size_t handle;
-        float x, y, z;
-        std::size_t ahead = 0; // bytes from its weights to those of movesAhead later, in this block or one behind
-    };
     // In units of the cage: floats hold the motion of models of any size.
     const double size = detail::CageFrame(cage_).size;
-    std::vector<Move> moves;
+    std::vector<detail::HandleMove> moves;
     for (std::size_t k = 0; k < toHandles.size(); ++k) {
         if (fromHandles[k] == toHandles[k]) continue;
-        const Vec3d move = (toHandles[k] - fromHandles[k]) / size;
-        moves.push_back({k, static_cast<float>(move.x()), static_cast<float>(move.y()), static_cast<float>(move.z())});
+        moves.push_back({k, openvdb::Vec3f((toHandles[k] - fromHandles[k]) / size)});
     }
-    if (moves.empty()) return;
-    for (std::size_t m = 0; m < moves.size(); ++m) {
-        const std::size_t later = m + movesAhead, block = later / moves.size();
-        const std::size_t handle = block * handles() + moves[later % moves.size()].handle;
-        moves[m].ahead = (handle - moves[m].handle) * blockSize * sizeof(float);
-    }
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, blocksOf(posed.size()), 16), [&](const auto& range) {
-        for (std::size_t block = range.begin(); block < range.end(); ++block) {
-            const float* weights = blocks_.data() + block * blockSize * handles();
-            float sumX[blockSize] = {}, sumY[blockSize] = {}, sumZ[blockSize] = {};
-            for (const Move& move : moves) {
-                const float* weight = weights + move.handle * blockSize;
-                // By a number, for it may lie behind the last block.
-                __builtin_prefetch(
-                    reinterpret_cast<const void*>(reinterpret_cast<std::uintptr_t>(weight) + move.ahead));
-                for (std::size_t i = 0; i < blockSize; ++i) {
-                    sumX[i] += weight[i] * move.x;
-                    sumY[i] += weight[i] * move.y;
-                    sumZ[i] += weight[i] * move.z;
-                }
-            }
-            const std::size_t first = block * blockSize, count = std::min(blockSize, posed.size() - first);
-            for (std::size_t i = 0; i < count; ++i) {
-                posed[first + i] += size * Vec3d(double(sumX[i]), double(sumY[i]), double(sumZ[i]));
-            }
-        }
-    });
+    if (!moves.empty()) weights_->move(moves, size, posed);
 }
 
 } // namespace vdbcage

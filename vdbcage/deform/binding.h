@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -9,6 +10,10 @@
 #include <vdbcage/mesh/mesh.h>
 
 namespace vdbcage {
+
+namespace detail {
+class WeightBlocks;
+}
 
 /// How a cage moves what is in it. Quads are bilinear patches, never two triangles.
 enum class Coordinates {
@@ -53,15 +58,24 @@ VDBCAGE_API std::vector<openvdb::Vec3d> cageHandles(const Mesh& cage, const std:
 VDBCAGE_API std::vector<double> computeCoordinates(const Mesh& cage, const std::vector<openvdb::Vec3d>& points,
                                                    Coordinates family, Interrupter* interrupter = nullptr);
 
+/// The same rounded to single precision, as Binding and weights files take them.
+VDBCAGE_API std::vector<float> computeWeights(const Mesh& cage, const std::vector<openvdb::Vec3d>& points,
+                                              Coordinates family, Interrupter* interrupter = nullptr);
+
 /// Points bound to a cage: their coordinates in single precision, ready for posing. Posed points are the points at rest
 /// plus what the handles moved by, so the rest pose is exact.
+///
+/// Of points that are close together only some have their weights held; the others' are combinations of these. For that
+/// a posed point is off by at most 1e-6 of the cage's size, times the sum of its weights' absolute values (of normals'
+/// times the square of their edges' mean length), where no point of the cage moves farther than this size and no edge
+/// gets more than twice as long. Rounding to floats adds about 1e-7 of the motion.
 class VDBCAGE_API Binding {
 public:
-    /// Computes the coordinates; see computeCoordinates. Holds 4 bytes a point and handle. \throw InputError, Cancelled
+    /// Computes the coordinates; see computeCoordinates. \throw InputError, Cancelled
     Binding(const Mesh& cage, std::vector<openvdb::Vec3d> points, Coordinates family,
             Interrupter* interrupter = nullptr);
-    /// Takes coordinates computed before: `weights` row after row, as of computeCoordinates.
-    /// \throw InputError (their number is not points times handles)
+    /// Takes coordinates computed before by computeWeights. The same as computing them here.
+    /// \throw InputError (their number is not points times handles; a point not finite)
     Binding(const Mesh& cage, std::vector<openvdb::Vec3d> points, Coordinates family,
             const std::vector<float>& weights);
 
@@ -70,17 +84,18 @@ public:
     Coordinates family() const { return family_; }
     /// The number of handles, so of weights a point.
     std::size_t handles() const { return restHandles_.size(); }
-    /// The weights row after row, a row a point.
-    std::vector<float> weights() const;
+    /// The memory that the weights take: 4 bytes a point and handle, or less where points are close together for their
+    /// distance from faces; a third where there are hundreds of points a face.
+    std::size_t weightBytes() const;
 
-    /// Where the points are when the cage's points are at `cagePoints`. Costs reading the weights of the handles that
-    /// moved, once. The same for any number of threads.
+    /// Where the points are when the cage's points are at `cagePoints`. Costs reading the weights held of the handles
+    /// that moved, and the combinations, once. The same for any number of threads.
     /// \throw InputError (not as many points as the cage has, or one not finite)
     std::vector<openvdb::Vec3d> pose(const std::vector<openvdb::Vec3d>& cagePoints) const;
 
-    /// Moves `posed`, which was posed by the cage `from`, to the pose of the cage `to`: only what moved between the two
-    /// is looked at. Each update rounds to about 1e-7 of the motion. \throw InputError as pose(); `posed` has another
-    /// number of points
+    /// Moves `posed`, which was posed by the cage `from`, to the pose of the cage `to`: only handles that moved between
+    /// the two are looked at. Each update rounds to about 1e-7 of the motion. \throw InputError as pose(); `posed` has
+    /// another number of points
     void update(std::vector<openvdb::Vec3d>& posed, const std::vector<openvdb::Vec3d>& from,
                 const std::vector<openvdb::Vec3d>& to) const;
 
@@ -92,7 +107,7 @@ private:
     std::vector<openvdb::Vec3d> points_;
     Coordinates family_;
     std::vector<openvdb::Vec3d> restHandles_;
-    std::vector<float> blocks_; // blocks of points; in a block handle by handle
+    std::shared_ptr<const detail::WeightBlocks> weights_; // never changed, so copies share it
 };
 
 } // namespace vdbcage

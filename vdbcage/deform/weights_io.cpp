@@ -76,19 +76,25 @@ std::string headerOf(std::size_t points, std::size_t handles)
 
 } // namespace
 
-void writeWeights(const Binding& binding, const std::filesystem::path& path)
+void writeWeights(const Mesh& cage, const std::vector<openvdb::Vec3d>& points, Coordinates family,
+                  const std::vector<float>& weights, const std::filesystem::path& path)
 {
-    const std::vector<float> weights = binding.weights();
+    const std::size_t handles = cageHandles(cage, cage.points, family).size();
+    if (weights.size() != points.size() * handles) {
+        throw InputError("weights: there are " + std::to_string(weights.size()) + "; " + std::to_string(points.size()) +
+                         " points and " + std::to_string(handles) + " handles need " +
+                         std::to_string(points.size() * handles));
+    }
     if (sizeof(Record) + weights.size() * sizeof(float) >= std::size_t(1) << 31U) {
-        throw InputError(path.string() + ": " + std::to_string(binding.points().size()) + " points times " +
-                         std::to_string(binding.handles()) +
+        throw InputError(path.string() + ": " + std::to_string(points.size()) + " points times " +
+                         std::to_string(handles) +
                          " handles do not fit in a weights file, which must be smaller than 2 GiB");
     }
-    Record record = recordOf(binding.cage(), binding.points());
-    const std::string family = coordinatesName(binding.family());
-    std::memcpy(record.family, family.data(), family.size());
+    Record record = recordOf(cage, points);
+    const std::string name = coordinatesName(family);
+    std::memcpy(record.family, name.data(), name.size());
     writeFileAtomically(path, [&](std::ostream& out) {
-        const std::string header = headerOf(binding.points().size(), binding.handles());
+        const std::string header = headerOf(points.size(), handles);
         out.write(header.data(), static_cast<std::streamsize>(header.size()));
         out.write(reinterpret_cast<const char*>(&record), sizeof record);
         out.write(reinterpret_cast<const char*>(weights.data()),

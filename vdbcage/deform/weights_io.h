@@ -8,15 +8,17 @@
 
 namespace vdbcage {
 
-/// Writes the weights of a binding as a NumPy file (.npy, version 1.0, little endian). It holds one record, whose
+/// Writes weights of computeWeights as a NumPy file (.npy, version 1.0, little endian). It holds one record, whose
 /// fields `numpy.load(path)[NAME]` gives:
 ///   family       S8           coordinatesName()
 ///   cage_hash    uint64       of the cage's points and faces
 ///   points_hash  uint64       of the points
 ///   weights      float32      points x handles; see cageHandles for what the columns belong to
 /// and nothing else. The hashes are FNV-1a of the counts, doubles and indices as bytes. The file appears whole or not
-/// at all. \throw IoError; InputError if it would have 2 GiB or more, which NumPy does not take
-VDBCAGE_API void writeWeights(const Binding& binding, const std::filesystem::path& path);
+/// at all. \throw IoError; InputError if their number is not points times handles, or it would have 2 GiB or more,
+/// which NumPy does not take
+VDBCAGE_API void writeWeights(const Mesh& cage, const std::vector<openvdb::Vec3d>& points, Coordinates family,
+                              const std::vector<float>& weights, const std::filesystem::path& path);
 
 /// Reads what writeWeights wrote, for the same cage and points.
 /// \throw IoError naming the path: it cannot be read, is truncated or no such file, or was made for another cage or

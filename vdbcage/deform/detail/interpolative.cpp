@@ -1,0 +1,133 @@
+// Based on: H. Cheng, Z. Gimbutas, P. Martinsson, V. Rokhlin, "On the Compression of Low Rank Matrices", 2005.
+// Differs: the decomposition is of the differences from one row, so that what all rows share is exact and rounding the
+// factors costs next to nothing; rows are chosen by the sum of absolute values, which bounds what a point is off by.
+
+#include <vdbcage/deform/detail/interpolative.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace vdbcage::detail {
+
+namespace {
+
+// Sums are made in as many parts, for vectors.
+constexpr std::size_t lanes = 16;
+
+/// The sum of `term` of 0 to `count` - 1, a multiple of `lanes`.
+template <typename Term>
+float sumOf(std::size_t count, const Term& term)
+{
+    float sums[lanes] = {};
+    for (std::size_t k = 0; k < count; k += lanes) {
+        for (std::size_t i = 0; i < lanes; ++i) sums[i] += term(k + i);
+    }
+    return std::accumulate(sums, sums + lanes, 0.0F);
+}
+
+/// What is left of each row after its projection on the rows kept so far, by Gram and Schmidt.
+class Residuals {
+public:
+    Residuals(const std::vector<float>& rows, const std::vector<float>& scale, float tolerance)
+        : width_((scale.size() + lanes - 1) / lanes * lanes), count_(rows.size() / scale.size()),
+          entries_(count_ * width_, 0.0F), allowed_(count_), size_(count_), coefficients_(count_ * count_)
+    {
+        for (std::size_t r = 0; r < count_; ++r) {
+            const float* const from = rows.data() + r * scale.size();
+            float* const row = entries_.data() + r * width_;
+            for (std::size_t k = 0; k < scale.size(); ++k) row[k] = from[k] * scale[k];
+            allowed_[r] = tolerance * sizeOf(r);
+            for (std::size_t k = 0; k < scale.size(); ++k) row[k] = (from[k] - rows[k]) * scale[k];
+            size_[r] = sizeOf(r);
+        }
+    }
+
+    /// How much more is left of the row than may be; infinite where that is no number.
+    float excess(std::size_t row) const
+    {
+        const float excess = size_[row] - allowed_[row];
+        return std::isnan(excess) ? std::numeric_limits<float>::infinity() : excess;
+    }
+
+    /// Takes the projection on row `pivot`, the `step`th kept, off `row`.
+    void project(std::size_t row, std::size_t pivot, float inverseSquare, std::size_t step)
+    {
+        float* const to = entries_.data() + row * width_;
+        const float* const from = entries_.data() + pivot * width_;
+        const float factor = inverseSquare * sumOf(width_, [&](std::size_t k) { return to[k] * from[k]; });
+        size_[row] = sumOf(width_, [&](std::size_t k) {
+            to[k] -= factor * from[k];
+            return std::abs(to[k]);
+        });
+        coefficients_[row * count_ + step] = factor;
+    }
+
+    /// One over the sum of squares; 0 where there is none.
+    float inverseSquare(std::size_t row) const
+    {
+        const float* const from = entries_.data() + row * width_;
+        const float square = sumOf(width_, [&](std::size_t k) { return from[k] * from[k]; });
+        return square > 0 ? 1 / square : 0;
+    }
+
+    float coefficient(std::size_t row, std::size_t step) const { return coefficients_[row * count_ + step]; }
+
+private:
+    float sizeOf(std::size_t row) const
+    {
+        const float* const from = entries_.data() + row * width_;
+        return sumOf(width_, [&](std::size_t k) { return std::abs(from[k]); });
+    }
+
+    std::size_t width_, count_;
+    std::vector<float> entries_, allowed_, size_, coefficients_;
+};
+
+} // namespace
+
+InterpolativeRows interpolativeRows(const std::vector<float>& rows, const std::vector<float>& scale, float tolerance,
+                                    std::size_t unit)
+{
+    const std::size_t count = scale.empty() ? 0 : rows.size() / scale.size();
+    InterpolativeRows result;
+    result.order.resize(count);
+    std::iota(result.order.begin(), result.order.end(), 0U);
+    result.kept = count;
+    if (count <= unit) return result;
+
+    Residuals residuals(rows, scale, tolerance);
+    std::vector<std::uint32_t>& order = result.order;
+    std::size_t kept = 1;
+    for (;; ++kept) {
+        if (kept > scale.size()) return result; // factors would be as many as the entries that they stand for
+        const auto worst = std::max_element(
+            order.begin() + static_cast<std::ptrdiff_t>(kept), order.end(),
+            [&](std::uint32_t a, std::uint32_t b) { return residuals.excess(a) < residuals.excess(b); });
+        if (kept % unit == 0 && !(residuals.excess(*worst) > 0)) break;
+        if (kept + 1 == count) return result;
+        std::swap(order[kept], *worst);
+        const float inverseSquare = residuals.inverseSquare(order[kept]);
+        for (std::size_t i = kept + 1; i < count; ++i) {
+            residuals.project(order[i], order[kept], inverseSquare, kept - 1);
+        }
+    }
+
+    // A row is a combination of what was left of the kept ones when they were; what was left of each is itself less
+    // a combination of those before. Solved from the last to the first.
+    result.kept = kept;
+    std::vector<double> factors(kept - 1);
+    for (std::size_t i = kept; i < count; ++i) {
+        for (std::size_t j = 0; j + 1 < kept; ++j) factors[j] = double(residuals.coefficient(order[i], j));
+        for (std::size_t j = kept - 1; j-- > 0;) {
+            for (std::size_t before = 0; before < j; ++before) {
+                factors[before] -= factors[j] * double(residuals.coefficient(order[j + 1], before));
+            }
+        }
+        for (const double factor : factors) result.factors.push_back(static_cast<float>(factor));
+    }
+    return result;
+}
+
+} // namespace vdbcage::detail

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include <vdbcage/mesh/mesh.h>
+
+namespace vdbcage::detail {
+
+/// What a handle moves by.
+struct HandleMove {
+    std::size_t handle;
+    openvdb::Vec3f by;
+};
+
+/// The weights by which points move, in blocks of points that are close together. A block holds the weights of as few
+/// of its points as it can, and the others as combinations of these.
+class WeightBlocks {
+public:
+    /// Puts the weights of `points` (indices, sorted) into `rows`, which has their size. Called from several threads.
+    using MakeRows = std::function<void(const std::vector<std::uint32_t>& points, std::vector<float>& rows)>;
+
+    /// What combinations may be off by: four times what rounding to float takes.
+    static constexpr float tolerance = 1.0F / (1 << 22);
+
+    /// `points` are finite; `reaches` has how far each handle may go, about. A row is off by at most `tolerance` of its
+    /// size, both in sum over the handles of absolute values times reach, but for rounding.
+    WeightBlocks(const std::vector<openvdb::Vec3d>& points, const std::vector<float>& reaches,
+                 const MakeRows& makeRows);
+
+    /// Adds what `moves` move them by, times `size`, to `points`. Costs reading the weights of these handles and the
+    /// combinations once, in parallel; the same for any number of threads.
+    void move(const std::vector<HandleMove>& moves, double size, std::vector<openvdb::Vec3d>& points) const;
+
+    std::size_t bytes() const;
+
+private:
+    struct Block {
+        std::vector<std::uint32_t> points; ///< first those whose weights are held
+        std::size_t held = 0;
+        std::vector<float> weights; ///< by groups of points, in these by handles; then the combinations likewise
+    };
+
+    std::size_t handles_;
+    std::vector<Block> blocks_;
+};
+
+} // namespace vdbcage::detail
