@@ -174,7 +174,7 @@ public:
     /// way of none.
     void splitMore()
     {
-        for (std::size_t length = 1; length <= options_.reach; ++length) {
+        for (std::size_t length = 1; length <= 2 * options_.reach; ++length) {
             for (const std::uint32_t f : triangles()) {
                 for (int i = 0; i < 3 && isTriangle(f); ++i) {
                     throwIfInterrupted(interrupter_);

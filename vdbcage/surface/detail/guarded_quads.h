@@ -12,7 +12,7 @@ struct PairingOptions {
     double share;             ///< of the faces that are to be quads
     std::size_t reach;        ///< so many pairs are made anew to bring two triangles together, at most
     bool collapses;           ///< whether edges may be collapsed for it
-    bool splits;              ///< whether strips of quads may be split for it, of `reach` at most
+    bool splits;              ///< whether strips of quads may be split for it, of twice `reach` at most
 };
 
 /// The part of the faces that are quads, 0 to 1.
