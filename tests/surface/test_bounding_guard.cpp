@@ -4,6 +4,7 @@
 #include <random>
 
 #include <vdbcage/core/error.h>
+#include <vdbcage/mesh/topology.h>
 #include <vdbcage/surface/bounding_guard.h>
 #include <vdbcage/surface/detail/guard_model.h>
 #include <vdbcage/surface/detail/guarded_surface.h>
@@ -207,6 +208,30 @@ BOOST_AUTO_TEST_CASE(changes_made_side_by_side_do_not_run_into_each_other)
     BOOST_TEST(!batch.apply(above, down));
     // Nor are neighbours moved on what they no longer see.
     BOOST_TEST(!batch.apply(guarded.fanOf(2), guarded.point(2)));
+}
+
+BOOST_AUTO_TEST_CASE(a_new_vertex_takes_the_place_of_faces)
+{
+    const BoundingGuard guard = guardOf(inLowerHalf);
+    GuardedSurface guarded(bipyramid({0, 0, 0}, 1, 6), guard.model());
+    Fan fan;
+    BOOST_TEST(!guarded.fanOfFaces({0, 4}, false, fan));              // they touch at the top alone
+    BOOST_TEST(!guarded.fanOfFaces({0, 2, 4, 6, 8, 10}, false, fan)); // the top is inside
+    BOOST_REQUIRE(guarded.fanOfFaces({0, 2, 4}, false, fan));
+    BOOST_TEST(fan.rim.size() == 5U);
+    const auto at = [&](double height) {
+        const Mesh mesh = guarded.mesh();
+        return guard.model().rounded(
+            guard.model().scaled(0.45 * (mesh.points[3] + mesh.points[4]) + Vec3d(0, 0, height)));
+    };
+    BOOST_TEST(!guarded.allows(fan, at(-0.4))); // through the bottom's faces
+    BOOST_REQUIRE(guarded.allows(fan, at(0.3)));
+    guarded.apply(fan, at(0.3));
+    BOOST_TEST(guarded.liveFaces() == 14U);
+    const MeshTopology topology = analyzeTopology(guarded.mesh());
+    BOOST_TEST(topology.isCycle());
+    BOOST_TEST(topology.boundaryEdges + topology.nonManifoldEdges + topology.nonManifoldVertices == 0U);
+    BOOST_TEST(guarded.neighbours(8) == (std::vector<std::uint32_t>{0, 2, 3, 4, 5}), boost::test_tools::per_element());
 }
 
 // The quad of the next tests: two faces of a pyramid with eight sides that meet at the edge from the top, point 0, to

@@ -255,7 +255,7 @@ BOOST_AUTO_TEST_CASE(as_many_quads_as_asked_also_where_it_is_hard)
         const Mesh start = ball(24), fine = decimate(start, guard, to(5 * faces / 2));
         BoundingTriquadOptions options = quads(faces, 90);
         std::size_t last = 0;
-        for (const double share : {0.0, 0.65, 0.85}) {
+        for (const double share : {0.0, 0.65, 0.85, 0.9}) {
             options.quads = share;
             const Mesh cage = triquad(fine, guard, options);
             BOOST_TEST(checker.check(cage).bounding());

@@ -59,6 +59,7 @@ void makeQuads(detail::GuardedSurface& surface, const BoundingTriquadOptions& op
         pairing.share = options.quads;
         pairing.reach = static_cast<std::size_t>(round) + 2;
         pairing.collapses = round > 0;
+        pairing.splits = round > 0;
         detail::pairUp(surface, pairing, interrupter);
         if (detail::quadShare(surface) >= options.quads) return;
         room *= 2;

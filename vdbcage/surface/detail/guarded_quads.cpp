@@ -1,6 +1,9 @@
 // Based on: Cohen-Steiner and Morvan, "Restricted Delaunay Triangulations and Normal Cycle", 2003 (curvature tensors
 // from dihedral angles, for the directions that quads follow); Edmonds, "Paths, Trees, and Flowers", 1965 (paths that
 // alternate between pairs and none).
+//           Daniels, Silva, Shepherd, Cohen, "Quadrilateral Mesh Simplification", 2008 (strips of quads, polychords;
+//           here
+// they begin and end at triangles, and are split).
 // Differs: a pair must also pass the guard, which pushes vertices; so pairs are taken greedily and paths are short. On
 // them a quad is split along either diagonal, and a path may end in a collapse.
 
@@ -10,6 +13,7 @@
 #include <array>
 #include <cmath>
 #include <initializer_list>
+#include <optional>
 #include <set>
 #include <tuple>
 #include <utility>
@@ -165,6 +169,23 @@ public:
         }
     }
 
+    /// Makes quads of triangles by splitting the strips of quads between them lengthwise, the shortest first: each
+    /// brings a face more for every quad in it. New vertices are joined to nothing yet, so that connectivity is in the
+    /// way of none.
+    void splitMore()
+    {
+        for (std::size_t length = 1; length <= 2 * options_.reach; ++length) {
+            for (const std::uint32_t f : triangles()) {
+                for (int i = 0; i < 3 && isTriangle(f); ++i) {
+                    throwIfInterrupted(interrupter_);
+                    if (isEnough()) return;
+                    const std::optional<Strip> strip = stripFrom(f, i, length);
+                    if (strip && strip->quads.size() == length) split(*strip);
+                }
+            }
+        }
+    }
+
 private:
     enum class End { quad, collapse }; ///< what is made of the two triangles at the end of a path
 
@@ -193,11 +214,8 @@ private:
     /// diagonal of an other.
     std::uint32_t across(std::uint32_t f, int i) const
     {
-        const std::uint32_t a = surface_.face(f)[i], b = surface_.face(f)[(i + 1) % 3];
-        for (const std::uint32_t g : surface_.facesOf(a)) {
-            if (sideOf(g, b, a) >= 0) return g;
-        }
-        return f;
+        const std::uint32_t next = faceAt(surface_.face(f)[(i + 1) % 3], surface_.face(f)[i]);
+        return next == Fan::none ? f : next;
     }
 
     /// The side of a face that goes from a to b, or -1.
@@ -421,6 +439,122 @@ private:
         return quads;
     }
 
+    /// Quads in a row, each left across the side opposite to the one that it is entered across, from a triangle to
+    /// another or to the plane of symmetry. Every side of a triangle begins one; both ways it is the same.
+    struct Strip {
+        std::vector<std::array<std::uint32_t, 2>> sides; ///< those crossed, in the direction of the face before them
+        std::vector<std::array<std::uint32_t, 2>> quads; ///< their halves
+    };
+
+    /// The strip that begins across side i of a triangle, if it has no more than so many quads, all different, and
+    /// does not come back.
+    std::optional<Strip> stripFrom(std::uint32_t f, int i, std::size_t most) const
+    {
+        Strip strip{{{surface_.face(f)[i], surface_.face(f)[(i + 1) % 3]}}, {}};
+        std::set<std::uint32_t> passed{f};
+        for (;;) {
+            const auto [a, b] = strip.sides.back();
+            const std::uint32_t next = faceAt(b, a);
+            if (next == Fan::none) return strip; // the plane
+            if (!passed.insert(polygon(next)).second) return std::nullopt;
+            if (isFree(next)) return strip;
+            if (strip.quads.size() == most) return std::nullopt;
+            const std::uint32_t other = surface_.otherHalf(next);
+            const Vec4I ids = surface_.quadOf(next, other);
+            int side = 0;
+            while (ids[side] != b) ++side;
+            strip.quads.push_back({next, other});
+            strip.sides.push_back({ids[(side + 2) % 4], ids[(side + 3) % 4]});
+        }
+    }
+
+    /// Puts a vertex on every side that a strip crosses: each quad becomes two, and the triangles at the ends become
+    /// quads, with a corner pushed out. Returns whether the guard allows it; else nothing changes.
+    bool split(const Strip& strip)
+    {
+        const GuardedSurface before = surface_;
+        for (const double push : {0.3, 0.6, 1.0}) { // corners of 147, 118, and 90 degrees
+            if (split(strip, push)) return true;
+            surface_ = before;
+        }
+        return false;
+    }
+
+    /// The same with one push; leaves pieces where it fails.
+    bool split(const Strip& strip, double push)
+    {
+        for (const auto& quad : strip.quads) surface_.splitQuad(quad[0]);
+        for (std::size_t i = 0; i < strip.sides.size(); ++i) {
+            const auto [a, b] = strip.sides[i];
+            const std::uint32_t behind = faceAt(a, b), ahead = faceAt(b, a);
+            const bool isFirst = i == 0, isLast = i == strip.quads.size(), onPlane = ahead == Fan::none;
+            // The new vertex takes the place of what is before the side and all of the face after it.
+            Fan::Faces faces{behind};
+            if (!isLast) {
+                faces.insert(faces.end(), strip.quads[i].begin(), strip.quads[i].end());
+            } else if (!onPlane) {
+                faces.push_back(ahead);
+            }
+            Vec3d at = 0.5 * (surface_.point(a) + surface_.point(b));
+            if (isFirst) at += push * asideOf(behind, ahead, a, b);
+            if (isLast && !onPlane) at += push * asideOf(ahead, behind, b, a);
+            const std::uint32_t first = cornerAcross(behind, a, b);
+            const std::uint32_t last = onPlane ? Fan::none : cornerAcross(ahead, b, a);
+            Fan fan;
+            if (!surface_.fanOfFaces(faces, onPlane, fan)) return false;
+            if (!place(fan, at, (surface_.point(a) - surface_.point(b)).length())) return false;
+            if (isFirst) {
+                if (!makeQuad(faceAt(b, first), faceAt(first, a))) return false;
+            } else {
+                const auto [c, d] = strip.sides[i - 1];
+                if (!makeQuad(faceAt(c, a), faceAt(a, fan.centre))) return false;
+                if (!makeQuad(faceAt(fan.centre, b), faceAt(b, d))) return false;
+            }
+            if (isLast && !onPlane && !makeQuad(faceAt(a, last), faceAt(last, b))) return false;
+        }
+        return true;
+    }
+
+    /// Makes the change near a place, as little above it as the guard allows, in parts of `length`.
+    bool place(const Fan& fan, const Vec3d& at, double length)
+    {
+        const Vec3d up = length * surface_.outward(fan);
+        for (const double height : {0.0, 0.03, 0.1, 0.3}) {
+            const Vec3d target = surface_.rounded(fan, at + height * up);
+            if (!surface_.allows(fan, target)) continue;
+            surface_.apply(fan, target);
+            return true;
+        }
+        return false;
+    }
+
+    /// The face with a side from a to b, or Fan::none.
+    std::uint32_t faceAt(std::uint32_t a, std::uint32_t b) const
+    {
+        for (const std::uint32_t f : surface_.facesOf(a)) {
+            if (sideOf(f, a, b) >= 0) return f;
+        }
+        return Fan::none;
+    }
+
+    std::uint32_t cornerAcross(std::uint32_t f, std::uint32_t a, std::uint32_t b) const
+    {
+        return surface_.face(f)[(sideOf(f, a, b) + 2) % 3];
+    }
+
+    /// From a face's side, from a to b, away from the face, half as far as the side is long: between the two faces'
+    /// planes where they meet in a ridge, along the next one in a valley.
+    Vec3d asideOf(std::uint32_t f, std::uint32_t next, std::uint32_t a, std::uint32_t b) const
+    {
+        const Vec3d along = surface_.point(b) - surface_.point(a);
+        const Vec3d normal = areaNormal(surface_.corners(next));
+        Vec3d over = along.cross(areaNormal(surface_.corners(f))), into = along.cross(normal);
+        if (!over.normalize(0) || !into.normalize(0)) return Vec3d(0.0);
+        Vec3d direction = over.dot(normal) > 0 ? over + into : into;
+        if (!direction.normalize(0)) return Vec3d(0.0);
+        return 0.5 * along.length() * direction;
+    }
+
     GuardedSurface& surface_;
     PairingOptions options_;
     Interrupter* interrupter_;
@@ -444,6 +578,7 @@ void pairUp(GuardedSurface& surface, const PairingOptions& options, Interrupter*
     pairing.pairGreedily();
     pairing.pairMore();
     if (options.collapses) pairing.collapseMore();
+    if (options.splits) pairing.splitMore();
 }
 
 } // namespace vdbcage::detail

@@ -12,6 +12,7 @@ struct PairingOptions {
     double share;             ///< of the faces that are to be quads
     std::size_t reach;        ///< so many pairs are made anew to bring two triangles together, at most
     bool collapses;           ///< whether edges may be collapsed for it
+    bool splits;              ///< whether strips of quads may be split for it, of twice `reach` at most
 };
 
 /// The part of the faces that are quads, 0 to 1.
@@ -20,10 +21,12 @@ double quadShare(const GuardedSurface& surface);
 /// Makes pairs of faces quads, under the guard: first, flat and square ones along the directions of curvature before
 /// others, all that cost no more distance to the model than a face less brings. Then, until the share is reached, the
 /// other pairs; then triangles are brought together through the quads between them, each of which is split along
-/// either diagonal and paired anew; and last two that are so brought together, but are no quad, vanish by collapsing
-/// the edge between them. Where a pair is too folded, or its other diagonal in the model's way, the lower diagonal's
-/// ends are pushed outward. Serial; O(n log n log m) for n faces and m of the model, and O(n) for each way that is
-/// tried to bring two triangles together, which keeps a copy to go back to.
+/// either diagonal and paired anew; then two that are so brought together, but are no quad, vanish by collapsing the
+/// edge between them; and last the strip of quads between two triangles is split in two lengthwise, which makes them
+/// quads and needs nothing of how vertices are joined, but brings more faces. Where a pair is too folded, or its other
+/// diagonal in the model's way, the lower diagonal's ends are pushed outward. Serial; O(n log n log m) for n faces and
+/// m of the model, and O(n) for each way that is tried to bring two triangles together, which keeps a copy to go back
+/// to.
 void pairUp(GuardedSurface& surface, const PairingOptions& options, Interrupter* interrupter);
 
 } // namespace vdbcage::detail

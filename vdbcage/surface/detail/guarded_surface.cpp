@@ -252,6 +252,39 @@ Fan GuardedSurface::fanOfSplit(std::uint32_t u, std::uint32_t v) const
     return fan;
 }
 
+bool GuardedSurface::fanOfFaces(const Fan::Faces& faces, bool onPlane, Fan& fan) const
+{
+    fan = Fan{};
+    fan.centre = vertices();
+    fan.onPlane = onPlane;
+    fan.oldFaces = faces;
+    const auto isSide = [&](std::uint32_t f, std::uint32_t a, std::uint32_t b) {
+        const Vec3I& t = faces_[f];
+        return (t[0] == a && t[1] == b) || (t[1] == a && t[2] == b) || (t[2] == a && t[0] == b);
+    };
+    Fan::Faces begins, ends;
+    std::size_t ofPlane = 0;
+    for (const std::uint32_t f : faces) {
+        for (int i = 0; i < 3; ++i) {
+            const std::uint32_t a = faces_[f][i], b = faces_[f][(i + 1) % 3];
+            if (onPlane && isOnPlane(a) && isOnPlane(b)) continue;
+            if (std::any_of(faces.begin(), faces.end(), [&](std::uint32_t g) { return isSide(g, b, a); })) continue;
+            fan.keptFaces.push_back(fan.rim.size() < faces.size() ? faces[fan.rim.size()] : Fan::none);
+            fan.rim.push_back({a, b});
+            begins.push_back(a);
+            ends.push_back(b);
+            ofPlane += std::size_t(isOnPlane(a)) + std::size_t(isOnPlane(b));
+        }
+    }
+    // A disk without a vertex inside has two sides more than faces, and goes through each corner once; where it ends on
+    // the plane one of them is left out, and no others have an end there.
+    for (Fan::Faces* corners : {&begins, &ends}) {
+        std::sort(corners->begin(), corners->end());
+        if (std::adjacent_find(corners->begin(), corners->end()) != corners->end()) return false;
+    }
+    return fan.rim.size() == faces.size() + (onPlane ? 1 : 2) && (!onPlane || ofPlane == 2);
+}
+
 Vec3d GuardedSurface::outward(const Fan& fan) const
 {
     Vec3d normal(0.0);

@@ -75,6 +75,9 @@ public:
     bool fanOf(std::uint32_t keep, std::uint32_t remove, Fan& fan) const;
     /// The fan that splits the edge between two neighbours at a new vertex. \pre there are no quads
     Fan fanOfSplit(std::uint32_t u, std::uint32_t v) const;
+    /// The fan around a new vertex that takes the place of some faces; on the plane of symmetry, where they have a side
+    /// there, if `onPlane`. False unless they are one disk without a vertex inside. \pre they are in no quad
+    bool fanOfFaces(const Fan::Faces& faces, bool onPlane, Fan& fan) const;
     /// The mean normal of what the fan replaces, of unit length (or zero).
     Vec3d outward(const Fan& fan) const;
     /// `p` as a place of the fan's centre: on the plane of symmetry where it has to be, rounded as the guard asks.
