@@ -453,13 +453,11 @@ private:
         DecimateOptions decimation;
         // Two triangles a quad, and some that vanish.
         decimation.faces = options.mesh == CageFaces::triangles ? faces : 5 * faces / 2;
-        // Pairing decimates on: what is to be gained by exchanging vertices is gained only by the last decimation.
-        const Effort effort = options.mesh == CageFaces::triangles ? options.effort : Effort::fast;
         {
             const Stage stage(interrupter, "decimate");
             tbb::parallel_for(std::size_t(0), starts.size(), [&](std::size_t i) {
                 starts[i].smoothed = starts[i].surface;
-                starts[i].decimated = decimate(starts[i].surface, guard, decimation, effort, interrupter);
+                starts[i].decimated = decimate(starts[i].surface, guard, decimation, options.effort, interrupter);
             });
         }
         const auto keepAtMost = [&](std::size_t most, const Mesh Candidate::*mesh) {
