@@ -1,9 +1,7 @@
 // Based on: Cohen-Steiner and Morvan, "Restricted Delaunay Triangulations and Normal Cycle", 2003 (curvature tensors
 // from dihedral angles, for the directions that quads follow); Edmonds, "Paths, Trees, and Flowers", 1965 (paths that
-// alternate between pairs and none).
-//           Daniels, Silva, Shepherd, Cohen, "Quadrilateral Mesh Simplification", 2008 (strips of quads, polychords;
-//           here
-// they begin and end at triangles, and are split).
+// alternate between pairs and none); Daniels, Silva, Shepherd, Cohen, "Quadrilateral Mesh Simplification", 2008 (strips
+// of quads, polychords; here they begin and end at triangles, and are split).
 // Differs: a pair must also pass the guard, which pushes vertices; so pairs are taken greedily and paths are short. On
 // them a quad is split along either diagonal, and a path may end in a collapse.
 
