@@ -42,11 +42,12 @@ void write(const Entry& entry, const std::filesystem::path& folder)
 
 int main(int argc, char** argv)
 {
-    if (argc < 2) {
+    const bool asksForHelp = argc == 2 && (std::strcmp(argv[1], "--help") == 0 || std::strcmp(argv[1], "-h") == 0);
+    if (argc < 2 || argv[1][0] == '-') {
         std::fputs("usage: vdbcage-data DIR [NAME...]\nWithout a name, all but those marked *:\n", stderr);
         for (const Entry& entry : entries)
             std::fprintf(stderr, "  %-12s%c %s\n", entry.name, entry.byDefault ? ' ' : '*', entry.about);
-        return 1;
+        return asksForHelp ? 0 : 1;
     }
     for (int i = 2; i < argc; ++i) {
         if (!find(argv[i])) {

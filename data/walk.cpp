@@ -132,7 +132,7 @@ Vec3d posed(const Vec3d& p, double time)
 
 int main(int argc, char** argv)
 {
-    if (argc != 3) {
+    if (argc != 3 || argv[2][0] == '-') {
         std::fputs("usage: vdbcage-walk CAGE DIR\n", stderr);
         return 1;
     }
