@@ -451,8 +451,8 @@ private:
     {
         const auto faces = static_cast<std::size_t>(options.faces);
         DecimateOptions decimation;
-        // Two triangles a quad, and some that vanish.
-        decimation.faces = options.mesh == CageFaces::triangles ? faces : 5 * faces / 2;
+        // Two triangles a quad, and some that vanish. (Between 2 and 4 times the faces it hardly matters.)
+        decimation.faces = options.mesh == CageFaces::triangles ? faces : 3 * faces;
         {
             const Stage stage(interrupter, "decimate");
             tbb::parallel_for(std::size_t(0), starts.size(), [&](std::size_t i) {
