@@ -98,10 +98,9 @@ Mesh decimate(const Mesh& surface, const BoundingGuard& guard, const DecimateOpt
         detail::collapseByQuadrics(guarded, faces, interrupter);
     }
     if (effort != Effort::fast) {
-        const int sweeps = effort == Effort::fair ? 4 : TightenOptions().sweeps,
-                  rounds = effort == Effort::fair ? 2 : 8;
-        detail::tighten(guarded, sweeps, areaPerSample(guarded, faces), interrupter);
-        detail::exchange(guarded, rounds, interrupter);
+        const bool isBest = effort == Effort::best;
+        detail::tighten(guarded, isBest ? TightenOptions().sweeps : 2, areaPerSample(guarded, faces), interrupter);
+        detail::exchange(guarded, isBest ? 8 : 2, isBest ? 6 : 3, interrupter);
     }
     return guarded.mesh();
 }

@@ -74,9 +74,8 @@ void splitBest(GuardedSurface& surface, std::size_t faces, double areaPerSample)
 
 } // namespace
 
-void exchange(GuardedSurface& surface, int rounds, Interrupter* interrupter)
+void exchange(GuardedSurface& surface, int rounds, int sweeps, Interrupter* interrupter)
 {
-    constexpr int sweeps = 6;
     constexpr double samplesPerFace = 4;
     const std::size_t faces = surface.liveFaces();
     if (faces == 0) return;

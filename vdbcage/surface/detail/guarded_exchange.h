@@ -6,9 +6,9 @@
 namespace vdbcage::detail {
 
 /// Takes vertices from where they bring little to where they bring more: the edges whose split brings the surface
-/// nearest to the model are split, the surface is tightened, and as many edges are collapsed by the quadrics that it
-/// has then. Done `rounds` times; a round that did not bring the surface nearer is undone, and fewer edges are split.
-/// The number of faces does not grow. TBB-parallel, deterministic.
-void exchange(GuardedSurface& surface, int rounds, Interrupter* interrupter);
+/// nearest to the model are split, the surface is tightened by `sweeps`, as many edges are collapsed by the quadrics
+/// that it has then, and it is tightened again. Done `rounds` times; a round that did not bring the surface nearer is
+/// undone, and fewer edges are split. The number of faces does not grow. TBB-parallel, deterministic.
+void exchange(GuardedSurface& surface, int rounds, int sweeps, Interrupter* interrupter);
 
 } // namespace vdbcage::detail
