@@ -116,6 +116,28 @@ BOOST_AUTO_TEST_CASE(more_effort_does_not_end_in_the_box_where_less_does_not)
     }
 }
 
+BOOST_AUTO_TEST_CASE(no_angle_is_below_the_floor)
+{
+    struct Case {
+        Effort effort;
+        std::optional<double> asked;
+        double floor;
+    };
+    CageOptions options = coarse();
+    options.faces = 200;
+    for (const Case& c :
+         {Case{Effort::fast, {}, 6}, {Effort::fair, {}, 10}, {Effort::best, {}, 6}, {Effort::fair, 4, 4}}) {
+        options.effort = c.effort;
+        options.minAngle = c.asked;
+        double least = 180;
+        for (const Mesh& model : {saturn(), test::torus(1, 0.1, 40, 16)}) {
+            least = std::min(least, checkCage(makeCage(model, options), model).minAngleDegrees);
+        }
+        BOOST_TEST(least > c.floor - 0.01);
+        BOOST_TEST(least < c.floor + 2); // it is asked for where the shape wants less
+    }
+}
+
 BOOST_AUTO_TEST_CASE(only_stale_stages_run_again)
 {
     Pipeline made(saturn());

@@ -248,11 +248,7 @@ Binding::Binding(const Mesh& cage, std::vector<Vec3d> points, Coordinates family
     requireUsable(cage, "cage");
     requireFinite(points_, "points");
     restHandles_ = cageHandles(cage, cage.points, family);
-    if (weights.size() != points_.size() * handles()) {
-        throw InputError("weights: there are " + std::to_string(weights.size()) + "; " +
-                         std::to_string(points_.size()) + " points and " + std::to_string(handles()) +
-                         " handles need " + std::to_string(points_.size() * handles()));
-    }
+    detail::requireWeights(weights.size(), points_.size(), handles());
     weights_ = std::make_shared<detail::WeightBlocks>(
         points_, reachesOf(cage_, family_), [&](const std::vector<std::uint32_t>& block, std::vector<float>& rows) {
             for (std::size_t i = 0; i < block.size(); ++i) {

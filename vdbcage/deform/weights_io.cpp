@@ -12,6 +12,7 @@
 
 #include <vdbcage/core/atomic_file.h>
 #include <vdbcage/core/error.h>
+#include <vdbcage/deform/detail/weight_blocks.h>
 
 namespace vdbcage {
 
@@ -80,11 +81,7 @@ void writeWeights(const Mesh& cage, const std::vector<openvdb::Vec3d>& points, C
                   const std::vector<float>& weights, const std::filesystem::path& path)
 {
     const std::size_t handles = cageHandles(cage, cage.points, family).size();
-    if (weights.size() != points.size() * handles) {
-        throw InputError("weights: there are " + std::to_string(weights.size()) + "; " + std::to_string(points.size()) +
-                         " points and " + std::to_string(handles) + " handles need " +
-                         std::to_string(points.size() * handles));
-    }
+    detail::requireWeights(weights.size(), points.size(), handles);
     if (sizeof(Record) + weights.size() * sizeof(float) >= std::size_t(1) << 31U) {
         throw InputError(path.string() + ": " + std::to_string(points.size()) + " points times " +
                          std::to_string(handles) +

@@ -318,11 +318,8 @@ private:
         if (wanted == CageSymmetry::automatic) {
             symmetry_ = findSymmetry(model_, tolerance, interrupter);
         } else {
-            symmetry_ = bestSymmetry(model_,
-                                     wanted == CageSymmetry::x   ? 0
-                                     : wanted == CageSymmetry::y ? 1
-                                                                 : 2,
-                                     interrupter);
+            const int axis = wanted == CageSymmetry::x ? 0 : wanted == CageSymmetry::y ? 1 : 2;
+            symmetry_ = bestSymmetry(model_, axis, interrupter);
         }
         soughtSymmetry_ = wanted;
         return symmetry_;

@@ -26,7 +26,7 @@ VDBCAGE_API Mesh decimate(const Mesh& surface, const DecimateOptions& options = 
 /// What a guarded decimation may cost.
 enum class Effort {
     fast, ///< quadrics, the surface pulled onto the model once on the way
-    fair, ///< then vertices are exchanged between places, twice: a tenth tighter
+    fair, ///< then vertices are exchanged between places, twice: 5 to 10 % tighter
     best  ///< the same eight times: some percent tighter still
 };
 

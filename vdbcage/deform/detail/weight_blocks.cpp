@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cstdint>
 #include <numeric>
+#include <string>
 #include <utility>
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
+#include <vdbcage/core/error.h>
 #include <vdbcage/deform/detail/interpolative.h>
 
 namespace vdbcage::detail {
@@ -127,6 +129,13 @@ void appendGroups(std::size_t count, std::size_t columns, const Row& row, std::v
 }
 
 } // namespace
+
+void requireWeights(std::size_t weights, std::size_t points, std::size_t handles)
+{
+    if (weights == points * handles) return;
+    throw InputError("weights: there are " + std::to_string(weights) + "; " + std::to_string(points) + " points and " +
+                     std::to_string(handles) + " handles need " + std::to_string(points * handles));
+}
 
 WeightBlocks::WeightBlocks(const std::vector<Vec3d>& points, const std::vector<float>& reaches,
                            const MakeRows& makeRows)

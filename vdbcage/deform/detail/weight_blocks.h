@@ -9,6 +9,9 @@
 
 namespace vdbcage::detail {
 
+/// \throw InputError unless there are as many weights as points times handles
+void requireWeights(std::size_t weights, std::size_t points, std::size_t handles);
+
 /// What a handle moves by.
 struct HandleMove {
     std::size_t handle;
