@@ -6,6 +6,7 @@
 #include <vdbcage/core/error.h>
 #include <vdbcage/mesh/topology.h>
 #include <vdbcage/surface/bounding_guard.h>
+#include <vdbcage/surface/detail/contact_half_spaces.h>
 #include <vdbcage/surface/detail/guard_model.h>
 #include <vdbcage/surface/detail/guarded_surface.h>
 
@@ -142,6 +143,51 @@ BOOST_AUTO_TEST_CASE(clearance_agrees_with_every_triangle_asked_one_by_one)
 }
 
 // Each of the next four fails if the test of the guard that it is named after is taken out.
+
+// Up to the first impact the moving triangle meets nothing, and there it touches.
+BOOST_AUTO_TEST_CASE(impacts_are_the_first_on_the_way)
+{
+    std::mt19937 random(21);
+    constexpr double never = 2;
+    constexpr int steps = 100;
+    const auto firstTime = [&](const BoundingGuard& guard, const Corners& now, const Vec3d& to) {
+        std::vector<detail::HalfSpace> halfSpaces;
+        // The edge from b is the edge from a of the triangle beside it.
+        detail::addImpacts(guard.model(), now, to, true, 0, halfSpaces);
+        detail::addImpacts(guard.model(), {now[0], now[2], now[1]}, to, false, 0, halfSpaces);
+        double time = never;
+        for (const detail::HalfSpace& h : halfSpaces) {
+            time = std::min(time, (h.offset - h.normal.dot(now[0])) / h.normal.dot(to - now[0]));
+        }
+        return time;
+    };
+    const auto distanceTo = [](const Mesh& model, const BoundingGuard& guard, const Corners& t) {
+        double least = 1;
+        for (const openvdb::Vec3I& other : model.triangles) {
+            const auto corner = [&](int i) { return guard.model().scaled(model.points[other[i]]); };
+            least = std::min(least, detail::nearness(t, {corner(0), corner(1), corner(2)}).squaredDistance);
+        }
+        return std::sqrt(least);
+    };
+    int impacts = 0, misses = 0;
+    for (int round = 0; round < 300; ++round) {
+        const Mesh model = round % 2 ? soup(random, 300, 0.01) : soup(random, 20, 0.5);
+        const BoundingGuard guard = guardOf(model);
+        Corners now = randomTriangle(random, 0.7);
+        Vec3d to = randomPoint(random);
+        for (Vec3d* p : {&now[0], &now[1], &now[2], &to}) *p = guard.model().scaled(*p);
+        const auto at = [&](double time) { return Corners{now[0] + time * (to - now[0]), now[1], now[2]}; };
+        if (!(distanceTo(model, guard, now) > 1e-6)) continue;
+        const double time = firstTime(guard, now, to);
+        if (time < never) BOOST_TEST(distanceTo(model, guard, at(time)) < 1e-9);
+        for (int i = 0; i < steps && i < time * steps - 1e-3; ++i) {
+            BOOST_TEST(distanceTo(model, guard, at(1.0 * i / steps)) > 0);
+        }
+        ++(time < never ? impacts : misses);
+    }
+    BOOST_TEST(impacts > 50);
+    BOOST_TEST(misses > 20);
+}
 
 BOOST_AUTO_TEST_CASE(clearance_to_the_model_is_kept)
 {

@@ -332,10 +332,16 @@ void GuardModel::forEachBlocker(const Corners& triangle, const std::function<boo
     });
 }
 
-void GuardModel::forEachInside(const std::array<Vec3d, 4>& tetrahedron,
-                               const std::function<void(const Corners&)>& visit) const
+bool GuardModel::forEachInside(const std::array<Vec3d, 4>& tetrahedron,
+                               const std::function<bool(const Corners&)>& visit) const
 {
-    tree_.traverse(tree_.inTetrahedron(tetrahedron), [&](const TriangleTree::Item& item) {
+    return tree_.traverse(tree_.inTetrahedron(tetrahedron),
+                          [&](const TriangleTree::Item& item) { return visit(tree_.corners(item)); });
+}
+
+void GuardModel::forEachMet(const Corners& triangle, const std::function<void(const Corners&)>& visit) const
+{
+    tree_.traverse(tree_.near(triangle), [&](const TriangleTree::Item& item) {
         visit(tree_.corners(item));
         return true;
     });

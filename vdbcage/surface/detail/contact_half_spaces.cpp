@@ -35,47 +35,49 @@ bool addImpacts(const GuardModel& guard, const Corners& now, const Vec3d& to, bo
     const Vec3d &c = now[0], &a = now[1], &b = now[2];
     const Vec3d step = to - c, across = b - a;
     Impact face, edge, vertex;
-    guard.forEachInside({c, to, a, b}, [&](const Corners& m) {
+    const auto meetFace = [&](const Vec3d& p) {
+        const Vec3d arm = p - a, normal = across.cross(arm);
+        const double time = -normal.dot(c - a) / normal.dot(step);
+        if (!(time > 0 && time < face.time)) return;
+        const Vec3d at = c + time * step, up = across.cross(at - a), n = across.cross(up);
+        const double weight = n.dot(arm) / n.dot(at - a);
+        const Vec3d foot = arm - weight * (at - a);
+        const double along = foot.dot(across);
+        if (weight > 0 && weight <= 1 && along >= 0 && along <= (1 - weight) * across.dot(across)) {
+            face = {time, normal, weight};
+        }
+    };
+    const auto meetEdge = [&](const Vec3d& first, const Vec3d& second) { // the one from a to the corner
+        const Vec3d p = first - a, q = second - a, normal = p.cross(q);
+        const double time = -normal.dot(c - a) / normal.dot(step);
+        if (!(time > 0 && time < edge.time)) return;
+        const Vec3d arm = c + time * step - a;
+        const double s = arm.cross(p).dot(normal), t = arm.cross(q).dot(normal);
+        const double weight = p.cross(q - p).dot(normal) / arm.cross(q - p).dot(normal);
+        if ((s > 0) != (t > 0) && weight > 0 && weight <= 1) edge = {time, normal, weight};
+    };
+    const auto meetCorner = [&](const Corners& m) {
+        const Vec3d normal = (m[1] - m[0]).cross(m[2] - m[0]);
+        const double time = normal.dot(m[0] - c) / normal.dot(step);
+        if (!(time > 0 && time < vertex.time)) return;
+        const Vec3d at = c + time * step;
         for (std::size_t i = 0; i < 3; ++i) {
-            {
-                // A model vertex in the face.
-                const Vec3d arm = m[i] - a, normal = across.cross(arm);
-                const double time = -normal.dot(c - a) / normal.dot(step);
-                if (time > 0 && time < face.time) {
-                    const Vec3d at = c + time * step, up = across.cross(at - a), n = across.cross(up);
-                    const double weight = n.dot(arm) / n.dot(at - a);
-                    const Vec3d foot = arm - weight * (at - a);
-                    const double along = foot.dot(across);
-                    if (weight > 0 && weight <= 1 && along >= 0 && along <= (1 - weight) * across.dot(across)) {
-                        face = {time, normal, weight};
-                    }
-                }
-            }
-            {
-                // A model edge in the edge from a.
-                const Vec3d p = m[i] - a, q = m[(i + 1) % 3] - a, normal = p.cross(q);
-                const double time = -normal.dot(c - a) / normal.dot(step);
-                if (time > 0 && time < edge.time) {
-                    const Vec3d arm = c + time * step - a;
-                    const double s = arm.cross(p).dot(normal), t = arm.cross(q).dot(normal);
-                    const double weight = p.cross(q - p).dot(normal) / arm.cross(q - p).dot(normal);
-                    if ((s > 0) != (t > 0) && weight > 0 && weight <= 1) edge = {time, normal, weight};
-                }
-            }
+            if (!((m[(i + 1) % 3] - m[i]).cross(at - m[i]).dot(normal) >= 0)) return;
         }
-        if (corner) {
-            const Vec3d normal = (m[1] - m[0]).cross(m[2] - m[0]);
-            const double time = normal.dot(m[0] - c) / normal.dot(step);
-            if (time > 0 && time < vertex.time) {
-                const Vec3d at = c + time * step;
-                bool inside = true;
-                for (std::size_t i = 0; i < 3; ++i) {
-                    inside = inside && (m[(i + 1) % 3] - m[i]).cross(at - m[i]).dot(normal) >= 0;
-                }
-                if (inside) vertex = {time, normal, 1};
-            }
-        }
+        vertex = {time, normal, 1};
+    };
+    guard.forEachMet({a, c, to}, [&](const Corners& m) {
+        for (std::size_t i = 0; i < 3; ++i) meetEdge(m[i], m[(i + 1) % 3]);
+        if (corner) meetCorner(m);
     });
+    // The face of a long way holds much of the model: it is looked through anew whenever the way gets much shorter.
+    for (double way = 1; way > 0;) {
+        const bool isDone = guard.forEachInside({c, c + way * step, a, b}, [&](const Corners& m) {
+            for (const Vec3d& p : m) meetFace(p);
+            return face.time >= 0.5 * way;
+        });
+        way = isDone ? 0 : face.time;
+    }
     const std::size_t before = halfSpaces.size();
     for (const Impact& impact : {face, edge, vertex}) {
         if (!(impact.weight > 0)) continue;

@@ -41,8 +41,11 @@ public:
     bool clear(const Corners& triangle, std::uint32_t hint, std::uint32_t* blocker) const;
     /// Calls visit(corners) for every model triangle that `triangle` comes too near to, until it answers false.
     void forEachBlocker(const Corners& triangle, const std::function<bool(const Corners&)>& visit) const;
-    /// Calls visit(corners) for every model triangle near the tetrahedron, and perhaps some more.
-    void forEachInside(const std::array<Vec3d, 4>& tetrahedron, const std::function<void(const Corners&)>& visit) const;
+    /// Calls visit(corners) for every model triangle near the tetrahedron, and perhaps some more, until it answers
+    /// false; returns false if it did.
+    bool forEachInside(const std::array<Vec3d, 4>& tetrahedron, const std::function<bool(const Corners&)>& visit) const;
+    /// The same for every one near `triangle`, all of them.
+    void forEachMet(const Corners& triangle, const std::function<void(const Corners&)>& visit) const;
     /// Whether a part of the model may lie in `box`, so that swept() has to be asked.
     bool mayHoldPart(const Box& box) const;
     /// Whether a closed surface sweeps over a part of the model: `surface` is the new star and the reversed old one.
