@@ -194,6 +194,25 @@ BOOST_AUTO_TEST_CASE(only_stale_stages_run_again)
     BOOST_CHECK(!made.report().symmetry);
 }
 
+// Up and down. With `best` few faces have several starts, all kept.
+BOOST_AUTO_TEST_CASE(a_new_face_count_gives_the_cage_of_a_fresh_run)
+{
+    const Mesh model = test::joined(test::sphere({0, 0, 0}, 1, 16), test::box({0.5, -0.2, -0.2}, {2, 0.2, 0.2}));
+    for (const auto& [effort, counts] : std::vector<std::pair<Effort, std::vector<int>>>{
+             {Effort::fast, {150, 400, 60, 90, 400}}, {Effort::best, {120, 60, 90}}}) {
+        CageOptions options;
+        options.effort = effort;
+        Pipeline made(model);
+        for (std::size_t i = 0; i < counts.size(); ++i) {
+            options.faces = counts[i];
+            Watcher watcher;
+            made.run(options, &watcher);
+            BOOST_TEST((watcher.runs["surface"] > 0) == (i == 0));
+            BOOST_CHECK(sameMesh(made.cage(), makeCage(model, options)));
+        }
+    }
+}
+
 BOOST_AUTO_TEST_CASE(scaled_and_moved_models_get_the_scaled_and_moved_cage)
 {
     const Mesh model = saturn();

@@ -114,6 +114,7 @@ public:
         const std::string key = keyUpTo(options, PipelineStage::merge);
         if (key == cageKey_) return;
         cageKey_.clear();
+        for (const auto& start : starts_) start->isUsed = false;
         Candidate best = options.bounding ? makeBounding(options, interrupter) : makeUnguarded(options, interrupter);
         {
             const Stage stage(interrupter, "certify");
@@ -132,6 +133,9 @@ public:
         report_.handles = best.topology.genus();
         report_.repaired = best.repaired;
         best_ = std::move(best);
+        best_.from.reset();
+        starts_.erase(std::remove_if(starts_.begin(), starts_.end(), [](const auto& start) { return !start->isUsed; }),
+                      starts_.end());
         cageKey_ = key;
     }
 
@@ -146,11 +150,22 @@ public:
         double closeRadius;
         std::optional<SymmetryPlane> plane = {}; ///< across the middle of the voxels: the index resolution / 2
     };
+    /// What cages of any face count begin with.
+    struct Start {
+        std::string key;                        ///< what it was made with
+        openvdb::FloatGrid::ConstPtr scaleGrid; ///< whose address is in the key: kept, so that no other gets it
+        double offset = 0;
+        Mesh surface;
+        MeshTopology topology;
+        std::optional<GuardedDecimation> decimation; ///< once it was asked for
+        bool isUsed = true;                          ///< in this run
+    };
     /// A cage and what it was made from.
     struct Candidate {
         Voxels voxels{};
         double offset = 0;
         CageStart start = CageStart::closing;
+        std::shared_ptr<Start> from; // bounding only
         Mesh surface, smoothed, decimated, cage;
         MeshTopology topology; // of the surface
         CageCheck check;
@@ -159,11 +174,18 @@ public:
     const Candidate& best() const { return best_; }
 
 private:
-    void updateClosed(CageOptions options, const Voxels& voxels, Interrupter* interrupter)
+    /// With what auto options stand for.
+    static CageOptions resolved(CageOptions options, const Voxels& voxels)
     {
         options.resolution = voxels.resolution;
         options.closeRadius = voxels.closeRadius;
         if (!voxels.plane) options.symmetry = CageSymmetry::off;
+        return options;
+    }
+
+    void updateClosed(const CageOptions& given, const Voxels& voxels, Interrupter* interrupter)
+    {
+        const CageOptions options = resolved(given, voxels);
         updateSolid(options, voxels, interrupter);
         const std::string key = keyUpTo(options, PipelineStage::close);
         if (key == closedKey_) return;
@@ -325,6 +347,21 @@ private:
         return symmetry_;
     }
 
+    const BoundingGuard& guardFor(const GuardOptions& options, Interrupter* interrupter)
+    {
+        const auto& plane = options.symmetry;
+        const auto& last = guardOptions_.symmetry;
+        const bool samePlane = plane ? last && plane->axis == last->axis && plane->offset == last->offset : !last;
+        if (!guard_ || options.clearance != guardOptions_.clearance ||
+            options.minAngleDegrees != guardOptions_.minAngleDegrees || !samePlane) {
+            starts_.clear(); // they are under the guard
+            guard_.reset();
+            guard_ = std::make_unique<const BoundingGuard>(model_, options, interrupter);
+            guardOptions_ = options;
+        }
+        return *guard_;
+    }
+
     /// A symmetric cage where there is a plane, or else one that is not.
     Candidate makeBounding(const CageOptions& options, Interrupter* interrupter)
     {
@@ -336,7 +373,7 @@ private:
         report_.noSymmetry.clear();
         if (report_.symmetry) {
             guarding.symmetry = report_.symmetry->plane;
-            const BoundingGuard guard(model_, guarding, interrupter);
+            const BoundingGuard& guard = guardFor(guarding, interrupter);
             report_.symmetry->plane = *guard.symmetry();
             if (auto candidate = shrinkStarts(options, guard, interrupter)) return *candidate;
             report_.symmetry.reset();
@@ -345,7 +382,7 @@ private:
             report_.noSymmetry = "the model is not symmetric across x, y or z";
         }
         guarding.symmetry.reset();
-        const BoundingGuard guard(model_, guarding, interrupter);
+        const BoundingGuard& guard = guardFor(guarding, interrupter);
         const auto candidate = shrinkStarts(options, guard, interrupter);
         return candidate ? *candidate : makeBox(options, guard);
     }
@@ -370,8 +407,7 @@ private:
         block.voxels = ladder(options).back();
         block.voxels.resolution = std::min(block.voxels.resolution, blockResolution);
         block.voxels.plane = guard.symmetry();
-        updateClosed(options, block.voxels, interrupter);
-        start(block, *blockAround(*closed_), guard, interrupter);
+        begin(block, options, guard, interrupter);
         return shrinkOnto({block}, options, guard, interrupter);
     }
 
@@ -387,32 +423,55 @@ private:
             Candidate candidate;
             candidate.voxels = voxels;
             candidate.voxels.resolution = static_cast<int>(std::lround(scale * voxels.resolution));
-            updateClosed(options, candidate.voxels, interrupter);
-            start(candidate, *closed_, guard, interrupter);
+            begin(candidate, options, guard, interrupter);
             if (fewEnoughHandles(candidate.topology, options)) starts.push_back(std::move(candidate));
             if (!several || starts.empty()) break;
         }
         return starts;
     }
 
+    /// Gives a candidate what it is made from: of the run before, or anew.
+    void begin(Candidate& candidate, const CageOptions& options, const BoundingGuard& guard, Interrupter* interrupter)
+    {
+        const CageOptions here = resolved(options, candidate.voxels);
+        const std::string key =
+            (candidate.start == CageStart::block ? "block " : "") + keyUpTo(here, PipelineStage::close);
+        const auto hasKey = [&](const auto& start) { return start->key == key; };
+        auto known = std::find_if(starts_.begin(), starts_.end(), hasKey);
+        if (known == starts_.end()) {
+            updateClosed(options, candidate.voxels, interrupter);
+            const auto solid = candidate.start == CageStart::block ? blockAround(*closed_) : closed_;
+            const auto start = std::make_shared<Start>(startFrom(*solid, candidate.voxels, guard, interrupter));
+            start->key = key;
+            start->scaleGrid = options.scale.grid;
+            known = starts_.insert(starts_.end(), start);
+        }
+        (*known)->isUsed = true;
+        candidate.from = *known;
+        candidate.offset = candidate.from->offset;
+        candidate.surface = candidate.from->surface;
+        candidate.topology = candidate.from->topology;
+    }
+
     /// The surface of `solid`, grown until it keeps the guard's clearance.
-    static void start(Candidate& candidate, const openvdb::MaskGrid& solid, const BoundingGuard& guard,
-                      Interrupter* interrupter)
+    static Start startFrom(const openvdb::MaskGrid& solid, const Voxels& voxels, const BoundingGuard& guard,
+                           Interrupter* interrupter)
     {
         const Stage stage(interrupter, "surface");
         // A point off the grown solid lies that far, less a voxel's diagonal, from the model: the last is clear.
         const double diagonal = std::sqrt(3.0), voxel = solid.voxelSize()[0];
+        Start start;
         for (const double offset : {0.0, 1.0, std::ceil(guard.clearance() / voxel + diagonal)}) {
-            candidate.offset = offset;
+            start.offset = offset;
             openvdb::MaskGrid::Ptr grown;
             if (offset > 0) grown = dilate(solid, offset, Element::sphere, interrupter);
             const openvdb::MaskGrid& mask = grown ? *grown : solid;
-            candidate.surface =
-                guard.symmetry() ? guard.symmetrized(symmetricSurface(mask, candidate.voxels, interrupter), voxel / 4)
-                                 : extractSurface(mask, interrupter);
-            if (guard.isClear(candidate.surface)) break;
+            start.surface = guard.symmetry() ? guard.symmetrized(symmetricSurface(mask, voxels, interrupter), voxel / 4)
+                                             : extractSurface(mask, interrupter);
+            if (guard.isClear(start.surface)) break;
         }
-        candidate.topology = analyzeTopology(candidate.surface, interrupter);
+        start.topology = analyzeTopology(start.surface, interrupter);
+        return start;
     }
 
     /// The surface of a mask that is symmetric: so is what is added to make it well-composed.
@@ -454,7 +513,9 @@ private:
             const Stage stage(interrupter, "decimate");
             tbb::parallel_for(std::size_t(0), starts.size(), [&](std::size_t i) {
                 starts[i].smoothed = starts[i].surface;
-                starts[i].decimated = decimate(starts[i].surface, guard, decimation, options.effort, interrupter);
+                auto& known = starts[i].from->decimation;
+                if (!known) known.emplace(starts[i].surface, guard, interrupter);
+                starts[i].decimated = known->to(decimation, options.effort, interrupter);
             });
         }
         const auto keepAtMost = [&](std::size_t most, const Mesh Candidate::*mesh) {
@@ -463,7 +524,7 @@ private:
         };
         keepAtMost(decimation.faces, &Candidate::decimated);
         TightenOptions tightening;
-        tightening.shakes = options.effort == Effort::fast ? 0 : options.effort == Effort::fair ? 1 : 10;
+        tightening.shakes = options.effort == Effort::fast ? 0 : options.effort == Effort::fair ? 1 : 4;
         if (guard.symmetry()) tightening.shakes *= 3; // in the time that half a surface saves
         if (options.mesh == CageFaces::triangles) {
             const Stage stage(interrupter, "tighten");
@@ -526,6 +587,9 @@ private:
     CageSymmetry soughtSymmetry_ = CageSymmetry::off; // what was asked for `symmetry_`; off: nothing yet
     std::optional<Symmetry> symmetry_;
     std::string solidKey_, closedKey_, cageKey_; // what the values were made with; empty: nothing
+    std::unique_ptr<const BoundingGuard> guard_; // of the last run that was bounding
+    GuardOptions guardOptions_;                  // that it was made with
+    std::vector<std::shared_ptr<Start>> starts_; // of the last run, under guard_
     Candidate best_;
     CageReport report_;
 };

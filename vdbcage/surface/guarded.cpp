@@ -1,6 +1,7 @@
 // The operators of smooth.h, decimate.h and tighten.h that work under a guard, put together from sweeps and collapses.
 
 #include <algorithm>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -28,6 +29,12 @@ void requireCount(const std::string& name, int value)
 {
     if (value >= 0 && value <= 100) return;
     throw InputError(name + ": " + std::to_string(value) + " is not allowed; it must be 0 to 100");
+}
+
+void requireFaces(std::size_t faces)
+{
+    if (faces >= 4) return;
+    throw InputError("faces: " + std::to_string(faces) + " is not allowed; a closed surface has at least 4");
 }
 
 double areaPerSample(const detail::GuardedSurface& surface, std::size_t faces)
@@ -76,33 +83,83 @@ Mesh smooth(const Mesh& surface, const BoundingGuard& guard, int sweeps, Interru
     return guarded.mesh();
 }
 
+class GuardedDecimation::Impl {
+public:
+    Impl(const Mesh& surface, const BoundingGuard& guard, Interrupter* interrupter)
+        : sequence_(shrunk(surface, guard, interrupter))
+    {
+    }
+
+    Mesh to(std::size_t allFaces, Effort effort, Interrupter* interrupter)
+    {
+        constexpr std::size_t stop = 3; // times the faces
+        constexpr int sweepsAtStop = 2;
+        requireFaces(allFaces);
+        const std::size_t faces = allFaces / copies_;
+        // Quadrics know the surface that they were made from: one that was pulled onto the model on the way is better.
+        detail::GuardedSurface guarded = sequence_.at(stop * faces, interrupter);
+        detail::tighten(guarded, sweepsAtStop, areaPerSample(guarded, 2 * faces), interrupter);
+        detail::collapseByQuadrics(guarded, faces, interrupter);
+        // Where the model is in the way of every collapse, there is room farther out (the model's longest side is 1 to
+        // 2).
+        for (double push = 0.02; guarded.liveFaces() > faces && push < 1; push *= 2) {
+            detail::inflate(guarded, push, interrupter);
+            detail::collapseByQuadrics(guarded, faces, interrupter);
+        }
+        if (effort == Effort::fair) {
+            detail::tighten(guarded, 2, areaPerSample(guarded, faces), interrupter);
+            detail::exchange(guarded, 2, 3, interrupter);
+        } else if (effort == Effort::best) {
+            exchangeAndShake(guarded, interrupter);
+        }
+        return guarded.mesh();
+    }
+
+private:
+    detail::GuardedSurface shrunk(const Mesh& surface, const BoundingGuard& guard, Interrupter* interrupter)
+    {
+        detail::GuardedSurface guarded(surface, guard.model(), Quads::split);
+        copies_ = guarded.copies();
+        detail::shrink(guarded, interrupter);
+        return guarded;
+    }
+
+    /// Exchanges end where none is better on the whole; a surface that was shaken has others that are.
+    static void exchangeAndShake(detail::GuardedSurface& surface, Interrupter* interrupter)
+    {
+        constexpr int turns = 3, firstRounds = 4, rounds = 2, shakes = 2, exchangeSweeps = 6;
+        const int sweeps = TightenOptions().sweeps;
+        const double perSample = areaPerSample(surface, surface.liveFaces());
+        detail::tighten(surface, sweeps, perSample, interrupter);
+        detail::exchange(surface, firstRounds, exchangeSweeps, interrupter);
+        for (int i = 0; i < turns; ++i) {
+            detail::shake(surface, shakes, sweeps, perSample, interrupter);
+            detail::exchange(surface, rounds, exchangeSweeps, interrupter);
+        }
+    }
+
+    std::size_t copies_ = 1;
+    detail::CollapseSequence sequence_;
+};
+
+GuardedDecimation::GuardedDecimation(const Mesh& surface, const BoundingGuard& guard, Interrupter* interrupter)
+    : impl_(std::make_unique<Impl>(surface, guard, interrupter))
+{
+}
+GuardedDecimation::~GuardedDecimation() = default;
+GuardedDecimation::GuardedDecimation(GuardedDecimation&&) noexcept = default;
+GuardedDecimation& GuardedDecimation::operator=(GuardedDecimation&&) noexcept = default;
+
+Mesh GuardedDecimation::to(const DecimateOptions& options, Effort effort, Interrupter* interrupter)
+{
+    return impl_->to(options.faces, effort, interrupter);
+}
+
 Mesh decimate(const Mesh& surface, const BoundingGuard& guard, const DecimateOptions& options, Effort effort,
               Interrupter* interrupter)
 {
-    constexpr std::size_t stop = 3; // times the faces
-    constexpr int sweepsAtStop = 2;
-    if (options.faces < 4) {
-        throw InputError("faces: " + std::to_string(options.faces) +
-                         " is not allowed; a closed surface has at least 4");
-    }
-    detail::GuardedSurface guarded(surface, guard.model(), Quads::split);
-    const std::size_t faces = options.faces / guarded.copies();
-    detail::shrink(guarded, interrupter);
-    // Quadrics know the surface that they were made from: one that was pulled onto the model on the way is better.
-    detail::collapseByQuadrics(guarded, stop * faces, interrupter);
-    detail::tighten(guarded, sweepsAtStop, areaPerSample(guarded, 2 * faces), interrupter);
-    detail::collapseByQuadrics(guarded, faces, interrupter);
-    // Where the model is in the way of every collapse, there is room farther out (the model's longest side is 1 to 2).
-    for (double push = 0.02; guarded.liveFaces() > faces && push < 1; push *= 2) {
-        detail::inflate(guarded, push, interrupter);
-        detail::collapseByQuadrics(guarded, faces, interrupter);
-    }
-    if (effort != Effort::fast) {
-        const bool isBest = effort == Effort::best;
-        detail::tighten(guarded, isBest ? TightenOptions().sweeps : 2, areaPerSample(guarded, faces), interrupter);
-        detail::exchange(guarded, isBest ? 8 : 2, isBest ? 6 : 3, interrupter);
-    }
-    return guarded.mesh();
+    requireFaces(options.faces);
+    return GuardedDecimation(surface, guard, interrupter).to(options, effort, interrupter);
 }
 
 Mesh tighten(const Mesh& cage, const BoundingGuard& guard, const TightenOptions& options, Interrupter* interrupter)
@@ -120,10 +177,7 @@ Mesh triquad(const Mesh& surface, const BoundingGuard& guard, const BoundingTriq
 {
     constexpr int attempts = 6;
     constexpr double aim = 0.99, goodEnough = 0.97; // of the faces
-    if (options.faces < 4) {
-        throw InputError("faces: " + std::to_string(options.faces) +
-                         " is not allowed; a closed surface has at least 4");
-    }
+    requireFaces(options.faces);
     detail::requireMergeAngle(options.mergeAngleDegrees);
     if (!(options.quads >= 0 && options.quads <= 1)) {
         throw InputError("quads: " + std::to_string(options.quads) + " is not allowed; it must be 0 to 1");

@@ -1,5 +1,6 @@
 // Based on: Garland, Heckbert, "Surface Simplification Using Quadric Error Metrics", 1997.
 //           Sander, Gu, Gortler, Hoppe, Snyder, "Silhouette Clipping", 2000 (decimation that stays outside).
+//           Hoppe, "Progressive Meshes", 1996 (a recorded sequence of collapses answers every number of faces).
 // Differs: every collapse has to pass the guard, its vertex pushed outward until it does and then drawn along what it
 // touches to where its quadric is least.
 
@@ -9,6 +10,7 @@
 #include <cmath>
 #include <optional>
 #include <queue>
+#include <utility>
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
@@ -65,19 +67,24 @@ public:
         }
     }
 
+    /// Collapses until `faces` are left.
     void run(std::size_t faces, Interrupter* interrupter)
     {
-        std::size_t facesAtLastFill = 0;
-        while (surface_.liveFaces() > faces) {
-            if (queue_.empty()) {
-                // What was blocked may be free since its surroundings changed.
-                if (surface_.liveFaces() == facesAtLastFill) return;
-                facesAtLastFill = surface_.liveFaces();
-                push(allEdges(surface_));
-            }
+        while (surface_.liveFaces() > faces && refillIfEmpty()) {
             throwIfInterrupted(interrupter);
-            collapseBatch(faces);
+            const std::size_t collapsesLeft = (surface_.liveFaces() - faces + 1) / 2;
+            collapseBatch(std::min(collapsesLeft, batchSize()), true, [](const Fan&, const Vec3d&) {});
         }
+    }
+
+    /// Collapses the next few edges, the same ones whatever comes after, and calls made(fan, place) for each. Returns
+    /// whether anything was left to try.
+    template <typename Made>
+    bool runBatch(const Made& made)
+    {
+        if (!refillIfEmpty()) return false;
+        collapseBatch(batchSize(), false, made);
+        return true;
     }
 
 private:
@@ -93,22 +100,27 @@ private:
         Fan fan;
     };
 
-    /// Few at a time where few are left, so that their order matters more.
-    std::size_t batchSize(std::size_t faces) const
+    /// What was blocked may be free since its surroundings changed. False if they did not.
+    bool refillIfEmpty()
     {
-        const std::size_t collapsesLeft = (surface_.liveFaces() - faces + 1) / 2;
-        return std::min(collapsesLeft, std::clamp<std::size_t>(surface_.liveFaces() / 200, 4, 64));
+        if (!queue_.empty()) return true;
+        if (surface_.liveFaces() == facesAtLastFill_) return false;
+        facesAtLastFill_ = surface_.liveFaces();
+        push(allEdges(surface_));
+        return !queue_.empty();
     }
 
-    void collapseBatch(std::size_t faces)
+    /// Few at a time where few are left, so that their order matters more.
+    std::size_t batchSize() const { return std::clamp<std::size_t>(surface_.liveFaces() / 200, 4, 64); }
+
+    template <typename Made>
+    void collapseBatch(std::size_t size, bool slides, const Made& made)
     {
         std::vector<Proposal> proposals;
-        const std::size_t size = batchSize(faces);
         while (proposals.size() < size && !queue_.empty()) {
             if (isCurrent(queue_.top().edge)) proposals.push_back({queue_.top(), {}});
             queue_.pop();
         }
-        const bool slides = surface_.liveFaces() < slideBelow * faces;
         tbb::parallel_for(std::size_t(0), proposals.size(), [&](std::size_t i) { find(proposals[i], slides); });
         std::stable_sort(proposals.begin(), proposals.end(),
                          [](const Proposal& a, const Proposal& b) { return b.candidate < a.candidate; });
@@ -122,6 +134,7 @@ private:
                 queue_.push(p.candidate);
                 continue;
             }
+            made(p.fan, *p.candidate.place);
             quadrics_[edge.u] += quadrics_[edge.v];
             ++stamp_[edge.u];
             ++stamp_[edge.v];
@@ -231,13 +244,12 @@ private:
                 [&](const Vec3d& target) { return cost(q, target) < before; });
     }
 
-    static constexpr std::size_t slideBelow = 4; ///< times the faces asked for: above it pays less than it costs
-
     GuardedSurface& surface_;
     Vec3d origin_{0.0};
     std::vector<Quadric> quadrics_;
     std::vector<std::uint32_t> stamp_; // grows when an edge at the vertex changes: older entries of the queue are void
     std::priority_queue<Candidate> queue_;
+    std::size_t facesAtLastFill_ = 0;
 };
 
 } // namespace
@@ -245,6 +257,60 @@ private:
 void collapseByQuadrics(GuardedSurface& surface, std::size_t faces, Interrupter* interrupter)
 {
     QuadricCollapser(surface).run(faces, interrupter);
+}
+
+class CollapseSequence::Recorder {
+public:
+    explicit Recorder(GuardedSurface start) : start_(std::move(start)), end_(start_), collapser_(end_) {}
+
+    GuardedSurface at(std::size_t faces, Interrupter* interrupter)
+    {
+        while (end_.liveFaces() > faces) {
+            throwIfInterrupted(interrupter);
+            const bool goesOn = collapser_.runBatch([&](const Fan& fan, const Vec3d& place) {
+                collapses_.push_back({fan.centre, fan.removed, place});
+            });
+            if (!goesOn) return end_;
+            batchEnds_.push_back({collapses_.size(), end_.liveFaces()});
+        }
+        std::size_t batch = batchEnds_.size(); // to be made again
+        while (batch > 0 && (batch > 1 ? batchEnds_[batch - 2].faces : start_.liveFaces()) <= faces) --batch;
+        if (batch == batchEnds_.size()) return end_;
+        GuardedSurface surface = start_;
+        Fan fan;
+        for (std::size_t i = 0; i < (batch > 0 ? batchEnds_[batch - 1].collapses : 0); ++i) {
+            surface.fanOf(collapses_[i].kept, collapses_[i].removed, fan);
+            surface.apply(fan, collapses_[i].place);
+        }
+        return surface;
+    }
+
+private:
+    struct Collapse {
+        std::uint32_t kept, removed;
+        Vec3d place;
+    };
+    struct BatchEnd {
+        std::size_t collapses, faces; // made so far, left
+    };
+
+    const GuardedSurface start_;
+    GuardedSurface end_;
+    QuadricCollapser collapser_; // of end_
+    std::vector<Collapse> collapses_;
+    std::vector<BatchEnd> batchEnds_;
+};
+
+CollapseSequence::CollapseSequence(GuardedSurface start) : recorder_(std::make_unique<Recorder>(std::move(start)))
+{
+}
+CollapseSequence::~CollapseSequence() = default;
+CollapseSequence::CollapseSequence(CollapseSequence&&) noexcept = default;
+CollapseSequence& CollapseSequence::operator=(CollapseSequence&&) noexcept = default;
+
+GuardedSurface CollapseSequence::at(std::size_t faces, Interrupter* interrupter)
+{
+    return recorder_->at(faces, interrupter);
 }
 
 } // namespace vdbcage::detail

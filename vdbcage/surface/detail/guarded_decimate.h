@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 
 #include <vdbcage/core/interrupter.h>
 #include <vdbcage/surface/detail/guarded_surface.h>
@@ -11,5 +12,23 @@ namespace vdbcage::detail {
 /// Collapses edges by their quadric error, as it is where the guard allows the vertex, until `faces` are left or
 /// nothing more is allowed. O(n log n) and fast.
 void collapseByQuadrics(GuardedSurface& surface, std::size_t faces, Interrupter* interrupter);
+
+/// Collapses by quadric error that are recorded: each surface on the way can be had again. They are made in batches
+/// that do not depend on what is asked for, so neither does the answer depend on what was asked for before.
+class CollapseSequence {
+public:
+    explicit CollapseSequence(GuardedSurface start);
+    ~CollapseSequence();
+    CollapseSequence(CollapseSequence&&) noexcept;
+    CollapseSequence& operator=(CollapseSequence&&) noexcept;
+
+    /// The surface after the first batch that leaves at most `faces` (a few less, then), or where no collapse is
+    /// allowed any more. Collapses that were recorded take some microseconds each. After Cancelled it can go on.
+    GuardedSurface at(std::size_t faces, Interrupter* interrupter);
+
+private:
+    class Recorder;
+    std::unique_ptr<Recorder> recorder_;
+};
 
 } // namespace vdbcage::detail
