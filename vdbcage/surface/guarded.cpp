@@ -23,12 +23,18 @@ namespace {
 
 using Quads = detail::GuardedSurface::Quads;
 
-constexpr double samplesPerFace = 4; // of the distance to the model, where vertices are tightened
-
-void requireCount(const std::string& name, int value)
+void requireCount(const std::string& name, int value, int least = 0)
 {
-    if (value >= 0 && value <= 100) return;
-    throw InputError(name + ": " + std::to_string(value) + " is not allowed; it must be 0 to 100");
+    if (value >= least && value <= 100) return;
+    throw InputError(name + ": " + std::to_string(value) + " is not allowed; it must be " + std::to_string(least) +
+                     " to 100");
+}
+
+void requireValid(const TightenOptions& options)
+{
+    requireCount("sweeps", options.sweeps);
+    requireCount("shakes", options.shakes);
+    requireCount("samples", options.samples, 1);
 }
 
 void requireFaces(std::size_t faces)
@@ -37,16 +43,17 @@ void requireFaces(std::size_t faces)
     throw InputError("faces: " + std::to_string(faces) + " is not allowed; a closed surface has at least 4");
 }
 
-double areaPerSample(const detail::GuardedSurface& surface, std::size_t faces)
+/// For so many samples of the distance to the model as `faces` have, `samples` each.
+double areaPerSample(const detail::GuardedSurface& surface, std::size_t faces, int samples)
 {
-    return detail::area(surface) / (samplesPerFace * static_cast<double>(faces));
+    return detail::area(surface) / (static_cast<double>(samples) * static_cast<double>(faces));
 }
 
 void tightenAndShake(detail::GuardedSurface& surface, const TightenOptions& options, Interrupter* interrupter)
 {
     const std::size_t faces = surface.liveFaces();
-    detail::tighten(surface, options.sweeps, areaPerSample(surface, faces), interrupter);
-    detail::shake(surface, options.shakes, options.sweeps, areaPerSample(surface, faces), interrupter);
+    detail::tighten(surface, options.sweeps, areaPerSample(surface, faces, options.samples), interrupter);
+    detail::shake(surface, options.shakes, options.sweeps, areaPerSample(surface, faces, options.samples), interrupter);
 }
 
 /// Pairs up the triangles of a surface in rounds, until enough are quads.
@@ -56,7 +63,8 @@ void makeQuads(detail::GuardedSurface& surface, const BoundingTriquadOptions& op
     constexpr int sweepsBefore = 4;
     double room = 0;
     for (int round = 0; round < rounds; ++round) {
-        detail::tighten(surface, sweepsBefore, areaPerSample(surface, surface.liveFaces()), interrupter);
+        detail::tighten(surface, sweepsBefore, areaPerSample(surface, surface.liveFaces(), options.tightening.samples),
+                        interrupter);
         // The other diagonals need about as much room as the first ones have; it is made before pairing, since quads
         // hold their vertices. Then only what is still triangles gets more.
         if (round == 0) room = detail::medianDistance(surface);
@@ -96,9 +104,10 @@ public:
         constexpr int sweepsAtStop = 2;
         requireFaces(allFaces);
         const std::size_t faces = allFaces / copies_;
+        const int samples = effort == Effort::best ? bestSamples : TightenOptions().samples;
         // Quadrics know the surface that they were made from: one that was pulled onto the model on the way is better.
         detail::GuardedSurface guarded = sequence_.at(stop * faces, interrupter);
-        detail::tighten(guarded, sweepsAtStop, areaPerSample(guarded, 2 * faces), interrupter);
+        detail::tighten(guarded, sweepsAtStop, areaPerSample(guarded, 2 * faces, samples), interrupter);
         detail::collapseByQuadrics(guarded, faces, interrupter);
         // Where the model is in the way of every collapse, there is room farther out (the model's longest side is 1 to
         // 2).
@@ -107,7 +116,7 @@ public:
             detail::collapseByQuadrics(guarded, faces, interrupter);
         }
         if (effort == Effort::fair) {
-            detail::tighten(guarded, 2, areaPerSample(guarded, faces), interrupter);
+            detail::tighten(guarded, 2, areaPerSample(guarded, faces, samples), interrupter);
             detail::exchange(guarded, 2, 3, interrupter);
         } else if (effort == Effort::best) {
             exchangeAndShake(guarded, interrupter);
@@ -127,9 +136,9 @@ private:
     /// Exchanges end where none is better on the whole; a surface that was shaken has others that are.
     static void exchangeAndShake(detail::GuardedSurface& surface, Interrupter* interrupter)
     {
-        constexpr int turns = 3, firstRounds = 4, rounds = 2, shakes = 2, exchangeSweeps = 6;
+        constexpr int turns = 2, firstRounds = 4, rounds = 2, shakes = 2, exchangeSweeps = 6;
         const int sweeps = TightenOptions().sweeps;
-        const double perSample = areaPerSample(surface, surface.liveFaces());
+        const double perSample = areaPerSample(surface, surface.liveFaces(), bestSamples);
         detail::tighten(surface, sweeps, perSample, interrupter);
         detail::exchange(surface, firstRounds, exchangeSweeps, interrupter);
         for (int i = 0; i < turns; ++i) {
@@ -137,6 +146,8 @@ private:
             detail::exchange(surface, rounds, exchangeSweeps, interrupter);
         }
     }
+
+    static constexpr int bestSamples = 12;
 
     std::size_t copies_ = 1;
     detail::CollapseSequence sequence_;
@@ -164,8 +175,7 @@ Mesh decimate(const Mesh& surface, const BoundingGuard& guard, const DecimateOpt
 
 Mesh tighten(const Mesh& cage, const BoundingGuard& guard, const TightenOptions& options, Interrupter* interrupter)
 {
-    requireCount("sweeps", options.sweeps);
-    requireCount("shakes", options.shakes);
+    requireValid(options);
     detail::GuardedSurface guarded(cage, guard.model(), Quads::keep);
     if (guarded.liveFaces() == 0) return guarded.mesh();
     tightenAndShake(guarded, options, interrupter);
@@ -182,8 +192,7 @@ Mesh triquad(const Mesh& surface, const BoundingGuard& guard, const BoundingTriq
     if (!(options.quads >= 0 && options.quads <= 1)) {
         throw InputError("quads: " + std::to_string(options.quads) + " is not allowed; it must be 0 to 1");
     }
-    requireCount("sweeps", options.tightening.sweeps);
-    requireCount("shakes", options.tightening.shakes);
+    requireValid(options.tightening);
     const detail::GuardedSurface fine(surface, guard.model(), Quads::split);
     if (fine.liveFaces() == 0) return fine.mesh();
 
