@@ -423,7 +423,7 @@ MaskTree::Ptr applyCube(const MaskTree& mask, std::initializer_list<CubeStep> st
             set = AxisPass(set, side, step.radius, progress.part(part++, parts)).run();
         }
     }
-    return set.tree(progress.part(part, parts));
+    return std::move(set).tree(progress.part(part, parts));
 }
 
 } // namespace vdbcage::detail

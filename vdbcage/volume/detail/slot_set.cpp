@@ -17,8 +17,8 @@ std::unique_ptr<FlatBlock> flattened(const MaskBlock& node)
     FlatBlock& flat = *made;
     flat.origin = node.origin();
     flat.words.reserve(node.childCount());
-    for (auto tile = node.cbeginValueOn(); tile; ++tile) {
-        flat.full[tile.pos() / 64] |= 1ULL << (tile.pos() % 64);
+    for (std::size_t i = 0; i < FlatBlock::wordCount; ++i) {
+        flat.full[i] = node.getValueMask().getWord<std::uint64_t>(static_cast<openvdb::Index>(i));
     }
     flat.some = flat.full;
     for (auto leaf = node.cbeginChildOn(); leaf; ++leaf) {
@@ -120,13 +120,14 @@ std::vector<Coord> SlotSet::shell() const
     return origins;
 }
 
-MaskTree::Ptr SlotSet::tree(const Progress& progress) const
+MaskTree::Ptr SlotSet::tree(const Progress& progress) &&
 {
     std::vector<BuiltBlock> built(flat_.size());
     std::atomic<std::size_t> done{0};
     tbb::parallel_for(std::size_t{0}, flat_.size(), [&](std::size_t i) {
         progress.check(done++, flat_.size());
         built[i] = treeBlock(*flat_[i]);
+        flat_[i].reset(); // for the nodes that follow: to use its memory again is faster than to touch new pages
     });
     return assemble(full_, std::move(built));
 }
