@@ -257,11 +257,11 @@ private:
         return result;
     }
 
-    // What whole slots tell: one that is full fills all that lie wholly in its reach.
+    // What whole slots tell: one that is full fills all that are as many slots away as the radius has whole ones.
     Verdict settle(const View& view, std::size_t blocks, std::size_t stretch) const
     {
         Verdict verdict;
-        verdict.full = unitedAround(view.full[stretch], std::max(wholeSlots_, std::size_t{1}) - 1, blocks);
+        verdict.full = unitedAround(view.full[stretch], wholeSlots_, blocks);
         verdict.open = unitedAround(view.some[stretch], slotReach_, blocks);
         for (std::size_t i = 0; i < blocks; ++i) {
             for (std::size_t x = 0; x < slotsPerAxis; ++x) {
@@ -301,14 +301,7 @@ private:
 
     void buildLine(const Verdict& verdict, const Line& line, View& view, const std::unique_ptr<FlatBlock>* result) const
     {
-        const auto isOpen = [&](const Stretch& lines) { return line.of(lines) != 0; };
-        const auto first = std::find_if(verdict.open.begin(), verdict.open.end(), isOpen);
-        if (first != verdict.open.end()) {
-            const auto last = std::find_if(verdict.open.rbegin(), verdict.open.rend(), isOpen).base(); // one behind
-            readLine(line, static_cast<std::size_t>(first - verdict.open.begin()),
-                     static_cast<std::size_t>(last - verdict.open.begin()) + 2 * static_cast<std::size_t>(blockReach_),
-                     view);
-        }
+        readAround(verdict, line, view);
         // Turned, the slots of a block on this line are a quarter of a word.
         const std::size_t n = (slotsPerAxis * line.y() + line.z) / 4, shift = 16 * (line.z % 4);
         for (std::size_t i = 0; i < verdict.full.size(); ++i) {
@@ -342,30 +335,57 @@ private:
         return words;
     }
 
-    // From one block of the view to another, which is not included.
-    void readLine(const Line& line, std::size_t first, std::size_t last, View& view) const
+    // All that is in reach of the open slots.
+    void readAround(const Verdict& verdict, const Line& line, View& view) const
     {
-        for (std::size_t b = first; b < last; ++b) {
-            const std::uint64_t full = line.of(view.fullLines[b]);
-            for (std::size_t x = 0; x < slotsPerAxis; ++x) {
-                view.any[slotsPerAxis * b + x] = 0 - ((full >> x) & 1);
-                view.line[slotsPerAxis * b + x] = (flip_ != 0 ? emptyWords : fullWords).data();
+        std::size_t first = 0, end = 0; // of slots read in one go
+        for (std::size_t i = 0; i < verdict.open.size(); ++i) {
+            const unsigned open = line.of(verdict.open[i]);
+            if (open == 0) continue;
+            const std::size_t block = (i + static_cast<std::size_t>(blockReach_)) * slotsPerAxis;
+            const std::size_t from = block + static_cast<std::size_t>(__builtin_ctz(open)) - slotReach_;
+            const std::size_t to = block + static_cast<std::size_t>(32 - __builtin_clz(open)) + slotReach_;
+            if (from > end) {
+                unite(first, end, view);
+                first = end = from;
             }
-            for (unsigned mixed = line.of(view.mixedLines[b]); mixed != 0; mixed &= mixed - 1) {
+            read(line, end, to, view);
+            end = to;
+        }
+        unite(first, end, view);
+    }
+
+    // From one slot of the line to another, which is not included.
+    void read(const Line& line, std::size_t from, std::size_t to, View& view) const
+    {
+        for (std::size_t i = from; i < to; ++i) view.any[i] = 0;
+        for (std::size_t block = from - from % slotsPerAxis; block < to; block += slotsPerAxis) {
+            const std::size_t b = block / slotsPerAxis;
+            const auto inside = (from > block ? ~0U << (from - block) : ~0U) &
+                                (to - block < slotsPerAxis ? ~(~0U << (to - block)) : ~0U);
+            // Full slots tell nothing but at the end of a reach of more than whole slots: see settle().
+            for (unsigned full = rest_ > 0 ? line.of(view.fullLines[b]) & inside : 0; full != 0; full &= full - 1) {
+                const std::size_t i = block + static_cast<std::size_t>(__builtin_ctz(full));
+                view.any[i] = ~0ULL;
+                view.line[i] = (flip_ != 0 ? emptyWords : fullWords).data();
+            }
+            for (unsigned mixed = line.of(view.mixedLines[b]) & inside; mixed != 0; mixed &= mixed - 1) {
                 const auto x = static_cast<std::size_t>(__builtin_ctz(mixed));
                 const Words& words = mixedWords(*view.blocks[b], x, line);
                 prefetch(&words, prefetched, 1);
                 std::uint64_t any = 0;
                 for (const std::uint64_t word : words) any |= word ^ flip_;
-                view.any[slotsPerAxis * b + x] = any;
-                view.line[slotsPerAxis * b + x] = words.data();
+                view.any[block + x] = any;
+                view.line[block + x] = words.data();
             }
         }
-        const auto from = static_cast<std::ptrdiff_t>(slotsPerAxis * first);
-        std::copy(view.any.begin() + from, view.any.begin() + static_cast<std::ptrdiff_t>(slotsPerAxis * last),
-                  view.united.begin() + from);
-        view.unitedCount = uniteAhead(view.united.data() + from, slotsPerAxis * (last - first),
-                                      2 * std::max(wholeSlots_, std::size_t{1}) - 1);
+    }
+
+    void unite(std::size_t first, std::size_t end, View& view) const
+    {
+        std::uint64_t* const united = view.united.data();
+        for (std::size_t i = first; i < end; ++i) united[i] = view.any[i];
+        view.unitedCount = uniteAhead(united + first, end - first, 2 * std::max(wholeSlots_, std::size_t{1}) - 1);
     }
 
     const Words& mixedWords(const FlatBlock& block, std::size_t x, const Line& line) const
