@@ -37,11 +37,11 @@ void zip(WordPair& a, WordPair& b)
         __builtin_shufflevector(x, y, 8, 24, 9, 25, 10, 26, 11, 27, 12, 28, 13, 29, 14, 30, 15, 31));
 }
 
+using WordPairs = std::array<WordPair, 4>; // of a slot
+
 // Bit (x, y, z), in word x at 8 y + z, moves to word y at 8 z + x.
-Words turned(const Words& words)
+Words turned(WordPairs w)
 {
-    std::array<WordPair, 4> w;
-    std::memcpy(w.data(), words.data(), sizeof words);
     // The three bits of x and of z in a voxel's place are exchanged one by one, in words two by two, which takes half
     // of what it takes within a word; zips turn the bytes, the first of them early as it parts the words of odd and
     // even x.
@@ -308,10 +308,11 @@ private:
             std::uint64_t full = line.of(verdict.full[i]), some = full;
             for (unsigned open = line.of(verdict.open[i]); open != 0; open &= open - 1) {
                 const auto x = static_cast<std::size_t>(__builtin_ctz(open));
-                const Words near = smear(view, (i + static_cast<std::size_t>(blockReach_)) * slotsPerAxis + x);
-                if (near == emptyWords) continue;
+                const WordPairs near = smear(view, (i + static_cast<std::size_t>(blockReach_)) * slotsPerAxis + x);
+                const WordPair any = near[0] | near[1] | near[2] | near[3], all = near[0] & near[1] & near[2] & near[3];
+                if ((any[0] | any[1]) == 0) continue;
                 some |= 1ULL << x;
-                if (near == fullWords) {
+                if ((all[0] & all[1]) == ~0ULL) {
                     full |= 1ULL << x;
                 } else {
                     result[i]->words.push_back(turned(flipped(near)));
@@ -329,9 +330,9 @@ private:
         for (int i = first; i < first + count; ++i) __builtin_prefetch(words + i);
     }
 
-    Words flipped(Words words) const
+    WordPairs flipped(WordPairs words) const
     {
-        for (std::uint64_t& word : words) word ^= flip_;
+        for (WordPair& pair : words) pair ^= flip_;
         return words;
     }
 
@@ -397,54 +398,79 @@ private:
     }
 
     // The result at slot `own` of the line.
-    Words smear(const View& view, std::size_t own) const
+    WordPairs smear(const View& view, std::size_t own) const
     {
-        Words near{};
+        WordPairs near{};
         if (wholeSlots_ == 0) {
             smearWithin(view, own, near);
         } else {
             // All slots that lie wholly in reach of all of this one.
-            near.fill(view.united[own + 1 - wholeSlots_] | view.united[own + wholeSlots_ - view.unitedCount]);
-            if (near[0] == ~0ULL) return near;
-            addSums(view, own - wholeSlots_, true, 0, near);
-            addSums(view, own + wholeSlots_, false, 0, near);
+            near[0] += view.united[own + 1 - wholeSlots_] | view.united[own + wholeSlots_ - view.unitedCount];
+            near[1] = near[2] = near[3] = near[0];
+            addBefore(view, own - wholeSlots_, 0, near);
+            addBehind(view, own + wholeSlots_, 0, near);
         }
         if (rest_ > 0) {
-            addSums(view, own - wholeSlots_ - 1, true, leafSize, near);
-            addSums(view, own + wholeSlots_ + 1, false, leafSize, near);
+            addBefore(view, own - wholeSlots_ - 1, leafSize, near);
+            addBehind(view, own + wholeSlots_ + 1, leafSize, near);
         }
         return near;
     }
 
     // Within one slot, of a radius below its size.
-    void smearWithin(const View& view, std::size_t own, Words& near) const
+    void smearWithin(const View& view, std::size_t own, WordPairs& near) const
     {
         if (view.any[own] == 0) return;
+        Words sums{};
         for (int from = 0; from < leafSize; ++from) {
             const std::uint64_t word = view.line[own][from] ^ flip_;
             const int last = std::min(from + radius_, leafSize - 1);
-            for (int to = std::max(from - radius_, 0); to <= last; ++to) near[static_cast<std::size_t>(to)] |= word;
+            for (int to = std::max(from - radius_, 0); to <= last; ++to) sums[static_cast<std::size_t>(to)] |= word;
         }
+        std::memcpy(near.data(), sums.data(), sizeof sums);
     }
 
-    // From a slot at the end of the reach, before or behind this one. Counted from its end next to this slot, and here
-    // from the end next to it, the words 0 to 7 - (to - rest + beyond) of it reach word `to`.
-    void addSums(const View& view, std::size_t slot, bool before, int beyond, Words& near) const
+    WordPairs pairsOf(const std::uint64_t* words) const
+    {
+        WordPairs pairs;
+        std::memcpy(pairs.data(), words, sizeof pairs);
+        return flipped(pairs);
+    }
+
+    // From a slot at the end of the reach, before this one: its words from to - rest + beyond on reach word `to`.
+    void addBefore(const View& view, std::size_t slot, int beyond, WordPairs& near) const
     {
         if (view.any[slot] == 0) return;
-        const std::uint64_t* const words = view.line[slot];
-        std::uint64_t sum = 0;
-        std::array<std::uint64_t, 8> sums; // of the words 0 to i
-        for (std::size_t i = 0; i < 8; ++i) {
-            sum |= words[before ? 7 - i : i] ^ flip_;
-            sums[i] = sum;
+        WordPairs sums = pairsOf(view.line[slot]); // each word with all behind it
+        WordPair sum{};
+        for (std::size_t i = sums.size(); i-- > 0;) {
+            sums[i] |= __builtin_shufflevector(sums[i], WordPair{}, 1, 2) | sum;
+            sum = __builtin_shufflevector(sums[i], sums[i], 0, 0);
         }
-        for (int to = 0; to < leafSize; ++to) {
-            const int last = leafSize - 1 - (to - rest_ + beyond);
-            if (last < 0) break;
-            near[static_cast<std::size_t>(before ? to : leafSize - 1 - to)] |=
-                sums[static_cast<std::size_t>(std::min(last, leafSize - 1))];
+        add(sum, sums, WordPair{}, leafSize - rest_ + beyond, near);
+    }
+
+    // The same behind it: the words up to to + rest - beyond reach word `to`.
+    void addBehind(const View& view, std::size_t slot, int beyond, WordPairs& near) const
+    {
+        if (view.any[slot] == 0) return;
+        WordPairs sums = pairsOf(view.line[slot]); // each word with all before it
+        WordPair sum{};
+        for (WordPair& pair : sums) {
+            pair |= __builtin_shufflevector(WordPair{}, pair, 0, 2) | sum;
+            sum = __builtin_shufflevector(pair, pair, 1, 1);
         }
+        add(WordPair{}, sums, sum, leafSize + rest_ - beyond, near);
+    }
+
+    // Adds 8 words from one on, of 8 that are `before`, 8 of a slot and 8 that are `behind`.
+    static void add(const WordPair& before, const WordPairs& sums, const WordPair& behind, int from, WordPairs& near)
+    {
+        const WordPair all[]{before,  before,  before, before, sums[0], sums[1],
+                             sums[2], sums[3], behind, behind, behind,  behind};
+        WordPairs added;
+        std::memcpy(added.data(), reinterpret_cast<const std::uint64_t*>(all) + from, sizeof added);
+        for (std::size_t i = 0; i < near.size(); ++i) near[i] |= added[i];
     }
 
     const SlotSet& mask_;
