@@ -209,6 +209,18 @@ BOOST_DATA_TEST_CASE(closing_is_extensive_idempotent_and_increasing, data::make(
     BOOST_TEST(isSubset(*closed, *close(*small, radius, 0.5 * radius, element)));
 }
 
+// The radii that equals_the_definition is too slow for: whole slots and parts of one, within a block and beyond.
+BOOST_TEST_DECORATOR(*boost::unit_test::label("property"))
+BOOST_DATA_TEST_CASE(cubes_add_up, data::make({8, 12, 16, 17, 33, 64, 121}) * data::make({3, 8, 11}), radius, more)
+{
+    const auto grid = fatBlobs(160, 8);
+    for (const Coord& lone : {Coord(-3, 120, 64), Coord(140, 0, -77)}) grid->tree().setValueOn(lone);
+    const auto large = dilate(*grid, radius + more, Element::cube);
+    BOOST_TEST(sameTree(*dilate(*dilate(*grid, radius, Element::cube), more, Element::cube), *large));
+    BOOST_TEST(sameTree(*erode(*erode(*large, radius, Element::cube), more, Element::cube),
+                        *erode(*large, radius + more, Element::cube)));
+}
+
 BOOST_TEST_DECORATOR(*boost::unit_test::label("property"))
 BOOST_DATA_TEST_CASE(whole_voxel_shifts_commute, data::make(elements), element)
 {

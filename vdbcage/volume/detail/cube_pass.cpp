@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cstring>
 
 #include <tbb/parallel_for.h>
 
@@ -22,18 +23,44 @@ Coord turned(const Coord& c)
     return {c.y(), c.z(), c.x()};
 }
 
-// Bit (x, y, z), in word x at 8 y + z, moves to word y at 8 z + x.
-Words turned(const Words& words)
+// Two words side by side: vectors of that size every machine has.
+typedef std::uint64_t WordPair __attribute__((vector_size(16)));
+typedef std::uint8_t BytePair __attribute__((vector_size(16))); // bytes of both
+
+// The bytes of `a` and `b` in turn: first those of the first words, then those of the second.
+void zip(WordPair& a, WordPair& b)
 {
-    Words w = words;
-    transposeBytes(w);
-    // Now word y holds bytes x of bits z: each word transposed as an 8 x 8 matrix of bits.
-    for (std::uint64_t& word : w) {
-        swapBits(word, 0x00000000F0F0F0F0ULL, 28);
-        swapBits(word, 0x0000CCCC0000CCCCULL, 14);
-        swapBits(word, 0x00AA00AA00AA00AAULL, 7);
-    }
-    return w;
+    const auto x = reinterpret_cast<BytePair>(a), y = reinterpret_cast<BytePair>(b);
+    a = reinterpret_cast<WordPair>(
+        __builtin_shufflevector(x, y, 0, 16, 1, 17, 2, 18, 3, 19, 4, 20, 5, 21, 6, 22, 7, 23));
+    b = reinterpret_cast<WordPair>(
+        __builtin_shufflevector(x, y, 8, 24, 9, 25, 10, 26, 11, 27, 12, 28, 13, 29, 14, 30, 15, 31));
+}
+
+using WordPairs = std::array<WordPair, 4>; // of a slot
+
+// Bit (x, y, z), in word x at 8 y + z, moves to word y at 8 z + x.
+Words turned(WordPairs w)
+{
+    // The three bits of x and of z in a voxel's place are exchanged one by one, in words two by two, which takes half
+    // of what it takes within a word; zips turn the bytes, the first of them early as it parts the words of odd and
+    // even x.
+    swapBits(w[0], w[2], 0x0F0F0F0F0F0F0F0FULL, 4);
+    swapBits(w[1], w[3], 0x0F0F0F0F0F0F0F0FULL, 4);
+    swapBits(w[0], w[1], 0x3333333333333333ULL, 2);
+    swapBits(w[2], w[3], 0x3333333333333333ULL, 2);
+    zip(w[0], w[2]);
+    zip(w[1], w[3]);
+    swapBits(w[0], w[2], 0x5555555555555555ULL, 1);
+    swapBits(w[1], w[3], 0x5555555555555555ULL, 1);
+    zip(w[0], w[1]);
+    zip(w[2], w[3]);
+    zip(w[0], w[2]);
+    zip(w[1], w[3]);
+    std::swap(w[1], w[2]);
+    Words result;
+    std::memcpy(result.data(), w.data(), sizeof result);
+    return result;
 }
 
 // For one stretch, 16 planes or, transposed, 16 z with the bits of a lane along x.
@@ -230,11 +257,11 @@ private:
         return result;
     }
 
-    // What whole slots tell: one that is full fills all that lie wholly in its reach.
+    // What whole slots tell: one that is full fills all that are as many slots away as the radius has whole ones.
     Verdict settle(const View& view, std::size_t blocks, std::size_t stretch) const
     {
         Verdict verdict;
-        verdict.full = unitedAround(view.full[stretch], std::max(wholeSlots_, std::size_t{1}) - 1, blocks);
+        verdict.full = unitedAround(view.full[stretch], wholeSlots_, blocks);
         verdict.open = unitedAround(view.some[stretch], slotReach_, blocks);
         for (std::size_t i = 0; i < blocks; ++i) {
             for (std::size_t x = 0; x < slotsPerAxis; ++x) {
@@ -274,24 +301,18 @@ private:
 
     void buildLine(const Verdict& verdict, const Line& line, View& view, const std::unique_ptr<FlatBlock>* result) const
     {
-        const auto isOpen = [&](const Stretch& lines) { return line.of(lines) != 0; };
-        const auto first = std::find_if(verdict.open.begin(), verdict.open.end(), isOpen);
-        if (first != verdict.open.end()) {
-            const auto last = std::find_if(verdict.open.rbegin(), verdict.open.rend(), isOpen).base(); // one behind
-            readLine(line, static_cast<std::size_t>(first - verdict.open.begin()),
-                     static_cast<std::size_t>(last - verdict.open.begin()) + 2 * static_cast<std::size_t>(blockReach_),
-                     view);
-        }
+        readAround(verdict, line, view);
         // Turned, the slots of a block on this line are a quarter of a word.
         const std::size_t n = (slotsPerAxis * line.y() + line.z) / 4, shift = 16 * (line.z % 4);
         for (std::size_t i = 0; i < verdict.full.size(); ++i) {
             std::uint64_t full = line.of(verdict.full[i]), some = full;
             for (unsigned open = line.of(verdict.open[i]); open != 0; open &= open - 1) {
                 const auto x = static_cast<std::size_t>(__builtin_ctz(open));
-                const Words near = smear(view, (i + static_cast<std::size_t>(blockReach_)) * slotsPerAxis + x);
-                if (near == emptyWords) continue;
+                const WordPairs near = smear(view, (i + static_cast<std::size_t>(blockReach_)) * slotsPerAxis + x);
+                const WordPair any = near[0] | near[1] | near[2] | near[3], all = near[0] & near[1] & near[2] & near[3];
+                if ((any[0] | any[1]) == 0) continue;
                 some |= 1ULL << x;
-                if (near == fullWords) {
+                if ((all[0] & all[1]) == ~0ULL) {
                     full |= 1ULL << x;
                 } else {
                     result[i]->words.push_back(turned(flipped(near)));
@@ -309,36 +330,63 @@ private:
         for (int i = first; i < first + count; ++i) __builtin_prefetch(words + i);
     }
 
-    Words flipped(Words words) const
+    WordPairs flipped(WordPairs words) const
     {
-        for (std::uint64_t& word : words) word ^= flip_;
+        for (WordPair& pair : words) pair ^= flip_;
         return words;
     }
 
-    // From one block of the view to another, which is not included.
-    void readLine(const Line& line, std::size_t first, std::size_t last, View& view) const
+    // All that is in reach of the open slots.
+    void readAround(const Verdict& verdict, const Line& line, View& view) const
     {
-        for (std::size_t b = first; b < last; ++b) {
-            const std::uint64_t full = line.of(view.fullLines[b]);
-            for (std::size_t x = 0; x < slotsPerAxis; ++x) {
-                view.any[slotsPerAxis * b + x] = 0 - ((full >> x) & 1);
-                view.line[slotsPerAxis * b + x] = (flip_ != 0 ? emptyWords : fullWords).data();
+        std::size_t first = 0, end = 0; // of slots read in one go
+        for (std::size_t i = 0; i < verdict.open.size(); ++i) {
+            const unsigned open = line.of(verdict.open[i]);
+            if (open == 0) continue;
+            const std::size_t block = (i + static_cast<std::size_t>(blockReach_)) * slotsPerAxis;
+            const std::size_t from = block + static_cast<std::size_t>(__builtin_ctz(open)) - slotReach_;
+            const std::size_t to = block + static_cast<std::size_t>(32 - __builtin_clz(open)) + slotReach_;
+            if (from > end) {
+                unite(first, end, view);
+                first = end = from;
             }
-            for (unsigned mixed = line.of(view.mixedLines[b]); mixed != 0; mixed &= mixed - 1) {
+            read(line, end, to, view);
+            end = to;
+        }
+        unite(first, end, view);
+    }
+
+    // From one slot of the line to another, which is not included.
+    void read(const Line& line, std::size_t from, std::size_t to, View& view) const
+    {
+        for (std::size_t i = from; i < to; ++i) view.any[i] = 0;
+        for (std::size_t block = from - from % slotsPerAxis; block < to; block += slotsPerAxis) {
+            const std::size_t b = block / slotsPerAxis;
+            const auto inside = (from > block ? ~0U << (from - block) : ~0U) &
+                                (to - block < slotsPerAxis ? ~(~0U << (to - block)) : ~0U);
+            // Full slots tell nothing but at the end of a reach of more than whole slots: see settle().
+            for (unsigned full = rest_ > 0 ? line.of(view.fullLines[b]) & inside : 0; full != 0; full &= full - 1) {
+                const std::size_t i = block + static_cast<std::size_t>(__builtin_ctz(full));
+                view.any[i] = ~0ULL;
+                view.line[i] = (flip_ != 0 ? emptyWords : fullWords).data();
+            }
+            for (unsigned mixed = line.of(view.mixedLines[b]) & inside; mixed != 0; mixed &= mixed - 1) {
                 const auto x = static_cast<std::size_t>(__builtin_ctz(mixed));
                 const Words& words = mixedWords(*view.blocks[b], x, line);
                 prefetch(&words, prefetched, 1);
                 std::uint64_t any = 0;
                 for (const std::uint64_t word : words) any |= word ^ flip_;
-                view.any[slotsPerAxis * b + x] = any;
-                view.line[slotsPerAxis * b + x] = words.data();
+                view.any[block + x] = any;
+                view.line[block + x] = words.data();
             }
         }
-        const auto from = static_cast<std::ptrdiff_t>(slotsPerAxis * first);
-        std::copy(view.any.begin() + from, view.any.begin() + static_cast<std::ptrdiff_t>(slotsPerAxis * last),
-                  view.united.begin() + from);
-        view.unitedCount = uniteAhead(view.united.data() + from, slotsPerAxis * (last - first),
-                                      2 * std::max(wholeSlots_, std::size_t{1}) - 1);
+    }
+
+    void unite(std::size_t first, std::size_t end, View& view) const
+    {
+        std::uint64_t* const united = view.united.data();
+        for (std::size_t i = first; i < end; ++i) united[i] = view.any[i];
+        view.unitedCount = uniteAhead(united + first, end - first, 2 * std::max(wholeSlots_, std::size_t{1}) - 1);
     }
 
     const Words& mixedWords(const FlatBlock& block, std::size_t x, const Line& line) const
@@ -350,54 +398,79 @@ private:
     }
 
     // The result at slot `own` of the line.
-    Words smear(const View& view, std::size_t own) const
+    WordPairs smear(const View& view, std::size_t own) const
     {
-        Words near{};
+        WordPairs near{};
         if (wholeSlots_ == 0) {
             smearWithin(view, own, near);
         } else {
             // All slots that lie wholly in reach of all of this one.
-            near.fill(view.united[own + 1 - wholeSlots_] | view.united[own + wholeSlots_ - view.unitedCount]);
-            if (near[0] == ~0ULL) return near;
-            addSums(view, own - wholeSlots_, true, 0, near);
-            addSums(view, own + wholeSlots_, false, 0, near);
+            near[0] += view.united[own + 1 - wholeSlots_] | view.united[own + wholeSlots_ - view.unitedCount];
+            near[1] = near[2] = near[3] = near[0];
+            addBefore(view, own - wholeSlots_, 0, near);
+            addBehind(view, own + wholeSlots_, 0, near);
         }
         if (rest_ > 0) {
-            addSums(view, own - wholeSlots_ - 1, true, leafSize, near);
-            addSums(view, own + wholeSlots_ + 1, false, leafSize, near);
+            addBefore(view, own - wholeSlots_ - 1, leafSize, near);
+            addBehind(view, own + wholeSlots_ + 1, leafSize, near);
         }
         return near;
     }
 
     // Within one slot, of a radius below its size.
-    void smearWithin(const View& view, std::size_t own, Words& near) const
+    void smearWithin(const View& view, std::size_t own, WordPairs& near) const
     {
         if (view.any[own] == 0) return;
+        Words sums{};
         for (int from = 0; from < leafSize; ++from) {
             const std::uint64_t word = view.line[own][from] ^ flip_;
             const int last = std::min(from + radius_, leafSize - 1);
-            for (int to = std::max(from - radius_, 0); to <= last; ++to) near[static_cast<std::size_t>(to)] |= word;
+            for (int to = std::max(from - radius_, 0); to <= last; ++to) sums[static_cast<std::size_t>(to)] |= word;
         }
+        std::memcpy(near.data(), sums.data(), sizeof sums);
     }
 
-    // From a slot at the end of the reach, before or behind this one. Counted from its end next to this slot, and here
-    // from the end next to it, the words 0 to 7 - (to - rest + beyond) of it reach word `to`.
-    void addSums(const View& view, std::size_t slot, bool before, int beyond, Words& near) const
+    WordPairs pairsOf(const std::uint64_t* words) const
+    {
+        WordPairs pairs;
+        std::memcpy(pairs.data(), words, sizeof pairs);
+        return flipped(pairs);
+    }
+
+    // From a slot at the end of the reach, before this one: its words from to - rest + beyond on reach word `to`.
+    void addBefore(const View& view, std::size_t slot, int beyond, WordPairs& near) const
     {
         if (view.any[slot] == 0) return;
-        const std::uint64_t* const words = view.line[slot];
-        std::uint64_t sum = 0;
-        std::array<std::uint64_t, 8> sums; // of the words 0 to i
-        for (std::size_t i = 0; i < 8; ++i) {
-            sum |= words[before ? 7 - i : i] ^ flip_;
-            sums[i] = sum;
+        WordPairs sums = pairsOf(view.line[slot]); // each word with all behind it
+        WordPair sum{};
+        for (std::size_t i = sums.size(); i-- > 0;) {
+            sums[i] |= __builtin_shufflevector(sums[i], WordPair{}, 1, 2) | sum;
+            sum = __builtin_shufflevector(sums[i], sums[i], 0, 0);
         }
-        for (int to = 0; to < leafSize; ++to) {
-            const int last = leafSize - 1 - (to - rest_ + beyond);
-            if (last < 0) break;
-            near[static_cast<std::size_t>(before ? to : leafSize - 1 - to)] |=
-                sums[static_cast<std::size_t>(std::min(last, leafSize - 1))];
+        add(sum, sums, WordPair{}, leafSize - rest_ + beyond, near);
+    }
+
+    // The same behind it: the words up to to + rest - beyond reach word `to`.
+    void addBehind(const View& view, std::size_t slot, int beyond, WordPairs& near) const
+    {
+        if (view.any[slot] == 0) return;
+        WordPairs sums = pairsOf(view.line[slot]); // each word with all before it
+        WordPair sum{};
+        for (WordPair& pair : sums) {
+            pair |= __builtin_shufflevector(WordPair{}, pair, 0, 2) | sum;
+            sum = __builtin_shufflevector(pair, pair, 1, 1);
         }
+        add(WordPair{}, sums, sum, leafSize + rest_ - beyond, near);
+    }
+
+    // Adds 8 words from one on, of 8 that are `before`, 8 of a slot and 8 that are `behind`.
+    static void add(const WordPair& before, const WordPairs& sums, const WordPair& behind, int from, WordPairs& near)
+    {
+        const WordPair all[]{before,  before,  before, before, sums[0], sums[1],
+                             sums[2], sums[3], behind, behind, behind,  behind};
+        WordPairs added;
+        std::memcpy(added.data(), reinterpret_cast<const std::uint64_t*>(all) + from, sizeof added);
+        for (std::size_t i = 0; i < near.size(); ++i) near[i] |= added[i];
     }
 
     const SlotSet& mask_;
@@ -423,7 +496,7 @@ MaskTree::Ptr applyCube(const MaskTree& mask, std::initializer_list<CubeStep> st
             set = AxisPass(set, side, step.radius, progress.part(part++, parts)).run();
         }
     }
-    return set.tree(progress.part(part, parts));
+    return std::move(set).tree(progress.part(part, parts));
 }
 
 } // namespace vdbcage::detail

@@ -17,8 +17,8 @@ std::unique_ptr<FlatBlock> flattened(const MaskBlock& node)
     FlatBlock& flat = *made;
     flat.origin = node.origin();
     flat.words.reserve(node.childCount());
-    for (auto tile = node.cbeginValueOn(); tile; ++tile) {
-        flat.full[tile.pos() / 64] |= 1ULL << (tile.pos() % 64);
+    for (std::size_t i = 0; i < FlatBlock::wordCount; ++i) {
+        flat.full[i] = node.getValueMask().getWord<std::uint64_t>(static_cast<openvdb::Index>(i));
     }
     flat.some = flat.full;
     for (auto leaf = node.cbeginChildOn(); leaf; ++leaf) {
@@ -41,19 +41,22 @@ BuiltBlock treeBlock(const FlatBlock& flat)
 {
     BuiltBlock built{flat.origin, nullptr, flat.isFull()};
     if (flat.isUniform) return built;
-    built.node = std::make_unique<MaskBlock>(flat.origin, false, false);
+    // Tiles are set one by one: fewer where the node begins as what most of it is.
+    const bool full =
+        std::count(flat.full.begin(), flat.full.end(), ~0ULL) > std::count(flat.some.begin(), flat.some.end(), 0ULL);
+    built.node = std::make_unique<MaskBlock>(flat.origin, full, full);
     auto words = flat.words.begin();
     for (std::size_t i = 0; i < FlatBlock::wordCount; ++i) {
-        for (std::uint64_t rest = flat.some[i]; rest != 0; rest &= rest - 1) {
-            const int bit = __builtin_ctzll(rest), n = static_cast<int>(i) * 64 + bit;
-            if (((flat.full[i] >> bit) & 1) != 0) {
-                built.node->addTile(static_cast<openvdb::Index>(n), true, true);
-            } else {
-                auto leaf = std::make_unique<MaskLeaf>(flat.origin + slotOffset(n));
-                std::copy(words->begin(), words->end(), leaf->buffer().data());
-                ++words;
-                built.node->addChild(leaf.release());
-            }
+        const int first = static_cast<int>(i) * 64;
+        for (std::uint64_t tiles = full ? ~flat.some[i] : flat.full[i]; tiles != 0; tiles &= tiles - 1) {
+            const int n = first + __builtin_ctzll(tiles);
+            built.node->addTile(static_cast<openvdb::Index>(n), !full, !full);
+        }
+        for (std::uint64_t mixed = flat.some[i] & ~flat.full[i]; mixed != 0; mixed &= mixed - 1) {
+            auto leaf = std::make_unique<MaskLeaf>(flat.origin + slotOffset(first + __builtin_ctzll(mixed)));
+            std::copy(words->begin(), words->end(), leaf->buffer().data());
+            ++words;
+            built.node->addChild(leaf.release());
         }
     }
     return built;
@@ -120,13 +123,14 @@ std::vector<Coord> SlotSet::shell() const
     return origins;
 }
 
-MaskTree::Ptr SlotSet::tree(const Progress& progress) const
+MaskTree::Ptr SlotSet::tree(const Progress& progress) &&
 {
     std::vector<BuiltBlock> built(flat_.size());
     std::atomic<std::size_t> done{0};
     tbb::parallel_for(std::size_t{0}, flat_.size(), [&](std::size_t i) {
         progress.check(done++, flat_.size());
         built[i] = treeBlock(*flat_[i]);
+        flat_[i].reset(); // for the nodes that follow: to use its memory again is faster than to touch new pages
     });
     return assemble(full_, std::move(built));
 }

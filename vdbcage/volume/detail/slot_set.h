@@ -57,7 +57,8 @@ public:
     const FullParts& full() const { return full_; }
     /// The blocks where the mask may begin or end, in no order.
     std::vector<Coord> shell() const;
-    MaskTree::Ptr tree(const Progress& progress) const;
+    /// Frees the blocks on the way.
+    MaskTree::Ptr tree(const Progress& progress) &&;
 
 private:
     void indexFlat();

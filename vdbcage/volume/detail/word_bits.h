@@ -4,17 +4,12 @@
 
 namespace vdbcage::detail {
 
-/// Swaps the bits of `word` under `mask` with those `shift` places above.
-inline void swapBits(std::uint64_t& word, std::uint64_t mask, int shift)
+/// Swaps the bits of `low` that are `shift` places above `mask` with those of `high` under it. Words, or vectors of
+/// them.
+template <class Word>
+inline void swapBits(Word& low, Word& high, std::uint64_t mask, int shift)
 {
-    const std::uint64_t difference = ((word >> shift) ^ word) & mask;
-    word ^= difference ^ (difference << shift);
-}
-
-/// The same between two words.
-inline void swapBits(std::uint64_t& low, std::uint64_t& high, std::uint64_t mask, int shift)
-{
-    const std::uint64_t difference = ((low >> shift) ^ high) & mask;
+    const Word difference = ((low >> shift) ^ high) & mask;
     high ^= difference;
     low ^= difference << shift;
 }
