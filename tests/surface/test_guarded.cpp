@@ -357,6 +357,9 @@ BOOST_AUTO_TEST_CASE(bad_options_are_refused)
     options.sweeps = -1;
     BOOST_CHECK_THROW(tighten(start, guard, options), InputError);
     options = {};
+    options.samples = 0;
+    BOOST_CHECK_THROW(tighten(start, guard, options), InputError);
+    options = {};
     options.shakes = 101;
     BOOST_CHECK_THROW(tighten(start, guard, options), InputError);
     BOOST_CHECK_THROW(triquad(start, guard, quads(3, 30)), InputError);
