@@ -267,6 +267,7 @@ BOOST_AUTO_TEST_CASE(a_strip_of_quads_to_the_plane_is_split)
     options.mergeAngleDegrees = 90;
     options.share = 1;
     options.reach = 1;
+    options.mostLoss = 1;
     detail::pairUp(surface, options, nullptr);
     BOOST_TEST(surface.quads() == 6U);
     options.splits = true;
