@@ -1,7 +1,9 @@
 #include <boost/test/unit_test.hpp>
 
+#include <array>
 #include <cmath>
 #include <random>
+#include <utility>
 
 #include <vdbcage/core/error.h>
 #include <vdbcage/mesh/topology.h>
@@ -11,6 +13,7 @@
 #include <vdbcage/surface/detail/guarded_surface.h>
 
 #include "support/shapes.h"
+#include "support/symmetric.h"
 
 using namespace vdbcage;
 using detail::Box;
@@ -278,6 +281,52 @@ BOOST_AUTO_TEST_CASE(a_new_vertex_takes_the_place_of_faces)
     BOOST_TEST(topology.isCycle());
     BOOST_TEST(topology.boundaryEdges + topology.nonManifoldEdges + topology.nonManifoldVertices == 0U);
     BOOST_TEST(guarded.neighbours(8) == (std::vector<std::uint32_t>{0, 2, 3, 4, 5}), boost::test_tools::per_element());
+}
+
+BOOST_AUTO_TEST_CASE(a_new_vertex_on_the_plane_of_symmetry_takes_the_place_of_faces)
+{
+    // Of eight sides, four are beyond the plane x = 0. Faces 0 to 7 are those, above and below in turn; 2, 4 and 8 are
+    // on the plane, 3 and 9 beyond it.
+    GuardOptions options;
+    options.clearance = 1e-4;
+    options.symmetry = SymmetryPlane{0, 0};
+    const BoundingGuard guard(inLowerHalf, options);
+    Mesh surface = bipyramid({0, 0, 0}, 1, 8);
+    for (const std::size_t onPlane : {4, 8}) surface.points[onPlane][0] = 0;
+    for (const auto& [image, of] : {std::pair<std::size_t, std::size_t>{5, 3}, {6, 2}, {7, 9}}) {
+        surface.points[image] = test::mirrored(surface.points[of], {0, 0});
+    }
+    GuardedSurface guarded(surface, guard.model());
+    BOOST_REQUIRE(guarded.liveFaces() == 8U);
+    const auto corners = [&](std::uint32_t f) {
+        const openvdb::Vec3I& t = guarded.face(f);
+        return std::array<std::uint32_t, 3>{t[0], t[1], t[2]};
+    };
+    BOOST_REQUIRE((corners(0) == std::array<std::uint32_t, 3>{0, 2, 3}));
+    BOOST_REQUIRE((corners(2) == std::array<std::uint32_t, 3>{0, 3, 4}));
+    BOOST_REQUIRE((corners(3) == std::array<std::uint32_t, 3>{1, 4, 3}));
+    Fan fan;
+    BOOST_TEST(!guarded.fanOfFaces({0}, true, fan));          // no side on the plane
+    BOOST_TEST(!guarded.fanOfFaces({2, 3}, true, fan));       // the corner on the plane between their sides is inside
+    BOOST_TEST(!guarded.fanOfFaces({1, 0, 2}, true, fan));    // one side on the plane, and the bottom
+    BOOST_TEST(!guarded.fanOfFaces({0, 2, 4, 6}, true, fan)); // two sides on the plane
+    BOOST_REQUIRE(guarded.fanOfFaces({2, 0}, true, fan));
+    BOOST_TEST(fan.onPlane);
+    BOOST_TEST(fan.rim.size() == 3U);
+    const Vec3d aside(0.05, 0.6, 0.6), place = guarded.rounded(fan, guard.model().scaled(aside));
+    BOOST_TEST(place[0] == guard.model().symmetry()->offset);
+    BOOST_TEST(!guarded.allows(fan, guard.model().rounded(guard.model().scaled(aside))));
+    BOOST_REQUIRE(guarded.allows(fan, place));
+    guarded.apply(fan, place);
+    BOOST_TEST(guarded.liveFaces() == 9U);
+    BOOST_TEST(guarded.isOnPlane(10));
+    BOOST_TEST(guarded.neighbours(10) == (std::vector<std::uint32_t>{0, 2, 3, 4}), boost::test_tools::per_element());
+    const Mesh both = guarded.mesh();
+    BOOST_TEST(both.points.size() == surface.points.size() + 1);
+    const MeshTopology topology = analyzeTopology(both);
+    BOOST_TEST(topology.isCycle());
+    BOOST_TEST(topology.boundaryEdges + topology.nonManifoldEdges + topology.nonManifoldVertices == 0U);
+    BOOST_CHECK(test::isSymmetric(both, *guard.symmetry()));
 }
 
 // The quad of the next tests: two faces of a pyramid with eight sides that meet at the edge from the top, point 0, to

@@ -286,6 +286,42 @@ BOOST_AUTO_TEST_CASE(as_many_quads_as_asked_also_where_it_is_hard)
     }
 }
 
+BOOST_AUTO_TEST_CASE(quads_of_flat_parts_are_about_as_tight_as_triangles)
+{
+    // Where triangles lie close to flat faces, one corner pushed out for a quad is all the distance that there is.
+    constexpr std::size_t faces = 160;
+    for (const int teeth : {2, 3}) {
+        const auto lowOf = [&](int k) { return Vec3d(-0.4 + 0.8 * k / teeth, -0.3, -0.05); };
+        const Vec3d size(0.4 / teeth, 0.7, 0.1);
+        Mesh model = test::box({-0.4, -0.4, -0.05}, {0.4, -0.3, 0.05});
+        for (int k = 0; k < teeth; ++k) model = test::joined(model, test::box(lowOf(k), lowOf(k) + size));
+        const Mesh start = extractSurface(*test::sample(40, [&](const Vec3d& p) {
+            const auto isIn = [&](const Vec3d& low, const Vec3d& high) {
+                constexpr double around = 0.05;
+                for (int i = 0; i < 3; ++i) {
+                    if (p[i] < low[i] - around || p[i] > high[i] + around) return false;
+                }
+                return true;
+            };
+            for (int k = 0; k < teeth; ++k) {
+                if (isIn(lowOf(k), lowOf(k) + size)) return true;
+            }
+            return isIn({-0.4, -0.4, -0.05}, {0.4, -0.3, 0.05});
+        }));
+        const BoundingGuard guard(model);
+        const CageChecker checker(model);
+        BoundingTriquadOptions options = quads(faces, 90);
+        options.quads = 0.875;
+        const Mesh cage = triquad(decimate(start, guard, to(3 * faces)), guard, options);
+        BOOST_TEST(checker.check(cage).bounding());
+        BOOST_TEST(double(cage.quads.size()) >= 0.87 * double(faceCount(cage)));
+        BOOST_TEST(faceCount(cage) >= 0.9 * faces);
+        const Mesh triangles = tighten(decimate(start, guard, to(faces)), guard);
+        // Without a limit to what a change may cost it is more than six times as far.
+        BOOST_TEST(checker.check(cage).meanDistance < 3 * checker.check(triangles).meanDistance);
+    }
+}
+
 BOOST_AUTO_TEST_CASE(most_faces_become_quads_and_stay_tight)
 {
     constexpr std::size_t faces = 300;

@@ -13,6 +13,8 @@
 #include <vdbcage/core/error.h>
 #include <vdbcage/mesh/topology.h>
 #include <vdbcage/surface/decimate.h>
+#include <vdbcage/surface/detail/guard_model.h>
+#include <vdbcage/surface/detail/guarded_quads.h>
 #include <vdbcage/surface/extract.h>
 #include <vdbcage/surface/smooth.h>
 #include <vdbcage/surface/tighten.h>
@@ -117,6 +119,32 @@ std::size_t facesNotOnOneSide(const Mesh& mesh, const SymmetryPlane& plane)
     for (const auto& t : mesh.triangles) look(t, 3);
     for (const auto& q : mesh.quads) look(q, 4);
     return count;
+}
+
+/// A prism along x with five sides, its edges across cut in two by the plane x = 0; a pair of quad and triangle at each
+/// end, all other faces are quads.
+Mesh prism()
+{
+    constexpr openvdb::Index32 sides = 5;
+    Mesh mesh;
+    for (const double x : {0.0, 0.4, -0.4}) {
+        for (openvdb::Index32 i = 0; i < sides; ++i) {
+            const double angle = 6.283185307179586 * i / sides;
+            mesh.points.emplace_back(x, 0.4 * std::cos(angle), 0.4 * std::sin(angle));
+        }
+    }
+    mesh.triangles = {{5, 6, 9}};
+    mesh.quads = {{6, 7, 8, 9}};
+    for (openvdb::Index32 i = 0; i < sides; ++i) {
+        const openvdb::Index32 next = (i + 1) % sides;
+        mesh.quads.emplace_back(i, next, sides + next, sides + i);
+    }
+    const auto image = [](openvdb::Index32 i) { return i < sides ? i : i + sides; };
+    const auto t = mesh.triangles.front();
+    mesh.triangles.emplace_back(image(t[0]), image(t[2]), image(t[1]));
+    const std::vector<openvdb::Vec4I> half = mesh.quads;
+    for (const auto& q : half) mesh.quads.emplace_back(image(q[0]), image(q[3]), image(q[2]), image(q[1]));
+    return mesh;
 }
 
 } // namespace
@@ -225,6 +253,33 @@ BOOST_AUTO_TEST_CASE(no_inner_edge_joins_two_points_of_the_plane)
         BOOST_CHECK(test::isSymmetric(cage, *guard.symmetry()));
         BOOST_TEST(faceCount(cage) <= faces);
     }
+}
+
+BOOST_AUTO_TEST_CASE(a_strip_of_quads_to_the_plane_is_split)
+{
+    // There is one triangle in each half: it can become a quad only by splitting the one quad between it and the plane.
+    const Mesh model = test::sphere({0, 0, 0}, 0.2, 8);
+    const BoundingGuard guard = guardOf(model, {0, 0});
+    detail::GuardedSurface surface(prism(), guard.model(), detail::GuardedSurface::Quads::keep);
+    BOOST_REQUIRE(surface.quads() == 6U);
+    BOOST_REQUIRE(surface.liveFaces() == 13U);
+    detail::PairingOptions options{};
+    options.mergeAngleDegrees = 90;
+    options.share = 1;
+    options.reach = 1;
+    options.mostLoss = 1;
+    detail::pairUp(surface, options, nullptr);
+    BOOST_TEST(surface.quads() == 6U);
+    options.splits = true;
+    detail::pairUp(surface, options, nullptr);
+    BOOST_TEST(surface.quads() == 8U);
+    const Mesh cage = surface.mesh();
+    BOOST_TEST(cage.triangles.empty());
+    BOOST_TEST(cage.points.size() == prism().points.size() + 3);
+    BOOST_CHECK(test::isSymmetric(cage, *guard.symmetry()));
+    BOOST_TEST(facesNotOnOneSide(cage, *guard.symmetry()) == 0U);
+    BOOST_TEST(isClosedManifold(cage));
+    BOOST_TEST(checkCage(cage, model).bounding());
 }
 
 BOOST_AUTO_TEST_CASE(threads_do_not_matter)

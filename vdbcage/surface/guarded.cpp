@@ -1,6 +1,7 @@
 // The operators of smooth.h, decimate.h and tighten.h that work under a guard, put together from sweeps and collapses.
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <optional>
 #include <string>
@@ -62,6 +63,7 @@ void makeQuads(detail::GuardedSurface& surface, const BoundingTriquadOptions& op
     constexpr int rounds = 6;
     constexpr int sweepsBefore = 4;
     double room = 0;
+    double loss = 1; // what a change may cost: the dear ones only where the others do not suffice
     for (int round = 0; round < rounds; ++round) {
         detail::tighten(surface, sweepsBefore, areaPerSample(surface, surface.liveFaces(), options.tightening.samples),
                         interrupter);
@@ -73,11 +75,13 @@ void makeQuads(detail::GuardedSurface& surface, const BoundingTriquadOptions& op
         pairing.mergeAngleDegrees = options.mergeAngleDegrees;
         pairing.share = options.quads;
         pairing.reach = static_cast<std::size_t>(round) + 2;
+        pairing.mostLoss = loss;
         pairing.collapses = round > 0;
         pairing.splits = round > 0;
         detail::pairUp(surface, pairing, interrupter);
         if (detail::quadShare(surface) >= options.quads) return;
         room *= 2;
+        loss *= 2;
     }
 }
 
@@ -202,20 +206,23 @@ Mesh triquad(const Mesh& surface, const BoundingGuard& guard, const BoundingTriq
     double low = wanted, high = std::max(wanted, static_cast<double>(fine.liveFaces()));
     double target = std::min((1 + options.quads) * wanted, high);
     std::optional<detail::GuardedSurface> best;
-    double reached = 0; // faces
+    double reached = 0; // faces; as many fewer as the share of quads is too small
     for (int i = 0; i < attempts; ++i) {
         detail::GuardedSurface paired = fine;
         const auto triangles = static_cast<std::size_t>(target);
         detail::collapseByQuadrics(paired, triangles, interrupter);
         makeQuads(paired, options, interrupter);
         const auto faces = static_cast<double>(paired.liveFaces() - paired.quads());
+        const double share = detail::quadShare(paired);
+        const double counted = share < options.quads ? faces * share / options.quads : faces;
         (faces <= wanted ? low : high) = target;
-        if (faces <= wanted && faces > reached) {
+        if (faces <= wanted && counted > reached) {
             best = std::move(paired);
-            reached = faces;
+            reached = counted;
         }
         if ((reached >= goodEnough * wanted) || high - low < 2) break;
-        target *= aim * wanted / faces;
+        // Where strips are split for want of pairs, faces are many of few triangles, too: longer steps until some fit.
+        target *= std::pow(aim * wanted / faces, best ? 1 : i + 1);
         if (!(target > low && target < high)) target = 0.5 * (low + high);
     }
     if (!best) {

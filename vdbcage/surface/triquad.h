@@ -33,8 +33,8 @@ struct BoundingTriquadOptions {
 /// the surface is decimated as far as pairing needs to reach `faces`, and given a little room; pairs become quads, flat
 /// and square ones that follow the directions of curvature first. Until enough of the faces are quads, triangles are
 /// then paired across the quads between them, vanish in twos, or become quads by splitting the strip of quads between
-/// two of them, with ever more room; and the result is tightened with
-/// all four triangles of every quad under the guard. Quads are convex as above, and no two polygons come to share two
+/// two of them, with ever more room and at ever more cost of distance; and the result is tightened with all four
+/// triangles of every quad under the guard. Quads are convex as above, and no two polygons come to share two
 /// edges, under either diagonal.
 /// A surface of two to three times the faces wanted gives the best result. More than the faces asked for are left only
 /// where decimation stops there. TBB-parallel, same result for any number of threads. \pre `surface` is closed,

@@ -194,6 +194,29 @@ private:
         return integratedDistance(surface, area(surface) / (samplesPerFace * faces)) / faces;
     }
 
+    /// What the surface encloses: the mean over both diagonals of its quads, and with the half behind the plane of
+    /// symmetry, where there is one.
+    double volume() const
+    {
+        const auto& plane = surface_.guard().symmetry();
+        const Vec3d apex = plane ? surface_.ontoPlane(Vec3d(0.0)) : Vec3d(0.0);
+        const auto below = [&](std::uint32_t f) {
+            const Corners t = surface_.corners(f);
+            return (t[0] - apex).dot((t[1] - apex).cross(t[2] - apex)) / 6;
+        };
+        double sum = 0;
+        for (std::uint32_t f = 0; f < surface_.faces(); ++f) {
+            if (!surface_.isFace(f)) continue;
+            sum += surface_.weight(f) * below(f);
+            if (isFree(f)) continue;
+            for (const std::uint32_t other : surface_.othersIn(f)) sum += 0.25 * below(other); // from each half
+        }
+        return sum;
+    }
+
+    /// Whether what was changed since the surface had another volume moved it too far away from the model.
+    bool isDear(double before) const { return volume() - before > options_.mostLoss * distancePerFace_; }
+
     bool isEnough() const { return quadShare(surface_) >= options_.share; }
     bool isFree(std::uint32_t f) const { return surface_.otherHalf(f) == Fan::none; }
     bool isTriangle(std::uint32_t f) const { return surface_.isFace(f) && isFree(f); }
@@ -384,19 +407,19 @@ private:
     bool exchange(const std::vector<std::uint32_t>& path, End last)
     {
         GuardedSurface before = surface_;
+        const double volumeBefore = volume();
         for (std::size_t i = 1; i + 1 < path.size(); i += 2) {
             if (!surface_.isFace(path[i])) surface_.flipQuad(path[i]);
             surface_.splitQuad(path[i]);
         }
-        for (std::size_t i = 0; i < path.size(); i += 2) {
+        bool isDone = true;
+        for (std::size_t i = 0; isDone && i < path.size(); i += 2) {
             const bool isLast = i + 2 == path.size();
-            if (isLast && last == End::collapse ? collapse(path[i], path[i + 1]) : makeQuad(path[i], path[i + 1])) {
-                continue;
-            }
-            surface_ = std::move(before);
-            return false;
+            isDone = isLast && last == End::collapse ? collapse(path[i], path[i + 1]) : makeQuad(path[i], path[i + 1]);
         }
-        return true;
+        if (isDone && !isDear(volumeBefore)) return true;
+        surface_ = std::move(before);
+        return false;
     }
 
     /// Collapses the edge between two triangles; all quads stay, or the surface is left in pieces of what it was.
@@ -467,12 +490,13 @@ private:
     }
 
     /// Puts a vertex on every side that a strip crosses: each quad becomes two, and the triangles at the ends become
-    /// quads, with a corner pushed out. Returns whether the guard allows it; else nothing changes.
+    /// quads, with a corner pushed out. Returns whether the guard allows it, and it is not dear; else nothing changes.
     bool split(const Strip& strip)
     {
         const GuardedSurface before = surface_;
+        const double volumeBefore = volume();
         for (const double push : {0.3, 0.6, 1.0}) { // corners of 147, 118, and 90 degrees
-            if (split(strip, push)) return true;
+            if (split(strip, push) && !isDear(volumeBefore)) return true;
             surface_ = before;
         }
         return false;

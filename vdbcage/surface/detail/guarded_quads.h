@@ -11,6 +11,7 @@ struct PairingOptions {
     double mergeAngleDegrees; ///< no quad's triangles meet at more (as GuardedSurface::limitQuadFold, which is set)
     double share;             ///< of the faces that are to be quads
     std::size_t reach;        ///< so many pairs are made anew to bring two triangles together, at most
+    double mostLoss;          ///< of distance to the model that a change may cost, in parts of what a face less costs
     bool collapses;           ///< whether edges may be collapsed for it
     bool splits;              ///< whether strips of quads may be split for it, of twice `reach` at most
 };
@@ -24,7 +25,8 @@ double quadShare(const GuardedSurface& surface);
 /// either diagonal and paired anew; then two that are so brought together, but are no quad, vanish by collapsing the
 /// edge between them; and last the strip of quads between two triangles is split in two lengthwise, which makes them
 /// quads and needs nothing of how vertices are joined, but brings more faces. Where a pair is too folded, or its other
-/// diagonal in the model's way, the lower diagonal's ends are pushed outward. Serial; O(n log n log m) for n faces and
+/// diagonal in the model's way, the lower diagonal's ends are pushed outward. What moves the surface farther away than
+/// `mostLoss` is undone, but for the pairs of the beginning. Serial; O(n log n log m) for n faces and
 /// m of the model, and O(n) for each way that is tried to bring two triangles together, which keeps a copy to go back
 /// to.
 void pairUp(GuardedSurface& surface, const PairingOptions& options, Interrupter* interrupter);

@@ -274,8 +274,8 @@ void RadiusField::findRanges(const Progress& progress)
 {
     const int perSlot = leafSize >> shift_;
     for (std::size_t axis = 0; axis < 3; ++axis) {
-        firstSlot_[axis] = (first_[axis] << shift_) >> 3;
-        slots_[axis] = (((first_[axis] + size_[axis] - 1) << shift_) >> 3) + 1 - firstSlot_[axis];
+        firstSlot_[axis] = (first_[axis] * (1 << shift_)) >> 3;
+        slots_[axis] = (((first_[axis] + size_[axis] - 1) * (1 << shift_)) >> 3) + 1 - firstSlot_[axis];
     }
     ranges_.resize(static_cast<std::size_t>(slots_.x()) * static_cast<std::size_t>(slots_.y()) *
                    static_cast<std::size_t>(slots_.z()));
