@@ -111,7 +111,7 @@ private:
         std::size_t blocks;
         std::size_t start; // of its blocks among those of all rows
     };
-    static constexpr std::size_t longestRow = 8; // shorter ones for more threads
+    static constexpr std::size_t longestRow = 4; // longer ones share more, but leave the last thread alone with one
 
     bool isFull(const Slots& block) const { return flip_ != 0 ? block.isEmpty() : block.isFull(); }
     bool isEmpty(const Slots& block) const { return flip_ != 0 ? block.isFull() : block.isEmpty(); }
