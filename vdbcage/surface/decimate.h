@@ -37,7 +37,7 @@ enum class Effort {
 /// each part needs some) or the guard allow no less. TBB-parallel, same result for any number of threads. \pre
 /// `surface` is closed, 2-manifold and bounds the model with the guard's clearance \throw InputError (fewer than 4
 /// faces asked for; not closed and 2-manifold), Cancelled O(n log n log m) for n faces and m of the model: from 20,000
-/// to 400 faces about 0.4 s (fast), 0.6 s (fair), 1.2 s (best) on two threads.
+/// to 400 faces about 0.2 s (fast), 0.5 s (fair), 2 s (best) on two threads.
 VDBCAGE_API Mesh decimate(const Mesh& surface, const BoundingGuard& guard, const DecimateOptions& options,
                           Effort effort = Effort::fair, Interrupter* interrupter = nullptr);
 
