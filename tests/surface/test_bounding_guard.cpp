@@ -145,8 +145,6 @@ BOOST_AUTO_TEST_CASE(clearance_agrees_with_every_triangle_asked_one_by_one)
     }
 }
 
-// Each of the next four fails if the test of the guard that it is named after is taken out.
-
 // Up to the first impact the moving triangle meets nothing, and there it touches.
 BOOST_AUTO_TEST_CASE(impacts_are_the_first_on_the_way)
 {
@@ -191,6 +189,8 @@ BOOST_AUTO_TEST_CASE(impacts_are_the_first_on_the_way)
     BOOST_TEST(impacts > 50);
     BOOST_TEST(misses > 20);
 }
+
+// Each of the next four fails if the test of the guard that it is named after is taken out.
 
 BOOST_AUTO_TEST_CASE(clearance_to_the_model_is_kept)
 {

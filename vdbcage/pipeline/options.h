@@ -5,7 +5,7 @@
 #include <vector>
 
 #include <vdbcage/core/export.h>
-#include <vdbcage/surface/decimate.h>
+#include <vdbcage/surface/effort.h>
 #include <vdbcage/volume/morphology.h>
 #include <vdbcage/volume/scale_field.h>
 #include <vdbcage/voxelize/voxelize.h>

@@ -523,9 +523,7 @@ private:
             starts.erase(std::remove_if(starts.begin(), starts.end(), hasTooMany), starts.end());
         };
         keepAtMost(decimation.faces, &Candidate::decimated);
-        TightenOptions tightening;
-        tightening.shakes = options.effort == Effort::fast ? 0 : options.effort == Effort::fair ? 1 : 4;
-        if (options.effort == Effort::best) tightening.samples = 12;
+        TightenOptions tightening = tightenOptions(options.effort);
         if (guard.symmetry()) tightening.shakes *= 3; // in the time that half a surface saves
         if (options.mesh == CageFaces::triangles) {
             const Stage stage(interrupter, "tighten");

@@ -44,17 +44,11 @@ void requireFaces(std::size_t faces)
     throw InputError("faces: " + std::to_string(faces) + " is not allowed; a closed surface has at least 4");
 }
 
-/// For so many samples of the distance to the model as `faces` have, `samples` each.
-double areaPerSample(const detail::GuardedSurface& surface, std::size_t faces, int samples)
-{
-    return detail::area(surface) / (static_cast<double>(samples) * static_cast<double>(faces));
-}
-
 void tightenAndShake(detail::GuardedSurface& surface, const TightenOptions& options, Interrupter* interrupter)
 {
-    const std::size_t faces = surface.liveFaces();
-    detail::tighten(surface, options.sweeps, areaPerSample(surface, faces, options.samples), interrupter);
-    detail::shake(surface, options.shakes, options.sweeps, areaPerSample(surface, faces, options.samples), interrupter);
+    const auto perSample = [&] { return detail::areaPerSample(surface, surface.liveFaces(), options.samples); };
+    detail::tighten(surface, options.sweeps, perSample(), interrupter);
+    detail::shake(surface, options.shakes, options.sweeps, perSample(), interrupter);
 }
 
 /// Pairs up the triangles of a surface in rounds, until enough are quads.
@@ -65,8 +59,8 @@ void makeQuads(detail::GuardedSurface& surface, const BoundingTriquadOptions& op
     double room = 0;
     double loss = 1; // what a change may cost: the dear ones only where the others do not suffice
     for (int round = 0; round < rounds; ++round) {
-        detail::tighten(surface, sweepsBefore, areaPerSample(surface, surface.liveFaces(), options.tightening.samples),
-                        interrupter);
+        detail::tighten(surface, sweepsBefore,
+                        detail::areaPerSample(surface, surface.liveFaces(), options.tightening.samples), interrupter);
         // The other diagonals need about as much room as the first ones have; it is made before pairing, since quads
         // hold their vertices. Then only what is still triangles gets more.
         if (round == 0) room = detail::medianDistance(surface);
@@ -97,10 +91,7 @@ Mesh smooth(const Mesh& surface, const BoundingGuard& guard, int sweeps, Interru
 
 class GuardedDecimation::Impl {
 public:
-    Impl(const Mesh& surface, const BoundingGuard& guard, Interrupter* interrupter)
-        : sequence_(shrunk(surface, guard, interrupter))
-    {
-    }
+    explicit Impl(detail::GuardedSurface start) : copies_(start.copies()), sequence_(std::move(start)) {}
 
     Mesh to(std::size_t allFaces, Effort effort, Interrupter* interrupter)
     {
@@ -108,10 +99,10 @@ public:
         constexpr int sweepsAtStop = 2;
         requireFaces(allFaces);
         const std::size_t faces = allFaces / copies_;
-        const int samples = effort == Effort::best ? bestSamples : TightenOptions().samples;
+        const int samples = tightenOptions(effort).samples;
         // Quadrics know the surface that they were made from: one that was pulled onto the model on the way is better.
         detail::GuardedSurface guarded = sequence_.at(stop * faces, interrupter);
-        detail::tighten(guarded, sweepsAtStop, areaPerSample(guarded, 2 * faces, samples), interrupter);
+        detail::tighten(guarded, sweepsAtStop, detail::areaPerSample(guarded, 2 * faces, samples), interrupter);
         detail::collapseByQuadrics(guarded, faces, interrupter);
         // Where the model is in the way of every collapse, there is room farther out (the model's longest side is 1 to
         // 2).
@@ -120,7 +111,7 @@ public:
             detail::collapseByQuadrics(guarded, faces, interrupter);
         }
         if (effort == Effort::fair) {
-            detail::tighten(guarded, 2, areaPerSample(guarded, faces, samples), interrupter);
+            detail::tighten(guarded, 2, detail::areaPerSample(guarded, faces, samples), interrupter);
             detail::exchange(guarded, 2, 3, interrupter);
         } else if (effort == Effort::best) {
             exchangeAndShake(guarded, interrupter);
@@ -129,37 +120,29 @@ public:
     }
 
 private:
-    detail::GuardedSurface shrunk(const Mesh& surface, const BoundingGuard& guard, Interrupter* interrupter)
-    {
-        detail::GuardedSurface guarded(surface, guard.model(), Quads::split);
-        copies_ = guarded.copies();
-        detail::shrink(guarded, interrupter);
-        return guarded;
-    }
-
     /// Exchanges end where none is better on the whole; a surface that was shaken has others that are.
     static void exchangeAndShake(detail::GuardedSurface& surface, Interrupter* interrupter)
     {
         constexpr int turns = 2, firstRounds = 4, rounds = 2, shakes = 2, exchangeSweeps = 6;
-        const int sweeps = TightenOptions().sweeps;
-        const double perSample = areaPerSample(surface, surface.liveFaces(), bestSamples);
-        detail::tighten(surface, sweeps, perSample, interrupter);
+        const TightenOptions tightening = tightenOptions(Effort::best);
+        const double perSample = detail::areaPerSample(surface, surface.liveFaces(), tightening.samples);
+        detail::tighten(surface, tightening.sweeps, perSample, interrupter);
         detail::exchange(surface, firstRounds, exchangeSweeps, interrupter);
         for (int i = 0; i < turns; ++i) {
-            detail::shake(surface, shakes, sweeps, perSample, interrupter);
+            detail::shake(surface, shakes, tightening.sweeps, perSample, interrupter);
             detail::exchange(surface, rounds, exchangeSweeps, interrupter);
         }
     }
 
-    static constexpr int bestSamples = 12;
-
-    std::size_t copies_ = 1;
+    const std::size_t copies_;
     detail::CollapseSequence sequence_;
 };
 
 GuardedDecimation::GuardedDecimation(const Mesh& surface, const BoundingGuard& guard, Interrupter* interrupter)
-    : impl_(std::make_unique<Impl>(surface, guard, interrupter))
 {
+    detail::GuardedSurface guarded(surface, guard.model(), Quads::split);
+    detail::shrink(guarded, interrupter);
+    impl_ = std::make_unique<Impl>(std::move(guarded));
 }
 GuardedDecimation::~GuardedDecimation() = default;
 GuardedDecimation::GuardedDecimation(GuardedDecimation&&) noexcept = default;
@@ -175,6 +158,17 @@ Mesh decimate(const Mesh& surface, const BoundingGuard& guard, const DecimateOpt
 {
     requireFaces(options.faces);
     return GuardedDecimation(surface, guard, interrupter).to(options, effort, interrupter);
+}
+
+TightenOptions tightenOptions(Effort effort)
+{
+    TightenOptions options;
+    if (effort == Effort::fair) options.shakes = 1;
+    if (effort == Effort::best) {
+        options.shakes = 4;
+        options.samples = 12;
+    }
+    return options;
 }
 
 Mesh tighten(const Mesh& cage, const BoundingGuard& guard, const TightenOptions& options, Interrupter* interrupter)

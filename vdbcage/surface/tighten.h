@@ -4,6 +4,7 @@
 #include <vdbcage/core/interrupter.h>
 #include <vdbcage/mesh/mesh.h>
 #include <vdbcage/surface/bounding_guard.h>
+#include <vdbcage/surface/effort.h>
 
 namespace vdbcage {
 
@@ -12,6 +13,9 @@ struct TightenOptions {
     int shakes = 0;  ///< times that it is pushed out a little and tightened again, kept where tighter, 0 to 100
     int samples = 4; ///< of the distance, for a face of mean size, 1 to 100: more cost more and are a percent tighter
 };
+
+/// What finishes a cage of such an effort.
+[[nodiscard]] VDBCAGE_API TightenOptions tightenOptions(Effort effort);
 
 /// Pulls a bounding surface onto its model: one vertex at a time goes to where the integral of the distance to the
 /// model over its star is least, as far as the guard allows, sliding along what it touches. Connectivity and vertex

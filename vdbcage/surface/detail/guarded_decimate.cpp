@@ -261,7 +261,10 @@ void collapseByQuadrics(GuardedSurface& surface, std::size_t faces, Interrupter*
 
 class CollapseSequence::Recorder {
 public:
-    explicit Recorder(GuardedSurface start) : start_(std::move(start)), end_(start_), collapser_(end_) {}
+    explicit Recorder(GuardedSurface start)
+        : start_(std::move(start)), end_(start_), collapser_(end_), stops_{{0, start_.liveFaces()}}
+    {
+    }
 
     GuardedSurface at(std::size_t faces, Interrupter* interrupter)
     {
@@ -271,14 +274,14 @@ public:
                 collapses_.push_back({fan.centre, fan.removed, place});
             });
             if (!goesOn) return end_;
-            batchEnds_.push_back({collapses_.size(), end_.liveFaces()});
+            stops_.push_back({collapses_.size(), end_.liveFaces()});
         }
-        std::size_t batch = batchEnds_.size(); // to be made again
-        while (batch > 0 && (batch > 1 ? batchEnds_[batch - 2].faces : start_.liveFaces()) <= faces) --batch;
-        if (batch == batchEnds_.size()) return end_;
+        const auto hasMore = [&](const Stop& stop) { return stop.faces > faces; };
+        const auto stop = std::partition_point(stops_.begin(), stops_.end(), hasMore);
+        if (stop->collapses == collapses_.size()) return end_;
         GuardedSurface surface = start_;
         Fan fan;
-        for (std::size_t i = 0; i < (batch > 0 ? batchEnds_[batch - 1].collapses : 0); ++i) {
+        for (std::size_t i = 0; i < stop->collapses; ++i) {
             surface.fanOf(collapses_[i].kept, collapses_[i].removed, fan);
             surface.apply(fan, collapses_[i].place);
         }
@@ -290,7 +293,7 @@ private:
         std::uint32_t kept, removed;
         Vec3d place;
     };
-    struct BatchEnd {
+    struct Stop {
         std::size_t collapses, faces; // made so far, left
     };
 
@@ -298,7 +301,7 @@ private:
     GuardedSurface end_;
     QuadricCollapser collapser_; // of end_
     std::vector<Collapse> collapses_;
-    std::vector<BatchEnd> batchEnds_;
+    std::vector<Stop> stops_; // the start and the end of each batch
 };
 
 CollapseSequence::CollapseSequence(GuardedSurface start) : recorder_(std::make_unique<Recorder>(std::move(start)))

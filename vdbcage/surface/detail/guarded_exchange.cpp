@@ -76,20 +76,20 @@ void splitBest(GuardedSurface& surface, std::size_t faces, double areaPerSample)
 
 void exchange(GuardedSurface& surface, int rounds, int sweeps, Interrupter* interrupter)
 {
-    constexpr double samplesPerFace = 4;
+    constexpr int samplesPerFace = 4;
     const std::size_t faces = surface.liveFaces();
     if (faces == 0) return;
-    const double areaPerSample = area(surface) / (samplesPerFace * static_cast<double>(faces));
+    const double perSample = areaPerSample(surface, faces, samplesPerFace);
     double share = 1; // of the faces that are added, as far as that goes, and taken away again
-    double distance = integratedDistance(surface, areaPerSample);
+    double distance = integratedDistance(surface, perSample);
     for (int i = 0; i < rounds; ++i) {
         GuardedSurface changed = surface;
         const auto added = static_cast<std::size_t>(share * static_cast<double>(faces));
-        splitBest(changed, faces + added, areaPerSample);
-        tighten(changed, sweeps, areaPerSample, interrupter);
+        splitBest(changed, faces + added, perSample);
+        tighten(changed, sweeps, perSample, interrupter);
         collapseByQuadrics(changed, faces, interrupter);
-        tighten(changed, sweeps, areaPerSample, interrupter);
-        const double after = integratedDistance(changed, areaPerSample);
+        tighten(changed, sweeps, perSample, interrupter);
+        const double after = integratedDistance(changed, perSample);
         if (changed.liveFaces() <= faces && after < distance) {
             distance = after;
             surface = std::move(changed);

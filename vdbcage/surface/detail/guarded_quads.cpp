@@ -189,9 +189,9 @@ private:
 
     static double distancePerFace(const GuardedSurface& surface)
     {
-        constexpr double samplesPerFace = 4;
-        const auto faces = static_cast<double>(surface.liveFaces());
-        return integratedDistance(surface, area(surface) / (samplesPerFace * faces)) / faces;
+        constexpr int samplesPerFace = 4;
+        const std::size_t faces = surface.liveFaces();
+        return integratedDistance(surface, areaPerSample(surface, faces, samplesPerFace)) / static_cast<double>(faces);
     }
 
     /// What the surface encloses: the mean over both diagonals of its quads, and with the half behind the plane of

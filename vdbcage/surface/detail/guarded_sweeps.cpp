@@ -208,6 +208,11 @@ double area(const GuardedSurface& surface)
     return sum;
 }
 
+double areaPerSample(const GuardedSurface& surface, std::size_t faces, int samples)
+{
+    return area(surface) / (static_cast<double>(samples) * static_cast<double>(faces));
+}
+
 void shrink(GuardedSurface& surface, Interrupter* interrupter)
 {
     sweep(

@@ -34,6 +34,9 @@ void roundOff(GuardedSurface& surface, int sweeps, Interrupter* interrupter);
 /// The total area of the surface.
 double area(const GuardedSurface& surface);
 
+/// Of its area, for as many samples of the distance as `samples` for each of `faces`.
+double areaPerSample(const GuardedSurface& surface, std::size_t faces, int samples);
+
 /// The median over the triangles of their centroids' distance to the model; 0 without any.
 double medianDistance(const GuardedSurface& surface);
 

@@ -9,8 +9,8 @@
 
 #include <tbb/parallel_for.h>
 
+#include <vdbcage/core/detail/word_bits.h>
 #include <vdbcage/volume/detail/slot_set.h>
-#include <vdbcage/volume/detail/word_bits.h>
 
 namespace vdbcage::detail {
 
@@ -405,8 +405,9 @@ private:
             smearWithin(view, own, near);
         } else {
             // All slots that lie wholly in reach of all of this one.
-            near[0] += view.united[own + 1 - wholeSlots_] | view.united[own + wholeSlots_ - view.unitedCount];
-            near[1] = near[2] = near[3] = near[0];
+            const std::uint64_t all =
+                view.united[own + 1 - wholeSlots_] | view.united[own + wholeSlots_ - view.unitedCount];
+            near.fill(WordPair{all, all});
             addBefore(view, own - wholeSlots_, 0, near);
             addBehind(view, own + wholeSlots_, 0, near);
         }

@@ -5,7 +5,7 @@
 
 #include <tbb/parallel_for.h>
 
-#include <vdbcage/volume/detail/word_bits.h>
+#include <vdbcage/core/detail/word_bits.h>
 
 namespace vdbcage::detail {
 

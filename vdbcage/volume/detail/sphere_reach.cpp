@@ -9,8 +9,8 @@
 #include <emmintrin.h>
 #endif
 
+#include <vdbcage/core/detail/word_bits.h>
 #include <vdbcage/volume/detail/sphere_tables.h>
-#include <vdbcage/volume/detail/word_bits.h>
 
 namespace vdbcage::detail {
 

@@ -1,10 +1,12 @@
 #include <vdbcage/voxelize/detail/bit_grid.h>
 
 #include <algorithm>
+#include <array>
 #include <new>
 #include <vector>
 
 #include <tbb/parallel_for.h>
+#include <vdbcage/core/detail/word_bits.h>
 
 namespace vdbcage::detail {
 
@@ -16,22 +18,6 @@ using LowerNode = UpperNode::ChildNodeType;                       // 128^3
 using Leaf = LowerNode::ChildNodeType;                            // 8^3
 constexpr int leafSize = Leaf::DIM;
 constexpr int nodeSize = LowerNode::DIM;
-
-/// Byte j of word i trades places with byte i of word j.
-void transposeBytes(Word (&m)[8])
-{
-    const auto swapBlocks = [&](int distance, int shift, Word low) {
-        for (int i = 0; i < 8; ++i) {
-            if (i & distance) continue;
-            const Word difference = ((m[i] >> shift) ^ m[i + distance]) & low;
-            m[i] ^= difference << shift;
-            m[i + distance] ^= difference;
-        }
-    };
-    swapBlocks(4, 32, 0x00000000ffffffffU);
-    swapBlocks(2, 16, 0x0000ffff0000ffffU);
-    swapBlocks(1, 8, 0x00ff00ff00ff00ffU);
-}
 
 /// 64 bits of a row, the lowest at position `start` of the row; zero beyond both ends.
 Word window(const Word* row, int wordsPerRow, int start)
@@ -69,7 +55,7 @@ private:
     void addLeaves(const openvdb::Coord& origin)
     {
         const openvdb::Coord& base = bits_.box().min();
-        Word leaves[8][8]; // [x][y] while gathering, then [x][leaf]
+        std::array<std::array<Word, 8>, 8> leaves; // [x][y] while gathering, then [x][leaf]
         Word any = 0, all = ~Word(0);
         for (int x = 0; x < 8; ++x) {
             for (int y = 0; y < 8; ++y) {
@@ -83,7 +69,7 @@ private:
             }
         }
         if (any == 0) return;
-        for (Word(&slice)[8] : leaves) transposeBytes(slice);
+        for (auto& slice : leaves) transposeBytes(slice);
         for (int i = 0; i < 8; ++i) {
             if ((any >> (8 * i) & 0xff) == 0) continue;
             if (!block_.node) block_.node = std::make_unique<LowerNode>(origin_, false);

@@ -1,6 +1,8 @@
 #pragma once
 
-#include <vdbcage/volume/detail/mask_blocks.h>
+#include <array>
+#include <cstddef>
+#include <cstdint>
 
 namespace vdbcage::detail {
 
@@ -15,7 +17,7 @@ inline void swapBits(Word& low, Word& high, std::uint64_t mask, int shift)
 }
 
 /// Byte y of word x goes to byte x of word y.
-inline void transposeBytes(Words& w)
+inline void transposeBytes(std::array<std::uint64_t, 8>& w)
 {
     for (std::size_t i = 0; i < 4; ++i) swapBits(w[i], w[i + 4], 0x00000000FFFFFFFFULL, 32);
     for (const std::size_t i : {0U, 1U, 4U, 5U}) swapBits(w[i], w[i + 2], 0x0000FFFF0000FFFFULL, 16);
