@@ -213,6 +213,30 @@ BOOST_AUTO_TEST_CASE(a_new_face_count_gives_the_cage_of_a_fresh_run)
     }
 }
 
+BOOST_AUTO_TEST_CASE(what_no_closing_joins_is_shrunk_from_its_hull)
+{
+    // A flat triangle: its box has twice the volume.
+    const Mesh model = test::joined(test::joined(test::sphere({0, 0, 0}, 0.5, 8), test::sphere({9, 0, 0}, 0.5, 8)),
+                                    test::sphere({0, 9, 0}, 0.5, 8));
+    CageOptions options;
+    options.parts = CageParts::merge;
+    Pipeline made(model);
+    // The second run knows the hull, and tries other closings before.
+    for (const auto& [effort, faces] : {std::pair(Effort::fast, 30), std::pair(Effort::best, 250)}) {
+        options.effort = effort;
+        options.faces = faces;
+        made.run(options);
+        const CageReport& report = made.report();
+        BOOST_CHECK(report.start == CageStart::hull);
+        BOOST_TEST(report.check.volumeRatio < 32);
+        BOOST_TEST(report.check.components == 1U);
+        for (const auto& stage : {made.solid(), made.closed()}) {
+            BOOST_TEST(stage->voxelSize()[0] * report.resolution == 10, boost::test_tools::tolerance(1e-9));
+        }
+        BOOST_CHECK(sameMesh(made.cage(), makeCage(model, options)));
+    }
+}
+
 BOOST_AUTO_TEST_CASE(scaled_and_moved_models_get_the_scaled_and_moved_cage)
 {
     const Mesh model = saturn();

@@ -110,8 +110,8 @@ void printSummary(const MakeArguments& arguments, const Pipeline& pipeline, cons
                   : check.valid()  ? ", NOT bounding"
                                    : ", NOT a valid cage")
               << ", mean distance " << 100 * check.meanDistance << " % of the diagonal, " << seconds << " s\n";
-    if (report.start == CageStart::block) {
-        std::cerr << "  shrunk from a block: the closing has too many parts or handles for so few faces\n";
+    if (report.start == CageStart::hull) {
+        std::cerr << "  shrunk from the convex hull: the closing has too many parts or handles for so few faces\n";
     } else if (report.start == CageStart::box) {
         std::cerr << "  this is the model's bounding box: nothing tighter with so few faces was certified\n";
     }

@@ -14,7 +14,6 @@
 #include <vector>
 
 #include <tbb/parallel_for.h>
-#include <vdbcage/core/detail/mask_grid.h>
 #include <vdbcage/core/detail/nearest_float.h>
 #include <vdbcage/core/error.h>
 #include <vdbcage/mesh/symmetry.h>
@@ -27,6 +26,7 @@
 #include <vdbcage/surface/tighten.h>
 #include <vdbcage/surface/triquad.h>
 #include <vdbcage/volume/cavities.h>
+#include <vdbcage/volume/convex_hull.h>
 #include <vdbcage/volume/mirror.h>
 #include <vdbcage/volume/morphology.h>
 
@@ -116,6 +116,7 @@ public:
         cageKey_.clear();
         for (const auto& start : starts_) start->isUsed = false;
         Candidate best = options.bounding ? makeBounding(options, interrupter) : makeUnguarded(options, interrupter);
+        updateClosed(options, best.voxels, interrupter); // others may have been tried since
         {
             const Stage stage(interrupter, "certify");
             best.check = checker(interrupter).check(best.cage, {}, interrupter);
@@ -387,28 +388,25 @@ private:
         return candidate ? *candidate : makeBox(options, guard);
     }
 
-    /// The first rung of the ladder that leads to few enough faces, or else a cage from a block; nothing if that has
-    /// too many too.
+    /// The first rung of the ladder that leads to few enough faces, or else a cage from the convex hull; nothing
+    /// if that has too many too.
     std::optional<Candidate> shrinkStarts(const CageOptions& options, const BoundingGuard& guard,
                                           Interrupter* interrupter)
     {
-        constexpr int blockResolution = 32; // a block has no detail that more could show
+        constexpr int hullResolution = 32; // a hull has no detail that more could show
         for (Voxels voxels : ladder(options)) {
             voxels.plane = guard.symmetry();
             std::vector<Candidate> starts = startsFrom(voxels, options, guard, interrupter);
             if (starts.empty()) continue;
-            auto candidate = shrinkOnto(std::move(starts), options, guard, interrupter);
-            if (!candidate) continue;
-            updateClosed(options, candidate->voxels, interrupter);
-            return candidate;
+            if (auto candidate = shrinkOnto(std::move(starts), options, guard, interrupter)) return candidate;
         }
-        Candidate block;
-        block.start = CageStart::block;
-        block.voxels = ladder(options).back();
-        block.voxels.resolution = std::min(block.voxels.resolution, blockResolution);
-        block.voxels.plane = guard.symmetry();
-        begin(block, options, guard, interrupter);
-        return shrinkOnto({block}, options, guard, interrupter);
+        Candidate hull;
+        hull.start = CageStart::hull;
+        hull.voxels = ladder(options).front();
+        hull.voxels.resolution = std::min(hull.voxels.resolution, hullResolution);
+        hull.voxels.plane = guard.symmetry();
+        begin(hull, options, guard, interrupter);
+        return shrinkOnto({hull}, options, guard, interrupter);
     }
 
     /// What cages may be shrunk from with voxels like these: nothing if there are too many handles. Among few faces the
@@ -435,12 +433,12 @@ private:
     {
         const CageOptions here = resolved(options, candidate.voxels);
         const std::string key =
-            (candidate.start == CageStart::block ? "block " : "") + keyUpTo(here, PipelineStage::close);
+            (candidate.start == CageStart::hull ? "hull " : "") + keyUpTo(here, PipelineStage::close);
         const auto hasKey = [&](const auto& start) { return start->key == key; };
         auto known = std::find_if(starts_.begin(), starts_.end(), hasKey);
         if (known == starts_.end()) {
             updateClosed(options, candidate.voxels, interrupter);
-            const auto solid = candidate.start == CageStart::block ? blockAround(*closed_) : closed_;
+            const auto solid = candidate.start == CageStart::hull ? convexHull(*closed_, interrupter) : closed_;
             const auto start = std::make_shared<Start>(startFrom(*solid, candidate.voxels, guard, interrupter));
             start->key = key;
             start->scaleGrid = options.scale.grid;
@@ -491,14 +489,6 @@ private:
         const auto parts = static_cast<double>(topology.components());
         if (options.parts == CageParts::merge && parts > 1) return false;
         return 8 * (parts - 1) + 12 * static_cast<double>(topology.genus()) <= share * options.faces;
-    }
-
-    /// All the voxels of the box of `mask`.
-    static openvdb::MaskGrid::Ptr blockAround(const openvdb::MaskGrid& mask)
-    {
-        const openvdb::MaskGrid::Ptr block = detail::maskGridLike(mask, std::make_shared<openvdb::MaskTree>());
-        block->tree().fill(mask.evalActiveVoxelBoundingBox(), true, true);
-        return block;
     }
 
     /// Makes cages of the candidates' surfaces, side by side; the tightest that has few enough faces and is certified.
