@@ -94,7 +94,7 @@ BOOST_AUTO_TEST_CASE(any_soup_will_do)
     const auto found = findSymmetry(triangle, 1e-6);
     BOOST_REQUIRE(found);
     BOOST_TEST(found->deviation < 1e-6);
-    Mesh thin = triangle;               // its area is no double
+    Mesh thin = triangle; // its area is no double
     thin.points[2] = {0.5, 1e-320, 0};
     BOOST_TEST(bestSymmetry(thin, 1).deviation < 1e-6);
     BOOST_CHECK_THROW(findSymmetry(Mesh(), 0.1), InputError);

@@ -292,7 +292,7 @@ BOOST_AUTO_TEST_CASE(a_new_vertex_on_the_plane_of_symmetry_takes_the_place_of_fa
     options.symmetry = SymmetryPlane{0, 0};
     const BoundingGuard guard(inLowerHalf, options);
     Mesh surface = bipyramid({0, 0, 0}, 1, 8);
-    for (const std::size_t onPlane : {4, 8}) surface.points[onPlane][0] = 0;
+    for (const std::size_t onPlane : {4U, 8U}) surface.points[onPlane][0] = 0;
     for (const auto& [image, of] : {std::pair<std::size_t, std::size_t>{5, 3}, {6, 2}, {7, 9}}) {
         surface.points[image] = test::mirrored(surface.points[of], {0, 0});
     }

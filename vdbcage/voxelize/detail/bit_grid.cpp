@@ -55,15 +55,16 @@ private:
     void addLeaves(const openvdb::Coord& origin)
     {
         const openvdb::Coord& base = bits_.box().min();
-        std::array<std::array<Word, 8>, 8> leaves; // [x][y] while gathering, then [x][leaf]
+        std::array<Word, 8> leaves[8]; // [x][y] while gathering, then [x][leaf]
         Word any = 0, all = ~Word(0);
         for (int x = 0; x < 8; ++x) {
+            Word* const words = leaves[x].data();
             for (int y = 0; y < 8; ++y) {
                 const int rowX = origin.x() + x - base.x(), rowY = origin.y() + y - base.y();
                 const bool inside = rowX >= 0 && rowX < bits_.size().x() && rowY >= 0 && rowY < bits_.size().y();
                 const Word word =
                     inside ? window(bits_.row(rowX, rowY), bits_.wordsPerRow(), origin.z() - base.z()) : Word(0);
-                leaves[x][y] = word;
+                words[y] = word;
                 any |= word;
                 all &= word;
             }
@@ -79,7 +80,7 @@ private:
                 ++tiles_;
             } else {
                 auto leaf = std::make_unique<Leaf>(leafOrigin);
-                for (int x = 0; x < 8; ++x) leaf->buffer().data()[x] = leaves[x][i];
+                for (int x = 0; x < 8; ++x) leaf->buffer().data()[x] = leaves[x].data()[i];
                 block_.node->addLeaf(leaf.release());
             }
         }
