@@ -138,7 +138,7 @@ BOOST_AUTO_TEST_CASE(bad_files_are_refused)
     BOOST_CHECK_EXCEPTION(readVdb(path), IoError, says("a.vdb: cannot be read: No such file"));
     BOOST_CHECK_EXCEPTION(readVdb(folder.path()), IoError, says("is a directory"));
     for (const std::string& text : {std::string(), std::string("v 0 0 0\n"), std::string(5000, '\0'),
-                                   std::string(5000, '\xFF'), std::string(" BDV", 4)}) {
+                                    std::string(5000, '\xFF'), std::string(" BDV", 4)}) {
         writeText(path, text);
         BOOST_CHECK_EXCEPTION(readVdb(path), IoError, says(path.string()));
     }

@@ -52,7 +52,7 @@ std::string nameOf(Voxelizer voxelizer)
 Json toJson(const CageReport& report)
 {
     const char* start = report.start == CageStart::closing ? "closing"
-                        : report.start == CageStart::hull ? "hull"
+                        : report.start == CageStart::hull  ? "hull"
                                                            : "box";
     Json symmetry = nullptr;
     if (report.symmetry) {

@@ -16,8 +16,7 @@ std::string lastProblem()
 
 } // namespace
 
-SharedLibrary::SharedLibrary(const char* name)
-    : handle_(::dlopen(name, RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE))
+SharedLibrary::SharedLibrary(const char* name) : handle_(::dlopen(name, RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE))
 {
     if (!handle_) throw DeviceError("OpenGL: " + lastProblem());
 }
