@@ -184,7 +184,7 @@ BOOST_AUTO_TEST_CASE(what_a_shake_gains_in_one_place_is_kept)
             many += distance(16);
         }
     }
-    BOOST_TEST(many < 0.993 * few);
+    BOOST_TEST(many < 0.985 * few);
 }
 
 BOOST_AUTO_TEST_CASE(shaking_only_ever_tightens)
@@ -322,7 +322,7 @@ BOOST_AUTO_TEST_CASE(quads_of_flat_parts_are_about_as_tight_as_triangles)
         const Mesh triangles = tighten(decimate(start, guard, to(faces)), guard);
         looser += 0.5 * checker.check(cage).meanDistance / checker.check(triangles).meanDistance;
     }
-    BOOST_TEST(looser < 4); // 2.5; it is 7 without a limit to what a change may cost
+    BOOST_TEST(looser < 3); // it is 7 without a limit to what a change may cost
 }
 
 BOOST_AUTO_TEST_CASE(most_faces_become_quads_and_stay_tight)

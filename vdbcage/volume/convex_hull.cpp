@@ -1,3 +1,5 @@
+// Based on: Barber, Dobkin, Huhdanpaa, The Quickhull Algorithm for Convex Hulls, 1996, as libqhull has it.
+
 #include <vdbcage/volume/convex_hull.h>
 
 #include <algorithm>
@@ -100,8 +102,9 @@ public:
             for (int y = 0; y < sizeY_; ++y) {
                 const Column& column = columns_[index(x, y)];
                 if (column.high < column.low) continue;
-                for (const int z : {column.low, column.high})
+                for (const int z : {column.low, column.high}) {
                     list.insert(list.end(), {x - 0.5, y - 0.5, z - origin_.z() - 0.5});
+                }
             }
         }
         return list;

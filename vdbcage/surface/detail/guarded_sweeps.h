@@ -34,7 +34,7 @@ void roundOff(GuardedSurface& surface, int sweeps, Interrupter* interrupter);
 /// The total area of the surface.
 double area(const GuardedSurface& surface);
 
-/// Of its area, for as many samples of the distance as `samples` for each of `faces`.
+/// The part of its area that each sample of the distance stands for, if each of `faces` has `samples`.
 double areaPerSample(const GuardedSurface& surface, std::size_t faces, int samples);
 
 /// The median over the triangles of their centroids' distance to the model; 0 without any.
