@@ -1,12 +1,14 @@
 #include <boost/test/unit_test.hpp>
 
 #include <atomic>
+#include <cmath>
 #include <map>
 
 #include <support/shapes.h>
 #include <support/symmetric.h>
 #include <support/temporary_folder.h>
 #include <tbb/global_control.h>
+#include <vdbcage/check/check.h>
 #include <vdbcage/core/error.h>
 #include <vdbcage/mesh/mesh_io.h>
 #include <vdbcage/pipeline/pipeline.h>
@@ -306,6 +308,31 @@ BOOST_AUTO_TEST_CASE(without_bounding_the_cage_is_reported_as_it_is)
     made.run(options);
     BOOST_TEST(made.report().check.bounding());
     BOOST_TEST(free > made.report().check.meanDistance); // the guarded operators are tighter, too
+}
+
+BOOST_AUTO_TEST_CASE(a_clearance_moves_what_cages_are_made_of_no_farther_than_it_must)
+{
+    const Mesh model = test::sphere({0, 0, 0}, 1, 24);
+    const CageChecker checker(model);
+    const double voxel = 2.0 / 32, diagonal = std::sqrt(12.0);
+    for (const CageSymmetry symmetry : {CageSymmetry::off, CageSymmetry::x}) {
+        CageOptions options = coarse();
+        options.symmetry = symmetry;
+        const auto distance = [&](double clearance) {
+            options.clearance = clearance / 2; // it is a fraction of the longest side
+            Pipeline made(model);
+            made.run(options);
+            BOOST_TEST(made.report().check.bounding());
+            BOOST_TEST(made.report().offsetVoxels == std::floor(clearance / voxel));
+            const CageCheck start = checker.check(made.surface());
+            BOOST_TEST(start.minDistance * diagonal >= clearance);
+            return start.meanDistance * diagonal;
+        };
+        const double least = distance(1e-5 * voxel), some = distance(0.05 * voxel);
+        BOOST_TEST(least < some);
+        BOOST_TEST(some - least < 0.2 * voxel);
+        BOOST_TEST(distance(1.5 * voxel) - least < 2 * voxel);
+    }
 }
 
 BOOST_AUTO_TEST_CASE(more_smoothing_is_rounder)

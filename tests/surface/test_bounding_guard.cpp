@@ -417,11 +417,24 @@ BOOST_AUTO_TEST_CASE(bad_options_and_surfaces_are_refused)
     BOOST_CHECK_THROW(GuardedSurface(open, guard.model()), InputError);
 }
 
-BOOST_AUTO_TEST_CASE(a_whole_surface_is_clear_or_not)
+BOOST_AUTO_TEST_CASE(faces_of_a_whole_surface_that_are_too_near_are_found)
 {
     const BoundingGuard guard = guardOf(inLowerHalf);
-    BOOST_TEST(guard.isClear(bipyramid({0, 0, 0}, 1)));
-    BOOST_TEST(!guard.isClear(bipyramid({0, 0, 0}, 0.5)));
+    BOOST_TEST(guard.facesTooNear(bipyramid({0, 0, 0}, 1)).empty());
+    const std::vector<std::size_t> lower{1, 3, 5, 7, 9, 11}; // the odd ones are at the lower tip
+    BOOST_TEST(guard.facesTooNear(bipyramid({0, 0, 0}, 0.5)) == lower, boost::test_tools::per_element());
+    // A quad is too near if one of its diagonals is; it has a number after the triangles.
+    Mesh bent = bipyramid({0, 0, 0}, 1);
+    bent.points.insert(bent.points.end(), {{-1, -1, -0.2}, {1, -1, -0.2}, {1, 1, -0.2}, {-1, 1, -0.6}});
+    bent.quads.emplace_back(8, 9, 10, 11);
+    bent.points.insert(bent.points.end(), {{2, 2, 2}, {3, 2, 2}, {3, 3, 2}, {2, 3, 2}});
+    bent.quads.emplace_back(12, 13, 14, 15);
+    for (int turn = 0; turn < 4; ++turn) {
+        openvdb::Vec4I& q = bent.quads[0];
+        q = {q[1], q[2], q[3], q[0]};
+        const std::vector<std::size_t> first{12};
+        BOOST_TEST(guard.facesTooNear(bent) == first, boost::test_tools::per_element());
+    }
 }
 
 BOOST_AUTO_TEST_SUITE_END()

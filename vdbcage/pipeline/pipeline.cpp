@@ -14,6 +14,7 @@
 #include <vector>
 
 #include <tbb/parallel_for.h>
+#include <vdbcage/core/detail/mask_grid.h>
 #include <vdbcage/core/detail/nearest_float.h>
 #include <vdbcage/core/error.h>
 #include <vdbcage/mesh/symmetry.h>
@@ -451,25 +452,49 @@ private:
         candidate.topology = candidate.from->topology;
     }
 
-    /// The surface of `solid`, grown until it keeps the guard's clearance.
+    /// The surface of `solid`, grown to keep the guard's clearance: as a whole by the voxels in it, then where that is
+    /// not enough.
     static Start startFrom(const openvdb::MaskGrid& solid, const Voxels& voxels, const BoundingGuard& guard,
                            Interrupter* interrupter)
     {
         const Stage stage(interrupter, "surface");
-        // A point off the grown solid lies that far, less a voxel's diagonal, from the model: the last is clear.
-        const double diagonal = std::sqrt(3.0), voxel = solid.voxelSize()[0];
         Start start;
-        for (const double offset : {0.0, 1.0, std::ceil(guard.clearance() / voxel + diagonal)}) {
-            start.offset = offset;
-            openvdb::MaskGrid::Ptr grown;
-            if (offset > 0) grown = dilate(solid, offset, Element::sphere, interrupter);
-            const openvdb::MaskGrid& mask = grown ? *grown : solid;
-            start.surface = guard.symmetry() ? guard.symmetrized(symmetricSurface(mask, voxels, interrupter), voxel / 4)
-                                             : extractSurface(mask, interrupter);
-            if (guard.isClear(start.surface)) break;
+        start.offset = std::floor(guard.clearance() / solid.voxelSize()[0]);
+        const auto grownBy = [&](double radius, const openvdb::MaskGrid& mask) {
+            return dilate(mask, radius, Element::sphere, interrupter);
+        };
+        auto mask = start.offset > 0 ? grownBy(start.offset, solid)
+                                     : detail::maskGridLike(solid, std::make_shared<openvdb::MaskTree>(solid.tree()));
+        for (;;) {
+            throwIfInterrupted(interrupter);
+            start.surface = guard.symmetry() ? guard.symmetrized(symmetricSurface(*mask, voxels, interrupter),
+                                                                 mask->voxelSize()[0] / 4)
+                                             : extractSurface(*mask, interrupter);
+            const std::vector<std::size_t> tooNear = guard.facesTooNear(start.surface);
+            if (tooNear.empty()) break;
+            if (addVoxelsOutside(start.surface, tooNear, *mask) == 0) mask = grownBy(1, *mask);
         }
         start.topology = analyzeTopology(start.surface, interrupter);
         return start;
+    }
+
+    /// Adds the voxels on the outer side of faces between voxels; returns how many there were not.
+    static std::size_t addVoxelsOutside(const Mesh& surface, const std::vector<std::size_t>& faces,
+                                        openvdb::MaskGrid& mask)
+    {
+        auto voxels = mask.getAccessor();
+        std::size_t added = 0;
+        for (const std::size_t face : faces) {
+            const openvdb::Vec4I& q = surface.quads[face - surface.triangles.size()];
+            const auto corner = [&](int i) { return mask.worldToIndex(surface.points[q[i]]); };
+            const openvdb::Vec3d a = corner(0), b = corner(1), c = corner(2), d = corner(3);
+            openvdb::Vec3d outward = (c - a).cross(d - b);
+            outward.normalize();
+            const auto voxel = openvdb::Coord::round(0.25 * (a + b + c + d) + 0.5 * outward);
+            added += !voxels.isValueOn(voxel);
+            voxels.setValueOn(voxel);
+        }
+        return added;
     }
 
     /// The surface of a mask that is symmetric: so is what is added to make it well-composed.

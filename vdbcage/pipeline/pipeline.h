@@ -30,7 +30,7 @@ struct CageReport {
     int resolution = 0;      ///< voxels along the longest side, as given or chosen
     VoxelizeReport voxels;   ///< what made the voxels
     double closeRadius = 0;  ///< fraction of the longest side, as given or chosen
-    double offsetVoxels = 0; ///< how far the closing had to be grown to keep the clearance
+    double offsetVoxels = 0; ///< by how much all of the closing was grown to keep the clearance
     CageStart start = CageStart::closing;
     std::optional<Symmetry> symmetry; ///< the plane in which the cage is exactly symmetric, and how far the model is
     std::string noSymmetry;           ///< why there is none; empty if there is, or it was not asked for

@@ -378,10 +378,8 @@ double BoundingGuard::clearance() const
     return model_->unscaled(openvdb::Vec3d(model_->clearance()))[0];
 }
 
-bool BoundingGuard::isClear(const Mesh& surface) const
+std::vector<std::size_t> BoundingGuard::facesTooNear(const Mesh& surface) const
 {
-    const std::vector<openvdb::Vec3I> triangles = everySplit(surface);
-    const auto point = [&](openvdb::Index32 i) { return model_->rounded(model_->scaled(surface.points[i])); };
     const auto isClear = [&](const detail::Corners& t) {
         if (!model_->clear(t, detail::TriangleTree::none, nullptr)) return false;
         // What is behind the plane of symmetry comes as near as its mirror image.
@@ -389,16 +387,30 @@ bool BoundingGuard::isClear(const Mesh& surface) const
                model_->clear({model_->mirrored(t[0]), model_->mirrored(t[1]), model_->mirrored(t[2])},
                              detail::TriangleTree::none, nullptr);
     };
+    const auto place = [&](openvdb::Index32 i) { return model_->rounded(model_->scaled(surface.points[i])); };
+    const std::size_t triangles = surface.triangles.size();
+    const auto isFaceClear = [&](std::size_t face) {
+        if (face < triangles) {
+            const openvdb::Vec3I& t = surface.triangles[face];
+            return isClear({place(t[0]), place(t[1]), place(t[2])});
+        }
+        const openvdb::Vec4I& q = surface.quads[face - triangles];
+        const detail::Vec3d a = place(q[0]), b = place(q[1]), c = place(q[2]), d = place(q[3]);
+        return isClear({a, b, c}) && isClear({a, c, d}) && isClear({a, b, d}) && isClear({b, c, d});
+    };
+    using Faces = std::vector<std::size_t>;
     return tbb::parallel_reduce(
-        tbb::blocked_range<std::size_t>(0, triangles.size(), 256), true,
-        [&](const tbb::blocked_range<std::size_t>& range, bool clear) {
-            for (std::size_t i = range.begin(); i < range.end() && clear; ++i) {
-                const openvdb::Vec3I& t = triangles[i];
-                clear = isClear({point(t[0]), point(t[1]), point(t[2])});
+        tbb::blocked_range<std::size_t>(0, faceCount(surface), 256), Faces{},
+        [&](const tbb::blocked_range<std::size_t>& range, Faces faces) {
+            for (std::size_t face = range.begin(); face < range.end(); ++face) {
+                if (!isFaceClear(face)) faces.push_back(face);
             }
-            return clear;
+            return faces;
         },
-        [](bool a, bool b) { return a && b; });
+        [](Faces before, const Faces& after) {
+            before.insert(before.end(), after.begin(), after.end());
+            return before;
+        });
 }
 
 std::optional<SymmetryPlane> BoundingGuard::symmetry() const

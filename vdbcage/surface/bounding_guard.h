@@ -1,7 +1,9 @@
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include <vdbcage/core/export.h>
 #include <vdbcage/core/interrupter.h>
@@ -47,8 +49,9 @@ public:
 
     /// The least distance kept, in world units.
     double clearance() const;
-    /// Whether every face of `surface` keeps the clearance (quads: under both diagonals). In parallel.
-    bool isClear(const Mesh& surface) const;
+    /// The faces of `surface` that do not keep the clearance (quads: under both diagonals), ascending; quads are
+    /// counted on from the triangles. In parallel.
+    std::vector<std::size_t> facesTooNear(const Mesh& surface) const;
 
     /// The plane of symmetry, if one was asked for: moved by less than the rounding of coordinates.
     std::optional<SymmetryPlane> symmetry() const;
