@@ -211,6 +211,13 @@ BOOST_AUTO_TEST_CASE(the_rest_of_the_surface_is_not_touched)
     BOOST_TEST(topMayGo(surface, guard, {0, 0, 1.2}));
     BOOST_TEST(!topMayGo(surface, guard, {0, 0, 1.5}));
     BOOST_TEST(!topMayGo(surface, guard, {0, 0, 1.3})); // tip on tip
+    // Nor nearly touched: the model is 2.5 long.
+    BOOST_TEST(topMayGo(surface, guard, {0, 0, 1.3 - 0.0051}));
+    BOOST_TEST(!topMayGo(surface, guard, {0, 0, 1.3 - 0.0049}));
+    // Small triangles need less: here a twentieth of the root of 2 by a hundredth, .0007.
+    const Mesh withSmall = test::joined(bipyramid({0, 0, 0}, 1), bipyramid({0, 0, 1.31}, 0.01));
+    BOOST_TEST(topMayGo(withSmall, guard, {0, 0, 1.3 - 0.0008}));
+    BOOST_TEST(!topMayGo(withSmall, guard, {0, 0, 1.3 - 0.0006}));
 }
 
 BOOST_AUTO_TEST_CASE(triangles_do_not_fold_onto_each_other)
@@ -219,6 +226,20 @@ BOOST_AUTO_TEST_CASE(triangles_do_not_fold_onto_each_other)
     const Mesh surface = bipyramid({0, 0, 0}, 1);
     BOOST_TEST(topMayGo(surface, guard, {0.1, 0.05, 0}));
     BOOST_TEST(!topMayGo(surface, guard, {3, 0.3, 0})); // flat, and over its own ring
+    // Nor nearly: .9 and 1.1 degrees above the bottom, with the model elsewhere.
+    const BoundingGuard elsewhere = guardOf(test::box({4.9, 4.9, 4.9}, {5.1, 5.1, 5.1}));
+    BOOST_TEST(topMayGo(surface, elsewhere, {0, 0, -0.96}));
+    BOOST_TEST(!topMayGo(surface, elsewhere, {0, 0, -0.97}));
+}
+
+BOOST_AUTO_TEST_CASE(what_is_too_near_may_only_come_apart)
+{
+    // The tips are too near to each other from the start.
+    const Mesh surface = test::joined(bipyramid({0, 0, 0}, 1), bipyramid({0, 0, 2.001}, 1));
+    const BoundingGuard guard = guardOf(test::joined(inLowerHalf, test::box({-0.1, -0.1, 2}, {0.1, 0.1, 2.5})));
+    BOOST_TEST(topMayGo(surface, guard, {0, 0, 0.9}));
+    BOOST_TEST(!topMayGo(surface, guard, {0, 0, 0.9999}));
+    BOOST_TEST(!topMayGo(surface, guard, {0, 0, 1}));
 }
 
 BOOST_AUTO_TEST_CASE(parts_of_the_model_are_not_swept_over)
@@ -255,6 +276,14 @@ BOOST_AUTO_TEST_CASE(changes_made_side_by_side_do_not_run_into_each_other)
     GuardedSurface::Batch batch(guarded);
     BOOST_TEST(batch.apply(below, up));
     BOOST_TEST(!batch.apply(above, down));
+    // Nor nearly: two thousandths of the model's 3.9 between them is asked.
+    GuardedSurface apart(surface, guard.model());
+    const Vec3d place = guard.model().rounded(guard.model().scaled({0, 0, 1.5}));
+    const Vec3d near = guard.model().rounded(guard.model().scaled({0, 0, 1.502}));
+    BOOST_REQUIRE(apart.allows(above, near));
+    GuardedSurface::Batch second(apart);
+    BOOST_TEST(second.apply(below, place));
+    BOOST_TEST(!second.apply(above, near));
     // Nor are neighbours moved on what they no longer see.
     BOOST_TEST(!batch.apply(guarded.fanOf(2), guarded.point(2)));
 }

@@ -24,6 +24,7 @@
 #include "support/shapes.h"
 #include "support/solids.h"
 #include "support/symmetric.h"
+#include "surface/spacing.h"
 #include "surface/targets.h"
 
 using namespace vdbcage;
@@ -186,6 +187,7 @@ BOOST_DATA_TEST_CASE(cages_are_symmetric_and_bound_the_model_and_its_image, boos
             BOOST_TEST(facesNotOnOneSide(cage, plane) == 0U);
             BOOST_TEST(checker.check(cage).bounding());
             BOOST_TEST(imageChecker.check(cage).bounding());
+            BOOST_TEST(test::pairsTooNear(cage, guard, 0.99) == 0U);
             reached += faceCount(cage) <= faces;
             ++cages;
         };
@@ -205,6 +207,31 @@ BOOST_DATA_TEST_CASE(cages_are_symmetric_and_bound_the_model_and_its_image, boos
         }
     }
     BOOST_TEST(reached >= 0.9 * cages); // the guard may lock some
+}
+
+BOOST_AUTO_TEST_CASE(vertices_keep_off_the_plane)
+{
+    // An octahedron and its mirror image; its points are numbered by axis, the lesser first.
+    const SymmetryPlane plane{0, 0};
+    Mesh octahedron;
+    for (int axis = 0; axis < 3; ++axis) {
+        for (const double side : {-0.4, 0.4}) {
+            Vec3d p(0.5, 0, 0);
+            p[axis] += side;
+            octahedron.points.push_back(p);
+        }
+    }
+    octahedron.triangles = {{1, 3, 5}, {3, 0, 5}, {0, 2, 5}, {2, 1, 5}, {3, 1, 4}, {0, 3, 4}, {2, 0, 4}, {1, 2, 4}};
+    const Mesh surface = test::joined(octahedron, test::mirrored(octahedron, plane));
+    // The model and its mirror image are 1.2 long: half of two thousandths of it are asked on either side.
+    const BoundingGuard guard = guardOf(test::box({0.4, -0.1, -0.1}, {0.6, 0.1, 0.1}), plane);
+    const detail::GuardedSurface guarded(surface, guard.model());
+    const auto mayGo = [&](double x) {
+        const detail::Fan fan = guarded.fanOf(0);
+        return guarded.allows(fan, guarded.rounded(fan, guard.model().scaled({x, 0, 0})));
+    };
+    BOOST_TEST(mayGo(0.00121));
+    BOOST_TEST(!mayGo(0.00119));
 }
 
 BOOST_AUTO_TEST_CASE(they_are_about_as_tight_as_others)

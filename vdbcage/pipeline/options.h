@@ -44,7 +44,7 @@ struct CageOptions {
     ScaleField scale;                           ///< what the close radius is multiplied by in places; for the sphere
     int smooth = 0;                             ///< sweeps of smoothing at the end: rounder, and less tight, with more
     CageParts parts = CageParts::keep;          ///< what becomes of separate parts of the closing
-    double clearance = 1e-6;                    ///< least distance from model to cage
+    double clearance = 3e-5;                    ///< least distance from model to cage
     std::optional<double> minAngle;             ///< degrees: no triangle angle gets smaller; unset: by the effort
     Effort effort = Effort::fair;               ///< time against tightness
     CageFaces mesh = CageFaces::triangles;      ///< triangles only, or quads too

@@ -197,6 +197,15 @@ bool comesTooNear(const Corners& triangle, const Separator& separator, const Cor
            nearness(triangle, other).squaredDistance < clearance * clearance;
 }
 
+} // namespace
+
+bool comeWithin(const Corners& first, const Corners& second, double distance)
+{
+    return comesTooNear(first, Separator(first), second, distance);
+}
+
+namespace {
+
 /// Adds the mirror image in a plane, and leaves out the triangles behind it, where coordinates are less.
 void addMirrorImage(const SymmetryPlane& plane, std::vector<Vec3d>& points, std::vector<Vec3I>& triangles)
 {
@@ -249,6 +258,7 @@ GuardModel::GuardModel(const Mesh& model, const GuardOptions& options, Interrupt
     minSine_ = std::max(1e-6, std::sin(options.minAngleDegrees * pi / 180));
     roundsToFloat_ = fitsFloat(box);
     if (roundsToFloat_) clearance_ = std::max(clearance_, 4 * floatRounding(box) * scale_);
+    spacing_ = {2e-3 * side * scale_, 0.05, std::sin(1 * pi / 180)};
     std::vector<Vec3I> triangles = everySplit(model);
     std::vector<Vec3d> points;
     points.reserve(model.points.size());

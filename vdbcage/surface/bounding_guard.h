@@ -19,7 +19,7 @@ class GuardModel;
 struct GuardOptions {
     /// Least distance from model to surface, fraction of the model's longest side, 1e-7 to 0.1. Where float holds the
     /// model, at least four times the rounding of its largest coordinate.
-    double clearance = 1e-6;
+    double clearance = 3e-5;
     double minAngleDegrees = 6; ///< no move makes a triangle angle smaller than this (or than it was), 0 to 30
     /// If set, surfaces are exactly symmetric in it and stay so, and bound the model and its mirror image.
     std::optional<SymmetryPlane> symmetry = {};
@@ -28,12 +28,14 @@ struct GuardOptions {
 /// Keeps a surface bounding while it is changed: built once from a model (any polygon soup), it lets smooth, decimate
 /// and tighten replace one star of triangles by another only if the new one
 /// - keeps its clearance to every face of the model,
-/// - touches the rest of the surface in nothing but the vertices and edges they share,
+/// - keeps off the rest of the surface: triangles without a common corner by 0.002 of the model's longest side,
+///   or a twentieth of their longest edge (the smaller triangle's) if that is less, others by an angle of one degree,
 /// - sweeps, together with the old one, over no part of the model,
 /// - has no degenerate triangle and none with a smaller angle than allowed.
-/// A surface that bounds the model with that clearance at the start therefore does at the end. Contacts within the
-/// surface are decided exactly, distances up to a few units of 2^-52 of the sizes involved, far below any clearance;
-/// all on the coordinates as they will be written: points are rounded to float where float can hold the model.
+/// A surface that bounds the model with that clearance at the start therefore does at the end; where it comes nearer to
+/// itself, only what leads out of that is allowed. Distances are decided up to a few units of 2^-52 of the sizes
+/// involved, far below any clearance; all on the coordinates as they will be written: points are rounded to float where
+/// float can hold the model.
 /// Immutable; any number of threads may use one at the same time. Building: O(n log n) in the model's faces.
 ///
 /// With a plane of symmetry coordinates across it are rounded to multiples of one number, fine enough for the largest

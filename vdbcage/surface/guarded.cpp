@@ -183,7 +183,7 @@ Mesh tighten(const Mesh& cage, const BoundingGuard& guard, const TightenOptions&
 Mesh triquad(const Mesh& surface, const BoundingGuard& guard, const BoundingTriquadOptions& options,
              Interrupter* interrupter)
 {
-    constexpr int attempts = 6;
+    constexpr int attempts = 8;
     constexpr double aim = 0.99, goodEnough = 0.97; // of the faces
     requireFaces(options.faces);
     detail::requireMergeAngle(options.mergeAngleDegrees);
@@ -200,7 +200,7 @@ Mesh triquad(const Mesh& surface, const BoundingGuard& guard, const BoundingTriq
     double low = wanted, high = std::max(wanted, static_cast<double>(fine.liveFaces()));
     double target = std::min((1 + options.quads) * wanted, high);
     std::optional<detail::GuardedSurface> best;
-    double reached = 0; // faces; as many fewer as the share of quads is too small
+    double reached = 0; // faces, counted as fewer where they have too few quads
     for (int i = 0; i < attempts; ++i) {
         detail::GuardedSurface paired = fine;
         const auto triangles = static_cast<std::size_t>(target);
@@ -208,13 +208,15 @@ Mesh triquad(const Mesh& surface, const BoundingGuard& guard, const BoundingTriq
         makeQuads(paired, options, interrupter);
         const auto faces = static_cast<double>(paired.liveFaces() - paired.quads());
         const double share = detail::quadShare(paired);
-        const double counted = share < options.quads ? faces * share / options.quads : faces;
+        const double part = share < options.quads ? share / options.quads : 1; // of the share asked
+        const double counted = faces * part * part;
         (faces <= wanted ? low : high) = target;
-        if (faces <= wanted && counted > reached) {
+        const bool isEnough = faces <= wanted && faces >= goodEnough * wanted && share >= options.quads;
+        if (isEnough || (faces <= wanted && counted > reached)) {
             best = std::move(paired);
             reached = counted;
         }
-        if ((reached >= goodEnough * wanted) || high - low < 2) break;
+        if (isEnough || high - low < 2) break;
         // Where strips are split for want of pairs, faces are many of few triangles, too: longer steps until some fit.
         target *= std::pow(aim * wanted / faces, best ? 1 : i + 1);
         if (!(target > low && target < high)) target = 0.5 * (low + high);

@@ -6,6 +6,7 @@
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/intersections.h>
+#include <vdbcage/surface/detail/guard_model.h>
 
 namespace vdbcage::detail {
 
@@ -21,6 +22,43 @@ Kernel::Point_3 exact(const Vec3d& p)
 Kernel::Triangle_3 exact(const Corners& t)
 {
     return {exact(t[0]), exact(t[1]), exact(t[2])};
+}
+
+/// The sine of the angle between a direction and the nearest one between two others, all from one point; 1 if that is
+/// not less than 90 degrees.
+double sineBetween(const Vec3d& p, const Vec3d& from, const Vec3d& to, const Vec3d& normal)
+{
+    const double length2 = p.lengthSqr();
+    if (normal.cross(from).dot(p) > 0 && normal.cross(to).dot(p) < 0) {
+        return std::abs(normal.dot(p)) / std::sqrt(normal.lengthSqr() * length2);
+    }
+    double least = 1;
+    for (const Vec3d* end : {&from, &to}) {
+        if (end->dot(p) > 0) least = std::min(least, end->cross(p).length() / std::sqrt(end->lengthSqr() * length2));
+    }
+    return least;
+}
+
+/// tooNear() for two triangles with one common corner.
+bool tooNearAt(const Facet& a, int tipOfA, const Facet& b, int tipOfB, double sine)
+{
+    const Vec3d& tip = a.corner(tipOfA);
+    const std::array<Vec3d, 2> inA{a.corner(tipOfA + 1) - tip, a.corner(tipOfA + 2) - tip};
+    const std::array<Vec3d, 2> inB{b.corner(tipOfB + 1) - tip, b.corner(tipOfB + 2) - tip};
+    const auto apart = [&](const Facet& one, const Facet& other, int tipOfOther) {
+        const int side = one.plane.sideSeenFrom(tip, other.corner(tipOfOther + 1), sine);
+        return side != 0 && one.plane.sideSeenFrom(tip, other.corner(tipOfOther + 2), sine) == side;
+    };
+    if (apart(a, b, tipOfB) || apart(b, a, tipOfA)) return false;
+    for (const Vec3d& p : inA) {
+        if (sineBetween(p, inB[0], inB[1], b.plane.normal()) <= sine) return true;
+    }
+    for (const Vec3d& p : inB) {
+        if (sineBetween(p, inA[0], inA[1], a.plane.normal()) <= sine) return true;
+    }
+    const Kernel::Segment_3 acrossA(exact(a.corner(tipOfA + 1)), exact(a.corner(tipOfA + 2)));
+    const Kernel::Segment_3 acrossB(exact(b.corner(tipOfB + 1)), exact(b.corner(tipOfB + 2)));
+    return CGAL::do_intersect(exact(a.corners), acrossB) || CGAL::do_intersect(exact(b.corners), acrossA);
 }
 
 } // namespace
@@ -40,7 +78,7 @@ double minSine(const Corners& t)
     return product > 0 ? twiceArea / product : 0;
 }
 
-bool meetBeyondShared(const Facet& a, const Facet& b)
+bool tooNear(const Facet& a, const Facet& b, const Spacing& spacing)
 {
     std::array<int, 3> inA{}, inB{};
     int shared = 0;
@@ -53,36 +91,23 @@ bool meetBeyondShared(const Facet& a, const Facet& b)
         }
     }
     if (shared == 0) {
+        const double distance = distanceBetween(a, b, spacing);
         // One plane between them settles most pairs.
-        const auto apart = [](const Facet& one, const Facet& other) {
-            const int side = one.plane.side(other.corners[0]);
-            return side != 0 && one.plane.side(other.corners[1]) == side && one.plane.side(other.corners[2]) == side;
+        const auto apart = [&](const Facet& one, const Facet& other) {
+            const int side = one.plane.side(other.corners[0], distance);
+            return side != 0 && one.plane.side(other.corners[1], distance) == side &&
+                   one.plane.side(other.corners[2], distance) == side;
         };
-        return !apart(a, b) && !apart(b, a) && CGAL::do_intersect(exact(a.corners), exact(b.corners));
+        return !apart(a, b) && !apart(b, a) && comeWithin(a.corners, b.corners, distance);
     }
-    if (shared == 1) {
-        const auto apart = [](const Facet& one, const Facet& other, int tip) {
-            const int side = one.plane.side(other.corner(tip + 1));
-            return side != 0 && one.plane.side(other.corner(tip + 2)) == side;
-        };
-        const int i = inA[0], j = inB[0];
-        if (apart(a, b, j) || apart(b, a, i)) return false;
-        const Kernel::Segment_3 acrossA(exact(a.corner(i + 1)), exact(a.corner(i + 2)));
-        const Kernel::Segment_3 acrossB(exact(b.corner(j + 1)), exact(b.corner(j + 2)));
-        return CGAL::do_intersect(exact(a.corners), acrossB) || CGAL::do_intersect(exact(b.corners), acrossA);
-    }
-    if (shared == 2) {
-        // Folded onto each other, or not at all.
-        const Vec3d& q = b.corner(3 - inB[0] - inB[1]);
-        if (a.plane.side(q) != 0) return false;
-        const Vec3d &u = a.corner(inA[0]), &v = a.corner(inA[1]), &p = a.corner(3 - inA[0] - inA[1]);
-        return CGAL::coplanar(exact(u), exact(v), exact(p), exact(q)) &&
-               CGAL::coplanar_orientation(exact(u), exact(v), exact(p), exact(q)) == CGAL::POSITIVE;
-    }
-    return true;
+    if (shared == 1) return tooNearAt(a, inA[0], b, inB[0], spacing.sine);
+    // Folded onto each other, or not.
+    const Vec3d &n = a.plane.normal(), &m = b.plane.normal();
+    return shared == 3 ||
+           (n.dot(m) < 0 && n.cross(m).lengthSqr() <= spacing.sine * spacing.sine * n.lengthSqr() * m.lengthSqr());
 }
 
-bool spreadOut(const Facets& facets)
+bool spreadOut(const Facets& facets, const Spacing& spacing, double leastSine)
 {
     Vec3d direction(0.0);
     for (const Facet& f : facets) direction += f.plane.normal();
@@ -94,11 +119,12 @@ bool spreadOut(const Facets& facets)
     Vec3d x = axis.cross(direction);
     x /= x.length();
     const Vec3d y = direction.cross(x);
+    const double least = spacing.sine / leastSine;
     int rounds = 0; // times that the rim crosses the positive x axis
     for (const Facet& f : facets) {
         const Vec3d a = f.corners[1] - centre, b = f.corners[2] - centre;
-        const double ax = a.dot(x), ay = a.dot(y), bx = b.dot(x), by = b.dot(y), cross = ax * by - ay * bx;
-        if (!(cross > 0 && cross * cross > 1e-24 * a.lengthSqr() * b.lengthSqr())) return false;
+        const double ay = a.dot(y), by = b.dot(y), cross = f.plane.normal().dot(direction);
+        if (!(cross > 0 && cross * cross > least * least * f.plane.normal().lengthSqr())) return false;
         rounds += ay < 0 && by >= 0; // a turn to the left by less than half a round
     }
     return rounds == 1;

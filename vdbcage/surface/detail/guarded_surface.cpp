@@ -20,6 +20,11 @@ Vec3I fromLeast(const Vec3I& t)
     return t[1] < t[2] ? Vec3I(t[1], t[2], t[0]) : Vec3I(t[2], t[0], t[1]);
 }
 
+Box grown(const Box& box, double by)
+{
+    return {box.lo - Vec3d(by), box.hi + Vec3d(by)};
+}
+
 } // namespace
 
 GuardedSurface::GuardedSurface(const Mesh& surface, const GuardModel& guard, Quads quads)
@@ -232,19 +237,20 @@ bool GuardedSurface::wellShaped(const Fan& fan, const Vec3d& p) const
 bool GuardedSurface::clearOfSurface(const Fan& fan, const Vec3d& p) const
 {
     const std::size_t n = fan.rim.size();
+    const Spacing& spacing = guard().spacing();
     Facets facets;
     boost::container::small_vector<Box, 16> boxes;
     Box all = Box::of(p);
     for (std::size_t i = 0; i < n; ++i) {
         facets.emplace_back(Vec3I(fan.centre, fan.rim[i][0], fan.rim[i][1]), fanCorners(fan, i, p));
-        boxes.push_back(Box::of(facets.back().corners));
+        boxes.push_back(grown(Box::of(facets.back().corners), spacing.around(facets.back().longestEdge)));
         all.expand(boxes.back());
     }
-    if (fan.others > 0 || fan.onPlane || !spreadOut(facets)) {
+    if (fan.others > 0 || fan.onPlane || !spreadOut(facets, spacing, guard().minSine())) {
         for (std::size_t i = 0; i < n; ++i) {
             for (std::size_t j = i + 1; j < n; ++j) {
                 if (fan.others > 0 && areAlternatives(fan.keptFaces[i], fan.keptFaces[j])) continue;
-                if (meetBeyondShared(facets[i], facets[j])) return false;
+                if (tooNear(facets[i], facets[j], spacing)) return false;
             }
         }
     }
@@ -254,7 +260,7 @@ bool GuardedSurface::clearOfSurface(const Fan& fan, const Vec3d& p) const
         const Facet other(faces_[face], corners(face));
         for (std::size_t i = 0; i < n; ++i) {
             if (!boxes[i].meets(box) || areAlternatives(fan.keptFaces[i], face)) continue;
-            if (meetBeyondShared(facets[i], other)) return false;
+            if (tooNear(facets[i], other, spacing)) return false;
         }
         return true;
     });
@@ -263,7 +269,26 @@ bool GuardedSurface::clearOfSurface(const Fan& fan, const Vec3d& p) const
 bool GuardedSurface::isBehindPlane(const Fan& fan, const Vec3d& p) const
 {
     const auto& plane = guard().symmetry();
-    return plane && (fan.onPlane ? p[plane->axis] != plane->offset : p[plane->axis] <= plane->offset);
+    if (!plane) return false;
+    // Half of what is to be between a face and its mirror image.
+    const double distance = 0.5 * spacingAround(fan, p), sine = 0.5 * guard().spacing().sine;
+    const auto height = [&](const Vec3d& q) { return q[plane->axis] - plane->offset; };
+    if (fan.onPlane ? height(p) != 0 : !(height(p) >= distance && height(p) > 0)) return true;
+    for (const auto& edge : fan.rim) {
+        for (const std::uint32_t v : edge) {
+            if (isOnPlane(v) == fan.onPlane) continue;
+            const Vec3d& q = points_[v];
+            if (std::abs(height(p) - height(q)) < sine * (p - q).length()) return true;
+        }
+    }
+    return false;
+}
+
+double GuardedSurface::spacingAround(const Fan& fan, const Vec3d& p) const
+{
+    double longest2 = 0;
+    for (const auto& edge : fan.rim) longest2 = std::max(longest2, (points_[edge[0]] - p).lengthSqr());
+    return guard().spacing().around(std::sqrt(longest2));
 }
 
 bool GuardedSurface::allows(const Fan& fan, const Vec3d& p, std::uint32_t* hint) const
@@ -326,6 +351,7 @@ void GuardedSurface::contacts(const Fan& fan, const Vec3d& from, const Vec3d& to
     constexpr int mostGaps = 6; // of each triangle; the rest shows up in the next try if it matters
     // A little more than the clearance, so that rounding leaves the next try on the right side.
     const double clearance = 1.01 * guard().clearance();
+    const Spacing& spacing = guard().spacing();
     for (std::size_t i = 0; i < fan.rim.size(); ++i) {
         const Corners now = fanCorners(fan, i, from), then = fanCorners(fan, i, to);
         const bool isBlocked = !guard().clear(then, TriangleTree::none, nullptr);
@@ -336,24 +362,26 @@ void GuardedSurface::contacts(const Fan& fan, const Vec3d& from, const Vec3d& to
                 return ++gaps < mostGaps;
             });
         }
-        const Vec3I ids(fan.centre, fan.rim[i][0], fan.rim[i][1]);
-        tree_.forEachOverlap(Box::of(then), [&](std::uint32_t face, const Box& /*box*/) {
-            if (isOld(fan, face)) return true;
-            for (const int corner : {0, 1, 2}) {
-                if (faces_[face][corner] == ids[1] || faces_[face][corner] == ids[2]) return true;
-            }
-            const Corners other = corners(face);
-            if (meetBeyondShared({ids, then}, {faces_[face], other})) {
-                addApproach(now, other, from, 0.1 * guard().clearance(), halfSpaces);
-            }
-            return true;
-        });
+        const Facet facet(Vec3I(fan.centre, fan.rim[i][0], fan.rim[i][1]), then);
+        tree_.forEachOverlap(
+            grown(Box::of(then), spacing.around(facet.longestEdge)), [&](std::uint32_t face, const Box& /*box*/) {
+                if (isOld(fan, face)) return true;
+                for (const int corner : {0, 1, 2}) {
+                    if (faces_[face][corner] == facet.ids[1] || faces_[face][corner] == facet.ids[2]) return true;
+                }
+                const Facet other(faces_[face], corners(face));
+                if (tooNear(facet, other, spacing)) {
+                    addApproach(now, other.corners, from, 1.01 * distanceBetween(facet, other, spacing), halfSpaces);
+                }
+                return true;
+            });
     }
     if (!guard().symmetry()) return;
     Vec3d across(0.0);
     across[guard().symmetry()->axis] = 1;
     if (!fan.onPlane) {
-        if (isBehindPlane(fan, to)) halfSpaces.push_back({across, guard().symmetry()->offset + clearance});
+        if (isBehindPlane(fan, to))
+            halfSpaces.push_back({across, guard().symmetry()->offset + 0.505 * spacingAround(fan, to)});
         return;
     }
     // The centre moves in the plane: so do the half-spaces.
@@ -476,11 +504,12 @@ bool GuardedSurface::makeQuad(std::uint32_t f, std::uint32_t g)
         if (!guard().clear(facet.corners, TriangleTree::none, nullptr)) return false;
         all.expand(Box::of(facet.corners));
     }
-    if (meetBeyondShared(facets[0], facets[1])) return false;
-    const bool isFree = tree_.forEachOverlap(all, [&](std::uint32_t face, const Box& /*box*/) {
+    const Spacing& spacing = guard().spacing();
+    if (tooNear(facets[0], facets[1], spacing)) return false;
+    const bool isFree = tree_.forEachOverlap(grown(all, spacing.distance), [&](std::uint32_t face, const Box& /*box*/) {
         if (face == f || face == g) return true;
         const Facet near(faces_[face], corners(face));
-        return !meetBeyondShared(facets[0], near) && !meetBeyondShared(facets[1], near);
+        return !tooNear(facets[0], near, spacing) && !tooNear(facets[1], near, spacing);
     });
     if (!isFree) return false;
     if (guard().mayHoldPart(all)) {
@@ -556,7 +585,8 @@ bool GuardedSurface::Batch::apply(const Fan& fan, const Vec3d& p)
             box.expand(Box::of(surface_.point(v)));
         }
     }
-    const auto meets = [&](const Box& other) { return box.meets(other); };
+    const Box around = grown(box, surface_.guard().spacing().distance);
+    const auto meets = [&](const Box& other) { return around.meets(other); };
     if (std::any_of(boxes_.begin(), boxes_.end(), meets) && !surface_.clearOfSurface(fan, p)) return false;
     surface_.apply(fan, p);
     for (const std::uint32_t v : {fan.centre, fan.removed}) {

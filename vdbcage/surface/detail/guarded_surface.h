@@ -127,6 +127,8 @@ private:
     std::uint32_t takeHalf(std::uint32_t firstOfQuads);
     bool isManifoldAt(std::uint32_t v) const;
     bool isBehindPlane(const Fan& fan, const Vec3d& p) const;
+    /// The distance that a fan, its longest spoke being its longest edge, keeps from what is larger.
+    double spacingAround(const Fan& fan, const Vec3d& p) const;
     Corners fanCorners(const Fan& fan, std::size_t i, const Vec3d& p) const;
     bool wellShaped(const Fan& fan, const Vec3d& p) const;
     bool clearOfSurface(const Fan& fan, const Vec3d& p) const;
