@@ -85,17 +85,17 @@ BOOST_AUTO_TEST_CASE(triangles_without_a_common_corner_keep_a_distance)
         const double size = round % 2 ? 0.5 : 0.08; // of small ones half the longest edge is less
         const Corners a{random(), random(), random()}, b{at + random(size), at + random(size), at + random(size)};
         const Facet one({0, 1, 2}, a), other({3, 4, 5}, b);
-        BOOST_TEST_REQUIRE(one.longestEdge ==
+        BOOST_TEST_REQUIRE(one.longestEdge() ==
                                std::max({(a[1] - a[0]).length(), (a[2] - a[1]).length(), (a[0] - a[2]).length()}),
                            boost::test_tools::tolerance(1e-12));
-        const double wanted = std::min(0.1, 0.5 * std::min(one.longestEdge, other.longestEdge));
+        const double wanted = std::min(0.1, 0.5 * std::min(one.longestEdge(), other.longestEdge()));
         BOOST_REQUIRE_EQUAL(distanceBetween(one, other, spacing), wanted);
         // Samples of the smaller one are at most a 40th of its longest edge away from any of its points.
         const double sampled = std::min(sampledDistance(a, b), sampledDistance(b, a));
         const bool isNear = tally(tooNear(one, other, spacing));
         BOOST_REQUIRE_EQUAL(isNear, tooNear(other, one, spacing));
         if (sampled < wanted) BOOST_REQUIRE(isNear);
-        if (sampled > wanted + 0.025 * std::min(one.longestEdge, other.longestEdge)) BOOST_REQUIRE(!isNear);
+        if (sampled > wanted + 0.025 * std::min(one.longestEdge(), other.longestEdge())) BOOST_REQUIRE(!isNear);
     }
     BOOST_TEST(tally.near > 500);
     BOOST_TEST(tally.far > 500);

@@ -39,6 +39,20 @@ double sineBetween(const Vec3d& p, const Vec3d& from, const Vec3d& to, const Vec
     return least;
 }
 
+/// Whether a plane lies between two pairs of directions from one point, and so between all directions between those of
+/// a pair, that leaves the angle between them. Most pairs of triangles that are nearly in one plane are told apart so.
+bool lieApart(const std::array<Vec3d, 2>& first, const std::array<Vec3d, 2>& second, double sine)
+{
+    const Vec3d u = first[0] + first[1], v = second[0] + second[1];
+    const Vec3d across = u / std::sqrt(u.lengthSqr()) - v / std::sqrt(v.lengthSqr());
+    const double half = 0.51 * sine, least2 = half * half * across.lengthSqr();
+    const auto isBeyond = [&](double height, const Vec3d& p) {
+        return height > 0 && height * height > least2 * p.lengthSqr();
+    };
+    return isBeyond(across.dot(first[0]), first[0]) && isBeyond(across.dot(first[1]), first[1]) &&
+           isBeyond(-across.dot(second[0]), second[0]) && isBeyond(-across.dot(second[1]), second[1]);
+}
+
 /// tooNear() for two triangles with one common corner.
 bool tooNearAt(const Facet& a, int tipOfA, const Facet& b, int tipOfB, double sine)
 {
@@ -49,7 +63,7 @@ bool tooNearAt(const Facet& a, int tipOfA, const Facet& b, int tipOfB, double si
         const int side = one.plane.sideSeenFrom(tip, other.corner(tipOfOther + 1), sine);
         return side != 0 && one.plane.sideSeenFrom(tip, other.corner(tipOfOther + 2), sine) == side;
     };
-    if (apart(a, b, tipOfB) || apart(b, a, tipOfA)) return false;
+    if (apart(a, b, tipOfB) || apart(b, a, tipOfA) || lieApart(inA, inB, sine)) return false;
     for (const Vec3d& p : inA) {
         if (sineBetween(p, inB[0], inB[1], b.plane.normal()) <= sine) return true;
     }
@@ -91,14 +105,13 @@ bool tooNear(const Facet& a, const Facet& b, const Spacing& spacing)
         }
     }
     if (shared == 0) {
-        const double distance = distanceBetween(a, b, spacing);
         // One plane between them settles most pairs.
         const auto apart = [&](const Facet& one, const Facet& other) {
-            const int side = one.plane.side(other.corners[0], distance);
-            return side != 0 && one.plane.side(other.corners[1], distance) == side &&
-                   one.plane.side(other.corners[2], distance) == side;
+            const int side = one.plane.side(other.corners[0], spacing.distance);
+            return side != 0 && one.plane.side(other.corners[1], spacing.distance) == side &&
+                   one.plane.side(other.corners[2], spacing.distance) == side;
         };
-        return !apart(a, b) && !apart(b, a) && comeWithin(a.corners, b.corners, distance);
+        return !apart(a, b) && !apart(b, a) && comeWithin(a.corners, b.corners, distanceBetween(a, b, spacing));
     }
     if (shared == 1) return tooNearAt(a, inA[0], b, inB[0], spacing.sine);
     // Folded onto each other, or not.

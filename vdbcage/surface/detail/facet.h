@@ -63,15 +63,14 @@ struct Facet {
     Vec3I ids;
     Corners corners;
     Plane plane;
-    double longestEdge;
 
-    Facet(const Vec3I& vertices, const Corners& places)
-        : ids(vertices), corners(places), plane(places),
-          longestEdge(std::sqrt(std::max({(places[1] - places[0]).lengthSqr(), (places[2] - places[1]).lengthSqr(),
-                                          (places[0] - places[2]).lengthSqr()})))
-    {
-    }
+    Facet(const Vec3I& vertices, const Corners& places) : ids(vertices), corners(places), plane(places) {}
     const Vec3d& corner(int i) const { return corners[static_cast<std::size_t>(i % 3)]; }
+    double longestEdge() const
+    {
+        return std::sqrt(std::max({(corners[1] - corners[0]).lengthSqr(), (corners[2] - corners[1]).lengthSqr(),
+                                   (corners[0] - corners[2]).lengthSqr()}));
+    }
 };
 
 using Facets = boost::container::small_vector<Facet, 16>;
@@ -85,7 +84,7 @@ double minSine(const Corners& t);
 /// The distance that two triangles without a common corner have to keep.
 inline double distanceBetween(const Facet& a, const Facet& b, const Spacing& spacing)
 {
-    return spacing.around(std::min(a.longestEdge, b.longestEdge));
+    return spacing.around(std::min(a.longestEdge(), b.longestEdge()));
 }
 
 /// Whether two triangles of a surface come nearer than they may, or meet in more than the corners that they share.

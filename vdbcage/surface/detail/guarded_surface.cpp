@@ -243,7 +243,7 @@ bool GuardedSurface::clearOfSurface(const Fan& fan, const Vec3d& p) const
     Box all = Box::of(p);
     for (std::size_t i = 0; i < n; ++i) {
         facets.emplace_back(Vec3I(fan.centre, fan.rim[i][0], fan.rim[i][1]), fanCorners(fan, i, p));
-        boxes.push_back(grown(Box::of(facets.back().corners), spacing.around(facets.back().longestEdge)));
+        boxes.push_back(grown(Box::of(facets.back().corners), spacing.around(facets.back().longestEdge())));
         all.expand(boxes.back());
     }
     if (fan.others > 0 || fan.onPlane || !spreadOut(facets, spacing, guard().minSine())) {
@@ -364,7 +364,7 @@ void GuardedSurface::contacts(const Fan& fan, const Vec3d& from, const Vec3d& to
         }
         const Facet facet(Vec3I(fan.centre, fan.rim[i][0], fan.rim[i][1]), then);
         tree_.forEachOverlap(
-            grown(Box::of(then), spacing.around(facet.longestEdge)), [&](std::uint32_t face, const Box& /*box*/) {
+            grown(Box::of(then), spacing.around(facet.longestEdge())), [&](std::uint32_t face, const Box& /*box*/) {
                 if (isOld(fan, face)) return true;
                 for (const int corner : {0, 1, 2}) {
                     if (faces_[face][corner] == facet.ids[1] || faces_[face][corner] == facet.ids[2]) return true;
