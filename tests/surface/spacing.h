@@ -10,8 +10,7 @@
 namespace vdbcage::test {
 
 /// The pairs of triangles of a surface that are nearer to each other than a guard allows, whichever way its quads are
-/// split. `part`: of the
-/// spacing, less than all of it where coordinates across a plane of symmetry are rounded.
+/// split. `part`: of the spacing, less than all of it where coordinates across a plane of symmetry are rounded.
 inline std::size_t pairsTooNear(const Mesh& surface, const BoundingGuard& guard, double part = 1)
 {
     using openvdb::Vec3I;

@@ -226,7 +226,7 @@ BOOST_AUTO_TEST_CASE(triangles_do_not_fold_onto_each_other)
     const Mesh surface = bipyramid({0, 0, 0}, 1);
     BOOST_TEST(topMayGo(surface, guard, {0.1, 0.05, 0}));
     BOOST_TEST(!topMayGo(surface, guard, {3, 0.3, 0})); // flat, and over its own ring
-    // Nor nearly: .9 and 1.1 degrees above the bottom, with the model elsewhere.
+    // Nor nearly: 1.1 and .9 degrees above the bottom, with the model elsewhere.
     const BoundingGuard elsewhere = guardOf(test::box({4.9, 4.9, 4.9}, {5.1, 5.1, 5.1}));
     BOOST_TEST(topMayGo(surface, elsewhere, {0, 0, -0.96}));
     BOOST_TEST(!topMayGo(surface, elsewhere, {0, 0, -0.97}));

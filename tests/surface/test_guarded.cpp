@@ -230,13 +230,16 @@ BOOST_AUTO_TEST_CASE(quads_bound_and_fold_as_little_as_asked)
 {
     constexpr std::size_t faces = 80;
     int reached = 0;
-    std::size_t count[3] = {0, 0, 0};
+    std::size_t count[3] = {0, 0, 0}, most[3] = {0, 0, 0}; // of quads, of as many as asked and of as many as go
     for (const Mesh& model : models()) {
         const BoundingGuard guard(model);
         const CageChecker checker(model);
         const Mesh triangles = decimate(ball(24), guard, to(2 * faces), Effort::fast);
         int i = 0;
         for (const double degrees : {10.0, 30.0, 90.0}) {
+            BoundingTriquadOptions all = quads(faces, degrees);
+            all.quads = 1;
+            most[i] += triquad(triangles, guard, all).quads.size();
             const Mesh cage = triquad(triangles, guard, quads(faces, degrees));
             BOOST_TEST(checker.check(cage).bounding()); // under every split
             reached += faceCount(cage) <= faces;
@@ -250,7 +253,9 @@ BOOST_AUTO_TEST_CASE(quads_bound_and_fold_as_little_as_asked)
     }
     BOOST_TEST(reached >= 16); // of 18, as above
     BOOST_TEST(count[1] > count[0]);
-    BOOST_TEST(count[2] >= count[1]); // 30 degrees are enough for most pairs of so few
+    // Thirty degrees are enough for as many as asked; ninety allow more.
+    BOOST_TEST(double(most[1]) > 1.2 * double(most[0]));
+    BOOST_TEST(double(most[2]) > 1.05 * double(most[1]));
 }
 
 BOOST_AUTO_TEST_CASE(a_quad_whose_corners_across_are_joined_is_split)
@@ -282,7 +287,7 @@ BOOST_AUTO_TEST_CASE(as_many_quads_as_asked_also_where_it_is_hard)
         const Mesh start = ball(24), fine = decimate(start, guard, to(5 * faces / 2));
         BoundingTriquadOptions options = quads(faces, 90);
         double last = 0;
-        for (const double share : {0.0, 0.65, 0.85, 0.89}) {
+        for (const double share : {0.0, 0.65, 0.85, 0.9}) {
             options.quads = share;
             const Mesh cage = triquad(fine, guard, options);
             BOOST_TEST(checker.check(cage).bounding());
@@ -300,7 +305,7 @@ BOOST_AUTO_TEST_CASE(quads_of_flat_parts_are_about_as_tight_as_triangles)
 {
     // Where triangles lie close to flat faces, one corner pushed out for a quad is all the distance that there is.
     constexpr std::size_t faces = 160;
-    double looser = 0, reached = 0; // times, of the faces
+    double looser = 0; // times
     for (const int teeth : {2, 3}) {
         const auto lowOf = [&](int k) { return Vec3d(-0.4 + 0.8 * k / teeth, -0.3, -0.05); };
         const Vec3d size(0.4 / teeth, 0.7, 0.1);
@@ -326,11 +331,10 @@ BOOST_AUTO_TEST_CASE(quads_of_flat_parts_are_about_as_tight_as_triangles)
         const Mesh cage = triquad(decimate(start, guard, to(3 * faces)), guard, options);
         BOOST_TEST(checker.check(cage).bounding());
         BOOST_TEST(double(cage.quads.size()) >= 0.87 * double(faceCount(cage)));
-        reached += 0.5 * double(faceCount(cage)) / double(faces);
+        BOOST_TEST(faceCount(cage) >= 0.9 * faces);
         const Mesh triangles = tighten(decimate(start, guard, to(faces)), guard);
         looser += 0.5 * checker.check(cage).meanDistance / checker.check(triangles).meanDistance;
     }
-    BOOST_TEST(reached >= 0.9);
     BOOST_TEST(looser < 3); // it is 7 without a limit to what a change may cost
 }
 

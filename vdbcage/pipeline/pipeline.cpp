@@ -452,8 +452,8 @@ private:
         candidate.topology = candidate.from->topology;
     }
 
-    /// The surface of `solid`, grown to keep the guard's clearance: as a whole by the voxels in it, then where that is
-    /// not enough.
+    /// The surface of `solid`, grown to keep the guard's clearance: all of it by as many whole voxels as the clearance
+    /// has, then the places where that is not enough, until it is.
     static Start startFrom(const openvdb::MaskGrid& solid, const Voxels& voxels, const BoundingGuard& guard,
                            Interrupter* interrupter)
     {

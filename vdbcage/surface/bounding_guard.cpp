@@ -188,23 +188,18 @@ Nearness nearness(const Corners& first, const Corners& second)
     return best;
 }
 
+bool comeWithin(const Corners& first, const Corners& second, double distance)
+{
+    return !edgesSeparate(first, second, distance) && nearness(first, second).squaredDistance < distance * distance;
+}
+
 namespace {
 
 bool comesTooNear(const Corners& triangle, const Separator& separator, const Corners& other, double clearance)
 {
     return !separator.separates(other, clearance) && !Separator(other).separates(triangle, clearance) &&
-           !edgesSeparate(triangle, other, clearance) &&
-           nearness(triangle, other).squaredDistance < clearance * clearance;
+           comeWithin(triangle, other, clearance);
 }
-
-} // namespace
-
-bool comeWithin(const Corners& first, const Corners& second, double distance)
-{
-    return comesTooNear(first, Separator(first), second, distance);
-}
-
-namespace {
 
 /// Adds the mirror image in a plane, and leaves out the triangles behind it, where coordinates are less.
 void addMirrorImage(const SymmetryPlane& plane, std::vector<Vec3d>& points, std::vector<Vec3I>& triangles)

@@ -21,7 +21,8 @@ struct Nearness {
 /// 2^-52 of their sizes, far below any clearance.
 Nearness nearness(const Corners& first, const Corners& second);
 
-/// Whether two triangles come nearer than `distance`: as nearness(), but mostly faster.
+/// Whether two triangles come nearer than `distance`: as nearness(), but faster where a pair of planes along edges
+/// tells; planes of the triangles are for the caller to try, who may have them.
 bool comeWithin(const Corners& first, const Corners& second, double distance);
 
 /// What a guard knows of the model.
