@@ -11,7 +11,6 @@
 #include <vdbcage/check/check.h>
 #include <vdbcage/core/detail/nearest_float.h>
 #include <vdbcage/core/error.h>
-#include <vdbcage/mesh/topology.h>
 #include <vdbcage/surface/decimate.h>
 #include <vdbcage/surface/detail/guard_model.h>
 #include <vdbcage/surface/detail/guarded_quads.h>
@@ -21,6 +20,7 @@
 #include <vdbcage/surface/triquad.h>
 #include <vdbcage/volume/mirror.h>
 
+#include "support/manifold.h"
 #include "support/shapes.h"
 #include "support/solids.h"
 #include "support/symmetric.h"
@@ -97,14 +97,6 @@ bool same(const Mesh& a, const Mesh& b)
     return a.points == b.points && a.triangles == b.triangles && a.quads == b.quads;
 }
 
-bool isClosedManifold(const Mesh& mesh)
-{
-    const MeshTopology topology = analyzeTopology(mesh);
-    return topology.isCycle() && topology.boundaryEdges + topology.nonManifoldEdges + topology.misorientedEdges +
-                                         topology.nonManifoldVertices ==
-                                     0;
-}
-
 /// Faces with corners on both sides of the plane, or none off it.
 std::size_t facesNotOnOneSide(const Mesh& mesh, const SymmetryPlane& plane)
 {
@@ -161,7 +153,7 @@ BOOST_DATA_TEST_CASE(half_of_a_surface_and_its_image_are_closed, boost::unit_tes
         BOOST_TEST(guard.symmetry()->axis == axis);
         BOOST_TEST(std::abs(guard.symmetry()->offset - plane.offset) < 1e-7);
         BOOST_CHECK(test::isSymmetric(both, *guard.symmetry()));
-        BOOST_TEST(isClosedManifold(both));
+        BOOST_TEST(test::isClosedManifold(both));
         BOOST_TEST(facesNotOnOneSide(both, *guard.symmetry()) == 0U);
         // Between voxels nothing is cut; through their centres every face across it becomes two.
         const std::size_t across = facesNotOnOneSide(surface, plane);
@@ -276,7 +268,7 @@ BOOST_AUTO_TEST_CASE(no_inner_edge_joins_two_points_of_the_plane)
     const Mesh surface = guard.symmetrized(extractSurface(*mask), snap);
     for (std::size_t faces = 8; faces <= 40; faces += 4) {
         const Mesh cage = decimate(surface, guard, to(faces), Effort::fast);
-        BOOST_TEST(isClosedManifold(cage));
+        BOOST_TEST(test::isClosedManifold(cage));
         BOOST_CHECK(test::isSymmetric(cage, *guard.symmetry()));
         BOOST_TEST(faceCount(cage) <= faces);
     }
@@ -305,7 +297,7 @@ BOOST_AUTO_TEST_CASE(a_strip_of_quads_to_the_plane_is_split)
     BOOST_TEST(cage.points.size() == prism().points.size() + 3);
     BOOST_CHECK(test::isSymmetric(cage, *guard.symmetry()));
     BOOST_TEST(facesNotOnOneSide(cage, *guard.symmetry()) == 0U);
-    BOOST_TEST(isClosedManifold(cage));
+    BOOST_TEST(test::isClosedManifold(cage));
     BOOST_TEST(checkCage(cage, model).bounding());
 }
 

@@ -27,12 +27,13 @@ VDBCAGE_API Mesh decimate(const Mesh& surface, const DecimateOptions& options = 
 
 /// Decimates a surface that bounds `guard`'s model and keeps it so: it is drawn towards the model, and every collapse
 /// has to pass the guard, its vertex pushed outward until it does and then drawn back along what it touches (fast).
-/// Then vertices are exchanged between places (fair: 5 to 10 % tighter), and shaken and exchanged in turns (best: some
-/// percent tighter still). Quads are split, points that no face uses are dropped. More than the faces asked for are
-/// left where topology (each handle and each part needs some) or the guard allow no less. TBB-parallel, same result for
-/// any number of threads. \pre `surface` is closed, 2-manifold and bounds the model with the guard's clearance \throw
-/// InputError (fewer than 4 faces asked for; not closed and 2-manifold), Cancelled O(n log n log m) for n faces and m
-/// of the model: from 20,000 to 400 faces about 0.2 s (fast), 0.5 s (fair), 2 s (best) on two threads.
+/// Then vertices are exchanged between places (fair: 5 to 10 % tighter), and, edges flipped too, shaken and exchanged
+/// in turns (best: some percent tighter still). Quads are split, points that no face uses are dropped. More than the
+/// faces asked for are left where topology (each handle and each part needs some) or the guard allow no less.
+/// TBB-parallel, same result for any number of threads. \pre `surface` is closed, 2-manifold and bounds the model with
+/// the guard's clearance \throw InputError (fewer than 4 faces asked for; not closed and 2-manifold), Cancelled O(n log
+/// n log m) for n faces and m of the model: from 20,000 to 400 faces about 0.2 s (fast), 0.5 s (fair), 2 s (best) on
+/// two threads.
 VDBCAGE_API Mesh decimate(const Mesh& surface, const BoundingGuard& guard, const DecimateOptions& options,
                           Effort effort = Effort::fair, Interrupter* interrupter = nullptr);
 

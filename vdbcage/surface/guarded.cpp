@@ -123,14 +123,16 @@ private:
     /// Exchanges end where none is better on the whole; a surface that was shaken has others that are.
     static void exchangeAndShake(detail::GuardedSurface& surface, Interrupter* interrupter)
     {
-        constexpr int turns = 2, firstRounds = 4, rounds = 2, shakes = 2, exchangeSweeps = 6;
+        constexpr int turns = 2, firstRounds = 3, rounds = 2, shakes = 2, exchangeSweeps = 6;
         const TightenOptions tightening = tightenOptions(Effort::best);
         const double perSample = detail::areaPerSample(surface, surface.liveFaces(), tightening.samples);
         detail::tighten(surface, tightening.sweeps, perSample, interrupter);
         detail::exchange(surface, firstRounds, exchangeSweeps, interrupter);
+        detail::flipEdges(surface, exchangeSweeps, interrupter);
         for (int i = 0; i < turns; ++i) {
             detail::shake(surface, shakes, tightening.sweeps, perSample, interrupter);
             detail::exchange(surface, rounds, exchangeSweeps, interrupter);
+            detail::flipEdges(surface, exchangeSweeps, interrupter);
         }
     }
 

@@ -1,11 +1,13 @@
-// Based on: Hoppe, DeRose, Duchamp, McDonald, Stuetzle, "Mesh Optimization", 1993 (splits and collapses, each with its
-// vertices placed anew, kept where the distance to the data drops).
-// Differs: greedy in rounds of many splits and collapses under the guard, not one random move at a time.
+// Based on: Hoppe, DeRose, Duchamp, McDonald, Stuetzle, "Mesh Optimization", 1993 (edges split, collapsed and
+// swapped, each with its vertices placed anew, kept where the distance to the data drops).
+// Differs: greedy in rounds of many under the guard, not one random move at a time.
 
 #include <vdbcage/surface/detail/guarded_exchange.h>
 
 #include <algorithm>
-#include <optional>
+#include <array>
+#include <limits>
+#include <utility>
 #include <vector>
 
 #include <tbb/parallel_for.h>
@@ -17,66 +19,87 @@ namespace vdbcage::detail {
 
 namespace {
 
-struct Split {
-    double gain; ///< for two more faces
-    std::uint32_t u, v;
-    Vec3d place;
+constexpr int samplesPerFace = 4;
+
+/// The split of the edge from a to b, or its flip to `centre`.
+struct EdgeChange {
+    std::uint32_t a, b, centre = Fan::none;
+    double gain = 0; ///< of distance; of a split for two more faces
+    Vec3d place{0.0};
 };
 
-/// The best split of an edge, if one brings the surface nearer to the model.
-std::optional<Split> trySplit(const GuardedSurface& surface, const DistanceMeasure& measure, std::uint32_t u,
-                              std::uint32_t v)
+/// False where there is none.
+bool fanOf(const GuardedSurface& surface, const EdgeChange& change, Fan& fan)
 {
-    const Fan fan = surface.fanOfSplit(u, v);
-    const Vec3d along = surface.point(v) - surface.point(u);
+    if (change.centre != Fan::none) return surface.fanOfFlip(change.centre, change.a, change.b, fan);
+    fan = surface.fanOfSplit(change.a, change.b);
+    return !fan.oldFaces.empty();
+}
+
+/// Gives a change its best place and what it gains there, 0 or less where it brings the surface no nearer to the model.
+void findPlace(const GuardedSurface& surface, const DistanceMeasure& measure, EdgeChange& change)
+{
+    Fan fan;
+    if (!fanOf(surface, change, fan)) return;
+    const Vec3d along = surface.point(change.b) - surface.point(change.a);
     const Vec3d up = surface.outward(fan) * along.length();
+    const bool isSplit = change.centre == Fan::none;
+    const Vec3d start = isSplit ? surface.point(change.a) + 0.5 * along : surface.point(change.centre);
     double before = 0;
     std::uint32_t seed = TriangleTree::none;
     for (const std::uint32_t f : fan.oldFaces) before += measure.integral(surface.corners(f), seed);
-    // On the edge, or a little off, since its middle is rounded.
-    for (const double off : {0.0, 1e-5, 1e-3, 0.03}) {
-        Vec3d place = surface.rounded(fan, surface.point(u) + 0.5 * along + off * up);
-        if (!surface.allows(fan, place)) continue;
-        DistanceMeasure::Fit fit = measure.fit(surface, fan, place, seed);
-        measure.improve(surface, fan, place, fit, seed);
-        if (!(fit.integral < before)) return std::nullopt;
+    // There, or a little off: the middle of an edge is rounded, and where a ridge is flipped there must be room for it.
+    constexpr std::array<double, 4> offEdge{0.0, 1e-5, 1e-3, 0.03}, offVertex{0.0, 1e-3, 0.03, 0.1};
+    for (const double off : isSplit ? offEdge : offVertex) {
+        change.place = surface.rounded(fan, start + off * up);
+        if (!surface.allows(fan, change.place)) continue;
+        DistanceMeasure::Fit fit = measure.fit(surface, fan, change.place, seed);
+        measure.improve(surface, fan, change.place, fit, seed);
         const auto added = static_cast<double>(fan.rim.size() - fan.oldFaces.size());
-        return Split{2 / added * (before - fit.integral), u, v, place};
+        change.gain = (added > 0 ? 2 / added : 1) * (before - fit.integral);
+        return;
     }
-    return std::nullopt;
 }
 
-/// Splits edges, those that gain most first, until there are `faces`; no two splits of one round touch the same face.
-void splitBest(GuardedSurface& surface, std::size_t faces, double areaPerSample)
+/// Makes those of the changes that gain, those that gain most first, until there are `faces`; no two touch the same
+/// face.
+void makeBest(GuardedSurface& surface, std::vector<EdgeChange> changes, std::size_t faces, double areaPerSample)
 {
     const DistanceMeasure measure(surface.guard(), areaPerSample);
-    std::vector<std::vector<Split>> found(surface.vertices());
-    tbb::parallel_for(std::uint32_t(0), surface.vertices(), [&](std::uint32_t u) {
-        for (const std::uint32_t v : surface.neighbours(u)) {
-            if (v < u) continue;
-            if (const auto split = trySplit(surface, measure, u, v)) found[u].push_back(*split);
-        }
-    });
-    std::vector<Split> splits;
-    for (const auto& list : found) splits.insert(splits.end(), list.begin(), list.end());
-    std::stable_sort(splits.begin(), splits.end(), [](const Split& a, const Split& b) { return a.gain > b.gain; });
-    std::vector<char> changed(surface.faces() + 2 * splits.size(), 0);
-    for (const Split& split : splits) {
+    tbb::parallel_for(std::size_t(0), changes.size(), [&](std::size_t i) { findPlace(surface, measure, changes[i]); });
+    const auto gainsNothing = [](const EdgeChange& change) { return !(change.gain > 0); };
+    changes.erase(std::remove_if(changes.begin(), changes.end(), gainsNothing), changes.end());
+    std::stable_sort(changes.begin(), changes.end(),
+                     [](const EdgeChange& a, const EdgeChange& b) { return a.gain > b.gain; });
+    std::vector<char> changed(surface.faces() + 2 * changes.size(), 0);
+    Fan fan;
+    for (const EdgeChange& change : changes) {
         if (surface.liveFaces() >= faces) return;
-        const Fan fan = surface.fanOfSplit(split.u, split.v);
+        if (!fanOf(surface, change, fan)) continue;
         const auto wasChanged = [&](std::uint32_t f) { return changed[f] != 0; };
-        if (fan.oldFaces.empty() || std::any_of(fan.oldFaces.begin(), fan.oldFaces.end(), wasChanged)) continue;
-        if (!surface.allows(fan, split.place)) continue;
-        surface.apply(fan, split.place);
+        if (std::any_of(fan.oldFaces.begin(), fan.oldFaces.end(), wasChanged)) continue;
+        if (!surface.allows(fan, change.place)) continue;
+        surface.apply(fan, change.place);
         for (const std::uint32_t f : surface.facesOf(fan.centre)) changed[f] = 1;
     }
+}
+
+/// Splits edges until there are `faces`, or none gains.
+void splitBest(GuardedSurface& surface, std::size_t faces, double areaPerSample)
+{
+    std::vector<EdgeChange> splits;
+    for (std::uint32_t a = 0; a < surface.vertices(); ++a) {
+        for (const std::uint32_t b : surface.neighbours(a)) {
+            if (a < b) splits.push_back({a, b});
+        }
+    }
+    makeBest(surface, std::move(splits), faces, areaPerSample);
 }
 
 } // namespace
 
 void exchange(GuardedSurface& surface, int rounds, int sweeps, Interrupter* interrupter)
 {
-    constexpr int samplesPerFace = 4;
     const std::size_t faces = surface.liveFaces();
     if (faces == 0) return;
     const double perSample = areaPerSample(surface, faces, samplesPerFace);
@@ -97,6 +120,19 @@ void exchange(GuardedSurface& surface, int rounds, int sweeps, Interrupter* inte
             share *= 0.5;
         }
     }
+}
+
+void flipEdges(GuardedSurface& surface, int sweeps, Interrupter* interrupter)
+{
+    if (surface.liveFaces() == 0) return;
+    const double perSample = areaPerSample(surface, surface.liveFaces(), samplesPerFace);
+    constexpr auto anyNumber = std::numeric_limits<std::size_t>::max();
+    std::vector<EdgeChange> flips;
+    for (std::uint32_t v = 0; v < surface.vertices(); ++v) {
+        for (const auto& edge : surface.fanOf(v).rim) flips.push_back({edge[0], edge[1], v});
+    }
+    makeBest(surface, std::move(flips), anyNumber, perSample);
+    tighten(surface, sweeps, perSample, interrupter);
 }
 
 } // namespace vdbcage::detail

@@ -11,4 +11,9 @@ namespace vdbcage::detail {
 /// undone, and fewer edges are split. The number of faces does not grow. TBB-parallel, deterministic.
 void exchange(GuardedSurface& surface, int rounds, int sweeps, Interrupter* interrupter);
 
+/// Flips the edges whose flip, with the vertex that it adds an edge to placed anew, brings the surface nearest to the
+/// model, then tightens by `sweeps`: the number of faces stays, and the surface comes no farther. \pre there are no
+/// quads. TBB-parallel, deterministic.
+void flipEdges(GuardedSurface& surface, int sweeps, Interrupter* interrupter);
+
 } // namespace vdbcage::detail

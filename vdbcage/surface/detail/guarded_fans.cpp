@@ -85,6 +85,27 @@ Fan GuardedSurface::fanOfSplit(std::uint32_t u, std::uint32_t v) const
     return fan;
 }
 
+bool GuardedSurface::fanOfFlip(std::uint32_t c, std::uint32_t a, std::uint32_t b, Fan& fan) const
+{
+    fan = fanOf(c);
+    const auto edge = std::find(fan.rim.begin(), fan.rim.end(), std::array<std::uint32_t, 2>{a, b});
+    if (edge == fan.rim.end()) return false;
+    for (const std::uint32_t f : facesOf_[b]) {
+        const Vec3I& t = faces_[f];
+        const int i = t[0] == b ? 0 : t[1] == b ? 1 : 2;
+        if (t[(i + 1) % 3] != a) continue;
+        const std::uint32_t d = t[(i + 2) % 3];
+        const auto joined = neighbours(c);
+        if (std::binary_search(joined.begin(), joined.end(), d) || (fan.onPlane && isOnPlane(d))) return false;
+        *edge = {a, d};
+        fan.rim.push_back({d, b});
+        fan.oldFaces.push_back(f);
+        fan.keptFaces.push_back(f);
+        return true;
+    }
+    return false;
+}
+
 bool GuardedSurface::fanOfFaces(const Fan::Faces& faces, bool onPlane, Fan& fan) const
 {
     fan = Fan{};

@@ -266,7 +266,7 @@ bool GuardedSurface::clearOfSurface(const Fan& fan, const Vec3d& p) const
     });
 }
 
-bool GuardedSurface::isBehindPlane(const Fan& fan, const Vec3d& p) const
+bool GuardedSurface::isTooNearPlane(const Fan& fan, const Vec3d& p) const
 {
     const auto& plane = guard().symmetry();
     if (!plane) return false;
@@ -293,7 +293,7 @@ double GuardedSurface::spacingAround(const Fan& fan, const Vec3d& p) const
 
 bool GuardedSurface::allows(const Fan& fan, const Vec3d& p, std::uint32_t* hint) const
 {
-    if (isBehindPlane(fan, p)) return false;
+    if (isTooNearPlane(fan, p)) return false;
     if (!wellShaped(fan, p)) return false;
     std::uint32_t blocker = hint ? *hint : TriangleTree::none;
     for (std::size_t i = 0; i < fan.rim.size(); ++i) {
@@ -380,8 +380,9 @@ void GuardedSurface::contacts(const Fan& fan, const Vec3d& from, const Vec3d& to
     Vec3d across(0.0);
     across[guard().symmetry()->axis] = 1;
     if (!fan.onPlane) {
-        if (isBehindPlane(fan, to))
+        if (isTooNearPlane(fan, to)) {
             halfSpaces.push_back({across, guard().symmetry()->offset + 0.505 * spacingAround(fan, to)});
+        }
         return;
     }
     // The centre moves in the plane: so do the half-spaces.
@@ -407,7 +408,8 @@ void GuardedSurface::apply(const Fan& fan, const Vec3d& p)
         return;
     }
     points_[fan.centre] = p;
-    if (fan.removed != Fan::none) {
+    const bool takesFaceIn = fan.oldFaces.size() > facesOf_[fan.centre].size() + othersOf_[fan.centre].size();
+    if (fan.removed != Fan::none || takesFaceIn) {
         reconnect(fan);
     } else {
         for (const std::uint32_t f : fan.keptFaces) tree_.update(f, Box::of(corners(f)));

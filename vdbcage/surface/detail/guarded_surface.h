@@ -15,9 +15,9 @@ namespace vdbcage::detail {
 
 using openvdb::Vec4I;
 
-/// A change to a surface: the triangles around one vertex, around both ends of an edge, or on both sides of an edge
-/// give way to a fan around a centre. Moving a vertex, collapsing an edge and splitting one are the same thing to the
-/// guard.
+/// A change to a surface: the triangles around one vertex, with one next to them or without, around both ends of an
+/// edge, or on both sides of an edge give way to a fan around a centre. Moving a vertex, flipping an edge, collapsing
+/// one and splitting one are the same thing to the guard.
 struct Fan {
     static constexpr std::uint32_t none = ~std::uint32_t(0);
     using Faces = boost::container::small_vector<std::uint32_t, 16>;
@@ -75,6 +75,10 @@ public:
     bool fanOf(std::uint32_t keep, std::uint32_t remove, Fan& fan) const;
     /// The fan that splits the edge between two neighbours at a new vertex. \pre there are no quads
     Fan fanOfSplit(std::uint32_t u, std::uint32_t v) const;
+    /// The fan around c that takes in the face across its edge from a to b, which gives way to one from c to that
+    /// face's third corner. False where there is no such face (beyond the plane of symmetry), where these two are
+    /// joined already or both on that plane, or an end of the edge would keep less than three. \pre there are no quads
+    bool fanOfFlip(std::uint32_t c, std::uint32_t a, std::uint32_t b, Fan& fan) const;
     /// The fan around a new vertex that takes the place of some faces; on the plane of symmetry, where they have a side
     /// there, if `onPlane`. False unless they are one disk without a vertex inside. \pre they are in no quad
     bool fanOfFaces(const Fan::Faces& faces, bool onPlane, Fan& fan) const;
@@ -126,7 +130,8 @@ private:
     /// Keeps the faces beyond the plane; returns the number of the first half of a quad among them.
     std::uint32_t takeHalf(std::uint32_t firstOfQuads);
     bool isManifoldAt(std::uint32_t v) const;
-    bool isBehindPlane(const Fan& fan, const Vec3d& p) const;
+    /// Whether the fan with its centre at `p` would not keep off its mirror image.
+    bool isTooNearPlane(const Fan& fan, const Vec3d& p) const;
     /// The distance that a fan, its longest spoke being its longest edge, keeps from what is larger.
     double spacingAround(const Fan& fan, const Vec3d& p) const;
     Corners fanCorners(const Fan& fan, std::size_t i, const Vec3d& p) const;
