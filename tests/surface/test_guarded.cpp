@@ -258,6 +258,35 @@ BOOST_AUTO_TEST_CASE(quads_bound_and_fold_as_little_as_asked)
     BOOST_TEST(double(most[2]) > 1.05 * double(most[1]));
 }
 
+BOOST_AUTO_TEST_CASE(flat_parts_get_flat_faces)
+{
+    const Vec3d high(0.3, 0.25, 0.2);
+    const Mesh model = test::box(-high, high);
+    const BoundingGuard guard(model);
+    TightenOptions shaken;
+    shaken.shakes = 1;
+    const Mesh cage = tighten(decimate(ball(24), guard, to(200), Effort::fair), guard, shaken);
+    // Triangles over a face of the box: how far the heights of their corners go apart.
+    std::vector<double> ranges;
+    for (const auto& t : cage.triangles) {
+        for (int axis = 0; axis < 3; ++axis) {
+            const auto isOver = [&](openvdb::Index32 v) {
+                const Vec3d& p = cage.points[v];
+                const int x = (axis + 1) % 3, y = (axis + 2) % 3;
+                return std::abs(p[axis]) > high[axis] && std::abs(p[x]) < high[x] && std::abs(p[y]) < high[y];
+            };
+            if (!isOver(t[0]) || !isOver(t[1]) || !isOver(t[2])) continue;
+            const auto [least, most] =
+                std::minmax({std::abs(cage.points[t[0]][axis]), std::abs(cage.points[t[1]][axis]),
+                             std::abs(cage.points[t[2]][axis])});
+            ranges.push_back(most - least);
+        }
+    }
+    std::sort(ranges.begin(), ranges.end());
+    BOOST_REQUIRE(ranges.size() > 50U);
+    BOOST_TEST(ranges[ranges.size() / 2] < 1e-7); // 2e-4 where they are only tightened
+}
+
 BOOST_AUTO_TEST_CASE(a_quad_whose_corners_across_are_joined_is_split)
 {
     // A roof over two lobes that meet in the edge from 1 to 3: the roof's other diagonal, too.

@@ -49,6 +49,7 @@ void tightenAndShake(detail::GuardedSurface& surface, const TightenOptions& opti
     const auto perSample = [&] { return detail::areaPerSample(surface, surface.liveFaces(), options.samples); };
     detail::tighten(surface, options.sweeps, perSample(), interrupter);
     detail::shake(surface, options.shakes, options.sweeps, perSample(), interrupter);
+    if (options.shakes > 0) detail::settle(surface, perSample(), interrupter);
 }
 
 /// Pairs up the triangles of a surface in rounds, until enough are quads.

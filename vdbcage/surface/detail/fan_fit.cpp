@@ -95,7 +95,6 @@ bool descend(const GuardedSurface& surface, const Fan& fan, Vec3d& p, const Quad
              const std::function<bool(const Vec3d&)>& accepts)
 {
     constexpr int attempts = 8;
-    constexpr double leastStep = 1e-3;
     const auto inverse = inverseCholesky(change.curvature);
     if (!inverse) return false;
     std::vector<HalfSpace> halfSpaces;
@@ -108,7 +107,7 @@ bool descend(const GuardedSurface& surface, const Fan& fan, Vec3d& p, const Quad
         const double length = delta.length();
         if (length > 0.5 * limit.reach) delta *= 0.5 * limit.reach / length;
         delta *= share;
-        if (!(delta.length() > leastStep * limit.reach)) return false;
+        if (!(delta.length() > limit.least * limit.reach)) return false;
         const Vec3d target = surface.rounded(fan, p + delta);
         if (!surface.allows(fan, target, &blocker)) {
             const std::size_t before = halfSpaces.size();
@@ -196,14 +195,14 @@ DistanceMeasure::Fit DistanceMeasure::fit(const GuardedSurface& surface, const F
 }
 
 bool DistanceMeasure::improve(const GuardedSurface& surface, const Fan& fan, Vec3d& p, Fit& fit, std::uint32_t& seed,
-                              double share) const
+                              const Pace& pace) const
 {
-    constexpr double leastGain = 1e-3;
     Fit there;
-    const bool found = descend(surface, fan, p, fit.change, {fit.reach, share}, [&](const Vec3d& target) {
-        there = this->fit(surface, fan, target, seed);
-        return there.integral < fit.integral * (1 - leastGain);
-    });
+    const bool found =
+        descend(surface, fan, p, fit.change, {fit.reach, pace.share, pace.least}, [&](const Vec3d& target) {
+            there = this->fit(surface, fan, target, seed);
+            return there.integral < fit.integral * (1 - pace.gain);
+        });
     if (found) fit = there;
     return found;
 }

@@ -16,8 +16,9 @@ struct Quadratic {
 
 /// How far a centre may go at once.
 struct StepLimit {
-    double reach;     ///< no step is longer than half of it, nor shorter than a thousandth
-    double share = 1; ///< of the way to the best place that is allowed; less than 1 leaves room for the neighbours
+    double reach;        ///< no step is longer than half of it
+    double share = 1;    ///< of the way to the best place that is allowed; less than 1 leaves room for the neighbours
+    double least = 1e-3; ///< no step is shorter than this part of `reach`
 };
 
 /// Looks for a place of the fan's centre, allowed at `p`, where `change` is negative, along the planes of the contacts
@@ -45,10 +46,16 @@ public:
     };
     Fit fit(const GuardedSurface& surface, const Fan& fan, const Vec3d& centre, std::uint32_t& seed) const;
 
-    /// Pulls the centre of a fan, allowed at `p`, to where the integral is less (`share` as StepLimit). Returns whether
-    /// there was such a place; `p` and `fit` are then those of the new place.
+    /// What a step has to be worth; `share` and `least` as StepLimit.
+    struct Pace {
+        double share = 1;
+        double least = 1e-3;
+        double gain = 1e-3; ///< of the integral, at least
+    };
+    /// Pulls the centre of a fan, allowed at `p`, to where the integral is less. Returns whether there was such a
+    /// place; `p` and `fit` are then those of the new place.
     bool improve(const GuardedSurface& surface, const Fan& fan, Vec3d& p, Fit& fit, std::uint32_t& seed,
-                 double share = 1) const;
+                 const Pace& pace) const;
 
 private:
     template <typename Visit>

@@ -54,7 +54,7 @@ void findPlace(const GuardedSurface& surface, const DistanceMeasure& measure, Ed
         change.place = surface.rounded(fan, start + off * up);
         if (!surface.allows(fan, change.place)) continue;
         DistanceMeasure::Fit fit = measure.fit(surface, fan, change.place, seed);
-        measure.improve(surface, fan, change.place, fit, seed);
+        measure.improve(surface, fan, change.place, fit, seed, {});
         const auto added = static_cast<double>(fan.rim.size() - fan.oldFaces.size());
         change.gain = (added > 0 ? 2 / added : 1) * (before - fit.integral);
         return;

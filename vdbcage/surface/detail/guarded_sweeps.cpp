@@ -294,7 +294,8 @@ void tighten(GuardedSurface& surface, int sweeps, double areaPerSample, Interrup
     std::vector<double> before(n, 0), after(n, 0);
     std::vector<std::uint32_t> awake = allVertices(surface);
     for (int i = 0; i < sweeps && !awake.empty(); ++i) {
-        const double share = i < gentleSweeps ? 0.5 : 1;
+        DistanceMeasure::Pace pace;
+        pace.share = i < gentleSweeps ? 0.5 : 1;
         std::vector<char> stir(n, 0);
         double gain = 0, total = 0;
         sweep(
@@ -303,7 +304,7 @@ void tighten(GuardedSurface& surface, int sweeps, double areaPerSample, Interrup
                 Vec3d p = surface.point(v);
                 DistanceMeasure::Fit fit = measure.fit(surface, fan, p, seed[v]);
                 before[v] = after[v] = fit.integral;
-                if (!measure.improve(surface, fan, p, fit, seed[v], share)) return std::nullopt;
+                if (!measure.improve(surface, fan, p, fit, seed[v], pace)) return std::nullopt;
                 after[v] = fit.integral;
                 return p;
             },
@@ -320,6 +321,27 @@ void tighten(GuardedSurface& surface, int sweeps, double areaPerSample, Interrup
         for (std::uint32_t v = 0; v < n; ++v) {
             if (stir[v]) awake.push_back(v);
         }
+    }
+}
+
+void settle(GuardedSurface& surface, double areaPerSample, Interrupter* interrupter)
+{
+    constexpr int sweeps = 2;
+    DistanceMeasure::Pace pace;
+    pace.least = 1e-5;
+    pace.gain = 1e-4;
+    const DistanceMeasure measure(surface.guard(), areaPerSample);
+    std::vector<std::uint32_t> seed(surface.vertices(), TriangleTree::none);
+    for (int i = 0; i < sweeps; ++i) {
+        sweep(
+            surface, allVertices(surface), interrupter,
+            [&](std::uint32_t v, const Fan& fan) -> std::optional<Vec3d> {
+                Vec3d p = surface.point(v);
+                DistanceMeasure::Fit fit = measure.fit(surface, fan, p, seed[v]);
+                if (!measure.improve(surface, fan, p, fit, seed[v], pace)) return std::nullopt;
+                return p;
+            },
+            [](std::uint32_t, const Fan&, bool) {});
     }
 }
 

@@ -17,6 +17,10 @@ void shrink(GuardedSurface& surface, Interrupter* interrupter);
 /// up all the room there is would stop its neighbours short of a better place.
 void tighten(GuardedSurface& surface, int sweeps, double areaPerSample, Interrupter* interrupter);
 
+/// Moves every vertex of a tightened surface twice more, by steps and for gains too small for tighten(): half a percent
+/// tighter, and flatter over flat parts of the model, where such steps are all that there is.
+void settle(GuardedSurface& surface, double areaPerSample, Interrupter* interrupter);
+
 /// Moves every vertex outward.
 void inflate(GuardedSurface& surface, double by, Interrupter* interrupter);
 
