@@ -168,7 +168,7 @@ TightenOptions tightenOptions(Effort effort)
     TightenOptions options;
     if (effort == Effort::fair) options.shakes = 1;
     if (effort == Effort::best) {
-        options.shakes = 4;
+        options.shakes = 2;
         options.samples = 12;
     }
     return options;
