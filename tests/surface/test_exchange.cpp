@@ -93,7 +93,7 @@ BOOST_AUTO_TEST_CASE(edges_may_be_flipped_where_the_surface_stays_a_manifold)
 {
     const BoundingGuard guard(model);
     int refused = 0, found = 0;
-    for (const std::size_t faces : {8, 14, 40}) {
+    for (const std::size_t faces : {8U, 14U, 40U}) {
         const Mesh cage = decimate(ball(), guard, to(faces), Effort::fast);
         const GuardedSurface surface(cage, guard.model());
         forEachCorner(surface, [&](std::uint32_t c, std::uint32_t a, std::uint32_t b) {
@@ -236,7 +236,7 @@ BOOST_AUTO_TEST_CASE(flips_bring_surfaces_nearer_to_the_model)
         for (const bool isSymmetric : {false, true}) {
             const BoundingGuard guard = guardOf(inside, isSymmetric);
             const CageChecker checker(inside);
-            for (const std::size_t faces : {20, 40, 60, 100}) {
+            for (const std::size_t faces : {20U, 40U, 60U, 100U}) {
                 GuardedSurface surface(decimate(start(guard), guard, to(faces), Effort::fast), guard.model());
                 const double perSample = detail::areaPerSample(surface, surface.liveFaces(), 4);
                 double last = detail::integratedDistance(surface, perSample);
