@@ -2,7 +2,6 @@
 #include <boost/test/unit_test.hpp>
 
 #include <algorithm>
-#include <random>
 #include <utility>
 #include <vector>
 
@@ -10,12 +9,11 @@
 #include <vdbcage/surface/decimate.h>
 #include <vdbcage/surface/detail/guarded_exchange.h>
 #include <vdbcage/surface/detail/guarded_sweeps.h>
-#include <vdbcage/surface/extract.h>
 
 #include "support/manifold.h"
 #include "support/shapes.h"
-#include "support/solids.h"
 #include "support/symmetric.h"
+#include "surface/models.h"
 #include "surface/targets.h"
 
 using namespace vdbcage;
@@ -23,31 +21,13 @@ using detail::Fan;
 using detail::GuardedSurface;
 using openvdb::Vec3d;
 using openvdb::Vec3I;
+using test::ball;
+using test::soup;
 using test::to;
 
 namespace {
 
 const Mesh model = test::box({-0.3, -0.2, -0.1}, {0.3, 0.2, 0.1});
-
-/// A surface around everything in the ball of radius 0.42.
-Mesh ball()
-{
-    return extractSurface(*test::sample(16, [](const Vec3d& p) { return test::inSphere(p, 0.48); }));
-}
-
-/// Random triangles in it, about as large.
-Mesh soup(unsigned seed)
-{
-    std::mt19937 random(seed);
-    std::uniform_real_distribution<double> coordinate(-0.22, 0.22), step(-0.1, 0.1);
-    Mesh mesh;
-    for (openvdb::Index32 i = 0; i < 30; ++i) {
-        const Vec3d centre(coordinate(random), coordinate(random), coordinate(random));
-        for (int k = 0; k < 3; ++k) mesh.points.push_back(centre + Vec3d(step(random), step(random), step(random)));
-        mesh.triangles.emplace_back(3 * i, 3 * i + 1, 3 * i + 2);
-    }
-    return mesh;
-}
 
 BoundingGuard guardOf(const Mesh& inside, bool isSymmetric)
 {
@@ -232,7 +212,7 @@ BOOST_AUTO_TEST_CASE(of_two_flips_that_would_cross_one_is_made)
 BOOST_AUTO_TEST_CASE(flips_bring_surfaces_nearer_to_the_model)
 {
     int nearer = 0, all = 0;
-    for (const Mesh& inside : {model, soup(1), soup(2)}) {
+    for (const Mesh& inside : {model, soup(1, 30, 0.1), soup(2, 30, 0.1)}) {
         for (const bool isSymmetric : {false, true}) {
             const BoundingGuard guard = guardOf(inside, isSymmetric);
             const CageChecker checker(inside);

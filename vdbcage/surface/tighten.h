@@ -10,7 +10,9 @@ namespace vdbcage {
 
 struct TightenOptions {
     int sweeps = 16; ///< times that each vertex is tried, at most, 0 to 100
-    int shakes = 0;  ///< times that it is pushed out a little and tightened again, kept where tighter, 0 to 100
+    /// Times that it is pushed out a little and tightened again, kept where tighter, 0 to 100; if any, sweeps of small
+    /// steps end it, which lay faces flat over flat parts of the model.
+    int shakes = 0;
     int samples = 4; ///< of the distance, for a face of mean size, 1 to 100: more cost more and are a percent tighter
 };
 

@@ -75,9 +75,9 @@ public:
     bool fanOf(std::uint32_t keep, std::uint32_t remove, Fan& fan) const;
     /// The fan that splits the edge between two neighbours at a new vertex. \pre there are no quads
     Fan fanOfSplit(std::uint32_t u, std::uint32_t v) const;
-    /// The fan around c that takes in the face across its edge from a to b, which gives way to one from c to that
-    /// face's third corner. False where there is no such face (beyond the plane of symmetry), where these two are
-    /// joined already or both on that plane, or an end of the edge would keep less than three. \pre there are no quads
+    /// The fan around c that takes in the face across its rim edge from a to b, which gives way to an edge from c to
+    /// that face's third corner. False where there is no such face, or these two are joined already (as the other
+    /// neighbours of a vertex with three are) or both on the plane of symmetry. \pre there are no quads
     bool fanOfFlip(std::uint32_t c, std::uint32_t a, std::uint32_t b, Fan& fan) const;
     /// The fan around a new vertex that takes the place of some faces; on the plane of symmetry, where they have a side
     /// there, if `onPlane`. False unless they are one disk without a vertex inside. \pre they are in no quad
