@@ -16,6 +16,7 @@
 #include <vdbcage/pipeline/options.h>
 #include <vdbcage/pipeline/pipeline.h>
 #include <vdbcage/surface/bounding_guard.h>
+#include <vdbcage/surface/crease.h>
 #include <vdbcage/surface/decimate.h>
 #include <vdbcage/surface/extract.h>
 #include <vdbcage/surface/repair.h>

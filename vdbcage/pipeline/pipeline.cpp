@@ -20,6 +20,7 @@
 #include <vdbcage/mesh/symmetry.h>
 #include <vdbcage/mesh/topology.h>
 #include <vdbcage/surface/bounding_guard.h>
+#include <vdbcage/surface/crease.h>
 #include <vdbcage/surface/decimate.h>
 #include <vdbcage/surface/extract.h>
 #include <vdbcage/surface/repair.h>
@@ -563,6 +564,10 @@ private:
             tbb::parallel_for(std::size_t(0), starts.size(), [&](std::size_t i) {
                 starts[i].cage = vdbcage::smooth(starts[i].cage, guard, options.smooth, interrupter);
             });
+        }
+        if (options.mesh == CageFaces::triangles) {
+            const Stage stage(interrupter, "crease");
+            for (Candidate& candidate : starts) candidate.cage = crease(candidate.cage, guard, interrupter);
         }
         if (starts.size() > 1) {
             const Stage stage(interrupter, "certify");

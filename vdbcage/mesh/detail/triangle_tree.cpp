@@ -21,17 +21,6 @@ constexpr std::size_t binnedDepth = 60;           // deeper nodes are halved: 2^
 constexpr std::size_t taskSize = 4096;            // triangles in a subtree that are worth a task
 constexpr std::size_t parallelBinSize = 1U << 17; // triangles in a node that are worth binning in parallel
 
-using Floats = float __attribute__((vector_size(16)));
-
-Floats least(Floats a, Floats b)
-{
-    return a < b ? a : b;
-}
-Floats greatest(Floats a, Floats b)
-{
-    return a > b ? a : b;
-}
-
 // A triangle's box while the tree is built, in the tree's units. The fourth component of lo and hi means nothing.
 struct Ref {
     Floats lo, hi;
@@ -152,16 +141,6 @@ Vec3d closestPointOnSegment(const Vec3d& p, const Vec3d& a, const Vec3d& b)
 constexpr double infinity = std::numeric_limits<double>::infinity();
 // Slivers below have no plane to speak of: one that is computed from them may point astray by more than 1e-7.
 constexpr double leastSine = 1e-8, smallest = 1e-100;
-
-// Floats not above and not below, off by up to 2e-7 of the value.
-float roundedDown(double value)
-{
-    return static_cast<float>(value - 1.2e-7 * std::abs(value) - 1e-40);
-}
-float roundedUp(double value)
-{
-    return static_cast<float>(value + 1.2e-7 * std::abs(value) + 1e-40);
-}
 
 double maxAbs(const Vec3d& v)
 {

@@ -10,12 +10,9 @@
 #include <memory>
 #include <vector>
 
-#ifdef __SSE2__
-#include <emmintrin.h>
-#endif
-
 #include <openvdb/Types.h>
 #include <vdbcage/core/interrupter.h>
+#include <vdbcage/mesh/detail/floats.h>
 
 namespace vdbcage::detail {
 
@@ -111,11 +108,7 @@ public:
 
 private:
     friend class TreeBuilder;
-    using Floats = float __attribute__((vector_size(16))); // one for each child of a node
-    using Lanes = std::int32_t __attribute__((vector_size(16)));
-
-    struct Node {
-        std::array<Floats, 3> lo, hi;       // NaN: no such child
+    struct Node : FourBoxes {
         std::array<std::uint32_t, 4> child; // a node, or isItem and an item
     };
     static constexpr std::uint32_t isItem = std::uint32_t(1) << 31;
@@ -124,7 +117,6 @@ private:
     template <typename T>
     class Stack;
 
-    static unsigned bits(const Lanes& lanes);
     /// Nodes are in units in which the box is [-1, 1] along its longest side. Monotone in every coordinate.
     Vec3d inUnits(const Vec3d& p) const { return (p - centre_) * scale_; }
 
@@ -142,8 +134,7 @@ public:
     /// Which of the node's children it meets, never wrongly denied: a bit each.
     unsigned meets(const Node& node) const
     {
-        Lanes met = (node.lo[0] <= hi_[0]) & (node.hi[0] >= lo_[0]) & (node.lo[1] <= hi_[1]) & (node.hi[1] >= lo_[1]) &
-                    (node.lo[2] <= hi_[2]) & (node.hi[2] >= lo_[2]);
+        Lanes met = node.meet(lo_, hi_);
         const std::array<Floats, 3> sum{node.lo[0] + node.hi[0], node.lo[1] + node.hi[1], node.lo[2] + node.hi[2]};
         const std::array<Floats, 3> size{node.hi[0] - node.lo[0], node.hi[1] - node.lo[1], node.hi[2] - node.lo[2]};
         for (std::size_t i = 0; i < slabs_; ++i) {
@@ -186,15 +177,6 @@ private:
     std::size_t size_ = 0;
     std::array<T, 3 * maxDepth + 1> entries_; // not initialized
 };
-
-inline unsigned TriangleTree::bits(const Lanes& lanes)
-{
-#ifdef __SSE2__
-    return static_cast<unsigned>(_mm_movemask_ps(reinterpret_cast<__m128>(lanes)));
-#else
-    return (lanes[0] & 1U) | (lanes[1] & 2U) | (lanes[2] & 4U) | (lanes[3] & 8U);
-#endif
-}
 
 template <typename Visit>
 bool TriangleTree::traverse(const Region& region, const Visit& visit) const

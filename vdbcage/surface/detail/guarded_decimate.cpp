@@ -23,8 +23,12 @@ namespace {
 
 /// The edge u < v at the front of a queue costs least; equal costs are told apart by number.
 struct QueuedEdge {
+    static constexpr std::uint32_t none = ~std::uint32_t(0);
+
     double cost;
     std::uint32_t u, v, stampU, stampV;
+    std::uint32_t place =
+        none; ///< its number; with none the cost is the best place's, allowed or not: it can only grow
 
     bool operator<(const QueuedEdge& o) const // std::priority_queue has its largest in front
     {
@@ -88,15 +92,9 @@ public:
     }
 
 private:
-    /// Without a place its cost is that of the best one, allowed or not: the real one can only be more.
-    struct Candidate {
+    struct Proposal {
         QueuedEdge edge;
         std::optional<Vec3d> place;
-
-        bool operator<(const Candidate& o) const { return edge < o.edge; }
-    };
-    struct Proposal {
-        Candidate candidate;
         Fan fan;
     };
 
@@ -118,23 +116,29 @@ private:
     {
         std::vector<Proposal> proposals;
         while (proposals.size() < size && !queue_.empty()) {
-            if (isCurrent(queue_.top().edge)) proposals.push_back({queue_.top(), {}});
+            const QueuedEdge& edge = queue_.top();
+            if (isCurrent(edge)) {
+                const bool hasPlace = edge.place != QueuedEdge::none;
+                proposals.push_back({edge, hasPlace ? std::optional<Vec3d>(places_[edge.place]) : std::nullopt, {}});
+            }
             queue_.pop();
         }
         tbb::parallel_for(std::size_t(0), proposals.size(), [&](std::size_t i) { find(proposals[i], slides); });
         std::stable_sort(proposals.begin(), proposals.end(),
-                         [](const Proposal& a, const Proposal& b) { return b.candidate < a.candidate; });
+                         [](const Proposal& a, const Proposal& b) { return b.edge < a.edge; });
         GuardedSurface::Batch batch(surface_);
         std::vector<std::uint32_t> kept;
         for (const Proposal& p : proposals) {
-            const QueuedEdge& edge = p.candidate.edge;
-            if (!p.candidate.place || !isCurrent(edge)) continue;
-            const bool isDearer = !queue_.empty() && queue_.top().edge.cost < edge.cost;
-            if (isDearer || !batch.apply(p.fan, *p.candidate.place)) {
-                queue_.push(p.candidate);
+            QueuedEdge edge = p.edge;
+            if (!p.place || !isCurrent(edge)) continue;
+            const bool isDearer = !queue_.empty() && queue_.top().cost < edge.cost;
+            if (isDearer || !batch.apply(p.fan, *p.place)) {
+                edge.place = static_cast<std::uint32_t>(places_.size());
+                places_.push_back(*p.place);
+                queue_.push(edge);
                 continue;
             }
-            made(p.fan, *p.candidate.place);
+            made(p.fan, *p.place);
             quadrics_[edge.u] += quadrics_[edge.v];
             ++stamp_[edge.u];
             ++stamp_[edge.v];
@@ -195,15 +199,15 @@ private:
         });
         for (std::size_t i = 0; i < edges.size(); ++i) {
             const auto [u, v] = edges[i];
-            queue_.push({{costs[i], u, v, stamp_[u], stamp_[v]}, std::nullopt});
+            queue_.push({costs[i], u, v, stamp_[u], stamp_[v]});
         }
     }
 
-    /// Gives a candidate its fan and an allowed place with its cost, or takes its place away.
+    /// Gives a proposal its fan and an allowed place with its cost, or takes its place away.
     void find(Proposal& proposal, bool slides) const
     {
-        QueuedEdge& edge = proposal.candidate.edge;
-        std::optional<Vec3d>& place = proposal.candidate.place;
+        QueuedEdge& edge = proposal.edge;
+        std::optional<Vec3d>& place = proposal.place;
         if (!surface_.fanOf(edge.u, edge.v, proposal.fan)) {
             place.reset();
             return;
@@ -248,7 +252,8 @@ private:
     Vec3d origin_{0.0};
     std::vector<Quadric> quadrics_;
     std::vector<std::uint32_t> stamp_; // grows when an edge at the vertex changes: older entries of the queue are void
-    std::priority_queue<Candidate> queue_;
+    std::priority_queue<QueuedEdge> queue_;
+    std::vector<Vec3d> places_; // allowed when they were found, of edges that went back into the queue
     std::size_t facesAtLastFill_ = 0;
 };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <stdexcept>
 
 #include <vdbcage/core/error.h>
@@ -234,36 +235,51 @@ bool GuardedSurface::wellShaped(const Fan& fan, const Vec3d& p) const
     return true;
 }
 
-bool GuardedSurface::clearOfSurface(const Fan& fan, const Vec3d& p) const
-{
-    const std::size_t n = fan.rim.size();
-    const Spacing& spacing = guard().spacing();
+/// The triangles of a fan with its centre at some place, each with the box that others keep out of.
+struct GuardedSurface::PlacedFan {
+    PlacedFan(const GuardedSurface& surface, const Fan& placed, const Vec3d& p) : fan(placed), all(Box::of(p))
+    {
+        const Spacing& spacing = surface.guard().spacing();
+        for (std::size_t i = 0; i < fan.rim.size(); ++i) {
+            facets.emplace_back(Vec3I(fan.centre, fan.rim[i][0], fan.rim[i][1]), surface.fanCorners(fan, i, p));
+            boxes.push_back(grown(Box::of(facets.back().corners), spacing.around(facets.back().longestEdge())));
+            all.expand(boxes.back());
+        }
+    }
+
+    const Fan& fan;
     Facets facets;
     boost::container::small_vector<Box, 16> boxes;
-    Box all = Box::of(p);
-    for (std::size_t i = 0; i < n; ++i) {
-        facets.emplace_back(Vec3I(fan.centre, fan.rim[i][0], fan.rim[i][1]), fanCorners(fan, i, p));
-        boxes.push_back(grown(Box::of(facets.back().corners), spacing.around(facets.back().longestEdge())));
-        all.expand(boxes.back());
+    Box all;
+};
+
+bool GuardedSurface::isTooNear(const PlacedFan& placed, std::uint32_t face, const Box& box) const
+{
+    const auto meets = [&](const Box& other) { return other.meets(box); };
+    if (std::none_of(placed.boxes.begin(), placed.boxes.end(), meets) || isOld(placed.fan, face)) return false;
+    const Facet other(faces_[face], corners(face));
+    for (std::size_t i = 0; i < placed.facets.size(); ++i) {
+        if (!placed.boxes[i].meets(box) || areAlternatives(placed.fan.keptFaces[i], face)) continue;
+        if (tooNear(placed.facets[i], other, guard().spacing())) return true;
     }
+    return false;
+}
+
+bool GuardedSurface::clearOfSurface(const Fan& fan, const Vec3d& p) const
+{
+    const Spacing& spacing = guard().spacing();
+    const PlacedFan placed(*this, fan, p);
+    const Facets& facets = placed.facets;
     if (fan.others > 0 || fan.onPlane || !spreadOut(facets, spacing, guard().minSine())) {
-        for (std::size_t i = 0; i < n; ++i) {
-            for (std::size_t j = i + 1; j < n; ++j) {
+        for (std::size_t i = 0; i < facets.size(); ++i) {
+            for (std::size_t j = i + 1; j < facets.size(); ++j) {
                 if (fan.others > 0 && areAlternatives(fan.keptFaces[i], fan.keptFaces[j])) continue;
                 if (tooNear(facets[i], facets[j], spacing)) return false;
             }
         }
     }
-    return tree_.forEachOverlap(all, [&](std::uint32_t face, const Box& box) {
-        const auto meets = [&](const Box& other) { return other.meets(box); };
-        if (std::none_of(boxes.begin(), boxes.end(), meets) || isOld(fan, face)) return true;
-        const Facet other(faces_[face], corners(face));
-        for (std::size_t i = 0; i < n; ++i) {
-            if (!boxes[i].meets(box) || areAlternatives(fan.keptFaces[i], face)) continue;
-            if (tooNear(facets[i], other, spacing)) return false;
-        }
-        return true;
-    });
+    return tree_.forEachOverlap(placed.all,
+                                [&](std::uint32_t face, const Box& box) { return !isTooNear(placed, face, box); });
 }
 
 bool GuardedSurface::isTooNearPlane(const Fan& fan, const Vec3d& p) const
@@ -588,13 +604,21 @@ bool GuardedSurface::Batch::apply(const Fan& fan, const Vec3d& p)
         }
     }
     const Box around = grown(box, surface_.guard().spacing().distance);
-    const auto meets = [&](const Box& other) { return around.meets(other); };
-    if (std::any_of(boxes_.begin(), boxes_.end(), meets) && !surface_.clearOfSurface(fan, p)) return false;
+    std::optional<PlacedFan> placed;
+    for (const Made& made : made_) {
+        if (!around.meets(made.box)) continue;
+        if (!placed) placed.emplace(surface_, fan, p);
+        for (const auto* faces : {&surface_.facesOf(made.centre), &surface_.othersOf(made.centre)}) {
+            for (const std::uint32_t f : *faces) {
+                if (surface_.isTooNear(*placed, f, Box::of(surface_.corners(f)))) return false;
+            }
+        }
+    }
     surface_.apply(fan, p);
     for (const std::uint32_t v : {fan.centre, fan.removed}) {
         if (v != Fan::none) moved_.insert(std::lower_bound(moved_.begin(), moved_.end(), v), v);
     }
-    boxes_.push_back(box);
+    made_.push_back({box, fan.centre});
     return true;
 }
 

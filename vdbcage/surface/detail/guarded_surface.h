@@ -137,6 +137,8 @@ private:
     Corners fanCorners(const Fan& fan, std::size_t i, const Vec3d& p) const;
     bool wellShaped(const Fan& fan, const Vec3d& p) const;
     bool clearOfSurface(const Fan& fan, const Vec3d& p) const;
+    struct PlacedFan;
+    bool isTooNear(const PlacedFan& placed, std::uint32_t face, const Box& box) const;
     bool isOld(const Fan& fan, std::uint32_t face) const;
     bool sweepsOverNothing(const Fan& fan, const Vec3d& p) const;
     bool areConvexQuads(const Fan& fan, const Vec3d& p) const;
@@ -170,9 +172,14 @@ public:
     bool apply(const Fan& fan, const Vec3d& p);
 
 private:
+    struct Made {
+        Box box; // of the fan
+        std::uint32_t centre;
+    };
+
     GuardedSurface& surface_;
     std::vector<std::uint32_t> moved_; // vertices, ascending
-    std::vector<Box> boxes_;           // of the fans made
+    std::vector<Made> made_;
 };
 
 } // namespace vdbcage::detail
