@@ -1,7 +1,6 @@
 #pragma once
 
 #include <array>
-#include <cmath>
 #include <cstdint>
 
 #ifdef __SSE2__
@@ -41,16 +40,6 @@ inline unsigned bits(const Lanes& lanes)
 #else
     return (lanes[0] & 1U) | (lanes[1] & 2U) | (lanes[2] & 4U) | (lanes[3] & 8U);
 #endif
-}
-
-/// A float not above, and one not below; off by up to 2e-7 of the value.
-inline float roundedDown(double value)
-{
-    return static_cast<float>(value - 1.2e-7 * std::abs(value) - 1e-40);
-}
-inline float roundedUp(double value)
-{
-    return static_cast<float>(value + 1.2e-7 * std::abs(value) + 1e-40);
 }
 
 /// The boxes of a node's children; NaN, or the least above the most: no such child.

@@ -142,6 +142,16 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 // Slivers below have no plane to speak of: one that is computed from them may point astray by more than 1e-7.
 constexpr double leastSine = 1e-8, smallest = 1e-100;
 
+// Floats not above and not below, off by up to 2e-7 of the value.
+float roundedDown(double value)
+{
+    return static_cast<float>(value - 1.2e-7 * std::abs(value) - 1e-40);
+}
+float roundedUp(double value)
+{
+    return static_cast<float>(value + 1.2e-7 * std::abs(value) + 1e-40);
+}
+
 double maxAbs(const Vec3d& v)
 {
     return std::max({std::abs(v[0]), std::abs(v[1]), std::abs(v[2])});

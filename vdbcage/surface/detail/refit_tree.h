@@ -15,7 +15,8 @@ namespace vdbcage::detail {
 /// from a changed leaf; things that came since it was built are looked through one by one. To be built anew when
 /// wantsBuild() says so. Deterministic.
 ///
-/// Children's boxes are compared at once, in float, rounded outward; what is left is told apart in double.
+/// Children's boxes are compared at once, in float: rounding keeps the order, so that no meeting is missed; what is
+/// left is told apart in double.
 class RefitTree {
 public:
     static constexpr std::uint32_t none = ~std::uint32_t(0);
@@ -113,8 +114,8 @@ private:
         explicit FloatBox(const Box& box)
         {
             for (std::size_t i = 0; i < 3; ++i) {
-                lo[i] = roundedDown(box.lo[static_cast<int>(i)]);
-                hi[i] = roundedUp(box.hi[static_cast<int>(i)]);
+                lo[i] = static_cast<float>(box.lo[static_cast<int>(i)]);
+                hi[i] = static_cast<float>(box.hi[static_cast<int>(i)]);
             }
         }
     };
