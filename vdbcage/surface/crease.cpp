@@ -29,10 +29,10 @@ public:
         const Vec3d size = surface.guard().tree().box().hi - surface.guard().tree().box().lo;
         leastOff_ = flat * std::max({size[0], size[1], size[2]});
         for (const auto& edge : fan_.rim) {
-            Side side{fan_.rim.size(), 2, normalAcross(edge)};
+            Side side{fan_.rim.size(), true, normalAcross(edge)};
             for (std::size_t i = 0; i < fan_.rim.size(); ++i) {
                 if (fan_.rim[i][0] == edge[1]) side.next = i;
-                side.onPlane -= fan_.rim[i][0] == edge[1] || fan_.rim[i][1] == edge[0];
+                if (fan_.rim[i][1] == edge[0]) side.isFirst = false;
             }
             sides_.push_back(side);
         }
@@ -52,8 +52,8 @@ public:
             const Side& side = sides_[i];
             const Vec3d &n = normals[i], &a = surface_.point(fan_.rim[i][0]), &b = surface_.point(fan_.rim[i][1]);
             count += isBetween(n, side.across ? *side.across : mirrored(n), b - a);
-            if (side.next < normals.size()) count += isBetween(n, normals[side.next], b - p);
-            if (side.onPlane > 0) count += side.onPlane * isBetween(n, mirrored(n), b - p);
+            count += isBetween(n, side.next < normals.size() ? normals[side.next] : mirrored(n), b - p);
+            count += side.isFirst && isBetween(n, mirrored(n), a - p);
         }
         return count;
     }
@@ -72,7 +72,8 @@ public:
             const Side& side = sides_[i];
             if (side.across) add(a, *side.across);
             if (side.next < sides_.size()) add(a, along.cross(surface_.point(fan_.rim[side.next][1]) - a));
-            if (side.onPlane > 0 || !side.across) add(a, along.cross(mirrored(along) - along));
+            const bool isAtPlane = side.isFirst || side.next == sides_.size() || !side.across;
+            if (isAtPlane) add(a, along.cross(mirrored(along) - along));
         }
         return places;
     }
@@ -96,10 +97,10 @@ private:
         return off2 > leastOff_ * leastOff_ * edge.lengthSqr();
     }
 
-    /// What is around one of the triangles.
+    /// What is around one of the triangles. In half a fan the first and the last have edges on the plane of symmetry.
     struct Side {
-        std::size_t next;            ///< the triangle at its rim edge's end; as many as there are if none
-        int onPlane;                 ///< so many of its edges at the centre are on the plane of symmetry
+        std::size_t next; ///< the triangle at its rim edge's end; as many as there are for the last
+        bool isFirst;
         std::optional<Vec3d> across; ///< the normal of the one across its rim edge; none if that is on the plane
     };
 
@@ -125,7 +126,7 @@ private:
 
     const GuardedSurface& surface_;
     Fan fan_;
-    double leastOff_; // the other's plane, for corners of triangles that make no flat one together
+    double leastOff_; // the other's plane, for corners of triangles that are not flat together
     boost::container::small_vector<Side, 16> sides_; // by rim edge
 };
 
@@ -138,13 +139,14 @@ std::optional<Vec3d> betterPlace(const GuardedSurface& surface, const Star& star
     if (count == 0) return std::nullopt;
     const double unit = bent * star.size();
     const auto steps = {0.1, 0.25, 0.5, 0.75, 1.0, 1.5, 2.0, 3.0, 4.0};
+    const Vec3d outward = surface.outward(fan);
     std::vector<Vec3d> places = star.flatPlaces();
     for (const double step : steps) {
-        for (const double side : {-unit, unit}) places.push_back(now + side * step * surface.outward(fan));
+        for (const double side : {-unit, unit}) places.push_back(now + side * step * outward);
     }
     const auto isFar = [&](const Vec3d& p) { return (p - now).length() > 4 * unit; };
     places.erase(std::remove_if(places.begin(), places.end(), isFar), places.end());
-    const Vec3d outward = surface.outward(fan);
+    // The one farthest inward first.
     std::stable_sort(places.begin(), places.end(),
                      [&](const Vec3d& a, const Vec3d& b) { return (a - now).dot(outward) < (b - now).dot(outward); });
     // What is in the way of all these, a smallest angle or the model, may not be where an edge gets shorter as well.
@@ -153,7 +155,7 @@ std::optional<Vec3d> betterPlace(const GuardedSurface& surface, const Star& star
             for (const auto& edge : fan.rim) {
                 Vec3d along = surface.point(edge[0]) - now;
                 along.normalize();
-                places.push_back(now + step * (side * surface.outward(fan) + unit * along));
+                places.push_back(now + step * (side * outward + unit * along));
             }
         }
     }
