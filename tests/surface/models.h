@@ -3,6 +3,7 @@
 #include <random>
 
 #include <vdbcage/mesh/mesh.h>
+#include <vdbcage/surface/bounding_guard.h>
 #include <vdbcage/surface/extract.h>
 
 #include "support/solids.h"
@@ -35,6 +36,14 @@ inline Mesh soup(unsigned seed, int count, double size)
 inline Mesh ball(int resolution = 16)
 {
     return extractSurface(*sample(resolution, [](const openvdb::Vec3d& p) { return inSphere(p, 0.48); }));
+}
+
+/// Symmetric: with the plane where x = 0.
+inline BoundingGuard guardOf(const Mesh& inside, bool isSymmetric)
+{
+    GuardOptions options;
+    if (isSymmetric) options.symmetry = SymmetryPlane{0, 0};
+    return BoundingGuard(inside, options);
 }
 
 } // namespace vdbcage::test

@@ -60,18 +60,11 @@ Mesh roof(double slope)
         const auto t = mesh.triangles[i];
         mesh.triangles.emplace_back(across(t[0]), across(t[2]), across(t[1]));
     }
-    for (const auto& t :
-         {openvdb::Vec3I(0, 6, 9), openvdb::Vec3I(0, 9, 3), openvdb::Vec3I(2, 11, 8), openvdb::Vec3I(2, 5, 11)}) {
+    using openvdb::Vec3I;
+    for (const Vec3I& t : {Vec3I(0, 6, 9), Vec3I(0, 9, 3), Vec3I(2, 11, 8), Vec3I(2, 5, 11)}) {
         mesh.triangles.push_back(t);
     }
     return mesh;
-}
-
-BoundingGuard guardOf(const Mesh& inside, bool isSymmetric)
-{
-    GuardOptions options;
-    if (isSymmetric) options.symmetry = SymmetryPlane{0, 0};
-    return BoundingGuard(inside, options);
 }
 
 } // namespace
@@ -88,7 +81,7 @@ BOOST_AUTO_TEST_CASE(edges_over_flat_parts_are_flat_or_bent)
         const double flat = 1.01 * flatPart * boundingBox(model).extents()[0];
         const CageChecker checker(model);
         for (const bool isSymmetric : {false, true}) {
-            const BoundingGuard guard = guardOf(model, isSymmetric);
+            const BoundingGuard guard = test::guardOf(model, isSymmetric);
             const Mesh start = isSymmetric ? guard.symmetrized(test::ball(24), 0.25 / 24) : test::ball(24);
             for (const Effort effort : {Effort::fast, Effort::fair}) {
                 const Mesh tight =
@@ -114,7 +107,7 @@ BOOST_AUTO_TEST_CASE(the_edges_on_the_plane_of_symmetry_are_flat_or_bent_as_well
     TightenOptions none;
     none.sweeps = 0;
     for (const bool isSymmetric : {false, true}) {
-        const BoundingGuard guard = guardOf(test::box({-0.2, -0.2, -0.2}, {0.2, 0.2, 0.2}), isSymmetric);
+        const BoundingGuard guard = test::guardOf(test::box({-0.2, -0.2, -0.2}, {0.2, 0.2, 0.2}), isSymmetric);
         const double flat = 1.01 * flatPart * 0.4;
         const Mesh low = roof(std::tan(0.03 * degree));
         BOOST_TEST(between(low, flat) == 1);
@@ -133,7 +126,7 @@ BOOST_AUTO_TEST_CASE(the_edges_on_the_plane_of_symmetry_are_flat_or_bent_as_well
 
 BOOST_AUTO_TEST_CASE(the_guard_is_obeyed)
 {
-    // The model reaches up to the clearance under all of the roof: it can only be raised.
+    // The model is so near below all of the roof that the clearance leaves no room to lay its sides flat.
     const double slope = std::tan(0.03 * std::acos(-1.0) / 180), gap = 1e-3;
     Mesh model = roof(slope);
     for (Vec3d& p : model.points) p *= 1 - gap;

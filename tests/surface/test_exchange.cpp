@@ -22,19 +22,13 @@ using detail::GuardedSurface;
 using openvdb::Vec3d;
 using openvdb::Vec3I;
 using test::ball;
+using test::guardOf;
 using test::soup;
 using test::to;
 
 namespace {
 
 const Mesh model = test::box({-0.3, -0.2, -0.1}, {0.3, 0.2, 0.1});
-
-BoundingGuard guardOf(const Mesh& inside, bool isSymmetric)
-{
-    GuardOptions options;
-    if (isSymmetric) options.symmetry = SymmetryPlane{0, 0};
-    return BoundingGuard(inside, options);
-}
 
 Mesh start(const BoundingGuard& guard)
 {

@@ -37,6 +37,17 @@ Filling fill(const Mesh& cage, const test::TemporaryFolder& folder)
     return filling;
 }
 
+void checkCageIsFilled(const test::StressModel& model, Effort effort)
+{
+    CageOptions options;
+    options.faces = 400;
+    options.effort = effort;
+    const test::TemporaryFolder folder;
+    const Filling filling = fill(makeCage(model.mesh, options), folder);
+    BOOST_TEST(filling.run.status == 0, model.name << filling.run.out << filling.run.err);
+    BOOST_TEST(filling.tetrahedra > 0U, model.name);
+}
+
 } // namespace
 
 BOOST_AUTO_TEST_CASE(tetgen_fills_cages_with_tetrahedra)
@@ -73,13 +84,7 @@ BOOST_AUTO_TEST_CASE(tetgen_fills_cages_of_flat_models)
     int models = 0;
     for (const test::StressModel& model : test::stressModels()) {
         if (flat.count(model.name.substr(0, model.name.find_first_of("0123456789") - 1)) == 0) continue;
-        CageOptions options;
-        options.faces = 400;
-        options.effort = Effort::fast;
-        const test::TemporaryFolder folder;
-        const Filling filling = fill(makeCage(model.mesh, options), folder);
-        BOOST_TEST(filling.run.status == 0, model.name << filling.run.out << filling.run.err);
-        BOOST_TEST(filling.tetrahedra > 0U, model.name);
+        checkCageIsFilled(model, Effort::fast);
         ++models;
     }
     BOOST_TEST(models >= 50);
@@ -91,13 +96,7 @@ BOOST_AUTO_TEST_CASE(tetgen_fills_the_tightest_cages_of_flat_models)
     int models = 0;
     for (const test::StressModel& model : test::stressModels()) {
         if (model.name.rfind("crossed-sheets-0", 0) != 0 || ++models > 4) continue;
-        CageOptions options;
-        options.faces = 400;
-        options.effort = Effort::best;
-        const test::TemporaryFolder folder;
-        const Filling filling = fill(makeCage(model.mesh, options), folder);
-        BOOST_TEST(filling.run.status == 0, model.name << filling.run.out << filling.run.err);
-        BOOST_TEST(filling.tetrahedra > 0U, model.name);
+        checkCageIsFilled(model, Effort::best);
     }
     BOOST_TEST(models >= 4);
 }

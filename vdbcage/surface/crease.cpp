@@ -1,3 +1,6 @@
+// Why: Si, "TetGen, a Delaunay-Based Quality Tetrahedral Mesh Generator", 2015 (its facets; version 1.5 merges
+// triangles that meet at 179.9 degrees or more into one).
+
 #include <vdbcage/surface/crease.h>
 
 #include <algorithm>
