@@ -4,6 +4,7 @@
 #include <cmath>
 #include <random>
 #include <utility>
+#include <vector>
 
 #include <vdbcage/core/error.h>
 #include <vdbcage/mesh/topology.h>
@@ -77,6 +78,12 @@ bool topMayGo(const Mesh& surface, const BoundingGuard& guard, const Vec3d& p)
 {
     const GuardedSurface guarded(surface, guard.model());
     return guarded.allows(guarded.fanOf(0), guard.model().rounded(guard.model().scaled(p)));
+}
+
+std::vector<std::uint32_t> neighboursOf(const GuardedSurface& surface, std::uint32_t v)
+{
+    const auto list = surface.neighbours(v);
+    return {list.begin(), list.end()};
 }
 
 const Mesh inLowerHalf = test::box({-0.1, -0.1, -0.5}, {0.1, 0.1, -0.3});
@@ -273,9 +280,14 @@ BOOST_AUTO_TEST_CASE(changes_made_side_by_side_do_not_run_into_each_other)
     const Vec3d down = guard.model().rounded(guard.model().scaled({0, 0, 1.4}));
     BOOST_REQUIRE(guarded.allows(below, up));
     BOOST_REQUIRE(guarded.allows(above, down));
-    GuardedSurface::Batch batch(guarded);
-    BOOST_TEST(batch.apply(below, up));
-    BOOST_TEST(!batch.apply(above, down));
+    {
+        GuardedSurface::Batch batch(guarded);
+        BOOST_TEST(batch.apply(below, up));
+        BOOST_TEST(!batch.apply(above, down));
+        // Nor are neighbours moved on what they no longer see.
+        BOOST_TEST(!batch.apply(guarded.fanOf(2), guarded.point(2)));
+    }
+    BOOST_TEST(!guarded.allows(above, down));
     // Nor nearly: two thousandths of the model's 3.9 between them is asked.
     GuardedSurface apart(surface, guard.model());
     const Vec3d place = guard.model().rounded(guard.model().scaled({0, 0, 1.5}));
@@ -284,8 +296,36 @@ BOOST_AUTO_TEST_CASE(changes_made_side_by_side_do_not_run_into_each_other)
     GuardedSurface::Batch second(apart);
     BOOST_TEST(second.apply(below, place));
     BOOST_TEST(!second.apply(above, near));
-    // Nor are neighbours moved on what they no longer see.
-    BOOST_TEST(!batch.apply(guarded.fanOf(2), guarded.point(2)));
+}
+
+BOOST_AUTO_TEST_CASE(contacts_do_not_depend_on_what_was_learned_before)
+{
+    int known = 0;
+    for (unsigned seed = 0; seed < 10; ++seed) {
+        std::mt19937 random(seed);
+        const BoundingGuard guard = guardOf(soup(random, 200, 0.2));
+        const GuardedSurface surface(bipyramid({0, 0, 0}, 4, 8), guard.model());
+        for (std::uint32_t v = 0; v < surface.vertices(); ++v) {
+            const Fan fan = surface.fanOf(v);
+            const Vec3d from = surface.point(v);
+            GuardedSurface::Obstacle obstacle;
+            for (const double way : {1.0, 0.9, 0.7, 0.5, 0.3}) {
+                const Vec3d inside = guard.model().scaled(randomPoint(random));
+                const Vec3d to = surface.rounded(fan, (1 - way) * from + way * inside);
+                if (surface.allows(fan, to, &obstacle)) continue;
+                if (obstacle.clear > 0 && obstacle.clear < fan.rim.size()) ++known;
+                std::vector<detail::HalfSpace> learned, anew;
+                surface.contacts(fan, from, to, obstacle, learned);
+                surface.contacts(fan, from, to, {}, anew);
+                BOOST_REQUIRE(learned.size() == anew.size());
+                for (std::size_t i = 0; i < anew.size(); ++i) {
+                    BOOST_TEST(learned[i].normal == anew[i].normal);
+                    BOOST_TEST(learned[i].offset == anew[i].offset);
+                }
+            }
+        }
+    }
+    BOOST_TEST(known > 20);
 }
 
 BOOST_AUTO_TEST_CASE(a_new_vertex_takes_the_place_of_faces)
@@ -309,7 +349,8 @@ BOOST_AUTO_TEST_CASE(a_new_vertex_takes_the_place_of_faces)
     const MeshTopology topology = analyzeTopology(guarded.mesh());
     BOOST_TEST(topology.isCycle());
     BOOST_TEST(topology.boundaryEdges + topology.nonManifoldEdges + topology.nonManifoldVertices == 0U);
-    BOOST_TEST(guarded.neighbours(8) == (std::vector<std::uint32_t>{0, 2, 3, 4, 5}), boost::test_tools::per_element());
+    BOOST_TEST(neighboursOf(guarded, 8) == (std::vector<std::uint32_t>{0, 2, 3, 4, 5}),
+               boost::test_tools::per_element());
 }
 
 BOOST_AUTO_TEST_CASE(a_new_vertex_on_the_plane_of_symmetry_takes_the_place_of_faces)
@@ -349,7 +390,7 @@ BOOST_AUTO_TEST_CASE(a_new_vertex_on_the_plane_of_symmetry_takes_the_place_of_fa
     guarded.apply(fan, place);
     BOOST_TEST(guarded.liveFaces() == 9U);
     BOOST_TEST(guarded.isOnPlane(10));
-    BOOST_TEST(guarded.neighbours(10) == (std::vector<std::uint32_t>{0, 2, 3, 4}), boost::test_tools::per_element());
+    BOOST_TEST(neighboursOf(guarded, 10) == (std::vector<std::uint32_t>{0, 2, 3, 4}), boost::test_tools::per_element());
     const Mesh both = guarded.mesh();
     BOOST_TEST(both.points.size() == surface.points.size() + 1);
     const MeshTopology topology = analyzeTopology(both);

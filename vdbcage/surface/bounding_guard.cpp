@@ -337,21 +337,6 @@ void GuardModel::forEachBlocker(const Corners& triangle, const std::function<boo
     });
 }
 
-bool GuardModel::forEachInside(const std::array<Vec3d, 4>& tetrahedron,
-                               const std::function<bool(const Corners&)>& visit) const
-{
-    return tree_.traverse(tree_.inTetrahedron(tetrahedron),
-                          [&](const TriangleTree::Item& item) { return visit(tree_.corners(item)); });
-}
-
-void GuardModel::forEachMet(const Corners& triangle, const std::function<void(const Corners&)>& visit) const
-{
-    tree_.traverse(tree_.near(triangle), [&](const TriangleTree::Item& item) {
-        visit(tree_.corners(item));
-        return true;
-    });
-}
-
 bool GuardModel::mayHoldPart(const Box& box) const
 {
     return !parts_.forEachOverlap(box, [](const TriangleTree::Item&) { return false; });

@@ -453,7 +453,7 @@ TriangleTree::Closest TriangleTree::closest(const Vec3d& p, std::uint32_t seed, 
         const Entry entry = stack.pop();
         if (entry.squaredDistance > reach) continue;
         if (entry.child & isItem) {
-            if (tryItem(entry.child & ~isItem)) reach = reachOf(best.squaredDistance);
+            if (entry.child != (seed | isItem) && tryItem(entry.child & ~isItem)) reach = reachOf(best.squaredDistance);
             continue;
         }
         const Node& node = nodes_[entry.child];

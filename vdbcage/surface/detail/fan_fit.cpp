@@ -99,7 +99,7 @@ bool descend(const GuardedSurface& surface, const Fan& fan, Vec3d& p, const Quad
     if (!inverse) return false;
     std::vector<HalfSpace> halfSpaces;
     double share = limit.share;
-    std::uint32_t blocker = TriangleTree::none;
+    GuardedSurface::Obstacle obstacle;
     for (int attempt = 0; attempt < attempts; ++attempt) {
         const auto solution = solve(*inverse, change.slope, halfSpaces, p);
         if (!solution) return false;
@@ -109,9 +109,9 @@ bool descend(const GuardedSurface& surface, const Fan& fan, Vec3d& p, const Quad
         delta *= share;
         if (!(delta.length() > limit.least * limit.reach)) return false;
         const Vec3d target = surface.rounded(fan, p + delta);
-        if (!surface.allows(fan, target, &blocker)) {
+        if (!surface.allows(fan, target, &obstacle)) {
             const std::size_t before = halfSpaces.size();
-            surface.contacts(fan, p, target, halfSpaces);
+            surface.contacts(fan, p, target, obstacle, halfSpaces);
             if (halfSpaces.size() == before || attempt >= attempts / 2) share *= 0.5;
             continue;
         }

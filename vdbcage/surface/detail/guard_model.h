@@ -48,9 +48,21 @@ public:
     void forEachBlocker(const Corners& triangle, const std::function<bool(const Corners&)>& visit) const;
     /// Calls visit(corners) for every model triangle near the tetrahedron, and perhaps some more, until it answers
     /// false; returns false if it did.
-    bool forEachInside(const std::array<Vec3d, 4>& tetrahedron, const std::function<bool(const Corners&)>& visit) const;
+    template <typename Visit>
+    bool forEachInside(const std::array<Vec3d, 4>& tetrahedron, const Visit& visit) const
+    {
+        return tree_.traverse(tree_.inTetrahedron(tetrahedron),
+                              [&](const TriangleTree::Item& item) { return visit(tree_.corners(item)); });
+    }
     /// The same for every one near `triangle`, all of them.
-    void forEachMet(const Corners& triangle, const std::function<void(const Corners&)>& visit) const;
+    template <typename Visit>
+    void forEachMet(const Corners& triangle, const Visit& visit) const
+    {
+        tree_.traverse(tree_.near(triangle), [&](const TriangleTree::Item& item) {
+            visit(tree_.corners(item));
+            return true;
+        });
+    }
     /// Whether a part of the model may lie in `box`, so that swept() has to be asked.
     bool mayHoldPart(const Box& box) const;
     /// Whether a closed surface sweeps over a part of the model: `surface` is the new star and the reversed old one.

@@ -223,11 +223,11 @@ private:
         const Vec3d a = surface_.point(fan.centre), b = surface_.point(fan.removed), middle = 0.5 * (a + b);
         const Vec3d best = optimum(q, fan.centre, fan.removed);
         const Vec3d up = surface_.outward(fan) * (a - b).length();
-        std::uint32_t blocker = TriangleTree::none;
+        GuardedSurface::Obstacle obstacle;
         for (const Vec3d& at : {best, best + 0.1 * up, best + 0.25 * up, best + 0.5 * up, a, b, middle + 0.1 * up,
                                 middle + 0.35 * up, middle + 0.8 * up}) {
             Vec3d place = surface_.rounded(fan, at);
-            if (!surface_.allows(fan, place, &blocker)) continue;
+            if (!surface_.allows(fan, place, &obstacle)) continue;
             if (slides && at != best) slide(fan, q, best, place);
             return place;
         }

@@ -161,10 +161,10 @@ Corners GuardedSurface::corners(std::uint32_t f) const
     return {points_[t[0]], points_[t[1]], points_[t[2]]};
 }
 
-std::vector<std::uint32_t> GuardedSurface::neighbours(std::uint32_t v) const
+GuardedSurface::Vertices GuardedSurface::neighbours(std::uint32_t v) const
 {
     const bool halved = isOnPlane(v); // one of them is the last corner of a face only
-    std::vector<std::uint32_t> list;
+    Vertices list;
     for (const std::uint32_t f : facesOf_[v]) {
         const Vec3I& t = faces_[f];
         list.push_back(t[0] == v ? t[1] : t[1] == v ? t[2] : t[0]);
@@ -307,16 +307,15 @@ double GuardedSurface::spacingAround(const Fan& fan, const Vec3d& p) const
     return guard().spacing().around(std::sqrt(longest2));
 }
 
-bool GuardedSurface::allows(const Fan& fan, const Vec3d& p, std::uint32_t* hint) const
+bool GuardedSurface::allows(const Fan& fan, const Vec3d& p, Obstacle* obstacle) const
 {
+    Obstacle none;
+    Obstacle& found = obstacle ? *obstacle : none;
+    found.clear = 0;
     if (isTooNearPlane(fan, p)) return false;
     if (!wellShaped(fan, p)) return false;
-    std::uint32_t blocker = hint ? *hint : TriangleTree::none;
-    for (std::size_t i = 0; i < fan.rim.size(); ++i) {
-        if (!guard().clear(fanCorners(fan, i, p), blocker, &blocker)) {
-            if (hint) *hint = blocker;
-            return false;
-        }
+    for (; found.clear < fan.rim.size(); ++found.clear) {
+        if (!guard().clear(fanCorners(fan, found.clear, p), found.item, &found.item)) return false;
     }
     if (!clearOfSurface(fan, p)) return false;
     return sweepsOverNothing(fan, p);
@@ -361,7 +360,7 @@ bool GuardedSurface::sweepsOverNothing(const Fan& fan, const Vec3d& p) const
     return true;
 }
 
-void GuardedSurface::contacts(const Fan& fan, const Vec3d& from, const Vec3d& to,
+void GuardedSurface::contacts(const Fan& fan, const Vec3d& from, const Vec3d& to, Obstacle obstacle,
                               std::vector<HalfSpace>& halfSpaces) const
 {
     constexpr int mostGaps = 6; // of each triangle; the rest shows up in the next try if it matters
@@ -370,7 +369,7 @@ void GuardedSurface::contacts(const Fan& fan, const Vec3d& from, const Vec3d& to
     const Spacing& spacing = guard().spacing();
     for (std::size_t i = 0; i < fan.rim.size(); ++i) {
         const Corners now = fanCorners(fan, i, from), then = fanCorners(fan, i, to);
-        const bool isBlocked = !guard().clear(then, TriangleTree::none, nullptr);
+        const bool isBlocked = i >= obstacle.clear && !guard().clear(then, obstacle.item, &obstacle.item);
         if (isBlocked && !addImpacts(guard(), now, to, i == 0, clearance, halfSpaces)) {
             int gaps = 0;
             guard().forEachBlocker(then, [&](const Corners& other) {
@@ -415,6 +414,12 @@ void GuardedSurface::contacts(const Fan& fan, const Vec3d& from, const Vec3d& to
 }
 
 void GuardedSurface::apply(const Fan& fan, const Vec3d& p)
+{
+    change(fan, p);
+    tree_.refit();
+}
+
+void GuardedSurface::change(const Fan& fan, const Vec3d& p)
 {
     if (fan.centre == vertices()) {
         points_.push_back(p);
@@ -573,13 +578,13 @@ void GuardedSurface::splitQuad(std::uint32_t half)
     }
     freeQuads_.push_back(number);
     buildTreeIfWanted();
+    tree_.refit();
 }
 
 void GuardedSurface::flipQuad(std::uint32_t half)
 {
     Quad& quad = quads_[quadAt_[half]];
-    const auto move = [&](std::uint32_t f, std::vector<std::vector<std::uint32_t>>& from,
-                          std::vector<std::vector<std::uint32_t>>& to, Life life) {
+    const auto move = [&](std::uint32_t f, std::vector<Star>& from, std::vector<Star>& to, Life life) {
         for (const int k : {0, 1, 2}) {
             auto& list = from[faces_[f][k]];
             list.erase(std::find(list.begin(), list.end(), f));
@@ -590,6 +595,11 @@ void GuardedSurface::flipQuad(std::uint32_t half)
     for (const std::uint32_t f : quad.halves) move(f, facesOf_, othersOf_, underOther);
     for (const std::uint32_t f : quad.others) move(f, othersOf_, facesOf_, live);
     std::swap(quad.halves, quad.others);
+}
+
+GuardedSurface::Batch::~Batch()
+{
+    surface_.tree_.refit();
 }
 
 bool GuardedSurface::Batch::apply(const Fan& fan, const Vec3d& p)
@@ -614,7 +624,7 @@ bool GuardedSurface::Batch::apply(const Fan& fan, const Vec3d& p)
             }
         }
     }
-    surface_.apply(fan, p);
+    surface_.change(fan, p);
     for (const std::uint32_t v : {fan.centre, fan.removed}) {
         if (v != Fan::none) moved_.insert(std::lower_bound(moved_.begin(), moved_.end(), v), v);
     }

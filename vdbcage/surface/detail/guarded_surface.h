@@ -63,11 +63,13 @@ public:
     bool isOnPlane(std::uint32_t v) const;
     /// The nearest point on the plane of symmetry. \pre there is one
     Vec3d ontoPlane(Vec3d p) const;
-    const std::vector<std::uint32_t>& facesOf(std::uint32_t v) const { return facesOf_[v]; }
+    using Star = boost::container::small_vector<std::uint32_t, 8>;
+    const Star& facesOf(std::uint32_t v) const { return facesOf_[v]; }
     const Vec3I& face(std::uint32_t f) const { return faces_[f]; }
     Corners corners(std::uint32_t f) const;
+    using Vertices = boost::container::small_vector<std::uint32_t, 16>;
     /// The vertices joined to v by an edge, or by the other diagonal of a quad, or opposite to it in one; ascending.
-    std::vector<std::uint32_t> neighbours(std::uint32_t v) const;
+    Vertices neighbours(std::uint32_t v) const;
 
     Fan fanOf(std::uint32_t v) const;
     /// The fan that takes the place of the stars of both ends; false where the link condition forbids the collapse.
@@ -87,11 +89,17 @@ public:
     /// `p` as a place of the fan's centre: on the plane of symmetry where it has to be, rounded as the guard asks.
     Vec3d rounded(const Fan& fan, const Vec3d& p) const;
 
-    /// Whether the fan may have its centre at `p` (rounded as the guard asks). `hint` is a blocker to try first and
-    /// gets the one that was found.
-    bool allows(const Fan& fan, const Vec3d& p, std::uint32_t* hint = nullptr) const;
-    /// The half-spaces that keep the fan's centre, allowed at `from`, off what forbids it at `to`.
-    void contacts(const Fan& fan, const Vec3d& from, const Vec3d& to, std::vector<HalfSpace>& halfSpaces) const;
+    /// What allows() learns of the model.
+    struct Obstacle {
+        std::uint32_t item = TriangleTree::none; ///< of the model: the last that was in the way, the first to try
+        std::size_t clear = 0; ///< at the last place so many of the fan's triangles, from the first, keep clear
+    };
+    /// Whether the fan may have its centre at `p` (rounded as the guard asks).
+    bool allows(const Fan& fan, const Vec3d& p, Obstacle* obstacle = nullptr) const;
+    /// The half-spaces that keep the fan's centre, allowed at `from`, off what forbids it at `to`; `obstacle` is what
+    /// allows() gave there.
+    void contacts(const Fan& fan, const Vec3d& from, const Vec3d& to, Obstacle obstacle,
+                  std::vector<HalfSpace>& halfSpaces) const;
     /// Makes the change; it must have been allowed.
     void apply(const Fan& fan, const Vec3d& p);
 
@@ -117,9 +125,10 @@ public:
     /// The weight of a face, or a quad's other, in a sum over the surface: a half if it shows under one diagonal only.
     double weight(std::uint32_t f) const { return f != Fan::none && quadAt_[f] != Fan::none ? 0.5 : 1; }
     /// The others at a vertex.
-    const std::vector<std::uint32_t>& othersOf(std::uint32_t v) const { return othersOf_[v]; }
+    const Star& othersOf(std::uint32_t v) const { return othersOf_[v]; }
 
-    /// Changes that were each allowed on the surface as it was when the batch began, made one after the other.
+    /// Changes that were each allowed on the surface as it was when the batch began, made one after the other. The
+    /// surface may not be asked what it allows before the batch ends.
     class Batch;
 
     /// The live triangles and quads, points that no face uses left out, order kept; then the mirror image of them all.
@@ -142,6 +151,8 @@ private:
     bool isOld(const Fan& fan, std::uint32_t face) const;
     bool sweepsOverNothing(const Fan& fan, const Vec3d& p) const;
     bool areConvexQuads(const Fan& fan, const Vec3d& p) const;
+    /// apply(), not seen by tree_ until it is refitted.
+    void change(const Fan& fan, const Vec3d& p);
     void reconnect(const Fan& fan);
     void buildTreeIfWanted();
     bool areAlternatives(std::uint32_t f, std::uint32_t g) const;
@@ -155,7 +166,7 @@ private:
     std::vector<Vec3d> points_;
     std::vector<Vec3I> faces_;
     std::vector<char> life_;
-    std::vector<std::vector<std::uint32_t>> facesOf_, othersOf_;
+    std::vector<Star> facesOf_, othersOf_; // by vertex
     std::size_t liveFaces_ = 0;
     double leastQuadCosine_ = 0;
     std::vector<Quad> quads_;
@@ -167,6 +178,9 @@ private:
 class GuardedSurface::Batch {
 public:
     explicit Batch(GuardedSurface& surface) : surface_(surface) {}
+    Batch(const Batch&) = delete;
+    Batch& operator=(const Batch&) = delete;
+    ~Batch();
 
     /// Makes the change, unless one made before it in the batch moved a vertex of its fan or came into its way.
     bool apply(const Fan& fan, const Vec3d& p);

@@ -111,10 +111,10 @@ std::optional<Vec3d> towards(const GuardedSurface& surface, const Fan& fan, cons
                              std::initializer_list<double> steps)
 {
     const Vec3d& p = surface.point(fan.centre);
-    std::uint32_t blocker = TriangleTree::none;
+    GuardedSurface::Obstacle obstacle;
     for (const double step : steps) {
         const Vec3d target = surface.rounded(fan, p + step * (goal - p));
-        if (surface.allows(fan, target, &blocker)) return target;
+        if (surface.allows(fan, target, &obstacle)) return target;
     }
     return std::nullopt;
 }

@@ -6,13 +6,14 @@
 #include <limits>
 #include <vector>
 
+#include <tbb/parallel_invoke.h>
 #include <vdbcage/mesh/detail/floats.h>
 #include <vdbcage/mesh/detail/triangle_tree.h>
 
 namespace vdbcage::detail {
 
-/// Boxes of things that move, come and vanish one at a time: a tree of four children a node that is refitted upwards
-/// from a changed leaf; things that came since it was built are looked through one by one. To be built anew when
+/// Boxes of things that move, come and vanish: a tree of four children a node, whose boxes are refitted from changed
+/// leaves upwards; things that came since it was built are looked through one by one. To be built anew when
 /// wantsBuild() says so. Deterministic.
 ///
 /// Children's boxes are compared at once, in float: rounding keeps the order, so that no meeting is missed; what is
@@ -24,16 +25,22 @@ public:
     /// Thing i has boxes[i]; those with alive[i] == 0 are left out. O(n log n).
     void build(const std::vector<Box>& boxes, const std::vector<char>& alive)
     {
-        std::vector<std::uint32_t> things;
+        std::vector<Thing> things;
+        things.reserve(boxes.size());
         for (std::uint32_t i = 0; i < boxes.size(); ++i) {
-            if (alive[i]) things.push_back(i);
+            if (alive[i]) things.push_back({boxes[i].lo + boxes[i].hi, i});
         }
         boxes_ = boxes;
         slotOf_.assign(boxes.size(), none);
         nodes_.clear();
         live_ = built_ = things.size();
         late_.clear();
-        if (!things.empty()) buildNode({things.begin(), things.end()}, none);
+        changed_.clear();
+        if (things.empty()) return;
+        const Range all{things.begin(), things.end()};
+        sort(all);
+        buildNode(all, none);
+        changed_.assign(nodes_.size() / 64 + 1, 0);
     }
 
     /// Whether so many things have come or gone since the last build that another one pays.
@@ -48,12 +55,14 @@ public:
         ++live_;
     }
 
+    /// To be seen after refit().
     void update(std::uint32_t thing, const Box& box)
     {
         boxes_[thing] = box;
-        if (slotOf_[thing] != none) refit(slotOf_[thing], FloatBox(box));
+        if (slotOf_[thing] != none) set(slotOf_[thing], FloatBox(box));
     }
 
+    /// To be seen after refit().
     void remove(std::uint32_t thing)
     {
         --live_;
@@ -61,8 +70,22 @@ public:
             late_.erase(std::find(late_.begin(), late_.end(), thing));
             return;
         }
-        refit(slotOf_[thing], FloatBox());
+        set(slotOf_[thing], FloatBox());
         slotOf_[thing] = none;
+    }
+
+    /// Once for many changes: nodes that have several below them are computed once.
+    void refit()
+    {
+        // A node's number is above its parent's.
+        for (std::size_t i = changed_.size(); i-- > 0;) {
+            while (changed_[i] != 0) {
+                const auto bit = static_cast<std::size_t>(63 - __builtin_clzll(changed_[i]));
+                changed_[i] ^= std::uint64_t(1) << bit;
+                const Node& node = nodes_[64 * i + bit];
+                if (node.slot != none) set(node.slot, node.box());
+            }
+        }
     }
 
     /// Calls visit(thing, itsBox) for each thing whose box meets `box`, until it answers false. Returns false if it
@@ -153,27 +176,43 @@ private:
         }
     };
 
-    using Things = std::vector<std::uint32_t>::iterator;
+    struct Thing {
+        Vec3d twiceCentre;
+        std::uint32_t number;
+    };
+    using Things = std::vector<Thing>::iterator;
     struct Range {
         Things begin, end;
 
         std::ptrdiff_t size() const { return end - begin; }
     };
 
-    /// Brings half of the things, along the longest side of their centres' box, before the others.
-    std::array<Range, 2> halves(const Range& things) const
+    static std::array<Range, 2> halves(const Range& things)
     {
-        const auto twiceCentre = [&](std::uint32_t thing) { return boxes_[thing].lo + boxes_[thing].hi; };
-        Box centres = Box::of(twiceCentre(*things.begin));
-        for (auto i = things.begin + 1; i != things.end; ++i) centres.expand(Box::of(twiceCentre(*i)));
+        const Things middle = things.begin + things.size() / 2;
+        return {Range{things.begin, middle}, Range{middle, things.end}};
+    }
+
+    /// Brings half of the things, along the longest side of their centres' box, before the others; so in each half.
+    static void sort(const Range& things)
+    {
+        constexpr std::ptrdiff_t taskSize = 1024; // worth a task
+        if (things.size() < 2) return;
+        Box centres = Box::of(things.begin->twiceCentre);
+        for (auto i = things.begin + 1; i != things.end; ++i) centres.expand(Box::of(i->twiceCentre));
         const Vec3d extent = centres.hi - centres.lo;
         const int axis = extent[0] >= extent[1] && extent[0] >= extent[2] ? 0 : extent[1] >= extent[2] ? 1 : 2;
-        const Things middle = things.begin + things.size() / 2;
-        std::nth_element(things.begin, middle, things.end, [&](std::uint32_t a, std::uint32_t b) {
-            const double ca = boxes_[a].lo[axis] + boxes_[a].hi[axis], cb = boxes_[b].lo[axis] + boxes_[b].hi[axis];
-            return ca != cb ? ca < cb : a < b;
+        const auto [low, high] = halves(things);
+        std::nth_element(things.begin, high.begin, things.end, [&](const Thing& a, const Thing& b) {
+            const double ca = a.twiceCentre[axis], cb = b.twiceCentre[axis];
+            return ca != cb ? ca < cb : a.number < b.number;
         });
-        return {Range{things.begin, middle}, Range{middle, things.end}};
+        if (things.size() < taskSize) {
+            sort(low);
+            sort(high);
+        } else {
+            tbb::parallel_invoke([low = low] { sort(low); }, [high = high] { sort(high); });
+        }
     }
 
     /// Returns its number.
@@ -186,7 +225,7 @@ private:
             const std::uint32_t at = child++;
             FloatBox box;
             if (part.size() == 1) {
-                const std::uint32_t thing = *part.begin;
+                const std::uint32_t thing = part.begin->number;
                 nodes_[self].child[at] = isThing | thing;
                 slotOf_[thing] = 4 * self + at;
                 box = FloatBox(boxes_[thing]);
@@ -211,18 +250,17 @@ private:
         return self;
     }
 
-    void refit(Slot slot, FloatBox box)
+    void set(Slot slot, const FloatBox& box)
     {
-        while (slot != none && nodes_[slot / 4].set(slot % 4, box)) {
-            box = nodes_[slot / 4].box();
-            slot = nodes_[slot / 4].slot;
-        }
+        const std::size_t node = slot / 4;
+        if (nodes_[node].set(slot % 4, box)) changed_[node / 64] |= std::uint64_t(1) << node % 64;
     }
 
     std::vector<Node> nodes_;
     std::vector<Box> boxes_;   // by thing
     std::vector<Slot> slotOf_; // by thing; none: gone, or late
     std::vector<std::uint32_t> late_;
+    std::vector<std::uint64_t> changed_; // nodes, a bit each: their own boxes are to be set in their parents
     std::size_t live_ = 0, built_ = 0;
 };
 
