@@ -62,8 +62,7 @@ BOOST_AUTO_TEST_CASE(finds_what_a_list_finds_while_things_come_move_and_go)
         std::vector<Box> boxes;
         for (std::size_t i = 0; i < atFirst; ++i) boxes.push_back(random.next());
         std::vector<char> alive(atFirst, 1);
-        RefitTree tree;
-        tree.build(boxes, alive);
+        RefitTree tree(boxes);
         for (int step = 0; step < 600; ++step) {
             const std::size_t thing = boxes.empty() ? 0 : random.below(boxes.size());
             switch (boxes.empty() ? 0 : random.below(step < 200 ? 3 : 4)) {
@@ -83,7 +82,7 @@ BOOST_AUTO_TEST_CASE(finds_what_a_list_finds_while_things_come_move_and_go)
                 alive[thing] = 0;
                 tree.remove(static_cast<std::uint32_t>(thing));
             }
-            if (tree.wantsBuild()) tree.build(boxes, alive);
+            if (random.below(2) == 0) tree.rebuildIfWorthwhile();
             if (random.below(3) > 0) continue;
             tree.refit();
             for (const Box& box : {random.next(), thing < boxes.size() ? boxes[thing] : random.next()}) {
@@ -95,9 +94,8 @@ BOOST_AUTO_TEST_CASE(finds_what_a_list_finds_while_things_come_move_and_go)
 
 BOOST_AUTO_TEST_CASE(stops_where_it_is_told)
 {
-    RefitTree tree;
     const Box box{Vec3d(0.0), Vec3d(1.0)};
-    tree.build({box, box, box}, {1, 1, 1});
+    RefitTree tree({box, box, box});
     tree.insert(3, box);
     for (int most = 1; most <= 4; ++most) {
         int visits = 0;

@@ -51,7 +51,7 @@ GuardedSurface::GuardedSurface(const Mesh& surface, const GuardModel& guard, Qua
             throw InputError("surface: it is not a closed, oriented 2-manifold at point " + std::to_string(v));
         }
     }
-    tree_.build(boxes, life_);
+    tree_ = RefitTree(std::move(boxes));
     if (quads == Quads::split) return;
     const std::uint32_t end = faces();
     for (std::uint32_t f = firstOfQuads; f < end; f += 2) makeQuad(f, f + 1);
@@ -468,17 +468,7 @@ void GuardedSurface::reconnect(const Fan& fan)
             tree_.update(f, box);
         }
     }
-    buildTreeIfWanted();
-}
-
-void GuardedSurface::buildTreeIfWanted()
-{
-    if (!tree_.wantsBuild()) return;
-    std::vector<Box> boxes(faces_.size());
-    for (std::uint32_t f = 0; f < faces_.size(); ++f) {
-        if (life_[f] != dead) boxes[f] = Box::of(corners(f));
-    }
-    tree_.build(boxes, life_);
+    tree_.rebuildIfWorthwhile();
 }
 
 std::uint32_t GuardedSurface::otherHalf(std::uint32_t f) const
@@ -558,7 +548,7 @@ bool GuardedSurface::makeQuad(std::uint32_t f, std::uint32_t g)
         for (const int k : {0, 1, 2}) othersOf_[facet.ids[k]].push_back(o);
         tree_.insert(o, Box::of(facet.corners));
     }
-    buildTreeIfWanted();
+    tree_.rebuildIfWorthwhile();
     return true;
 }
 
@@ -577,7 +567,7 @@ void GuardedSurface::splitQuad(std::uint32_t half)
         tree_.remove(o);
     }
     freeQuads_.push_back(number);
-    buildTreeIfWanted();
+    tree_.rebuildIfWorthwhile();
     tree_.refit();
 }
 

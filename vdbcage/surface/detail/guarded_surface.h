@@ -154,7 +154,6 @@ private:
     /// apply(), not seen by tree_ until it is refitted.
     void change(const Fan& fan, const Vec3d& p);
     void reconnect(const Fan& fan);
-    void buildTreeIfWanted();
     bool areAlternatives(std::uint32_t f, std::uint32_t g) const;
 
     enum Life : char { dead, live, underOther };

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include <tbb/parallel_invoke.h>
@@ -13,8 +14,7 @@
 namespace vdbcage::detail {
 
 /// Boxes of things that move, come and vanish: a tree of four children a node, whose boxes are refitted from changed
-/// leaves upwards; things that came since it was built are looked through one by one. To be built anew when
-/// wantsBuild() says so. Deterministic.
+/// leaves upwards; things that came since it was built are looked through one by one. Deterministic.
 ///
 /// Children's boxes are compared at once, in float: rounding keeps the order, so that no meeting is missed; what is
 /// left is told apart in double.
@@ -22,29 +22,29 @@ class RefitTree {
 public:
     static constexpr std::uint32_t none = ~std::uint32_t(0);
 
-    /// Thing i has boxes[i]; those with alive[i] == 0 are left out. O(n log n).
-    void build(const std::vector<Box>& boxes, const std::vector<char>& alive)
+    RefitTree() = default;
+    /// Thing i has boxes[i]. O(n log n), in parallel.
+    explicit RefitTree(std::vector<Box> boxes) : boxes_(std::move(boxes)), slotOf_(boxes_.size(), none)
     {
         std::vector<Thing> things;
-        things.reserve(boxes.size());
-        for (std::uint32_t i = 0; i < boxes.size(); ++i) {
-            if (alive[i]) things.push_back({boxes[i].lo + boxes[i].hi, i});
-        }
-        boxes_ = boxes;
-        slotOf_.assign(boxes.size(), none);
-        nodes_.clear();
-        live_ = built_ = things.size();
-        late_.clear();
-        changed_.clear();
-        if (things.empty()) return;
-        const Range all{things.begin(), things.end()};
-        sort(all);
-        buildNode(all, none);
-        changed_.assign(nodes_.size() / 64 + 1, 0);
+        things.reserve(boxes_.size());
+        for (std::uint32_t i = 0; i < boxes_.size(); ++i) things.push_back(thing(i));
+        build(things);
     }
 
-    /// Whether so many things have come or gone since the last build that another one pays.
-    bool wantsBuild() const { return live_ * 2 < built_ || late_.size() > mostLate; }
+    /// Builds it anew if so many things have come or gone since it was built that this pays.
+    void rebuildIfWorthwhile()
+    {
+        constexpr std::size_t mostLate = 32;
+        if (live_ * 2 >= built_ && late_.size() <= mostLate) return;
+        std::vector<Thing> things;
+        things.reserve(live_);
+        for (std::uint32_t i = 0; i < boxes_.size(); ++i) {
+            if (slotOf_[i] != none) things.push_back(thing(i));
+        }
+        for (const std::uint32_t i : late_) things.push_back(thing(i));
+        build(things);
+    }
 
     /// Adds a thing of the next number.
     void insert(std::uint32_t thing, const Box& box)
@@ -124,7 +124,6 @@ public:
 
 private:
     static constexpr std::uint32_t isThing = std::uint32_t(1) << 31;
-    static constexpr std::size_t mostLate = 32;
 
     struct FloatBox {
         std::array<float, 3> lo, hi;
@@ -180,6 +179,8 @@ private:
         Vec3d twiceCentre;
         std::uint32_t number;
     };
+    Thing thing(std::uint32_t number) const { return {boxes_[number].lo + boxes_[number].hi, number}; }
+
     using Things = std::vector<Thing>::iterator;
     struct Range {
         Things begin, end;
@@ -213,6 +214,21 @@ private:
         } else {
             tbb::parallel_invoke([low = low] { sort(low); }, [high = high] { sort(high); });
         }
+    }
+
+    /// \param things all there are, in any order
+    void build(std::vector<Thing>& things)
+    {
+        live_ = built_ = things.size();
+        late_.clear();
+        nodes_.clear();
+        nodes_.reserve(things.size());
+        if (!things.empty()) {
+            const Range all{things.begin(), things.end()};
+            sort(all);
+            buildNode(all, none);
+        }
+        changed_.assign(nodes_.size() / 64 + 1, 0);
     }
 
     /// Returns its number.
