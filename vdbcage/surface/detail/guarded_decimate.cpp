@@ -175,15 +175,23 @@ private:
         return q.cost(p - origin_, spreadWeight);
     }
 
+    static constexpr double stiffness = 1e-3;
+
     Vec3d optimum(const Quadric& q, std::uint32_t u, std::uint32_t v) const
     {
-        constexpr double stiffness = 1e-3;
+        Vec3d place;
+        const bool found = q.bestPlace(stiffness, place);
+        return optimum(found, place, u, v);
+    }
+
+    /// \param found, best what Quadric::bestPlace() gives
+    Vec3d optimum(bool found, const Vec3d& best, std::uint32_t u, std::uint32_t v) const
+    {
         const Vec3d a = surface_.point(u), b = surface_.point(v);
         const bool onPlane = surface_.isOnPlane(u) || surface_.isOnPlane(v);
         const Vec3d middle = onPlane ? surface_.ontoPlane(0.5 * (a + b)) : 0.5 * (a + b);
-        Vec3d place;
-        if (!q.bestPlace(stiffness, place)) return middle;
-        place += origin_;
+        if (!found) return middle;
+        const Vec3d place = best + origin_;
         return (place - middle).length() > 2 * (a - b).length() ? middle : place;
     }
 
@@ -191,10 +199,17 @@ private:
     {
         std::vector<double> costs(edges.size());
         tbb::parallel_for(tbb::blocked_range<std::size_t>(0, edges.size(), 32), [&](const auto& range) {
-            for (std::size_t i = range.begin(); i < range.end(); ++i) {
-                const auto [u, v] = edges[i];
-                const Quadric q = sum(u, v);
-                costs[i] = cost(q, optimum(q, u, v));
+            std::array<Quadric, 4> quadrics;
+            std::array<Vec3d, 4> places;
+            for (std::size_t first = range.begin(); first < range.end(); first += quadrics.size()) {
+                const std::size_t count = std::min(quadrics.size(), range.end() - first);
+                for (std::size_t i = 0; i < count; ++i)
+                    quadrics[i] = sum(edges[first + i].first, edges[first + i].second);
+                const auto found = Quadric::bestPlaces(quadrics, stiffness, places);
+                for (std::size_t i = 0; i < count; ++i) {
+                    const auto [u, v] = edges[first + i];
+                    costs[first + i] = cost(quadrics[i], optimum(found[i], places[i], u, v));
+                }
             }
         });
         for (std::size_t i = 0; i < edges.size(); ++i) {
@@ -239,8 +254,8 @@ private:
     {
         Quadratic change;
         change.curvature = q.planes();
-        const double stiffness = 0.01 * change.curvature.trace();
-        for (int i = 0; i < 3; ++i) change.curvature[i][i] += stiffness;
+        const double damping = 0.01 * change.curvature.trace();
+        for (int i = 0; i < 3; ++i) change.curvature[i][i] += damping;
         change.slope = change.curvature * (place - best);
         const double before = cost(q, place);
         const double edge = (surface_.point(fan.centre) - surface_.point(fan.removed)).length();

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <limits>
 
-#include <openvdb/math/Mat3.h>
-#include <openvdb/math/Vec3.h>
+#include <openvdb/Types.h>
 
 namespace vdbcage::detail {
 
@@ -76,27 +78,61 @@ public:
     openvdb::Mat3d planes() const { return {xx_, xy_, xz_, xy_, yy_, yz_, xz_, yz_, zz_}; }
 
     /// The place of least plane error nearest to the middle of the area; directions in which the planes are softer
-    /// than `stiffness` times the area count as open. False if there is no area.
+    /// than `stiffness` times the area count as open. False, and no place, if there is no area.
     bool bestPlace(double stiffness, openvdb::Vec3d& place) const
     {
-        if (!(weight_ > 0)) return false;
-        place = first_ / weight_;
+        std::array<openvdb::Vec3d, 1> places;
+        const std::array<bool, 1> found = bestPlaces<1>({*this}, stiffness, places);
+        place = places[0];
+        return found[0];
+    }
+
+    /// bestPlace() of several quadrics, to the bit. It waits for divisions: four side by side take little longer than
+    /// one.
+    template <std::size_t n>
+    static std::array<bool, n> bestPlaces(const std::array<Quadric, n>& quadrics, double stiffness,
+                                          std::array<openvdb::Vec3d, n>& places)
+    {
         // Proximal point iteration: each step keeps open directions and at least halves the error in stiff ones. The
         // matrix planes + stiffness * identity is positive definite: Cholesky.
-        const double add = stiffness * weight_;
-        const double l00 = std::sqrt(xx_ + add), l10 = xy_ / l00, l20 = xz_ / l00;
-        const double l11 = std::sqrt(yy_ + add - l10 * l10), l21 = (yz_ - l20 * l10) / l11;
-        const double l22 = std::sqrt(zz_ + add - l20 * l20 - l21 * l21);
-        if (!(l00 > 0 && l11 > 0 && l22 > 0)) return false;
-        for (int step = 0; step < steps; ++step) {
-            const openvdb::Vec3d slope = times(place) + linear_;
-            const double y0 = slope.x() / l00, y1 = (slope.y() - l10 * y0) / l11;
-            const double y2 = (slope.z() - l20 * y0 - l21 * y1) / l22;
-            const double z = y2 / l22, y = (y1 - l21 * z) / l11, x = (y0 - l10 * y - l20 * z) / l00;
-            place -= openvdb::Vec3d(x, y, z);
-            if (std::abs(x) + std::abs(y) + std::abs(z) < rounding) break;
+        using Row = std::array<double, n>; // a number of each quadric
+        Row l00, l10, l20, l11, l21, l22, x, y, z, change;
+        for (std::size_t i = 0; i < n; ++i) {
+            const Quadric& q = quadrics[i];
+            const double add = stiffness * q.weight_;
+            l00[i] = std::sqrt(q.xx_ + add);
+            l10[i] = q.xy_ / l00[i];
+            l20[i] = q.xz_ / l00[i];
+            l11[i] = std::sqrt(q.yy_ + add - l10[i] * l10[i]);
+            l21[i] = (q.yz_ - l20[i] * l10[i]) / l11[i];
+            l22[i] = std::sqrt(q.zz_ + add - l20[i] * l20[i] - l21[i] * l21[i]);
+            x[i] = q.first_.x() / q.weight_;
+            y[i] = q.first_.y() / q.weight_;
+            z[i] = q.first_.z() / q.weight_;
+            change[i] = std::numeric_limits<double>::infinity();
         }
-        return std::isfinite(place.x()) && std::isfinite(place.y()) && std::isfinite(place.z());
+        for (int step = 0; step < steps; ++step) {
+            for (std::size_t i = 0; i < n; ++i) {
+                const openvdb::Vec3d slope = quadrics[i].times({x[i], y[i], z[i]}) + quadrics[i].linear_;
+                const double y0 = slope.x() / l00[i], y1 = (slope.y() - l10[i] * y0) / l11[i];
+                const double y2 = (slope.z() - l20[i] * y0 - l21[i] * y1) / l22[i];
+                const double dz = y2 / l22[i], dy = (y1 - l21[i] * dz) / l11[i];
+                const double dx = (y0 - l10[i] * dy - l20[i] * dz) / l00[i];
+                const bool isDone = change[i] < rounding;
+                x[i] = isDone ? x[i] : x[i] - dx;
+                y[i] = isDone ? y[i] : y[i] - dy;
+                z[i] = isDone ? z[i] : z[i] - dz;
+                change[i] = isDone ? change[i] : std::abs(dx) + std::abs(dy) + std::abs(dz);
+            }
+            if (std::all_of(change.begin(), change.end(), [](double size) { return size < rounding; })) break;
+        }
+        std::array<bool, n> found;
+        for (std::size_t i = 0; i < n; ++i) {
+            places[i] = {x[i], y[i], z[i]};
+            found[i] = l00[i] > 0 && l11[i] > 0 && l22[i] > 0 && std::isfinite(x[i]) && std::isfinite(y[i]) &&
+                       std::isfinite(z[i]);
+        }
+        return found;
     }
 
 private:
