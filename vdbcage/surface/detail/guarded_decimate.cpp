@@ -175,7 +175,7 @@ private:
         return q.cost(p - origin_, spreadWeight);
     }
 
-    static constexpr double stiffness = 1e-3;
+    static constexpr double stiffness = 1e-3; // below this the planes leave a direction open
 
     Vec3d optimum(const Quadric& q, std::uint32_t u, std::uint32_t v) const
     {
@@ -203,8 +203,9 @@ private:
             std::array<Vec3d, 4> places;
             for (std::size_t first = range.begin(); first < range.end(); first += quadrics.size()) {
                 const std::size_t count = std::min(quadrics.size(), range.end() - first);
-                for (std::size_t i = 0; i < count; ++i)
+                for (std::size_t i = 0; i < count; ++i) {
                     quadrics[i] = sum(edges[first + i].first, edges[first + i].second);
+                }
                 const auto found = Quadric::bestPlaces(quadrics, stiffness, places);
                 for (std::size_t i = 0; i < count; ++i) {
                     const auto [u, v] = edges[first + i];
