@@ -287,7 +287,7 @@ BOOST_AUTO_TEST_CASE(changes_made_side_by_side_do_not_run_into_each_other)
         // Nor are neighbours moved on what they no longer see.
         BOOST_TEST(!batch.apply(guarded.fanOf(2), guarded.point(2)));
     }
-    BOOST_TEST(!guarded.allows(above, down));
+    BOOST_TEST(!guarded.allows(above, down)); // what was changed is seen when the batch has ended
     // Nor nearly: two thousandths of the model's 3.9 between them is asked.
     GuardedSurface apart(surface, guard.model());
     const Vec3d place = guard.model().rounded(guard.model().scaled({0, 0, 1.5}));

@@ -74,7 +74,7 @@ public:
         slotOf_[thing] = none;
     }
 
-    /// Once for many changes: nodes that have several below them are computed once.
+    /// To be called once for many changes, so that a node above several of them is computed once.
     void refit()
     {
         // A node's number is above its parent's.
