@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cstring>
 #include <utility>
 
 #include <tbb/blocked_range.h>
@@ -42,6 +43,30 @@ struct FloatBox {
         const Floats size = hi - lo;
         return size[0] * size[1] + size[1] * size[2] + size[2] * size[0];
     }
+};
+
+// A child of a node and the square of its distance, in one word: two halves that were just stored cannot be forwarded
+// to a load of both, which has to wait for them.
+class Near {
+public:
+    Near() = default; // not initialized
+    Near(std::uint32_t child, float squaredDistance)
+    {
+        std::uint32_t bits;
+        std::memcpy(&bits, &squaredDistance, sizeof bits);
+        word_ = std::uint64_t(bits) << 32 | child;
+    }
+    std::uint32_t child() const { return static_cast<std::uint32_t>(word_); }
+    float squaredDistance() const
+    {
+        const auto bits = static_cast<std::uint32_t>(word_ >> 32);
+        float squaredDistance;
+        std::memcpy(&squaredDistance, &bits, sizeof bits);
+        return squaredDistance;
+    }
+
+private:
+    std::uint64_t word_;
 };
 
 struct Bins {
@@ -443,20 +468,17 @@ TriangleTree::Closest TriangleTree::closest(const Vec3d& p, std::uint32_t seed, 
         return static_cast<float>(std::min(1.00001 * distance * distance + 1e-30, 1e38));
     };
     float reach = reachOf(best.squaredDistance);
-    struct Entry {
-        std::uint32_t child;
-        float squaredDistance;
-    };
-    Stack<Entry> stack;
+    Stack<Near> stack;
     stack.push({0, 0});
     while (!stack.empty()) {
-        const Entry entry = stack.pop();
-        if (entry.squaredDistance > reach) continue;
-        if (entry.child & isItem) {
-            if (entry.child != (seed | isItem) && tryItem(entry.child & ~isItem)) reach = reachOf(best.squaredDistance);
+        const Near nearest = stack.pop();
+        if (nearest.squaredDistance() > reach) continue;
+        const std::uint32_t child = nearest.child();
+        if (child & isItem) {
+            if (child != (seed | isItem) && tryItem(child & ~isItem)) reach = reachOf(best.squaredDistance);
             continue;
         }
-        const Node& node = nodes_[entry.child];
+        const Node& node = nodes_[child];
         Floats squaredDistance{};
         for (std::size_t i = 0; i < 3; ++i) {
             const Floats below = node.lo[i] - hi[i], above = lo[i] - node.hi[i];
@@ -466,12 +488,12 @@ TriangleTree::Closest TriangleTree::closest(const Vec3d& p, std::uint32_t seed, 
         }
         const unsigned met = bits(squaredDistance <= reach);
         // The nearest is to be popped first.
-        std::array<Entry, 4> near;
+        std::array<Near, 4> near;
         std::size_t count = 0;
         for (std::size_t i = 0; i < 4; ++i) {
             if (!(met >> i & 1U)) continue;
             std::size_t at = count++;
-            for (; at > 0 && near[at - 1].squaredDistance < squaredDistance[i]; --at) near[at] = near[at - 1];
+            for (; at > 0 && near[at - 1].squaredDistance() < squaredDistance[i]; --at) near[at] = near[at - 1];
             near[at] = {node.child[i], squaredDistance[i]};
         }
         for (std::size_t i = 0; i < count; ++i) stack.push(near[i]);
