@@ -205,6 +205,50 @@ BOOST_AUTO_TEST_CASE(regions_miss_no_triangle, *boost::unit_test::label("propert
     BOOST_TEST(visits < asked * soup.triangles.size() / 2); // they are of some use
 }
 
+BOOST_AUTO_TEST_CASE(a_region_may_get_narrower_on_the_way, *boost::unit_test::label("property"))
+{
+    const Soup soup = randomSoup(15, 2000);
+    const TriangleTree tree = soup.tree();
+    std::mt19937 random(16);
+    std::uniform_real_distribution<double> unit(-1, 1);
+    std::size_t whole = 0, visits = 0, within = 0;
+    for (int i = 0; i < 200; ++i) {
+        const auto point = [&] { return Vec3d(unit(random), unit(random), unit(random)); };
+        std::array<Vec3d, 4> left{point(), point(), point(), point()};
+        TriangleTree::Region region = tree.inTetrahedron(left);
+        tree.traverse(region, [&](const TriangleTree::Item&) {
+            ++whole;
+            return true;
+        });
+        std::set<std::uint32_t> seen;
+        tree.traverse(region, [&](const TriangleTree::Item& item) {
+            BOOST_TEST(seen.insert(item.triangle).second);
+            if (seen.size() % 10 == 0) {
+                left[1] = left[0] + 0.8 * (left[1] - left[0]);
+                region = tree.inTetrahedron(left);
+            }
+            return true;
+        });
+        visits += seen.size();
+        for (std::uint32_t t = 0; t < soup.triangles.size(); ++t) {
+            for (int k = 0; k < 20; ++k) {
+                Vec3d p(0.0);
+                double sum = 0;
+                for (const Vec3d& corner : left) {
+                    const double weight = std::abs(unit(random));
+                    p += weight * corner;
+                    sum += weight;
+                }
+                if (!Box::of(p / sum).meets(Box::of(soup.corners(t)))) continue;
+                ++within;
+                BOOST_TEST(seen.count(t) == 1);
+            }
+        }
+    }
+    BOOST_TEST(within > 1000);
+    BOOST_TEST(visits < 3 * whole / 4);
+}
+
 BOOST_AUTO_TEST_CASE(a_triangle_finds_what_it_touches_in_a_corner, *boost::unit_test::label("property"))
 {
     for (const double scale : {1.0, 1e-12, 1e12, 1e-90, 1e-150, 1e150, 1e-308}) {

@@ -492,6 +492,7 @@ TriangleTree::Closest TriangleTree::closest(const Vec3d& p, std::uint32_t seed, 
         std::size_t count = 0;
         for (std::size_t i = 0; i < 4; ++i) {
             if (!(met >> i & 1U)) continue;
+            prefetch(node.child[i]);
             std::size_t at = count++;
             for (; at > 0 && near[at - 1].squaredDistance() < squaredDistance[i]; --at) near[at] = near[at - 1];
             near[at] = {node.child[i], squaredDistance[i]};

@@ -92,8 +92,9 @@ public:
     /// What meets a tetrahedron, which may be flat.
     Region inTetrahedron(const std::array<Vec3d, 4>& corners) const;
 
-    /// Calls `visit(item)` for each triangle whose box meets `region`, and perhaps for some more beside it. `visit`
-    /// answers whether to go on; returns false if it stopped.
+    /// Calls `visit(item)` for each triangle whose box meets `region`, and perhaps for some more beside it, always in
+    /// the same order. `visit` answers whether to go on; returns false if it stopped. It may make `region` narrower:
+    /// what is left out then is not looked at any more.
     template <typename Visit>
     bool traverse(const Region& region, const Visit& visit) const;
 
@@ -108,7 +109,7 @@ public:
 
 private:
     friend class TreeBuilder;
-    struct Node : FourBoxes {
+    struct alignas(64) Node : FourBoxes {   // two cache lines
         std::array<std::uint32_t, 4> child; // a node, or isItem and an item
     };
     static constexpr std::uint32_t isItem = std::uint32_t(1) << 31;
@@ -116,6 +117,18 @@ private:
     static constexpr std::size_t maxDepth = 96;
     template <typename T>
     class Stack;
+
+    /// Sends for a child that is looked at soon: of a large tree most are in no cache.
+    void prefetch(std::uint32_t child) const
+    {
+        if (child & isItem) {
+            __builtin_prefetch(&items_[child & ~isItem]);
+        } else {
+            const Node& node = nodes_[child];
+            __builtin_prefetch(&node.lo);
+            __builtin_prefetch(&node.child); // its other cache line
+        }
+    }
 
     /// Nodes are in units in which the box is [-1, 1] along its longest side. Monotone in every coordinate.
     Vec3d inUnits(const Vec3d& p) const { return (p - centre_) * scale_; }
@@ -191,6 +204,7 @@ bool TriangleTree::traverse(const Region& region, const Visit& visit) const
             if (!(met >> i & 1U)) continue;
             const std::uint32_t child = node.child[i];
             if (!(child & isItem)) {
+                prefetch(child);
                 stack.push(child);
             } else if (!visit(items_[child & ~isItem])) {
                 return false;

@@ -70,14 +70,18 @@ bool addImpacts(const GuardModel& guard, const Corners& now, const Vec3d& to, bo
         for (std::size_t i = 0; i < 3; ++i) meetEdge(m[i], m[(i + 1) % 3]);
         if (corner) meetCorner(m);
     });
-    // The face of a long way holds much of the model: it is looked through anew whenever the way gets much shorter.
-    for (double way = 1; way > 0;) {
-        const bool isDone = guard.forEachInside({c, c + way * step, a, b}, [&](const Corners& m) {
-            for (const Vec3d& p : m) meetFace(p);
-            return face.time >= 0.5 * way;
-        });
-        way = isDone ? 0 : face.time;
-    }
+    // The face of a long way meets much of the model: what is left of the way counts, once something stops it.
+    const TriangleTree& tree = guard.tree();
+    double way = 1;
+    TriangleTree::Region region = tree.inTetrahedron({c, to, a, b});
+    tree.traverse(region, [&](const TriangleTree::Item& item) {
+        for (const Vec3d& p : tree.corners(item)) meetFace(p);
+        if (face.time < 0.9 * way) {
+            way = face.time;
+            region = tree.inTetrahedron({c, c + way * step, a, b});
+        }
+        return true;
+    });
     const std::size_t before = halfSpaces.size();
     for (const Impact& impact : {face, edge, vertex}) {
         if (!(impact.weight > 0)) continue;

@@ -46,15 +46,7 @@ public:
     bool clear(const Corners& triangle, std::uint32_t hint, std::uint32_t* blocker) const;
     /// Calls visit(corners) for every model triangle that `triangle` comes too near to, until it answers false.
     void forEachBlocker(const Corners& triangle, const std::function<bool(const Corners&)>& visit) const;
-    /// Calls visit(corners) for every model triangle near the tetrahedron, and perhaps some more, until it answers
-    /// false; returns false if it did.
-    template <typename Visit>
-    bool forEachInside(const std::array<Vec3d, 4>& tetrahedron, const Visit& visit) const
-    {
-        return tree_.traverse(tree_.inTetrahedron(tetrahedron),
-                              [&](const TriangleTree::Item& item) { return visit(tree_.corners(item)); });
-    }
-    /// The same for every one near `triangle`, all of them.
+    /// Calls visit(corners) for every model triangle near `triangle`, and perhaps some more.
     template <typename Visit>
     void forEachMet(const Corners& triangle, const Visit& visit) const
     {
