@@ -26,6 +26,13 @@ int runVoxelize(int argc, char** argv);
 void addCageOptions(CLI::App& app, const std::vector<std::string>& except, CageOptions& options,
                     std::vector<std::string>& words);
 
+/// Adds an option for a list such as "50,100": a single word, so that models may follow it.
+template <typename T>
+CLI::Option* addList(CLI::App& app, const std::string& name, std::vector<T>& values, const std::string& help)
+{
+    return app.add_option(name, values, help)->delimiter(',')->allow_extra_args(false);
+}
+
 /// \throw InputError unless `count` is at least 1
 void requirePositive(const char* option, int count);
 

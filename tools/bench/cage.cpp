@@ -106,9 +106,9 @@ int runCage(int argc, char** argv)
     int copies = 1, threads = tbb::info::default_concurrency(), copy = -1;
     CageOptions options;
     CLI::App app("vdbcage-bench cage: cost, tightness and shape of cages beside plain decimation, as JSON lines");
-    app.add_option("models", models, "models to measure on")->required()->type_name("MODEL...");
-    app.add_option("--faces", faceCounts, "list of face counts [50,100,400,1000]")->delimiter(',')->type_name("N,N...");
-    app.add_option("--efforts", efforts, "list of efforts [fast,fair,best]")->delimiter(',')->type_name("E,E...");
+    app.add_option("models", models, "models to measure on")->required()->type_name("MODEL");
+    addList(app, "--faces", faceCounts, "list of face counts [50,100,400,1000]")->type_name("N,N");
+    addList(app, "--efforts", efforts, "list of efforts [fast,fair,best]")->type_name("E,E");
     app.add_option("--copies", copies, "medians over the model turned by 0, 0.3, 0.6 ... degrees [1]")->type_name("K");
     app.add_option("--copy", copy, "only this copy, from 0, in this process")->type_name("K");
     app.add_option("--threads", threads, "[all]")->type_name("N");

@@ -71,12 +71,10 @@ int runDeform(int argc, char** argv)
     CLI::App app("vdbcage-bench deform: times and memory of binding and posing, least of several runs, as JSON lines.\n"
                  "The points are spread over the model, the cages made with --effort fast --merge-angle 60");
     app.add_option("model", model, "the model in the cages")->required()->type_name("MODEL");
-    app.add_option("--faces", faces, "list of cage sizes [100,400]")->delimiter(',')->type_name("N,N...");
-    app.add_option("--points", counts, "list of point counts [10000,100000]")->delimiter(',')->type_name("N,N...");
-    app.add_option("--mesh", meshes, "list of kinds of cages [triangles,triquad]")
-        ->delimiter(',')
-        ->type_name("KIND...");
-    app.add_option("--coordinates", families, "list of families [mvc,green,mlc]")->delimiter(',')->type_name("F,F...");
+    addList(app, "--faces", faces, "list of cage sizes [100,400]")->type_name("N,N");
+    addList(app, "--points", counts, "list of point counts [10000,100000]")->type_name("N,N");
+    addList(app, "--mesh", meshes, "list of kinds of cages [triangles,triquad]")->type_name("KIND,KIND");
+    addList(app, "--coordinates", families, "list of families [mvc,green,mlc]")->type_name("F,F");
     app.add_option("--threads", threads, "[all]")->type_name("N");
     app.add_option("--runs", runs, "poses to take the least of [10]")->type_name("N");
     CLI11_PARSE(app, argc - 1, argv + 1);

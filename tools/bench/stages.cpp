@@ -53,11 +53,9 @@ int runStages(int argc, char** argv)
                  "vdbcage-bench closing --help: dilation, erosion and closing beside alternatives\n"
                  "vdbcage-bench voxelize --help: the voxelizers side by side\n"
                  "vdbcage-bench deform --help: binding and posing");
-    app.add_option("models", models, "models to measure on")->required()->type_name("MODEL...");
-    app.add_option("--resolutions", resolutions, "list of resolutions [32,64,128,256,512]")
-        ->delimiter(',')
-        ->type_name("N,N...");
-    app.add_option("--threads", threads, "list of thread counts [1,2]")->delimiter(',')->type_name("N,N...");
+    app.add_option("models", models, "models to measure on")->required()->type_name("MODEL");
+    addList(app, "--resolutions", resolutions, "list of resolutions [32,64,128,256,512]")->type_name("N,N");
+    addList(app, "--threads", threads, "list of thread counts [1,2]")->type_name("N,N");
     std::vector<std::string> passedOn;
     addCageOptions(app, {"resolution"}, options, passedOn);
     CLI11_PARSE(app, argc, argv);

@@ -94,11 +94,10 @@ int runVoxelize(int argc, char** argv)
     std::vector<int> resolutions{32, 64, 128, 256, 512, 1024};
     int repeat = 3, threads = tbb::info::default_concurrency();
     CLI::App app("vdbcage-bench voxelize: every voxelizer in one run, ratios to cpu, as JSON lines");
-    app.add_option("models", models, "models to measure on")->required()->type_name("MODEL...");
-    app.add_option("--resolutions", resolutions, "[32,64,128,256,512,1024]")->delimiter(',')->type_name("N,N...");
-    app.add_option("--voxelizers", voxelizers, "[cpu,gl,gl-raster,cgal,meshToVolume]; always cpu too")
-        ->delimiter(',')
-        ->type_name("V,V...")
+    app.add_option("models", models, "models to measure on")->required()->type_name("MODEL");
+    addList(app, "--resolutions", resolutions, "[32,64,128,256,512,1024]")->type_name("N,N");
+    addList(app, "--voxelizers", voxelizers, "[cpu,gl,gl-raster,cgal,meshToVolume]; always cpu too")
+        ->type_name("V,V")
         ->check(CLI::IsMember(known));
     app.add_option("--repeat", repeat, "the least of so many runs [3]")->type_name("K");
     app.add_option("--threads", threads, "of the CPU [all]; a driver in software has its own")->type_name("N");
