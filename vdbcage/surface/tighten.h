@@ -16,7 +16,8 @@ struct TightenOptions {
     int samples = 4; ///< of the distance, for a face of mean size, 1 to 100: more cost more and are a percent tighter
 };
 
-/// How a cage of this effort is tightened last: with no shake (fast), one (fair), or two and more samples (best).
+/// How a cage of this effort is tightened last: with no shake and fewer samples (fast), one shake (fair), or two and
+/// more samples (best).
 [[nodiscard]] VDBCAGE_API TightenOptions tightenOptions(Effort effort);
 
 /// Pulls a bounding surface onto its model: one vertex at a time goes to where the integral of the distance to the
