@@ -66,12 +66,14 @@ bool addImpacts(const GuardModel& guard, const Corners& now, const Vec3d& to, bo
         }
         vertex = {time, normal, 1};
     };
-    guard.forEachMet({a, c, to}, [&](const Corners& m) {
+    const TriangleTree& tree = guard.tree();
+    tree.traverse(tree.near({a, c, to}), [&](const TriangleTree::Item& item) {
+        const Corners m = tree.corners(item);
         for (std::size_t i = 0; i < 3; ++i) meetEdge(m[i], m[(i + 1) % 3]);
         if (corner) meetCorner(m);
+        return true;
     });
     // The face of a long way meets much of the model: what is left of the way counts, once something stops it.
-    const TriangleTree& tree = guard.tree();
     double way = 1;
     TriangleTree::Region region = tree.inTetrahedron({c, to, a, b});
     tree.traverse(region, [&](const TriangleTree::Item& item) {

@@ -46,15 +46,6 @@ public:
     bool clear(const Corners& triangle, std::uint32_t hint, std::uint32_t* blocker) const;
     /// Calls visit(corners) for every model triangle that `triangle` comes too near to, until it answers false.
     void forEachBlocker(const Corners& triangle, const std::function<bool(const Corners&)>& visit) const;
-    /// Calls visit(corners) for every model triangle near `triangle`, and perhaps some more.
-    template <typename Visit>
-    void forEachMet(const Corners& triangle, const Visit& visit) const
-    {
-        tree_.traverse(tree_.near(triangle), [&](const TriangleTree::Item& item) {
-            visit(tree_.corners(item));
-            return true;
-        });
-    }
     /// Whether a part of the model may lie in `box`, so that swept() has to be asked.
     bool mayHoldPart(const Box& box) const;
     /// Whether a closed surface sweeps over a part of the model: `surface` is the new star and the reversed old one.
