@@ -153,6 +153,60 @@ BOOST_AUTO_TEST_CASE(clearance_agrees_with_every_triangle_asked_one_by_one)
 }
 
 // Up to the first impact the moving triangle meets nothing, and there it touches.
+BOOST_AUTO_TEST_CASE(many_quads_are_kept_clear_of_under_both_diagonals)
+{
+    // Saddles: one diagonal of each is above the other, by a fifth of the clearance in one half, by two in the other.
+    constexpr int side = 520;
+    constexpr double clearance = 3e-5;
+    const auto heightAt = [](int i) { return i < side / 2 ? 0.1 * clearance : clearance; };
+    Mesh model;
+    for (int j = 0; j <= side; ++j) {
+        for (int i = 0; i <= side; ++i) {
+            model.points.emplace_back(double(i) / side, double(j) / side, (i + j) % 2 ? heightAt(i) : -heightAt(i));
+        }
+    }
+    const auto at = [](int i, int j) { return static_cast<openvdb::Index32>(j * (side + 1) + i); };
+    for (int j = 0; j < side; ++j) {
+        for (int i = 0; i < side; ++i) model.quads.emplace_back(at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1));
+    }
+    const BoundingGuard guard = guardOf(model, 0, clearance);
+    BOOST_TEST(guard.clearance() > 1.19 * clearance);
+    BOOST_TEST(guard.clearance() < 1.25 * clearance);
+
+    std::mt19937 random(1);
+    std::uniform_int_distribution<int> index(1, side - 2);
+    std::uniform_real_distribution<double> apart(0.7, 1.5);
+    int tooNear = 0, clear = 0;
+    for (int round = 0; round < 4000; ++round) {
+        const int i = index(random), j = index(random);
+        const double outside = heightAt(i + 1) + apart(random) * clearance;
+        Vec3d p = 0.5 * (model.points[at(i, j)] + model.points[at(i + 1, j + 1)]);
+        p.z() = round % 2 ? outside : -outside;
+        const Corners probe{p, p + Vec3d(1e-7, 0, 0), p + Vec3d(0, 1e-7, 0)};
+        double squared = 1;
+        for (int k = j - 1; k <= j + 1; ++k) {
+            for (int l = i - 1; l <= i + 1; ++l) {
+                const std::array<openvdb::Index32, 4> q{at(l, k), at(l + 1, k), at(l + 1, k + 1), at(l, k + 1)};
+                for (std::size_t c = 0; c < 4; ++c) { // each half of each split leaves a corner out
+                    const Corners half{model.points[q[c]], model.points[q[(c + 1) % 4]], model.points[q[(c + 2) % 4]]};
+                    squared = std::min(squared, detail::nearness(probe, half).squaredDistance);
+                }
+            }
+        }
+        const double distance = std::sqrt(squared);
+        const bool isClear = guard.model().clear(probe, detail::TriangleTree::none, nullptr);
+        if (distance < clearance) BOOST_REQUIRE(!isClear);
+        if (distance > guard.clearance()) BOOST_REQUIRE(isClear);
+        tooNear += distance < clearance;
+        clear += distance > guard.clearance();
+    }
+    BOOST_TEST(tooNear > 400);
+    BOOST_TEST(clear > 400);
+
+    model.quads.resize(1000);
+    BOOST_TEST(guardOf(model, 0, clearance).clearance() == clearance, boost::test_tools::tolerance(1e-6));
+}
+
 BOOST_AUTO_TEST_CASE(impacts_are_the_first_on_the_way)
 {
     std::mt19937 random(21);
