@@ -44,7 +44,7 @@ BOOST_AUTO_TEST_CASE(stages_of_whole_runs)
         BOOST_TEST(line["bounding"] == true);
         BOOST_TEST(line["cage_faces"] <= 100);
         BOOST_TEST(line["memory_peak_mib"] > 1);
-        for (const char* stage : {"read", "voxelize", "close", "surface", "decimate", "tighten", "certify"}) {
+        for (const char* stage : {"read", "guard", "voxelize", "close", "surface", "decimate", "tighten", "certify"}) {
             BOOST_TEST(line["stage_seconds"].contains(stage));
             BOOST_TEST(line["stage_cpu_seconds"].contains(stage));
         }

@@ -79,7 +79,8 @@ BOOST_AUTO_TEST_CASE(make_leaves_cage_stages_report_and_picture)
     BOOST_TEST(report["memory_peak_mib"].get<double>() > 1);
     std::vector<std::string> names;
     for (const json& stage : report["stages"]) names.push_back(stage["name"]);
-    for (const char* name : {"read", "voxelize", "close", "surface", "decimate", "tighten", "certify", "write"}) {
+    for (const char* name :
+         {"read", "guard", "voxelize", "close", "surface", "decimate", "tighten", "certify", "write"}) {
         BOOST_TEST(std::count(names.begin(), names.end(), name) == 1);
     }
 }

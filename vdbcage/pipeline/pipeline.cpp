@@ -357,6 +357,7 @@ private:
         const bool samePlane = plane ? last && plane->axis == last->axis && plane->offset == last->offset : !last;
         if (!guard_ || options.clearance != guardOptions_.clearance ||
             options.minAngleDegrees != guardOptions_.minAngleDegrees || !samePlane) {
+            const Stage stage(interrupter, "guard");
             starts_.clear(); // they are under the guard
             guard_.reset();
             guard_ = std::make_unique<const BoundingGuard>(model_, options, interrupter);

@@ -69,8 +69,8 @@ public:
 
     /// Makes the cage for `options` and returns it; valid until the next run. If it throws, the intermediates and the
     /// cage of the run before may be gone, but the pipeline can run again.
-    /// Stages reported to `interrupter`: symmetry (bounding only), voxelize, close, surface, smooth (bounding off
-    /// only), decimate, tighten (bounding only), certify; some more than once. The cage can have fewer faces than
+    /// Stages reported to `interrupter`: symmetry, guard (bounding only), voxelize, close, surface, smooth (bounding
+    /// off only), decimate, tighten (bounding only), certify; some more than once. The cage can have fewer faces than
     /// asked, and more only where the topology of the closing does not allow fewer and `bounding` is off. \throw
     /// InputError, DeviceError, Cancelled
     const Mesh& run(const CageOptions& options, Interrupter* interrupter = nullptr);
