@@ -152,7 +152,6 @@ BOOST_AUTO_TEST_CASE(clearance_agrees_with_every_triangle_asked_one_by_one)
     }
 }
 
-// Up to the first impact the moving triangle meets nothing, and there it touches.
 BOOST_AUTO_TEST_CASE(many_quads_are_kept_clear_of_under_both_diagonals)
 {
     // Saddles: one diagonal of each is above the other, by a fifth of the clearance in one half, by two in the other.
@@ -207,6 +206,7 @@ BOOST_AUTO_TEST_CASE(many_quads_are_kept_clear_of_under_both_diagonals)
     BOOST_TEST(guardOf(model, 0, clearance).clearance() == clearance, boost::test_tools::tolerance(1e-6));
 }
 
+// Up to the first impact the moving triangle meets nothing, and there it touches.
 BOOST_AUTO_TEST_CASE(impacts_are_the_first_on_the_way)
 {
     std::mt19937 random(21);

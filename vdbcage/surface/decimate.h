@@ -38,7 +38,7 @@ VDBCAGE_API Mesh decimate(const Mesh& surface, const BoundingGuard& guard, const
                           Effort effort = Effort::fair, Interrupter* interrupter = nullptr);
 
 /// Guarded decimations of one surface to any number of face counts. What these share, which is the way from the surface
-/// to three times the faces, is done once: a third to a half of the time (fair, fast). A value that can be moved.
+/// to a few times the faces, is done once: a third to a half of the time (fair, fast). A value that can be moved.
 class VDBCAGE_API GuardedDecimation {
 public:
     /// `guard` must live as long as this. As decimate() otherwise. \throw InputError (not closed and 2-manifold),
