@@ -140,6 +140,41 @@ BOOST_AUTO_TEST_CASE(no_angle_is_below_the_floor)
     }
 }
 
+BOOST_AUTO_TEST_CASE(fast_cages_of_large_surfaces_begin_with_wider_voxels)
+{
+    const auto box = [](double y, double z) { return test::box({0, 0, 0}, {1, y, z}); };
+    const Mesh slender = box(0.25, 0.25), between = box(0.7, 0.5), cube = box(1, 1);
+    const auto reported = [](const Mesh& model, Effort effort, int faces, std::optional<int> resolution = {}) {
+        CageOptions options;
+        options.effort = effort;
+        options.faces = faces;
+        options.resolution = resolution;
+        Pipeline made(model);
+        made.run(options);
+        return std::pair(made.report().resolution, 2 * faceCount(made.surface()));
+    };
+    BOOST_TEST(reported(slender, Effort::fast, 100).first == 43);
+    const auto [resolution, triangles] = reported(between, Effort::fast, 100);
+    BOOST_TEST(resolution < 43);
+    BOOST_TEST(resolution > 32);
+    BOOST_TEST(static_cast<double>(triangles) == 9000.0, boost::test_tools::tolerance(0.05));
+    BOOST_TEST(reported(cube, Effort::fast, 100).first == 32); // never by more than a quarter
+    BOOST_TEST(std::abs(reported(between, Effort::fast, 4000).first - 2 * resolution) <= 2);
+    BOOST_TEST(reported(cube, Effort::fair, 100).first == 54);
+    BOOST_TEST(reported(cube, Effort::fast, 100, 40).first == 40); // what is given is obeyed
+
+    Pipeline made(between);
+    CageOptions options;
+    options.effort = Effort::fast;
+    options.faces = 100;
+    made.run(options);
+    options.faces = 200;
+    Watcher watcher;
+    made.run(options, &watcher);
+    BOOST_TEST(watcher.runs["voxelize"] == 0);
+    BOOST_CHECK(sameMesh(made.cage(), makeCage(between, options)));
+}
+
 BOOST_AUTO_TEST_CASE(only_stale_stages_run_again)
 {
     Pipeline made(saturn());

@@ -163,6 +163,12 @@ public:
         std::optional<GuardedDecimation> decimation; ///< once it was asked for
         bool isUsed = true;                          ///< in this run
     };
+    /// How many faces the surface of a closing has.
+    struct Counted {
+        std::string key;                        ///< what it was made with
+        openvdb::FloatGrid::ConstPtr scaleGrid; ///< as in Start
+        std::size_t quads = 0;
+    };
     /// A cage and what it was made from.
     struct Candidate {
         Voxels voxels{};
@@ -419,16 +425,35 @@ private:
     {
         constexpr int fewFaces = 200;
         const bool several = options.effort == Effort::best && options.faces <= fewFaces && !options.resolution;
+        const int resolution = affordableResolution(voxels, options, interrupter);
         std::vector<Candidate> starts;
         for (const double scale : {1.0, 0.85, 0.7, 0.6}) {
             Candidate candidate;
             candidate.voxels = voxels;
-            candidate.voxels.resolution = static_cast<int>(std::lround(scale * voxels.resolution));
+            candidate.voxels.resolution = static_cast<int>(std::lround(scale * resolution));
             begin(candidate, options, guard, interrupter);
             if (fewEnoughHandles(candidate.topology, options)) starts.push_back(std::move(candidate));
             if (!several || starts.empty()) break;
         }
         return starts;
+    }
+
+    /// The resolution of `voxels`, or a coarser one where time counts most and the surface, whose area the longest side
+    /// tells little of, would have more triangles than cages of so many faces gain from.
+    int affordableResolution(const Voxels& voxels, const CageOptions& options, Interrupter* interrupter)
+    {
+        constexpr double enough = 9000;   // triangles, for up to 1000 faces; with 7500 some are 8 % looser
+        constexpr double coarsest = 0.75; // of the resolution: thin parts need some
+        if (options.effort != Effort::fast || options.resolution) return voxels.resolution;
+        const std::string key = keyUpTo(resolved(options, voxels), PipelineStage::close);
+        if (key != counted_.key) {
+            updateClosed(options, voxels, interrupter);
+            const Stage stage(interrupter, "surface");
+            counted_ = {key, options.scale.grid, faceCount(extractSurface(*closed_, interrupter))};
+        }
+        const double triangles = 2 * static_cast<double>(counted_.quads);
+        const double share = std::sqrt(enough * std::max(1.0, options.faces / 1000.0) / triangles);
+        return static_cast<int>(std::lround(std::clamp(share, coarsest, 1.0) * voxels.resolution));
     }
 
     /// Gives a candidate what it is made from: of the run before, or anew.
@@ -609,6 +634,7 @@ private:
     std::string solidKey_, closedKey_, cageKey_; // what the values were made with; empty: nothing
     std::unique_ptr<const BoundingGuard> guard_; // of the last run that was bounding
     GuardOptions guardOptions_;                  // that it was made with
+    Counted counted_;                            // the last
     std::vector<std::shared_ptr<Start>> starts_; // of the last run, under guard_
     Candidate best_;
     CageReport report_;

@@ -51,9 +51,9 @@ struct CageReport {
 /// against the model as given and (where float can hold it) as rounded to float. A cage that is not certified is never
 /// returned. Where the closing has too many parts and handles for the faces, and its radius and resolution are not
 /// given, it is closed more, then voxelized more coarsely (Effort::best at few faces also tries some coarser
-/// resolutions side by side and keeps the tightest cage); where that is not enough, the cage is shrunk from the
-/// closing's convex hull, and the last resort is the model's bounding box. So there are never more faces than asked
-/// for.
+/// resolutions side by side and keeps the tightest cage, Effort::fast takes a coarser one where the surface is large);
+/// where that is not enough, the cage is shrunk from the closing's convex hull, and the last resort is the model's
+/// bounding box. So there are never more faces than asked for.
 ///
 /// Where a plane of symmetry is found or given, voxels are united with their mirror image and everything after is done
 /// on one half, under a guard that knows the plane: the cage is exactly symmetric, point for point and face for face,
