@@ -105,11 +105,17 @@ struct Reference {
             };
             surface[i] = std::any_of(counted.begin(), counted.end(), touched) ||
                          std::any_of(others.begin(), others.end(), touched);
-            std::ptrdiff_t votes = 0;
+            int votes = 0;
             for (std::size_t axis = 0; axis < 3; ++axis) {
-                votes += std::count_if(counted.begin(), counted.end(),
-                                       [&](const Triangle& t) { return crosses(t, centre, axis); }) %
-                         2;
+                const auto isOddUpTo = [&](const Vector& end) {
+                    return std::count_if(counted.begin(), counted.end(),
+                                         [&](const Triangle& t) { return crosses(t, end, axis); }) %
+                               2 ==
+                           1;
+                };
+                Vector otherEnd = centre;
+                otherEnd[axis] = Int128(box.max()[static_cast<int>(axis)] + 2) * detail::latticeStep;
+                if (isOddUpTo(centre) && !isOddUpTo(otherEnd)) ++votes;
             }
             solid[i] = surface[i] || votes >= 2;
         }

@@ -124,6 +124,50 @@ BOOST_AUTO_TEST_CASE(a_leak_along_one_axis_fills_nothing)
     }
 }
 
+BOOST_AUTO_TEST_CASE(a_sheet_has_no_inside)
+{
+    // A tilted square: it is in the way of rays along all three axes.
+    Mesh sheet;
+    sheet.points = {{0, 0, 0}, {1, 0.2, 0.4}, {0.7, 1.2, 1.1}, {-0.3, 1, 0.7}};
+    sheet.quads = {{0, 1, 2, 3}};
+    const Vec3d normal = sheet.points[1].cross(sheet.points[3]).unit();
+    for (const double side : {1, -1}) {
+        const openvdb::MaskGrid::Ptr mask = voxelize(test::transformed(sheet, side, Vec3d(0)), {64});
+        std::size_t far = 0;
+        for (const openvdb::Coord& ijk : mask->evalActiveVoxelBoundingBox()) {
+            if (!mask->tree().isValueOn(ijk)) continue;
+            far += std::abs(normal.dot(mask->indexToWorld(ijk))) > mask->voxelSize()[0];
+        }
+        BOOST_TEST(mask->activeVoxelCount() > 3000U);
+        BOOST_TEST(far == 0U);
+    }
+}
+
+BOOST_AUTO_TEST_CASE(open_models_get_mirrored_voxels_when_mirrored)
+{
+    const Mesh bowl = test::bowl(1, 24);
+    Mesh tilted = bowl;
+    for (Vec3d& p : tilted.points) p = Vec3d(p.x() + 0.5 * p.z(), p.y() - 0.25 * p.x(), p.z() + 0.75 * p.y());
+    constexpr int resolution = 41; // with no point of the bowl's rim in the middle of a voxel
+    for (const Mesh& model :
+         {bowl, tilted, test::joined(tilted, test::transformed(tilted, -0.7, Vec3d(0.3, 0, 0.2)))}) {
+        const openvdb::MaskGrid::Ptr mask = voxelize(model, {resolution});
+        for (int axis = 0; axis < 3; ++axis) {
+            Mesh mirrored = model;
+            for (Vec3d& p : mirrored.points) p[axis] = -p[axis];
+            const openvdb::MaskGrid::Ptr other = voxelize(mirrored, {resolution});
+            BOOST_TEST(other->activeVoxelCount() == mask->activeVoxelCount());
+            std::size_t different = 0;
+            for (const openvdb::Coord& ijk : mask->evalActiveVoxelBoundingBox()) {
+                openvdb::Coord across = ijk;
+                across[axis] = resolution - ijk[axis];
+                different += other->tree().isValueOn(across) != mask->tree().isValueOn(ijk);
+            }
+            BOOST_TEST(different == 0U);
+        }
+    }
+}
+
 BOOST_AUTO_TEST_CASE(a_box_gets_as_many_voxels_on_both_sides)
 {
     for (const int resolution : {1, 2, 7, 8, 64}) {

@@ -45,10 +45,10 @@ struct VoxelizeReport {
 /// closed cube meets a face of the model as given, and none whose cube is farther than 2^-12 voxel from all of them.
 /// Quads count under both diagonals; degenerate faces count as the segments and points that they are.
 ///
-/// What is inside. A voxel whose centre is an odd number of crossings away from the outside on rays along at least two
-/// of the three axes (a quad counts under its diagonal 0-2); and then every voxel that no path of face-connected voxels
-/// neither touched nor inside joins to the outside, so the solid has no cavities. Orientation plays no part. Open,
-/// self-intersecting and multi-part models become solids too: a bowl is filled to its rim.
+/// What is inside. A voxel whose centre is an odd number of crossings away from both ends of the rays along at least
+/// two of the three axes (a quad counts under its diagonal 0-2); and then every voxel that no path of face-connected
+/// voxels neither touched nor inside joins to the outside, so the solid has no cavities. Orientation plays no part.
+/// Open, self-intersecting and multi-part models become solids too: a bowl is filled to its rim; a sheet has no inside.
 ///
 /// \throw InputError the resolution is out of range; what requireUsable() refuses; the box does not hold the model, or
 ///        its longest side is not in [1e-100, 1e100]; a voxel is smaller than 2^-37 (7e-12) of the largest absolute

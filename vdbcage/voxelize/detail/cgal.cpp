@@ -82,8 +82,13 @@ public:
         slab.wordsPerRow = surface_.wordsPerRow();
         slab.surface = surface_.words();
         for (int axis = 0; axis < 3; ++axis) slab.crossings[axis] = crossings_[axis].words();
-        std::vector<BitGrid::Word> alongX(surface_.rowOffset(1, 0));
-        voteInside(slab, alongX.data(), interrupter_);
+        const std::size_t planeWords = surface_.rowOffset(1, 0);
+        std::vector<BitGrid::Word> alongX(planeWords), leakingX(planeWords);
+        const BitGrid::Word* crossings = slab.crossings[0];
+        for (int x = 0; x <= last_.x(); ++x) {
+            for (BitGrid::Word& word : leakingX) word ^= *crossings++;
+        }
+        voteInside(slab, alongX.data(), leakingX.data(), interrupter_);
         fillEnclosed(surface_, interrupter_);
         return std::move(surface_);
     }

@@ -47,13 +47,12 @@ public:
     CpuVoxelizer(const Mesh& model, const Frame& frame, Interrupter* interrupter)
         : interrupter_(interrupter), triangles_(model, frame, std::clamp(frame.voxels.dim().x() / 16, 1, 8)),
           grid_(frame.voxels), rows_(grid_.size().y()), words_(grid_.wordsPerRow()), planeWords_(grid_.rowOffset(1, 0)),
-          entering_(static_cast<std::size_t>(triangles_.slabCount()) * planeWords_)
+          parities_(paritiesAlongX(triangles_, words_, planeWords_, interrupter))
     {
     }
 
     BitGrid run()
     {
-        findEnteringParities();
         std::atomic<int> finished{0};
         tbb::parallel_for(
             tbb::blocked_range<int>(0, triangles_.slabCount(), 1),
@@ -75,35 +74,11 @@ private:
     struct Workspace {
         std::array<std::vector<Word>, 3> crossings;
         std::vector<std::uint8_t> crossed;
-        std::vector<Word> alongY; ///< a row
+        std::vector<Word> rows; ///< two
         ScanBuffer buffer;
     };
 
-    Word* entering(int slab) { return entering_.data() + static_cast<std::size_t>(slab) * planeWords_; }
-
-    /// The parities along x with which the rays enter each slab.
-    void findEnteringParities()
-    {
-        const int last = triangles_.slabCount() - 1;
-        tbb::parallel_for(0, last, [&](int slab) {
-            throwIfInterrupted(interrupter_, 5);
-            WorkMeter meter(interrupter_);
-            for (std::size_t i = 0; i < triangles_.size(slab); ++i) {
-                if (triangles_.counted(slab, i)) {
-                    scanCrossingsAlongX(triangles_.triangle(slab, i), triangles_.planes(slab), entering(slab + 1),
-                                        words_);
-                }
-                meter.add(1);
-            }
-        });
-        tbb::parallel_for(tbb::blocked_range<std::size_t>(0, planeWords_, 4096), [&](const auto& range) {
-            for (int slab = 1; slab <= last; ++slab) {
-                const Word* before = entering(slab - 1);
-                Word* here = entering(slab);
-                for (std::size_t i = range.begin(); i != range.end(); ++i) here[i] ^= before[i];
-            }
-        });
-    }
+    Word* entering(int slab) { return parities_.data() + static_cast<std::size_t>(slab) * planeWords_; }
 
     void voxelizeSlab(int index, int percent)
     {
@@ -112,7 +87,7 @@ private:
         const auto thickness = static_cast<std::size_t>(triangles_.slabThickness());
         for (std::vector<Word>& bits : work.crossings) bits.resize(thickness * planeWords_);
         work.crossed.resize(thickness * static_cast<std::size_t>(rows_));
-        work.alongY.resize(static_cast<std::size_t>(words_));
+        work.rows.resize(2 * static_cast<std::size_t>(words_));
 
         Slab slab;
         slab.planes = planes;
@@ -129,7 +104,7 @@ private:
         }
         for (int x = planes.first; x <= planes.last; ++x) {
             meter.add(planeWords_);
-            voteInside(slab, x, entering(index), work.alongY.data());
+            voteInside(slab, x, entering(index), entering(triangles_.slabCount()), work.rows.data());
         }
     }
 
@@ -138,7 +113,7 @@ private:
     BitGrid grid_;
     const int rows_, words_;
     const std::size_t planeWords_;
-    std::vector<Word> entering_; ///< by slab, a plane of parities
+    std::vector<Word> parities_; ///< along x, with which rays enter each slab, and leave the last
     tbb::enumerable_thread_specific<Workspace> workspaces_;
 };
 

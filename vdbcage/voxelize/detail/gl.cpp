@@ -129,11 +129,13 @@ public:
 
     BitGrid run()
     {
+        const std::vector<Word> parities = paritiesAlongX(triangles_, words_, planeWords_, interrupter_);
+        const Word* const leakingX = parities.data() + parities.size() - planeWords_;
         for (int slab = 0; slab < triangles_.slabCount(); ++slab) {
             const int percent = 10 + 70 * slab / triangles_.slabCount();
             throwIfInterrupted(interrupter_, percent);
             findCrossings(slab, percent);
-            vote(triangles_.planes(slab));
+            vote(triangles_.planes(slab), leakingX);
         }
         fillEnclosed(grid_, interrupter_);
         return std::move(grid_);
@@ -201,7 +203,7 @@ private:
                                    static_cast<GLsizeiptr>(count * sizeof(Word)), words);
     }
 
-    void vote(const Span& planes)
+    void vote(const Span& planes, const Word* leakingX)
     {
         Slab slab;
         slab.planes = planes;
@@ -209,7 +211,7 @@ private:
         slab.wordsPerRow = words_;
         slab.surface = grid_.row(planes.first, 0);
         for (std::size_t axis = 0; axis < 3; ++axis) slab.crossings[axis] = crossings_.data() + axis * slabWords_;
-        voteInside(slab, alongX_.data(), interrupter_);
+        voteInside(slab, alongX_.data(), leakingX, interrupter_);
     }
 
     const gl::Api& api_;

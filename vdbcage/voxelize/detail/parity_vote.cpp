@@ -1,4 +1,6 @@
 // Based on: Nooruddin and Turk, Simplification and Repair of Polygonal Models Using Volumetric Techniques, 2003.
+// Differs: a ray that crosses the model an odd number of times in all has no vote, since its parity from one end is not
+// that from the other.
 #include <vdbcage/voxelize/detail/parity_vote.h>
 
 #include <algorithm>
@@ -48,16 +50,49 @@ void markCrossed(const Slab& slab)
 
 } // namespace
 
-void voteInside(const Slab& slab, int x, Word* alongX, Word* alongY)
+std::vector<Word> paritiesAlongX(const SlabbedTriangles& triangles, int wordsPerRow, std::size_t planeWords,
+                                 Interrupter* interrupter)
+{
+    constexpr std::size_t asksEvery = 16384; // triangles
+    constexpr int percent = 5;
+    const int slabs = triangles.slabCount();
+    std::vector<Word> parities(static_cast<std::size_t>(slabs + 1) * planeWords);
+    const auto entering = [&](int slab) { return parities.data() + static_cast<std::size_t>(slab) * planeWords; };
+    tbb::parallel_for(0, slabs, [&](int slab) {
+        for (std::size_t i = 0; i < triangles.size(slab); ++i) {
+            if (i % asksEvery == 0) throwIfInterrupted(interrupter, percent);
+            if (!triangles.counted(slab, i)) continue;
+            scanCrossingsAlongX(triangles.triangle(slab, i), triangles.planes(slab), entering(slab + 1), wordsPerRow);
+        }
+    });
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, planeWords, 4096), [&](const auto& range) {
+        for (int slab = 1; slab <= slabs; ++slab) {
+            const Word* before = entering(slab - 1);
+            Word* here = entering(slab);
+            for (std::size_t i = range.begin(); i != range.end(); ++i) here[i] ^= before[i];
+        }
+    });
+    return parities;
+}
+
+void voteInside(const Slab& slab, int x, Word* alongX, const Word* leakingX, Word* rows)
 {
     const int words = slab.wordsPerRow;
-    std::fill_n(alongY, words, Word(0));
+    const std::size_t firstRow =
+        static_cast<std::size_t>(x - slab.planes.first) * static_cast<std::size_t>(slab.rowsPerPlane);
+    const auto offsetOf = [&](int y) {
+        return (firstRow + static_cast<std::size_t>(y)) * static_cast<std::size_t>(words);
+    };
+    Word *const alongY = rows, *const leakingY = rows + words;
+    std::fill_n(rows, 2 * words, Word(0));
+    for (int y = 0; y < slab.rowsPerPlane; ++y) {
+        if (!(slab.crossed[firstRow + static_cast<std::size_t>(y)] & 2)) continue;
+        const Word* const crossY = slab.crossings[1] + offsetOf(y);
+        for (int i = 0; i < words; ++i) leakingY[i] ^= crossY[i];
+    }
     bool anyY = false;
-    for (int y = 0; y < slab.rowsPerPlane; ++y, alongX += words) {
-        const std::size_t row =
-            static_cast<std::size_t>(x - slab.planes.first) * static_cast<std::size_t>(slab.rowsPerPlane) +
-            static_cast<std::size_t>(y);
-        const std::size_t offset = row * static_cast<std::size_t>(words);
+    for (int y = 0; y < slab.rowsPerPlane; ++y, alongX += words, leakingX += words) {
+        const std::size_t row = firstRow + static_cast<std::size_t>(y), offset = offsetOf(y);
         Word *const crossX = slab.crossings[0] + offset, *const crossY = slab.crossings[1] + offset,
                     *const alongZ = slab.crossings[2] + offset;
         const int crossed = slab.crossed[row];
@@ -77,14 +112,16 @@ void voteInside(const Slab& slab, int x, Word* alongX, Word* alongY)
             continue; // at most one vote
         }
         Word* const solid = slab.surface + offset;
+        const Word votesZ = (alongZ[words - 1] >> 63) - Word(1); // none if the ray leaks
         for (int i = 0; i < words; ++i) {
-            solid[i] |= (alongX[i] & alongY[i]) | (alongZ[i] & (alongX[i] | alongY[i]));
+            const Word byX = alongX[i] & ~leakingX[i], byY = alongY[i] & ~leakingY[i], byZ = alongZ[i] & votesZ;
+            solid[i] |= (byX & byY) | (byZ & (byX | byY));
         }
         if (crossed & 4) std::fill_n(alongZ, words, Word(0));
     }
 }
 
-void voteInside(const Slab& slab, Word* alongX, Interrupter* interrupter)
+void voteInside(const Slab& slab, Word* alongX, const Word* leakingX, Interrupter* interrupter)
 {
     constexpr int thickness = 8; // of the slabs that are worked on in parallel
     const int count = (slab.planes.last - slab.planes.first) / thickness + 1;
@@ -123,10 +160,12 @@ void voteInside(const Slab& slab, Word* alongX, Interrupter* interrupter)
         throwIfInterrupted(interrupter);
         Slab thin = part(i);
         std::vector<std::uint8_t> crossed(static_cast<std::size_t>(thickness * slab.rowsPerPlane));
-        std::vector<Word> row(static_cast<std::size_t>(slab.wordsPerRow));
+        std::vector<Word> rows(2 * static_cast<std::size_t>(slab.wordsPerRow));
         thin.crossed = crossed.data();
         markCrossed(thin);
-        for (int x = thin.planes.first; x <= thin.planes.last; ++x) voteInside(thin, x, enteringAt(i), row.data());
+        for (int x = thin.planes.first; x <= thin.planes.last; ++x) {
+            voteInside(thin, x, enteringAt(i), leakingX, rows.data());
+        }
     });
 }
 

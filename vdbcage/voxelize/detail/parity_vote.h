@@ -1,18 +1,29 @@
 #pragma once
 
+#include <cstddef>
+#include <vector>
+
 #include <vdbcage/core/interrupter.h>
 #include <vdbcage/voxelize/detail/bit_grid.h>
 #include <vdbcage/voxelize/detail/face_scan.h>
+#include <vdbcage/voxelize/detail/slabbed_triangles.h>
 
 namespace vdbcage::detail {
 
+/// The parities along x with which the rays enter each slab, a plane of `planeWords` words each, and then those with
+/// which they leave the last: odd where they leak, which they do where the model is open. TBB-parallel. O(triangles in
+/// slabs + their rows + words). \throw Cancelled
+std::vector<BitGrid::Word> paritiesAlongX(const SlabbedTriangles& triangles, int wordsPerRow, std::size_t planeWords,
+                                          Interrupter* interrupter);
+
 /// The inside of a model in plane x of a slab, from the crossings that were found there: adds to `surface` what at
-/// least two of the three parities hold to be inside, and clears the crossings. `alongX` holds the parities along x of
-/// the plane before, and then of this one; `row` is room for a row. O(words of the plane).
-void voteInside(const Slab& slab, int x, BitGrid::Word* alongX, BitGrid::Word* row);
+/// least two of the three parities hold to be inside, those of rays that leak left out, and clears the crossings.
+/// `alongX` holds the parities along x of the plane before, and then of this one, `leakingX` the rays along x that
+/// leak; `rows` is room for two rows. O(words of the plane).
+void voteInside(const Slab& slab, int x, BitGrid::Word* alongX, const BitGrid::Word* leakingX, BitGrid::Word* rows);
 
 /// The same for all planes of a slab, of which `crossed` is not needed; TBB-parallel. `alongX` holds the parities along
 /// x of the plane before the first, and then of the last. \throw Cancelled
-void voteInside(const Slab& slab, BitGrid::Word* alongX, Interrupter* interrupter);
+void voteInside(const Slab& slab, BitGrid::Word* alongX, const BitGrid::Word* leakingX, Interrupter* interrupter);
 
 } // namespace vdbcage::detail
