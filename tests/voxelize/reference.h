@@ -114,7 +114,7 @@ struct Reference {
                            1;
                 };
                 Vector otherEnd = centre;
-                otherEnd[axis] = Int128(box.max()[static_cast<int>(axis)] + 2) * detail::latticeStep;
+                otherEnd[axis] = Int128(box.max()[axis] + 2) * detail::latticeStep;
                 if (isOddUpTo(centre) && !isOddUpTo(otherEnd)) ++votes;
             }
             solid[i] = surface[i] || votes >= 2;

@@ -152,9 +152,9 @@ BOOST_AUTO_TEST_CASE(open_models_get_mirrored_voxels_when_mirrored)
     for (const Mesh& model :
          {bowl, tilted, test::joined(tilted, test::transformed(tilted, -0.7, Vec3d(0.3, 0, 0.2)))}) {
         const openvdb::MaskGrid::Ptr mask = voxelize(model, {resolution});
-        for (int axis = 0; axis < 3; ++axis) {
+        for (std::size_t axis = 0; axis < 3; ++axis) {
             Mesh mirrored = model;
-            for (Vec3d& p : mirrored.points) p[axis] = -p[axis];
+            for (Vec3d& p : mirrored.points) p(static_cast<int>(axis)) *= -1;
             const openvdb::MaskGrid::Ptr other = voxelize(mirrored, {resolution});
             BOOST_TEST(other->activeVoxelCount() == mask->activeVoxelCount());
             std::size_t different = 0;
