@@ -27,7 +27,7 @@ using Word = BitGrid::Word;
 /// Asks the interrupter whenever about a millisecond of work has been done.
 class WorkMeter {
 public:
-    explicit WorkMeter(Interrupter* interrupter, int percent = -1) : interrupter_(interrupter), percent_(percent) {}
+    explicit WorkMeter(Interrupter* interrupter, int percent) : interrupter_(interrupter), percent_(percent) {}
     void add(std::size_t work)
     {
         done_ += work;

@@ -112,8 +112,7 @@ public:
           words_(grid_.wordsPerRow()), planeWords_(grid_.rowOffset(1, 0)),
           slabWords_(planeWords_ * static_cast<std::size_t>(slabThickness)),
           items_(gl::makeBuffer(api, batchSize * sizeof(Item), nullptr, GL_DYNAMIC_STORAGE_BIT)),
-          bits_(gl::makeBuffer(api, grids * slabWords_ * sizeof(Word), nullptr)), crossings_(3 * slabWords_),
-          alongX_(planeWords_)
+          bits_(gl::makeBuffer(api, grids * slabWords_ * sizeof(Word), nullptr)), crossings_(3 * slabWords_)
     {
         setUniform("rowsPerPlane", rows_);
         setUniform("wordsPerRow", 2 * words_);
@@ -129,13 +128,12 @@ public:
 
     BitGrid run()
     {
-        const std::vector<Word> parities = paritiesAlongX(triangles_, words_, planeWords_, interrupter_);
-        const Word* const leakingX = parities.data() + parities.size() - planeWords_;
+        parities_ = paritiesAlongX(triangles_, words_, planeWords_, interrupter_);
         for (int slab = 0; slab < triangles_.slabCount(); ++slab) {
             const int percent = 10 + 70 * slab / triangles_.slabCount();
             throwIfInterrupted(interrupter_, percent);
             findCrossings(slab, percent);
-            vote(triangles_.planes(slab), leakingX);
+            vote(slab);
         }
         fillEnclosed(grid_, interrupter_);
         return std::move(grid_);
@@ -203,15 +201,17 @@ private:
                                    static_cast<GLsizeiptr>(count * sizeof(Word)), words);
     }
 
-    void vote(const Span& planes, const Word* leakingX)
+    Word* entering(int slab) { return parities_.data() + static_cast<std::size_t>(slab) * planeWords_; }
+
+    void vote(int index)
     {
         Slab slab;
-        slab.planes = planes;
+        slab.planes = triangles_.planes(index);
         slab.rowsPerPlane = rows_;
         slab.wordsPerRow = words_;
-        slab.surface = grid_.row(planes.first, 0);
+        slab.surface = grid_.row(slab.planes.first, 0);
         for (std::size_t axis = 0; axis < 3; ++axis) slab.crossings[axis] = crossings_.data() + axis * slabWords_;
-        voteInside(slab, alongX_.data(), leakingX, interrupter_);
+        voteInside(slab, entering(index), entering(triangles_.slabCount()), interrupter_);
     }
 
     const gl::Api& api_;
@@ -227,7 +227,7 @@ private:
     gl::Framebuffer picture_; ///< a pixel a column
     gl::VertexArray noVertices_;
     std::vector<Word> crossings_; ///< of the slab that was read last
-    std::vector<Word> alongX_;    ///< parities with which rays along x enter the next slab
+    std::vector<Word> parities_;  ///< along x, with which rays enter each slab, and leave the last
 };
 
 gl::ProgramObject compile(const gl::Api& api, GlVoxelizer::Path path)
