@@ -50,6 +50,30 @@ Soup randomSoup(unsigned seed, std::size_t count)
     return soup;
 }
 
+// Both splits of quads, most nearly flat, and triangles alone among them: so many that leaves hold up to four.
+Soup manyQuads()
+{
+    std::mt19937 random(17);
+    std::uniform_real_distribution<double> unit(-1, 1);
+    const auto anyPoint = [&] { return Vec3d(unit(random), unit(random), unit(random)); };
+    Soup soup;
+    while (soup.triangles.size() < (1U << 19) + 1000U) {
+        const auto kind = random() % 8;
+        const Vec3d corner = anyPoint(), u = 0.02 * anyPoint(), v = kind == 0 ? u : 0.02 * anyPoint();
+        const double bulge = kind == 1 ? 1 : 1e-3;
+        const auto first = static_cast<unsigned>(soup.points.size());
+        for (const Vec3d& p : {corner, corner + u, corner + u + v, corner + v}) {
+            soup.points.push_back(p + 0.02 * bulge * anyPoint());
+        }
+        soup.triangles.emplace_back(first, first + 1, first + 2);
+        if (kind == 2) continue;
+        soup.triangles.emplace_back(first, first + 2, first + 3);
+        soup.triangles.emplace_back(first, first + 1, first + 3);
+        soup.triangles.emplace_back(first + 1, first + 2, first + 3);
+    }
+    return soup;
+}
+
 using Numbers = std::multiset<std::uint32_t>;
 
 } // namespace
@@ -310,6 +334,46 @@ BOOST_AUTO_TEST_CASE(the_number_of_threads_does_not_matter)
     };
     BOOST_TEST(std::equal(many.items().begin(), many.items().end(), one.items().begin(), same));
     BOOST_TEST(many.closest(Vec3d(3, 1, 2)).item == one.closest(Vec3d(3, 1, 2)).item);
+}
+
+BOOST_AUTO_TEST_CASE(many_quads_answer_as_brute_force_does, *boost::unit_test::label("property"))
+{
+    std::mt19937 random(18);
+    std::uniform_real_distribution<double> unit(-1.2, 1.2);
+    const Soup soup = manyQuads();
+    const TriangleTree tree = soup.tree();
+    Numbers all;
+    tree.traverse(tree.inBox(tree.box()),
+                  [&](const TriangleTree::Item& item) { return all.insert(item.triangle), true; });
+    std::uint32_t next = 0;
+    BOOST_TEST(std::all_of(all.begin(), all.end(), [&](std::uint32_t t) { return t == next++; }));
+    BOOST_TEST(next == soup.triangles.size());
+    std::uint32_t seed = TriangleTree::none;
+    for (int i = 0; i < 20; ++i) {
+        const Vec3d p(unit(random), unit(random), unit(random));
+        Box box = Box::of(p);
+        box.expand(Box::of(p + 0.1 * Vec3d(unit(random), unit(random), unit(random))));
+        Numbers expected, found;
+        double nearest = std::numeric_limits<double>::infinity();
+        for (std::uint32_t t = 0; t < soup.triangles.size(); ++t) {
+            if (box.meets(Box::of(soup.corners(t)))) expected.insert(t);
+            nearest = std::min(nearest, (closestPointOnTriangle(p, soup.corners(t)) - p).lengthSqr());
+        }
+        tree.forEachOverlap(box, [&](const TriangleTree::Item& item) { return found.insert(item.triangle), true; });
+        BOOST_TEST((found == expected));
+        const TriangleTree::Closest closest = tree.closest(p, seed);
+        seed = closest.item;
+        BOOST_TEST(closest.squaredDistance == nearest, boost::test_tools::tolerance(1e-12));
+        const Corners nearestTriangle = tree.corners(tree.items()[closest.item]);
+        BOOST_TEST((closestPointOnTriangle(p, nearestTriangle) - p).lengthSqr() == closest.squaredDistance);
+        BOOST_TEST(tree.closest(p, seed).item == seed);
+    }
+    const tbb::global_control control(tbb::global_control::max_allowed_parallelism, 1);
+    const TriangleTree one = soup.tree();
+    const auto same = [](const TriangleTree::Item& a, const TriangleTree::Item& b) {
+        return a.triangle == b.triangle && a.corners == b.corners;
+    };
+    BOOST_TEST(std::equal(tree.items().begin(), tree.items().end(), one.items().begin(), same));
 }
 
 BOOST_AUTO_TEST_CASE(building_can_be_cancelled)

@@ -38,12 +38,24 @@ void requireSound(const Mesh& mesh, const char* what)
     }
 }
 
+namespace {
+
+// Those of a face follow each other.
+std::vector<Vec3I> everyTriangle(const Mesh& mesh, const FaceTriangles& faces)
+{
+    std::vector<Vec3I> triangles = faces.triangles();
+    triangles.insert(triangles.end(), mesh.alternatives.begin(), mesh.alternatives.end());
+    return triangles;
+}
+
+} // namespace
+
 CheckedModel::CheckedModel(const Mesh& mesh, Interrupter* interrupter)
 {
     if (faceCount(mesh) == 0) throw InputError("model: it has no faces; at least one is needed");
     requireSound(mesh, "model");
     const FaceTriangles faces(mesh);
-    tbb::parallel_invoke([&] { tree = TriangleTree(mesh.points, everySplit(mesh), interrupter); },
+    tbb::parallel_invoke([&] { tree = TriangleTree(mesh.points, everyTriangle(mesh, faces), interrupter); },
                          [&] { findParts(mesh, faces, interrupter); },
                          [&] {
                              if (analyzeTopology(mesh, interrupter).isCycle()) {

@@ -7,25 +7,34 @@
 #include <algorithm>
 #include <atomic>
 #include <cstring>
+#include <string>
 #include <utility>
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_reduce.h>
+#include <vdbcage/core/error.h>
 
 namespace vdbcage::detail {
 
 namespace {
 
 constexpr std::size_t binCount = 16;
-constexpr std::size_t binnedDepth = 60;           // deeper nodes are halved: 2^32 triangles end within 32 more
-constexpr std::size_t taskSize = 4096;            // triangles in a subtree that are worth a task
-constexpr std::size_t parallelBinSize = 1U << 17; // triangles in a node that are worth binning in parallel
+constexpr std::size_t binnedDepth = 60;           // deeper nodes are halved: 2^32 leaves end within 32 more
+constexpr std::size_t taskSize = 4096;            // leaves in a subtree that are worth a task
+constexpr std::size_t parallelBinSize = 1U << 17; // leaves in a node that are worth binning in parallel
+// Trees of many triangles take leaves of several: memory is what they wait for, and so they have far fewer nodes. Those
+// of fewer triangles fit into caches and gain nothing.
+constexpr std::size_t manyTriangles = 1U << 19;
+constexpr std::uint32_t leafSize = 4;
+constexpr float leafGrowth = 1.6F; // how much a leaf's box may outdo the largest of its triangles', in area
 
-// A triangle's box while the tree is built, in the tree's units. The fourth component of lo and hi means nothing.
+// A leaf's box while the tree is built, in the tree's units. The fourth component of lo and hi means nothing. Not
+// initialized by default.
 struct Ref {
     Floats lo, hi;
-    std::uint32_t triangle;
+    std::uint32_t triangle; // the first of those that it holds
+    std::uint32_t count;
 
     Floats twiceCentre() const { return lo + hi; }
 };
@@ -106,7 +115,7 @@ T fold(const Ref* begin, const Ref* end, const Add& add)
                                 Merge());
 }
 
-// Which bin of the longest axis of the centroids a triangle belongs to.
+// Which bin of the longest axis of the centroids a leaf belongs to.
 struct Binning {
     explicit Binning(const FloatBox& centroids)
     {
@@ -127,7 +136,7 @@ struct Binning {
 };
 
 // The number of bins on the left side of the cheapest split by the surface area heuristic, 0 if no split leaves two or
-// more triangles on either side (two, so that there are never more nodes than triangles).
+// more leaves on either side (two, so that there are never more nodes than leaves).
 std::size_t cheapestSplit(const Bins& bins)
 {
     std::array<float, binCount> rightCost{};
@@ -297,24 +306,27 @@ TriangleTree::Region TriangleTree::inTetrahedron(const std::array<Vec3d, 4>& cor
 class TreeBuilder {
 public:
     TreeBuilder(TriangleTree& tree, const std::vector<Vec3I>& triangles, Interrupter* interrupter)
-        : tree_(tree), triangles_(triangles), interrupter_(interrupter), refs_(triangles.size())
+        : tree_(tree), triangles_(triangles), interrupter_(interrupter), refs_(new Ref[triangles.size()])
     {
     }
 
     void build()
     {
+        setUnits();
         makeRefs();
-        tree_.items_.resize(triangles_.size());
-        tree_.nodes_.reset(new TriangleTree::Node[triangles_.size()]); // not initialized: few pages are touched
+        tree_.nodes_.reset(new TriangleTree::Node[refCount_]); // not initialized: few pages are touched
         nodeCount_ = 1;
-        buildNode(0, {0, static_cast<std::uint32_t>(refs_.size()), 0});
+        buildNode(0, {0, refCount_, 0});
+        placeItems();
     }
 
 private:
-    void makeRefs()
+    static constexpr std::size_t blockSize = 16384;
+
+    void setUnits()
     {
         const Box box = tbb::parallel_reduce(
-            tbb::blocked_range<std::size_t>(0, refs_.size(), 16384), itemBox(0),
+            tbb::blocked_range<std::size_t>(0, triangles_.size(), blockSize), itemBox(0),
             [&](const tbb::blocked_range<std::size_t>& range, Box sum) {
                 throwIfInterrupted(interrupter_);
                 for (std::size_t i = range.begin(); i < range.end(); ++i) sum.expand(itemBox(i));
@@ -329,17 +341,92 @@ private:
         tree_.box_ = box;
         tree_.centre_ = box.lo * 0.5 + box.hi * 0.5;
         tree_.scale_ = std::isfinite(inverse) ? inverse : 1.0;
-        tbb::parallel_for(tbb::blocked_range<std::size_t>(0, refs_.size(), 16384),
-                          [&](const tbb::blocked_range<std::size_t>& range) {
-                              throwIfInterrupted(interrupter_);
-                              for (std::size_t i = range.begin(); i < range.end(); ++i) {
-                                  const Box item = itemBox(i);
-                                  const Vec3d lo = tree_.inUnits(item.lo), hi = tree_.inUnits(item.hi);
-                                  refs_[i].lo = Floats{roundedDown(lo[0]), roundedDown(lo[1]), roundedDown(lo[2]), 0};
-                                  refs_[i].hi = Floats{roundedUp(hi[0]), roundedUp(hi[1]), roundedUp(hi[2]), 0};
-                                  refs_[i].triangle = static_cast<std::uint32_t>(i);
-                              }
-                          });
+    }
+
+    // Triangles that follow each other in about the same box, as those of a quad do, get into one leaf. In blocks of
+    // fixed size, so that the leaves are the same for any number of threads.
+    void makeRefs()
+    {
+        const std::size_t blocks = (triangles_.size() + blockSize - 1) / blockSize;
+        const std::uint32_t most = triangles_.size() < manyTriangles ? 1 : leafSize;
+        std::vector<std::uint32_t> counts(blocks);
+        tbb::parallel_for(std::size_t(0), blocks, [&](std::size_t block) {
+            throwIfInterrupted(interrupter_);
+            Ref* const first = refs_.get() + block * blockSize;
+            Ref* last = first;
+            *first = refOf(block * blockSize);
+            float largest = boxOf(*first).area();
+            const std::size_t end = std::min(triangles_.size(), (block + 1) * blockSize);
+            for (std::size_t i = block * blockSize + 1; i < end; ++i) {
+                const Ref next = refOf(i);
+                const float area = boxOf(next).area();
+                FloatBox both = boxOf(*last);
+                both.expand(next.lo, next.hi);
+                if (last->count < most && both.area() <= leafGrowth * std::max(largest, area)) {
+                    last->lo = both.lo;
+                    last->hi = both.hi;
+                    ++last->count;
+                    largest = std::max(largest, area);
+                } else {
+                    *++last = next;
+                    largest = area;
+                }
+            }
+            counts[block] = static_cast<std::uint32_t>(last + 1 - first);
+        });
+        for (std::size_t block = 0; block < blocks; ++block) {
+            const Ref* const first = refs_.get() + block * blockSize;
+            if (refCount_ < block * blockSize) std::copy(first, first + counts[block], refs_.get() + refCount_);
+            refCount_ += counts[block];
+        }
+    }
+
+    Ref refOf(std::size_t triangle) const
+    {
+        const Box item = itemBox(triangle);
+        const Vec3d lo = tree_.inUnits(item.lo), hi = tree_.inUnits(item.hi);
+        Ref ref;
+        ref.lo = Floats{roundedDown(lo[0]), roundedDown(lo[1]), roundedDown(lo[2]), 0};
+        ref.hi = Floats{roundedUp(hi[0]), roundedUp(hi[1]), roundedUp(hi[2]), 0};
+        ref.triangle = static_cast<std::uint32_t>(triangle);
+        ref.count = 1;
+        return ref;
+    }
+
+    static FloatBox boxOf(const Ref& ref)
+    {
+        FloatBox box;
+        box.expand(ref.lo, ref.hi);
+        return box;
+    }
+
+    // Leaves have been numbered as the refs are now; their items follow each other in this order.
+    void placeItems()
+    {
+        std::vector<std::uint32_t> firstItem(refCount_);
+        std::uint32_t items = 0;
+        for (std::uint32_t leaf = 0; leaf < refCount_; ++leaf) {
+            firstItem[leaf] = items;
+            items += refs_[leaf].count;
+        }
+        tree_.items_.resize(triangles_.size());
+        tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, refCount_, blockSize), [&](const auto& range) {
+            for (std::uint32_t leaf = range.begin(); leaf < range.end(); ++leaf) {
+                for (std::uint32_t i = 0; i < refs_[leaf].count; ++i) {
+                    const std::uint32_t triangle = refs_[leaf].triangle + i;
+                    tree_.items_[firstItem[leaf] + i] = {triangles_[triangle], triangle};
+                }
+            }
+        });
+        tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, nodeCount_, blockSize), [&](const auto& range) {
+            for (std::uint32_t node = range.begin(); node < range.end(); ++node) {
+                for (std::uint32_t& child : tree_.nodes_[node].child) {
+                    if (!(child & TriangleTree::isLeaf)) continue;
+                    const std::uint32_t leaf = child & ~TriangleTree::isLeaf;
+                    child = TriangleTree::leafChild(firstItem[leaf], refs_[leaf].count);
+                }
+            }
+        });
     }
 
     Box itemBox(std::size_t triangle) const
@@ -375,10 +462,8 @@ private:
         const auto buildChild = [&](std::size_t i) {
             const Range& range = ranges[i];
             if (range.size() == 1) {
-                const Ref& ref = refs_[range.begin];
-                tree_.items_[range.begin] = {triangles_[ref.triangle], ref.triangle};
-                child[i] = range.begin | TriangleTree::isItem;
-                boxes[i].expand(ref.lo, ref.hi);
+                child[i] = range.begin | TriangleTree::isLeaf;
+                boxes[i] = boxOf(refs_[range.begin]);
                 return;
             }
             child[i] = nodeCount_.fetch_add(1, std::memory_order_relaxed);
@@ -405,8 +490,8 @@ private:
     // Sorts the range of refs into two sides and returns where the second begins.
     std::uint32_t split(const Range& range)
     {
-        Ref* const first = refs_.data() + range.begin;
-        Ref* const last = refs_.data() + range.end;
+        Ref* const first = refs_.get() + range.begin;
+        Ref* const last = refs_.get() + range.end;
         const Binning binning(fold<FloatBox>(
             first, last, [](FloatBox& box, const Ref& ref) { box.expand(ref.twiceCentre(), ref.twiceCentre()); }));
         if (range.depth < binnedDepth && binning.scale > 0) {
@@ -422,7 +507,7 @@ private:
             }
         }
         const std::uint32_t middle = range.begin + range.size() / 2;
-        std::nth_element(first, refs_.data() + middle, last, [&](const Ref& a, const Ref& b) {
+        std::nth_element(first, refs_.get() + middle, last, [&](const Ref& a, const Ref& b) {
             return std::make_pair(a.twiceCentre()[binning.axis], a.triangle) <
                    std::make_pair(b.twiceCentre()[binning.axis], b.triangle);
         });
@@ -432,13 +517,18 @@ private:
     TriangleTree& tree_;
     const std::vector<Vec3I>& triangles_;
     Interrupter* interrupter_;
-    std::vector<Ref> refs_;
+    std::unique_ptr<Ref[]> refs_;
+    std::uint32_t refCount_ = 0;
     std::atomic<std::uint32_t> nodeCount_{0};
 };
 
 TriangleTree::TriangleTree(std::vector<Vec3d> points, const std::vector<Vec3I>& triangles, Interrupter* interrupter)
     : points_(std::move(points))
 {
+    if (triangles.size() > maxItems) {
+        throw InputError(std::to_string(triangles.size()) + " triangles are too many; at most " +
+                         std::to_string(maxItems) + " are allowed");
+    }
     if (!triangles.empty()) TreeBuilder(*this, triangles, interrupter).build();
 }
 
@@ -474,8 +564,11 @@ TriangleTree::Closest TriangleTree::closest(const Vec3d& p, std::uint32_t seed, 
         const Near nearest = stack.pop();
         if (nearest.squaredDistance() > reach) continue;
         const std::uint32_t child = nearest.child();
-        if (child & isItem) {
-            if (child != (seed | isItem) && tryItem(child & ~isItem)) reach = reachOf(best.squaredDistance);
+        if (child & isLeaf) {
+            const Leaf leaf = leafOf(child);
+            for (std::uint32_t item = leaf.first; item <= leaf.last; ++item) {
+                if (item != seed && tryItem(item)) reach = reachOf(best.squaredDistance);
+            }
             continue;
         }
         const Node& node = nodes_[child];
