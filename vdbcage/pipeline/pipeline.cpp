@@ -418,22 +418,32 @@ private:
         return shrinkOnto({hull}, options, guard, interrupter);
     }
 
-    /// What cages may be shrunk from with voxels like these: nothing if there are too many handles. Among few faces the
-    /// order of the collapses is luck, so that several starts pay.
+    static constexpr int fewFaces = 200, fewestFaces = 60;
+
+    /// The shares of a resolution that cages are begun with, to take the tightest. Among few faces the order of the
+    /// collapses is luck, so that several starts pay. For the fewest, voxels of up to twice the width are as good, and
+    /// two starts with these take hardly more time than one without.
+    static std::vector<double> startScales(const CageOptions& options)
+    {
+        if (options.resolution) return {1.0};
+        if (options.effort != Effort::best && options.faces <= fewestFaces) return {0.65, 0.5};
+        if (options.effort == Effort::best && options.faces <= fewFaces) return {1.0, 0.85, 0.7, 0.6};
+        return {1.0};
+    }
+
+    /// What cages may be shrunk from with voxels like these: nothing if there are too many handles.
     std::vector<Candidate> startsFrom(const Voxels& voxels, const CageOptions& options, const BoundingGuard& guard,
                                       Interrupter* interrupter)
     {
-        constexpr int fewFaces = 200;
-        const bool several = options.effort == Effort::best && options.faces <= fewFaces && !options.resolution;
         const int resolution = affordableResolution(voxels, options, interrupter);
         std::vector<Candidate> starts;
-        for (const double scale : {1.0, 0.85, 0.7, 0.6}) {
+        for (const double scale : startScales(options)) {
             Candidate candidate;
             candidate.voxels = voxels;
             candidate.voxels.resolution = static_cast<int>(std::lround(scale * resolution));
             begin(candidate, options, guard, interrupter);
             if (fewEnoughHandles(candidate.topology, options)) starts.push_back(std::move(candidate));
-            if (!several || starts.empty()) break;
+            if (starts.empty()) break;
         }
         return starts;
     }
@@ -444,7 +454,9 @@ private:
     {
         constexpr double enough = 9000;   // triangles, for up to 1000 faces; with 7500 some are 8 % looser
         constexpr double coarsest = 0.75; // of the resolution: thin parts need some
-        if (options.effort != Effort::fast || options.resolution) return voxels.resolution;
+        if (options.effort != Effort::fast || options.resolution || options.faces <= fewestFaces) {
+            return voxels.resolution;
+        }
         const std::string key = keyUpTo(resolved(options, voxels), PipelineStage::close);
         if (key != counted_.key) {
             updateClosed(options, voxels, interrupter);
