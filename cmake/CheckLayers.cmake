@@ -20,6 +20,8 @@ set(confined
     "GL/osmesa|^vdbcage/gl/detail/osmesa\\.cpp$"
     "EGL/|^vdbcage/gl/detail/egl\\.cpp$"
     "GLFW/|^tools/view/window\\.cpp$"
+    "tbb/parallel_|^(vdbcage/core/detail/parallel\\.h|tools/.*|tests/.*)$"
+    "tbb/task_group|^(vdbcage/core/detail/parallel\\.h|tools/.*|tests/.*)$"
     "png\\.h|^(tools/vdbcage/picture\\.cpp|tests/.*)$"
     "CGAL/|^(vdbcage/.*\\.cpp|tests/.*)$")
 

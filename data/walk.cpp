@@ -8,7 +8,10 @@
 #include <cstdio>
 #include <exception>
 #include <filesystem>
+#include <system_error>
 
+#include <vdbcage/core/atomic_file.h>
+#include <vdbcage/core/error.h>
 #include <vdbcage/mesh/mesh_io.h>
 
 #include "vec3.h"
@@ -139,13 +142,20 @@ int main(int argc, char** argv)
     try {
         const vdbcage::Mesh cage = vdbcage::readMesh(argv[1]);
         std::filesystem::create_directories(argv[2]);
+        vdbcage::PendingFiles files;
         for (int frame = 0; frame < frames; ++frame) {
             vdbcage::Mesh walking = cage;
             for (Vec3d& p : walking.points) p = posed(p, static_cast<double>(frame) / frames);
             std::array<char, 32> name{};
             std::snprintf(name.data(), name.size(), "walk.%04d.obj", frame);
-            vdbcage::writeMesh(walking, std::filesystem::path(argv[2]) / name.data());
+            const std::filesystem::path path = std::filesystem::path(argv[2]) / name.data();
+            std::error_code ignored;
+            if (std::filesystem::equivalent(path, argv[1], ignored)) {
+                throw vdbcage::InputError(path.string() + ": is the cage itself; it would be overwritten");
+            }
+            files.add(path, [&](std::ostream& out) { vdbcage::writeMesh(walking, out, path); });
         }
+        files.commit();
     } catch (const std::exception& error) {
         std::fprintf(stderr, "vdbcage-walk: %s\n", error.what());
         return 1;

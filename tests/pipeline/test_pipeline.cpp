@@ -6,6 +6,7 @@
 #include <map>
 #include <set>
 
+#include <support/cancelled_host.h>
 #include <support/shapes.h>
 #include <support/symmetric.h>
 #include <support/temporary_folder.h>
@@ -14,6 +15,7 @@
 #include <vdbcage/core/error.h>
 #include <vdbcage/mesh/mesh_io.h>
 #include <vdbcage/pipeline/pipeline.h>
+#include <vdbcage/volume/scale_field.h>
 
 using namespace vdbcage;
 
@@ -356,6 +358,55 @@ BOOST_AUTO_TEST_CASE(cancelling_throws_and_the_pipeline_runs_again)
         }
     }
     BOOST_CHECK(sameMesh(made.run(options), expected));
+}
+
+BOOST_AUTO_TEST_CASE(cages_are_whole_where_the_host_has_cancelled)
+{
+    const Mesh model = saturn();
+    std::vector<CageOptions> runs(4, coarse());
+    runs[0].resolution.reset(); // two starts, side by side
+    runs[0].faces = 60;
+    runs[0].effort = Effort::fast;
+    runs[1].mesh = CageFaces::triquad;
+    runs[1].symmetry = CageSymmetry::automatic;
+    runs[2].scale = readScaleField("sphere:0,0,0,2,0.5");
+    runs[2].faces = 12;
+    runs[2].parts = CageParts::merge; // from the hull
+    runs[3].bounding = false;
+    for (const CageOptions& options : runs) {
+        const Mesh expected = makeCage(model, options);
+        Mesh cage;
+        bool isBounding = false;
+        test::inCancelledHost([&] {
+            cage = makeCage(model, options);
+            isBounding = checkCage(cage, model).bounding();
+        });
+        BOOST_CHECK(sameMesh(cage, expected));
+        BOOST_TEST((isBounding || !options.bounding));
+    }
+}
+
+BOOST_AUTO_TEST_CASE(a_stop_that_only_one_of_several_starts_sees_stops_them_all)
+{
+    CageOptions options;
+    options.faces = 60;
+    options.effort = Effort::fast;
+    const Mesh model = saturn();
+    Watcher whole(1L << 40);
+    Pipeline made(model);
+    const Mesh expected = made.run(options, &whole);
+    /// Says stop once, to whoever asks at that moment.
+    struct Once : Interrupter {
+        explicit Once(long k) : left(k) {}
+        bool wasInterrupted(int) override { return left-- == 0; }
+        std::atomic<long> left;
+    };
+    for (int i = 1; i < 40; ++i) {
+        Pipeline fresh(model);
+        Once once(whole.checks * i / 40);
+        BOOST_CHECK_THROW(fresh.run(options, &once), Cancelled);
+        BOOST_CHECK(sameMesh(fresh.run(options), expected));
+    }
 }
 
 BOOST_AUTO_TEST_CASE(without_bounding_the_cage_is_reported_as_it_is)

@@ -2,12 +2,12 @@
 #include <optional>
 
 #include <vdbcage/check/check.h>
-#include <vdbcage/core/atomic_file.h>
 #include <vdbcage/core/version.h>
 #include <vdbcage/mesh/mesh_io.h>
 
 #include "commands.h"
 #include "interrupt.h"
+#include "outputs.h"
 #include "report.h"
 
 namespace vdbcage::tool {
@@ -25,7 +25,10 @@ int runCheck(std::vector<std::string> words)
     app.add_option("--report", reportPath, "the verdict as JSON")->type_name("FILE.json");
     app.add_flag("-q,--quiet", quiet, "print nothing, only exit");
     if (!parse(app, std::move(words))) return exitGood;
-    if (!reportPath.empty()) requireWritable(reportPath);
+    Outputs outputs;
+    outputs.reads(cagePath);
+    outputs.reads(modelPath);
+    if (!reportPath.empty()) outputs.writes(reportPath);
 
     std::optional<Progress> progress(quiet);
     const Mesh cage = readMesh(cagePath);
@@ -33,21 +36,23 @@ int runCheck(std::vector<std::string> words)
     const Mesh model = readMesh(modelPath, &summary);
     const CageCheck check = checkCage(cage, model, {}, &*progress);
     if (!reportPath.empty()) {
-        writeJson({{"vdbcage", VDBCAGE_VERSION},
-                   {"cage", cagePath.string()},
-                   {"model", toJson(summary, model, modelPath)},
-                   {"check", toJson(check)}},
-                  reportPath);
+        const Json report{{"vdbcage", VDBCAGE_VERSION},
+                          {"cage", cagePath.string()},
+                          {"model", toJson(summary, model, modelPath)},
+                          {"check", toJson(check)}};
+        outputs.add(reportPath, [&](std::ostream& out) { out << toText(report); });
     }
     progress.reset();
     if (!quiet) {
-        std::cout << cagePath.string() << ": "
+        std::cout << printable(cagePath) << ": "
                   << (check.bounding() ? "bounding"
                       : check.valid()  ? "NOT bounding"
                                        : "NOT a valid cage")
                   << '\n'
                   << describe(check);
+        flushOutput();
     }
+    outputs.commit();
     return check.bounding() ? exitGood : exitNotBounding;
 }
 

@@ -1,11 +1,24 @@
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
 #include <CLI/CLI.hpp>
+#include <vdbcage/core/detail/printable.h>
+
+#include "exit_status.h"
 
 namespace vdbcage::tool {
+
+/// A name or a driver's words for the terminal.
+inline std::string printable(const std::filesystem::path& text)
+{
+    return detail::printable(text.string());
+}
+
+/// Sends what was printed on standard output on its way. \throw IoError if it does not arrive
+void flushOutput();
 
 /// One command of `vdbcage`: its arguments without its own name; returns the exit status. \throw Error, CLI::Error
 int runMake(std::vector<std::string> arguments);
@@ -18,8 +31,5 @@ int runRepair(std::vector<std::string> arguments);
 /// Reads `arguments` into `app`, whose help is laid out one option a line. Returns false if help was asked for (and
 /// printed). \throw CLI::ParseError
 bool parse(CLI::App& app, std::vector<std::string> arguments);
-
-/// Exit statuses.
-constexpr int exitGood = 0, exitError = 1, exitNotBounding = 2, exitCancelled = 130;
 
 } // namespace vdbcage::tool

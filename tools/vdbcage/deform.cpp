@@ -2,7 +2,6 @@
 #include <optional>
 
 #include <vdbcage/check/check.h>
-#include <vdbcage/core/atomic_file.h>
 #include <vdbcage/core/error.h>
 #include <vdbcage/deform/inversions.h>
 #include <vdbcage/deform/weights_io.h>
@@ -67,7 +66,7 @@ std::string describeInversions(const Binding& binding, const Mesh& model, const 
     std::string text;
     for (std::size_t i = 0; i < frames.size(); ++i) {
         const bool valid = checker.check(posedCages[i], options, interrupter).valid();
-        text += frames[i].path.string() + ": " + (valid ? "a valid cage" : "NOT a valid cage") + ", " +
+        text += printable(frames[i].path) + ": " + (valid ? "a valid cage" : "NOT a valid cage") + ", " +
                 std::to_string(inverted[i].size()) + " of " + std::to_string(triangles) + " triangles inverted\n";
     }
     return text;
@@ -95,16 +94,21 @@ int runBind(std::vector<std::string> words)
     if (output.extension() != ".npy") {
         throw InputError(output.string() + ": weights are written as .npy; the name must end so");
     }
-    requireWritable(output);
+    Outputs outputs;
+    outputs.reads(cagePath);
+    outputs.reads(modelPath);
+    outputs.writes(output);
 
     std::optional<Progress> progress(quiet);
     const Mesh cage = readMesh(cagePath), model = readMesh(modelPath);
     const std::vector<float> weights =
         bindFiles(cagePath, modelPath, [&] { return computeWeights(cage, model.points, coordinates, &*progress); });
-    writeWeights(cage, model.points, coordinates, weights, output);
+    outputs.add(output,
+                [&](std::ostream& out) { writeWeights(cage, model.points, coordinates, weights, out, output); });
+    outputs.commit();
     progress.reset();
     if (!quiet) {
-        std::cerr << output.string() << ": " << model.points.size() << " points, "
+        std::cerr << printable(output) << ": " << model.points.size() << " points, "
                   << cageHandles(cage, cage.points, coordinates).size() << " handles, " << coordinatesName(coordinates)
                   << '\n';
     }
@@ -136,16 +140,12 @@ int runDeform(std::vector<std::string> words)
         throw InputError("POSED_CAGE and OUT: both or none must have a frame number, as in cage.%04d.obj");
     }
     const std::vector<Frame> frames = findFrames(posedPath);
-    for (const Frame& frame : frames) {
-        const fs::path out = framePath(output, frame.number);
-        requireWritable(out);
-        for (const fs::path& input : {cagePath, frame.path, modelPath, weights}) {
-            std::error_code error;
-            if (fs::equivalent(out, input, error)) {
-                throw InputError(out.string() + ": is one of the inputs; it would be overwritten");
-            }
-        }
+    Outputs outputs;
+    for (const fs::path& input : {cagePath, modelPath, weights}) {
+        if (!input.empty()) outputs.reads(input);
     }
+    for (const Frame& frame : frames) outputs.reads(frame.path);
+    for (const Frame& frame : frames) outputs.writes(framePath(output, frame.number));
 
     std::optional<Progress> progress(quiet);
     const Mesh cage = readMesh(cagePath), model = readMesh(modelPath);
@@ -158,21 +158,21 @@ int runDeform(std::vector<std::string> words)
                          " coordinates; --coordinates asks for " + family);
     }
     std::vector<Mesh> posedCages; // kept for what is printed
-    Outputs outputs;
     for (const Frame& frame : frames) {
-        throwIfInterrupted(&*progress);
         const Mesh posed = readMesh(frame.path);
         requireSameFaces(frame.path, posed, cagePath, cage);
-        outputs.add(framePath(output, frame.number),
-                    [&](const fs::path& path) { writeMoved(modelPath, binding.pose(posed.points), path); });
+        const std::vector<openvdb::Vec3d> points = binding.pose(posed.points);
+        const fs::path path = framePath(output, frame.number);
+        outputs.add(path, [&](std::ostream& out) { writeMoved(modelPath, points, out, path); });
         if (inversions) posedCages.push_back(posed);
     }
     const std::string report = inversions ? describeInversions(binding, model, frames, posedCages, &*progress) : "";
-    outputs.commit();
     progress.reset();
     std::cout << report;
+    flushOutput();
+    outputs.commit();
     if (!quiet) {
-        std::cerr << output.string() << ": " << frames.size() << (frames.size() == 1 ? " pose" : " poses") << " of "
+        std::cerr << printable(output) << ": " << frames.size() << (frames.size() == 1 ? " pose" : " poses") << " of "
                   << model.points.size() << " points\n";
     }
     return exitGood;

@@ -1,46 +1,88 @@
 #include "interrupt.h"
 
 #include <algorithm>
+#include <array>
+#include <atomic>
 #include <csignal>
 #include <cstdio>
+#include <string_view>
 
 #include <unistd.h>
+
+#include "exit_status.h"
 
 namespace vdbcage::tool {
 
 namespace {
 
-// A signal handler can reach nothing but static storage.
-volatile std::sig_atomic_t signalCame = 0;
+// A signal handler can reach nothing but static storage. It runs on any thread.
+std::atomic<bool> signalCame{false};
+std::atomic<bool> lineOnScreen{false};
+std::atomic<int> holds{0};
+static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<int>::is_always_lock_free,
+              "a signal handler may only use atomics without locks");
 
-extern "C" void onSignal(int signal)
+void write(std::string_view text)
 {
-    if (signalCame != 0) ::_exit(128 + signal);
-    signalCame = 1;
+    static_cast<void>(::write(STDERR_FILENO, text.data(), text.size()) == 0); // nobody left to tell
 }
 
-constexpr int barWidth = 24;
+extern "C" void onSignal(int signal, siginfo_t* info, void* /*context*/)
+{
+    // One that a write of ours raised: the write fails, and whoever wrote says so.
+    if (signal == SIGPIPE && info->si_pid == ::getpid()) return;
+    const bool isFirst = !signalCame.exchange(true); // before it looks for holds: see `signalled`
+    if (holds > 0 || !isFirst) return;
+    tool::sayCancelled();
+    ::_exit(exitCancelled);
+}
+
+constexpr std::size_t barWidth = 24;
 
 } // namespace
 
-void catchSignals()
+void catchSignals() noexcept
 {
-    struct sigaction action {};
-    action.sa_handler = onSignal;
+    struct sigaction action {
+    }, old{};
+    sigset_t caught;
+    sigemptyset(&caught);
+    action.sa_sigaction = onSignal;
+    action.sa_flags = SA_SIGINFO | SA_RESTART;
     sigemptyset(&action.sa_mask);
-    ::sigaction(SIGINT, &action, nullptr);
-    ::sigaction(SIGTERM, &action, nullptr);
-    // Whoever started us may have had them blocked.
-    sigset_t ours;
-    sigemptyset(&ours);
-    sigaddset(&ours, SIGINT);
-    sigaddset(&ours, SIGTERM);
-    ::sigprocmask(SIG_UNBLOCK, &ours, nullptr);
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGPIPE}) {
+        ::sigaction(signal, nullptr, &old);
+        if (signal == SIGHUP && (old.sa_flags & SA_SIGINFO) == 0 && old.sa_handler == SIG_IGN) continue;
+        ::sigaction(signal, &action, nullptr);
+        sigaddset(&caught, signal);
+    }
+    action = {};
+    action.sa_handler = SIG_IGN;
+    ::sigaction(SIGXFSZ, &action, nullptr);
+    ::sigprocmask(SIG_UNBLOCK, &caught, nullptr); // whoever started us may have had them blocked
 }
 
-bool signalled()
+SignalHold::SignalHold() noexcept
 {
-    return signalCame != 0;
+    ++holds;
+}
+
+SignalHold::~SignalHold()
+{
+    --holds;
+}
+
+bool signalled() noexcept
+{
+    return signalCame;
+}
+
+void sayCancelled() noexcept
+{
+    static std::atomic<bool> isSaid{false};
+    if (isSaid.exchange(true)) return;
+    if (lineOnScreen.exchange(false)) write("\r\033[K");
+    write("vdbcage: error: cancelled\n");
 }
 
 Progress::Progress(bool quiet) : visible_(!quiet && ::isatty(STDERR_FILENO) == 1)
@@ -49,7 +91,7 @@ Progress::Progress(bool quiet) : visible_(!quiet && ::isatty(STDERR_FILENO) == 1
 
 Progress::~Progress()
 {
-    if (lineOnScreen_) std::fputs("\r\033[K", stderr);
+    if (lineOnScreen.exchange(false)) std::fputs("\r\033[K", stderr);
 }
 
 void Progress::start(const char* name)
@@ -74,17 +116,19 @@ bool Progress::wasInterrupted(int percent)
     return signalled();
 }
 
+/// Allocates nothing: it also runs while an exception is on its way.
 void Progress::draw(int percent)
 {
     if (!visible_) return;
     drawn_ = Clock::now();
     const double seconds = std::chrono::duration<double>(drawn_ - began_).count();
     const int done = std::clamp(percent, 0, 100);
-    std::string bar(static_cast<std::size_t>(done * barWidth / 100), '#');
-    bar.resize(barWidth, '.');
-    std::fprintf(stderr, "\r\033[K[%s] %3d %%  %-10s %6.1f s", bar.c_str(), done, stage_.c_str(), seconds);
+    std::array<char, barWidth + 1> bar{};
+    std::fill_n(bar.begin(), barWidth, '.');
+    std::fill_n(bar.begin(), barWidth * static_cast<std::size_t>(done) / 100, '#');
+    std::fprintf(stderr, "\r\033[K[%s] %3d %%  %-10s %6.1f s", bar.data(), done, stage_.c_str(), seconds);
     std::fflush(stderr);
-    lineOnScreen_ = true;
+    lineOnScreen = true;
 }
 
 } // namespace vdbcage::tool

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <atomic>
 #include <chrono>
 #include <mutex>
 #include <string>
@@ -9,13 +8,28 @@
 
 namespace vdbcage::tool {
 
-/// From here on Ctrl-C (SIGINT) and SIGTERM ask for a clean stop; a second one ends the process at once.
-void catchSignals();
+/// From here on SIGINT (Ctrl-C), SIGTERM, SIGHUP and SIGPIPE end the process at once with status 130 and a line on
+/// standard error, unless a SignalHold lives: then they ask for a clean stop. A write beyond a limit of size or into a
+/// pipe that nobody reads fails with a reason instead of a signal. SIGHUP that was ignored stays so (nohup).
+void catchSignals() noexcept;
 
-/// Whether such a signal has come.
-bool signalled();
+/// While one lives there is something to clean up, and a signal only sets `signalled`. One that came just before may be
+/// about to end the process: ask `signalled` before there is anything.
+class SignalHold {
+public:
+    SignalHold() noexcept;
+    ~SignalHold();
+    SignalHold(const SignalHold&) = delete;
+    SignalHold& operator=(const SignalHold&) = delete;
+};
 
-/// Shows how far the work is on a terminal and passes Ctrl-C on to it: one line on standard error that is redrawn at
+/// Whether a signal has come that asks for a stop.
+bool signalled() noexcept;
+
+/// Prints that the command was cancelled, unless that was said before.
+void sayCancelled() noexcept;
+
+/// Shows how far the work is on a terminal and passes a signal on to it: one line on standard error that is redrawn at
 /// most ten times a second; nothing where standard error is not a terminal or `quiet`.
 class Progress : public Interrupter {
 public:
@@ -35,7 +49,6 @@ private:
     std::mutex mutex_; // guards what follows: wasInterrupted is called from many threads
     std::string stage_;
     Clock::time_point drawn_;
-    bool lineOnScreen_ = false;
 };
 
 } // namespace vdbcage::tool

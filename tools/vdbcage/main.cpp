@@ -1,9 +1,17 @@
 // The command `vdbcage`: words to standard error, data to files and standard output.
 
+#include <algorithm>
+#include <cerrno>
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
+#include <filesystem>
 #include <iostream>
 #include <new>
+#include <system_error>
+
+#include <fcntl.h>
+#include <unistd.h>
 
 #include <vdbcage/core/error.h>
 #include <vdbcage/core/version.h>
@@ -113,6 +121,84 @@ int run(const std::vector<std::string>& arguments)
     throw InputError("there is no command '" + name + "'" + didYouMean(name, known) + " (see vdbcage --help)");
 }
 
+/// Whether `argument` is meant as a file: an option with one dash has one letter that is known.
+bool isFileName(const std::string& argument, const std::string& knownLetters)
+{
+    if (argument.size() < 2 || argument[0] != '-' || argument[1] == '-' || argument[1] == '.') return false;
+    if (argument[1] >= '0' && argument[1] <= '9') return false; // a number
+    std::error_code ignored;
+    return knownLetters.find(argument[1]) == std::string::npos ||
+           (argument.size() > 2 && std::filesystem::exists(argument, ignored));
+}
+
+/// Opens what the caller has closed of standard input, output and error: otherwise the next file that is opened would
+/// be taken for one of them. Writing to them fails, as before.
+void openStandardStreams()
+{
+    for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+        if (::fcntl(descriptor, F_GETFD) < 0) {
+            static_cast<void>(::open("/dev/null", descriptor == STDIN_FILENO ? O_WRONLY : O_RDONLY) == descriptor);
+        }
+    }
+}
+
+/// Allocates nothing, as there may be no memory left. `text` is one printable line.
+int fail(const char* text) noexcept
+{
+    std::fprintf(stderr, "vdbcage: error: %s\n", text);
+    return exitError;
+}
+
+int failWords(const char* text) noexcept
+{
+    try {
+        return fail(detail::printable(text).c_str());
+    } catch (const std::bad_alloc&) {
+        return fail("not enough memory");
+    }
+}
+
+/// Calls `work` and turns what it throws into an exit status and a line on standard error.
+template <typename Work>
+int guarded(const Work& work) noexcept
+{
+    try {
+        return work();
+    } catch (const Cancelled&) {
+        sayCancelled();
+        return exitCancelled;
+    } catch (const Error& error) {
+        return fail(error.what());
+    } catch (const std::bad_alloc&) {
+        return fail("not enough memory");
+    } catch (const std::system_error& error) {
+        if (error.code() == std::errc::resource_unavailable_try_again) {
+            return fail("not enough threads can be started; look at limits on processes (ulimit -u)");
+        }
+        return failWords(error.what());
+    } catch (const std::exception& error) {
+        return failWords(error.what());
+    }
+}
+
+/// What could not be passed on as an exception: one in a destructor, in a thread's start, before main.
+[[noreturn]] void onTerminate() noexcept
+{
+    const std::exception_ptr exception = std::current_exception();
+    if (!exception) std::abort(); // a defect, not a lack of anything
+    const int status = guarded([&]() -> int { std::rethrow_exception(exception); });
+    ::_exit(status);
+}
+
+/// Runs before the constructors of all shared libraries, some of which start threads.
+void beforeAll(int /*count*/, char** /*arguments*/, char** /*environment*/)
+{
+    catchSignals();
+    std::set_terminate(onTerminate);
+}
+
+__attribute__((section(".preinit_array"), used)) void (*const atStart)(int, char**, char**) = beforeAll;
+
 } // namespace
 
 bool parse(CLI::App& app, std::vector<std::string> arguments)
@@ -123,7 +209,15 @@ bool parse(CLI::App& app, std::vector<std::string> arguments)
     for (const CLI::Option* option : app.get_options()) {
         for (const std::string& name : option->get_lnames()) known.push_back("--" + name);
     }
+    std::string letters;
+    for (const CLI::Option* option : app.get_options()) {
+        for (const std::string& name : option->get_snames()) letters += name;
+    }
     for (const std::string& argument : arguments) {
+        if (argument == "--") break; // files only from here on
+        if (isFileName(argument, letters)) {
+            throw InputError("there is no option '" + argument + "'; a file of this name is written ./" + argument);
+        }
         const std::string flag = argument.substr(0, argument.find('='));
         if (flag.size() > 2 && flag.compare(0, 2, "--") == 0 &&
             std::find(known.begin(), known.end(), flag) == known.end()) {
@@ -143,23 +237,22 @@ bool parse(CLI::App& app, std::vector<std::string> arguments)
 
 } // namespace vdbcage::tool
 
+void vdbcage::tool::flushOutput()
+{
+    errno = 0;
+    std::cout.flush();
+    if (std::cout) return;
+    throw IoError("standard output: cannot be written" +
+                  (errno != 0 ? ": " + std::generic_category().message(errno) : std::string()));
+}
+
 int main(int argc, char** argv)
 {
-    using namespace vdbcage;
-    const auto fail = [](const std::string& text, int status) {
-        std::fprintf(stderr, "vdbcage: error: %s\n", text.c_str());
+    using namespace vdbcage::tool;
+    openStandardStreams();
+    return guarded([&] {
+        const int status = run({argv + 1, argv + argc});
+        flushOutput();
         return status;
-    };
-    tool::catchSignals();
-    try {
-        return tool::run({argv + 1, argv + argc});
-    } catch (const Cancelled&) {
-        return fail("cancelled", tool::exitCancelled);
-    } catch (const CLI::Error& error) {
-        return fail(error.what(), tool::exitError);
-    } catch (const std::bad_alloc&) {
-        return fail("not enough memory", tool::exitError);
-    } catch (const std::exception& error) {
-        return fail(error.what(), tool::exitError);
-    }
+    });
 }

@@ -1,9 +1,11 @@
+#include <algorithm>
+#include <array>
+#include <chrono>
 #include <iomanip>
 #include <iostream>
 #include <map>
 #include <optional>
 
-#include <vdbcage/core/atomic_file.h>
 #include <vdbcage/core/error.h>
 #include <vdbcage/core/version.h>
 #include <vdbcage/mesh/mesh_io.h>
@@ -30,28 +32,25 @@ struct MakeArguments {
     bool quiet = false, verbose = false;
 };
 
+/// The names of the files that --stages leaves, without their extensions.
+constexpr std::array<const char*, 4> volumeStages{"solid", "dilated", "closed", "contour"};
+constexpr std::array<const char*, 3> surfaceStages{"surface", "smoothed", "decimated"};
+
 /// Refuses what cannot work before any work is done: formats, folders, permissions, one file under two names.
-void requireSensible(const MakeArguments& arguments)
+void announce(const MakeArguments& arguments, Outputs& outputs)
 {
     requireMeshExtension(arguments.cage);
-    std::vector<fs::path> written{arguments.cage};
-    if (!arguments.report.empty()) written.push_back(arguments.report);
-    if (!arguments.picture.empty()) {
-        requirePngExtension(arguments.picture);
-        written.push_back(arguments.picture);
-    }
-    std::map<fs::path, fs::path> seen{{fs::weakly_canonical(arguments.model), arguments.model}};
-    for (const fs::path& path : written) {
-        requireWritable(path);
-        if (!seen.emplace(fs::weakly_canonical(path), path).second) {
-            throw InputError(path.string() + ": this file is named twice; model and outputs must be different files");
-        }
-        std::error_code error;
-        if (fs::equivalent(path, arguments.model, error)) {
-            throw InputError(path.string() + ": is the model itself; it would be overwritten");
-        }
-    }
+    if (!arguments.picture.empty()) requirePngExtension(arguments.picture);
     requireValid(arguments.options);
+    outputs.reads(arguments.model);
+    if (!arguments.options.scale.file.empty()) outputs.reads(arguments.options.scale.file);
+    if (!arguments.stages.empty()) outputs.writesInto(arguments.stages); // the others may go there too
+    outputs.writes(arguments.cage);
+    if (!arguments.report.empty()) outputs.writes(arguments.report);
+    if (!arguments.picture.empty()) outputs.writes(arguments.picture);
+    if (arguments.stages.empty()) return;
+    for (const char* stage : volumeStages) outputs.writes(arguments.stages / (std::string(stage) + ".vdb"));
+    for (const char* stage : surfaceStages) outputs.writes(arguments.stages / (std::string(stage) + ".obj"));
 }
 
 /// Runs the pipeline; an objection to the model names its file.
@@ -70,32 +69,30 @@ Pipeline makePipeline(Mesh model, const MakeArguments& arguments, Interrupter& i
 
 void addStages(const Pipeline& pipeline, const MakeArguments& arguments, Interrupter* interrupter, Outputs& outputs)
 {
-    const fs::path& folder = arguments.stages;
-    outputs.addFolder(folder);
     std::map<std::string, std::string> metadata{{"source", arguments.model.filename().string()}};
     for (const auto& option : optionValues(arguments.options)) {
         std::string key = option.first;
         std::replace(key.begin(), key.end(), '-', '_');
         metadata["option_" + key] = option.second;
     }
-    const auto volume = [&](const char* stage, const openvdb::MaskGrid& mask) {
-        metadata["stage"] = stage;
-        outputs.add(folder / (std::string(stage) + ".vdb"),
-                    [&](const fs::path& path) { writeVdb(mask, path, metadata); });
-    };
-    const auto surface = [&](const char* stage, const Mesh& mesh) {
-        outputs.add(folder / (std::string(stage) + ".obj"), [&](const fs::path& path) { writeMesh(mesh, path); });
-    };
-    volume("solid", *pipeline.solid());
     const double radius = pipeline.report().closeRadius * pipeline.report().resolution;
-    volume("dilated", arguments.options.element == Element::cube
-                          ? *dilate(*pipeline.solid(), radius, Element::cube, interrupter)
-                          : *dilate(*pipeline.solid(), radius, arguments.options.scale, interrupter));
-    volume("closed", *pipeline.closed());
-    volume("contour", *contour(*pipeline.closed(), interrupter));
-    surface("surface", pipeline.surface());
-    surface("smoothed", pipeline.smoothed());
-    surface("decimated", pipeline.decimated());
+    const auto dilated = arguments.options.element == Element::cube
+                             ? dilate(*pipeline.solid(), radius, Element::cube, interrupter)
+                             : dilate(*pipeline.solid(), radius, arguments.options.scale, interrupter);
+    const auto border = contour(*pipeline.closed(), interrupter);
+    const std::array<const openvdb::MaskGrid*, volumeStages.size()> volumes{pipeline.solid().get(), dilated.get(),
+                                                                            pipeline.closed().get(), border.get()};
+    const std::array<const Mesh*, surfaceStages.size()> surfaces{&pipeline.surface(), &pipeline.smoothed(),
+                                                                 &pipeline.decimated()};
+    for (std::size_t i = 0; i < volumes.size(); ++i) {
+        metadata["stage"] = volumeStages[i];
+        const fs::path path = arguments.stages / (std::string(volumeStages[i]) + ".vdb");
+        outputs.add(path, [&](std::ostream& out) { writeVdb(*volumes[i], out, path, metadata); });
+    }
+    for (std::size_t i = 0; i < surfaces.size(); ++i) {
+        const fs::path path = arguments.stages / (std::string(surfaceStages[i]) + ".obj");
+        outputs.add(path, [&](std::ostream& out) { writeMesh(*surfaces[i], out, path); });
+    }
 }
 
 void printSummary(const MakeArguments& arguments, const Pipeline& pipeline, const std::vector<StageTime>& stages,
@@ -104,7 +101,7 @@ void printSummary(const MakeArguments& arguments, const Pipeline& pipeline, cons
     const CageReport& report = pipeline.report();
     const CageCheck& check = report.check;
     std::cerr << std::fixed << std::setprecision(2);
-    std::cerr << arguments.cage.string() << ": " << check.triangles << " triangles";
+    std::cerr << printable(arguments.cage) << ": " << check.triangles << " triangles";
     if (check.quads > 0) std::cerr << " and " << check.quads << " quads";
     std::cerr << (check.bounding() ? ", certified bounding"
                   : check.valid()  ? ", NOT bounding"
@@ -127,7 +124,7 @@ void printSummary(const MakeArguments& arguments, const Pipeline& pipeline, cons
         std::cerr << "  not symmetric: " << report.noSymmetry << '\n';
     }
     if (!report.voxels.fallback.empty()) {
-        std::cerr << "  voxels by the CPU: " << report.voxels.fallback << '\n';
+        std::cerr << "  voxels by the CPU: " << printable(report.voxels.fallback) << '\n';
     }
     if (report.cavitiesFilled > 0) {
         std::cerr << "  " << report.cavitiesFilled << " hollows inside the closing were filled\n";
@@ -172,10 +169,10 @@ int runMake(std::vector<std::string> words)
     app.add_flag("-q,--quiet", arguments.quiet, "print nothing but errors");
     app.add_flag("-v,--verbose", arguments.verbose, "print stage times and the whole verdict");
     if (!parse(app, std::move(words))) return exitGood;
-    requireSensible(arguments);
+    Outputs outputs;
+    announce(arguments, outputs);
 
     const auto began = std::chrono::steady_clock::now();
-    Outputs outputs;
     std::optional<Progress> progress(arguments.quiet);
     StageClock clock(&*progress);
 
@@ -189,11 +186,11 @@ int runMake(std::vector<std::string> words)
     const Mesh& cage = pipeline.cage();
 
     std::optional<Stage> writing(std::in_place, &clock, "write");
-    outputs.add(arguments.cage, [&](const fs::path& path) { writeMesh(cage, path); });
+    // All work first: while files are waiting a signal has to wait for work.
+    const std::string picture = arguments.picture.empty() ? std::string() : encodePng(drawCage(pipeline.model(), cage));
     if (!arguments.stages.empty()) addStages(pipeline, arguments, &clock, outputs);
-    if (!arguments.picture.empty()) {
-        outputs.add(arguments.picture, [&](const fs::path& path) { writePng(drawCage(pipeline.model(), cage), path); });
-    }
+    outputs.add(arguments.cage, [&](std::ostream& out) { writeMesh(cage, out, arguments.cage); });
+    if (!arguments.picture.empty()) outputs.add(arguments.picture, [&](std::ostream& out) { out << picture; });
     writing.reset();
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
     if (!arguments.report.empty()) {
@@ -206,9 +203,8 @@ int runMake(std::vector<std::string> words)
                     {"memory_peak_mib", peakMemory()},
                     {"result", toJson(pipeline.report())},
                     {"check", toJson(pipeline.report().check)}};
-        outputs.add(arguments.report, [&](const fs::path& path) { writeJson(report, path); });
+        outputs.add(arguments.report, [&](std::ostream& out) { out << toText(report); });
     }
-    throwIfInterrupted(&clock);
     outputs.commit();
     progress.reset();
     if (!arguments.quiet) printSummary(arguments, pipeline, clock.stages(), seconds);

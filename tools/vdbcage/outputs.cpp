@@ -1,64 +1,106 @@
 #include "outputs.h"
 
-#include <string>
+#include <algorithm>
+#include <cerrno>
 #include <system_error>
 
+#include <sys/stat.h>
 #include <unistd.h>
 
-#include <vdbcage/core/atomic_file.h>
 #include <vdbcage/core/error.h>
 
 namespace vdbcage::tool {
 
 namespace fs = std::filesystem;
 
+namespace {
+
+[[noreturn]] void failFolder(const fs::path& path, const std::string& reason)
+{
+    throw IoError(path.string() + ": the folder cannot be made: " + reason);
+}
+
+fs::path folderOf(const fs::path& path)
+{
+    return path.has_parent_path() ? path.parent_path() : fs::path(".");
+}
+
+} // namespace
+
 Outputs::~Outputs()
 {
     std::error_code ignored;
-    for (const auto& file : files_) fs::remove(file.first, ignored);
-    for (auto folder = folders_.rbegin(); folder != folders_.rend(); ++folder) fs::remove(*folder, ignored);
+    for (auto folder = made_.rbegin(); folder != made_.rend(); ++folder) fs::remove(*folder, ignored);
 }
 
-void Outputs::addFolder(const fs::path& path)
+Outputs::Identity Outputs::identityOf(const fs::path& path)
 {
     std::error_code error;
-    if (fs::is_directory(path, error)) return;
-    if (!fs::create_directory(path, error)) {
-        throw IoError(path.string() +
-                      ": the folder cannot be made: " + (error ? error.message() : "something else has that name"));
+    fs::path existing = fs::weakly_canonical(path, error);
+    if (error) existing = fs::absolute(path, error).lexically_normal();
+    fs::path below;
+    for (;;) {
+        struct stat status {};
+        if (::stat(existing.c_str(), &status) == 0) return {status.st_dev, status.st_ino, below};
+        if (!existing.has_relative_path()) return {0, 0, path};
+        below = below.empty() ? existing.filename() : existing.filename() / below;
+        existing = existing.parent_path();
     }
-    folders_.push_back(path);
 }
 
-void Outputs::add(const fs::path& path, const Writer& write)
+void Outputs::reads(const fs::path& path)
 {
-    requireWritable(path);
-    // Unique among processes by its number, within this one by the count of files.
-    const fs::path temporary = path.parent_path() / ("." + path.stem().string() + "." + std::to_string(::getpid()) +
-                                                     "." + std::to_string(files_.size()) + path.extension().string());
-    files_.emplace_back(temporary, path);
-    try {
-        write(temporary);
-    } catch (const IoError& error) {
-        // The user knows the file by its final name.
-        std::string text = error.what();
-        const std::string name = temporary.string();
-        for (std::size_t at = text.find(name); at != std::string::npos; at = text.find(name)) {
-            text.replace(at, name.size(), path.string());
-        }
-        throw IoError(text);
+    known_.emplace(identityOf(path), true);
+}
+
+void Outputs::writesInto(const fs::path& given)
+{
+    const fs::path path = given.has_filename() ? given : given.parent_path(); // without the last slash
+    std::error_code error;
+    const fs::file_status status = fs::status(path, error);
+    if (fs::is_directory(status)) return;
+    if (error && error.value() != ENOENT) failFolder(path, error.message());
+    if (fs::exists(status)) failFolder(path, "something else has that name");
+    const fs::path folder = folderOf(path);
+    if (!fs::is_directory(folder, error)) failFolder(path, "the folder " + folder.string() + " does not exist");
+    if (::access(folder.c_str(), W_OK) != 0) failFolder(path, std::generic_category().message(errno));
+    toMake_.push_back(path);
+}
+
+void Outputs::writes(const fs::path& path)
+{
+    const Identity folder = identityOf(folderOf(path));
+    const bool isFolderMade =
+        std::any_of(toMake_.begin(), toMake_.end(), [&](const fs::path& made) { return identityOf(made) == folder; });
+    if (!isFolderMade) requireWritable(path);
+    const auto [known, isFirst] = known_.emplace(identityOf(path), false);
+    if (isFirst) return;
+    throw InputError(
+        path.string() + ": this file is named twice; " +
+        (known->second ? "it is one of the inputs and would be overwritten" : "all outputs must be different files"));
+}
+
+void Outputs::add(const fs::path& path, const FileWriter& write)
+{
+    if (!hold_) hold_.emplace();
+    if (signalled()) throw Cancelled();
+    for (const fs::path& folder : toMake_) {
+        std::error_code error;
+        made_.reserve(made_.size() + 1);
+        if (fs::create_directory(folder, error)) made_.push_back(folder);
+        if (error) failFolder(folder, error.message());
     }
+    toMake_.clear();
+    files_.add(path, write);
+    if (signalled()) throw Cancelled();
 }
 
 void Outputs::commit()
 {
-    for (const auto& file : files_) {
-        std::error_code error;
-        fs::rename(file.first, file.second, error);
-        if (error) throw IoError(file.second.string() + ": cannot be written: " + error.message());
-    }
-    files_.clear();
-    folders_.clear();
+    if (signalled()) throw Cancelled();
+    files_.commit();
+    made_.clear();
+    hold_.reset();
 }
 
 } // namespace vdbcage::tool

@@ -1,33 +1,50 @@
 #pragma once
 
 #include <filesystem>
-#include <functional>
-#include <utility>
+#include <map>
+#include <optional>
+#include <string>
+#include <tuple>
 #include <vector>
+
+#include <vdbcage/core/atomic_file.h>
+
+#include "interrupt.h"
 
 namespace vdbcage::tool {
 
-/// All files that one command writes: they appear together at the end, or none does.
+/// All files that one command writes: they appear together at the end, or none does. The command first says what it
+/// reads and writes; no output may be an input or another output, by whatever name.
 class Outputs {
 public:
-    using Writer = std::function<void(const std::filesystem::path&)>;
-
     Outputs() = default;
     ~Outputs();
     Outputs(const Outputs&) = delete;
     Outputs& operator=(const Outputs&) = delete;
 
-    /// Makes sure that the folder `path` exists; one that is made here goes again unless the outputs are committed.
-    /// \throw IoError
-    void addFolder(const std::filesystem::path& path);
-    /// Has `write` write a temporary file beside `path`, with the same extension. \throw IoError naming `path`
-    void add(const std::filesystem::path& path, const Writer& write);
-    /// Gives every file its name. \throw IoError
+    /// Says that the command reads `path`, which need not exist. All inputs come before all outputs.
+    void reads(const std::filesystem::path& path);
+    /// Says that files will be written into the folder `path`, which is made if it does not exist. \throw IoError
+    void writesInto(const std::filesystem::path& path);
+    /// Says that the command writes `path`. \throw IoError if that cannot be done; InputError if it is an input or is
+    /// written already
+    void writes(const std::filesystem::path& path);
+
+    /// Writes one of the files under a temporary name. From here on signals wait, and end the command by Cancelled
+    /// between two files. \throw IoError naming `path`; Cancelled
+    void add(const std::filesystem::path& path, const FileWriter& write);
+    /// Gives every file its name. \throw IoError; Cancelled
     void commit();
 
 private:
-    std::vector<std::pair<std::filesystem::path, std::filesystem::path>> files_; // temporary, final
-    std::vector<std::filesystem::path> folders_;
+    /// What a path leads to, whether it exists or not: the nearest folder that does, and the names below it.
+    using Identity = std::tuple<unsigned long long, unsigned long long, std::filesystem::path>;
+    static Identity identityOf(const std::filesystem::path& path);
+
+    std::optional<SignalHold> hold_;
+    std::map<Identity, bool> known_;                   // whether it is an input
+    std::vector<std::filesystem::path> toMake_, made_; // folders
+    PendingFiles files_;
 };
 
 } // namespace vdbcage::tool

@@ -1,15 +1,13 @@
 #include <tools/vdbcage/picture.h>
 
-#include <ostream>
 #include <string>
 
 #include <png.h>
-#include <vdbcage/core/atomic_file.h>
 #include <vdbcage/core/error.h>
 
 namespace vdbcage {
 
-void writePng(const Picture& picture, const std::filesystem::path& path)
+std::string encodePng(const Picture& picture)
 {
     if (picture.width < 1 || picture.height < 1 ||
         picture.rgb.size() != 3 * static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height)) {
@@ -23,11 +21,12 @@ void writePng(const Picture& picture, const std::filesystem::path& path)
     image.height = static_cast<png_uint_32>(picture.height);
     image.format = PNG_FORMAT_RGB;
     png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(image);
-    std::vector<char> bytes(size);
+    std::string bytes(size, '\0');
     if (png_image_write_to_memory(&image, bytes.data(), &size, 0, picture.rgb.data(), 0, nullptr) == 0) {
-        throw IoError(path.string() + ": cannot be written as PNG: " + image.message);
+        throw Error(std::string("picture: cannot be written as PNG: ") + image.message);
     }
-    writeFileAtomically(path, [&](std::ostream& out) { out.write(bytes.data(), static_cast<std::streamsize>(size)); });
+    bytes.resize(size);
+    return bytes;
 }
 
 } // namespace vdbcage

@@ -2,7 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <filesystem>
+#include <string>
 #include <vector>
 
 namespace vdbcage {
@@ -14,8 +14,8 @@ struct Picture {
     std::vector<std::uint8_t> rgb; ///< width * height * 3 bytes, row by row from the top left
 };
 
-/// Writes `picture` as PNG, whole or not at all; the same picture gives the same bytes.
-/// \throw InputError if the picture's size is not positive or not that of its bytes; IoError
-void writePng(const Picture& picture, const std::filesystem::path& path);
+/// `picture` as the bytes of a PNG file; the same picture gives the same bytes.
+/// \throw InputError if the picture's size is not positive or not that of its bytes
+std::string encodePng(const Picture& picture);
 
 } // namespace vdbcage

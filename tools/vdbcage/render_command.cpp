@@ -3,7 +3,6 @@
 #include <cmath>
 #include <map>
 
-#include <vdbcage/core/atomic_file.h>
 #include <vdbcage/core/error.h>
 #include <vdbcage/deform/binding.h>
 #include <vdbcage/mesh/mesh_io.h>
@@ -12,7 +11,7 @@
 
 #include "commands.h"
 #include "drawing.h"
-#include "interrupt.h"
+#include "outputs.h"
 
 namespace vdbcage::tool {
 
@@ -128,14 +127,17 @@ int runRender(std::vector<std::string> words)
     app.add_flag("--same-view", scene.sameView, "one scale and place for all panels");
     if (!parse(app, std::move(words))) return exitGood;
     requirePngExtension(picture);
-    requireWritable(picture);
+    Outputs outputs;
+    for (const std::string& file : files) {
+        if (file != "/") outputs.reads(file);
+    }
+    outputs.writes(picture);
     const Size size = parseSize(sizeText);
     const Coordinates coordinates = coordinatesNamed(family);
 
     std::map<std::string, Mesh> meshes; // by file: many panels can show the same model; layers point at them
     scene.panels.emplace_back();
     for (const std::string& file : files) {
-        if (signalled()) throw Cancelled();
         if (file == "/") {
             scene.panels.emplace_back();
             continue;
@@ -153,7 +155,9 @@ int runRender(std::vector<std::string> words)
     if (influence->count() > 0) {
         for (auto& panel : scene.panels) colourByInfluence(panel, vertex, coordinates);
     }
-    writePng(renderScene(scene, size.width, size.height), picture);
+    const std::string bytes = encodePng(renderScene(scene, size.width, size.height));
+    outputs.add(picture, [&](std::ostream& out) { out << bytes; });
+    outputs.commit();
     return exitGood;
 }
 

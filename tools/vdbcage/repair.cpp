@@ -2,7 +2,6 @@
 #include <optional>
 
 #include <vdbcage/check/check.h>
-#include <vdbcage/core/atomic_file.h>
 #include <vdbcage/core/error.h>
 #include <vdbcage/core/version.h>
 #include <vdbcage/mesh/mesh_io.h>
@@ -10,6 +9,7 @@
 
 #include "commands.h"
 #include "interrupt.h"
+#include "outputs.h"
 #include "report.h"
 
 namespace vdbcage::tool {
@@ -47,20 +47,23 @@ int runRepair(std::vector<std::string> words)
     if (!hasRepair())
         throw InputError("this vdbcage was built without its GPL part (VDBCAGE_WITH_CGAL_GPL), and so without repair");
     requireMeshExtension(outputPath);
-    requireWritable(outputPath);
-    if (!reportPath.empty()) requireWritable(reportPath);
+    Outputs outputs;
+    outputs.reads(cagePath);
+    outputs.writes(outputPath);
+    if (!reportPath.empty()) outputs.writes(reportPath);
 
     std::optional<Progress> progress(quiet);
     RepairReport report;
     const Mesh mended = repair(readMesh(cagePath), &report, &*progress);
-    writeMesh(mended, outputPath);
+    outputs.add(outputPath, [&](std::ostream& out) { writeMesh(mended, out, outputPath); });
     if (!reportPath.empty()) {
-        writeJson({{"vdbcage", VDBCAGE_VERSION},
-                   {"cage", cagePath.string()},
-                   {"repaired", outputPath.string()},
-                   {"repair", toJson(report)}},
-                  reportPath);
+        const Json facts{{"vdbcage", VDBCAGE_VERSION},
+                         {"cage", cagePath.string()},
+                         {"repaired", outputPath.string()},
+                         {"repair", toJson(report)}};
+        outputs.add(reportPath, [&](std::ostream& out) { out << toText(facts); });
     }
+    outputs.commit();
     progress.reset();
     if (!quiet) {
         const Json facts = toJson(report);

@@ -4,8 +4,6 @@
 
 #include <sys/resource.h>
 
-#include <vdbcage/core/atomic_file.h>
-
 namespace vdbcage::tool {
 
 Json toJson(const CageCheck& check)
@@ -113,11 +111,10 @@ double peakMemory()
     return static_cast<double>(usage.ru_maxrss) / 1024;
 }
 
-void writeJson(const Json& report, const std::filesystem::path& path)
+std::string toText(const Json& report)
 {
     // A path is any bytes; JSON is UTF-8: what is not gets the replacement character.
-    writeFileAtomically(
-        path, [&](std::ostream& out) { out << report.dump(2, ' ', false, Json::error_handler_t::replace) << '\n'; });
+    return report.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
 }
 
 std::string describe(const CageCheck& check)

@@ -23,8 +23,8 @@ Json toJson(const CageOptions& options);
 /// Largest amount of memory this process has held, in MiB.
 double peakMemory();
 
-/// Writes `report` as indented text with a last line break. \throw IoError
-void writeJson(const Json& report, const std::filesystem::path& path);
+/// `report` as indented text with a last line break.
+std::string toText(const Json& report);
 
 /// The verdict in words, one line a finding, for a person.
 std::string describe(const CageCheck& check);

@@ -7,10 +7,11 @@
 
 namespace vdbcage {
 
-/// Base of every exception that the library throws on purpose. `what()` is one line for a person to read.
+/// Base of every exception that the library throws on purpose. `what()` is one line for a person to read: control
+/// characters, which names of files and values may have, are written as codes.
 class VDBCAGE_API Error : public std::runtime_error {
 public:
-    using std::runtime_error::runtime_error;
+    explicit Error(const std::string& text);
     ~Error() override;
 };
 

@@ -26,7 +26,12 @@ StageClock::~StageClock() = default;
 
 void StageClock::start(const char* name)
 {
-    name_ = name ? name : "";
+    // All that allocates is done here: `end` may run while an exception is on its way.
+    const std::string stage = name ? name : "";
+    current_ = static_cast<std::size_t>(
+        std::find_if(stages_.begin(), stages_.end(), [&](const StageTime& known) { return known.name == stage; }) -
+        stages_.begin());
+    if (current_ == stages_.size()) stages_.push_back({stage, 0, 0});
     began_ = std::chrono::steady_clock::now();
     cpuBegan_ = std::clock();
     if (next_) next_->start(name);
@@ -34,15 +39,10 @@ void StageClock::start(const char* name)
 
 void StageClock::end()
 {
-    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began_).count();
-    const double cpuSeconds = static_cast<double>(std::clock() - cpuBegan_) / CLOCKS_PER_SEC;
-    const auto known =
-        std::find_if(stages_.begin(), stages_.end(), [&](const StageTime& stage) { return stage.name == name_; });
-    if (known == stages_.end()) {
-        stages_.push_back({name_, seconds, cpuSeconds});
-    } else {
-        known->seconds += seconds;
-        known->cpuSeconds += cpuSeconds;
+    if (current_ < stages_.size()) {
+        StageTime& stage = stages_[current_];
+        stage.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - began_).count();
+        stage.cpuSeconds += static_cast<double>(std::clock() - cpuBegan_) / CLOCKS_PER_SEC;
     }
     if (next_) next_->end();
 }

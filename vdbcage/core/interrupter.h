@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstddef>
 #include <ctime>
 #include <string>
 #include <vector>
@@ -12,7 +13,8 @@ namespace vdbcage {
 
 /// OpenVDB's interrupter: `start(name)` and `end()` bracket a stage (called from the caller's thread, never nested),
 /// `wasInterrupted(percent)` may be called from any thread at any time and answers true to cancel. Every function of
-/// the library takes one as its last pointer; null means nobody watches.
+/// the library takes one as its last pointer; null means nobody watches. `end` is called while exceptions are on their
+/// way: it must not throw.
 using Interrupter = openvdb::util::NullInterrupter;
 
 /// Asks `interrupter` (may be null) whether to stop; `percent` in [0, 100] is the progress of the stage, -1 unknown.
@@ -49,13 +51,14 @@ public:
     void end() override;
     bool wasInterrupted(int percent = -1) override;
 
-    /// The stages that ended, in order; a name that ran more than once is listed once, with its times added up.
+    /// The stages in the order in which they began first; a name that ran more than once is listed once, with its times
+    /// added up, and one that has not ended yet with those of its earlier runs.
     const std::vector<StageTime>& stages() const { return stages_; }
 
 private:
     Interrupter* next_;
     std::vector<StageTime> stages_;
-    std::string name_;
+    std::size_t current_ = 0; // of `stages_`
     std::chrono::steady_clock::time_point began_;
     std::clock_t cpuBegan_ = 0;
 };

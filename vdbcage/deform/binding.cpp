@@ -11,7 +11,7 @@
 #include <utility>
 
 #include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
+#include <vdbcage/core/detail/parallel.h>
 #include <vdbcage/core/error.h>
 #include <vdbcage/deform/detail/bound_cage.h>
 #include <vdbcage/deform/detail/green.h>
@@ -102,7 +102,7 @@ public:
     template <typename PointOf, typename Take>
     void make(std::size_t count, const PointOf& pointOf, const Take& take)
     {
-        tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, 16), [&](const auto& range) {
+        detail::parallelFor(tbb::blocked_range<std::size_t>(0, count, 16), [&](const auto& range) {
             throwIfInterrupted(interrupter_);
             std::vector<double> row(columns_);
             for (std::size_t i = range.begin(); i < range.end(); ++i) {

@@ -80,6 +80,12 @@ std::string headerOf(std::size_t points, std::size_t handles)
 void writeWeights(const Mesh& cage, const std::vector<openvdb::Vec3d>& points, Coordinates family,
                   const std::vector<float>& weights, const std::filesystem::path& path)
 {
+    writeFileAtomically(path, [&](std::ostream& out) { writeWeights(cage, points, family, weights, out, path); });
+}
+
+void writeWeights(const Mesh& cage, const std::vector<openvdb::Vec3d>& points, Coordinates family,
+                  const std::vector<float>& weights, std::ostream& out, const std::filesystem::path& path)
+{
     const std::size_t handles = cageHandles(cage, cage.points, family).size();
     detail::requireWeights(weights.size(), points.size(), handles);
     if (sizeof(Record) + weights.size() * sizeof(float) >= std::size_t(1) << 31U) {
@@ -90,13 +96,11 @@ void writeWeights(const Mesh& cage, const std::vector<openvdb::Vec3d>& points, C
     Record record = recordOf(cage, points);
     const std::string name = coordinatesName(family);
     std::memcpy(record.family, name.data(), name.size());
-    writeFileAtomically(path, [&](std::ostream& out) {
-        const std::string header = headerOf(points.size(), handles);
-        out.write(header.data(), static_cast<std::streamsize>(header.size()));
-        out.write(reinterpret_cast<const char*>(&record), sizeof record);
-        out.write(reinterpret_cast<const char*>(weights.data()),
-                  static_cast<std::streamsize>(weights.size() * sizeof(float)));
-    });
+    const std::string header = headerOf(points.size(), handles);
+    out.write(header.data(), static_cast<std::streamsize>(header.size()));
+    out.write(reinterpret_cast<const char*>(&record), sizeof record);
+    out.write(reinterpret_cast<const char*>(weights.data()),
+              static_cast<std::streamsize>(weights.size() * sizeof(float)));
 }
 
 Binding readWeights(const std::filesystem::path& path, const Mesh& cage, std::vector<openvdb::Vec3d> points)

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <iosfwd>
 #include <vector>
 
 #include <vdbcage/core/export.h>
@@ -19,6 +20,10 @@ namespace vdbcage {
 /// which NumPy does not take
 VDBCAGE_API void writeWeights(const Mesh& cage, const std::vector<openvdb::Vec3d>& points, Coordinates family,
                               const std::vector<float>& weights, const std::filesystem::path& path);
+
+/// The same to a stream, whose state tells whether it took all; `path` is the name in errors.
+VDBCAGE_API void writeWeights(const Mesh& cage, const std::vector<openvdb::Vec3d>& points, Coordinates family,
+                              const std::vector<float>& weights, std::ostream& out, const std::filesystem::path& path);
 
 /// Reads what writeWeights wrote, for the same cage and points.
 /// \throw IoError naming the path: it cannot be read, is truncated or no such file, or was made for another cage or

@@ -1,7 +1,12 @@
 #include <vdbcage/gl/offscreen.h>
 
+#include <algorithm>
 #include <atomic>
+#include <mutex>
 #include <optional>
+#include <system_error>
+#include <thread>
+#include <vector>
 
 #include <vdbcage/core/error.h>
 #include <vdbcage/gl/detail/platform.h>
@@ -27,6 +32,42 @@ bool namesSoftware(const std::string& renderer)
     return false;
 }
 
+/// Threads that do nothing until all of them are there.
+class IdleThreads {
+public:
+    ~IdleThreads()
+    {
+        gate_.unlock();
+        for (std::thread& thread : threads_) thread.join();
+    }
+    void start(unsigned count)
+    {
+        threads_.reserve(count);
+        while (threads_.size() < count) {
+            threads_.emplace_back([this] { const std::lock_guard waits(gate_); });
+        }
+    }
+
+private:
+    struct Gate : std::mutex {
+        Gate() { lock(); }
+    };
+    Gate gate_;
+    std::vector<std::thread> threads_;
+};
+
+/// Mesa in software does not look whether its threads could be started, and then waits for them without end: as many
+/// are started here before, for a moment. Some 0.1 ms for two cores.
+void requireThreads()
+{
+    constexpr unsigned mostForDrawing = 32, others = 8; // one a core; those for shaders and caches
+    try {
+        IdleThreads().start(std::min(std::thread::hardware_concurrency(), mostForDrawing) + others);
+    } catch (const std::system_error& error) {
+        throw DeviceError(std::string("OpenGL: its threads cannot be started: ") + error.what());
+    }
+}
+
 } // namespace
 
 struct OffscreenContext::State {
@@ -50,6 +91,7 @@ struct OffscreenContext::State {
 
 OffscreenContext::OffscreenContext(Debug debug, Source source)
 {
+    requireThreads();
     std::string problems;
     const auto attempt = [&](const auto& work) {
         try {

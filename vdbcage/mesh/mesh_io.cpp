@@ -141,14 +141,26 @@ Mesh readMesh(const std::filesystem::path& path, ReadSummary* summary)
 
 void writeMesh(const Mesh& mesh, const std::filesystem::path& path)
 {
+    requireMeshExtension(path);
+    writeFileAtomically(path, [&](std::ostream& out) { writeMesh(mesh, out, path); });
+}
+
+void writeMesh(const Mesh& mesh, std::ostream& out, const std::filesystem::path& path)
+{
     const std::string name = path.string();
     const Format& format = formatOf(path);
     requireUsable(mesh, name.c_str());
     requireFinitePoints(mesh.points, name);
-    writeFileAtomically(path, [&](std::ostream& out) { format.write(mesh, name, out); });
+    format.write(mesh, name, out);
 }
 
 void writeMoved(const std::filesystem::path& original, const std::vector<openvdb::Vec3d>& points,
+                const std::filesystem::path& path)
+{
+    writeFileAtomically(path, [&](std::ostream& out) { writeMoved(original, points, out, path); });
+}
+
+void writeMoved(const std::filesystem::path& original, const std::vector<openvdb::Vec3d>& points, std::ostream& out,
                 const std::filesystem::path& path)
 {
     const std::string name = path.string();
@@ -161,11 +173,10 @@ void writeMoved(const std::filesystem::path& original, const std::vector<openvdb
                          " has " + std::to_string(mesh.points.size()) + " points");
     }
     if (isObj) {
-        const std::string moved = detail::movedObj(text, original.string(), points);
-        writeFileAtomically(path, [&](std::ostream& out) { out << moved; });
+        out << detail::movedObj(text, original.string(), points);
     } else {
         mesh.points = points;
-        writeMesh(mesh, path);
+        writeMesh(mesh, out, path);
     }
 }
 

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <iosfwd>
 #include <string>
 #include <vector>
 
@@ -42,6 +43,9 @@ VDBCAGE_API Mesh readMesh(const std::filesystem::path& path, ReadSummary* summar
 /// \throw InputError if the mesh is not usable (see requireUsable) or any of its points is not finite
 VDBCAGE_API void writeMesh(const Mesh& mesh, const std::filesystem::path& path);
 
+/// The same to a stream, whose state tells whether it took all; `path` gives the format, and the name in errors.
+VDBCAGE_API void writeMesh(const Mesh& mesh, std::ostream& out, const std::filesystem::path& path);
+
 /// Writes the model file `original` to `path` with its points at `points`, in the order of readMesh. From OBJ to OBJ
 /// all else stays byte by byte: polygons of any size, texture coordinates, groups, materials, comments, what stands
 /// behind the coordinates of a point; but for normals, which are turned as the faces around them turn. Other formats
@@ -49,5 +53,9 @@ VDBCAGE_API void writeMesh(const Mesh& mesh, const std::filesystem::path& path);
 /// `points` are not as many as the model's, or not finite; IoError as readMesh and writeMesh
 VDBCAGE_API void writeMoved(const std::filesystem::path& original, const std::vector<openvdb::Vec3d>& points,
                             const std::filesystem::path& path);
+
+/// The same to a stream, as with writeMesh.
+VDBCAGE_API void writeMoved(const std::filesystem::path& original, const std::vector<openvdb::Vec3d>& points,
+                            std::ostream& out, const std::filesystem::path& path);
 
 } // namespace vdbcage

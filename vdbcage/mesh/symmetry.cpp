@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include <tbb/parallel_for.h>
+#include <vdbcage/core/detail/parallel.h>
 #include <vdbcage/core/error.h>
 #include <vdbcage/mesh/detail/triangle_tree.h>
 
@@ -103,7 +103,7 @@ private:
         constexpr double most = 0.99;  // of the samples
         constexpr double least = 1e-6; // distances below weigh no more
         std::vector<double> distances(samples_.size()), pull(samples_.size(), 0), stiffness(samples_.size(), 0);
-        tbb::parallel_for(std::size_t(0), samples_.size(), [&](std::size_t i) {
+        detail::parallelFor(std::size_t(0), samples_.size(), [&](std::size_t i) {
             Vec3d image = samples_[i];
             image[axis] = 2 * offset - image[axis];
             const TriangleTree::Closest closest = tree_.closest(image);

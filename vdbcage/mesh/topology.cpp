@@ -5,7 +5,7 @@
 #include <functional>
 
 #include <tbb/blocked_range.h>
-#include <tbb/parallel_reduce.h>
+#include <vdbcage/core/detail/parallel.h>
 #include <vdbcage/mesh/detail/union_find.h>
 
 namespace vdbcage {
@@ -172,7 +172,7 @@ MeshTopology analyzeTopology(const Mesh& mesh, Interrupter* interrupter)
         return counts;
     };
     const tbb::blocked_range<std::size_t> all(0, mesh.points.size(), 4096);
-    const Counts counts = tbb::parallel_reduce(all, Counts(), examine, std::plus<>());
+    const Counts counts = detail::parallelReduce(all, Counts(), examine, std::plus<>());
 
     MeshTopology result;
     result.faces = faceCount(mesh);

@@ -13,9 +13,9 @@
 #include <utility>
 #include <vector>
 
-#include <tbb/parallel_for.h>
 #include <vdbcage/core/detail/mask_grid.h>
 #include <vdbcage/core/detail/nearest_float.h>
+#include <vdbcage/core/detail/parallel.h>
 #include <vdbcage/core/error.h>
 #include <vdbcage/mesh/symmetry.h>
 #include <vdbcage/mesh/topology.h>
@@ -83,6 +83,12 @@ openvdb::BBoxd withMirrorImage(const openvdb::BBoxd& box, const SymmetryPlane& p
     return both;
 }
 
+/// The active voxels of `mask`.
+std::size_t countOf(const openvdb::MaskGrid& mask)
+{
+    return static_cast<std::size_t>(detail::isolated([&] { return mask.activeVoxelCount(); }));
+}
+
 /// The six faces of `box`, each as two triangles facing outward.
 Mesh boxMesh(const openvdb::BBoxd& box)
 {
@@ -117,7 +123,7 @@ public:
         if (key == cageKey_) return;
         cageKey_.clear();
         for (const auto& start : starts_) start->isUsed = false;
-        Candidate best = options.bounding ? makeBounding(options, interrupter) : makeUnguarded(options, interrupter);
+        Candidate best = make(options, interrupter);
         updateClosed(options, best.voxels, interrupter); // others may have been tried since
         {
             const Stage stage(interrupter, "certify");
@@ -183,6 +189,18 @@ public:
     const Candidate& best() const { return best_; }
 
 private:
+    Candidate make(const CageOptions& options, Interrupter* interrupter)
+    {
+        try {
+            return options.bounding ? makeBounding(options, interrupter) : makeUnguarded(options, interrupter);
+        } catch (const Cancelled&) {
+            throw; // asked for between two steps: what was recorded of the decimations is right
+        } catch (...) {
+            starts_.clear(); // a step may be half done
+            throw;
+        }
+    }
+
     /// With what auto options stand for.
     static CageOptions resolved(CageOptions options, const Voxels& voxels)
     {
@@ -209,7 +227,7 @@ private:
         if (voxels.plane) closed = mirroredToo(*closed, voxels, interrupter);
         closed_ = fillCavities(*closed, &report_.cavitiesFilled, interrupter);
         scaleGrid_ = options.scale.grid;
-        report_.closedVoxels = static_cast<std::size_t>(closed_->activeVoxelCount());
+        report_.closedVoxels = countOf(*closed_);
         closedKey_ = key;
     }
 
@@ -232,7 +250,7 @@ private:
         if (voxels.plane) voxelization.box = withMirrorImage(boundingBox(model_), *voxels.plane);
         solid_ = voxelize(model_, voxelization, interrupter, &report_.voxels);
         if (voxels.plane) solid_ = mirroredToo(*solid_, voxels, interrupter);
-        report_.solidVoxels = static_cast<std::size_t>(solid_->activeVoxelCount());
+        report_.solidVoxels = countOf(*solid_);
         const MeshTopology topology = analyzeTopology(extractSurface(*solid_, interrupter), interrupter);
         report_.solidParts = topology.components();
         report_.solidHandles = topology.genus();
@@ -542,7 +560,7 @@ private:
         for (auto both = mirroredToo(mask, voxels, interrupter);;) {
             const auto composed = makeWellComposed(*both, interrupter);
             both = mirroredToo(*composed, voxels, interrupter);
-            if (both->activeVoxelCount() == composed->activeVoxelCount()) return extractSurface(*composed, interrupter);
+            if (countOf(*both) == countOf(*composed)) return extractSurface(*composed, interrupter);
         }
     }
 
@@ -565,7 +583,7 @@ private:
         decimation.faces = options.mesh == CageFaces::triangles ? faces : 3 * faces;
         {
             const Stage stage(interrupter, "decimate");
-            tbb::parallel_for(std::size_t(0), starts.size(), [&](std::size_t i) {
+            detail::parallelFor(std::size_t(0), starts.size(), [&](std::size_t i) {
                 starts[i].smoothed = starts[i].surface;
                 auto& known = starts[i].from->decimation;
                 if (!known) known.emplace(starts[i].surface, guard, interrupter);
@@ -581,7 +599,7 @@ private:
         if (guard.symmetry()) tightening.shakes *= 3; // in the time that half a surface saves
         if (options.mesh == CageFaces::triangles) {
             const Stage stage(interrupter, "tighten");
-            tbb::parallel_for(std::size_t(0), starts.size(), [&](std::size_t i) {
+            detail::parallelFor(std::size_t(0), starts.size(), [&](std::size_t i) {
                 starts[i].cage = tighten(starts[i].decimated, guard, tightening, interrupter);
             });
         } else {
@@ -592,14 +610,14 @@ private:
             pairing.faces = faces;
             if (options.mesh == CageFaces::quads) pairing.quads = mostlyQuads;
             pairing.tightening = tightening;
-            tbb::parallel_for(std::size_t(0), starts.size(), [&](std::size_t i) {
+            detail::parallelFor(std::size_t(0), starts.size(), [&](std::size_t i) {
                 starts[i].cage = triquad(starts[i].decimated, guard, pairing, interrupter);
             });
         }
         keepAtMost(faces, &Candidate::cage);
         if (options.smooth > 0) {
             const Stage stage(interrupter, "smooth");
-            tbb::parallel_for(std::size_t(0), starts.size(), [&](std::size_t i) {
+            detail::parallelFor(std::size_t(0), starts.size(), [&](std::size_t i) {
                 starts[i].cage = vdbcage::smooth(starts[i].cage, guard, options.smooth, interrupter);
             });
         }

@@ -14,8 +14,8 @@
 #include <utility>
 
 #include <tbb/blocked_range.h>
-#include <tbb/parallel_reduce.h>
 #include <vdbcage/core/detail/nearest_float.h>
+#include <vdbcage/core/detail/parallel.h>
 #include <vdbcage/core/error.h>
 #include <vdbcage/mesh/detail/union_find.h>
 #include <vdbcage/surface/detail/guard_model.h>
@@ -421,7 +421,7 @@ std::vector<std::size_t> BoundingGuard::facesTooNear(const Mesh& surface) const
         return isClear({a, b, c}) && isClear({a, c, d}) && isClear({a, b, d}) && isClear({b, c, d});
     };
     using Faces = std::vector<std::size_t>;
-    return tbb::parallel_reduce(
+    return detail::parallelReduce(
         tbb::blocked_range<std::size_t>(0, faceCount(surface), 256), Faces{},
         [&](const tbb::blocked_range<std::size_t>& range, Faces faces) {
             for (std::size_t face = range.begin(); face < range.end(); ++face) {

@@ -10,7 +10,7 @@
 #include <queue>
 
 #include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
+#include <vdbcage/core/detail/parallel.h>
 #include <vdbcage/mesh/detail/open_mesh.h>
 #include <vdbcage/surface/detail/quadric.h>
 
@@ -200,7 +200,7 @@ void Decimation::initQuadrics(Interrupter* interrupter)
 {
     quadrics_.resize(places_.size());
     // Each vertex gathers for itself, in the order of its fan: the same sums for any number of threads.
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, places_.size(), 1024), [&](const auto& range) {
+    detail::parallelFor(tbb::blocked_range<std::size_t>(0, places_.size(), 1024), [&](const auto& range) {
         throwIfInterrupted(interrupter, 0);
         for (std::size_t i = range.begin(); i != range.end(); ++i) {
             forEachOutgoing(Vertex(int(i)), [&](HalfEdge outgoing) { addQuadrics(quadrics_[i], outgoing); });
@@ -222,7 +222,7 @@ void Decimation::initQueue(Interrupter* interrupter)
 {
     std::vector<Entry> entries(mesh_.n_edges());
     bounds_.resize(entries.size());
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, entries.size(), 1024), [&](const auto& range) {
+    detail::parallelFor(tbb::blocked_range<std::size_t>(0, entries.size(), 1024), [&](const auto& range) {
         throwIfInterrupted(interrupter, 0);
         for (std::size_t i = range.begin(); i != range.end(); ++i) {
             Collapse optimum;

@@ -9,9 +9,8 @@
 
 #include <openvdb/tree/ValueAccessor.h>
 #include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-#include <tbb/parallel_sort.h>
 #include <vdbcage/core/detail/mask_grid.h>
+#include <vdbcage/core/detail/parallel.h>
 #include <vdbcage/core/error.h>
 
 namespace vdbcage {
@@ -81,7 +80,7 @@ Window readWindow(const Accessor& tree, const Coord& block)
 template <typename Visit>
 void forEach(std::size_t count, const Tree& tree, Interrupter* interrupter, const Visit& visit)
 {
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, 64), [&](const auto& range) {
+    detail::parallelFor(tbb::blocked_range<std::size_t>(0, count, 64), [&](const auto& range) {
         throwIfInterrupted(interrupter);
         const Accessor accessor(tree);
         for (std::size_t i = range.begin(); i != range.end(); ++i) visit(i, accessor);
@@ -90,7 +89,7 @@ void forEach(std::size_t count, const Tree& tree, Interrupter* interrupter, cons
 
 void sortUnique(std::vector<Coord>& coords)
 {
-    tbb::parallel_sort(coords.begin(), coords.end());
+    detail::parallelSort(coords.begin(), coords.end());
     coords.erase(std::unique(coords.begin(), coords.end()), coords.end());
 }
 

@@ -7,7 +7,7 @@
 #include <sstream>
 
 #include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
+#include <vdbcage/core/detail/parallel.h>
 #include <vdbcage/core/error.h>
 
 namespace vdbcage {
@@ -20,7 +20,7 @@ using openvdb::Vec3d;
 template <typename Body>
 void forEachPoint(std::size_t count, Interrupter* interrupter, int percent, const Body& body)
 {
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, 4096), [&](const auto& range) {
+    detail::parallelFor(tbb::blocked_range<std::size_t>(0, count, 4096), [&](const auto& range) {
         throwIfInterrupted(interrupter, percent);
         for (std::size_t i = range.begin(); i != range.end(); ++i) body(i);
     });

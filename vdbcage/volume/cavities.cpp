@@ -11,9 +11,8 @@
 #include <utility>
 #include <vector>
 
-#include <tbb/parallel_for.h>
-
 #include <vdbcage/core/detail/mask_grid.h>
+#include <vdbcage/core/detail/parallel.h>
 #include <vdbcage/volume/detail/mask_blocks.h>
 
 namespace vdbcage {
@@ -294,7 +293,7 @@ std::vector<BlockSpace> nodeSpaces(const MaskTree& tree, Interrupter* interrupte
     }
     std::vector<std::unique_ptr<BlockSpace>> built(nodes.size());
     std::atomic<std::size_t> done{0};
-    tbb::parallel_for(std::size_t{0}, nodes.size(), [&](std::size_t i) {
+    detail::parallelFor(std::size_t{0}, nodes.size(), [&](std::size_t i) {
         throwIfInterrupted(interrupter, static_cast<int>(60 * done++ / nodes.size()));
         built[i] = std::make_unique<BlockSpace>(*nodes[i]);
     });
@@ -362,7 +361,7 @@ MaskGrid::Ptr fillCavities(const MaskGrid& mask, std::size_t* cavities, Interrup
         if (root == i && root != 0) ++count;
     }
     std::vector<BuiltBlock> built(nodes.size());
-    tbb::parallel_for(std::size_t{0}, nodes.size(), [&](std::size_t i) {
+    detail::parallelFor(std::size_t{0}, nodes.size(), [&](std::size_t i) {
         throwIfInterrupted(interrupter, 80);
         built[i] = nodes[i].fill([&](std::uint32_t c) { return isCavity[firstElement[i] + c] != 0; });
     });

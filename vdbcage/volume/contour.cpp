@@ -3,9 +3,8 @@
 #include <utility>
 #include <vector>
 
-#include <tbb/parallel_for.h>
-
 #include <vdbcage/core/detail/mask_grid.h>
+#include <vdbcage/core/detail/parallel.h>
 #include <vdbcage/volume/detail/contour_leaves.h>
 
 namespace vdbcage {
@@ -16,7 +15,7 @@ openvdb::MaskGrid::Ptr contour(const openvdb::MaskGrid& mask, Interrupter* inter
     requireSupportedCoordinates(mask.tree());
     const std::vector<ContourBlock> blocks = contourBlocks(mask.tree(), ContourOf::mask, {interrupter});
     std::vector<BuiltBlock> built(blocks.size());
-    tbb::parallel_for(std::size_t{0}, blocks.size(), [&](std::size_t i) {
+    detail::parallelFor(std::size_t{0}, blocks.size(), [&](std::size_t i) {
         throwIfInterrupted(interrupter);
         BlockBuilder builder(blocks[i].origin);
         for (std::size_t n = 0; n < blocks[i].leaves.size(); ++n) {

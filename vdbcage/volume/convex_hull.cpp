@@ -16,6 +16,7 @@
 #include <libqhull_r/qhull_ra.h>
 #include <openvdb/tools/Prune.h>
 #include <vdbcage/core/detail/mask_grid.h>
+#include <vdbcage/core/detail/parallel.h>
 #include <vdbcage/core/error.h>
 
 namespace vdbcage {
@@ -134,7 +135,7 @@ openvdb::MaskGrid::Ptr convexHull(const openvdb::MaskGrid& mask, Interrupter* in
     // Centres on a facet are inside. Qhull's facets are off by rounding, some 1e-14 of the extent.
     constexpr double onFacet = 1e-7;
     const openvdb::MaskGrid::Ptr result = detail::maskGridLike(mask, std::make_shared<openvdb::MaskTree>());
-    const CoordBBox box = mask.evalActiveVoxelBoundingBox();
+    const CoordBBox box = detail::isolated([&] { return mask.evalActiveVoxelBoundingBox(); });
     if (mask.empty() || box.empty()) return result;
     const Coord size = box.dim();
     if (size[box.maxExtent()] > mostExtent || std::int64_t(size.x()) * size.y() > mostColumns) {
@@ -167,7 +168,7 @@ openvdb::MaskGrid::Ptr convexHull(const openvdb::MaskGrid& mask, Interrupter* in
             result->tree().fill(CoordBBox(first, last), true, true);
         }
     }
-    openvdb::tools::prune(result->tree());
+    detail::isolated([&] { openvdb::tools::prune(result->tree()); });
     return result;
 }
 

@@ -7,6 +7,7 @@
 #include <openvdb/tools/Prune.h>
 #include <openvdb/tree/ValueAccessor.h>
 #include <vdbcage/core/detail/mask_grid.h>
+#include <vdbcage/core/detail/parallel.h>
 #include <vdbcage/core/error.h>
 
 namespace vdbcage {
@@ -40,7 +41,7 @@ openvdb::MaskGrid::Ptr withMirrorImage(const openvdb::MaskGrid& mask, int axis, 
         high[a] = sum - box.min()[a];
         result->tree().fill(openvdb::CoordBBox(low, high), true, true);
     }
-    openvdb::tools::prune(result->tree());
+    detail::isolated([&] { openvdb::tools::prune(result->tree()); });
     return result;
 }
 

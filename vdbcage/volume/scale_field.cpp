@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include <vdbcage/core/detail/mask_grid.h>
+#include <vdbcage/core/detail/parallel.h>
 #include <vdbcage/core/error.h>
 #include <vdbcage/volume/detail/close_options.h>
 #include <vdbcage/volume/detail/radius_field.h>
@@ -54,6 +55,12 @@ std::vector<double> numbers(const std::string& part, std::size_t count)
     }
     if (list.size() != count) refuse(part);
     return list;
+}
+
+/// The box of the active voxels.
+openvdb::CoordBBox boxOf(const MaskGrid& mask)
+{
+    return detail::isolated([&] { return mask.evalActiveVoxelBoundingBox(); });
 }
 
 } // namespace
@@ -115,6 +122,7 @@ ScaleField readScaleField(const std::string& text)
         } else if (std::filesystem::path(part).extension() == ".vdb") {
             if (field.grid) throw InputError("'" + part + "' is a second .vdb file; a scale field can have one");
             field.grid = readFloatGrid(part, "scale");
+            field.file = part;
         } else {
             refuse(part);
         }
@@ -127,8 +135,7 @@ MaskGrid::Ptr dilate(const MaskGrid& mask, double radiusVoxels, const ScaleField
 {
     detail::requireValid({radiusVoxels, 0, Element::sphere});
     const detail::Progress progress{interrupter};
-    const detail::RadiusField field(scale, mask.transform(), radiusVoxels, mask.evalActiveVoxelBoundingBox(),
-                                    progress.part(0, 10));
+    const detail::RadiusField field(scale, mask.transform(), radiusVoxels, boxOf(mask), progress.part(0, 10));
     if (field.isUniform()) return dilate(mask, field.largest(), Element::sphere, interrupter);
     detail::requireSupportedCoordinates(mask.tree());
     return detail::maskGridLike(mask, detail::dilateByField(mask.tree(), field, {interrupter, 10, 100}));
@@ -139,8 +146,8 @@ MaskGrid::Ptr closeMask(const MaskGrid& solid, const CloseOptions& options, cons
 {
     detail::requireValid(options);
     const detail::Progress progress{interrupter};
-    const detail::RadiusField field(scale, solid.transform(), options.closeRadiusVoxels,
-                                    solid.evalActiveVoxelBoundingBox(), progress.part(0, 10));
+    const detail::RadiusField field(scale, solid.transform(), options.closeRadiusVoxels, boxOf(solid),
+                                    progress.part(0, 10));
     const double factor = options.closeRadiusVoxels > 0 ? options.erodeRadiusVoxels / options.closeRadiusVoxels : 0.0;
     if (field.isUniform()) {
         return closeMask(solid, {field.largest(), std::min(field.largest(), field.largest() * factor), options.element},

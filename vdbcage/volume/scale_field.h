@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -25,7 +26,8 @@ struct ScaleRegion {
 struct ScaleField {
     openvdb::FloatGrid::ConstPtr grid; ///< values cut to 0 to 8; its background holds outside; a linear transform
     std::vector<ScaleRegion> regions;
-    std::string source = {}; ///< the text that it was read from; empty if it was made otherwise
+    std::string source = {};         ///< the text that it was read from; empty if it was made otherwise
+    std::filesystem::path file = {}; ///< that `grid` was read from; empty if it was not read
 };
 
 /// A field from text: parts separated by semicolons, each `sphere:X,Y,Z,RADIUS,SCALE`, `box:X,Y,Z,X,Y,Z,SCALE` (two

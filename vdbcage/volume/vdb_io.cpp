@@ -130,6 +130,12 @@ openvdb::GridBase::Ptr readGrid(const std::filesystem::path& path, const std::st
 void writeVdb(const MaskGrid& mask, const std::filesystem::path& path,
               const std::map<std::string, std::string>& metadata)
 {
+    writeFileAtomically(path, [&](std::ostream& out) { writeVdb(mask, out, path, metadata); });
+}
+
+void writeVdb(const MaskGrid& mask, std::ostream& out, const std::filesystem::path& path,
+              const std::map<std::string, std::string>& metadata)
+{
     openvdb::initialize();
     const auto tree = std::make_shared<openvdb::FloatTree>(mask.tree(), 0.0F, 1.0F, openvdb::TopologyCopy());
     const auto grid = FloatGrid::create(tree);
@@ -138,13 +144,11 @@ void writeVdb(const MaskGrid& mask, const std::filesystem::path& path,
     grid->setGridClass(openvdb::GRID_FOG_VOLUME);
     grid->setCreator("vdbcage " VDBCAGE_VERSION);
     for (const auto& [key, value] : metadata) grid->insertMeta("vdbcage_" + key, openvdb::StringMetadata(value));
-    writeFileAtomically(path, [&](std::ostream& stream) {
-        try {
-            SeekableArchive().writeTo(stream, {grid});
-        } catch (const openvdb::Exception& error) {
-            if (stream) throw IoError(path.string() + ": cannot be written: " + error.what());
-        } // a failed stream is reported by the caller, with the system's reason
-    });
+    try {
+        SeekableArchive().writeTo(out, {grid});
+    } catch (const openvdb::Exception& error) {
+        if (out) throw IoError(path.string() + ": cannot be written: " + error.what());
+    } // a failed stream is the caller's to report, with the system's reason
 }
 
 MaskGrid::Ptr readVdb(const std::filesystem::path& path)

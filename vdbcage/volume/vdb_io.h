@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <iosfwd>
 #include <map>
 #include <string>
 
@@ -15,6 +16,10 @@ namespace vdbcage {
 /// The file appears whole or not at all (see core/atomic_file.h); equal grids need not give equal bytes (each file gets
 /// a UUID). Cost: 2 KiB of memory for each leaf node while it is written. \throw IoError naming the path
 VDBCAGE_API void writeVdb(const openvdb::MaskGrid& mask, const std::filesystem::path& path,
+                          const std::map<std::string, std::string>& metadata = {});
+
+/// The same to a stream that can seek, whose state tells whether it took all; `path` is the name in errors.
+VDBCAGE_API void writeVdb(const openvdb::MaskGrid& mask, std::ostream& out, const std::filesystem::path& path,
                           const std::map<std::string, std::string>& metadata = {});
 
 /// Reads a mask from a .vdb: its grid named `density` (the first of them) or else its only grid. A voxel is active

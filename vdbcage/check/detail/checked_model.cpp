@@ -4,8 +4,8 @@
 #include <sstream>
 #include <string>
 
-#include <tbb/parallel_invoke.h>
 #include <vdbcage/check/detail/measures.h>
+#include <vdbcage/core/detail/parallel.h>
 #include <vdbcage/core/error.h>
 #include <vdbcage/mesh/detail/union_find.h>
 #include <vdbcage/mesh/topology.h>
@@ -55,13 +55,13 @@ CheckedModel::CheckedModel(const Mesh& mesh, Interrupter* interrupter)
     if (faceCount(mesh) == 0) throw InputError("model: it has no faces; at least one is needed");
     requireSound(mesh, "model");
     const FaceTriangles faces(mesh);
-    tbb::parallel_invoke([&] { tree = TriangleTree(mesh.points, everyTriangle(mesh, faces), interrupter); },
-                         [&] { findParts(mesh, faces, interrupter); },
-                         [&] {
-                             if (analyzeTopology(mesh, interrupter).isCycle()) {
-                                 volume = std::abs(detail::volume(mesh.points, faces));
-                             }
-                         });
+    parallelInvoke([&] { tree = TriangleTree(mesh.points, everyTriangle(mesh, faces), interrupter); },
+                   [&] { findParts(mesh, faces, interrupter); },
+                   [&] {
+                       if (analyzeTopology(mesh, interrupter).isCycle()) {
+                           volume = std::abs(detail::volume(mesh.points, faces));
+                       }
+                   });
     diagonal = (tree.box().hi - tree.box().lo).length();
 }
 

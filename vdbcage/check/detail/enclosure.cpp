@@ -7,8 +7,8 @@
 #include <vector>
 
 #include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
 #include <vdbcage/check/detail/predicates.h>
+#include <vdbcage/core/detail/parallel.h>
 
 namespace vdbcage::detail {
 
@@ -58,7 +58,7 @@ std::size_t countContacts(CageFaces& cage, const CheckedModel::View& view, Flags
 {
     const CheckedModel& model = view.model;
     std::atomic<std::size_t> result{0};
-    tbb::parallel_for(Range(0, cage.faces.faces(), 1), [&](const Range& range) {
+    parallelFor(Range(0, cage.faces.faces(), 1), [&](const Range& range) {
         for (std::size_t face = range.begin(); face < range.end(); ++face) {
             throwIfInterrupted(interrupter);
             bool contact = false;
@@ -105,7 +105,7 @@ std::size_t countOutside(CageFaces& cage, const CheckedModel::View& view, const 
         for (std::size_t i = begin; i < end; ++i) questions.push_back({model.partVertices[i], 1, true});
     }
     std::atomic<std::size_t> result{0};
-    tbb::parallel_for(Range(0, questions.size(), 64), [&](const Range& range) {
+    parallelFor(Range(0, questions.size(), 64), [&](const Range& range) {
         throwIfInterrupted(interrupter);
         std::vector<std::uint32_t> crossed;
         std::size_t outside = 0;

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <tbb/parallel_for.h>
+#include <vdbcage/core/detail/parallel.h>
 
 namespace vdbcage::detail {
 
@@ -60,7 +60,7 @@ std::vector<double> distancesOf(const std::vector<Vec3d>& from, const TriangleTr
     std::vector<double> result(from.size());
     // Blocks of fixed size: each answer is the next one's seed, and a seed may change the last bit.
     constexpr std::size_t block = 64;
-    tbb::parallel_for(std::size_t(0), (from.size() + block - 1) / block, [&](std::size_t b) {
+    parallelFor(std::size_t(0), (from.size() + block - 1) / block, [&](std::size_t b) {
         throwIfInterrupted(interrupter);
         std::uint32_t seed = TriangleTree::none;
         for (std::size_t i = b * block; i < std::min(from.size(), (b + 1) * block); ++i) {

@@ -4,8 +4,8 @@
 
 #include <tbb/blocked_range.h>
 #include <tbb/enumerable_thread_specific.h>
-#include <tbb/parallel_for.h>
 #include <vdbcage/check/detail/cage_faces.h>
+#include <vdbcage/core/detail/parallel.h>
 
 namespace vdbcage::detail {
 
@@ -75,36 +75,35 @@ std::size_t countSelfIntersections(CageFaces& cage, Interrupter* interrupter)
     // For each face the last one that counted a pair with it: a pair of quads has up to 16 chances to collide.
     tbb::enumerable_thread_specific<std::vector<Index>> counted(
         [&] { return std::vector<Index>(cage.faces.faces(), ~Index(0)); });
-    tbb::parallel_for(
-        tbb::blocked_range<std::size_t>(0, cage.faces.faces(), 4), [&](const tbb::blocked_range<std::size_t>& range) {
-            throwIfInterrupted(interrupter);
-            std::vector<Index>& countedBy = counted.local();
-            for (std::size_t face = range.begin(); face < range.end(); ++face) {
-                std::size_t pairs = 0;
-                bool whole = true;
-                for (std::size_t t = cage.faces.first(face); t < cage.faces.first(face + 1); ++t) {
-                    if (cage.degenerate[t]) {
-                        whole = false;
-                        continue;
-                    }
-                    const Corners corners = cage.corners(t);
-                    const Box box = Box::of(corners);
-                    cage.tree.traverse(cage.tree.near(corners), [&](const TriangleTree::Item& item) {
-                        const Index other = cage.faces.face(item.triangle);
-                        if (other <= face || countedBy[other] == face || cage.degenerate[item.triangle]) return true;
-                        if (!box.meets(Box::of(cage.tree.corners(item))) || !collide(cage, t, item.triangle))
-                            return true;
-                        countedBy[other] = static_cast<Index>(face);
-                        set(cage.bad[other]);
-                        ++pairs;
-                        return true;
-                    });
+    const tbb::blocked_range<std::size_t> all(0, cage.faces.faces(), 4);
+    parallelFor(all, [&](const tbb::blocked_range<std::size_t>& range) {
+        throwIfInterrupted(interrupter);
+        std::vector<Index>& countedBy = counted.local();
+        for (std::size_t face = range.begin(); face < range.end(); ++face) {
+            std::size_t pairs = 0;
+            bool whole = true;
+            for (std::size_t t = cage.faces.first(face); t < cage.faces.first(face + 1); ++t) {
+                if (cage.degenerate[t]) {
+                    whole = false;
+                    continue;
                 }
-                if (whole && cage.faces.isQuad(face) && isFolded(cage, face - cage.mesh.triangles.size())) ++pairs;
-                if (pairs > 0) set(cage.bad[face]);
-                result += pairs;
+                const Corners corners = cage.corners(t);
+                const Box box = Box::of(corners);
+                cage.tree.traverse(cage.tree.near(corners), [&](const TriangleTree::Item& item) {
+                    const Index other = cage.faces.face(item.triangle);
+                    if (other <= face || countedBy[other] == face || cage.degenerate[item.triangle]) return true;
+                    if (!box.meets(Box::of(cage.tree.corners(item))) || !collide(cage, t, item.triangle)) return true;
+                    countedBy[other] = static_cast<Index>(face);
+                    set(cage.bad[other]);
+                    ++pairs;
+                    return true;
+                });
             }
-        });
+            if (whole && cage.faces.isQuad(face) && isFolded(cage, face - cage.mesh.triangles.size())) ++pairs;
+            if (pairs > 0) set(cage.bad[face]);
+            result += pairs;
+        }
+    });
     return result;
 }
 

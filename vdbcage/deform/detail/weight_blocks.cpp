@@ -7,7 +7,7 @@
 #include <utility>
 
 #include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
+#include <vdbcage/core/detail/parallel.h>
 #include <vdbcage/core/error.h>
 #include <vdbcage/deform/detail/interpolative.h>
 
@@ -146,7 +146,7 @@ WeightBlocks::WeightBlocks(const std::vector<Vec3d>& points, const std::vector<f
     std::vector<Indices> blocks;
     if (!all.empty()) split(points, all.begin(), all.end(), blocks);
     blocks_.resize(blocks.size());
-    tbb::parallel_for(std::size_t(0), blocks.size(), [&](std::size_t b) {
+    parallelFor(std::size_t(0), blocks.size(), [&](std::size_t b) {
         std::vector<float> rows(blocks[b].size() * handles_);
         makeRows(blocks[b], rows);
         const InterpolativeRows few = interpolativeRows(rows, reaches, tolerance, groupSize);
@@ -167,7 +167,7 @@ void WeightBlocks::move(const std::vector<HandleMove>& handleMoves, double size,
     Moves moves;
     for (const HandleMove& move : handleMoves) moves.add(move.handle, move.by);
     moves.lookAhead(handles_);
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, blocks_.size()), [&](const auto& range) {
+    parallelFor(tbb::blocked_range<std::size_t>(0, blocks_.size()), [&](const auto& range) {
         std::vector<Vec3f> held;
         Moves heldMoves;
         for (std::size_t b = range.begin(); b < range.end(); ++b) {

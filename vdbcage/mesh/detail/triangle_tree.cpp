@@ -11,8 +11,7 @@
 #include <utility>
 
 #include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-#include <tbb/parallel_reduce.h>
+#include <vdbcage/core/detail/parallel.h>
 #include <vdbcage/core/error.h>
 
 namespace vdbcage::detail {
@@ -111,8 +110,7 @@ T fold(const Ref* begin, const Ref* end, const Add& add)
         return value;
     };
     if (static_cast<std::size_t>(end - begin) < parallelBinSize) return foldRange({begin, end}, T());
-    return tbb::parallel_reduce(tbb::blocked_range<const Ref*>(begin, end, parallelBinSize / 8), T(), foldRange,
-                                Merge());
+    return parallelReduce(tbb::blocked_range<const Ref*>(begin, end, parallelBinSize / 8), T(), foldRange, Merge());
 }
 
 // Which bin of the longest axis of the centroids a leaf belongs to.
@@ -325,7 +323,7 @@ private:
 
     void setUnits()
     {
-        const Box box = tbb::parallel_reduce(
+        const Box box = parallelReduce(
             tbb::blocked_range<std::size_t>(0, triangles_.size(), blockSize), itemBox(0),
             [&](const tbb::blocked_range<std::size_t>& range, Box sum) {
                 throwIfInterrupted(interrupter_);
@@ -350,7 +348,7 @@ private:
         const std::size_t blocks = (triangles_.size() + blockSize - 1) / blockSize;
         const std::uint32_t most = triangles_.size() < manyTriangles ? 1 : leafSize;
         std::vector<std::uint32_t> counts(blocks);
-        tbb::parallel_for(std::size_t(0), blocks, [&](std::size_t block) {
+        parallelFor(std::size_t(0), blocks, [&](std::size_t block) {
             throwIfInterrupted(interrupter_);
             Ref* const first = refs_.get() + block * blockSize;
             Ref* last = first;
@@ -410,7 +408,7 @@ private:
             items += refs_[leaf].count;
         }
         tree_.items_.resize(triangles_.size());
-        tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, refCount_, blockSize), [&](const auto& range) {
+        parallelFor(tbb::blocked_range<std::uint32_t>(0, refCount_, blockSize), [&](const auto& range) {
             for (std::uint32_t leaf = range.begin(); leaf < range.end(); ++leaf) {
                 for (std::uint32_t i = 0; i < refs_[leaf].count; ++i) {
                     const std::uint32_t triangle = refs_[leaf].triangle + i;
@@ -418,7 +416,7 @@ private:
                 }
             }
         });
-        tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, nodeCount_, blockSize), [&](const auto& range) {
+        parallelFor(tbb::blocked_range<std::uint32_t>(0, nodeCount_, blockSize), [&](const auto& range) {
             for (std::uint32_t node = range.begin(); node < range.end(); ++node) {
                 for (std::uint32_t& child : tree_.nodes_[node].child) {
                     if (!(child & TriangleTree::isLeaf)) continue;
@@ -470,7 +468,7 @@ private:
             boxes[i] = buildNode(child[i], range);
         };
         if (large) {
-            tbb::parallel_for(std::size_t(0), count, buildChild);
+            parallelFor(std::size_t(0), count, buildChild);
         } else {
             for (std::size_t i = 0; i < count; ++i) buildChild(i);
         }

@@ -13,7 +13,7 @@
 #include <utility>
 
 #include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
+#include <vdbcage/core/detail/parallel.h>
 #include <vdbcage/surface/detail/fan_fit.h>
 #include <vdbcage/surface/detail/quadric.h>
 
@@ -123,7 +123,7 @@ private:
             }
             queue_.pop();
         }
-        tbb::parallel_for(std::size_t(0), proposals.size(), [&](std::size_t i) { find(proposals[i], slides); });
+        parallelFor(std::size_t(0), proposals.size(), [&](std::size_t i) { find(proposals[i], slides); });
         std::stable_sort(proposals.begin(), proposals.end(),
                          [](const Proposal& a, const Proposal& b) { return b.edge < a.edge; });
         GuardedSurface::Batch batch(surface_);
@@ -198,7 +198,7 @@ private:
     void push(const std::vector<Edge>& edges)
     {
         std::vector<double> costs(edges.size());
-        tbb::parallel_for(tbb::blocked_range<std::size_t>(0, edges.size(), 32), [&](const auto& range) {
+        parallelFor(tbb::blocked_range<std::size_t>(0, edges.size(), 32), [&](const auto& range) {
             std::array<Quadric, 4> quadrics;
             std::array<Vec3d, 4> places;
             for (std::size_t first = range.begin(); first < range.end(); first += quadrics.size()) {

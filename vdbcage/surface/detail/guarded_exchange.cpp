@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include <tbb/parallel_for.h>
+#include <vdbcage/core/detail/parallel.h>
 #include <vdbcage/surface/detail/fan_fit.h>
 #include <vdbcage/surface/detail/guarded_decimate.h>
 #include <vdbcage/surface/detail/guarded_sweeps.h>
@@ -66,7 +66,7 @@ void findPlace(const GuardedSurface& surface, const DistanceMeasure& measure, Ed
 void makeBest(GuardedSurface& surface, std::vector<EdgeChange> changes, std::size_t faces, double areaPerSample)
 {
     const DistanceMeasure measure(surface.guard(), areaPerSample);
-    tbb::parallel_for(std::size_t(0), changes.size(), [&](std::size_t i) { findPlace(surface, measure, changes[i]); });
+    parallelFor(std::size_t(0), changes.size(), [&](std::size_t i) { findPlace(surface, measure, changes[i]); });
     const auto gainsNothing = [](const EdgeChange& change) { return !(change.gain > 0); };
     changes.erase(std::remove_if(changes.begin(), changes.end(), gainsNothing), changes.end());
     std::stable_sort(changes.begin(), changes.end(),

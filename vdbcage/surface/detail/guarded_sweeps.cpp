@@ -10,7 +10,7 @@
 #include <optional>
 #include <vector>
 
-#include <tbb/parallel_for.h>
+#include <vdbcage/core/detail/parallel.h>
 #include <vdbcage/surface/detail/fan_fit.h>
 
 namespace vdbcage::detail {
@@ -60,7 +60,7 @@ void sweep(GuardedSurface& surface, const std::vector<std::uint32_t>& vertices, 
             throwIfInterrupted(interrupter);
             const std::size_t count = (group.size() - first + batches - 1) / batches;
             proposals.assign(count, {});
-            tbb::parallel_for(std::size_t(0), count, [&](std::size_t i) {
+            parallelFor(std::size_t(0), count, [&](std::size_t i) {
                 const std::uint32_t v = group[first + i * batches];
                 proposals[i].fan = surface.fanOf(v);
                 proposals[i].place = propose(v, proposals[i].fan);
@@ -134,7 +134,7 @@ std::vector<double> distances(const GuardedSurface& surface, double areaPerSampl
 {
     const DistanceMeasure measure(surface.guard(), areaPerSample);
     std::vector<double> integrals(surface.faces(), 0);
-    tbb::parallel_for(std::uint32_t(0), surface.vertices(), [&](std::uint32_t v) {
+    parallelFor(std::uint32_t(0), surface.vertices(), [&](std::uint32_t v) {
         std::uint32_t seed = TriangleTree::none;
         for (const auto* list : {&surface.facesOf(v), &surface.othersOf(v)}) {
             for (const std::uint32_t f : *list) {
@@ -246,7 +246,7 @@ void roundOff(GuardedSurface& surface, int sweeps, Interrupter* interrupter)
     const std::vector<std::uint32_t> vertices = allVertices(surface);
     std::vector<Vec3d> toAverage(surface.vertices(), Vec3d(0.0));
     for (int i = 0; i < sweeps; ++i) {
-        tbb::parallel_for(std::size_t(0), vertices.size(), [&](std::size_t k) {
+        parallelFor(std::size_t(0), vertices.size(), [&](std::size_t k) {
             const std::uint32_t v = vertices[k];
             toAverage[v] = ringAverage(surface, surface.fanOf(v)) - surface.point(v);
         });

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include <tbb/parallel_invoke.h>
+#include <vdbcage/core/detail/parallel.h>
 #include <vdbcage/mesh/detail/floats.h>
 #include <vdbcage/mesh/detail/triangle_tree.h>
 
@@ -212,7 +212,7 @@ private:
             sort(low);
             sort(high);
         } else {
-            tbb::parallel_invoke([low = low] { sort(low); }, [high = high] { sort(high); });
+            parallelInvoke([low = low] { sort(low); }, [high = high] { sort(high); });
         }
     }
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <atomic>
 
-#include <tbb/parallel_for.h>
+#include <vdbcage/core/detail/parallel.h>
 
 namespace vdbcage::detail {
 
@@ -193,7 +193,7 @@ std::vector<ContourBlock> contourBlocks(const MaskTree& tree, ContourOf side, co
     const std::uint64_t flip = side == ContourOf::complement ? ~0ULL : 0;
     std::vector<ContourBlock> blocks(origins.size());
     std::atomic<std::size_t> done{0};
-    tbb::parallel_for(std::size_t{0}, origins.size(), [&](std::size_t i) {
+    parallelFor(std::size_t{0}, origins.size(), [&](std::size_t i) {
         progress.check(done++, origins.size());
         blocks[i] = contourOfBlock(tree, origins[i], flip);
     });

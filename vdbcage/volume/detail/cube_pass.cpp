@@ -7,8 +7,7 @@
 #include <atomic>
 #include <cstring>
 
-#include <tbb/parallel_for.h>
-
+#include <vdbcage/core/detail/parallel.h>
 #include <vdbcage/core/detail/word_bits.h>
 #include <vdbcage/volume/detail/slot_set.h>
 
@@ -94,7 +93,7 @@ public:
         const std::vector<Row> rows = targetRows();
         std::vector<std::unique_ptr<FlatBlock>> built(rows.empty() ? 0 : rows.back().start + rows.back().blocks);
         std::atomic<std::size_t> done{0};
-        tbb::parallel_for(std::size_t{0}, rows.size(), [&](std::size_t i) {
+        parallelFor(std::size_t{0}, rows.size(), [&](std::size_t i) {
             build(rows[i], &built[rows[i].start], [&] { progress_.check(done++, rows.size() * slotsPerAxis); });
         });
         FullParts full = mask_.full();

@@ -6,7 +6,7 @@
 #include <set>
 #include <sstream>
 
-#include <tbb/parallel_for.h>
+#include <vdbcage/core/detail/parallel.h>
 #include <vdbcage/core/error.h>
 
 namespace vdbcage::detail {
@@ -182,7 +182,7 @@ void release(MaskTree& tree, const Progress& progress)
     tree.stealNodes(stolen);
     std::vector<std::unique_ptr<MaskBlock>> blocks(stolen.begin(), stolen.end());
     std::atomic<std::size_t> done{0};
-    tbb::parallel_for(std::size_t{0}, blocks.size(), [&](std::size_t i) {
+    parallelFor(std::size_t{0}, blocks.size(), [&](std::size_t i) {
         progress.check(done++, blocks.size());
         blocks[i].reset();
     });

@@ -5,7 +5,7 @@
 #include <sstream>
 
 #include <openvdb/tools/Interpolation.h>
-#include <tbb/parallel_for.h>
+#include <vdbcage/core/detail/parallel.h>
 #include <vdbcage/core/error.h>
 #include <vdbcage/volume/detail/mask_blocks.h>
 
@@ -87,7 +87,7 @@ BBoxd extentOf(const ScaleField& scale, const openvdb::math::Transform& voxels)
             throw InputError("the transform of the scale field must be linear");
         }
         CoordBBox active, leaves;
-        scale.grid->tree().evalActiveVoxelBoundingBox(active);
+        isolated([&] { scale.grid->tree().evalActiveVoxelBoundingBox(active); });
         scale.grid->tree().evalLeafBoundingBox(leaves);
         active.expand(leaves);
         if (!active.empty()) {
@@ -193,7 +193,7 @@ void RadiusField::sample(const ScaleField& scale, const openvdb::math::Transform
     nodes_.resize(static_cast<std::size_t>(size_.x()) * static_cast<std::size_t>(size_.y()) *
                   static_cast<std::size_t>(size_.z()));
     const openvdb::FloatGrid none(1.0F), &grid = scale.grid ? *scale.grid : none;
-    tbb::parallel_for(0, size_.x(), [&](int x) {
+    parallelFor(0, size_.x(), [&](int x) {
         const auto accessor = grid.getConstAccessor();
         for (int y = 0; y < size_.y(); ++y) {
             progress.check(static_cast<std::size_t>(x), static_cast<std::size_t>(size_.x()));
@@ -220,7 +220,7 @@ void RadiusField::clamp(const Progress& progress)
     const auto growth = static_cast<float>(steepest * (1 << shift_));
     for (std::size_t axis = 0; axis < 3; ++axis) {
         const std::size_t u = (axis + 1) % 3, v = (axis + 2) % 3;
-        tbb::parallel_for(0, size_[u], [&](int i) {
+        parallelFor(0, size_[u], [&](int i) {
             for (int j = 0; j < size_[v]; ++j) {
                 if (j % 16 == 0) progress.check(axis, 3);
                 Coord c;
@@ -279,7 +279,7 @@ void RadiusField::findRanges(const Progress& progress)
     }
     ranges_.resize(static_cast<std::size_t>(slots_.x()) * static_cast<std::size_t>(slots_.y()) *
                    static_cast<std::size_t>(slots_.z()));
-    tbb::parallel_for(0, slots_.x(), [&](int x) {
+    parallelFor(0, slots_.x(), [&](int x) {
         for (int y = 0; y < slots_.y(); ++y) {
             progress.check(static_cast<std::size_t>(x), static_cast<std::size_t>(slots_.x()));
             for (int z = 0; z < slots_.z(); ++z) {

@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <atomic>
 
-#include <tbb/parallel_for.h>
-
+#include <vdbcage/core/detail/parallel.h>
 #include <vdbcage/core/detail/word_bits.h>
 
 namespace vdbcage::detail {
@@ -83,7 +82,7 @@ SlotSet::SlotSet(const MaskTree& tree, const Progress& progress) : full_(fullPar
     tree.getNodes(nodes);
     flat_.resize(nodes.size());
     std::atomic<std::size_t> done{0};
-    tbb::parallel_for(std::size_t{0}, nodes.size(), [&](std::size_t i) {
+    parallelFor(std::size_t{0}, nodes.size(), [&](std::size_t i) {
         progress.check(done++, nodes.size());
         flat_[i] = flattened(*nodes[i]);
     });
@@ -127,7 +126,7 @@ MaskTree::Ptr SlotSet::tree(const Progress& progress) &&
 {
     std::vector<BuiltBlock> built(flat_.size());
     std::atomic<std::size_t> done{0};
-    tbb::parallel_for(std::size_t{0}, flat_.size(), [&](std::size_t i) {
+    parallelFor(std::size_t{0}, flat_.size(), [&](std::size_t i) {
         progress.check(done++, flat_.size());
         built[i] = treeBlock(*flat_[i]);
         flat_[i].reset(); // for the nodes that follow: to use its memory again is faster than to touch new pages

@@ -12,8 +12,8 @@
 #include <utility>
 
 #include <tbb/enumerable_thread_specific.h>
-#include <tbb/parallel_for.h>
 
+#include <vdbcage/core/detail/parallel.h>
 #include <vdbcage/volume/detail/contour_leaves.h>
 #include <vdbcage/volume/detail/sphere_reach.h>
 #include <vdbcage/volume/detail/varying_reach.h>
@@ -68,7 +68,7 @@ public:
         const std::vector<Coord> targets = targetBlocks();
         parts_ = 64 * targets.size();
         std::vector<BuiltBlock> built(targets.size());
-        tbb::parallel_for(std::size_t{0}, targets.size(), [&](std::size_t i) { built[i] = build(targets[i]); });
+        parallelFor(std::size_t{0}, targets.size(), [&](std::size_t i) { built[i] = build(targets[i]); });
         return assemble(fullParts(base_), std::move(built));
     }
 
@@ -116,7 +116,7 @@ private:
         Target target{origin, blockAt(base_, origin), keep_ ? blockAt(*keep_, origin) : Block(), {}, 0};
         gatherGroups(target);
         BlockBuilder builder(origin);
-        tbb::parallel_for(0, 64, [&](int part) {
+        parallelFor(0, 64, [&](int part) {
             progress_.check(partsDone_++, parts_);
             buildPart(target, part, workSpaces_.local(), builder);
         });

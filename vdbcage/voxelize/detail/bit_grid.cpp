@@ -5,7 +5,7 @@
 #include <new>
 #include <vector>
 
-#include <tbb/parallel_for.h>
+#include <vdbcage/core/detail/parallel.h>
 #include <vdbcage/core/detail/word_bits.h>
 
 namespace vdbcage::detail {
@@ -119,7 +119,7 @@ openvdb::MaskGrid::Ptr toMask(const BitGrid& bits, const openvdb::math::Transfor
                               nodeSize * (i % count.z()));
     };
     std::vector<Block> blocks(static_cast<std::size_t>(count.x() * count.y() * count.z()));
-    tbb::parallel_for(0, static_cast<int>(blocks.size()), [&](int i) {
+    parallelFor(0, static_cast<int>(blocks.size()), [&](int i) {
         throwIfInterrupted(interrupter);
         blocks[static_cast<std::size_t>(i)] = BlockBuilder(bits, origin(i)).build();
     });

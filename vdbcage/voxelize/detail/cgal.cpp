@@ -12,7 +12,7 @@
 #include <CGAL/AABB_triangle_primitive.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <tbb/blocked_range3d.h>
-#include <tbb/parallel_for.h>
+#include <vdbcage/core/detail/parallel.h>
 #include <vdbcage/voxelize/detail/backend.h>
 #include <vdbcage/voxelize/detail/fill.h>
 #include <vdbcage/voxelize/detail/parity_vote.h>
@@ -120,7 +120,7 @@ private:
         constexpr int size = 16;
         const tbb::blocked_range3d<int> blocks(0, last_.x() / size + 1, 1, 0, last_.y() / size + 1, 1, 0,
                                                last_.z() / 64 + 1, 1);
-        tbb::parallel_for(
+        parallelFor(
             blocks,
             [&](const tbb::blocked_range3d<int>& range) {
                 throwIfInterrupted(interrupter_, 10);
@@ -162,11 +162,11 @@ private:
     /// Flips the voxels in which rays through voxel centres cross triangles.
     void cross()
     {
-        tbb::parallel_for(0, last_.y() + 1, [&](int y) {
+        parallelFor(0, last_.y() + 1, [&](int y) {
             throwIfInterrupted(interrupter_, 40);
             for (int z = 0; z <= last_.z(); ++z) crossAlong(0, {0, y, z});
         });
-        tbb::parallel_for(0, last_.x() + 1, [&](int x) {
+        parallelFor(0, last_.x() + 1, [&](int x) {
             throwIfInterrupted(interrupter_, 60);
             for (int z = 0; z <= last_.z(); ++z) crossAlong(1, {x, 0, z});
             for (int y = 0; y <= last_.y(); ++y) crossAlong(2, {x, y, 0});

@@ -11,7 +11,7 @@
 
 #include <tbb/blocked_range.h>
 #include <tbb/enumerable_thread_specific.h>
-#include <tbb/parallel_for.h>
+#include <vdbcage/core/detail/parallel.h>
 #include <vdbcage/voxelize/detail/backend.h>
 #include <vdbcage/voxelize/detail/face_scan.h>
 #include <vdbcage/voxelize/detail/fill.h>
@@ -54,7 +54,7 @@ public:
     BitGrid run()
     {
         std::atomic<int> finished{0};
-        tbb::parallel_for(
+        parallelFor(
             tbb::blocked_range<int>(0, triangles_.slabCount(), 1),
             [&](const tbb::blocked_range<int>& range) {
                 for (int slab = range.begin(); slab != range.end(); ++slab) {

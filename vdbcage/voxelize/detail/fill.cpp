@@ -5,7 +5,7 @@
 #include <vector>
 
 #include <tbb/enumerable_thread_specific.h>
-#include <tbb/parallel_for.h>
+#include <vdbcage/core/detail/parallel.h>
 
 namespace vdbcage::detail {
 
@@ -54,12 +54,12 @@ public:
     {
         const int rowWords = bits_.wordsPerRow();
         tbb::enumerable_thread_specific<std::vector<Word>> buffers;
-        tbb::parallel_for(0, bits_.size().x(), [&](int x) {
+        parallelFor(0, bits_.size().x(), [&](int x) {
             throwIfInterrupted(interrupter_);
             hide(x, buffers.local());
         });
         drain(rowWords);
-        tbb::parallel_for(0, bits_.size().x(), [&](int x) {
+        parallelFor(0, bits_.size().x(), [&](int x) {
             for (const std::uint32_t i : hidden_[static_cast<std::size_t>(x)]) bits_.words()[i] |= unknown_.words()[i];
         });
     }

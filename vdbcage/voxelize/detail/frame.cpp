@@ -5,7 +5,7 @@
 #include <sstream>
 
 #include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
+#include <vdbcage/core/detail/parallel.h>
 #include <vdbcage/core/error.h>
 
 namespace vdbcage::detail {
@@ -89,7 +89,7 @@ openvdb::math::Transform::Ptr makeTransform(const Frame& frame)
 std::vector<openvdb::Vec3i> latticePoints(const Mesh& model, const Frame& frame)
 {
     std::vector<openvdb::Vec3i> lattice(model.points.size());
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, lattice.size(), 4096), [&](const auto& range) {
+    parallelFor(tbb::blocked_range<std::size_t>(0, lattice.size(), 4096), [&](const auto& range) {
         for (std::size_t i = range.begin(); i != range.end(); ++i) {
             for (int axis = 0; axis < 3; ++axis) {
                 lattice[i][axis] =

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
+#include <vdbcage/core/detail/parallel.h>
 
 namespace vdbcage::detail {
 
@@ -58,14 +58,14 @@ std::vector<Word> paritiesAlongX(const SlabbedTriangles& triangles, int wordsPer
     const int slabs = triangles.slabCount();
     std::vector<Word> parities(static_cast<std::size_t>(slabs + 1) * planeWords);
     const auto entering = [&](int slab) { return parities.data() + static_cast<std::size_t>(slab) * planeWords; };
-    tbb::parallel_for(0, slabs, [&](int slab) {
+    parallelFor(0, slabs, [&](int slab) {
         for (std::size_t i = 0; i < triangles.size(slab); ++i) {
             if (i % asksEvery == 0) throwIfInterrupted(interrupter, percent);
             if (!triangles.counted(slab, i)) continue;
             scanCrossingsAlongX(triangles.triangle(slab, i), triangles.planes(slab), entering(slab + 1), wordsPerRow);
         }
     });
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, planeWords, 4096), [&](const auto& range) {
+    parallelFor(tbb::blocked_range<std::size_t>(0, planeWords, 4096), [&](const auto& range) {
         for (int slab = 1; slab <= slabs; ++slab) {
             const Word* before = entering(slab - 1);
             Word* here = entering(slab);
@@ -140,7 +140,7 @@ void voteInside(const Slab& slab, Word* alongX, const Word* leakingX, Interrupte
     std::vector<Word> entering(static_cast<std::size_t>(count + 1) * planeWords);
     const auto enteringAt = [&](int i) { return entering.data() + static_cast<std::size_t>(i) * planeWords; };
     std::copy_n(alongX, planeWords, enteringAt(0));
-    tbb::parallel_for(0, count, [&](int i) {
+    parallelFor(0, count, [&](int i) {
         throwIfInterrupted(interrupter);
         const Slab thin = part(i);
         const Word* crossings = thin.crossings[0];
@@ -149,14 +149,14 @@ void voteInside(const Slab& slab, Word* alongX, const Word* leakingX, Interrupte
             for (std::size_t k = 0; k < planeWords; ++k) parities[k] ^= crossings[k];
         }
     });
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, planeWords, 4096), [&](const auto& range) {
+    parallelFor(tbb::blocked_range<std::size_t>(0, planeWords, 4096), [&](const auto& range) {
         for (int i = 1; i <= count; ++i) {
             for (std::size_t k = range.begin(); k != range.end(); ++k) enteringAt(i)[k] ^= enteringAt(i - 1)[k];
         }
     });
     std::copy_n(enteringAt(count), planeWords, alongX);
 
-    tbb::parallel_for(0, count, [&](int i) {
+    parallelFor(0, count, [&](int i) {
         throwIfInterrupted(interrupter);
         Slab thin = part(i);
         std::vector<std::uint8_t> crossed(static_cast<std::size_t>(thickness * slab.rowsPerPlane));

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include <tbb/parallel_for.h>
+#include <vdbcage/core/detail/parallel.h>
 
 namespace vdbcage::detail {
 
@@ -41,7 +41,7 @@ void SlabbedTriangles::sortIntoSlabs()
     const std::size_t blocks = (faces_.size() + blockSize - 1) / blockSize;
     std::vector<std::size_t> next(blocks * slabs); // by block and slab: first the counts, then where to write
     const auto forEachFace = [&](const auto& visit) {
-        tbb::parallel_for(std::size_t(0), blocks, [&](std::size_t block) {
+        parallelFor(std::size_t(0), blocks, [&](std::size_t block) {
             std::size_t* const row = next.data() + block * slabs;
             const std::size_t end = std::min(faces_.size(), (block + 1) * blockSize);
             for (std::size_t i = block * blockSize; i < end; ++i) {

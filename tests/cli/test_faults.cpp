@@ -1,0 +1,318 @@
+// Signals at any time, and allocations and threads that fail: no crash, the old or the new file whole, nothing left.
+// VDBCAGE_FAULTS=N multiplies the numbers of runs by N.
+
+#include <boost/test/unit_test.hpp>
+
+#include <algorithm>
+#include <array>
+#include <csignal>
+#include <cstdlib>
+#include <functional>
+#include <map>
+#include <random>
+#include <sstream>
+
+#include <sched.h>
+
+#include <support/run_command.h>
+#include <support/shapes.h>
+#include <vdbcage/mesh/mesh_io.h>
+#include <vdbcage/volume/vdb_io.h>
+
+using namespace vdbcage;
+using test::runCommand;
+using test::TemporaryFolder;
+namespace fs = std::filesystem;
+
+namespace {
+
+const std::string command = VDBCAGE_COMMAND;
+
+int times(int runs)
+{
+    const char* more = std::getenv("VDBCAGE_FAULTS");
+    return runs * (more ? std::atoi(more) : 1);
+}
+
+using Contents = std::map<std::string, std::string>;
+
+/// A command that works on what a Folder has.
+struct Work {
+    std::string name;
+    std::vector<std::string> words; // @ stands for the folder
+};
+
+std::vector<Work> works()
+{
+    return {{"few faces",
+             {"make", "@model.obj", "-o", "@o.obj", "--faces", "60", "--effort", "fast", "--report", "@r.json"}},
+            {"best", {"make", "@model.obj", "-o", "@o.obj", "--faces", "100", "--effort", "best"}},
+            {"fair quads",
+             {"make", "@model.obj", "-o", "@o.obj", "--mesh", "quads", "--symmetry", "auto", "--picture", "@p.png"}},
+            {"stages",
+             {"make", "@model.obj", "-o", "@o.obj", "--effort", "fast", "--stages", "@st", "--report", "@r.json"}},
+            {"check", {"check", "@cage.obj", "@model.obj", "--report", "@r.json"}},
+            {"bind", {"bind", "@cage.obj", "@model.obj", "-o", "@w.npy", "--coordinates", "mlc"}},
+            {"deform", {"deform", "@cage.obj", "@pose.%02d.obj", "@model.obj", "-o", "@d.%02d.obj"}},
+            {"render", {"render", "@model.obj", "@cage.obj", "/", "@solid.vdb", "-o", "@p.png"}}};
+}
+
+/// A folder with a model, its cage, poses, a volume, and old files where outputs go.
+class Folder {
+public:
+    Folder()
+    {
+        const Mesh model = test::joined(test::sphere({0, 0, 0}, 1, 24), test::torus(2, 0.2, 64, 16));
+        writeMesh(model, folder_ / "model.obj");
+        const Mesh cage = test::sphere({0, 0, 0}, 3.5, 10);
+        writeMesh(cage, folder_ / "cage.obj");
+        for (int i = 0; i < 6; ++i) {
+            writeMesh(test::transformed(cage, 1 + 0.1 * i, {0, 0, 0}),
+                      folder_ / ("pose.0" + std::to_string(i) + ".obj"));
+        }
+        const auto solid = openvdb::MaskGrid::create();
+        solid->sparseFill(openvdb::CoordBBox(openvdb::Coord(-10), openvdb::Coord(10)), true);
+        writeVdb(*solid, folder_ / "solid.vdb");
+        for (const char* name : {"o.obj", "r.json", "p.png", "w.npy", "d.00.obj", "d.03.obj"})
+            test::writeText(folder_ / name, "old");
+        start_ = contents();
+    }
+
+    std::vector<std::string> words(const Work& work) const
+    {
+        std::vector<std::string> all{command};
+        for (std::string word : work.words) {
+            if (word[0] == '@') word.replace(0, 1, folder_.path().string() + "/");
+            all.push_back(word);
+        }
+        return all;
+    }
+
+    /// Whether all is as before the command, or all as after it, whose outputs are whole then: never something between.
+    bool isOldOrNew(const Contents& finished) const
+    {
+        const Contents now = contents();
+        if (now == start_) return true;
+        // What differs from run to run: times in reports, identifiers in .vdb files.
+        const auto names = [](const Contents& all) {
+            std::vector<std::string> list;
+            for (const auto& file : all) list.push_back(file.first);
+            return list;
+        };
+        if (names(now) != names(finished)) return false;
+        for (const auto& [name, text] : now) {
+            const std::string extension = fs::path(name).extension();
+            if (extension == ".json"  ? text == "old"
+                : extension == ".vdb" ? text.size() != finished.at(name).size()
+                                      : text != finished.at(name)) {
+                return false;
+            }
+        }
+        return true;
+    }
+
+    void reset() const
+    {
+        for (const auto& [name, text] : contents()) {
+            if (start_.count(name) == 0) fs::remove_all(name);
+        }
+        for (const auto& [name, text] : start_) test::writeText(name, text);
+    }
+
+    Contents contents() const
+    {
+        Contents all;
+        for (const auto& entry : fs::recursive_directory_iterator(folder_.path())) {
+            all[entry.path().string()] = entry.is_regular_file() ? test::readText(entry.path()) : "";
+        }
+        return all;
+    }
+
+private:
+    TemporaryFolder folder_;
+    Contents start_;
+};
+
+/// What stands behind a word in /proc/PID/FILE.
+std::string procValue(pid_t process, const char* file, const std::string& word)
+{
+    const std::string text = test::readText("/proc/" + std::to_string(process) + "/" + file);
+    const auto at = text.find(word);
+    return at == std::string::npos ? "" : text.substr(at + word.size(), text.find('\n', at) - at - word.size());
+}
+
+bool hasEnded(pid_t process)
+{
+    siginfo_t info{};
+    return ::waitid(P_PID, static_cast<id_t>(process), &info, WEXITED | WNOHANG | WNOWAIT) != 0 || info.si_pid != 0;
+}
+
+/// The clock ticks of the processor that it has used.
+long ticks(pid_t process)
+{
+    const std::string stat = test::readText("/proc/" + std::to_string(process) + "/stat");
+    std::istringstream in(stat.substr(std::min(stat.size(), stat.rfind(')') + 2)));
+    std::string skipped;
+    for (int i = 0; i < 11; ++i) in >> skipped;
+    long user = 0, system = 0;
+    in >> user >> system;
+    return user + system;
+}
+
+/// Starts `words`, sends `signal` once the command listens and `isTime` says so, and waits for its end.
+test::CommandResult runSignalled(const std::vector<std::string>& words, int signal,
+                                 const std::function<bool(pid_t)>& isTime)
+{
+    const TemporaryFolder own;
+    const pid_t child = test::startCommand(words, own / "out", own / "err");
+    const auto listens = [&] {
+        const std::string caught = procValue(child, "status", "SigCgt:");
+        return !caught.empty() && (std::stoull(caught, nullptr, 16) >> (SIGTERM - 1) & 1U) != 0;
+    };
+    while (!hasEnded(child) && !listens()) ::sched_yield();
+    while (!hasEnded(child) && !isTime(child)) ::sched_yield();
+    ::kill(child, signal);
+    test::CommandResult result;
+    result.status = test::waitFor(child);
+    result.out = test::readText(own / "out");
+    result.err = test::readText(own / "err");
+    return result;
+}
+
+#ifdef VDBCAGE_FAILING_CALLS
+std::vector<std::string> withFailing(const std::string& what, const std::vector<std::string>& words)
+{
+    std::vector<std::string> all{"env", "LD_PRELOAD=" VDBCAGE_FAILING_CALLS, what};
+    all.insert(all.end(), words.begin(), words.end());
+    return all;
+}
+
+bool isOneErrorLine(const std::string& text)
+{
+    return text.rfind("vdbcage: error: ", 0) == 0 && std::count(text.begin(), text.end(), '\n') == 1 &&
+           text.back() == '\n';
+}
+#endif
+
+} // namespace
+
+BOOST_AUTO_TEST_SUITE(faults)
+
+BOOST_AUTO_TEST_CASE(signals_at_any_time)
+{
+    const Folder folder;
+    std::mt19937 random(1);
+    int cancelled = 0, runs = 0;
+    for (const Work& work : works()) {
+        const auto words = folder.words(work);
+        // How much work there is, in ticks of its time, so that moments are spread over all of it.
+        const TemporaryFolder own;
+        long most = 0;
+        const pid_t whole = test::startCommand(words, own / "out", own / "err");
+        while (!hasEnded(whole)) most = std::max(most, ticks(whole));
+        BOOST_TEST(test::waitFor(whole) == 0, work.name + ": " + test::readText(own / "err"));
+        const Contents finished = folder.contents();
+        for (int run = 0; run < times(4); ++run, ++runs) {
+            folder.reset();
+            const int signal = std::array{SIGINT, SIGTERM, SIGHUP, SIGPIPE}[random() % 4];
+            // In the middle of the work, or where files are.
+            const bool byFiles = run % 2 == 1;
+            const long moment = static_cast<long>(random() % static_cast<unsigned long>(most + 1));
+            const std::size_t files = folder.contents().size() + 1 + random() % 3;
+            const auto result = runSignalled(words, signal, [&](pid_t process) {
+                return byFiles ? folder.contents().size() >= files : ticks(process) >= moment;
+            });
+            BOOST_TEST_CONTEXT(work.name << ", signal " << signal << " at " << (byFiles ? "file " : "tick ")
+                                         << (byFiles ? static_cast<long>(files) : moment))
+            {
+                BOOST_TEST((result.status == 130 || result.status == 0), result.status);
+                if (result.status == 130) BOOST_TEST(result.err == "vdbcage: error: cancelled\n");
+                BOOST_TEST(folder.isOldOrNew(finished));
+                BOOST_TEST((result.status != 0 || folder.contents().size() == finished.size()));
+            }
+            cancelled += result.status == 130;
+        }
+        folder.reset();
+    }
+    BOOST_TEST_MESSAGE(cancelled << " of " << runs << " runs were cancelled");
+    BOOST_TEST(cancelled > runs / 4);
+}
+
+BOOST_AUTO_TEST_CASE(drawing_stops_when_it_is_told_to)
+{
+    const Folder folder;
+    auto words =
+        folder.words({"render", {"render", "@model.obj", "@cage.obj", "-o", "@p.png", "--size", "12000x12000"}});
+    const auto result = runSignalled(words, SIGINT, [&](pid_t process) { return ticks(process) > 20; });
+    BOOST_TEST(result.status == 130);
+    BOOST_TEST(result.err == "vdbcage: error: cancelled\n");
+    BOOST_TEST(folder.isOldOrNew({}));
+}
+
+BOOST_AUTO_TEST_CASE(a_hang_up_that_the_caller_ignores_is_ignored)
+{
+    const Folder folder;
+    auto words = folder.words(works()[4]);
+    words.insert(words.begin(), "nohup");
+    const auto result = runSignalled(words, SIGHUP, [](pid_t) { return true; });
+    BOOST_TEST(result.status == 0, result.err);
+}
+
+#ifdef VDBCAGE_FAILING_CALLS
+
+BOOST_AUTO_TEST_CASE(an_allocation_that_fails)
+{
+    const Folder folder;
+    const TemporaryFolder own;
+    std::mt19937 random(2);
+    for (const int which : {0, 1, 4, 5, 6}) {
+        const Work work = works()[static_cast<std::size_t>(which)];
+        const auto words = folder.words(work);
+        const std::string count = own / "count";
+        BOOST_TEST(runCommand(withFailing("COUNT_ALLOCATIONS=" + count, words)).status == 0);
+        const unsigned long allocations = std::stoul(test::readText(count));
+        const Contents finished = folder.contents();
+        BOOST_TEST(allocations > 1000U);
+        for (int run = 0; run < times(10); ++run) {
+            folder.reset();
+            // Half of them spread over all, half where little has been done yet.
+            const unsigned long at = 1 + random() % (run % 2 == 0 ? allocations : 1000);
+            const bool goesOn = run % 3 == 2;
+            const std::string fault = (goesOn ? "FAIL_ALLOCATIONS_FROM=" : "FAIL_ALLOCATION=") + std::to_string(at);
+            const auto result = runCommand(withFailing(fault, words));
+            BOOST_TEST_CONTEXT(work.name << ", " << fault << ": " << result.status << " " << result.err)
+            {
+                BOOST_TEST(folder.isOldOrNew(finished));
+                // Some libraries can do without what they asked for. What fails before main is the loader's to tell.
+                const bool isLoader = result.status == 127 ||
+                                      result.err.find("error while loading shared libraries") != std::string::npos;
+                BOOST_TEST((result.status == 0 || isLoader || (result.status == 1 && isOneErrorLine(result.err))));
+            }
+        }
+        folder.reset();
+    }
+}
+
+BOOST_AUTO_TEST_CASE(threads_that_cannot_be_started)
+{
+    const Folder folder;
+    for (const int which : {0, 7}) {
+        const Work work = works()[static_cast<std::size_t>(which)];
+        const auto words = folder.words(work);
+        const Contents before = folder.contents();
+        for (int most = 0; most <= 24; most += most < 8 ? 1 : 4) {
+            folder.reset();
+            const auto result = runCommand(withFailing("MOST_THREADS=" + std::to_string(most), words));
+            BOOST_TEST_CONTEXT(work.name << ", at most " << most << " threads"
+                                         << ": " << result.status << " " << result.err)
+            {
+                BOOST_TEST((result.status == 0 || (result.status == 1 && isOneErrorLine(result.err))));
+                if (result.status != 0) BOOST_CHECK(folder.contents() == before);
+            }
+        }
+    }
+}
+
+#endif
+
+BOOST_AUTO_TEST_SUITE_END()
