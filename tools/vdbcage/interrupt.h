@@ -26,6 +26,9 @@ public:
 /// Whether a signal has come that asks for a stop.
 bool signalled() noexcept;
 
+/// From here on signals change nothing: the work is done, and only words are left.
+void ignoreSignals() noexcept;
+
 /// Prints that the command was cancelled, unless that was said before.
 void sayCancelled() noexcept;
 

@@ -27,10 +27,10 @@ fs::path folderOf(const fs::path& path)
 
 } // namespace
 
-Outputs::~Outputs()
+Outputs::MadeFolders::~MadeFolders()
 {
     std::error_code ignored;
-    for (auto folder = made_.rbegin(); folder != made_.rend(); ++folder) fs::remove(*folder, ignored);
+    for (auto folder = paths.rbegin(); folder != paths.rend(); ++folder) fs::remove(*folder, ignored);
 }
 
 Outputs::Identity Outputs::identityOf(const fs::path& path)
@@ -86,8 +86,8 @@ void Outputs::add(const fs::path& path, const FileWriter& write)
     if (signalled()) throw Cancelled();
     for (const fs::path& folder : toMake_) {
         std::error_code error;
-        made_.reserve(made_.size() + 1);
-        if (fs::create_directory(folder, error)) made_.push_back(folder);
+        made_.paths.push_back(folder);
+        if (!fs::create_directory(folder, error)) made_.paths.pop_back();
         if (error) failFolder(folder, error.message());
     }
     toMake_.clear();
@@ -99,8 +99,8 @@ void Outputs::commit()
 {
     if (signalled()) throw Cancelled();
     files_.commit();
-    made_.clear();
-    hold_.reset();
+    made_.paths.clear();
+    ignoreSignals();
 }
 
 } // namespace vdbcage::tool

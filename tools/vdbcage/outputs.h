@@ -17,11 +17,6 @@ namespace vdbcage::tool {
 /// reads and writes; no output may be an input or another output, by whatever name.
 class Outputs {
 public:
-    Outputs() = default;
-    ~Outputs();
-    Outputs(const Outputs&) = delete;
-    Outputs& operator=(const Outputs&) = delete;
-
     /// Says that the command reads `path`, which need not exist. All inputs come before all outputs.
     void reads(const std::filesystem::path& path);
     /// Says that files will be written into the folder `path`, which is made if it does not exist. \throw IoError
@@ -41,10 +36,20 @@ private:
     using Identity = std::tuple<unsigned long long, unsigned long long, std::filesystem::path>;
     static Identity identityOf(const std::filesystem::path& path);
 
+    /// Folders that go again, if they are empty.
+    struct MadeFolders {
+        MadeFolders() = default;
+        ~MadeFolders();
+        MadeFolders(const MadeFolders&) = delete;
+        MadeFolders& operator=(const MadeFolders&) = delete;
+        std::vector<std::filesystem::path> paths;
+    };
+
     std::optional<SignalHold> hold_;
-    std::map<Identity, bool> known_;                   // whether it is an input
-    std::vector<std::filesystem::path> toMake_, made_; // folders
-    PendingFiles files_;
+    std::map<Identity, bool> known_;            // whether it is an input
+    std::vector<std::filesystem::path> toMake_; // folders
+    MadeFolders made_;
+    PendingFiles files_; // goes before the folders that it is in
 };
 
 } // namespace vdbcage::tool
