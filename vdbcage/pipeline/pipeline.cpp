@@ -679,7 +679,8 @@ Pipeline& Pipeline::operator=(Pipeline&&) noexcept = default;
 
 const Mesh& Pipeline::run(const CageOptions& options, Interrupter* interrupter)
 {
-    stages_->run(options, interrupter);
+    // Even the destructors of OpenVDB's trees crash in a task of the host that was cancelled.
+    detail::isolated([&] { stages_->run(options, interrupter); });
     return cage();
 }
 
@@ -718,7 +719,7 @@ const CageReport& Pipeline::report() const
 
 Mesh makeCage(const Mesh& model, const CageOptions& options, Interrupter* interrupter)
 {
-    return Pipeline(model).run(options, interrupter);
+    return detail::isolated([&] { return Pipeline(model).run(options, interrupter); });
 }
 
 } // namespace vdbcage
