@@ -50,7 +50,7 @@ Outputs::Identity Outputs::identityOf(const fs::path& path)
 
 void Outputs::reads(const fs::path& path)
 {
-    known_.emplace(identityOf(path), true);
+    known_.emplace(identityOf(path), path);
 }
 
 void Outputs::writesInto(const fs::path& given)
@@ -73,11 +73,12 @@ void Outputs::writes(const fs::path& path)
     const bool isFolderMade =
         std::any_of(toMake_.begin(), toMake_.end(), [&](const fs::path& made) { return identityOf(made) == folder; });
     if (!isFolderMade) requireWritable(path);
-    const auto [known, isFirst] = known_.emplace(identityOf(path), false);
+    const auto [known, isFirst] = known_.emplace(identityOf(path), fs::path());
     if (isFirst) return;
-    throw InputError(
-        path.string() + ": this file is named twice; " +
-        (known->second ? "it is one of the inputs and would be overwritten" : "all outputs must be different files"));
+    throw InputError(path.string() + ": this file is named twice; " +
+                     (known->second.empty()
+                          ? "all outputs must be different files"
+                          : "it is the input " + known->second.string() + ", which would be overwritten"));
 }
 
 void Outputs::add(const fs::path& path, const FileWriter& write)

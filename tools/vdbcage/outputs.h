@@ -46,8 +46,8 @@ private:
     };
 
     std::optional<SignalHold> hold_;
-    std::map<Identity, bool> known_;            // whether it is an input
-    std::vector<std::filesystem::path> toMake_; // folders
+    std::map<Identity, std::filesystem::path> known_; // the name of an input; none of an output
+    std::vector<std::filesystem::path> toMake_;       // folders
     MadeFolders made_;
     PendingFiles files_; // goes before the folders that it is in
 };
