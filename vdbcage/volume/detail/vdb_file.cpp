@@ -203,9 +203,8 @@ void readChunk(ByteCursor& in, std::uint32_t compression, char* out, std::size_t
     if ((compression & (openvdb::io::COMPRESS_BLOSC | openvdb::io::COMPRESS_ZIP)) == 0) return copy();
     const auto length = in.value<std::int64_t>();
     if (length == -static_cast<std::int64_t>(size)) return copy();
-    if (length <= 0 || static_cast<std::uint64_t>(length) > in.left()) {
-        in.damaged("the length of a chunk of " + std::to_string(size) + " bytes is " + std::to_string(length) + ", " +
-                   std::to_string(in.left()) + " are left");
+    if (length <= 0 || static_cast<std::uint64_t>(length) > size + BLOSC_MAX_OVERHEAD) {
+        in.damaged("the length of a chunk of " + std::to_string(size) + " bytes is " + std::to_string(length));
     }
     const std::string_view bytes = in.take(static_cast<std::size_t>(length));
     std::size_t got = 0;
@@ -420,8 +419,8 @@ GridBase::Ptr readGrid(ByteCursor& in, const Descriptor& descriptor)
     const auto compression = in.value<std::uint32_t>();
     if (compression & ~known) in.damaged("its compression is " + std::to_string(compression));
     const openvdb::MetaMap metadata = readMetadata(in);
-    const auto saved = metadata.getMetadata<openvdb::BoolMetadata>(GridBase::META_SAVE_HALF_FLOAT);
-    if ((saved && saved->value()) != descriptor.isHalf) in.damaged("it is said to be both of half floats and not");
+    const auto saved = metadata[GridBase::META_SAVE_HALF_FLOAT];
+    if ((saved && saved->asBool()) != descriptor.isHalf) in.damaged("it is said to be both of half floats and not");
     const auto transform = readTransform(in);
     GridBase::Ptr result;
     forType(descriptor.type, [&](auto* none) {
