@@ -2,7 +2,8 @@
 
 packages=(
     g++ cmake ninja-build
-    libopenvdb-dev libtbb-dev libblosc-dev libboost-dev libboost-iostreams-dev # volumes
+    libopenvdb-dev libtbb-dev libblosc-dev zlib1g-dev                          # volumes
+    libboost-dev libboost-iostreams-dev
     libopenmesh-dev libcgal-dev libgmp-dev libmpfr-dev libqhull-dev            # surfaces
     libgl-dev libegl-dev libosmesa6-dev libgl1-mesa-dri libpng-dev             # pictures, voxels by OpenGL
     libcli11-dev nlohmann-json3-dev                                            # the command

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <limits>
+#include <sstream>
 
 #include <openvdb/tree/ValueAccessor.h>
 #include <tbb/blocked_range.h>
@@ -93,25 +93,55 @@ void sortUnique(std::vector<Coord>& coords)
     coords.erase(std::unique(coords.begin(), coords.end()), coords.end());
 }
 
+// What a small file can ask for with tiles: more would take tens of gigabytes.
+constexpr std::size_t mostCandidates = std::size_t(1) << 26, mostBlocks = std::size_t(1) << 22, mostQuads = 100000000;
+
+void requireAtMost(std::size_t most, std::size_t count, const char* things)
+{
+    if (count <= most) return;
+    throw InputError("the surface of the voxels is too large: " + std::to_string(count) + " " + things +
+                     "; there may be " + std::to_string(most));
+}
+
+/// Steps from one voxel to another must not leave the range of coordinates.
+void requireSupported(const openvdb::CoordBBox& box)
+{
+    constexpr int limit = 1 << 30;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        if (box.min()[axis] >= -limit && box.max()[axis] < limit) continue;
+        std::ostringstream text;
+        text << "there are active voxels near " << box.min() << "; coordinates must be in [-2^30, 2^30)";
+        throw InputError(text.str());
+    }
+}
+
 /// The origins of the 8^3 blocks that hold active voxels and touch a surface, sorted. Of an active tile only the
 /// blocks of its outer layer can.
 std::vector<Coord> surfaceBlocks(const Tree& tree, Interrupter* interrupter)
 {
     std::vector<Coord> blocks;
     for (auto leaf = tree.cbeginLeaf(); leaf; ++leaf) {
-        if (!leaf->isEmpty()) blocks.push_back(leaf->origin());
+        if (leaf->isEmpty()) continue;
+        requireSupported(leaf->getNodeBoundingBox());
+        blocks.push_back(leaf->origin());
     }
+    std::size_t candidates = blocks.size();
     auto tile = tree.cbeginValueOn();
     tile.setMaxDepth(Tree::ValueOnCIter::LEAF_DEPTH - 1);
     for (; tile; ++tile) {
         openvdb::CoordBBox box;
         tile.getBoundingBox(box);
+        requireSupported(box);
+        const auto side = static_cast<std::size_t>(box.dim().x() / blockSide),
+                   inner = side - std::min(side, std::size_t(2));
+        candidates += side * side * side - inner * inner * inner;
+        requireAtMost(mostCandidates, candidates, "blocks of 8^3 voxels are outermost in tiles");
         const Coord low = box.min(), high = box.max().offsetBy(1 - blockSide);
         for (int x = low.x(); x <= high.x(); x += blockSide) {
             throwIfInterrupted(interrupter);
             for (int y = low.y(); y <= high.y(); y += blockSide) {
-                const bool inner = x != low.x() && x != high.x() && y != low.y() && y != high.y();
-                const int step = inner ? std::max(blockSide, high.z() - low.z()) : blockSide;
+                const bool isInner = x != low.x() && x != high.x() && y != low.y() && y != high.y();
+                const int step = isInner ? std::max(blockSide, high.z() - low.z()) : blockSide;
                 for (int z = low.z(); z <= high.z(); z += step) blocks.emplace_back(x, y, z);
             }
         }
@@ -123,6 +153,7 @@ std::vector<Coord> surfaceBlocks(const Tree& tree, Interrupter* interrupter)
     for (std::size_t i = 0; i < blocks.size(); ++i) {
         if (keep[i]) blocks[kept++] = blocks[i];
     }
+    requireAtMost(mostBlocks, kept, "blocks of 8^3 voxels");
     blocks.resize(kept);
     sortUnique(blocks);
     return blocks;
@@ -266,10 +297,7 @@ void number(std::vector<SurfaceBlock>& blocks, Mesh& mesh)
         points += block.pointCount;
         quads += block.quadCount;
     }
-    if (points > std::numeric_limits<Index32>::max()) {
-        throw InputError("the surface of the voxels has " + std::to_string(points) +
-                         " points; at most 4294967295 can be numbered");
-    }
+    requireAtMost(mostQuads, quads, "quads"); // so that 32 bits number the points too
     mesh.points.resize(points);
     mesh.quads.resize(quads);
 }

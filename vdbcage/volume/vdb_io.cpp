@@ -1,20 +1,16 @@
 #include <vdbcage/volume/vdb_io.h>
 
-#include <cerrno>
-#include <cstdint>
-#include <exception>
-#include <fstream>
 #include <new>
-#include <system_error>
 #include <utility>
 
 #include <openvdb/io/Archive.h>
-#include <openvdb/io/Stream.h>
 #include <openvdb/tools/Prune.h>
 #include <vdbcage/core/atomic_file.h>
 #include <vdbcage/core/detail/mask_grid.h>
+#include <vdbcage/core/detail/read_file.h>
 #include <vdbcage/core/error.h>
 #include <vdbcage/core/version.h>
+#include <vdbcage/volume/detail/vdb_file.h>
 
 namespace vdbcage {
 
@@ -37,7 +33,8 @@ template <class Grid>
 MaskGrid::Ptr maskWhere(const Grid& grid, const std::string& path, bool (*isInside)(typename Grid::ValueType, bool))
 {
     if (isInside(grid.background(), false)) {
-        throw IoError(path + ": the background of grid '" + grid.getName() + "' is inside: the solid has no end");
+        throw IoError(path + ": the background of grid '" + detail::printable(grid.getName()) +
+                      "' is inside: the solid has no end");
     }
     using Leaf = typename Grid::TreeType::LeafNodeType;
     auto tree = std::make_shared<MaskTree>(false);
@@ -79,50 +76,23 @@ MaskGrid::Ptr maskOfBits(const Grid& grid, const std::string& path)
         grid, path, +[](bool value, bool isOn) { return value && isOn; });
 }
 
-openvdb::GridBase::Ptr chosenGrid(const openvdb::GridPtrVec& grids, const std::string& wanted, const std::string& path)
-{
-    for (const auto& grid : grids) {
-        if (grid && grid->getName() == wanted) return grid;
-    }
-    if (grids.size() == 1 && grids.front()) return grids.front();
-    std::string names;
-    for (const auto& grid : grids) names += (names.empty() ? "" : ", ") + (grid ? grid->getName() : std::string());
-    throw IoError(
-        path + (grids.empty() ? ": holds no grid" : ": holds several grids but none named " + wanted + ": " + names));
-}
-
 MaskGrid::Ptr toMask(const openvdb::GridBase& grid, const std::string& path)
 {
     if (const auto* floats = dynamic_cast<const FloatGrid*>(&grid)) return maskOfScalars(*floats, path);
     if (const auto* doubles = dynamic_cast<const openvdb::DoubleGrid*>(&grid)) return maskOfScalars(*doubles, path);
     if (const auto* bools = dynamic_cast<const openvdb::BoolGrid*>(&grid)) return maskOfBits(*bools, path);
-    if (const auto* masks = dynamic_cast<const MaskGrid*>(&grid)) return maskOfBits(*masks, path);
-    throw IoError(path + ": grid '" + grid.getName() + "' holds " + grid.valueType() +
-                  " values; float, double, bool or mask is needed");
+    return maskOfBits(dynamic_cast<const MaskGrid&>(grid), path);
 }
 
-openvdb::GridBase::Ptr readGrid(const std::filesystem::path& path, const std::string& wanted)
+/// The file is read once: what was checked is what is used.
+openvdb::GridBase::Ptr readGrid(const std::filesystem::path& path, const std::string& wanted, detail::VdbValues values)
 {
-    const std::string name = path.string();
-    std::error_code ignored;
-    if (std::filesystem::is_directory(path, ignored)) throw IoError(name + ": is a directory; a .vdb file is needed");
-    errno = 0;
-    std::ifstream stream(path, std::ios::binary);
-    if (!stream) throw IoError(name + ": cannot be read: " + std::generic_category().message(errno));
     openvdb::initialize();
-    openvdb::GridPtrVecPtr grids;
     try {
-        // OpenVDB does not look whether its reads succeed; the stream does.
-        stream.exceptions(std::ios::failbit | std::ios::badbit | std::ios::eofbit);
-        grids = openvdb::io::Stream(stream, false).getGrids();
-    } catch (const std::ios_base::failure&) {
-        throw IoError(name + ": is not a .vdb file, or is truncated");
+        return detail::parseVdb(detail::readFile(path), path.string(), wanted, values);
     } catch (const std::bad_alloc&) {
-        throw IoError(name + ": is damaged, or needs more memory than there is");
-    } catch (const std::exception& error) {
-        throw IoError(name + ": is not a .vdb file that can be read: " + error.what());
+        throw IoError(path.string() + ": there is not enough memory to read it");
     }
-    return chosenGrid(*grids, wanted, name);
 }
 
 } // namespace
@@ -153,16 +123,12 @@ void writeVdb(const MaskGrid& mask, std::ostream& out, const std::filesystem::pa
 
 MaskGrid::Ptr readVdb(const std::filesystem::path& path)
 {
-    return toMask(*readGrid(path, gridName), path.string());
+    return toMask(*readGrid(path, gridName, detail::VdbValues::scalars), path.string());
 }
 
 FloatGrid::Ptr readFloatGrid(const std::filesystem::path& path, const std::string& wanted)
 {
-    const auto grid = readGrid(path, wanted);
-    auto floats = openvdb::gridPtrCast<FloatGrid>(grid);
-    if (floats) return floats;
-    throw IoError(path.string() + ": grid '" + grid->getName() + "' holds " + grid->valueType() +
-                  " values; float is needed");
+    return openvdb::gridPtrCast<FloatGrid>(readGrid(path, wanted, detail::VdbValues::floats));
 }
 
 } // namespace vdbcage

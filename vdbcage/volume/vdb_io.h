@@ -25,11 +25,18 @@ VDBCAGE_API void writeVdb(const openvdb::MaskGrid& mask, std::ostream& out, cons
 /// Reads a mask from a .vdb: its grid named `density` (the first of them) or else its only grid. A voxel is active
 /// where a float or double grid is above 0.5 (where its class is level set: below 0), whatever its active state, and
 /// where a bool or mask grid is both true and active. The grid's transform is kept, metadata is not.
-/// \throw IoError naming the path: cannot be read, not a .vdb, truncated or damaged, no grid `density` among several
-///        or none at all, a grid of another type, a grid whose background is inside (it fills all of space)
+/// The file need not be trusted: OpenVDB's reader, which 10.0.1 lets write over the heap, is not used. Memory is at
+/// most 80 times the file's size plus 2 MiB; tiles of little memory can be as large as space, though. Files of versions
+/// 222 (2013) to 224 of the format can be read, and trees of levels 5, 4 and 3. In a file without offsets (a streamed
+/// one) the grids before the wanted one must be of types that can be read too. \throw IoError naming the path: cannot
+/// be read, no regular file, not a .vdb, truncated or damaged, no grid `density`
+///        among several or none at all, a grid of another type, a grid whose background is inside (it fills all of
+///        space)
 VDBCAGE_API openvdb::MaskGrid::Ptr readVdb(const std::filesystem::path& path);
 
-/// Reads a FloatGrid from a .vdb: its grid of this name (the first of them) or else its only grid.
+/// Reads a FloatGrid from a .vdb, with its metadata: its grid of this name (the first of them) or else its only grid.
+/// The file need not be trusted, as for readVdb; memory is at most 40 times its size plus 1 MiB. Values can be infinite
+/// or not a number.
 /// \throw IoError naming the path, as readVdb
 VDBCAGE_API openvdb::FloatGrid::Ptr readFloatGrid(const std::filesystem::path& path, const std::string& gridName);
 

@@ -91,16 +91,25 @@ BBoxd extentOf(const ScaleField& scale, const openvdb::math::Transform& voxels)
         scale.grid->tree().evalLeafBoundingBox(leaves);
         active.expand(leaves);
         if (!active.empty()) {
-            active.expand(1);
+            // Not with coordinates: the field may reach to their ends.
+            const Vec3d lower = active.min().asVec3d() - Vec3d(1), upper = active.max().asVec3d() + Vec3d(1);
             for (int corner = 0; corner < 8; ++corner) {
-                const Vec3d index((corner & 1 ? active.max() : active.min()).x(),
-                                  (corner & 2 ? active.max() : active.min()).y(),
-                                  (corner & 4 ? active.max() : active.min()).z());
+                const Vec3d index((corner & 1 ? upper : lower).x(), (corner & 2 ? upper : lower).y(),
+                                  (corner & 4 ? upper : lower).z());
                 box.expand(voxels.worldToIndex(scale.grid->transform().indexToWorld(index)));
             }
         }
     }
     return box;
+}
+
+/// The background where there can be no voxels.
+float sampleAt(const openvdb::FloatGrid::ConstAccessor& field, const Vec3d& index)
+{
+    for (int axis = 0; axis < 3; ++axis) {
+        if (!(std::abs(index[axis]) < 0x1p31 - 2)) return field.tree().background();
+    }
+    return openvdb::tools::BoxSampler::sample(field, index);
 }
 
 bool contains(const ScaleRegion& region, const Vec3d& point)
@@ -201,10 +210,8 @@ void RadiusField::sample(const ScaleField& scale, const openvdb::math::Transform
                 const Coord c = first_ + Coord(x, y, z);
                 const Vec3d world = voxels.indexToWorld(c.asVec3d() * static_cast<double>(1 << shift_));
                 double value = 1;
-                if (scale.grid) {
-                    value = static_cast<double>(
-                        openvdb::tools::BoxSampler::sample(accessor, scale.grid->transform().worldToIndex(world)));
-                }
+                if (scale.grid)
+                    value = static_cast<double>(sampleAt(accessor, scale.grid->transform().worldToIndex(world)));
                 for (const ScaleRegion& region : scale.regions) {
                     if (contains(region, world)) value *= region.scale;
                 }

@@ -1,0 +1,93 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+#include <vdbcage/core/error.h>
+
+namespace vdbcage::detail {
+
+/// Where a value of a file lies: what a fuzzer changes to get deep.
+struct ByteField {
+    std::size_t position, size;
+};
+
+/// Reads values from the bytes of a file, one after the other and never beyond their end. Values are as this machine
+/// has them: little-endian.
+class ByteCursor {
+public:
+    /// \param name  of the file, for messages
+    /// \param fields  if not null gets every value that is read
+    ByteCursor(std::string_view bytes, const std::string& name, std::vector<ByteField>* fields = nullptr)
+        : bytes_(bytes), name_(&name), fields_(fields), fileSize_(bytes.size())
+    {
+    }
+
+    /// The part of the file from `begin` to `end`.
+    ByteCursor part(std::size_t begin, std::size_t end) const
+    {
+        ByteCursor result = *this;
+        result.bytes_ = bytes_.substr(0, end);
+        result.position_ = begin;
+        return result;
+    }
+
+    std::size_t position() const { return position_; }
+    std::size_t left() const { return bytes_.size() - position_; }
+
+    /// The next `count` bytes.
+    std::string_view take(std::size_t count)
+    {
+        if (count > left()) {
+            if (bytes_.size() == fileSize_) refuse("is not a .vdb file, or is truncated");
+            damaged("a grid reaches beyond its end");
+        }
+        if (fields_ && count > 0) fields_->push_back({position_, count});
+        const std::string_view result = bytes_.substr(position_, count);
+        position_ += count;
+        return result;
+    }
+
+    /// What was read from `begin` on.
+    std::string_view since(std::size_t begin) const { return bytes_.substr(begin, position_ - begin); }
+
+    /// The next value, which may be of any bits.
+    template <class Value>
+    Value value()
+    {
+        static_assert(std::is_trivially_copyable_v<Value> && !std::is_same_v<Value, bool>);
+        Value result;
+        std::memcpy(&result, take(sizeof(Value)).data(), sizeof(Value));
+        return result;
+    }
+
+    bool flag(const char* what)
+    {
+        const auto byte = value<std::uint8_t>();
+        if (byte > 1) damaged(std::string(what) + " is " + std::to_string(byte) + ", neither 0 nor 1");
+        return byte == 1;
+    }
+
+    /// A string: its length in 32 bits, then its characters.
+    std::string_view string() { return take(value<std::uint32_t>()); }
+
+    /// \throw IoError with the position behind what was read last
+    [[noreturn]] void damaged(const std::string& what) const
+    {
+        refuse("is damaged: " + what + " (at byte " + std::to_string(position_) + ")");
+    }
+    [[noreturn]] void refuse(const std::string& what) const { throw IoError(*name_ + ": " + what); }
+
+private:
+    std::string_view bytes_;
+    const std::string* name_;
+    std::vector<ByteField>* fields_;
+    std::size_t fileSize_, position_ = 0;
+};
+
+} // namespace vdbcage::detail
