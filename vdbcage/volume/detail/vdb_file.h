@@ -27,7 +27,7 @@ enum class VdbValues { scalars /* float, double, bool and mask */, floats };
 openvdb::GridBase::Ptr parseVdb(std::string_view bytes, const std::string& name, const std::string& wanted,
                                 VdbValues values, std::vector<ByteField>* fields = nullptr);
 
-/// A grid's name as a part of a line: at most 80 characters, control characters become '?'.
-std::string printable(std::string_view name);
+/// A grid's name as a part of a line: at most 80 characters.
+std::string shortened(std::string_view name);
 
 } // namespace vdbcage::detail
