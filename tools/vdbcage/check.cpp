@@ -46,7 +46,7 @@ int runCheck(std::vector<std::string> words)
                       : check.valid()  ? "NOT bounding"
                                        : "NOT a valid cage")
                   << '\n'
-                  << describe(check);
+                  << describe(summary) << describe(check);
     }
     return check.bounding() ? exitGood : exitNotBounding;
 }
