@@ -333,6 +333,18 @@ BOOST_AUTO_TEST_CASE(models_of_several_parts)
     BOOST_TEST(check(cube(), transformed(cube(), 1, {2.5, 0, 0})).modelVerticesOutside == 8U);
 }
 
+BOOST_AUTO_TEST_CASE(copies_of_a_triangle_with_points_of_their_own)
+{
+    Mesh model;
+    for (unsigned i = 0; i < 150; i += 3) {
+        for (const Vec3d& p : {Vec3d(0, 0, 0), Vec3d(0.5, 0, 0.25), Vec3d(0, 2, 0)}) model.points.push_back(p);
+        model.triangles.emplace_back(i, i + 1, i + 2);
+    }
+    const CageCheck check = checkCage(cube(), model);
+    BOOST_TEST(check.contactFaces == 1U);
+    BOOST_TEST(check.modelVerticesOutside == 50U);
+}
+
 BOOST_AUTO_TEST_CASE(the_cage_inside_the_model)
 {
     const CageCheck result = check(cube(0.5), cube(1));

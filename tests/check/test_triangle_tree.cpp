@@ -389,4 +389,84 @@ BOOST_AUTO_TEST_CASE(building_can_be_cancelled)
     }
 }
 
+namespace {
+
+/// Triangle t of the soup `times` times, in any order of corners, every second time with points of its own.
+void addCopies(Soup& soup, std::size_t t, std::size_t times)
+{
+    const Vec3I corners = soup.triangles[t];
+    for (std::size_t i = 0; i < times; ++i) {
+        Vec3I copy(corners[static_cast<int>(i % 3)], corners[static_cast<int>((i + 1 + i / 3 % 2) % 3)],
+                   corners[static_cast<int>((i + 2 - i / 3 % 2) % 3)]);
+        if (i % 2 == 0) {
+            for (int corner = 0; corner < 3; ++corner) {
+                soup.points.push_back(Vec3d(soup.points[copy[corner]]));
+                copy[corner] = static_cast<unsigned>(soup.points.size() - 1);
+            }
+        }
+        soup.triangles.push_back(copy);
+    }
+}
+
+void expectSameAnswers(const TriangleTree& tree, const TriangleTree& all)
+{
+    std::mt19937 random(5);
+    std::uniform_real_distribution<double> unit(-1, 1);
+    for (int i = 0; i < 300; ++i) {
+        const Vec3d p(unit(random), unit(random), unit(random));
+        // Corners in another order round another way.
+        BOOST_TEST(tree.closest(p).squaredDistance == all.closest(p).squaredDistance,
+                   boost::test_tools::tolerance(1e-12));
+        const Box box{p - Vec3d(0.01), p + Vec3d(0.01)};
+        const auto none = [](const TriangleTree::Item&) { return false; };
+        BOOST_TEST(tree.forEachOverlap(box, none) == all.forEachOverlap(box, none));
+    }
+}
+
+} // namespace
+
+BOOST_AUTO_TEST_CASE(copies_are_dropped_if_asked_for)
+{
+    for (const std::size_t times : {std::size_t(3000), std::size_t(200000)}) { // below and above many triangles
+        Soup soup = randomSoup(8, 500);
+        for (const std::size_t t : {3U, 40U, 41U}) addCopies(soup, t, times);
+        const TriangleTree all = soup.tree();
+        BOOST_TEST(all.items().size() == 500 + 3 * times);
+        const TriangleTree tree(soup.points, soup.triangles, nullptr, TriangleTree::Copies::drop);
+        BOOST_TEST(tree.items().size() >= 400U); // some of the soup are the same
+        BOOST_TEST(tree.items().size() < 1500U);
+        expectSameAnswers(tree, all);
+    }
+    Soup one = randomSoup(1, 1);
+    addCopies(one, 0, 10000);
+    const TriangleTree tree(one.points, one.triangles, nullptr, TriangleTree::Copies::drop);
+    BOOST_TEST(tree.items().size() <= 4U);
+    expectSameAnswers(tree, one.tree());
+}
+
+BOOST_AUTO_TEST_CASE(what_is_no_copy_stays)
+{
+    // One box, but other corners: the four triangles of squares, and zeros of either sign.
+    Soup soup;
+    for (int i = 0; i < 50; ++i) {
+        const auto first = static_cast<unsigned>(soup.points.size());
+        for (const Vec3d& p : {Vec3d(0, 0, 0), Vec3d(1, 0, 0), Vec3d(1, 1, 0), Vec3d(0, 1, 0)}) {
+            soup.points.push_back(i % 2 == 0 ? p : Vec3d(p[0] > 0 ? 1 : -0.0, p[1] > 0 ? 1 : -0.0, -0.0));
+        }
+        for (unsigned without = 0; without < 4; ++without) {
+            soup.triangles.emplace_back(first + (without == 0 ? 1 : 0), first + (without < 2 ? 2 : 1),
+                                        first + (without < 3 ? 3 : 2));
+        }
+    }
+    const TriangleTree tree(soup.points, soup.triangles, nullptr, TriangleTree::Copies::drop);
+    BOOST_TEST(tree.items().size() == 4U);
+    std::set<std::uint32_t> first;
+    for (const TriangleTree::Item& item : tree.items()) first.insert(item.triangle % 4);
+    BOOST_TEST(first.size() == 4U);
+
+    const Soup quads = manyQuads();
+    const TriangleTree many(quads.points, quads.triangles, nullptr, TriangleTree::Copies::drop);
+    BOOST_TEST(many.items().size() == quads.triangles.size());
+}
+
 BOOST_AUTO_TEST_SUITE_END()

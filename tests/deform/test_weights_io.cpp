@@ -2,6 +2,8 @@
 
 #include <cstring>
 
+#include <sys/stat.h>
+
 #include <deform/cages.h>
 #include <support/temporary_folder.h>
 #include <vdbcage/core/error.h>
@@ -97,6 +99,30 @@ BOOST_AUTO_TEST_CASE(refuses_what_does_not_fit)
     BOOST_TEST(messageOf(path, cage, points) == path + ": it is not a weights file of vdbcage");
     BOOST_TEST(!messageOf(folder / "none.npy", cage, points).empty());
     BOOST_TEST(!messageOf(folder.path(), cage, points).empty());
+}
+
+BOOST_AUTO_TEST_CASE(refuses_what_is_not_a_whole_file_of_its_size)
+{
+    const TemporaryFolder folder;
+    const std::string path = folder / "w.npy";
+    writeWeights(cage, points, Coordinates::meanValue, computeWeights(cage, points, Coordinates::meanValue), path);
+    const std::string bytes = test::readText(path);
+    test::writeText(path, bytes + "x");
+    BOOST_TEST(messageOf(path, cage, points) == path + ": it has 1 bytes behind the weights; it should end there");
+    test::writeText(path, bytes.substr(0, bytes.size() - 1));
+    BOOST_TEST(messageOf(path, cage, points) == path + ": it is truncated");
+
+    const std::string pipe = folder / "pipe.npy"; // to open it would wait for a writer
+    BOOST_REQUIRE(::mkfifo(pipe.c_str(), 0600) == 0);
+    BOOST_TEST(messageOf(pipe, cage, points) == pipe + ": is not a regular file");
+    BOOST_TEST(messageOf("/dev/zero", cage, points) == "/dev/zero: is not a regular file");
+
+    const std::string loop = folder / "loop.npy";
+    std::filesystem::create_symlink(loop, loop);
+    BOOST_TEST(messageOf(loop, cage, points) == loop + ": cannot be read: Too many levels of symbolic links");
+    BOOST_TEST(messageOf(folder / "none.npy", cage, points) ==
+               (folder / "none.npy").string() + ": cannot be read: No such file or directory");
+    BOOST_TEST(messageOf(folder.path(), cage, points) == folder.path().string() + ": is a directory; a file is needed");
 }
 
 BOOST_AUTO_TEST_SUITE_END()

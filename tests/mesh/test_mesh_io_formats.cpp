@@ -7,6 +7,7 @@
 
 #include <mesh/mesh_samples.h>
 #include <vdbcage/core/error.h>
+#include <vdbcage/mesh/detail/polygon_soup.h>
 
 using namespace vdbcage;
 using namespace vdbcage::test;
@@ -182,6 +183,84 @@ BOOST_AUTO_TEST_CASE(the_summary_is_that_of_the_last_file)
     ReadSummary summary{7, 7, 7};
     obj(threePoints + "f 1 2 3\n", &summary);
     BOOST_TEST(summary.polygons + summary.degenerateFaces + summary.ignoredElements == 0U);
+}
+
+namespace {
+
+/// Faces over points on a circle: each of `count` corners that follow each other, from the given one.
+Mesh onCircle(const std::vector<std::pair<std::size_t, std::size_t>>& firstAndCount, ReadSummary& summary)
+{
+    constexpr std::size_t points = 5000;
+    detail::PolygonSoup soup;
+    for (std::size_t i = 0; i < points; ++i) {
+        const double angle = 2 * 3.14159265358979 * static_cast<double>(i) / static_cast<double>(points);
+        soup.points.emplace_back(std::cos(angle), std::sin(angle), 0);
+    }
+    for (const auto& [first, count] : firstAndCount) {
+        std::vector<openvdb::Index32> face;
+        for (std::size_t i = 0; i < count; ++i) face.push_back(static_cast<openvdb::Index32>((first + i) % points));
+        soup.addFace(face.data(), count);
+    }
+    return detail::toMesh(std::move(soup), "circle", &summary);
+}
+
+} // namespace
+
+BOOST_AUTO_TEST_CASE(equal_polygons_have_their_alternatives_once)
+{
+    std::string text = "OFF\n64 60 0\n";
+    for (int i = 0; i < 64; ++i) {
+        text += std::to_string(std::cos(0.098174770424681 * i)) + ' ' +
+                std::to_string(std::sin(0.098174770424681 * i)) + " 0\n";
+    }
+    for (int face = 0; face < 60; ++face) { // from any start, in either direction
+        text += "64";
+        for (int i = 0; i < 64; ++i) {
+            text += ' ' + std::to_string((7 * face + (face % 2 == 0 ? i : 64 - i)) % 64);
+        }
+        text += '\n';
+    }
+    ReadSummary summary;
+    const Mesh mesh = off(text, &summary);
+    BOOST_TEST(mesh.triangles.size() == 60U * 62U); // they stay faces
+    BOOST_TEST(mesh.alternatives.size() == 64U * 62U);
+    BOOST_TEST(summary.polygons == 60U);
+    BOOST_TEST(summary.alternateCorners == 64U);
+    BOOST_TEST(summary.facesAsSplit == 0U);
+    // The same corners in another order are another polygon.
+    const std::string five = "OFF\n5 3 0\n0 0 0\n2 0 0\n3 1 0\n2 2 0\n0 2 0\n";
+    BOOST_TEST(off(five + "5 0 1 2 3 4\n5 4 3 2 1 0\n5 2 3 4 0 1\n").alternatives.size() == 10U);
+    BOOST_TEST(off(five + "5 0 1 2 3 4\n5 4 3 2 1 0\n5 0 2 1 3 4\n").alternatives.size() == 20U);
+}
+
+BOOST_AUTO_TEST_CASE(faces_of_more_than_64_corners_are_told)
+{
+    ReadSummary summary;
+    const Mesh mesh = onCircle({{0, 65}, {10, 65}, {0, 64}, {0, 5}}, summary);
+    BOOST_TEST(mesh.alternatives.size() == 64U * 62U + 10U);
+    BOOST_TEST(summary.alternateCorners == 64U);
+    BOOST_TEST(summary.facesAsSplit == 2U);
+}
+
+BOOST_AUTO_TEST_CASE(alternatives_keep_within_their_budget)
+{
+    // Too many of 64 corners; copies take nothing; the smaller ones have theirs.
+    std::vector<std::pair<std::size_t, std::size_t>> faces;
+    const std::size_t fit = detail::mostAlternates / (64 * 62);
+    for (std::size_t i = 0; i < fit; ++i) faces.emplace_back(i, 64);
+    ReadSummary summary;
+    faces.emplace_back(0, 64);
+    BOOST_TEST(onCircle(faces, summary).alternatives.size() == fit * 64 * 62);
+    BOOST_TEST(summary.alternateCorners == 64U);
+    faces.emplace_back(fit, 64);
+    faces.emplace_back(0, 65);
+    faces.emplace_back(0, 5);
+    faces.emplace_back(0, 20);
+    const Mesh mesh = onCircle(faces, summary);
+    BOOST_TEST(mesh.alternatives.size() == 10U + 20U * 18U);
+    BOOST_TEST(summary.alternateCorners == 63U);
+    BOOST_TEST(summary.facesAsSplit == fit + 3);
+    BOOST_TEST(mesh.triangles.size() == (fit + 2) * 62 + 63 + 3 + 18);
 }
 
 BOOST_AUTO_TEST_CASE(off_headers)

@@ -286,4 +286,109 @@ BOOST_AUTO_TEST_CASE(alternatives_hold_every_triangle_of_every_fan)
     BOOST_TEST(none.empty());
 }
 
+BOOST_AUTO_TEST_CASE(there_are_as_many_alternatives_as_announced)
+{
+    for (std::size_t n = 4; n <= 66; ++n) {
+        std::vector<openvdb::Index32> face(n);
+        std::iota(face.begin(), face.end(), 0U);
+        std::vector<openvdb::Vec3I> triangles;
+        detail::addAlternatives(face.data(), n, triangles);
+        BOOST_TEST(triangles.size() == detail::alternativesOf(n));
+    }
+}
+
+namespace {
+
+constexpr double turn = 2 * 3.14159265358979323846;
+
+Vec3d onCircle(double angle, double radius)
+{
+    return {radius * std::cos(angle), radius * std::sin(angle), 0};
+}
+
+/// Faces of n corners or a few less that do not cross themselves.
+std::vector<Loop> largeFaces(std::size_t n)
+{
+    std::mt19937 random(3);
+    std::uniform_real_distribution<double> unit(-1, 1);
+    std::vector<Loop> faces(7);
+    for (std::size_t i = 0; i < n; ++i) {
+        const double part = static_cast<double>(i) / static_cast<double>(n);
+        faces[0].push_back(onCircle(turn * part, 1));                                         // convex
+        faces[1].push_back(onCircle(turn * part, i % 2 == 0 ? 0.5 : 1));                      // a star
+        faces[2].emplace_back(1 - 2 * part, i % 2 == 0 ? -0.9 : 0.5 + 0.4 * unit(random), 0); // a comb
+        faces[3].emplace_back(1 - 2 * part, i % 4 < 2 ? -0.9 : 1, 0);                         // with blunt teeth
+        faces[4].push_back(onCircle(turn / 4 * (1 - part), i % 2 == 0 ? 1e-6 : 5e-7)); // all in one place but a corner
+        faces[5].push_back(onCircle(turn * part, 1 + 0.2 * std::sin(50 * turn * part)));
+    }
+    for (const std::size_t comb : {2U, 3U}) {
+        faces[comb].emplace_back(-1, -1, 0);
+        faces[comb].emplace_back(1, -1, 0);
+    }
+    faces[4].emplace_back(-1, -1, 0);
+    std::reverse(faces[4].begin(), faces[4].end());
+    for (int side = 0; side < 2; ++side) { // a spiral
+        for (std::size_t i = 0; i < n / 2; ++i) {
+            const double part = static_cast<double>(side == 0 ? i : n / 2 - 1 - i) / static_cast<double>(n / 2);
+            faces[6].push_back(onCircle(40 * turn * part, 0.05 + 0.9 * part + (side == 0 ? 0.01 : 0)));
+        }
+    }
+    return faces;
+}
+
+/// Faces of n corners that have no right division.
+std::vector<Loop> senselessFaces(std::size_t n)
+{
+    std::mt19937 random(4);
+    std::uniform_real_distribution<double> unit(-1, 1);
+    std::vector<Loop> faces(6);
+    for (std::size_t i = 0; i < n; ++i) {
+        faces[0].emplace_back(unit(random), 0, 0);
+        const double t = unit(random);
+        faces[1].emplace_back(t, t / 3, t / 7); // a line but for rounding
+        faces[2].emplace_back(1, 2, 3);
+        faces[3].push_back(onCircle(turn * static_cast<double>(random() % 5) / 5, 1));
+        faces[4].emplace_back(unit(random), unit(random), unit(random));
+        faces[5].emplace_back(static_cast<double>(random() % 300), static_cast<double>(random() % 300), 0);
+    }
+    return faces;
+}
+
+std::size_t workOf(const Loop& loop)
+{
+    std::vector<openvdb::Index32> face(loop.size());
+    std::iota(face.begin(), face.end(), 0U);
+    Split result;
+    detail::PolygonSplitter splitter(loop);
+    splitter.split(face.data(), face.size(), result.triangles, result.quads);
+    BOOST_TEST(result.triangles.size() == loop.size() - 2);
+    return splitter.work();
+}
+
+} // namespace
+
+BOOST_AUTO_TEST_CASE(large_faces_are_divided_right)
+{
+    for (const Loop& loop : largeFaces(6000)) checkTriangles(loop, split(loop).triangles);
+}
+
+BOOST_AUTO_TEST_CASE(work_grows_as_the_corners_do)
+{
+    for (const Loop& loop : largeFaces(100000)) BOOST_TEST(workOf(loop) < 1000 * loop.size());
+}
+
+BOOST_AUTO_TEST_CASE(work_on_senseless_faces_is_bounded)
+{
+    for (const Loop& loop : senselessFaces(50000)) BOOST_TEST(workOf(loop) < 4096 * loop.size());
+}
+
+// A fan's triangles are as long as the face: nothing that looks them up is fast.
+BOOST_AUTO_TEST_CASE(large_convex_faces_have_short_triangles)
+{
+    const Loop loop = largeFaces(20000)[0];
+    double length = 0;
+    for (const openvdb::Vec3I& t : split(loop).triangles) length += (loop[t[0]] - loop[t[2]]).length();
+    BOOST_TEST(length < 20 * turn);
+}
+
 BOOST_AUTO_TEST_SUITE_END()

@@ -49,7 +49,7 @@ int runCheck(std::vector<std::string> words)
                       : check.valid()  ? "NOT bounding"
                                        : "NOT a valid cage")
                   << '\n'
-                  << describe(check);
+                  << describe(summary) << describe(check);
         flushOutput();
     }
     outputs.commit();

@@ -95,8 +95,8 @@ void addStages(const Pipeline& pipeline, const MakeArguments& arguments, Interru
     }
 }
 
-void printSummary(const MakeArguments& arguments, const Pipeline& pipeline, const std::vector<StageTime>& stages,
-                  double seconds)
+void printSummary(const MakeArguments& arguments, const ReadSummary& summary, const Pipeline& pipeline,
+                  const std::vector<StageTime>& stages, double seconds)
 {
     const CageReport& report = pipeline.report();
     const CageCheck& check = report.check;
@@ -136,6 +136,7 @@ void printSummary(const MakeArguments& arguments, const Pipeline& pipeline, cons
                   << report.parts << " and " << report.handles << " of the closing, " << check.components << " and "
                   << check.genus << " of the cage\n";
     }
+    std::cerr << describe(summary);
     if (!arguments.verbose) return;
     for (const StageTime& stage : stages) {
         std::cerr << "  " << std::left << std::setw(10) << stage.name << std::right << std::setw(8) << stage.seconds
@@ -207,7 +208,7 @@ int runMake(std::vector<std::string> words)
     }
     outputs.commit();
     progress.reset();
-    if (!arguments.quiet) printSummary(arguments, pipeline, clock.stages(), seconds);
+    if (!arguments.quiet) printSummary(arguments, summary, pipeline, clock.stages(), seconds);
     return exitGood;
 }
 

@@ -84,6 +84,8 @@ Json toJson(const ReadSummary& summary, const Mesh& mesh, const std::filesystem:
             {"triangles", mesh.triangles.size()},
             {"quads", mesh.quads.size()},
             {"polygons_split", summary.polygons},
+            {"splits_certified_up_to_corners", summary.alternateCorners},
+            {"faces_certified_as_split", summary.facesAsSplit},
             {"degenerate_faces", summary.degenerateFaces},
             {"ignored_elements", summary.ignoredElements}};
 }
@@ -115,6 +117,14 @@ std::string toText(const Json& report)
 {
     // A path is any bytes; JSON is UTF-8: what is not gets the replacement character.
     return report.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
+}
+
+std::string describe(const ReadSummary& summary)
+{
+    if (summary.facesAsSplit == 0) return "";
+    return "  " + std::to_string(summary.facesAsSplit) + (summary.facesAsSplit == 1 ? " face" : " faces") +
+           " of more than " + std::to_string(summary.alternateCorners) +
+           " corners: certified as split here, not under other splits\n";
 }
 
 std::string describe(const CageCheck& check)

@@ -28,5 +28,7 @@ std::string toText(const Json& report);
 
 /// The verdict in words, one line a finding, for a person.
 std::string describe(const CageCheck& check);
+/// A line that says which faces of the model are only certified as they are split here; empty if none.
+std::string describe(const ReadSummary& summary);
 
 } // namespace vdbcage::tool

@@ -105,12 +105,18 @@ void writeWeights(const Mesh& cage, const std::vector<openvdb::Vec3d>& points, C
 
 Binding readWeights(const std::filesystem::path& path, const Mesh& cage, std::vector<openvdb::Vec3d> points)
 {
-    const auto fail = [&](const std::string& problem) { throw IoError(path.string() + ": " + problem); };
+    const auto fail = [&](const std::string& what) { throw IoError(path.string() + ": " + what); };
+    std::error_code problem;
+    const std::filesystem::file_status status = std::filesystem::status(path, problem);
+    if (problem) fail("cannot be read: " + problem.message());
+    if (std::filesystem::is_directory(status)) fail("is a directory; a file is needed");
+    // Pipes and devices have no size and may never end.
+    if (!std::filesystem::is_regular_file(status)) fail("is not a regular file");
+    const std::uintmax_t size = std::filesystem::file_size(path, problem);
+    if (problem) fail("cannot be read: " + problem.message());
     errno = 0;
     std::ifstream in(path, std::ios::binary);
-    if (!in || std::filesystem::is_directory(path)) {
-        fail("cannot be read: " + (errno != 0 ? std::generic_category().message(errno) : "it is not a file"));
-    }
+    if (!in) fail("cannot be read: " + std::generic_category().message(errno != 0 ? errno : EIO));
     std::string start(magic.size() + 2, '\0');
     in.read(start.data(), static_cast<std::streamsize>(start.size()));
     if (!in || start.compare(0, magic.size(), magic) != 0) fail("it is not a weights file of vdbcage");
@@ -138,6 +144,13 @@ Binding readWeights(const std::filesystem::path& path, const Mesh& cage, std::ve
         fail(error.what());
     }
     if (columns != cageHandles(cage, cage.points, family).size()) fail("it has another number of handles");
+    // What the header says is bounded by the file's size before memory is taken for it. Neither sum can overflow: rows
+    // and columns are those of a model and a cage in memory.
+    const std::uintmax_t expectedSize = start.size() + text.size() + sizeof record + rows * columns * sizeof(float);
+    if (size < expectedSize) fail("it is truncated");
+    if (size > expectedSize) {
+        fail("it has " + std::to_string(size - expectedSize) + " bytes behind the weights; it should end there");
+    }
     std::vector<float> weights(rows * columns);
     in.read(reinterpret_cast<char*>(weights.data()), static_cast<std::streamsize>(weights.size() * sizeof(float)));
     if (!in) fail("it is truncated");

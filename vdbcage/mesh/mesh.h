@@ -18,7 +18,8 @@ struct Mesh {
     std::vector<openvdb::Vec3I> triangles; ///< three indices into `points`
     std::vector<openvdb::Vec4I> quads;     ///< four indices into `points`, in order around the face
     /// Of a model that was read: triangles that its polygons would have if they were split in other ways (quads apart,
-    /// whose diagonals are known). They are no faces, but another program may see them, so cages bound them too.
+    /// whose diagonals are known; and large polygons, see ReadSummary). Those of equal polygons are there once. They
+    /// are no faces, but another program may see them, so cages bound them too.
     std::vector<openvdb::Vec3I> alternatives = {};
 };
 

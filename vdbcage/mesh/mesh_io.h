@@ -16,6 +16,10 @@ struct ReadSummary {
     std::size_t polygons = 0;        ///< faces with more than four corners, split into triangles
     std::size_t degenerateFaces = 0; ///< faces that repeat a corner or have zero area (kept: they are geometry)
     std::size_t ignoredElements = 0; ///< lines, points, curves and other elements that are not faces
+    /// Faces of up to so many corners have triangles of other splits in Mesh::alternatives (of any split up to 8
+    /// corners, of the fans around each corner beyond): 64, or 4 to 63 where these would be more than 2^24 triangles.
+    std::size_t alternateCorners = 64;
+    std::size_t facesAsSplit = 0; ///< faces of more corners: in the mesh only as they are split here
 };
 
 /// Checks that readMesh and writeMesh know the format of `path` by its extension: .obj .off .ply .stl in any case.

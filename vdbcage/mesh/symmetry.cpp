@@ -38,7 +38,7 @@ public:
         for (const Vec3d& p : model.points) points.push_back((p - centre_) / side_);
         const std::vector<Vec3I> triangles = triangulate(model);
         takeSamples(points, triangles);
-        tree_ = TriangleTree(std::move(points), triangles, interrupter);
+        tree_ = TriangleTree(std::move(points), triangles, interrupter, TriangleTree::Copies::drop);
     }
 
     Symmetry best(int axis) const

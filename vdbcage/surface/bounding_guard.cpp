@@ -298,7 +298,7 @@ GuardModel::GuardModel(const Mesh& model, const GuardOptions& options, Interrupt
         symmetry_ = SymmetryPlane{options.symmetry->axis, offset};
         addMirrorImage(*symmetry_, points, triangles);
     }
-    tree_ = TriangleTree(points, triangles, interrupter);
+    tree_ = TriangleTree(points, triangles, interrupter, TriangleTree::Copies::drop);
 
     UnionFind sets(points.size());
     for (const Vec3I& t : triangles) {
@@ -312,7 +312,7 @@ GuardModel::GuardModel(const Mesh& model, const GuardOptions& options, Interrupt
         if (!seen[root]) partPoints.emplace_back(t[0], t[0], t[0]);
         seen[root] = true;
     }
-    parts_ = TriangleTree(std::move(points), partPoints, interrupter);
+    parts_ = TriangleTree(std::move(points), partPoints, interrupter, TriangleTree::Copies::drop);
 }
 
 Vec3d GuardModel::scaled(const Vec3d& p) const

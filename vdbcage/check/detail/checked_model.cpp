@@ -1,5 +1,6 @@
 #include <vdbcage/check/detail/checked_model.h>
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 #include <string>
@@ -55,17 +56,25 @@ CheckedModel::CheckedModel(const Mesh& mesh, Interrupter* interrupter)
     if (faceCount(mesh) == 0) throw InputError("model: it has no faces; at least one is needed");
     requireSound(mesh, "model");
     const FaceTriangles faces(mesh);
-    parallelInvoke([&] { tree = TriangleTree(mesh.points, everyTriangle(mesh, faces), interrupter); },
-                   [&] { findParts(mesh, faces, interrupter); },
-                   [&] {
-                       if (analyzeTopology(mesh, interrupter).isCycle()) {
-                           volume = std::abs(detail::volume(mesh.points, faces));
-                       }
-                   });
+    bool dropped = false;
+    const auto buildTree = [&] {
+        const std::vector<Vec3I> triangles = everyTriangle(mesh, faces);
+        tree = TriangleTree(mesh.points, triangles, interrupter, TriangleTree::Copies::drop);
+        dropped = tree.items().size() < triangles.size();
+    };
+    parallelInvoke(
+        buildTree, [&] { findParts(mesh, faces, false, interrupter); },
+        [&] {
+            if (analyzeTopology(mesh, interrupter).isCycle()) {
+                volume = std::abs(detail::volume(mesh.points, faces));
+            }
+        });
+    // What touches a copy that was dropped is only known to touch the one that was kept, maybe of another part.
+    if (dropped) findParts(mesh, faces, true, interrupter);
     diagonal = (tree.box().hi - tree.box().lo).length();
 }
 
-void CheckedModel::findParts(const Mesh& mesh, const FaceTriangles& faces, Interrupter* interrupter)
+void CheckedModel::findParts(const Mesh& mesh, const FaceTriangles& faces, bool joinPlaces, Interrupter* interrupter)
 {
     constexpr std::uint32_t none = ~std::uint32_t(0);
     UnionFind sets(mesh.points.size());
@@ -76,7 +85,20 @@ void CheckedModel::findParts(const Mesh& mesh, const FaceTriangles& faces, Inter
         sets.unite(faces[t][0], faces[t][2]);
         for (int i = 0; i < 3; ++i) partOfPoint[faces[t][i]] = 0;
     }
-    partFirst.push_back(0);
+    if (joinPlaces) {
+        std::vector<std::uint32_t> byPlace;
+        for (std::uint32_t p = 0; p < mesh.points.size(); ++p) {
+            if (partOfPoint[p] != none) byPlace.push_back(p);
+        }
+        const auto& points = mesh.points;
+        std::sort(byPlace.begin(), byPlace.end(),
+                  [&](std::uint32_t a, std::uint32_t b) { return points[a] < points[b]; });
+        for (std::size_t i = 1; i < byPlace.size(); ++i) {
+            if (points[byPlace[i]] == points[byPlace[i - 1]]) sets.unite(byPlace[i], byPlace[i - 1]);
+        }
+    }
+    usedVertices = 0;
+    partFirst.assign(1, 0);
     for (std::uint32_t p = 0; p < mesh.points.size(); ++p) { // the root of a set is its first vertex
         if (partOfPoint[p] == none) continue;
         ++usedVertices;

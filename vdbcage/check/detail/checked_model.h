@@ -15,7 +15,7 @@ namespace vdbcage::detail {
 void requireSound(const Mesh& mesh, const char* what);
 
 /// What is found out about a model once: its triangles in a tree, and its parts. A part is what hangs together over
-/// shared vertices (by index).
+/// shared vertices (by index; also over points in one place if triangles were dropped as copies of others).
 struct CheckedModel {
     /// \throw InputError (no faces, not sound), Cancelled
     CheckedModel(const Mesh& mesh, Interrupter* interrupter);
@@ -40,7 +40,7 @@ struct CheckedModel {
         double reach() const { return asFloats ? 2 * floatRounding({model.tree.box().lo, model.tree.box().hi}) : 0; }
     };
 
-    TriangleTree tree;                       ///< all four triangles of a quad
+    TriangleTree tree;                       ///< all four triangles of a quad; copies are dropped
     std::size_t usedVertices = 0;            ///< points that faces use
     std::vector<std::uint32_t> partOfPoint;  ///< only for these
     std::vector<std::uint32_t> partVertices; ///< the vertices of part k are partVertices[partFirst[k]] ...
@@ -49,7 +49,7 @@ struct CheckedModel {
     double volume = 0;                       ///< 0 if the model has no inside
 
 private:
-    void findParts(const Mesh& mesh, const FaceTriangles& faces, Interrupter* interrupter);
+    void findParts(const Mesh& mesh, const FaceTriangles& faces, bool joinPlaces, Interrupter* interrupter);
 };
 
 } // namespace vdbcage::detail

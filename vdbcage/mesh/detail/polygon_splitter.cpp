@@ -1,11 +1,12 @@
 // Based on: the normal of Newell (Sutherland, Sproull, Schumacker 1974) and the clipping of ears (Meisters 1975).
-// Differs: a fan is tried first; corners that could lie in an ear are sorted into a grid, so that few are looked at.
+// Differs: a fan is tried first; corners that could lie in an ear are in a tree, so that few are looked at; the work is
+// bounded.
 
 #include <vdbcage/mesh/detail/polygon_splitter.h>
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+#include <cstddef>
 #include <utility>
 
 namespace vdbcage::detail {
@@ -30,6 +31,19 @@ void scaleToUnit(const std::vector<openvdb::Vec3d>& points, const openvdb::Index
     for (openvdb::Vec3d& p : local) p *= scale;
 }
 
+constexpr std::size_t obstaclesPerLeaf = 8;
+constexpr std::size_t noNode = ~std::size_t(0);
+
+// Fans have triangles as long as the face. Those of so many corners lie over each other in every tree, which takes
+// minutes for a million: larger faces are split into triangles of all sizes. A cylinder's cap has fewer.
+constexpr std::size_t mostCornersOfFan = 4096;
+
+// What ears may cost, in nodes and corners looked at in the tree. Asking for an ear counts as so many: faces that do
+// not cross themselves ask up to 3 times a corner and look at 30 to 130 (a million random spikes: 1000), so the search
+// of what passes 32 and 2048 is futile. A million corners take 0.4 to 7 s. Faces of up to a thousand are never cut
+// short.
+constexpr std::size_t workOfAsking = 64, workPerCorner = 2048, leastWork = std::size_t(1) << 25U;
+
 openvdb::Vec3d newellNormal(const std::vector<openvdb::Vec3d>& loop)
 {
     openvdb::Vec3d normal(0, 0, 0);
@@ -50,7 +64,7 @@ void PolygonSplitter::split(const openvdb::Index32* face, std::size_t count, std
     project();
     // Beyond this many corners trying each as the apex would cost more than clipping ears does.
     constexpr std::size_t fewCorners = 64;
-    const std::size_t apexes = count <= fewCorners ? count : 1;
+    const std::size_t apexes = count <= fewCorners ? count : count <= mostCornersOfFan ? 1 : 0;
     for (std::size_t apex = 0; apex < apexes; ++apex) {
         if (isFanApex(apex)) {
             fan(face, apex, triangles);
@@ -100,7 +114,7 @@ void PolygonSplitter::project()
     const std::size_t count = local_.size();
     loop_.resize(count);
     for (std::size_t i = 0; i < count; ++i) {
-        loop_[i] = {local_[i][u], local_[i][v], (i + count - 1) % count, (i + 1) % count, 0, false, false};
+        loop_[i] = {local_[i][u], local_[i][v], (i + count - 1) % count, (i + 1) % count, 0, noNode, false, false};
     }
 }
 
@@ -131,68 +145,100 @@ void PolygonSplitter::fan(const openvdb::Index32* face, std::size_t apex, std::v
     }
 }
 
-bool PolygonSplitter::isEar(std::size_t corner) const
+/// The `left` corners that are not clipped yet: every second one is cut off, time and again.
+void PolygonSplitter::fold(const openvdb::Index32* face, std::size_t corner, std::size_t left,
+                           std::vector<openvdb::Vec3I>& triangles)
 {
-    const std::size_t before = loop_[corner].previous;
-    const std::size_t after = loop_[corner].next;
+    for (; left > 3; --left) {
+        const std::size_t middle = loop_[corner].next, after = loop_[middle].next;
+        triangles.emplace_back(face[corner], face[middle], face[after]);
+        loop_[corner].next = after;
+        corner = after;
+    }
+    fan(face, corner, triangles);
+}
+
+bool PolygonSplitter::isEar(std::size_t corner)
+{
+    work_ += workOfAsking;
     if (!loop_[corner].pointed) return false;
-    const Corner& a = loop_[before];
-    const Corner& b = loop_[corner];
-    const Corner& c = loop_[after];
+    if (obstacles_.empty()) return true;
+    const Corner &a = loop_[loop_[corner].previous], &b = loop_[corner], &c = loop_[loop_[corner].next];
+    const Box box{std::min({a.x, b.x, c.x}), std::max({a.x, b.x, c.x}), std::min({a.y, b.y, c.y}),
+                  std::max({a.y, b.y, c.y})};
+    return !isBlocked(corner, box, 0, 0, obstacles_.size());
+}
+
+/// Whether one of a node's obstacles lies in the triangle of `corner` and its neighbours, whose box is `box`.
+bool PolygonSplitter::isBlocked(std::size_t corner, const Box& box, std::size_t node, std::size_t begin,
+                                std::size_t end)
+{
+    ++work_;
+    if (nodes_[node].left == 0 || !mayReach(corner, box, nodes_[node].box)) return false;
+    if (end - begin > obstaclesPerLeaf) {
+        const std::size_t middle = begin + (end - begin) / 2;
+        return isBlocked(corner, box, 2 * node + 1, begin, middle) || isBlocked(corner, box, 2 * node + 2, middle, end);
+    }
+    const std::size_t before = loop_[corner].previous, after = loop_[corner].next;
     const auto samePlace = [](const Corner& p, const Corner& q) { return p.x == q.x && p.y == q.y; };
     const auto blocks = [&](std::size_t i) {
+        ++work_;
         const Corner& p = loop_[i];
         if (p.clipped || p.pointed) return false;
         // Corners in the same place are the two sides of a cut that joins a hole to the outline.
-        if (samePlace(p, a) || samePlace(p, b) || samePlace(p, c)) return false;
+        if (samePlace(p, loop_[before]) || samePlace(p, loop_[corner]) || samePlace(p, loop_[after])) return false;
         return area(before, corner, i) >= 0 && area(corner, after, i) >= 0 && area(after, before, i) >= 0;
     };
-    const std::size_t lastX = cellIndex(std::max({a.x, b.x, c.x}) - cellX_);
-    const std::size_t lastY = cellIndex(std::max({a.y, b.y, c.y}) - cellY_);
-    const std::size_t firstY = cellIndex(std::min({a.y, b.y, c.y}) - cellY_);
-    for (std::size_t x = cellIndex(std::min({a.x, b.x, c.x}) - cellX_); x <= lastX; ++x) {
-        // The cells of one x lie one behind another.
-        const std::size_t end = cellBegin_[x * side_ + lastY + 1];
-        for (std::size_t i = cellBegin_[x * side_ + firstY]; i < end; ++i) {
-            if (blocks(obstacles_[i])) return false;
-        }
-    }
-    return true;
+    return std::any_of(obstacles_.begin() + static_cast<std::ptrdiff_t>(begin),
+                       obstacles_.begin() + static_cast<std::ptrdiff_t>(end), blocks);
 }
 
-/// Grows with the distance, so that a corner within an ear's box is in one of the box's cells, however it is rounded.
-std::size_t PolygonSplitter::cellIndex(double distance) const
+/// Never wrongly denied: coordinates are up to 1 (see scaleToUnit), areas of the corners of `other` are rounded by less
+/// than 1e-14.
+bool PolygonSplitter::mayReach(std::size_t corner, const Box& box, const Box& other) const
 {
-    return std::min(static_cast<std::size_t>(std::max(distance * cellsPerUnit_, 0.0)), side_ - 1);
+    if (other.left > box.right || other.right < box.left || other.bottom > box.top || other.top < box.bottom) {
+        return false;
+    }
+    const auto isBehind = [&](const Corner& p, const Corner& q) {
+        const double x = q.x - p.x, y = q.y - p.y;
+        return x * ((x > 0 ? other.top : other.bottom) - p.y) - y * ((y > 0 ? other.left : other.right) - p.x) < -1e-14;
+    };
+    const Corner &a = loop_[loop_[corner].previous], &b = loop_[corner], &c = loop_[loop_[corner].next];
+    return !isBehind(a, b) && !isBehind(b, c) && !isBehind(c, a);
 }
 
-/// Into about as many cells as there are obstacles, by counting.
-void PolygonSplitter::sortObstacles()
+/// Halves the range across the longer side of its box until few are left.
+void PolygonSplitter::growTree(std::size_t node, std::size_t begin, std::size_t end)
 {
-    std::size_t count = 0;
-    double right = loop_[0].x, top = loop_[0].y;
-    cellX_ = right;
-    cellY_ = top;
-    for (const Corner& p : loop_) {
-        if (!p.pointed) ++count;
-        cellX_ = std::min(cellX_, p.x);
-        cellY_ = std::min(cellY_, p.y);
-        right = std::max(right, p.x);
-        top = std::max(top, p.y);
+    if (nodes_.size() <= node) nodes_.resize(node + 1);
+    const auto range = [&](std::size_t i) { return obstacles_.begin() + static_cast<std::ptrdiff_t>(i); };
+    const auto [left, right] = std::minmax_element(
+        range(begin), range(end), [&](std::size_t i, std::size_t k) { return loop_[i].x < loop_[k].x; });
+    const auto [bottom, top] = std::minmax_element(
+        range(begin), range(end), [&](std::size_t i, std::size_t k) { return loop_[i].y < loop_[k].y; });
+    const Box box{loop_[*left].x, loop_[*right].x, loop_[*bottom].y, loop_[*top].y};
+    nodes_[node] = {box, end - begin};
+    if (end - begin <= obstaclesPerLeaf) {
+        for (std::size_t i = begin; i < end; ++i) loop_[obstacles_[i]].node = node;
+        return;
     }
-    side_ = static_cast<std::size_t>(std::sqrt(double(count))) + 1;
-    const double extent = std::max(right - cellX_, top - cellY_);
-    cellsPerUnit_ = extent > 0 ? double(side_) / extent : 0; // corners lie in [-1, 1]; see scaleToUnit
-    const auto cellOf = [&](const Corner& p) { return cellIndex(p.x - cellX_) * side_ + cellIndex(p.y - cellY_); };
-    cellBegin_.assign(side_ * side_ + 1, 0);
-    for (const Corner& p : loop_) {
-        if (!p.pointed) ++cellBegin_[cellOf(p) + 1];
-    }
-    std::partial_sum(cellBegin_.begin(), cellBegin_.end(), cellBegin_.begin());
-    obstacles_.resize(count);
-    std::vector<std::size_t> next(cellBegin_.begin(), cellBegin_.end() - 1);
-    for (std::size_t i = 0; i < loop_.size(); ++i) {
-        if (!loop_[i].pointed) obstacles_[next[cellOf(loop_[i])]++] = i;
+    const std::size_t middle = begin + (end - begin) / 2;
+    const bool isWide = box.right - box.left > box.top - box.bottom;
+    std::nth_element(range(begin), range(middle), range(end), [&](std::size_t i, std::size_t k) {
+        return isWide ? loop_[i].x < loop_[k].x : loop_[i].y < loop_[k].y;
+    });
+    growTree(2 * node + 1, begin, middle);
+    growTree(2 * node + 2, middle, end);
+}
+
+/// \param corner was clipped
+void PolygonSplitter::dropObstacle(std::size_t corner)
+{
+    if (loop_[corner].node == noNode) return;
+    for (std::size_t node = loop_[corner].node;; node = (node - 1) / 2) {
+        --nodes_[node].left;
+        if (node == 0) return;
     }
 }
 
@@ -202,6 +248,7 @@ void PolygonSplitter::clip(std::size_t corner, const openvdb::Index32* face, std
     const std::size_t after = loop_[corner].next;
     triangles.emplace_back(face[before], face[corner], face[after]);
     loop_[corner].clipped = true;
+    dropObstacle(corner);
     loop_[before].next = after;
     loop_[after].previous = before;
     for (const std::size_t i : {before, after}) {
@@ -219,20 +266,29 @@ void PolygonSplitter::clipEars(const openvdb::Index32* face, std::vector<openvdb
 {
     const std::size_t count = loop_.size();
     for (std::size_t i = 0; i < count; ++i) loop_[i].pointed = area(loop_[i].previous, i, loop_[i].next) > 0;
-    sortObstacles();
+    obstacles_.clear();
+    for (std::size_t i = 0; i < count; ++i) {
+        if (!loop_[i].pointed) obstacles_.push_back(i);
+    }
+    nodes_.clear();
+    if (!obstacles_.empty()) growTree(0, 0, obstacles_.size());
+    work_ = 0;
+    const std::size_t mostWork = std::max(leastWork, workPerCorner * count);
 
     std::size_t left = count;
     std::size_t start = 0; // a corner that is left
     bool all = false;
     round_ = 0;
     nextCandidates_.clear();
-    while (left > 3) {
+    while (left > 3 && work_ < mostWork) {
         const bool none = nextCandidates_.empty();
         if (none && all) {
             // No ear is left. A corner without area may go, as it changes nothing of the outline.
             std::size_t flat = start;
-            do flat = loop_[flat].next;
-            while (flat != start && area(loop_[flat].previous, flat, loop_[flat].next) != 0);
+            do {
+                flat = loop_[flat].next;
+                work_ += workOfAsking;
+            } while (flat != start && area(loop_[flat].previous, flat, loop_[flat].next) != 0);
             if (area(loop_[flat].previous, flat, loop_[flat].next) != 0) break;
             start = loop_[flat].next;
             clip(flat, face, triangles);
@@ -257,23 +313,39 @@ void PolygonSplitter::clipEars(const openvdb::Index32* face, std::vector<openvdb
             if (loop_[corner].clipped || loop_[corner].round != round_ || !isEar(corner)) continue;
             start = loop_[corner].next;
             clip(corner, face, triangles);
-            if (--left == 3) break;
+            if (--left == 3 || work_ >= mostWork) break;
         }
     }
+    allWork_ += work_;
     // The last triangle; or, where no corner is an ear, a face that crosses itself and has no right division.
-    fan(face, start, triangles);
+    if (left <= mostCornersOfFan) {
+        fan(face, start, triangles);
+    } else {
+        fold(face, start, left, triangles);
+    }
+}
+
+namespace {
+
+constexpr std::size_t mostForTriples = 8;
+
+} // namespace
+
+std::size_t alternativesOf(std::size_t count)
+{
+    if (count <= mostForTriples) return count * (count - 1) * (count - 2) / 6;
+    return count <= mostCornersWithAlternates ? count * (count - 2) : 0;
 }
 
 void addAlternatives(const openvdb::Index32* face, std::size_t count, std::vector<openvdb::Vec3I>& triangles)
 {
-    constexpr std::size_t mostForTriples = 8, mostForFans = 64;
     if (count <= mostForTriples) {
         for (std::size_t i = 0; i < count; ++i) {
             for (std::size_t j = i + 1; j < count; ++j) {
                 for (std::size_t k = j + 1; k < count; ++k) triangles.emplace_back(face[i], face[j], face[k]);
             }
         }
-    } else if (count <= mostForFans) {
+    } else if (count <= mostCornersWithAlternates) {
         for (std::size_t apex = 0; apex < count; ++apex) {
             for (std::size_t i = 1; i + 1 < count; ++i) {
                 triangles.emplace_back(face[apex], face[(apex + i) % count], face[(apex + i + 1) % count]);

@@ -16,16 +16,28 @@ public:
     explicit PolygonSplitter(const std::vector<openvdb::Vec3d>& points) : points_(points) {}
 
     /// Appends `count` - 2 triangles, or the face itself to `quads` if it has four corners and is convex, or if no
-    /// diagonal divides it well (it crosses itself or has no area). Cost: O(count) for a convex face, at worst
-    /// O(count^2).
+    /// diagonal divides it well (it crosses itself or has no area). Cost: O(count log count) for most faces. The work
+    /// is bounded by a multiple of `count`, where that is large: what is left of the face then is split as if it had no
+    /// right division.
     void split(const openvdb::Index32* face, std::size_t count, std::vector<openvdb::Vec3I>& triangles,
                std::vector<openvdb::Vec4I>& quads);
 
+    /// What the search for ears in the faces split so far has cost, in corners looked at, about. 0 for fans.
+    std::size_t work() const { return allWork_; }
+
 private:
+    struct Box {
+        double left, right, bottom, top;
+    };
+    struct Node {
+        Box box;
+        std::size_t left; ///< obstacles in it that are not clipped yet
+    };
     struct Corner {
         double x, y;
         std::size_t previous, next;
         std::size_t round;     ///< of clipping, in which its turn comes
+        std::size_t node;      ///< the leaf of the tree of obstacles that has it
         bool clipped, pointed; ///< pointed: its angle is below 180 degrees
     };
 
@@ -35,27 +47,38 @@ private:
     double area(std::size_t a, std::size_t b, std::size_t c) const;
     bool isFanApex(std::size_t apex) const;
     void fan(const openvdb::Index32* face, std::size_t apex, std::vector<openvdb::Vec3I>& triangles) const;
+    void fold(const openvdb::Index32* face, std::size_t corner, std::size_t left,
+              std::vector<openvdb::Vec3I>& triangles);
     void clipEars(const openvdb::Index32* face, std::vector<openvdb::Vec3I>& triangles);
     void clip(std::size_t corner, const openvdb::Index32* face, std::vector<openvdb::Vec3I>& triangles);
-    bool isEar(std::size_t corner) const;
-    void sortObstacles();
-    std::size_t cellIndex(double distance) const;
+    bool isEar(std::size_t corner);
+    bool isBlocked(std::size_t corner, const Box& box, std::size_t node, std::size_t begin, std::size_t end);
+    bool mayReach(std::size_t corner, const Box& box, const Box& other) const;
+    void growTree(std::size_t node, std::size_t begin, std::size_t end);
+    void dropObstacle(std::size_t corner);
 
     const std::vector<openvdb::Vec3d>& points_;
     std::vector<openvdb::Vec3d> local_; // the face's corners, scaled to about 1
     std::vector<Corner> loop_;          // the same, projected
 
-    // The corners that may lie in an ear, sorted into side_ x side_ cells over the face: cell c has those of obstacles_
-    // from cellBegin_[c] to cellBegin_[c + 1].
-    std::vector<std::size_t> obstacles_, cellBegin_;
-    std::size_t side_ = 1;
+    // The corners that may lie in an ear, as a tree: each node has a range of them; the first half of it is that of
+    // node 2 i + 1, the second that of node 2 i + 2.
+    std::vector<std::size_t> obstacles_;
+    std::vector<Node> nodes_;
     std::vector<std::size_t> candidates_, nextCandidates_; // the corners to look at in this round and the next
     std::size_t round_ = 0;
-    double cellX_ = 0, cellY_ = 0, cellsPerUnit_ = 0;
+    std::size_t allWork_ = 0;
+    std::size_t work_ = 0; // what ears have cost
 };
+
+/// Faces of more corners have no alternate splits.
+constexpr std::size_t mostCornersWithAlternates = 64;
 
 /// Appends the triangles of other ways to split a face of four or more corners than the one that a PolygonSplitter
 /// chooses: any three corners up to eight; beyond, up to 64 corners, the fans around each; nothing for larger faces.
 void addAlternatives(const openvdb::Index32* face, std::size_t count, std::vector<openvdb::Vec3I>& triangles);
+
+/// How many triangles addAlternatives() appends for a face of `count` corners.
+std::size_t alternativesOf(std::size_t count);
 
 } // namespace vdbcage::detail

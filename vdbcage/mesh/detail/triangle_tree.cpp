@@ -7,7 +7,9 @@
 #include <algorithm>
 #include <atomic>
 #include <cstring>
+#include <functional>
 #include <string>
+#include <unordered_set>
 #include <utility>
 
 #include <tbb/blocked_range.h>
@@ -303,8 +305,10 @@ TriangleTree::Region TriangleTree::inTetrahedron(const std::array<Vec3d, 4>& cor
 
 class TreeBuilder {
 public:
-    TreeBuilder(TriangleTree& tree, const std::vector<Vec3I>& triangles, Interrupter* interrupter)
-        : tree_(tree), triangles_(triangles), interrupter_(interrupter), refs_(new Ref[triangles.size()])
+    TreeBuilder(TriangleTree& tree, const std::vector<Vec3I>& triangles, Interrupter* interrupter,
+                TriangleTree::Copies copies)
+        : tree_(tree), triangles_(triangles), interrupter_(interrupter), copies_(copies),
+          refs_(new Ref[triangles.size()])
     {
     }
 
@@ -407,7 +411,7 @@ private:
             firstItem[leaf] = items;
             items += refs_[leaf].count;
         }
-        tree_.items_.resize(triangles_.size());
+        tree_.items_.resize(items);
         parallelFor(tbb::blocked_range<std::uint32_t>(0, refCount_, blockSize), [&](const auto& range) {
             for (std::uint32_t leaf = range.begin(); leaf < range.end(); ++leaf) {
                 for (std::uint32_t i = 0; i < refs_[leaf].count; ++i) {
@@ -447,11 +451,13 @@ private:
         if (large) throwIfInterrupted(interrupter_);
         std::array<Range, 4> ranges{whole};
         std::size_t count = 1;
-        while (count < 4 && count < whole.size()) {
+        while (count < 4) {
             Range* const largest = std::max_element(ranges.begin(), ranges.begin() + count,
                                                     [](const Range& a, const Range& b) { return a.size() < b.size(); });
+            if (largest->size() == 1) break;
             const std::size_t depth = largest->depth + 1;
             const std::uint32_t middle = whole.size() <= 4 ? largest->begin + 1 : split(*largest);
+            if (middle == largest->end) continue; // all were copies: one is left
             ranges[count++] = {middle, largest->end, depth};
             *largest = {largest->begin, middle, depth};
         }
@@ -485,11 +491,12 @@ private:
         return sum;
     }
 
-    // Sorts the range of refs into two sides and returns where the second begins.
-    std::uint32_t split(const Range& range)
+    // Sorts the range of refs into two sides and returns where the second begins. Copies come together at last in a
+    // range where all have the same centre: there they are dropped, if they are to be, which makes the range shorter.
+    std::uint32_t split(Range& range)
     {
         Ref* const first = refs_.get() + range.begin;
-        Ref* const last = refs_.get() + range.end;
+        Ref* last = refs_.get() + range.end;
         const Binning binning(fold<FloatBox>(
             first, last, [](FloatBox& box, const Ref& ref) { box.expand(ref.twiceCentre(), ref.twiceCentre()); }));
         if (range.depth < binnedDepth && binning.scale > 0) {
@@ -504,6 +511,11 @@ private:
                 return range.begin + static_cast<std::uint32_t>(middle - first);
             }
         }
+        if (copies_ == TriangleTree::Copies::drop && !(binning.scale > 0)) {
+            last = dropCopies(first, last);
+            range.end = range.begin + static_cast<std::uint32_t>(last - first);
+            if (range.size() == 1) return range.end;
+        }
         const std::uint32_t middle = range.begin + range.size() / 2;
         std::nth_element(first, refs_.get() + middle, last, [&](const Ref& a, const Ref& b) {
             return std::make_pair(a.twiceCentre()[binning.axis], a.triangle) <
@@ -512,22 +524,73 @@ private:
         return middle;
     }
 
+    // The first of refs with the same triangles stays; returns the end of what is left. O(n).
+    Ref* dropCopies(Ref* first, Ref* last) const
+    {
+        const auto hash = [&](const Ref* ref) {
+            std::size_t sum = 0;
+            for (std::uint32_t i = 0; i < ref->count; ++i) sum = 31 * sum + hashOf(corners(ref->triangle + i));
+            return sum;
+        };
+        const auto same = [&](const Ref* a, const Ref* b) {
+            if (a->count != b->count) return false;
+            for (std::uint32_t i = 0; i < a->count; ++i) {
+                if (sorted(corners(a->triangle + i)) != sorted(corners(b->triangle + i))) return false;
+            }
+            return true;
+        };
+        std::unordered_set<const Ref*, decltype(hash), decltype(same)> kept(16, hash, same);
+        Ref* end = first;
+        for (Ref* ref = first; ref != last; ++ref) {
+            std::swap(*end, *ref);
+            if (kept.insert(end).second) ++end;
+        }
+        for (Ref* ref = end; ref != last; ++ref) ref->count = 0; // a leaf of no items, in no node
+        return end;
+    }
+
+    Corners corners(std::size_t triangle) const
+    {
+        const Vec3I& t = triangles_[triangle];
+        return {tree_.points_[t[0]], tree_.points_[t[1]], tree_.points_[t[2]]};
+    }
+
+    static Corners sorted(Corners t)
+    {
+        std::sort(t.begin(), t.end(), [](const Vec3d& a, const Vec3d& b) { return a < b; });
+        return t;
+    }
+
+    // The same for any order of the corners, and for zeros of either sign.
+    static std::size_t hashOf(const Corners& t)
+    {
+        std::size_t sum = 0;
+        for (const Vec3d& p : t) {
+            std::size_t hash = 0;
+            for (int axis = 0; axis < 3; ++axis) hash = (hash ^ std::hash<double>()(p[axis])) * 0x9e3779b97f4a7c15U;
+            sum += hash ^ hash >> 29U;
+        }
+        return sum;
+    }
+
     TriangleTree& tree_;
     const std::vector<Vec3I>& triangles_;
     Interrupter* interrupter_;
+    TriangleTree::Copies copies_;
     std::unique_ptr<Ref[]> refs_;
     std::uint32_t refCount_ = 0;
     std::atomic<std::uint32_t> nodeCount_{0};
 };
 
-TriangleTree::TriangleTree(std::vector<Vec3d> points, const std::vector<Vec3I>& triangles, Interrupter* interrupter)
+TriangleTree::TriangleTree(std::vector<Vec3d> points, const std::vector<Vec3I>& triangles, Interrupter* interrupter,
+                           Copies copies)
     : points_(std::move(points))
 {
     if (triangles.size() > maxItems) {
         throw InputError(std::to_string(triangles.size()) + " triangles are too many; at most " +
                          std::to_string(maxItems) + " are allowed");
     }
-    if (!triangles.empty()) TreeBuilder(*this, triangles, interrupter).build();
+    if (!triangles.empty()) TreeBuilder(*this, triangles, interrupter, copies).build();
 }
 
 TriangleTree::Closest TriangleTree::closest(const Vec3d& p, std::uint32_t seed, double slack) const

@@ -64,6 +64,10 @@ public:
         Vec3I corners;          ///< indices into points()
         std::uint32_t triangle; ///< its number in the list that the tree was built from
     };
+    /// Whether triangles with the same three points in space as another, in any order, are to be items. A query that
+    /// meets one of a million copies meets all. Where copies are dropped, those that make queries slow are: some of a
+    /// few may stay.
+    enum class Copies { keep, drop };
     struct Closest {
         Vec3d point;
         double squaredDistance = std::numeric_limits<double>::infinity();
@@ -74,7 +78,8 @@ public:
     TriangleTree() = default;
     /// Points must be finite where triangles use them. O(n log n), in parallel; less time and memory where triangles
     /// of a face follow each other. \throw InputError (more than 2^29 triangles), Cancelled
-    TriangleTree(std::vector<Vec3d> points, const std::vector<Vec3I>& triangles, Interrupter* interrupter = nullptr);
+    TriangleTree(std::vector<Vec3d> points, const std::vector<Vec3I>& triangles, Interrupter* interrupter = nullptr,
+                 Copies copies = Copies::keep);
 
     bool empty() const { return items_.empty(); }
     const std::vector<Vec3d>& points() const { return points_; }
