@@ -236,7 +236,7 @@ BOOST_AUTO_TEST_CASE(signals_at_any_time)
         folder.reset();
     }
     BOOST_TEST_MESSAGE(cancelled << " of " << runs << " runs were cancelled");
-    BOOST_TEST(cancelled > runs / 4);
+    BOOST_TEST(cancelled > runs / 8); // else the moments are chosen badly
 }
 
 BOOST_AUTO_TEST_CASE(drawing_stops_when_it_is_told_to)
