@@ -276,9 +276,10 @@ BOOST_AUTO_TEST_CASE(an_allocation_that_fails)
         BOOST_TEST(allocations > 1000U);
         for (int run = 0; run < times(10); ++run) {
             folder.reset();
-            // Half of them spread over all, half where little has been done yet.
-            const unsigned long at = 1 + random() % (run % 2 == 0 ? allocations : 1000);
-            const bool goesOn = run % 3 == 2;
+            // Spread over all, where little has been done yet, and where files are written.
+            const unsigned long from = run % 3 == 2 ? allocations - 1000 : 0, to = run % 3 == 1 ? 1000 : allocations;
+            const unsigned long at = 1 + from + random() % (to - from);
+            const bool goesOn = run % 2 == 1;
             const std::string fault = (goesOn ? "FAIL_ALLOCATIONS_FROM=" : "FAIL_ALLOCATION=") + std::to_string(at);
             const auto result = runCommand(withFailing(fault, words));
             BOOST_TEST_CONTEXT(work.name << ", " << fault << ": " << result.status << " " << result.err)

@@ -18,6 +18,7 @@
 
 #include "commands.h"
 #include "interrupt.h"
+#include "outputs.h"
 
 namespace vdbcage::tool {
 
@@ -186,6 +187,7 @@ int guarded(const Work& work) noexcept
 {
     const std::exception_ptr exception = std::current_exception();
     if (!exception) std::abort(); // a defect, not a lack of anything
+    Outputs::abandon();
     const int status = guarded([&]() -> int { std::rethrow_exception(exception); });
     ::_exit(status);
 }

@@ -1,6 +1,7 @@
 #include "outputs.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cerrno>
 #include <system_error>
 
@@ -15,6 +16,9 @@ namespace fs = std::filesystem;
 
 namespace {
 
+// A command has one Outputs. Who ends the process can reach nothing but static storage.
+std::atomic<Outputs*> pending{nullptr};
+
 [[noreturn]] void failFolder(const fs::path& path, const std::string& reason)
 {
     throw IoError(path.string() + ": the folder cannot be made: " + reason);
@@ -27,10 +31,22 @@ fs::path folderOf(const fs::path& path)
 
 } // namespace
 
-Outputs::MadeFolders::~MadeFolders()
+void Outputs::MadeFolders::remove() noexcept
 {
-    std::error_code ignored;
-    for (auto folder = paths.rbegin(); folder != paths.rend(); ++folder) fs::remove(*folder, ignored);
+    for (auto folder = paths.rbegin(); folder != paths.rend(); ++folder) ::rmdir(folder->c_str());
+}
+
+Outputs::~Outputs()
+{
+    pending = nullptr;
+}
+
+void Outputs::abandon() noexcept
+{
+    Outputs* const outputs = pending.exchange(nullptr);
+    if (!outputs) return;
+    outputs->files_.clear();
+    outputs->made_.remove();
 }
 
 Outputs::Identity Outputs::identityOf(const fs::path& path)
@@ -84,6 +100,7 @@ void Outputs::writes(const fs::path& path)
 void Outputs::add(const fs::path& path, const FileWriter& write)
 {
     if (!hold_) hold_.emplace();
+    pending = this;
     if (signalled()) throw Cancelled();
     for (const fs::path& folder : toMake_) {
         std::error_code error;

@@ -17,6 +17,11 @@ namespace vdbcage::tool {
 /// reads and writes; no output may be an input or another output, by whatever name.
 class Outputs {
 public:
+    Outputs() = default;
+    ~Outputs();
+    Outputs(const Outputs&) = delete;
+    Outputs& operator=(const Outputs&) = delete;
+
     /// Says that the command reads `path`, which need not exist. All inputs come before all outputs.
     void reads(const std::filesystem::path& path);
     /// Says that files will be written into the folder `path`, which is made if it does not exist. \throw IoError
@@ -31,6 +36,9 @@ public:
     /// Gives every file its name. \throw IoError; Cancelled
     void commit();
 
+    /// Takes away what has been written and not committed, for a sudden end of the process. Allocates nothing.
+    static void abandon() noexcept;
+
 private:
     /// What a path leads to, whether it exists or not: the nearest folder that does, and the names below it.
     using Identity = std::tuple<unsigned long long, unsigned long long, std::filesystem::path>;
@@ -39,7 +47,8 @@ private:
     /// Folders that go again, if they are empty.
     struct MadeFolders {
         MadeFolders() = default;
-        ~MadeFolders();
+        ~MadeFolders() { remove(); }
+        void remove() noexcept;
         MadeFolders(const MadeFolders&) = delete;
         MadeFolders& operator=(const MadeFolders&) = delete;
         std::vector<std::filesystem::path> paths;

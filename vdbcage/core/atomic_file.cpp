@@ -227,10 +227,14 @@ PendingFiles::~PendingFiles() = default;
 
 void PendingFiles::add(const fs::path& target, const FileWriter& write)
 {
-    auto file = std::make_unique<File>(target);
-    file->make();
-    file->fill(write);
-    files_.push_back(std::move(file));
+    files_.push_back(std::make_unique<File>(target)); // first, so that `clear` knows of it all the time
+    try {
+        files_.back()->make();
+        files_.back()->fill(write);
+    } catch (...) {
+        files_.pop_back();
+        throw;
+    }
 }
 
 void PendingFiles::commit()
@@ -250,6 +254,11 @@ void PendingFiles::commit()
         for (std::size_t i = done; i-- > 0;) files_[i]->restore();
         throw;
     }
+    files_.clear();
+}
+
+void PendingFiles::clear() noexcept
+{
     files_.clear();
 }
 

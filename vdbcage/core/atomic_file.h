@@ -41,6 +41,9 @@ public:
     /// \throw IoError naming the target and the reason, and each target that could not be put back
     void commit();
 
+    /// Removes the temporary files. Allocates nothing.
+    void clear() noexcept;
+
 private:
     class File;
     std::vector<std::unique_ptr<File>> files_;
