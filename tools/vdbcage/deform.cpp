@@ -105,13 +105,13 @@ int runBind(std::vector<std::string> words)
         bindFiles(cagePath, modelPath, [&] { return computeWeights(cage, model.points, coordinates, &*progress); });
     outputs.add(output,
                 [&](std::ostream& out) { writeWeights(cage, model.points, coordinates, weights, out, output); });
+    const std::string text = quiet ? std::string()
+                                   : printable(output) + ": " + std::to_string(model.points.size()) + " points, " +
+                                         std::to_string(cageHandles(cage, cage.points, coordinates).size()) +
+                                         " handles, " + coordinatesName(coordinates) + '\n';
     outputs.commit();
     progress.reset();
-    if (!quiet) {
-        std::cerr << printable(output) << ": " << model.points.size() << " points, "
-                  << cageHandles(cage, cage.points, coordinates).size() << " handles, " << coordinatesName(coordinates)
-                  << '\n';
-    }
+    std::cerr << text;
     return exitGood;
 }
 
@@ -170,11 +170,12 @@ int runDeform(std::vector<std::string> words)
     progress.reset();
     std::cout << report;
     flushOutput();
+    const std::string text = quiet ? std::string()
+                                   : printable(output) + ": " + std::to_string(frames.size()) +
+                                         (frames.size() == 1 ? " pose" : " poses") + " of " +
+                                         std::to_string(model.points.size()) + " points\n";
     outputs.commit();
-    if (!quiet) {
-        std::cerr << printable(output) << ": " << frames.size() << (frames.size() == 1 ? " pose" : " poses") << " of "
-                  << model.points.size() << " points\n";
-    }
+    std::cerr << text;
     return exitGood;
 }
 

@@ -95,56 +95,58 @@ void addStages(const Pipeline& pipeline, const MakeArguments& arguments, Interru
     }
 }
 
-void printSummary(const MakeArguments& arguments, const ReadSummary& summary, const Pipeline& pipeline,
-                  const std::vector<StageTime>& stages, double seconds)
+std::string summaryOf(const MakeArguments& arguments, const ReadSummary& summary, const Pipeline& pipeline,
+                      const std::vector<StageTime>& stages, double seconds)
 {
     const CageReport& report = pipeline.report();
     const CageCheck& check = report.check;
-    std::cerr << std::fixed << std::setprecision(2);
-    std::cerr << printable(arguments.cage) << ": " << check.triangles << " triangles";
-    if (check.quads > 0) std::cerr << " and " << check.quads << " quads";
-    std::cerr << (check.bounding() ? ", certified bounding"
-                  : check.valid()  ? ", NOT bounding"
-                                   : ", NOT a valid cage")
-              << ", mean distance " << 100 * check.meanDistance << " % of the diagonal, " << seconds << " s\n";
+    std::ostringstream out;
+    out << std::fixed << std::setprecision(2);
+    out << printable(arguments.cage) << ": " << check.triangles << " triangles";
+    if (check.quads > 0) out << " and " << check.quads << " quads";
+    out << (check.bounding() ? ", certified bounding"
+            : check.valid()  ? ", NOT bounding"
+                             : ", NOT a valid cage")
+        << ", mean distance " << 100 * check.meanDistance << " % of the diagonal, " << seconds << " s\n";
     if (report.start == CageStart::hull) {
-        std::cerr << "  shrunk from the convex hull: the closing has too many parts or handles for so few faces\n";
+        out << "  shrunk from the convex hull: the closing has too many parts or handles for so few faces\n";
     } else if (report.start == CageStart::box) {
-        std::cerr << "  this is the model's bounding box: nothing tighter with so few faces was certified\n";
+        out << "  this is the model's bounding box: nothing tighter with so few faces was certified\n";
     }
     if (report.symmetry) {
         const SymmetryPlane& plane = report.symmetry->plane;
         const bool isFound = arguments.options.symmetry == CageSymmetry::automatic;
         std::ostringstream offset; // with as many digits as it needs
         offset << plane.offset;
-        std::cerr << "  symmetric in the plane "
-                  << "xyz"[plane.axis] << " = " << offset.str() << (isFound ? ", found" : ", asked for")
-                  << "; the model is, within " << 100 * report.symmetry->deviation << " % of its longest side\n";
+        out << "  symmetric in the plane "
+            << "xyz"[plane.axis] << " = " << offset.str() << (isFound ? ", found" : ", asked for")
+            << "; the model is, within " << 100 * report.symmetry->deviation << " % of its longest side\n";
     } else if (!report.noSymmetry.empty()) {
-        std::cerr << "  not symmetric: " << report.noSymmetry << '\n';
+        out << "  not symmetric: " << report.noSymmetry << '\n';
     }
     if (!report.voxels.fallback.empty()) {
-        std::cerr << "  voxels by the CPU: " << printable(report.voxels.fallback) << '\n';
+        out << "  voxels by the CPU: " << printable(report.voxels.fallback) << '\n';
     }
     if (report.cavitiesFilled > 0) {
-        std::cerr << "  " << report.cavitiesFilled << " hollows inside the closing were filled\n";
+        out << "  " << report.cavitiesFilled << " hollows inside the closing were filled\n";
     }
     const bool isSameThroughout = report.solidParts == report.parts && report.parts == check.components &&
                                   report.solidHandles == report.handles && report.handles == check.genus;
     if (report.start == CageStart::closing && !isSameThroughout) {
-        std::cerr << "  parts and handles: " << report.solidParts << " and " << report.solidHandles << " of the solid, "
-                  << report.parts << " and " << report.handles << " of the closing, " << check.components << " and "
-                  << check.genus << " of the cage\n";
+        out << "  parts and handles: " << report.solidParts << " and " << report.solidHandles << " of the solid, "
+            << report.parts << " and " << report.handles << " of the closing, " << check.components << " and "
+            << check.genus << " of the cage\n";
     }
-    std::cerr << describe(summary);
-    if (!arguments.verbose) return;
+    out << describe(summary);
+    if (!arguments.verbose) return out.str();
     for (const StageTime& stage : stages) {
-        std::cerr << "  " << std::left << std::setw(10) << stage.name << std::right << std::setw(8) << stage.seconds
-                  << " s\n";
+        out << "  " << std::left << std::setw(10) << stage.name << std::right << std::setw(8) << stage.seconds
+            << " s\n";
     }
-    std::cerr << "  resolution " << report.resolution << ", close radius " << report.closeRadius << ", memory peak "
-              << peakMemory() << " MiB\n"
-              << describe(check);
+    out << "  resolution " << report.resolution << ", close radius " << report.closeRadius << ", memory peak "
+        << peakMemory() << " MiB\n"
+        << describe(check);
+    return out.str();
 }
 
 } // namespace
@@ -206,9 +208,11 @@ int runMake(std::vector<std::string> words)
                     {"check", toJson(pipeline.report().check)}};
         outputs.add(arguments.report, [&](std::ostream& out) { out << toText(report); });
     }
+    const std::string text =
+        arguments.quiet ? std::string() : summaryOf(arguments, summary, pipeline, clock.stages(), seconds);
     outputs.commit();
     progress.reset();
-    if (!arguments.quiet) printSummary(arguments, summary, pipeline, clock.stages(), seconds);
+    std::cerr << text;
     return exitGood;
 }
 

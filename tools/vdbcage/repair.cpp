@@ -1,5 +1,6 @@
 #include <iostream>
 #include <optional>
+#include <sstream>
 
 #include <vdbcage/check/check.h>
 #include <vdbcage/core/error.h>
@@ -63,12 +64,15 @@ int runRepair(std::vector<std::string> words)
                          {"repair", toJson(report)}};
         outputs.add(reportPath, [&](std::ostream& out) { out << toText(facts); });
     }
-    outputs.commit();
-    progress.reset();
+    std::ostringstream lines;
     if (!quiet) {
         const Json facts = toJson(report);
-        for (const auto& fact : facts.items()) std::cerr << "  " << fact.key() << ": " << fact.value() << '\n';
+        for (const auto& fact : facts.items()) lines << "  " << fact.key() << ": " << fact.value() << '\n';
     }
+    const std::string text = lines.str();
+    outputs.commit();
+    progress.reset();
+    std::cerr << text;
     return exitGood;
 }
 
