@@ -149,35 +149,12 @@ std::string summaryOf(const MakeArguments& arguments, const ReadSummary& summary
     return out.str();
 }
 
-} // namespace
-
-int runMake(std::vector<std::string> words)
+/// Makes the cage, writes all files and returns what there is to say. All that it took is given back before the files
+/// get their names: giving back may fail too (trees of OpenVDB ask for memory for it), and ends the process.
+std::string makeFiles(const MakeArguments& arguments, Outputs& outputs, Interrupter& interrupter)
 {
-    MakeArguments arguments;
-    CLI::App app("vdbcage make MODEL -o CAGE [OPTIONS]: bounds MODEL (.obj .off .ply .stl)", "make");
-    app.add_option("model", arguments.model)->required()->type_name("MODEL");
-    app.add_option("-o,--output", arguments.cage, "the cage to write")->required()->type_name("CAGE");
-    for (const OptionText& option : describeOptions()) {
-        app.add_option_function<std::string>(
-               "--" + option.name,
-               [&arguments, name = option.name](const std::string& value) {
-                   setOption(arguments.options, name, value);
-               },
-               option.help + (option.range.empty() ? "" : ", " + option.range) + " [" + option.defaultValue + "]")
-            ->type_name(option.value);
-    }
-    app.add_option("--stages", arguments.stages, "leave every stage there (.vdb, .obj)")->type_name("DIR");
-    app.add_option("--report", arguments.report, "options, times, memory, verdict as JSON")->type_name("FILE.json");
-    app.add_option("--picture", arguments.picture, "the model with its cage")->type_name("FILE.png");
-    app.add_flag("-q,--quiet", arguments.quiet, "print nothing but errors");
-    app.add_flag("-v,--verbose", arguments.verbose, "print stage times and the whole verdict");
-    if (!parse(app, std::move(words))) return exitGood;
-    Outputs outputs;
-    announce(arguments, outputs);
-
     const auto began = std::chrono::steady_clock::now();
-    std::optional<Progress> progress(arguments.quiet);
-    StageClock clock(&*progress);
+    StageClock clock(&interrupter);
 
     ReadSummary summary;
     std::optional<Stage> reading(std::in_place, &clock, "read");
@@ -208,11 +185,40 @@ int runMake(std::vector<std::string> words)
                     {"check", toJson(pipeline.report().check)}};
         outputs.add(arguments.report, [&](std::ostream& out) { out << toText(report); });
     }
-    const std::string text =
-        arguments.quiet ? std::string() : summaryOf(arguments, summary, pipeline, clock.stages(), seconds);
+    return summaryOf(arguments, summary, pipeline, clock.stages(), seconds);
+}
+
+} // namespace
+
+int runMake(std::vector<std::string> words)
+{
+    MakeArguments arguments;
+    CLI::App app("vdbcage make MODEL -o CAGE [OPTIONS]: bounds MODEL (.obj .off .ply .stl)", "make");
+    app.add_option("model", arguments.model)->required()->type_name("MODEL");
+    app.add_option("-o,--output", arguments.cage, "the cage to write")->required()->type_name("CAGE");
+    for (const OptionText& option : describeOptions()) {
+        app.add_option_function<std::string>(
+               "--" + option.name,
+               [&arguments, name = option.name](const std::string& value) {
+                   setOption(arguments.options, name, value);
+               },
+               option.help + (option.range.empty() ? "" : ", " + option.range) + " [" + option.defaultValue + "]")
+            ->type_name(option.value);
+    }
+    app.add_option("--stages", arguments.stages, "leave every stage there (.vdb, .obj)")->type_name("DIR");
+    app.add_option("--report", arguments.report, "options, times, memory, verdict as JSON")->type_name("FILE.json");
+    app.add_option("--picture", arguments.picture, "the model with its cage")->type_name("FILE.png");
+    app.add_flag("-q,--quiet", arguments.quiet, "print nothing but errors");
+    app.add_flag("-v,--verbose", arguments.verbose, "print stage times and the whole verdict");
+    if (!parse(app, std::move(words))) return exitGood;
+    Outputs outputs;
+    announce(arguments, outputs);
+
+    std::optional<Progress> progress(arguments.quiet);
+    const std::string text = makeFiles(arguments, outputs, *progress);
     outputs.commit();
     progress.reset();
-    std::cerr << text;
+    if (!arguments.quiet) std::cerr << text;
     return exitGood;
 }
 
