@@ -43,11 +43,11 @@ public:
         std::array<std::size_t, mostCornersWithAlternates + 1> needed{};
         for (const Face& face : faces_) needed[face.count] += face.first ? alternativesOf(face.count) : 0;
         // Four triangles of a quad are no more than a convex one gets: only larger faces may have to go without.
-        std::size_t corners = 4, all = needed[4];
+        std::size_t corners = 4, all = 0;
         while (corners < mostCornersWithAlternates && all + needed[corners + 1] <= mostAlternates) {
             all += needed[++corners];
         }
-        triangles.reserve(all);
+        triangles.reserve(needed[4] + all);
         summary.alternateCorners = corners;
         summary.facesAsSplit = tooLarge_;
         for (const Face& face : faces_) {

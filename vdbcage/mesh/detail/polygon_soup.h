@@ -31,8 +31,9 @@ struct PolygonSoup {
     }
 };
 
-/// The most triangles that alternate splits of polygons may have in all, about: each takes 0.1 KB while a cage is made
-/// and 1 us of a core. TO MEASURE
+/// The most triangles that alternate splits of a model's polygons have in all (those of quads do not count). They take
+/// about 80 bytes each while a cage is made: 1.3 GB, measured with 4200 faces of 64 corners. 20,000 such faces took
+/// 7.6 GB without a bound.
 constexpr std::size_t mostAlternates = std::size_t(1) << 24U;
 
 /// Splits the polygons, and checks that there is a face with an area. All indices must be in range and all coordinates
