@@ -192,6 +192,34 @@ BOOST_AUTO_TEST_CASE(an_edge_of_three_faces_and_duplicate_faces)
     BOOST_TEST(check(quads).selfIntersections == 1U);
 }
 
+BOOST_AUTO_TEST_CASE(more_self_intersections_than_are_counted)
+{
+    // 1500 triangles have 1,124,250 pairs; a quad on the cube is behind them all.
+    const std::size_t copies = 1500;
+    for (const bool ownPoints : {false, true}) {
+        Mesh cage = triangulated(cube());
+        std::vector<std::uint32_t> expected;
+        for (std::size_t i = 0; i < copies; ++i) {
+            const auto first = static_cast<std::uint32_t>(cage.points.size());
+            if (i == 0 || ownPoints) cage.points.insert(cage.points.end(), {{3, 0, 0}, {4, 0, 0}, {3, 1, 0}});
+            const std::uint32_t a = i == 0 || ownPoints ? first : 8;
+            expected.push_back(static_cast<std::uint32_t>(cage.triangles.size()));
+            cage.triangles.emplace_back(a, a + 1, a + 2);
+        }
+        cage.quads.emplace_back(0U, 1U, 2U, 3U); // bad by itself: it lies on two triangles of the cube
+        const CageCheck counted = check(cage);
+        BOOST_TEST(counted.selfIntersections == mostSelfIntersections);
+        const std::vector<std::uint32_t>& bad = counted.badFaces;
+        BOOST_TEST(std::includes(bad.begin(), bad.end(), expected.begin(), expected.end()));
+        // With fewer copies all are counted: the same faces of the cube are bad.
+        cage.triangles.resize(12 + 2);
+        std::vector<std::uint32_t> few = check(cage).badFaces;
+        for (std::uint32_t& face : few) face += face == 14 ? static_cast<std::uint32_t>(copies - 2) : 0;
+        BOOST_TEST(bad.size() == few.size() + copies - 2);
+        BOOST_TEST(std::includes(bad.begin(), bad.end(), few.begin(), few.end()));
+    }
+}
+
 BOOST_AUTO_TEST_CASE(a_poke)
 {
     // The sphere's north pole pulled down through the south one. Its fan of triangles crosses the other.

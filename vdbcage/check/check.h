@@ -11,6 +11,9 @@
 
 namespace vdbcage {
 
+/// So many self-intersections are counted and no more: n faces have up to n^2 / 2, which would take hours.
+constexpr std::size_t mostSelfIntersections = 1'000'000;
+
 /// The verdict on a cage. Yes/no answers and counts are exact on the coordinates given; measures are rounded. A quad
 /// stands for all four triangles of its two diagonals: a defect under one of them counts. All sets are closed: a touch
 /// is a contact, and points are the same only if their index is, so two at one place touch. Faces are numbered
@@ -29,7 +32,8 @@ struct CageCheck {
     std::size_t inwardComponents = 0;
     std::size_t degenerateFaces = 0; ///< faces with a repeated corner or a triangle of zero area
     /// Pairs of faces that meet in more than the corners and edges they share, and quads folded over a diagonal.
-    /// Degenerate triangles are not tested.
+    /// Degenerate triangles are not tested. At most `mostSelfIntersections`, which then stands for as many or more;
+    /// `badFaces` has the faces of all of them.
     std::size_t selfIntersections = 0;
 
     // The cage against the model

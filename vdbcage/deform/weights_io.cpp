@@ -11,6 +11,7 @@
 #include <system_error>
 
 #include <vdbcage/core/atomic_file.h>
+#include <vdbcage/core/detail/read_file.h>
 #include <vdbcage/core/error.h>
 #include <vdbcage/deform/detail/weight_blocks.h>
 
@@ -106,17 +107,13 @@ void writeWeights(const Mesh& cage, const std::vector<openvdb::Vec3d>& points, C
 Binding readWeights(const std::filesystem::path& path, const Mesh& cage, std::vector<openvdb::Vec3d> points)
 {
     const auto fail = [&](const std::string& what) { throw IoError(path.string() + ": " + what); };
-    std::error_code problem;
-    const std::filesystem::file_status status = std::filesystem::status(path, problem);
-    if (problem) fail("cannot be read: " + problem.message());
-    if (std::filesystem::is_directory(status)) fail("is a directory; a file is needed");
-    // Pipes and devices have no size and may never end.
-    if (!std::filesystem::is_regular_file(status)) fail("is not a regular file");
-    const std::uintmax_t size = std::filesystem::file_size(path, problem);
-    if (problem) fail("cannot be read: " + problem.message());
+    detail::requireRegularFile(path);
     errno = 0;
     std::ifstream in(path, std::ios::binary);
     if (!in) fail("cannot be read: " + std::generic_category().message(errno != 0 ? errno : EIO));
+    std::error_code problem;
+    const std::uintmax_t size = std::filesystem::file_size(path, problem);
+    if (problem) fail("cannot be read: " + problem.message());
     std::string start(magic.size() + 2, '\0');
     in.read(start.data(), static_cast<std::streamsize>(start.size()));
     if (!in || start.compare(0, magic.size(), magic) != 0) fail("it is not a weights file of vdbcage");

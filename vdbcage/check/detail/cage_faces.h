@@ -47,8 +47,8 @@ struct CageFaces {
     Flags bad;                    ///< by face
 };
 
-/// Counts the pairs of faces that meet in more than the corners and edges they share, and folded quads; marks them bad.
-/// O(n log n + candidates), in parallel. \throw Cancelled
+/// Counts the pairs of faces that meet in more than the corners and edges they share, and folded quads, up to
+/// `mostSelfIntersections`; marks all of them bad. O(n log n + candidates), in parallel. \throw Cancelled
 std::size_t countSelfIntersections(CageFaces& cage, Interrupter* interrupter);
 
 } // namespace vdbcage::detail

@@ -4,6 +4,7 @@
 
 #include <tbb/blocked_range.h>
 #include <tbb/enumerable_thread_specific.h>
+#include <vdbcage/check/check.h>
 #include <vdbcage/check/detail/cage_faces.h>
 #include <vdbcage/core/detail/parallel.h>
 
@@ -67,6 +68,65 @@ bool isFolded(const CageFaces& cage, std::size_t quad)
     return foldOver(p[q[0]], p[q[2]], p[q[1]], p[q[3]]) || foldOver(p[q[1]], p[q[3]], p[q[0]], p[q[2]]);
 }
 
+bool isWholeQuad(const CageFaces& cage, std::size_t face)
+{
+    if (!cage.faces.isQuad(face)) return false;
+    for (std::size_t t = cage.faces.first(face); t < cage.faces.first(face + 1); ++t) {
+        if (cage.degenerate[t]) return false;
+    }
+    return true;
+}
+
+bool isFoldedFace(const CageFaces& cage, std::size_t face)
+{
+    return isWholeQuad(cage, face) && isFolded(cage, face - cage.mesh.triangles.size());
+}
+
+// Calls visit(other) for the triangles of other faces that collide with one of the face, until it returns false.
+template <typename Wanted, typename Visit>
+void forCollisions(const CageFaces& cage, std::size_t face, const Wanted& wanted, const Visit& visit)
+{
+    bool more = true;
+    for (std::size_t t = cage.faces.first(face); more && t < cage.faces.first(face + 1); ++t) {
+        if (cage.degenerate[t]) continue;
+        const Corners corners = cage.corners(t);
+        const Box box = Box::of(corners);
+        more = cage.tree.traverse(cage.tree.near(corners), [&](const TriangleTree::Item& item) {
+            const Index other = cage.faces.face(item.triangle);
+            if (other == face || cage.degenerate[item.triangle] || !wanted(other)) return true;
+            if (!box.meets(Box::of(cage.tree.corners(item))) || !collide(cage, t, item.triangle)) return true;
+            return visit(other);
+        });
+    }
+}
+
+tbb::blocked_range<std::size_t> allFaces(const CageFaces& cage)
+{
+    return {0, cage.faces.faces(), 4};
+}
+
+// As soon as there are too many pairs to count: which faces are in one, each by the first that is found.
+void markSelfIntersections(CageFaces& cage, Interrupter* interrupter)
+{
+    parallelFor(allFaces(cage), [&](const tbb::blocked_range<std::size_t>& range) {
+        throwIfInterrupted(interrupter);
+        for (std::size_t face = range.begin(); face < range.end(); ++face) {
+            if (isSet(cage.bad[face])) continue;
+            bool found = isFoldedFace(cage, face);
+            if (!found) {
+                forCollisions(
+                    cage, face, [](Index) { return true; },
+                    [&](Index other) {
+                        set(cage.bad[other]);
+                        found = true;
+                        return false;
+                    });
+            }
+            if (found) set(cage.bad[face]);
+        }
+    });
+}
+
 } // namespace
 
 std::size_t countSelfIntersections(CageFaces& cage, Interrupter* interrupter)
@@ -75,36 +135,28 @@ std::size_t countSelfIntersections(CageFaces& cage, Interrupter* interrupter)
     // For each face the last one that counted a pair with it: a pair of quads has up to 16 chances to collide.
     tbb::enumerable_thread_specific<std::vector<Index>> counted(
         [&] { return std::vector<Index>(cage.faces.faces(), ~Index(0)); });
-    const tbb::blocked_range<std::size_t> all(0, cage.faces.faces(), 4);
-    parallelFor(all, [&](const tbb::blocked_range<std::size_t>& range) {
+    parallelFor(allFaces(cage), [&](const tbb::blocked_range<std::size_t>& range) {
         throwIfInterrupted(interrupter);
         std::vector<Index>& countedBy = counted.local();
-        for (std::size_t face = range.begin(); face < range.end(); ++face) {
+        for (std::size_t face = range.begin(); face < range.end() && result < mostSelfIntersections; ++face) {
             std::size_t pairs = 0;
-            bool whole = true;
-            for (std::size_t t = cage.faces.first(face); t < cage.faces.first(face + 1); ++t) {
-                if (cage.degenerate[t]) {
-                    whole = false;
-                    continue;
-                }
-                const Corners corners = cage.corners(t);
-                const Box box = Box::of(corners);
-                cage.tree.traverse(cage.tree.near(corners), [&](const TriangleTree::Item& item) {
-                    const Index other = cage.faces.face(item.triangle);
-                    if (other <= face || countedBy[other] == face || cage.degenerate[item.triangle]) return true;
-                    if (!box.meets(Box::of(cage.tree.corners(item))) || !collide(cage, t, item.triangle)) return true;
+            forCollisions(
+                cage, face, [&](Index other) { return other > face && countedBy[other] != face; },
+                [&](Index other) {
                     countedBy[other] = static_cast<Index>(face);
                     set(cage.bad[other]);
                     ++pairs;
                     return true;
                 });
-            }
-            if (whole && cage.faces.isQuad(face) && isFolded(cage, face - cage.mesh.triangles.size())) ++pairs;
+            if (isFoldedFace(cage, face)) ++pairs;
             if (pairs > 0) set(cage.bad[face]);
             result += pairs;
         }
     });
-    return result;
+    // Whether the sum comes so far does not depend on the order in which it is made.
+    if (result < mostSelfIntersections) return result;
+    markSelfIntersections(cage, interrupter);
+    return mostSelfIntersections;
 }
 
 } // namespace vdbcage::detail

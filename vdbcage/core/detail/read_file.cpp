@@ -53,18 +53,21 @@ private:
 
 } // namespace
 
-std::string readFile(const std::filesystem::path& path)
+void requireRegularFile(const std::filesystem::path& path)
 {
-    const std::string name = path.string();
     std::error_code error;
     const std::filesystem::file_status status = std::filesystem::status(path, error);
-    if (std::filesystem::is_directory(status)) throw IoError(name + ": is a directory; a file is needed");
-    // Pipes and devices have no size and may never end.
+    if (std::filesystem::is_directory(status)) throw IoError(path.string() + ": is a directory; a file is needed");
     if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
-        throw IoError(name + ": is not a regular file");
+        throw IoError(path.string() + ": is not a regular file");
     }
+}
+
+std::string readFile(const std::filesystem::path& path)
+{
+    requireRegularFile(path);
     std::string bytes = File(path).readAll();
-    if (bytes.empty()) throw IoError(name + ": the file is empty");
+    if (bytes.empty()) throw IoError(path.string() + ": the file is empty");
     return bytes;
 }
 
