@@ -5,7 +5,7 @@
 #include <tbb/global_control.h>
 #include <vdbcage/core/error.h>
 #include <vdbcage/surface/decimate.h>
-#include <vdbcage/surface/extract.h>
+#include <vdbcage/volume/extract.h>
 #include <vdbcage/surface/smooth.h>
 
 #include "support/solids.h"

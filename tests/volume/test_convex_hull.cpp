@@ -5,7 +5,7 @@
 
 #include <vdbcage/core/error.h>
 #include <vdbcage/mesh/topology.h>
-#include <vdbcage/surface/extract.h>
+#include <vdbcage/volume/extract.h>
 #include <vdbcage/volume/convex_hull.h>
 
 #include "support/solids.h"

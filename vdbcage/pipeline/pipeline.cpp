@@ -19,13 +19,13 @@
 #include <vdbcage/core/error.h>
 #include <vdbcage/mesh/symmetry.h>
 #include <vdbcage/mesh/topology.h>
-#include <vdbcage/surface/bounding_guard.h>
-#include <vdbcage/surface/crease.h>
+#include <vdbcage/bounding/bounding_guard.h>
+#include <vdbcage/bounding/near_coplanar.h>
 #include <vdbcage/surface/decimate.h>
-#include <vdbcage/surface/extract.h>
+#include <vdbcage/volume/extract.h>
 #include <vdbcage/surface/repair.h>
 #include <vdbcage/surface/smooth.h>
-#include <vdbcage/surface/tighten.h>
+#include <vdbcage/bounding/tighten.h>
 #include <vdbcage/surface/triquad.h>
 #include <vdbcage/volume/cavities.h>
 #include <vdbcage/volume/convex_hull.h>
@@ -518,7 +518,7 @@ private:
         Start start;
         start.offset = std::floor(guard.clearance() / solid.voxelSize()[0]);
         const auto grownBy = [&](double radius, const openvdb::MaskGrid& mask) {
-            return dilate(mask, radius, Element::sphere, interrupter);
+            return dilate(mask, radius, StructuringElement::sphere, interrupter);
         };
         auto mask = start.offset > 0 ? grownBy(start.offset, solid)
                                      : detail::maskGridLike(solid, std::make_shared<openvdb::MaskTree>(solid.tree()));
@@ -596,7 +596,7 @@ private:
         };
         keepAtMost(decimation.faces, &Candidate::decimated);
         TightenOptions tightening = tightenOptions(options.effort);
-        if (guard.symmetry()) tightening.shakes *= 3; // in the time that half a surface saves
+        if (guard.symmetry()) tightening.perturbations *= 3; // in the time that half a surface saves
         if (options.mesh == CageFaces::triangles) {
             const Stage stage(interrupter, "tighten");
             detail::parallelFor(std::size_t(0), starts.size(), [&](std::size_t i) {
@@ -622,8 +622,8 @@ private:
             });
         }
         if (options.mesh == CageFaces::triangles) {
-            const Stage stage(interrupter, "crease");
-            for (Candidate& candidate : starts) candidate.cage = crease(candidate.cage, guard, interrupter);
+            const Stage stage(interrupter, "bendNearCoplanarEdges");
+            for (Candidate& candidate : starts) candidate.cage = bendNearCoplanarEdges(candidate.cage, guard, interrupter);
         }
         if (starts.size() > 1) {
             const Stage stage(interrupter, "certify");

@@ -6,8 +6,8 @@
 #include <vdbcage/core/export.h>
 #include <vdbcage/core/interrupter.h>
 #include <vdbcage/mesh/mesh.h>
-#include <vdbcage/surface/bounding_guard.h>
-#include <vdbcage/surface/effort.h>
+#include <vdbcage/bounding/bounding_guard.h>
+#include <vdbcage/bounding/effort.h>
 
 namespace vdbcage {
 

@@ -3,7 +3,7 @@
 #include <vdbcage/core/export.h>
 #include <vdbcage/core/interrupter.h>
 #include <vdbcage/mesh/mesh.h>
-#include <vdbcage/surface/bounding_guard.h>
+#include <vdbcage/bounding/bounding_guard.h>
 
 namespace vdbcage {
 

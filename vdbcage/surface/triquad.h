@@ -5,8 +5,8 @@
 #include <vdbcage/core/export.h>
 #include <vdbcage/core/interrupter.h>
 #include <vdbcage/mesh/mesh.h>
-#include <vdbcage/surface/bounding_guard.h>
-#include <vdbcage/surface/tighten.h>
+#include <vdbcage/bounding/bounding_guard.h>
+#include <vdbcage/bounding/tighten.h>
 
 namespace vdbcage {
 

@@ -5,7 +5,7 @@
 
 #include <openvdb/io/Archive.h>
 #include <openvdb/tools/Prune.h>
-#include <vdbcage/core/atomic_file.h>
+#include <vdbcage/core/detail/atomic_file.h>
 #include <vdbcage/core/detail/mask_grid.h>
 #include <vdbcage/core/detail/read_file.h>
 #include <vdbcage/core/error.h>
