@@ -6,12 +6,12 @@
 #include <utility>
 #include <vector>
 
-#include <vdbcage/core/error.h>
-#include <vdbcage/mesh/topology.h>
 #include <vdbcage/bounding/bounding_guard.h>
 #include <vdbcage/bounding/detail/contact_planes.h>
 #include <vdbcage/bounding/detail/guard_model.h>
-#include <vdbcage/bounding/detail/guarded_mesh.h>
+#include <vdbcage/bounding/detail/admissible.h>
+#include <vdbcage/core/error.h>
+#include <vdbcage/mesh/topology.h>
 
 #include "support/shapes.h"
 #include "support/symmetric.h"
@@ -19,8 +19,8 @@
 using namespace vdbcage;
 using detail::Box;
 using detail::Corners;
-using detail::StarChange;
 using detail::GuardedMesh;
+using detail::StarChange;
 using openvdb::Vec3d;
 
 namespace {
@@ -77,7 +77,7 @@ BoundingGuard guardOf(const Mesh& model, double minAngle = 0, double clearance =
 bool topMayGo(const Mesh& surface, const BoundingGuard& guard, const Vec3d& p)
 {
     const GuardedMesh guarded(surface, guard.model());
-    return guarded.allows(guarded.starOf(0), guard.model().rounded(guard.model().scaled(p)));
+    return allows(guarded, starOf(guarded, 0), guard.model().rounded(guard.model().scaled(p)));
 }
 
 std::vector<std::uint32_t> neighboursOf(const GuardedMesh& surface, std::uint32_t v)
@@ -329,25 +329,25 @@ BOOST_AUTO_TEST_CASE(changes_made_side_by_side_do_not_run_into_each_other)
     const Mesh surface = test::joined(bipyramid({0, 0, 0}, 1), bipyramid({0, 0, 3}, 1));
     const BoundingGuard guard = guardOf(model);
     GuardedMesh guarded(surface, guard.model());
-    const StarChange below = guarded.starOf(0), above = guarded.starOf(9);
+    const StarChange below = starOf(guarded, 0), above = starOf(guarded, 9);
     const Vec3d up = guard.model().rounded(guard.model().scaled({0, 0, 1.6}));
     const Vec3d down = guard.model().rounded(guard.model().scaled({0, 0, 1.4}));
-    BOOST_REQUIRE(guarded.allows(below, up));
-    BOOST_REQUIRE(guarded.allows(above, down));
+    BOOST_REQUIRE(allows(guarded, below, up));
+    BOOST_REQUIRE(allows(guarded, above, down));
     {
-        GuardedMesh::Batch batch(guarded);
+        detail::Batch batch(guarded);
         BOOST_TEST(batch.apply(below, up));
         BOOST_TEST(!batch.apply(above, down));
         // Nor are neighbours moved on what they no longer see.
-        BOOST_TEST(!batch.apply(guarded.starOf(2), guarded.point(2)));
+        BOOST_TEST(!batch.apply(starOf(guarded, 2), guarded.point(2)));
     }
-    BOOST_TEST(!guarded.allows(above, down)); // what was changed is seen when the batch has ended
+    BOOST_TEST(!allows(guarded, above, down)); // what was changed is seen when the batch has ended
     // Nor nearly: two thousandths of the model's 3.9 between them is asked.
     GuardedMesh apart(surface, guard.model());
     const Vec3d place = guard.model().rounded(guard.model().scaled({0, 0, 1.5}));
     const Vec3d near = guard.model().rounded(guard.model().scaled({0, 0, 1.502}));
-    BOOST_REQUIRE(apart.allows(above, near));
-    GuardedMesh::Batch second(apart);
+    BOOST_REQUIRE(allows(apart, above, near));
+    detail::Batch second(apart);
     BOOST_TEST(second.apply(below, place));
     BOOST_TEST(!second.apply(above, near));
 }
@@ -360,17 +360,17 @@ BOOST_AUTO_TEST_CASE(contacts_do_not_depend_on_what_was_learned_before)
         const BoundingGuard guard = guardOf(soup(random, 200, 0.2));
         const GuardedMesh surface(bipyramid({0, 0, 0}, 4, 8), guard.model());
         for (std::uint32_t v = 0; v < surface.vertices(); ++v) {
-            const StarChange star = surface.starOf(v);
+            const StarChange star = starOf(surface, v);
             const Vec3d from = surface.point(v);
-            GuardedMesh::Obstacle obstacle;
+            detail::Obstacle obstacle;
             for (const double way : {1.0, 0.9, 0.7, 0.5, 0.3}) {
                 const Vec3d inside = guard.model().scaled(randomPoint(random));
-                const Vec3d to = surface.rounded(star, (1 - way) * from + way * inside);
-                if (surface.allows(star, to, &obstacle)) continue;
+                const Vec3d to = rounded(surface, star, (1 - way) * from + way * inside);
+                if (allows(surface, star, to, &obstacle)) continue;
                 if (obstacle.clear > 0 && obstacle.clear < star.link.size()) ++known;
                 std::vector<detail::HalfSpace> learned, anew;
-                surface.contacts(star, from, to, obstacle, learned);
-                surface.contacts(star, from, to, {}, anew);
+                contacts(surface, star, from, to, obstacle, learned);
+                contacts(surface, star, from, to, {}, anew);
                 BOOST_REQUIRE(learned.size() == anew.size());
                 for (std::size_t i = 0; i < anew.size(); ++i) {
                     BOOST_TEST(learned[i].normal == anew[i].normal);
@@ -387,17 +387,17 @@ BOOST_AUTO_TEST_CASE(a_new_vertex_takes_the_place_of_faces)
     const BoundingGuard guard = guardOf(inLowerHalf);
     GuardedMesh guarded(bipyramid({0, 0, 0}, 1, 6), guard.model());
     StarChange star;
-    BOOST_TEST(!guarded.starOfFaces({0, 4}, false, star));              // they touch at the top alone
-    BOOST_TEST(!guarded.starOfFaces({0, 2, 4, 6, 8, 10}, false, star)); // the top is inside
-    BOOST_REQUIRE(guarded.starOfFaces({0, 2, 4}, false, star));
+    BOOST_TEST(!starOfFaces(guarded, {0, 4}, false, star));              // they touch at the top alone
+    BOOST_TEST(!starOfFaces(guarded, {0, 2, 4, 6, 8, 10}, false, star)); // the top is inside
+    BOOST_REQUIRE(starOfFaces(guarded, {0, 2, 4}, false, star));
     BOOST_TEST(star.link.size() == 5U);
     const auto at = [&](double height) {
         const Mesh mesh = guarded.mesh();
         return guard.model().rounded(
             guard.model().scaled(0.45 * (mesh.points[3] + mesh.points[4]) + Vec3d(0, 0, height)));
     };
-    BOOST_TEST(!guarded.allows(star, at(-0.4))); // through the bottom's faces
-    BOOST_REQUIRE(guarded.allows(star, at(0.3)));
+    BOOST_TEST(!allows(guarded, star, at(-0.4))); // through the bottom's faces
+    BOOST_REQUIRE(allows(guarded, star, at(0.3)));
     guarded.apply(star, at(0.3));
     BOOST_TEST(guarded.liveFaces() == 14U);
     const MeshTopology topology = analyzeTopology(guarded.mesh());
@@ -430,17 +430,17 @@ BOOST_AUTO_TEST_CASE(a_new_vertex_on_the_plane_of_symmetry_takes_the_place_of_fa
     BOOST_REQUIRE((corners(2) == std::array<std::uint32_t, 3>{0, 3, 4}));
     BOOST_REQUIRE((corners(3) == std::array<std::uint32_t, 3>{1, 4, 3}));
     StarChange star;
-    BOOST_TEST(!guarded.starOfFaces({0}, true, star));          // no side on the plane
-    BOOST_TEST(!guarded.starOfFaces({2, 3}, true, star));       // the corner on the plane between their sides is inside
-    BOOST_TEST(!guarded.starOfFaces({1, 0, 2}, true, star));    // one side on the plane, and the bottom
-    BOOST_TEST(!guarded.starOfFaces({0, 2, 4, 6}, true, star)); // two sides on the plane
-    BOOST_REQUIRE(guarded.starOfFaces({2, 0}, true, star));
+    BOOST_TEST(!starOfFaces(guarded, {0}, true, star));       // no side on the plane
+    BOOST_TEST(!starOfFaces(guarded, {2, 3}, true, star));    // the corner on the plane between their sides is inside
+    BOOST_TEST(!starOfFaces(guarded, {1, 0, 2}, true, star)); // one side on the plane, and the bottom
+    BOOST_TEST(!starOfFaces(guarded, {0, 2, 4, 6}, true, star)); // two sides on the plane
+    BOOST_REQUIRE(starOfFaces(guarded, {2, 0}, true, star));
     BOOST_TEST(star.onPlane);
     BOOST_TEST(star.link.size() == 3U);
-    const Vec3d aside(0.05, 0.6, 0.6), place = guarded.rounded(star, guard.model().scaled(aside));
+    const Vec3d aside(0.05, 0.6, 0.6), place = rounded(guarded, star, guard.model().scaled(aside));
     BOOST_TEST(place[0] == guard.model().symmetry()->offset);
-    BOOST_TEST(!guarded.allows(star, guard.model().rounded(guard.model().scaled(aside))));
-    BOOST_REQUIRE(guarded.allows(star, place));
+    BOOST_TEST(!allows(guarded, star, guard.model().rounded(guard.model().scaled(aside))));
+    BOOST_REQUIRE(allows(guarded, star, place));
     guarded.apply(star, place);
     BOOST_TEST(guarded.liveFaces() == 9U);
     BOOST_TEST(guarded.isOnPlane(10));
@@ -464,7 +464,7 @@ bool makesQuad(const Mesh& model, double minAngle = 0, double fold = 90)
     const BoundingGuard guard = guardOf(model, minAngle);
     GuardedMesh guarded(bipyramid({0, 0, 0}, 1, 8), guard.model());
     guarded.limitQuadFold(fold);
-    const bool made = guarded.makeQuad(0, 2);
+    const bool made = makeQuad(guarded, 0, 2);
     const Mesh mesh = guarded.mesh();
     BOOST_TEST(mesh.quads.size() == (made ? 1U : 0U));
     BOOST_TEST(mesh.triangles.size() == (made ? 14U : 16U));
@@ -487,12 +487,12 @@ BOOST_AUTO_TEST_CASE(a_quad_bounds_under_both_diagonals_while_it_moves)
     const BoundingGuard guard = guardOf(boxAt(0.27, 0.27, 0.37));
     GuardedMesh guarded(bipyramid({0, 0, 0}, 1, 8), guard.model());
     const auto mayGo = [&](std::uint32_t v, const Vec3d& p) {
-        return guarded.allows(guarded.starOf(v), guard.model().rounded(guard.model().scaled(p)));
+        return allows(guarded, starOf(guarded, v), guard.model().rounded(guard.model().scaled(p)));
     };
     const Vec3d cuts(0.8, 0, 0), concave(1.5, -1, 0), up(0, 0, 1.1);
     for (const Vec3d& p : {cuts, concave, up}) BOOST_TEST(mayGo(2, p + (p == up ? Vec3d(1, 0, -1) : Vec3d(0.0))));
     BOOST_TEST(mayGo(0, up));
-    BOOST_REQUIRE(guarded.makeQuad(0, 2));
+    BOOST_REQUIRE(makeQuad(guarded, 0, 2));
     BOOST_TEST(!mayGo(2, cuts));
     BOOST_TEST(!mayGo(2, concave));
     BOOST_TEST(mayGo(0, up));
@@ -519,9 +519,9 @@ BOOST_AUTO_TEST_CASE(a_part_between_the_diagonals_of_a_quad_stays_inside)
     surface.points[4] = Vec3d(0, 1.6, 0);
     surface.points[3] = Vec3d(1.1, 1.1, 0);
     GuardedMesh guarded(surface, guard.model());
-    BOOST_REQUIRE(guarded.makeQuad(0, 2));
+    BOOST_REQUIRE(makeQuad(guarded, 0, 2));
     const auto mayGo = [&](const Vec3d& p) {
-        return guarded.allows(guarded.starOf(2), guard.model().rounded(guard.model().scaled(p)));
+        return allows(guarded, starOf(guarded, 2), guard.model().rounded(guard.model().scaled(p)));
     };
     BOOST_TEST(mayGo({1.5, 0, 0}));
     BOOST_TEST(!mayGo({0.72, 0, 0})); // past the part, clear of it

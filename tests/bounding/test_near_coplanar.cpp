@@ -4,16 +4,16 @@
 #include <map>
 #include <utility>
 
+#include <vdbcage/bounding/decimate.h>
+#include <vdbcage/bounding/near_coplanar.h>
+#include <vdbcage/bounding/tighten.h>
 #include <vdbcage/check/check.h>
 #include <vdbcage/core/error.h>
 #include <vdbcage/mesh/mesh.h>
-#include <vdbcage/bounding/near_coplanar.h>
-#include <vdbcage/surface/decimate.h>
-#include <vdbcage/bounding/tighten.h>
 
 #include "support/shapes.h"
-#include "support/symmetric.h"
 #include "support/surface_models.h"
+#include "support/symmetric.h"
 #include "support/targets.h"
 
 using namespace vdbcage;
@@ -85,7 +85,7 @@ BOOST_AUTO_TEST_CASE(edges_over_flat_parts_are_flat_or_bent)
             const Mesh start = isSymmetric ? guard.symmetrized(test::ball(24), 0.25 / 24) : test::ball(24);
             for (const Effort effort : {Effort::fast, Effort::fair}) {
                 const Mesh tight =
-                    tighten(decimate(start, guard, test::to(300), effort), guard, tightenOptions(effort));
+                    tighten(decimate(start, guard, test::to(300, effort)), guard, tightenOptions(effort));
                 const Mesh bent = bendNearCoplanarEdges(tight, guard);
                 found += between(tight, flat);
                 BOOST_TEST(between(bent, flat) == 0);

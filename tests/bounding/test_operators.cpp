@@ -9,19 +9,19 @@
 #include <map>
 
 #include <tbb/global_control.h>
+#include <vdbcage/bounding/decimate.h>
+#include <vdbcage/bounding/smooth.h>
+#include <vdbcage/bounding/tighten.h>
+#include <vdbcage/bounding/triquad.h>
 #include <vdbcage/check/check.h>
 #include <vdbcage/core/error.h>
-#include <vdbcage/surface/decimate.h>
 #include <vdbcage/volume/extract.h>
-#include <vdbcage/surface/smooth.h>
-#include <vdbcage/bounding/tighten.h>
-#include <vdbcage/surface/triquad.h>
 
 #include "support/shapes.h"
 #include "support/solids.h"
+#include "support/spacing.h"
 #include "support/stop_at.h"
 #include "support/surface_models.h"
-#include "support/spacing.h"
 #include "support/targets.h"
 
 using namespace vdbcage;
@@ -95,7 +95,7 @@ BOOST_DATA_TEST_CASE(every_cage_bounds_its_model, boost::unit_test::data::make({
         BOOST_REQUIRE(test::pairsTooNear(start, guard) == 0U);
         double tightest = 1e9;
         for (const Effort effort : efforts) {
-            const Mesh cage = decimate(start, guard, to(std::size_t(faces)), effort);
+            const Mesh cage = decimate(start, guard, to(std::size_t(faces), effort));
             const CageCheck check = checker.check(cage);
             BOOST_TEST(check.bounding());
             BOOST_TEST(guard.facesTooNear(cage).empty());
@@ -108,7 +108,7 @@ BOOST_DATA_TEST_CASE(every_cage_bounds_its_model, boost::unit_test::data::make({
             BOOST_TEST(tight.triangles.size() == cage.triangles.size());
             BOOST_TEST(test::pairsTooNear(tight, guard) == 0U);
             tightest = std::min(tightest, after.meanDistance);
-            const Mesh round = smooth(tight, guard, 5);
+            const Mesh round = smooth(tight, guard, {5});
             BOOST_TEST(checker.check(round).bounding());
             BOOST_TEST(round.triangles.size() == tight.triangles.size());
             BOOST_TEST(test::pairsTooNear(round, guard) == 0U);
@@ -122,7 +122,7 @@ BOOST_AUTO_TEST_CASE(a_ball_is_wrapped_tightly)
 {
     const Mesh model = test::sphere({0, 0, 0}, 0.4, 40);
     const BoundingGuard guard(model);
-    const Mesh cage = tighten(decimate(ball(24), guard, to(100), Effort::fair), guard);
+    const Mesh cage = tighten(decimate(ball(24), guard, to(100, Effort::fair)), guard);
     const CageCheck check = checkCage(cage, model);
     BOOST_TEST(check.bounding());
     // The least possible: 100 equal triangles that touch the ball at their centres are 0.6 % of the diagonal off.
@@ -138,7 +138,7 @@ BOOST_AUTO_TEST_CASE(thorough_work_pays)
         for (int i = 0; i < 3; ++i) {
             TightenOptions tightening;
             tightening.perturbations = i == 0 ? 0 : i == 1 ? 1 : 10; // as the pipeline does
-            const Mesh cage = tighten(decimate(ball(24), guard, to(100), efforts[i]), guard, tightening);
+            const Mesh cage = tighten(decimate(ball(24), guard, to(100, efforts[i])), guard, tightening);
             sum[i] += checkCage(cage, model).meanDistance;
         }
     }
@@ -155,7 +155,7 @@ BOOST_AUTO_TEST_CASE(what_a_perturbation_gains_in_one_place_is_kept)
         close.clearance = 1e-6; // no part of the distance
         const BoundingGuard guard(model, close);
         for (const int faces : {250, 300, 350, 400}) {
-            const Mesh cage = decimate(ball(24), guard, to(static_cast<std::size_t>(faces)), Effort::fast);
+            const Mesh cage = decimate(ball(24), guard, to(static_cast<std::size_t>(faces), Effort::fast));
             const auto distance = [&](int perturbations) {
                 TightenOptions perturbing;
                 perturbing.perturbations = perturbations;
@@ -176,7 +176,7 @@ BOOST_AUTO_TEST_CASE(perturbing_only_ever_tightens)
     for (const Mesh& model : models()) {
         const BoundingGuard guard(model);
         const CageChecker checker(model);
-        const Mesh cage = decimate(ball(24), guard, to(60), Effort::fast);
+        const Mesh cage = decimate(ball(24), guard, to(60, Effort::fast));
         const CageCheck before = checker.check(tighten(cage, guard)),
                         after = checker.check(tighten(cage, guard, perturbing));
         BOOST_TEST(after.bounding());
@@ -190,14 +190,14 @@ BOOST_AUTO_TEST_CASE(smoothing_makes_it_rounder)
 {
     const Mesh model = test::joined(test::sphere({-0.25, 0, 0}, 0.15, 10), test::sphere({0.25, 0, 0}, 0.15, 10));
     const BoundingGuard guard(model);
-    const Mesh tight = tighten(decimate(ball(), guard, to(200), Effort::fast), guard);
+    const Mesh tight = tighten(decimate(ball(), guard, to(200, Effort::fast)), guard);
     double last = bending(tight);
     for (const int sweeps : {3, 9}) {
-        const double now = bending(smooth(tight, guard, sweeps));
+        const double now = bending(smooth(tight, guard, {sweeps}));
         BOOST_TEST(now < 0.95 * last);
         last = now;
     }
-    BOOST_CHECK(same(smooth(tight, guard, 0), tight));
+    BOOST_CHECK(same(smooth(tight, guard, {0}), tight));
 }
 
 BOOST_AUTO_TEST_CASE(quads_bound_and_fold_as_little_as_asked)
@@ -210,7 +210,7 @@ BOOST_AUTO_TEST_CASE(quads_bound_and_fold_as_little_as_asked)
         close.clearance = 1e-6;
         const BoundingGuard guard(model, close);
         const CageChecker checker(model);
-        const Mesh triangles = decimate(ball(24), guard, to(2 * faces), Effort::fast);
+        const Mesh triangles = decimate(ball(24), guard, to(2 * faces, Effort::fast));
         int i = 0;
         for (const double degrees : {10.0, 30.0, 90.0}) {
             BoundingTriquadOptions all = quads(faces, degrees);
@@ -221,7 +221,7 @@ BOOST_AUTO_TEST_CASE(quads_bound_and_fold_as_little_as_asked)
             reached += faceCount(cage) <= faces;
             for (const auto& quad : cage.quads) BOOST_TEST(fold(cage, quad) <= degrees + 1e-4); // rounded to float
             count[i++] += cage.quads.size();
-            for (const Mesh& again : {tighten(cage, guard), smooth(cage, guard, 3)}) {
+            for (const Mesh& again : {tighten(cage, guard), smooth(cage, guard, {3})}) {
                 BOOST_TEST(checker.check(again).bounding());
                 BOOST_TEST(again.quads.size() == cage.quads.size());
             }
@@ -241,7 +241,7 @@ BOOST_AUTO_TEST_CASE(flat_parts_get_flat_faces)
     const BoundingGuard guard(model);
     TightenOptions perturbed;
     perturbed.perturbations = 1;
-    const Mesh cage = tighten(decimate(ball(24), guard, to(200), Effort::fair), guard, perturbed);
+    const Mesh cage = tighten(decimate(ball(24), guard, to(200, Effort::fair)), guard, perturbed);
     // Triangles over a face of the box: how far the heights of their corners go apart.
     std::vector<double> ranges;
     for (const auto& t : cage.triangles) {
@@ -365,7 +365,7 @@ BOOST_AUTO_TEST_CASE(far_from_the_origin_and_at_any_size)
             const Mesh model = test::transformed(soup(3, 30, 0.1), scale, move);
             const BoundingGuard guard(model);
             const Mesh start = test::transformed(ball(), scale, move);
-            const Mesh cage = tighten(decimate(start, guard, to(60), Effort::fast), guard);
+            const Mesh cage = tighten(decimate(start, guard, to(60, Effort::fast)), guard);
             BOOST_TEST(checkCage(cage, model).bounding());
             BOOST_TEST(cage.triangles.size() < start.quads.size());
         }
@@ -377,8 +377,8 @@ BOOST_AUTO_TEST_CASE(threads_do_not_matter)
     const Mesh model = soup(4, 60, 0.1);
     const auto make = [&] {
         const BoundingGuard guard(model);
-        const Mesh cage = triquad(decimate(ball(24), guard, to(160), Effort::best), guard, quads(80, 30));
-        return smooth(tighten(cage, guard), guard, 2);
+        const Mesh cage = triquad(decimate(ball(24), guard, to(160, Effort::best)), guard, quads(80, 30));
+        return smooth(tighten(cage, guard), guard, {2});
     };
     const Mesh many = make();
     const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
@@ -390,9 +390,9 @@ BOOST_AUTO_TEST_CASE(cancelling_at_any_question_throws)
     const Mesh model = test::sphere({0, 0, 0}, 0.4, 8), start = ball(12);
     const auto make = [&](Interrupter* interrupter) {
         const BoundingGuard guard(model, {}, interrupter);
-        const Mesh cage = decimate(start, guard, to(40), Effort::best, interrupter);
+        const Mesh cage = decimate(start, guard, to(40, Effort::best), interrupter);
         const Mesh tight = tighten(triquad(cage, guard, quads(20, 30), interrupter), guard, {}, interrupter);
-        return smooth(tight, guard, 2, interrupter);
+        return smooth(tight, guard, {2}, interrupter);
     };
     test::StopAt never(1000000);
     make(&never);
@@ -409,7 +409,7 @@ BOOST_AUTO_TEST_CASE(bad_options_are_refused)
     const Mesh model = test::sphere({0, 0, 0}, 0.4, 8), start = ball();
     const BoundingGuard guard(model);
     BOOST_CHECK_THROW(decimate(start, guard, to(3)), InputError);
-    BOOST_CHECK_THROW(smooth(start, guard, 101), InputError);
+    BOOST_CHECK_THROW(smooth(start, guard, {101}), InputError);
     TightenOptions options;
     options.sweeps = -1;
     BOOST_CHECK_THROW(tighten(start, guard, options), InputError);

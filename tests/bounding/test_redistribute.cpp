@@ -5,20 +5,21 @@
 #include <utility>
 #include <vector>
 
-#include <vdbcage/check/check.h>
-#include <vdbcage/surface/decimate.h>
+#include <vdbcage/bounding/detail/admissible.h>
+#include <vdbcage/bounding/decimate.h>
 #include <vdbcage/bounding/detail/redistribute.h>
 #include <vdbcage/bounding/detail/relax.h>
+#include <vdbcage/check/check.h>
 
 #include "support/manifold.h"
 #include "support/shapes.h"
-#include "support/symmetric.h"
 #include "support/surface_models.h"
+#include "support/symmetric.h"
 #include "support/targets.h"
 
 using namespace vdbcage;
-using detail::StarChange;
 using detail::GuardedMesh;
+using detail::StarChange;
 using openvdb::Vec3d;
 using openvdb::Vec3I;
 using test::ball;
@@ -40,7 +41,7 @@ template <typename Visit>
 void forEachCorner(const GuardedMesh& surface, const Visit& visit)
 {
     for (std::uint32_t c = 0; c < surface.vertices(); ++c) {
-        for (const auto& edge : surface.starOf(c).link) visit(c, edge[0], edge[1]);
+        for (const auto& edge : starOf(surface, c).link) visit(c, edge[0], edge[1]);
     }
 }
 
@@ -68,7 +69,7 @@ BOOST_AUTO_TEST_CASE(edges_may_be_flipped_where_the_surface_stays_a_manifold)
     const BoundingGuard guard(model);
     int refused = 0, found = 0;
     for (const std::size_t faces : {8U, 14U, 40U}) {
-        const Mesh cage = decimate(ball(), guard, to(faces), Effort::fast);
+        const Mesh cage = decimate(ball(), guard, to(faces, Effort::fast));
         const GuardedMesh surface(cage, guard.model());
         forEachCorner(surface, [&](std::uint32_t c, std::uint32_t a, std::uint32_t b) {
             // By hand: a cage's points keep their numbers, its faces their order.
@@ -85,11 +86,11 @@ BOOST_AUTO_TEST_CASE(edges_may_be_flipped_where_the_surface_stays_a_manifold)
                 break;
             }
             StarChange star;
-            BOOST_TEST(surface.starOfFlip(c, a, b, star) == test::isClosedManifold(flipped));
+            BOOST_TEST(starOfFlip(surface, c, a, b, star) == test::isClosedManifold(flipped));
             ++(test::isClosedManifold(flipped) ? found : refused);
         });
         StarChange star;
-        BOOST_TEST(!surface.starOfFlip(surface.face(0)[0], surface.face(0)[2], surface.face(0)[1], star));
+        BOOST_TEST(!starOfFlip(surface, surface.face(0)[0], surface.face(0)[2], surface.face(0)[1], star));
     }
     BOOST_TEST(refused > 0);
     BOOST_TEST(found > 0);
@@ -110,8 +111,8 @@ BOOST_AUTO_TEST_CASE(no_edge_is_flipped_into_the_plane_of_symmetry)
     BOOST_REQUIRE(half.liveFaces() == 4U);
     StarChange star;
     forEachCorner(
-        half, [&](std::uint32_t c, std::uint32_t a, std::uint32_t b) { BOOST_TEST(!half.starOfFlip(c, a, b, star)); });
-    BOOST_TEST(whole.starOfFlip(1, 2, 0, star));
+        half, [&](std::uint32_t c, std::uint32_t a, std::uint32_t b) { BOOST_TEST(!starOfFlip(half, c, a, b, star)); });
+    BOOST_TEST(starOfFlip(whole, 1, 2, 0, star));
 }
 
 BOOST_AUTO_TEST_CASE(flips_that_the_guard_allows_bound_the_model)
@@ -119,16 +120,16 @@ BOOST_AUTO_TEST_CASE(flips_that_the_guard_allows_bound_the_model)
     const CageChecker checker(model);
     for (const bool isSymmetric : {false, true}) {
         const BoundingGuard guard = guardOf(model, isSymmetric);
-        const Mesh cage = decimate(start(guard), guard, to(60), Effort::fast);
+        const Mesh cage = decimate(start(guard), guard, to(60, Effort::fast));
         const GuardedMesh surface(cage, guard.model());
         int made = 0, inner = 0;
         forEachCorner(surface, [&](std::uint32_t c, std::uint32_t a, std::uint32_t b) {
             StarChange star;
-            if (!surface.starOfFlip(c, a, b, star)) return;
+            if (!starOfFlip(surface, c, a, b, star)) return;
             inner += !star.onPlane;
             for (const double off : {0.0, 0.01, 0.1}) {
-                const Vec3d place = surface.rounded(star, surface.point(c) + off * surface.outward(star));
-                if (!surface.allows(star, place)) continue;
+                const Vec3d place = rounded(surface, star, surface.point(c) + off * outward(surface, star));
+                if (!allows(surface, star, place)) continue;
                 GuardedMesh changed = surface;
                 changed.apply(star, place);
                 ++made;
@@ -143,9 +144,9 @@ BOOST_AUTO_TEST_CASE(flips_that_the_guard_allows_bound_the_model)
                 const GuardedMesh anew(mesh, guard.model());
                 for (const std::uint32_t v : anew.neighbours(c)) {
                     for (const double push : {-0.1, 0.1}) {
-                        const StarChange star = anew.starOf(v), again = changed.starOf(v);
-                        const Vec3d to = anew.rounded(star, anew.point(v) + push * anew.outward(star));
-                        BOOST_TEST(anew.allows(star, to) == changed.allows(again, to));
+                        const StarChange star = starOf(anew, v), again = starOf(changed, v);
+                        const Vec3d to = rounded(anew, star, anew.point(v) + push * outward(anew, star));
+                        BOOST_TEST(allows(anew, star, to) == allows(changed, again, to));
                     }
                 }
                 break;
@@ -211,7 +212,7 @@ BOOST_AUTO_TEST_CASE(flips_bring_surfaces_nearer_to_the_model)
             const BoundingGuard guard = guardOf(inside, isSymmetric);
             const CageChecker checker(inside);
             for (const std::size_t faces : {20U, 40U, 60U, 100U}) {
-                GuardedMesh surface(decimate(start(guard), guard, to(faces), Effort::fast), guard.model());
+                GuardedMesh surface(decimate(start(guard), guard, to(faces, Effort::fast)), guard.model());
                 const double perSample = detail::areaPerSample(surface, surface.liveFaces(), 4);
                 double last = detail::integratedDistance(surface, perSample);
                 for (const int sweeps : {0, 0, 6}) {

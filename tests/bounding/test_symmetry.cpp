@@ -8,23 +8,24 @@
 #include <string>
 
 #include <tbb/global_control.h>
+#include <vdbcage/bounding/detail/admissible.h>
+#include <vdbcage/bounding/decimate.h>
+#include <vdbcage/bounding/detail/guard_model.h>
+#include <vdbcage/bounding/detail/quad_pairing.h>
+#include <vdbcage/bounding/smooth.h>
+#include <vdbcage/bounding/tighten.h>
+#include <vdbcage/bounding/triquad.h>
 #include <vdbcage/check/check.h>
 #include <vdbcage/core/detail/nearest_float.h>
 #include <vdbcage/core/error.h>
-#include <vdbcage/surface/decimate.h>
-#include <vdbcage/bounding/detail/guard_model.h>
-#include <vdbcage/bounding/detail/quad_pairing.h>
 #include <vdbcage/volume/extract.h>
-#include <vdbcage/surface/smooth.h>
-#include <vdbcage/bounding/tighten.h>
-#include <vdbcage/surface/triquad.h>
 #include <vdbcage/volume/mirror.h>
 
 #include "support/manifold.h"
 #include "support/shapes.h"
 #include "support/solids.h"
-#include "support/symmetric.h"
 #include "support/spacing.h"
+#include "support/symmetric.h"
 #include "support/targets.h"
 
 using namespace vdbcage;
@@ -184,12 +185,12 @@ BOOST_DATA_TEST_CASE(cages_are_symmetric_and_bound_the_model_and_its_image, boos
             ++cages;
         };
         for (const Effort effort : {Effort::fast, Effort::best}) {
-            const Mesh cage = decimate(surface, guard, to(faces), effort);
+            const Mesh cage = decimate(surface, guard, to(faces, effort));
             const Mesh tight = tighten(cage, guard);
             BOOST_TEST(checker.check(tight).meanDistance < 1.05 * checker.check(cage).meanDistance);
-            for (const Mesh& mesh : {cage, tight, smooth(tight, guard, 4)}) examine(mesh);
+            for (const Mesh& mesh : {cage, tight, smooth(tight, guard, {4})}) examine(mesh);
         }
-        const Mesh twice = decimate(surface, guard, to(2 * faces), Effort::fast);
+        const Mesh twice = decimate(surface, guard, to(2 * faces, Effort::fast));
         for (const double degrees : {30.0, 90.0}) {
             BoundingTriquadOptions options = quads(faces, degrees);
             if (degrees == 90) options.quads = 0.9; // takes strips of quads that end on the plane, too
@@ -219,8 +220,8 @@ BOOST_AUTO_TEST_CASE(vertices_keep_off_the_plane)
     const BoundingGuard guard = guardOf(test::box({0.4, -0.1, -0.1}, {0.6, 0.1, 0.1}), plane);
     const detail::GuardedMesh guarded(surface, guard.model());
     const auto mayGo = [&](double x) {
-        const detail::StarChange star = guarded.starOf(0);
-        return guarded.allows(star, guarded.rounded(star, guard.model().scaled({x, 0, 0})));
+        const detail::StarChange star = starOf(guarded, 0);
+        return allows(guarded, star, rounded(guarded, star, guard.model().scaled({x, 0, 0})));
     };
     BOOST_TEST(mayGo(0.00121));
     BOOST_TEST(!mayGo(0.00119));
@@ -232,7 +233,7 @@ BOOST_AUTO_TEST_CASE(they_are_about_as_tight_as_others)
     const auto distance = [&](const Mesh& surface, const BoundingGuard& guard) {
         TightenOptions perturbed;
         perturbed.perturbations = 1;
-        const Mesh cage = tighten(decimate(surface, guard, to(100), Effort::fair), guard, perturbed);
+        const Mesh cage = tighten(decimate(surface, guard, to(100, Effort::fair)), guard, perturbed);
         return checkCage(cage, model).meanDistance;
     };
     const BoundingGuard guard = guardOf(model, planeOf(0, 0));
@@ -247,7 +248,7 @@ BOOST_AUTO_TEST_CASE(far_from_the_origin_and_at_any_size)
             const Mesh model = test::transformed(dust(3, 30), scale, move);
             const BoundingGuard guard = guardOf(model, {0, move[0]});
             const Mesh surface = guard.symmetrized(test::transformed(ball(0, 0), scale, move), scale * snap);
-            const Mesh cage = tighten(decimate(surface, guard, to(60), Effort::fast), guard);
+            const Mesh cage = tighten(decimate(surface, guard, to(60, Effort::fast)), guard);
             BOOST_CHECK(test::isSymmetric(cage, *guard.symmetry()));
             BOOST_TEST(checkCage(cage, model).bounding());
             BOOST_TEST(cage.triangles.size() < surface.quads.size());
@@ -267,7 +268,7 @@ BOOST_AUTO_TEST_CASE(no_inner_edge_joins_two_points_of_the_plane)
     const BoundingGuard guard = guardOf(model, {0, 0});
     const Mesh surface = guard.symmetrized(extractSurface(*mask), snap);
     for (std::size_t faces = 8; faces <= 40; faces += 4) {
-        const Mesh cage = decimate(surface, guard, to(faces), Effort::fast);
+        const Mesh cage = decimate(surface, guard, to(faces, Effort::fast));
         BOOST_TEST(test::isClosedManifold(cage));
         BOOST_CHECK(test::isSymmetric(cage, *guard.symmetry()));
         BOOST_TEST(faceCount(cage) <= faces);
@@ -306,7 +307,7 @@ BOOST_AUTO_TEST_CASE(threads_do_not_matter)
     const Mesh model = dust(4, 60);
     const auto make = [&] {
         const BoundingGuard guard = guardOf(model, planeOf(0, 0));
-        const Mesh cage = decimate(start(guard, 0, 0), guard, to(160), Effort::best);
+        const Mesh cage = decimate(start(guard, 0, 0), guard, to(160, Effort::best));
         return smooth(tighten(triquad(cage, guard, quads(80, 30)), guard), guard, 2);
     };
     const Mesh many = make();

@@ -3,9 +3,9 @@
 #include <cstddef>
 #include <vector>
 
-#include <vdbcage/mesh/mesh.h>
-#include <vdbcage/geometry/triangle_pair.h>
 #include <vdbcage/bounding/detail/guard_model.h>
+#include <vdbcage/geometry/triangle_pair.h>
+#include <vdbcage/mesh/mesh.h>
 
 namespace vdbcage::test {
 

@@ -2,8 +2,8 @@
 
 #include <random>
 
-#include <vdbcage/mesh/mesh.h>
 #include <vdbcage/bounding/bounding_guard.h>
+#include <vdbcage/mesh/mesh.h>
 #include <vdbcage/volume/extract.h>
 
 #include "support/solids.h"

@@ -2,16 +2,14 @@
 
 #include <cstddef>
 
-#include <vdbcage/surface/decimate.h>
-#include <vdbcage/surface/triquad.h>
+#include <vdbcage/bounding/decimate.h>
+#include <vdbcage/bounding/triquad.h>
 
 namespace vdbcage::test {
 
-inline DecimateOptions to(std::size_t faces)
+inline BoundingDecimateOptions to(std::size_t faces, Effort effort = Effort::fair)
 {
-    DecimateOptions options;
-    options.faces = faces;
-    return options;
+    return {faces, effort};
 }
 
 inline BoundingTriquadOptions quads(std::size_t faces, double degrees)

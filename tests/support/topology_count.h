@@ -38,8 +38,8 @@ inline TopologyCount countTopology(const Mesh& mesh)
     TopologyCount count;
     const auto faces = polygons(mesh);
     count.faces = faces.size();
-    std::map<std::pair<unsigned, unsigned>, std::vector<std::size_t>> sides; // directed edge -> faces
-    std::map<unsigned, std::vector<std::pair<unsigned, unsigned>>> umbrellas;     // point -> (from, to) of each face at it
+    std::map<std::pair<unsigned, unsigned>, std::vector<std::size_t>> sides;  // directed edge -> faces
+    std::map<unsigned, std::vector<std::pair<unsigned, unsigned>>> umbrellas; // point -> (from, to) of each face at it
     for (std::size_t f = 0; f < faces.size(); ++f) {
         const std::size_t n = faces[f].size();
         for (std::size_t i = 0; i < n; ++i) {

@@ -4,9 +4,9 @@
 
 #include <vdbcage/core/error.h>
 #include <vdbcage/surface/decimate.h>
-#include <vdbcage/volume/extract.h>
 #include <vdbcage/surface/smooth.h>
 #include <vdbcage/surface/triquad.h>
+#include <vdbcage/volume/extract.h>
 
 #include "support/solids.h"
 #include "support/topology_count.h"

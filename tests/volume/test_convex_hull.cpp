@@ -5,8 +5,8 @@
 
 #include <vdbcage/core/error.h>
 #include <vdbcage/mesh/topology.h>
-#include <vdbcage/volume/extract.h>
 #include <vdbcage/volume/convex_hull.h>
+#include <vdbcage/volume/extract.h>
 
 #include "support/solids.h"
 #include "volume/masks.h"

@@ -32,7 +32,8 @@ const std::vector<double> radii{0, 0.5, 1, 1.41, 1.5, 2, 2.5, 3.7, 5, 8, 12.3};
 
 bool isInElement(const Coord& d, double radius, StructuringElement element)
 {
-    if (element == StructuringElement::cube) return std::max({std::abs(d.x()), std::abs(d.y()), std::abs(d.z())}) <= radius;
+    if (element == StructuringElement::cube)
+        return std::max({std::abs(d.x()), std::abs(d.y()), std::abs(d.z())}) <= radius;
     return d.x() * d.x() + d.y() * d.y() + d.z() * d.z() <= radius * radius;
 }
 
@@ -216,7 +217,8 @@ BOOST_DATA_TEST_CASE(cubes_add_up, data::make({8, 12, 16, 17, 33, 64, 121}) * da
     const auto grid = fatBlobs(160, 8);
     for (const Coord& lone : {Coord(-3, 120, 64), Coord(140, 0, -77)}) grid->tree().setValueOn(lone);
     const auto large = dilate(*grid, radius + more, StructuringElement::cube);
-    BOOST_TEST(sameTree(*dilate(*dilate(*grid, radius, StructuringElement::cube), more, StructuringElement::cube), *large));
+    BOOST_TEST(
+        sameTree(*dilate(*dilate(*grid, radius, StructuringElement::cube), more, StructuringElement::cube), *large));
     BOOST_TEST(sameTree(*erode(*erode(*large, radius, StructuringElement::cube), more, StructuringElement::cube),
                         *erode(*large, radius + more, StructuringElement::cube)));
 }
@@ -417,9 +419,10 @@ BOOST_AUTO_TEST_CASE(bad_input_is_refused)
         BOOST_CHECK_THROW(closeMask(*grid, {radius, 0, StructuringElement::cube}), InputError);
         BOOST_CHECK_THROW(closeMask(*grid, {4, radius, StructuringElement::cube}), InputError);
     }
-    BOOST_CHECK_EXCEPTION(closeMask(*grid, {4, 4.5, StructuringElement::sphere}), InputError, [](const InputError& error) {
-        return std::string(error.what()) == "the erode radius is 4.5 voxels; it must be between 0 and 4";
-    });
+    BOOST_CHECK_EXCEPTION(
+        closeMask(*grid, {4, 4.5, StructuringElement::sphere}), InputError, [](const InputError& error) {
+            return std::string(error.what()) == "the erode radius is 4.5 voxels; it must be between 0 and 4";
+        });
     constexpr int limit = 1 << 30;
     for (const int bad : {limit, -limit - 1, std::numeric_limits<int>::max(), std::numeric_limits<int>::min()}) {
         auto far = MaskGrid::create();

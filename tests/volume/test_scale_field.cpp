@@ -264,8 +264,8 @@ BOOST_AUTO_TEST_CASE(a_field_of_one_value_is_one_radius)
     const auto grid = fatBlobs(60, 5);
     const CloseOptions options{7.3, 6, StructuringElement::sphere};
     BOOST_TEST(sameTree(*closeMask(*grid, options, ScaleField{}), *closeMask(*grid, options)));
-    BOOST_TEST(
-        sameTree(*closeMask(*grid, {7.3, 6, StructuringElement::cube}, ScaleField{}), *closeMask(*grid, {7.3, 6, StructuringElement::cube})));
+    BOOST_TEST(sameTree(*closeMask(*grid, {7.3, 6, StructuringElement::cube}, ScaleField{}),
+                        *closeMask(*grid, {7.3, 6, StructuringElement::cube})));
     BOOST_TEST(sameTree(*closeMask(*grid, options, {FloatGrid::create(0.5F), {}}),
                         *closeMask(*grid, {3.65, 3, StructuringElement::sphere})));
     const ScaleField elsewhere{nullptr, {sphereRegion(Vec3d(5000, 0, 0), 10, 0)}};

@@ -121,7 +121,8 @@ Json measure(const std::string& model, int resolution, int radius, const CageOpt
     line["closing"] = toJson(ours);
     line["closing"]["memory_peak_mib"] = memory;
     // The cube's closing makes no tree of the dilation.
-    const double trees = mebibytes(closed->tree()) + (element == StructuringElement::sphere ? mebibytes(dilated->tree()) : 0);
+    const double trees =
+        mebibytes(closed->tree()) + (element == StructuringElement::sphere ? mebibytes(dilated->tree()) : 0);
     line["closing"]["memory_peak_beyond_trees_mib"] = memory - trees;
     line["interrupter"] = largestGap(runs, [&](GapClock& clock) { return closeMask(*solid, {r, r, element}, &clock); });
     if (element == StructuringElement::sphere && (shape.scale.grid || !shape.scale.regions.empty())) {
@@ -138,7 +139,7 @@ Json measure(const std::string& model, int resolution, int radius, const CageOpt
     const double theirMemory = memoryPeak([&] {
         theirs = leastCost(1, [&] {
             other = element == StructuringElement::sphere ? closeByDenseDistances(solid->tree(), radius)
-                                               : closeByRepetition(solid->tree(), radius);
+                                                          : closeByRepetition(solid->tree(), radius);
         });
     });
     MaskTree difference(*other);

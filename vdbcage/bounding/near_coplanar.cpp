@@ -10,15 +10,15 @@
 #include <optional>
 #include <vector>
 
+#include <vdbcage/bounding/detail/admissible.h>
 #include <vdbcage/core/error.h>
-#include <vdbcage/bounding/detail/guarded_mesh.h>
 
 namespace vdbcage {
 
 namespace {
 
-using detail::StarChange;
 using detail::GuardedMesh;
+using detail::StarChange;
 using openvdb::Vec3d;
 
 constexpr double bent = 1.92e-3; // the tangent of 0.11 degrees
@@ -27,7 +27,7 @@ constexpr double flat = 3e-5;    // of the model's longest side
 /// The triangles around a vertex and those next to them.
 class Bends {
 public:
-    Bends(const GuardedMesh& surface, std::uint32_t v) : surface_(surface), star_(surface.starOf(v))
+    Bends(const GuardedMesh& surface, std::uint32_t v) : surface_(surface), star_(starOf(surface, v))
     {
         const Vec3d size = surface.guard().tree().box().hi - surface.guard().tree().box().lo;
         leastOff_ = flat * std::max({size[0], size[1], size[2]});
@@ -142,29 +142,29 @@ std::optional<Vec3d> betterPlace(const GuardedMesh& surface, const Bends& bends)
     if (count == 0) return std::nullopt;
     const double unit = bent * bends.size();
     const auto steps = {0.1, 0.25, 0.5, 0.75, 1.0, 1.5, 2.0, 3.0, 4.0};
-    const Vec3d outward = surface.outward(star);
+    const Vec3d normal = outward(surface, star);
     std::vector<Vec3d> places = bends.flatPlaces();
     for (const double step : steps) {
-        for (const double side : {-unit, unit}) places.push_back(now + side * step * outward);
+        for (const double side : {-unit, unit}) places.push_back(now + side * step * normal);
     }
     const auto isFar = [&](const Vec3d& p) { return (p - now).length() > 4 * unit; };
     places.erase(std::remove_if(places.begin(), places.end(), isFar), places.end());
     // The one farthest inward first.
     std::stable_sort(places.begin(), places.end(),
-                     [&](const Vec3d& a, const Vec3d& b) { return (a - now).dot(outward) < (b - now).dot(outward); });
+                     [&](const Vec3d& a, const Vec3d& b) { return (a - now).dot(normal) < (b - now).dot(normal); });
     // What is in the way of all these, a smallest angle or the model, may not be where an edge gets shorter as well.
     for (const double step : steps) {
         for (const double side : {-unit, unit}) {
             for (const auto& edge : star.link) {
                 Vec3d along = surface.point(edge[0]) - now;
                 along.normalize();
-                places.push_back(now + step * (side * outward + unit * along));
+                places.push_back(now + step * (side * normal + unit * along));
             }
         }
     }
     for (const Vec3d& p : places) {
-        const Vec3d place = surface.rounded(star, p);
-        if (bends.between(place) < count && surface.allows(star, place)) return place;
+        const Vec3d place = rounded(surface, star, p);
+        if (bends.between(place) < count && allows(surface, star, place)) return place;
     }
     return std::nullopt;
 }

@@ -147,7 +147,7 @@ private:
 
     struct alignas(64) Node : FourBoxes {
         std::array<std::uint32_t, 4> child{}; // a node, or isThing and a thing
-        Place place;                            // its own; none: the root
+        Place place;                          // its own; none: the root
 
         explicit Node(Place own) : place(own)
         {
@@ -273,7 +273,7 @@ private:
     }
 
     std::vector<Node> nodes_;
-    std::vector<Box> boxes_;   // by thing
+    std::vector<Box> boxes_;     // by thing
     std::vector<Place> placeOf_; // by thing; none: gone, or late
     std::vector<std::uint32_t> late_;
     std::vector<std::uint64_t> changed_; // nodes, a bit each: their own boxes are to be set in their parents

@@ -583,7 +583,7 @@ private:
 };
 
 TriangleBvh::TriangleBvh(std::vector<Vec3d> points, const std::vector<Vec3I>& triangles, Interrupter* interrupter,
-                           Copies copies)
+                         Copies copies)
     : points_(std::move(points))
 {
     if (triangles.size() > maxItems) {

@@ -79,7 +79,7 @@ public:
     /// Points must be finite where triangles use them. O(n log n), in parallel; less time and memory where triangles
     /// of a face follow each other. \throw InputError (more than 2^29 triangles), Cancelled
     TriangleBvh(std::vector<Vec3d> points, const std::vector<Vec3I>& triangles, Interrupter* interrupter = nullptr,
-                 Copies copies = Copies::keep);
+                Copies copies = Copies::keep);
 
     bool empty() const { return items_.empty(); }
     const std::vector<Vec3d>& points() const { return points_; }

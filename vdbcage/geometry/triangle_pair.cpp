@@ -6,7 +6,7 @@
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/intersections.h>
-#include <vdbcage/bounding/detail/guard_model.h>
+#include <vdbcage/geometry/triangle_distance.h>
 
 namespace vdbcage::detail {
 

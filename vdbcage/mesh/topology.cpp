@@ -107,7 +107,8 @@ public:
         for (std::size_t i = 0, end; i < incidentEdges_.size(); i = end) {
             const Index first = incidentEdges_[i].corner;
             std::size_t out = 0;
-            for (end = i; end < incidentEdges_.size() && incidentEdges_[end].neighbour == incidentEdges_[i].neighbour; ++end) {
+            for (end = i; end < incidentEdges_.size() && incidentEdges_[end].neighbour == incidentEdges_[i].neighbour;
+                 ++end) {
                 if (incidentEdges_[end].outward) ++out;
                 umbrellas_[root(incidentEdges_[end].corner)] = root(first);
                 if (vertex < incidentEdges_[i].neighbour) {

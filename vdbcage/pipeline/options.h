@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include <vdbcage/core/export.h>
 #include <vdbcage/bounding/effort.h>
+#include <vdbcage/core/export.h>
 #include <vdbcage/volume/morphology.h>
 #include <vdbcage/volume/scale_field.h>
 #include <vdbcage/voxelize/voxelize.h>
@@ -36,11 +36,11 @@ enum class CageSymmetry {
 
 /// Everything that decides how a cage comes out. Lengths are fractions of the model's longest side.
 struct CageOptions {
-    int faces = 400;                            ///< faces of the cage, at most; a quad counts once
-    std::optional<int> resolution;              ///< voxels along the model's longest side; unset: by the faces
-    std::optional<double> closeRadius;          ///< gaps up to twice this wide are bridged; unset: as the faces allow
-    std::optional<double> erodeRadius;          ///< at most the close radius, which must be set; unset: equal to it
-    StructuringElement element = StructuringElement::sphere;          ///< structuring element of the closing
+    int faces = 400;                   ///< faces of the cage, at most; a quad counts once
+    std::optional<int> resolution;     ///< voxels along the model's longest side; unset: by the faces
+    std::optional<double> closeRadius; ///< gaps up to twice this wide are bridged; unset: as the faces allow
+    std::optional<double> erodeRadius; ///< at most the close radius, which must be set; unset: equal to it
+    StructuringElement element = StructuringElement::sphere; ///< structuring element of the closing
     ScaleField scale;                           ///< what the close radius is multiplied by in places; for the sphere
     int smooth = 0;                             ///< sweeps of smoothing at the end: rounder, and less tight, with more
     CageParts parts = CageParts::keep;          ///< what becomes of separate parts of the closing

@@ -13,22 +13,25 @@
 #include <utility>
 #include <vector>
 
+#include <vdbcage/bounding/bounding_guard.h>
+#include <vdbcage/bounding/detail/recorded_decimation.h>
+#include <vdbcage/bounding/near_coplanar.h>
+#include <vdbcage/bounding/smooth.h>
+#include <vdbcage/bounding/tighten.h>
+#include <vdbcage/bounding/triquad.h>
 #include <vdbcage/core/detail/mask_grid.h>
 #include <vdbcage/core/detail/nearest_float.h>
 #include <vdbcage/core/detail/parallel.h>
 #include <vdbcage/core/error.h>
 #include <vdbcage/mesh/symmetry.h>
 #include <vdbcage/mesh/topology.h>
-#include <vdbcage/bounding/bounding_guard.h>
-#include <vdbcage/bounding/near_coplanar.h>
 #include <vdbcage/surface/decimate.h>
-#include <vdbcage/volume/extract.h>
 #include <vdbcage/surface/repair.h>
 #include <vdbcage/surface/smooth.h>
-#include <vdbcage/bounding/tighten.h>
 #include <vdbcage/surface/triquad.h>
 #include <vdbcage/volume/cavities.h>
 #include <vdbcage/volume/convex_hull.h>
+#include <vdbcage/volume/extract.h>
 #include <vdbcage/volume/mirror.h>
 #include <vdbcage/volume/morphology.h>
 
@@ -166,8 +169,8 @@ public:
         double offset = 0;
         Mesh surface;
         MeshTopology topology;
-        std::optional<GuardedDecimation> decimation; ///< once it was asked for
-        bool isUsed = true;                          ///< in this run
+        std::optional<detail::RecordedDecimation> decimation; ///< once it was asked for
+        bool isUsed = true;                                   ///< in this run
     };
     /// How many faces the surface of a closing has.
     struct Counted {
@@ -578,7 +581,8 @@ private:
                                         const BoundingGuard& guard, Interrupter* interrupter)
     {
         const auto faces = static_cast<std::size_t>(options.faces);
-        DecimateOptions decimation;
+        BoundingDecimateOptions decimation;
+        decimation.effort = options.effort;
         // Two triangles a quad, and some that vanish. (Between 2 and 4 times the faces it hardly matters.)
         decimation.faces = options.mesh == CageFaces::triangles ? faces : 3 * faces;
         {
@@ -587,7 +591,7 @@ private:
                 starts[i].smoothed = starts[i].surface;
                 auto& known = starts[i].from->decimation;
                 if (!known) known.emplace(starts[i].surface, guard, interrupter);
-                starts[i].decimated = known->to(decimation, options.effort, interrupter);
+                starts[i].decimated = known->to(decimation, interrupter);
             });
         }
         const auto keepAtMost = [&](std::size_t most, const Mesh Candidate::*mesh) {
@@ -618,12 +622,13 @@ private:
         if (options.smooth > 0) {
             const Stage stage(interrupter, "smooth");
             detail::parallelFor(std::size_t(0), starts.size(), [&](std::size_t i) {
-                starts[i].cage = vdbcage::smooth(starts[i].cage, guard, options.smooth, interrupter);
+                starts[i].cage = vdbcage::smooth(starts[i].cage, guard, {options.smooth}, interrupter);
             });
         }
         if (options.mesh == CageFaces::triangles) {
             const Stage stage(interrupter, "bendNearCoplanarEdges");
-            for (Candidate& candidate : starts) candidate.cage = bendNearCoplanarEdges(candidate.cage, guard, interrupter);
+            for (Candidate& candidate : starts)
+                candidate.cage = bendNearCoplanarEdges(candidate.cage, guard, interrupter);
         }
         if (starts.size() > 1) {
             const Stage stage(interrupter, "certify");

@@ -11,8 +11,8 @@
 
 #include <tbb/blocked_range.h>
 #include <vdbcage/core/detail/parallel.h>
-#include <vdbcage/mesh/detail/open_mesh.h>
 #include <vdbcage/geometry/quadric.h>
+#include <vdbcage/mesh/detail/open_mesh.h>
 
 namespace vdbcage {
 

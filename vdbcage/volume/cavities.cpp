@@ -203,7 +203,8 @@ public:
         constexpr int perUpperNode = upperNodeSize / blockSize;
         for (const Coord& origin : full.upperNodes) {
             for (int y = 0; y < perUpperNode; ++y) {
-                for (int z = 0; z < perUpperNode; ++z) occupy(origin.offsetBy(0, y * blockSize, z * blockSize), perUpperNode);
+                for (int z = 0; z < perUpperNode; ++z)
+                    occupy(origin.offsetBy(0, y * blockSize, z * blockSize), perUpperNode);
             }
         }
         for (const Coord& origin : full.blocks) occupy(origin, 1);

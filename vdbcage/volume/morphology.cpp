@@ -42,19 +42,22 @@ int wholeVoxels(double radius)
     return static_cast<int>(std::floor(radius));
 }
 
-MaskTree::Ptr dilateTree(const MaskTree& mask, double radius, StructuringElement element, const detail::Progress& progress)
+MaskTree::Ptr dilateTree(const MaskTree& mask, double radius, StructuringElement element,
+                         const detail::Progress& progress)
 {
     if (element == StructuringElement::sphere) return detail::dilateBySphere(mask, squared(radius), progress);
     return detail::applyCube(mask, {{CubeStep::dilation, wholeVoxels(radius)}}, progress);
 }
 
-MaskTree::Ptr erodeTree(const MaskTree& mask, double radius, StructuringElement element, const detail::Progress& progress)
+MaskTree::Ptr erodeTree(const MaskTree& mask, double radius, StructuringElement element,
+                        const detail::Progress& progress)
 {
     if (element == StructuringElement::sphere) return detail::erodeBySphere(mask, nullptr, squared(radius), progress);
     return detail::applyCube(mask, {{CubeStep::erosion, wholeVoxels(radius)}}, progress);
 }
 
-MaskTree::Ptr openTree(const MaskTree& mask, double radius, StructuringElement element, const detail::Progress& progress)
+MaskTree::Ptr openTree(const MaskTree& mask, double radius, StructuringElement element,
+                       const detail::Progress& progress)
 {
     if (element == StructuringElement::cube) {
         const int r = wholeVoxels(radius);

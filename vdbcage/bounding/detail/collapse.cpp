@@ -6,6 +6,8 @@
 
 #include <vdbcage/bounding/detail/collapse.h>
 
+#include <vdbcage/bounding/detail/admissible.h>
+
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -13,8 +15,8 @@
 #include <utility>
 
 #include <tbb/blocked_range.h>
-#include <vdbcage/core/detail/parallel.h>
 #include <vdbcage/bounding/detail/vertex_placement.h>
+#include <vdbcage/core/detail/parallel.h>
 #include <vdbcage/geometry/quadric.h>
 
 namespace vdbcage::detail {
@@ -126,7 +128,7 @@ private:
         parallelFor(std::size_t(0), proposals.size(), [&](std::size_t i) { find(proposals[i], slides); });
         std::stable_sort(proposals.begin(), proposals.end(),
                          [](const Proposal& a, const Proposal& b) { return b.edge < a.edge; });
-        GuardedMesh::Batch batch(surface_);
+        Batch batch(surface_);
         std::vector<std::uint32_t> kept;
         for (const Proposal& p : proposals) {
             QueuedEdge edge = p.edge;
@@ -224,11 +226,11 @@ private:
     {
         QueuedEdge& edge = proposal.edge;
         std::optional<Vec3d>& place = proposal.place;
-        if (!surface_.starOf(edge.u, edge.v, proposal.star)) {
+        if (!starOfCollapse(surface_, edge.u, edge.v, proposal.star)) {
             place.reset();
             return;
         }
-        if (place && surface_.allows(proposal.star, *place)) return;
+        if (place && allows(surface_, proposal.star, *place)) return;
         const Quadric q = sum(edge.u, edge.v);
         place = findPlace(proposal.star, q, slides);
         if (place) edge.cost = cost(q, *place);
@@ -238,12 +240,12 @@ private:
     {
         const Vec3d a = surface_.point(star.centre), b = surface_.point(star.removed), middle = 0.5 * (a + b);
         const Vec3d best = optimum(q, star.centre, star.removed);
-        const Vec3d up = surface_.outward(star) * (a - b).length();
-        GuardedMesh::Obstacle obstacle;
+        const Vec3d up = outward(surface_, star) * (a - b).length();
+        Obstacle obstacle;
         for (const Vec3d& at : {best, best + 0.1 * up, best + 0.25 * up, best + 0.5 * up, a, b, middle + 0.1 * up,
                                 middle + 0.35 * up, middle + 0.8 * up}) {
-            Vec3d place = surface_.rounded(star, at);
-            if (!surface_.allows(star, place, &obstacle)) continue;
+            Vec3d place = rounded(surface_, star, at);
+            if (!allows(surface_, star, place, &obstacle)) continue;
             if (slides && at != best) slide(star, q, best, place);
             return place;
         }
@@ -303,7 +305,7 @@ public:
         GuardedMesh surface = start_;
         StarChange star;
         for (std::size_t i = 0; i < stop->collapses; ++i) {
-            surface.starOf(collapses_[i].kept, collapses_[i].removed, star);
+            starOfCollapse(surface, collapses_[i].kept, collapses_[i].removed, star);
             surface.apply(star, collapses_[i].place);
         }
         return surface;

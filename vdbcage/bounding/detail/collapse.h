@@ -3,8 +3,8 @@
 #include <cstddef>
 #include <memory>
 
-#include <vdbcage/core/interrupter.h>
 #include <vdbcage/bounding/detail/guarded_mesh.h>
+#include <vdbcage/core/interrupter.h>
 
 /// Edge collapses under the guard. Costs are found side by side; the result is the same for any number of threads.
 namespace vdbcage::detail {

@@ -5,25 +5,12 @@
 #include <optional>
 #include <vector>
 
-#include <vdbcage/geometry/triangle_bvh.h>
 #include <vdbcage/bounding/bounding_guard.h>
+#include <vdbcage/geometry/triangle_bvh.h>
+#include <vdbcage/geometry/triangle_distance.h>
 #include <vdbcage/geometry/triangle_pair.h>
 
 namespace vdbcage::detail {
-
-/// The nearest points of two triangles.
-struct Nearness {
-    Vec3d onFirst, onSecond;
-    double squaredDistance = 0; ///< 0 if they cross (the points then mean nothing)
-};
-
-/// How near two closed triangles come (either may be degenerate); rounded: the error of the distance is a few units of
-/// 2^-52 of their sizes, far below any clearance.
-Nearness nearness(const Corners& first, const Corners& second);
-
-/// Whether two triangles come nearer than `distance`: as nearness(), but faster where a pair of planes along edges
-/// tells; planes of the triangles are for the caller to try, who may have them.
-bool comeWithin(const Corners& first, const Corners& second, double distance);
 
 /// What a guard knows of the model.
 class GuardModel {

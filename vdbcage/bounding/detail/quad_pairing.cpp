@@ -1,11 +1,13 @@
 // Based on: Cohen-Steiner and Morvan, "Restricted Delaunay Triangulations and Normal Cycle", 2003 (curvature tensors
 // from dihedral angles, for the directions that quads follow); Edmonds, "Paths, Trees, and Flowers", 1965 (paths that
-// alternate between pairs and none); Daniels, Silva, Shepherd, Cohen, "Quadrilateral Mesh Simplification", 2008 (polychords
-// of quads, polychords; here they begin and end at triangles, and are split).
-// Differs: a pair must also pass the guard, which pushes vertices; so pairs are taken greedily and paths are short. On
-// them a quad is split along either diagonal, and a path may end in a collapse.
+// alternate between pairs and none); Daniels, Silva, Shepherd, Cohen, "Quadrilateral Mesh Simplification", 2008
+// (polychords of quads, polychords; here they begin and end at triangles, and are split). Differs: a pair must also
+// pass the guard, which pushes vertices; so pairs are taken greedily and paths are short. On them a quad is split along
+// either diagonal, and a path may end in a collapse.
 
 #include <vdbcage/bounding/detail/quad_pairing.h>
+
+#include <vdbcage/bounding/detail/admissible.h>
 
 #include <algorithm>
 #include <array>
@@ -321,7 +323,7 @@ private:
     bool makeQuad(std::uint32_t f, std::uint32_t g)
     {
         if (!fits(f, g)) return false;
-        if (surface_.makeQuad(f, g)) return true;
+        if (detail::makeQuad(surface_, f, g)) return true;
         const Vec4I ids = surface_.quadOf(f, g);
         const auto corners = cornersOf(f, g);
         Vec3d outward = (corners[2] - corners[0]).cross(corners[3] - corners[1]);
@@ -334,19 +336,19 @@ private:
             const Vec3d push = share * (std::abs(height) + surface_.guard().clearance()) * outward;
             if (!moveBy(vertex(end), push)) continue;
             if (moveBy(vertex(end + 2), push)) {
-                if (surface_.makeQuad(f, g)) return true;
-                surface_.apply(surface_.starOf(vertex(end + 2)), corners[end + 2]);
+                if (detail::makeQuad(surface_, f, g)) return true;
+                surface_.apply(starOf(surface_, vertex(end + 2)), corners[end + 2]);
             }
-            surface_.apply(surface_.starOf(vertex(end)), corners[end]);
+            surface_.apply(starOf(surface_, vertex(end)), corners[end]);
         }
         return false;
     }
 
     bool moveBy(std::uint32_t v, const Vec3d& by)
     {
-        const StarChange star = surface_.starOf(v);
-        const Vec3d target = surface_.rounded(star, surface_.point(v) + by);
-        if (!surface_.allows(star, target)) return false;
+        const StarChange star = starOf(surface_, v);
+        const Vec3d target = rounded(surface_, star, surface_.point(v) + by);
+        if (!allows(surface_, star, target)) return false;
         surface_.apply(star, target);
         return true;
     }
@@ -380,7 +382,7 @@ private:
                 continue;
             }
             if (path.size() + 1 >= 2 * most) continue;
-            const auto\& alternates = surface_.alternatesIn(next);
+            const auto& alternates = surface_.alternatesIn(next);
             const std::uint32_t other = alternates[sideOf(alternates[0], b, a) >= 0 ? 0 : 1];
             for (const std::uint32_t half : {next, other}) {
                 if (!isPromising(end, half, angle, deviation)) continue;
@@ -399,7 +401,7 @@ private:
         return std::any_of(path.begin(), path.end(), [&](std::uint32_t g) {
             if (g == f) return true;
             if (isFree || this->isFree(g)) return false;
-            const auto\& alternates = surface_.alternatesIn(f);
+            const auto& alternates = surface_.alternatesIn(f);
             return g == surface_.partnerOf(f) || g == alternates[0] || g == alternates[1];
         });
     }
@@ -429,14 +431,14 @@ private:
         const std::uint32_t keep = std::min(ids[0], ids[2]), remove = std::max(ids[0], ids[2]);
         const std::vector<std::array<std::uint32_t, 2>> quads = splitQuadsAt({keep, remove});
         StarChange star;
-        if (!surface_.starOf(keep, remove, star)) return false;
+        if (!starOfCollapse(surface_, keep, remove, star)) return false;
         const Vec3d a = surface_.point(keep), b = surface_.point(remove), middle = 0.5 * (a + b);
-        const Vec3d up = surface_.outward(star) * (a - b).length();
+        const Vec3d up = outward(surface_, star) * (a - b).length();
         const GuardedMesh before = surface_;
         for (const Vec3d& at :
              {middle, a, b, middle + 0.1 * up, a + 0.1 * up, b + 0.1 * up, middle + 0.3 * up, middle + 0.6 * up}) {
-            const Vec3d place = surface_.rounded(star, at);
-            if (!surface_.allows(star, place)) continue;
+            const Vec3d place = rounded(surface_, star, at);
+            if (!allows(surface_, star, place)) continue;
             surface_.apply(star, place);
             if (std::all_of(quads.begin(), quads.end(), [&](const auto& quad) { return makeQuad(quad[0], quad[1]); })) {
                 return true;
@@ -446,7 +448,7 @@ private:
         return false;
     }
 
-    /// Returns their halves.
+    /// Returns their faces.
     std::vector<std::array<std::uint32_t, 2>> splitQuadsAt(std::initializer_list<std::uint32_t> vertices)
     {
         std::vector<std::array<std::uint32_t, 2>> quads;
@@ -464,7 +466,7 @@ private:
     /// another or to the plane of symmetry. Every side of a triangle begins one; both ways it is the same.
     struct Polychord {
         std::vector<std::array<std::uint32_t, 2>> sides; ///< those crossed, in the direction of the face before them
-        std::vector<std::array<std::uint32_t, 2>> quads; ///< their halves
+        std::vector<std::array<std::uint32_t, 2>> quads; ///< their faces
     };
 
     /// The polychord that begins across side i of a triangle, if it has no more than so many quads, all different, and
@@ -489,8 +491,9 @@ private:
         }
     }
 
-    /// Puts a vertex on every side that a polychord crosses: each quad becomes two, and the triangles at the ends become
-    /// quads, with a corner pushed out. Returns whether the guard allows it, and it is not costly; else nothing changes.
+    /// Puts a vertex on every side that a polychord crosses: each quad becomes two, and the triangles at the ends
+    /// become quads, with a corner pushed out. Returns whether the guard allows it, and it is not costly; else nothing
+    /// changes.
     bool split(const Polychord& polychord)
     {
         const GuardedMesh before = surface_;
@@ -523,7 +526,7 @@ private:
             const std::uint32_t first = cornerAcross(behind, a, b);
             const std::uint32_t last = onPlane ? StarChange::none : cornerAcross(ahead, b, a);
             StarChange star;
-            if (!surface_.starOfFaces(faces, onPlane, star)) return false;
+            if (!starOfFaces(surface_, faces, onPlane, star)) return false;
             if (!place(star, at, (surface_.point(a) - surface_.point(b)).length())) return false;
             if (isFirst) {
                 if (!makeQuad(faceAt(b, first), faceAt(first, a))) return false;
@@ -540,10 +543,10 @@ private:
     /// Makes the change near a place, as little above it as the guard allows, in parts of `length`.
     bool place(const StarChange& star, const Vec3d& at, double length)
     {
-        const Vec3d up = length * surface_.outward(star);
+        const Vec3d up = length * outward(surface_, star);
         for (const double height : {0.0, 0.03, 0.1, 0.3}) {
-            const Vec3d target = surface_.rounded(star, at + height * up);
-            if (!surface_.allows(star, target)) continue;
+            const Vec3d target = rounded(surface_, star, at + height * up);
+            if (!allows(surface_, star, target)) continue;
             surface_.apply(star, target);
             return true;
         }

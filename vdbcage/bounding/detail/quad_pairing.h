@@ -2,8 +2,8 @@
 
 #include <cstddef>
 
-#include <vdbcage/core/interrupter.h>
 #include <vdbcage/bounding/detail/guarded_mesh.h>
+#include <vdbcage/core/interrupter.h>
 
 namespace vdbcage::detail {
 

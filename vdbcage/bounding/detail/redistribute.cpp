@@ -4,16 +4,18 @@
 
 #include <vdbcage/bounding/detail/redistribute.h>
 
+#include <vdbcage/bounding/detail/admissible.h>
+
 #include <algorithm>
 #include <array>
 #include <limits>
 #include <utility>
 #include <vector>
 
-#include <vdbcage/core/detail/parallel.h>
-#include <vdbcage/bounding/detail/vertex_placement.h>
 #include <vdbcage/bounding/detail/collapse.h>
 #include <vdbcage/bounding/detail/relax.h>
+#include <vdbcage/bounding/detail/vertex_placement.h>
+#include <vdbcage/core/detail/parallel.h>
 
 namespace vdbcage::detail {
 
@@ -31,8 +33,8 @@ struct EdgeChange {
 /// False where there is none.
 bool starOf(const GuardedMesh& surface, const EdgeChange& change, StarChange& star)
 {
-    if (change.centre != StarChange::none) return surface.starOfFlip(change.centre, change.a, change.b, star);
-    star = surface.starOfSplit(change.a, change.b);
+    if (change.centre != StarChange::none) return starOfFlip(surface, change.centre, change.a, change.b, star);
+    star = starOfSplit(surface, change.a, change.b);
     return !star.oldFaces.empty();
 }
 
@@ -42,7 +44,7 @@ void findPlace(const GuardedMesh& surface, const DistanceMeasure& measure, EdgeC
     StarChange star;
     if (!starOf(surface, change, star)) return;
     const Vec3d along = surface.point(change.b) - surface.point(change.a);
-    const Vec3d up = surface.outward(star) * along.length();
+    const Vec3d up = outward(surface, star) * along.length();
     const bool isSplit = change.centre == StarChange::none;
     const Vec3d start = isSplit ? surface.point(change.a) + 0.5 * along : surface.point(change.centre);
     double before = 0;
@@ -51,8 +53,8 @@ void findPlace(const GuardedMesh& surface, const DistanceMeasure& measure, EdgeC
     // There, or a little off: the middle of an edge is rounded, and where a ridge is flipped there must be room for it.
     constexpr std::array<double, 4> offEdge{0.0, 1e-5, 1e-3, 0.03}, offVertex{0.0, 1e-3, 0.03, 0.1};
     for (const double off : isSplit ? offEdge : offVertex) {
-        change.place = surface.rounded(star, start + off * up);
-        if (!surface.allows(star, change.place)) continue;
+        change.place = rounded(surface, star, start + off * up);
+        if (!allows(surface, star, change.place)) continue;
         DistanceMeasure::Fit fit = measure.fit(surface, star, change.place, seed);
         measure.improve(surface, star, change.place, fit, seed, {});
         const auto added = static_cast<double>(star.link.size() - star.oldFaces.size());
@@ -78,7 +80,7 @@ void makeBest(GuardedMesh& surface, std::vector<EdgeChange> changes, std::size_t
         if (!starOf(surface, change, star)) continue;
         const auto wasChanged = [&](std::uint32_t f) { return changed[f] != 0; };
         if (std::any_of(star.oldFaces.begin(), star.oldFaces.end(), wasChanged)) continue;
-        if (!surface.allows(star, change.place)) continue;
+        if (!allows(surface, star, change.place)) continue;
         surface.apply(star, change.place);
         for (const std::uint32_t f : surface.facesOf(star.centre)) changed[f] = 1;
     }
@@ -129,7 +131,7 @@ void flipEdges(GuardedMesh& surface, int sweeps, Interrupter* interrupter)
     constexpr auto anyNumber = std::numeric_limits<std::size_t>::max();
     std::vector<EdgeChange> flips;
     for (std::uint32_t v = 0; v < surface.vertices(); ++v) {
-        for (const auto& edge : surface.starOf(v).link) flips.push_back({edge[0], edge[1], v});
+        for (const auto& edge : starOf(surface, v).link) flips.push_back({edge[0], edge[1], v});
     }
     makeBest(surface, std::move(flips), anyNumber, perSample);
     tighten(surface, sweeps, perSample, interrupter);

@@ -1,7 +1,7 @@
 #pragma once
 
-#include <vdbcage/core/interrupter.h>
 #include <vdbcage/bounding/detail/guarded_mesh.h>
+#include <vdbcage/core/interrupter.h>
 
 namespace vdbcage::detail {
 

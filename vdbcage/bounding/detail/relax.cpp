@@ -3,6 +3,8 @@
 
 #include <vdbcage/bounding/detail/relax.h>
 
+#include <vdbcage/bounding/detail/admissible.h>
+
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -10,8 +12,8 @@
 #include <optional>
 #include <vector>
 
-#include <vdbcage/core/detail/parallel.h>
 #include <vdbcage/bounding/detail/vertex_placement.h>
+#include <vdbcage/core/detail/parallel.h>
 
 namespace vdbcage::detail {
 
@@ -62,10 +64,10 @@ void sweep(GuardedMesh& surface, const std::vector<std::uint32_t>& vertices, Int
             proposals.assign(count, {});
             parallelFor(std::size_t(0), count, [&](std::size_t i) {
                 const std::uint32_t v = group[first + i * batches];
-                proposals[i].star = surface.starOf(v);
+                proposals[i].star = starOf(surface, v);
                 proposals[i].place = propose(v, proposals[i].star);
             });
-            GuardedMesh::Batch changes(surface);
+            Batch changes(surface);
             for (std::size_t i = 0; i < count; ++i) {
                 const bool done = proposals[i].place && changes.apply(proposals[i].star, *proposals[i].place);
                 moved(group[first + i * batches], proposals[i].star, done);
@@ -103,7 +105,8 @@ Vec3d ringAverage(const GuardedMesh& surface, const StarChange& star)
 
 double meanIncidentEdge(const GuardedMesh& surface, const StarChange& star)
 {
-    return ringMean(star, 0.0, [&](std::uint32_t v) { return (surface.point(v) - surface.point(star.centre)).length(); });
+    return ringMean(star, 0.0,
+                    [&](std::uint32_t v) { return (surface.point(v) - surface.point(star.centre)).length(); });
 }
 
 /// The first of the places on the way to `goal` that is allowed.
@@ -111,10 +114,10 @@ std::optional<Vec3d> towards(const GuardedMesh& surface, const StarChange& star,
                              std::initializer_list<double> steps)
 {
     const Vec3d& p = surface.point(star.centre);
-    GuardedMesh::Obstacle obstacle;
+    Obstacle obstacle;
     for (const double step : steps) {
-        const Vec3d target = surface.rounded(star, p + step * (goal - p));
-        if (surface.allows(star, target, &obstacle)) return target;
+        const Vec3d target = rounded(surface, star, p + step * (goal - p));
+        if (allows(surface, star, target, &obstacle)) return target;
     }
     return std::nullopt;
 }
@@ -124,7 +127,7 @@ void pushOut(GuardedMesh& surface, const std::vector<std::uint32_t>& vertices, d
     sweep(
         surface, vertices, interrupter,
         [&](std::uint32_t v, const StarChange& star) {
-            return towards(surface, star, surface.point(v) + by * surface.outward(star), {1.0, 0.5, 0.2});
+            return towards(surface, star, surface.point(v) + by * outward(surface, star), {1.0, 0.5, 0.2});
         },
         [](std::uint32_t, const StarChange&, bool) {});
 }
@@ -186,7 +189,7 @@ void undoWhereGrown(GuardedMesh& surface, const GuardedMesh& before, const std::
             surface, vertices, interrupter,
             [&](std::uint32_t v, const StarChange& star) -> std::optional<Vec3d> {
                 const Vec3d& place = before.point(v);
-                if (surface.point(v) == place || !surface.allows(star, place)) return std::nullopt;
+                if (surface.point(v) == place || !allows(surface, star, place)) return std::nullopt;
                 return place;
             },
             [](std::uint32_t, const StarChange&, bool) {});
@@ -242,19 +245,19 @@ void inflateTriangles(GuardedMesh& surface, double by, Interrupter* interrupter)
 
 void roundOff(GuardedMesh& surface, int sweeps, Interrupter* interrupter)
 {
-    constexpr double outward = 0.02; // of the edges' length: a tight surface has no room to move in
+    constexpr double outwardShare = 0.02; // of the edges' length: a tight surface has no room to move in
     const std::vector<std::uint32_t> vertices = allVertices(surface);
     std::vector<Vec3d> toAverage(surface.vertices(), Vec3d(0.0));
     for (int i = 0; i < sweeps; ++i) {
         parallelFor(std::size_t(0), vertices.size(), [&](std::size_t k) {
             const std::uint32_t v = vertices[k];
-            toAverage[v] = ringAverage(surface, surface.starOf(v)) - surface.point(v);
+            toAverage[v] = ringAverage(surface, starOf(surface, v)) - surface.point(v);
         });
         sweep(
             surface, vertices, interrupter,
             [&](std::uint32_t v, const StarChange& star) {
                 const Vec3d around = ringMean(star, Vec3d(0.0), [&](std::uint32_t w) { return toAverage[w]; });
-                const Vec3d room = outward * meanIncidentEdge(surface, star) * surface.outward(star);
+                const Vec3d room = outwardShare * meanIncidentEdge(surface, star) * outward(surface, star);
                 return towards(surface, star, surface.point(v) + 0.7 * toAverage[v] - 0.7 * around + room,
                                {1.0, 0.5, 0.2});
             },

@@ -2,8 +2,8 @@
 
 #include <cstddef>
 
-#include <vdbcage/core/interrupter.h>
 #include <vdbcage/bounding/detail/guarded_mesh.h>
+#include <vdbcage/core/interrupter.h>
 
 /// Operators that move the vertices of a surface and leave its connectivity, under the guard. Vertices that are not
 /// neighbours are moved side by side; the result is the same for any number of threads.

@@ -5,6 +5,8 @@
 
 #include <vdbcage/bounding/detail/vertex_placement.h>
 
+#include <vdbcage/bounding/detail/admissible.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -91,15 +93,15 @@ std::optional<openvdb::Mat3d> inverseCholesky(const openvdb::Mat3d& a)
 
 } // namespace
 
-bool descend(const GuardedMesh& surface, const StarChange& star, Vec3d& p, const Quadratic& change, const StepLimit& limit,
-             const std::function<bool(const Vec3d&)>& accepts)
+bool descend(const GuardedMesh& surface, const StarChange& star, Vec3d& p, const Quadratic& change,
+             const StepLimit& limit, const std::function<bool(const Vec3d&)>& accepts)
 {
     constexpr int attempts = 8;
     const auto inverse = inverseCholesky(change.curvature);
     if (!inverse) return false;
     std::vector<HalfSpace> halfSpaces;
     double share = limit.share;
-    GuardedMesh::Obstacle obstacle;
+    Obstacle obstacle;
     for (int attempt = 0; attempt < attempts; ++attempt) {
         const auto solution = solve(*inverse, change.slope, halfSpaces, p);
         if (!solution) return false;
@@ -108,10 +110,10 @@ bool descend(const GuardedMesh& surface, const StarChange& star, Vec3d& p, const
         if (length > 0.5 * limit.reach) delta *= 0.5 * limit.reach / length;
         delta *= share;
         if (!(delta.length() > limit.least * limit.reach)) return false;
-        const Vec3d target = surface.rounded(star, p + delta);
-        if (!surface.allows(star, target, &obstacle)) {
+        const Vec3d target = rounded(surface, star, p + delta);
+        if (!allows(surface, star, target, &obstacle)) {
             const std::size_t before = halfSpaces.size();
-            surface.contacts(star, p, target, obstacle, halfSpaces);
+            contacts(surface, star, p, target, obstacle, halfSpaces);
             if (halfSpaces.size() == before || attempt >= attempts / 2) share *= 0.5;
             continue;
         }
@@ -194,8 +196,8 @@ DistanceMeasure::Fit DistanceMeasure::fit(const GuardedMesh& surface, const Star
     return fit;
 }
 
-bool DistanceMeasure::improve(const GuardedMesh& surface, const StarChange& star, Vec3d& p, Fit& fit, std::uint32_t& seed,
-                              const Pace& pace) const
+bool DistanceMeasure::improve(const GuardedMesh& surface, const StarChange& star, Vec3d& p, Fit& fit,
+                              std::uint32_t& seed, const Pace& pace) const
 {
     Fit there;
     const bool found =

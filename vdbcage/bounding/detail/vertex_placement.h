@@ -4,7 +4,7 @@
 #include <functional>
 
 #include <openvdb/math/Mat3.h>
-#include <vdbcage/bounding/detail/guarded_mesh.h>
+#include <vdbcage/bounding/detail/admissible.h>
 
 namespace vdbcage::detail {
 
@@ -24,8 +24,8 @@ struct StepLimit {
 /// Looks for a place of the star's centre, allowed at `p`, where `change` is negative, along the planes of the contacts
 /// it meets on the way. `accepts` is asked of the places that the guard allows, one after the other; the first that it
 /// takes becomes `p`. Returns whether there was one.
-bool descend(const GuardedMesh& surface, const StarChange& star, Vec3d& p, const Quadratic& change, const StepLimit& limit,
-             const std::function<bool(const Vec3d&)>& accepts);
+bool descend(const GuardedMesh& surface, const StarChange& star, Vec3d& p, const Quadratic& change,
+             const StepLimit& limit, const std::function<bool(const Vec3d&)>& accepts);
 
 /// How far a surface is from the model: the integral of the distance over triangles, by sampling. A triangle is cut
 /// into k x k equal ones, each counted at its centroid, k growing with the triangle's size.

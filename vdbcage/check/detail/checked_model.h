@@ -40,7 +40,7 @@ struct CheckedModel {
         double reach() const { return asFloats ? 2 * floatRounding({model.tree.box().lo, model.tree.box().hi}) : 0; }
     };
 
-    TriangleBvh tree;                       ///< all four triangles of a quad; copies are dropped
+    TriangleBvh tree;                        ///< all four triangles of a quad; copies are dropped
     std::size_t usedVertices = 0;            ///< points that faces use
     std::vector<std::uint32_t> partOfPoint;  ///< only for these
     std::vector<std::uint32_t> partVertices; ///< the vertices of part k are partVertices[partFirst[k]] ...

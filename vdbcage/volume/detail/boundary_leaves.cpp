@@ -26,8 +26,8 @@ public:
         }
     }
 
-    // Of each 4^3 entries of the block the bits 16 x + 4 y + z of those that may hold contour: all but the ones that are
-    // uniform, and either empty of the set or equal to their six neighbours.
+    // Of each 4^3 entries of the block the bits 16 x + 4 y + z of those that may hold contour: all but the ones that
+    // are uniform, and either empty of the set or equal to their six neighbours.
     std::array<std::uint64_t, 64> candidates(bool ofComplement) const
     {
         const std::uint8_t none = ofComplement ? full : empty;

@@ -11,7 +11,7 @@ namespace vdbcage::detail {
 
 /// Where the contour voxels of one entry are, roughly.
 struct ContourLeaf {
-    std::uint16_t entry;                ///< of the block
+    std::uint16_t entry;               ///< of the block
     BitBox box;                        ///< of the voxels, in the entry
     std::array<std::int8_t, 3> sample; ///< one of the voxels, near the middle of them
 };

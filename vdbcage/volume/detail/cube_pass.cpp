@@ -228,7 +228,8 @@ private:
         const std::size_t blocks = row.blocks + 2 * static_cast<std::size_t>(blockRadius_);
         View view(blocks);
         for (std::size_t b = 0; b < blocks; ++b) {
-            const BlockEntries entries = mask_.at(row.first.offsetBy((static_cast<int>(b) - blockRadius_) * blockSize, 0, 0));
+            const BlockEntries entries =
+                mask_.at(row.first.offsetBy((static_cast<int>(b) - blockRadius_) * blockSize, 0, 0));
             view.blocks[b] = entries.flat;
             for (std::size_t i = 0; i < FlatBlock::wordCount; ++i) {
                 const std::uint64_t some = entries.flat ? entries.flat->some[i] : entries.full ? ~0ULL : 0;

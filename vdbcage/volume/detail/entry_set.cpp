@@ -104,7 +104,8 @@ EntrySet::EntrySet(FullParts full, std::vector<std::unique_ptr<FlatBlock>> flat,
         forEachBlock(upperNode, [&](const Coord& block) { full_.blocks.push_back(block); });
         return true;
     };
-    full_.upperNodes.erase(std::remove_if(full_.upperNodes.begin(), full_.upperNodes.end(), isBroken), full_.upperNodes.end());
+    full_.upperNodes.erase(std::remove_if(full_.upperNodes.begin(), full_.upperNodes.end(), isBroken),
+                           full_.upperNodes.end());
     progress.check(1, 1);
     const auto isReplaced = [&](const Coord& block) { return blocks_.count(block) > 0; };
     full_.blocks.erase(std::remove_if(full_.blocks.begin(), full_.blocks.end(), isReplaced), full_.blocks.end());
@@ -138,7 +139,8 @@ void EntrySet::indexFlat()
 {
     blocks_.reserve(flat_.size() + full_.blocks.size());
     for (const auto& block : flat_) {
-        blocks_.emplace(block->origin, block->isUniform ? BlockEntries{nullptr, block->isFull()} : BlockEntries{block.get(), false});
+        blocks_.emplace(block->origin,
+                        block->isUniform ? BlockEntries{nullptr, block->isFull()} : BlockEntries{block.get(), false});
     }
 }
 

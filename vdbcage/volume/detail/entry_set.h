@@ -21,8 +21,8 @@ struct FlatBlock {
     static constexpr std::size_t wordCount = entriesPerBlock / 64;
 
     Coord origin;
-    std::array<std::uint64_t, wordCount> some{}, full{};        ///< which entries are not empty; which are full
-    std::vector<Words> words;                                   ///< of the mixed ones, by entry
+    std::array<std::uint64_t, wordCount> some{}, full{};          ///< which entries are not empty; which are full
+    std::vector<Words> words;                                     ///< of the mixed ones, by entry
     std::array<std::uint16_t, entriesPerBlock / 16> firstWords{}; ///< by n / 16: how many mixed entries are before
     bool isUniform = true;
 

@@ -11,10 +11,10 @@
 
 /// A sparse mask seen as the nodes of its tree, the view that every algorithm of this room works on.
 ///
-/// A *upperNode* is 4096^3 voxels (a child of the root), a *block* 128^3 (the node above the leaves), a *entry* one of the
-/// 4096 places of 8^3 voxels in a block: empty, full or a leaf. The bits of a entry are 8 words, word x holding voxel
-/// (x, y, z) in bit 8 y + z, as OpenVDB stores them. Regions and blocks are named by their origin. Only active states
-/// count; the values of a mask tree's tiles are not looked at.
+/// A *upperNode* is 4096^3 voxels (a child of the root), a *block* 128^3 (the node above the leaves), a *entry* one of
+/// the 4096 places of 8^3 voxels in a block: empty, full or a leaf. The bits of a entry are 8 words, word x holding
+/// voxel (x, y, z) in bit 8 y + z, as OpenVDB stores them. Regions and blocks are named by their origin. Only active
+/// states count; the values of a mask tree's tiles are not looked at.
 namespace vdbcage::detail {
 
 using openvdb::Coord;
@@ -60,7 +60,8 @@ public:
         return node_->isValueMaskOn(i) ? fullWords.data() : emptyWords.data();
     }
 
-    /// Calls visit(n, entry(n)) for every entry that is not empty, in no order. (A leaf without bits may be among them.)
+    /// Calls visit(n, entry(n)) for every entry that is not empty, in no order. (A leaf without bits may be among
+    /// them.)
     template <class Visit>
     void forEachEntry(const Visit& visit) const
     {

@@ -52,9 +52,9 @@ private:
                static_cast<std::size_t>(c.z());
     }
 
-    int shift_ = 0;                    // nodes are at the multiples of 2^shift
-    openvdb::Coord first_, size_;      // in nodes
-    std::vector<float> nodes_;         // radii
+    int shift_ = 0;                       // nodes are at the multiples of 2^shift
+    openvdb::Coord first_, size_;         // in nodes
+    std::vector<float> nodes_;            // radii
     openvdb::Coord firstEntry_, entries_; // in entries
     std::vector<Range> ranges_;
     float outside_ = 0; // the radius where there are no nodes

@@ -323,7 +323,7 @@ private:
     // The entry of the block that is bit i of the part.
     static int entryOfBlock(int firstEntry, int i) { return firstEntry + entryIndex(i / 16, i / 4 % 4, i % 4); }
 
-    static constexpr int partEntries = 4;        // along an axis
+    static constexpr int partEntries = 4;      // along an axis
     static constexpr std::size_t samples = 48; // leaves that may cover entries alone: more hardly settle more
 
     const MaskTree& base_;

@@ -141,7 +141,7 @@ using Fronts = SphereQuery::Work;
 
 struct PileQuery {
     const SphereQuery::Pile& open;
-    int x, y;                // of the pile, in entries
+    int x, y;                 // of the pile, in entries
     int entryPlace, rowPlace; // of it in the tables, from the part's first
     const NearLeaf* near;
     const SphereQuery::Leaves& leaves;
@@ -232,8 +232,8 @@ private:
         return found;
     }
 
-    // How high in each column the voxels are up to the first open one, and up to the last one, of a entry and all behind
-    // it.
+    // How high in each column the voxels are up to the first open one, and up to the last one, of a entry and all
+    // behind it.
     struct Heights {
         C first, last;
     };
@@ -553,7 +553,7 @@ void SphereQuery::nearEntries(NearLeaf* near, std::size_t count, const Work& /*w
     nearPlain(*tables_, near, count);
 }
 std::uint64_t SphereQuery::coveredEntries(const NearLeaf* near, std::size_t count, std::uint64_t wanted,
-                                        const Work& /*work*/) const
+                                          const Work& /*work*/) const
 {
 #if VDBCAGE_WITH_AVX
     if (simd_ != Simd::plain) return coveredAvx2(*tables_, near, count, wanted);

@@ -20,7 +20,7 @@ struct NearLeaf {
     BitBox box;
     std::array<std::int8_t, 3> sample;
     // Set by nearEntries:
-    std::uint64_t reached;            ///< at least the entries of the part with a voxel within its reach
+    std::uint64_t reached;             ///< at least the entries of the part with a voxel within its reach
     std::int32_t entryPlace, rowPlace; ///< of the part's first entry in the tables
 };
 
@@ -30,8 +30,8 @@ struct NearLeaf {
 ///
 /// Exact: a contour voxel q reaches, in each column along z, the voxels up to h(dx, dy) above and below it. Of contour
 /// voxels below a entry so the largest q.z + h tells all, column by column, in bytes side by side (16-bit integers
-/// beyond smallRadius), and for the next entry above too. Voxels hidden behind others of their leaf are left out before,
-/// and leaves that can add nothing too.
+/// beyond smallRadius), and for the next entry above too. Voxels hidden behind others of their leaf are left out
+/// before, and leaves that can add nothing too.
 ///
 /// Const once it is made: threads share one. Memory: 32 r^2 bytes (64 r^2 beyond smallRadius).
 class SphereQuery {

@@ -39,7 +39,7 @@ using Squares = std::array<std::int32_t, 4>;
 
 // The entries where the squares along the axes add up to their limit or less.
 std::uint64_t entriesWithin(const Squares& x, const Squares& y, const Squares& z,
-                          const std::array<std::int32_t, 64>& limits)
+                            const std::array<std::int32_t, 64>& limits)
 {
     std::uint64_t mask = 0;
     for (std::size_t i = 0; i < 64; ++i) {
@@ -150,7 +150,7 @@ void VaryingQuery::startPart(Work& work, const Coord& corner) const
 }
 
 std::uint64_t VaryingQuery::coveredEntries(const NearLeaf* near, std::size_t count, std::uint64_t wanted,
-                                         const Work& work) const
+                                           const Work& work) const
 {
     std::uint64_t covered = 0;
     for (std::size_t n = 0; n < count && (wanted & ~covered) != 0; ++n) {
@@ -174,8 +174,8 @@ void VaryingQuery::nearEntries(NearLeaf* near, std::size_t count, const Work& wo
             limits.fill(field_.squareOf(static_cast<double>(most) * factor_));
         }
         leaf.reached = entriesWithin(nearSquares(x + leaf.box.lower[0], x + leaf.box.upper[0]),
-                                   nearSquares(y + leaf.box.lower[1], y + leaf.box.upper[1]),
-                                   nearSquares(z + leaf.box.lower[2], z + leaf.box.upper[2]), limits);
+                                     nearSquares(y + leaf.box.lower[1], y + leaf.box.upper[1]),
+                                     nearSquares(z + leaf.box.lower[2], z + leaf.box.upper[2]), limits);
     }
 }
 
@@ -190,7 +190,7 @@ std::array<Words, 4> VaryingQuery::within(const SphereQuery::Pile& open, int pil
 }
 
 Words VaryingQuery::withinEntry(const Words& open, int entry, const NearLeaf* near, const SphereQuery::Leaves& leaves,
-                               Work& work) const
+                                Work& work) const
 {
     const Coord offset(entry / 16 * 8, entry / 4 % 4 * 8, entry % 4 * 8), origin = work.corner + offset;
     const int span = static_cast<int>(field_.largest()) + 16; // a leaf in reach, and its far side

@@ -43,7 +43,7 @@ public:
 
 private:
     Words withinEntry(const Words& open, int entry, const NearLeaf* near, const SphereQuery::Leaves& leaves,
-                     Work& work) const;
+                      Work& work) const;
 
     const RadiusField& field_;
     double factor_;
