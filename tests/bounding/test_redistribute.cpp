@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include <vdbcage/bounding/detail/admissible.h>
 #include <vdbcage/bounding/decimate.h>
+#include <vdbcage/bounding/detail/admissible.h>
 #include <vdbcage/bounding/detail/redistribute.h>
 #include <vdbcage/bounding/detail/relax.h>
 #include <vdbcage/check/check.h>
@@ -144,9 +144,9 @@ BOOST_AUTO_TEST_CASE(flips_that_the_guard_allows_bound_the_model)
                 const GuardedMesh anew(mesh, guard.model());
                 for (const std::uint32_t v : anew.neighbours(c)) {
                     for (const double push : {-0.1, 0.1}) {
-                        const StarChange star = starOf(anew, v), again = starOf(changed, v);
-                        const Vec3d to = rounded(anew, star, anew.point(v) + push * outward(anew, star));
-                        BOOST_TEST(allows(anew, star, to) == allows(changed, again, to));
+                        const StarChange fresh = starOf(anew, v), again = starOf(changed, v);
+                        const Vec3d to = rounded(anew, fresh, anew.point(v) + push * outward(anew, fresh));
+                        BOOST_TEST(allows(anew, fresh, to) == allows(changed, again, to));
                     }
                 }
                 break;

@@ -8,8 +8,8 @@
 #include <string>
 
 #include <tbb/global_control.h>
-#include <vdbcage/bounding/detail/admissible.h>
 #include <vdbcage/bounding/decimate.h>
+#include <vdbcage/bounding/detail/admissible.h>
 #include <vdbcage/bounding/detail/guard_model.h>
 #include <vdbcage/bounding/detail/quad_pairing.h>
 #include <vdbcage/bounding/smooth.h>
@@ -308,7 +308,7 @@ BOOST_AUTO_TEST_CASE(threads_do_not_matter)
     const auto make = [&] {
         const BoundingGuard guard = guardOf(model, planeOf(0, 0));
         const Mesh cage = decimate(start(guard, 0, 0), guard, to(160, Effort::best));
-        return smooth(tighten(triquad(cage, guard, quads(80, 30)), guard), guard, 2);
+        return smooth(tighten(triquad(cage, guard, quads(80, 30)), guard), guard, {2});
     };
     const Mesh many = make();
     const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);

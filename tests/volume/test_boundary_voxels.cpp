@@ -58,11 +58,11 @@ BOOST_AUTO_TEST_CASE(keeps_the_transform_and_stops_when_told)
     auto grid = toGrid(randomBlobs(cubeAt(Coord(0), 20), 1));
     grid->setTransform(openvdb::math::Transform::createLinearTransform(0.25));
     BOOST_CHECK(contour(*grid)->transform() == grid->transform());
-    StopAt never(-1);
+    StopOnce never(-1);
     contour(*grid, &never);
     BOOST_TEST(never.checks > 0);
     for (int k = 0; k < never.checks; ++k) {
-        StopAt stop(k);
+        StopOnce stop(k);
         BOOST_CHECK_THROW(contour(*grid, &stop), Cancelled);
     }
 }

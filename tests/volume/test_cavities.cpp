@@ -194,12 +194,12 @@ BOOST_AUTO_TEST_CASE(threads_transform_cancel)
     }
     BOOST_TEST(sameTree(*results[0], *results[1]));
     BOOST_CHECK(results[0]->transform() == grid->transform());
-    StopAt never(-1);
+    StopOnce never(-1);
     fillCavities(*grid, nullptr, &never);
     BOOST_TEST(!never.outOfRange);
     BOOST_TEST(never.checks > 2);
     for (int k = 0; k < never.checks; ++k) {
-        StopAt stop(k);
+        StopOnce stop(k);
         BOOST_CHECK_THROW(fillCavities(*grid, nullptr, &stop), Cancelled);
     }
     auto far = MaskGrid::create();

@@ -444,12 +444,12 @@ BOOST_AUTO_TEST_CASE(bad_input_is_refused)
 BOOST_DATA_TEST_CASE(stops_at_any_check, data::make(elements), element)
 {
     const auto grid = toGrid(randomBlobs(cubeAt(Coord(-6), 12), 9));
-    StopAt never(-1);
+    StopOnce never(-1);
     closeMask(*grid, {3, 3, element}, &never);
     BOOST_TEST(!never.outOfRange);
     BOOST_TEST(never.checks > 10);
     for (int k = 0; k < never.checks; ++k) {
-        StopAt stop(k);
+        StopOnce stop(k);
         BOOST_CHECK_THROW(closeMask(*grid, {3, 3, element}, &stop), Cancelled);
     }
 }

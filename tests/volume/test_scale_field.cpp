@@ -308,7 +308,7 @@ BOOST_AUTO_TEST_CASE(values_at_points_become_a_grid)
     BOOST_CHECK_THROW(scaleFromPoints(points, {1.0F, 1.0F, std::nanf("")}, 0.1, 0.3), InputError);
     BOOST_CHECK_THROW(scaleFromPoints({}, {}, 0, 0.3), InputError);
     BOOST_CHECK_THROW(scaleFromPoints({}, {}, 0.1, 6.5), InputError);
-    StopAt stop(0);
+    StopOnce stop(0);
     BOOST_CHECK_THROW(scaleFromPoints(points, {1.0F, 1.0F, 1.0F}, 0.1, 0.3, &stop), Cancelled);
 }
 
@@ -347,12 +347,12 @@ BOOST_AUTO_TEST_CASE(stops_at_any_check)
     const auto grid = toGrid(randomBlobs(cubeAt(Coord(-6), 12), 9));
     const ScaleField scale{nullptr, {sphereRegion(Vec3d(0), 5, 0.5)}};
     const CloseOptions options{3, 3, StructuringElement::sphere};
-    StopAt never(-1);
+    StopOnce never(-1);
     closeMask(*grid, options, scale, &never);
     BOOST_TEST(!never.outOfRange);
     BOOST_TEST(never.checks > 10);
     for (int k = 0; k < never.checks; ++k) {
-        StopAt stop(k);
+        StopOnce stop(k);
         BOOST_CHECK_THROW(closeMask(*grid, options, scale, &stop), Cancelled);
     }
 }

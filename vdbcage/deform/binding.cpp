@@ -18,7 +18,7 @@
 #include <vdbcage/deform/detail/likelihood.h>
 #include <vdbcage/deform/detail/mean_value.h>
 #include <vdbcage/deform/detail/weight_blocks.h>
-#include <vdbcage/mesh/io/number_text.h>
+#include <vdbcage/core/detail/number_text.h>
 
 namespace vdbcage {
 

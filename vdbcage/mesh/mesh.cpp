@@ -5,7 +5,7 @@
 
 #include <vdbcage/core/error.h>
 #include <vdbcage/mesh/detail/degenerate.h>
-#include <vdbcage/mesh/io/number_text.h>
+#include <vdbcage/core/detail/number_text.h>
 
 namespace vdbcage {
 

@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include <vdbcage/mesh/io/number_text.h>
+#include <vdbcage/core/detail/number_text.h>
 #include <vdbcage/mesh/io/obj_syntax.h>
 
 namespace vdbcage::detail {

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include <vdbcage/core/error.h>
-#include <vdbcage/mesh/io/number_text.h>
+#include <vdbcage/core/detail/number_text.h>
 #include <vdbcage/mesh/io/output_buffer.h>
 #include <vdbcage/mesh/io/polygon_soup.h>
 #include <vdbcage/mesh/io/text_cursor.h>
