@@ -69,7 +69,7 @@ Mesh roof(double slope)
 
 } // namespace
 
-BOOST_AUTO_TEST_SUITE(nearCoplanar)
+BOOST_AUTO_TEST_SUITE(near_coplanar)
 
 BOOST_AUTO_TEST_CASE(edges_over_flat_parts_are_flat_or_bent)
 {

@@ -82,7 +82,7 @@ constexpr Effort efforts[] = {Effort::fast, Effort::fair, Effort::best};
 
 } // namespace
 
-BOOST_AUTO_TEST_SUITE(guarded)
+BOOST_AUTO_TEST_SUITE(operators)
 
 BOOST_DATA_TEST_CASE(every_cage_bounds_its_model, boost::unit_test::data::make({12, 40, 150}), faces)
 {

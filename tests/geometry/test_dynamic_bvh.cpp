@@ -53,7 +53,7 @@ std::vector<std::uint32_t> expected(const std::vector<Box>& boxes, const std::ve
 
 } // namespace
 
-BOOST_AUTO_TEST_SUITE(refit_tree)
+BOOST_AUTO_TEST_SUITE(dynamic_bvh)
 
 BOOST_AUTO_TEST_CASE(finds_what_a_list_finds_while_things_come_move_and_go)
 {

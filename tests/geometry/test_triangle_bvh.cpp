@@ -78,7 +78,7 @@ using Numbers = std::multiset<std::uint32_t>;
 
 } // namespace
 
-BOOST_AUTO_TEST_SUITE(triangle_tree)
+BOOST_AUTO_TEST_SUITE(triangle_bvh)
 
 BOOST_AUTO_TEST_CASE(every_triangle_is_found_once)
 {

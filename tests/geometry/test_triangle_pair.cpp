@@ -73,7 +73,7 @@ struct Tally {
 
 } // namespace
 
-BOOST_AUTO_TEST_SUITE(triangle)
+BOOST_AUTO_TEST_SUITE(triangle_pair)
 
 BOOST_AUTO_TEST_CASE(triangles_without_a_common_corner_keep_a_distance)
 {

@@ -16,8 +16,8 @@ struct TightenOptions {
     int samples = 4; ///< of the distance, for a face of mean size, 1 to 100: more cost more and are a percent tighter
 };
 
-/// How a cage of this effort is tightened last: with no perturb and fewer samples (fast), one perturb (fair), or two
-/// and more samples (best).
+/// How a cage of this effort is tightened last: with no perturbation and fewer samples (fast), one perturbation (fair),
+/// or two and more samples (best).
 [[nodiscard]] VDBCAGE_API TightenOptions tightenOptions(Effort effort);
 
 /// Pulls a bounding surface onto its model: one vertex at a time goes to where the integral of the distance to the

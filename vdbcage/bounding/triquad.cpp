@@ -84,7 +84,8 @@ Mesh triquad(const Mesh& surface, const BoundingGuard& guard, const BoundingTriq
             reached = counted;
         }
         if (isEnough || high - low < 2) break;
-        // Where strips are split for want of pairs, faces are many of few triangles, too: longer steps until some fit.
+        // Where polychords are split for want of pairs, faces are many of few triangles, too: longer steps until some
+        // fit.
         target *= std::pow(aim * wanted / faces, best ? 1 : i + 1);
         if (!(target > low && target < high)) target = 0.5 * (low + high);
     }

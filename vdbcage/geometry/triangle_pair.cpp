@@ -133,7 +133,7 @@ bool spreadOut(const SurfaceTriangles& triangles, const Spacing& spacing, double
     x /= x.length();
     const Vec3d y = direction.cross(x);
     const double least = spacing.sine / leastSine;
-    int rounds = 0; // times that the rim crosses the positive x axis
+    int rounds = 0; // times that the link crosses the positive x axis
     for (const SurfaceTriangle& f : triangles) {
         const Vec3d a = f.corners[1] - centre, b = f.corners[2] - centre;
         const double ay = a.dot(y), by = b.dot(y), cross = f.plane.normal().dot(direction);

@@ -91,9 +91,9 @@ inline double distanceBetween(const SurfaceTriangle& a, const SurfaceTriangle& b
 /// Rounded; but that they meet is never missed.
 bool tooNear(const SurfaceTriangle& a, const SurfaceTriangle& b, const Spacing& spacing);
 
-/// Whether, seen along some direction, a fan lies spread out around its centre, corner 0 of all, without overlap and
+/// Whether, seen along some direction, a star lies spread out around its centre, corner 0 of all, without overlap and
 /// with no triangle steep: then no two are too near, if no angle of a triangle has a sine less than `leastSine`. No
 /// answer but false where rounding could matter.
-bool spreadOut(const SurfaceTriangles& fan, const Spacing& spacing, double leastSine);
+bool spreadOut(const SurfaceTriangles& star, const Spacing& spacing, double leastSine);
 
 } // namespace vdbcage::detail

@@ -23,7 +23,7 @@ public:
             std::uint32_t parent = parents_[i].load();
             if (parent == i) return i;
             const std::uint32_t grandparent = parents_[parent].load();
-            // Halving the path: parents only ever become smaller, so a lost exchange does no harm.
+            // Halving the path: parents only ever become smaller, so a lost swap does no harm.
             if (grandparent != parent) parents_[i].compare_exchange_weak(parent, grandparent);
             i = grandparent;
         }

@@ -47,7 +47,7 @@ double quality(const Vec3d& a, const Vec3d& b, const Vec3d& c, double doubledAre
     return edges > 0 ? 2 * std::sqrt(3.0) * doubledArea / edges : 0;
 }
 
-/// The least cosine between the normals of each triangle and the next of a fan.
+/// The least cosine between the normals of each triangle and the next of a star.
 struct Fold {
     double sharpest = 1;
 
@@ -199,7 +199,7 @@ void Decimation::addQuadrics(Quadric& sum, HalfEdge outgoing) const
 void Decimation::initQuadrics(Interrupter* interrupter)
 {
     quadrics_.resize(places_.size());
-    // Each vertex gathers for itself, in the order of its fan: the same sums for any number of threads.
+    // Each vertex gathers for itself, in the order of its star: the same sums for any number of threads.
     detail::parallelFor(tbb::blocked_range<std::size_t>(0, places_.size(), 1024), [&](const auto& range) {
         throwIfInterrupted(interrupter, 0);
         for (std::size_t i = range.begin(); i != range.end(); ++i) {

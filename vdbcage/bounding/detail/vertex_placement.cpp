@@ -1,4 +1,5 @@
-// Based on: Hildreth, "A Quadratic Programming Procedure", 1957 (coordinate ascent on the dual);
+// Based on: Seidel, "Small-Dimensional Linear Programming and Convex Hulls Made Easy", 1991 (half-spaces put in one
+//           after the other; here for the nearest point, and not in random order);
 //           Weiszfeld, "Sur le point pour lequel la somme des distances de n points donnes est minimum", 1937
 //           (reweighted least squares for sums of distances).
 // Differs: constraints are contacts with the model and the surface itself, looked for only where a try fails.
@@ -53,8 +54,8 @@ std::optional<Vec3d> nearestInside(const Vec3d& wish, const std::vector<HalfSpac
     return x;
 }
 
-/// The delta of least delta A delta / 2 + g delta with normal . (from + delta) >= offset for every half-space; A = R^T
-/// R.
+/// The delta of least delta A delta / 2 + g delta with normal . (from + delta) >= offset for every half-space; 
+/// A = R^T R.
 std::optional<Vec3d> solve(const openvdb::Mat3d& inverseR, const Vec3d& g, const std::vector<HalfSpace>& halfSpaces,
                            const Vec3d& from)
 {

@@ -30,7 +30,7 @@ Vec3d pointWithin(const std::vector<Vec3d>& points, const Vec3I& t, std::size_t 
     return a + u * (points[t[1]] - a) + v * (points[t[2]] - a);
 }
 
-// Systematic sampling: `samples` equal strips of area, a sample in the middle of each, so that every triangle gets its
+// Systematic sampling: `samples` equal shares of area, a sample in the middle of each, so that every triangle gets its
 // share to within one sample.
 std::vector<Vec3d> spreadSamples(const std::vector<Vec3d>& points, const FaceTriangles& faces, std::size_t samples)
 {

@@ -12,8 +12,8 @@
 #include <utility>
 #include <vector>
 
-#include <vdbcage/core/error.h>
 #include <vdbcage/core/detail/number_text.h>
+#include <vdbcage/core/error.h>
 #include <vdbcage/mesh/io/output_buffer.h>
 #include <vdbcage/mesh/io/ply_header.h>
 #include <vdbcage/mesh/io/polygon_soup.h>

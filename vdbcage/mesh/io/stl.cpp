@@ -12,8 +12,8 @@
 #include <utility>
 #include <vector>
 
-#include <vdbcage/core/error.h>
 #include <vdbcage/core/detail/number_text.h>
+#include <vdbcage/core/error.h>
 #include <vdbcage/mesh/io/output_buffer.h>
 #include <vdbcage/mesh/io/polygon_soup.h>
 #include <vdbcage/mesh/io/text_cursor.h>
@@ -30,17 +30,17 @@ constexpr const char* coordinateNames[3] = {"the x coordinate", "the y coordinat
 /// Gives corners with the same coordinates (-0 being 0) the same index: a hash table with open addressing.
 class PointMerger {
 public:
-    explicit PointMerger(std::vector<openvdb::Vec3d>& points) : points_(points), slots_(1024, empty) {}
+    explicit PointMerger(std::vector<openvdb::Vec3d>& points) : points_(points), buckets_(1024, empty) {}
 
     openvdb::Index32 index(const openvdb::Vec3d& p)
     {
-        if (2 * points_.size() >= slots_.size()) grow();
-        openvdb::Index32& slot = slots_[find(p)];
-        if (slot == empty) {
-            slot = static_cast<openvdb::Index32>(points_.size());
+        if (2 * points_.size() >= buckets_.size()) grow();
+        openvdb::Index32& bucket = buckets_[find(p)];
+        if (bucket == empty) {
+            bucket = static_cast<openvdb::Index32>(points_.size());
             points_.push_back(p);
         }
-        return slot;
+        return bucket;
     }
 
 private:
@@ -58,21 +58,22 @@ private:
         }
         return h;
     }
-    /// The slot of `p`, or the empty one where it belongs.
+    /// The bucket of `p`, or the empty one where it belongs.
     std::size_t find(const openvdb::Vec3d& p) const
     {
-        std::size_t slot = hash(p) & (slots_.size() - 1);
-        while (slots_[slot] != empty && points_[slots_[slot]] != p) slot = (slot + 1) & (slots_.size() - 1);
-        return slot;
+        std::size_t bucket = hash(p) & (buckets_.size() - 1);
+        while (buckets_[bucket] != empty && points_[buckets_[bucket]] != p)
+            bucket = (bucket + 1) & (buckets_.size() - 1);
+        return bucket;
     }
     void grow()
     {
-        slots_.assign(2 * slots_.size(), empty);
-        for (std::size_t i = 0; i < points_.size(); ++i) slots_[find(points_[i])] = static_cast<openvdb::Index32>(i);
+        buckets_.assign(2 * buckets_.size(), empty);
+        for (std::size_t i = 0; i < points_.size(); ++i) buckets_[find(points_[i])] = static_cast<openvdb::Index32>(i);
     }
 
     std::vector<openvdb::Vec3d>& points_;
-    std::vector<openvdb::Index32> slots_; // a power of two of them, at most half full
+    std::vector<openvdb::Index32> buckets_; // a power of two of them, at most half full
 };
 
 template <typename Value>

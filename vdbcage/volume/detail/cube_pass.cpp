@@ -143,7 +143,7 @@ private:
                 if (targets.empty() || isBefore(targets.back(), near)) targets.push_back(near);
             }
         }
-        const auto isSettled = [&](const Coord& origin) {
+        const auto isDecided = [&](const Coord& origin) {
             const BlockEntries own = mask_.at(origin);
             if (isFull(own)) return true;
             if (!isEmpty(own)) return false;
@@ -153,7 +153,7 @@ private:
             }
             return true;
         };
-        targets.erase(std::remove_if(targets.begin(), targets.end(), isSettled), targets.end());
+        targets.erase(std::remove_if(targets.begin(), targets.end(), isDecided), targets.end());
         std::vector<Row> rows;
         for (std::size_t i = 0; i < targets.size(); ++i) {
             const bool continues = !rows.empty() && rows.back().blocks < longestRow &&
@@ -190,7 +190,7 @@ private:
     // Of one stretch of a row, by block: lines of entries that are full for certain, and that are to be looked at.
     struct Verdict {
         std::vector<Stretch> full, open;
-        bool isSettled = true; // nothing open
+        bool isDecided = true; // nothing open
     };
 
     template <class Check>
@@ -205,8 +205,8 @@ private:
             }
         }
         for (std::size_t stretch = 0; stretch < stretchesPerPlane; ++stretch) {
-            const Verdict verdict = settle(view, row.blocks, stretch);
-            if (!verdict.isSettled) turnLines(view, stretch);
+            const Verdict verdict = decide(view, row.blocks, stretch);
+            if (!verdict.isDecided) turnLines(view, stretch);
             for (std::size_t lane = 0; lane < 4; ++lane) {
                 check();
                 for (std::size_t z = 0; z < entriesPerAxis; ++z) buildLine(verdict, {stretch, lane, z}, view, result);
@@ -258,7 +258,7 @@ private:
     }
 
     // What whole entries tell: one that is full fills all that are as many entries away as the radius has whole ones.
-    Verdict settle(const View& view, std::size_t blocks, std::size_t stretch) const
+    Verdict decide(const View& view, std::size_t blocks, std::size_t stretch) const
     {
         Verdict verdict;
         verdict.full = unitedAround(view.full[stretch], wholeEntries_, blocks);
@@ -266,7 +266,7 @@ private:
         for (std::size_t i = 0; i < blocks; ++i) {
             for (std::size_t x = 0; x < entriesPerAxis; ++x) {
                 verdict.open[i][x] &= ~verdict.full[i][x];
-                if (verdict.open[i][x] != 0) verdict.isSettled = false;
+                if (verdict.open[i][x] != 0) verdict.isDecided = false;
             }
             transposeLanes(verdict.full[i]);
             transposeLanes(verdict.open[i]);
@@ -364,7 +364,7 @@ private:
             const std::size_t b = block / entriesPerAxis;
             const auto inside = (from > block ? ~0U << (from - block) : ~0U) &
                                 (to - block < entriesPerAxis ? ~(~0U << (to - block)) : ~0U);
-            // Full entries tell nothing but at the end of a reach of more than whole entries: see settle().
+            // Full entries tell nothing but at the end of a reach of more than whole entries: see decide().
             for (unsigned full = rest_ > 0 ? line.of(view.fullLines[b]) & inside : 0; full != 0; full &= full - 1) {
                 const std::size_t i = block + static_cast<std::size_t>(__builtin_ctz(full));
                 view.any[i] = ~0ULL;

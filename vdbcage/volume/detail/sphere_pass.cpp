@@ -103,11 +103,11 @@ private:
         }
         std::sort(targets.begin(), targets.end());
         targets.erase(std::unique(targets.begin(), targets.end()), targets.end());
-        const auto isSettled = [&](const Coord& origin) {
+        const auto isDecided = [&](const Coord& origin) {
             const Block block = blockAt(base_, origin);
             return side_ == ContourOf::mask ? block.isFull() : block.isEmpty();
         };
-        targets.erase(std::remove_if(targets.begin(), targets.end(), isSettled), targets.end());
+        targets.erase(std::remove_if(targets.begin(), targets.end(), isDecided), targets.end());
         return targets;
     }
 
@@ -210,8 +210,8 @@ private:
             const int n = entryOfBlock(firstEntry, i);
             const std::uint64_t* const base = work.base[entry] = target.base.entry(n);
             const std::uint64_t* const keep = side_ == ContourOf::mask ? base : target.keep.entry(n);
-            const std::uint64_t* const settled = (side_ == ContourOf::mask ? fullWords : emptyWords).data();
-            if (base == settled || keep == fullWords.data()) continue;
+            const std::uint64_t* const decided = (side_ == ContourOf::mask ? fullWords : emptyWords).data();
+            if (base == decided || keep == fullWords.data()) continue;
             if (keep == emptyWords.data() && (base == emptyWords.data() || base == fullWords.data())) {
                 work.open[entry] = &fullWords;
                 found |= std::uint64_t{1} << i;
@@ -324,7 +324,7 @@ private:
     static int entryOfBlock(int firstEntry, int i) { return firstEntry + entryIndex(i / 16, i / 4 % 4, i % 4); }
 
     static constexpr int partEntries = 4;      // along an axis
-    static constexpr std::size_t samples = 48; // leaves that may cover entries alone: more hardly settle more
+    static constexpr std::size_t samples = 48; // leaves that may cover entries alone: more hardly decide more
 
     const MaskTree& base_;
     const MaskTree* keep_;
