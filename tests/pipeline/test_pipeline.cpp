@@ -365,6 +365,7 @@ BOOST_AUTO_TEST_CASE(a_scale_grid_that_is_edited_in_place_counts_anew)
 {
     const Mesh model = saturn();
     CageOptions options = coarse();
+    options.closeRadius = 0.15; // it closes the gap between ball and ring
     const auto grid = openvdb::FloatGrid::create(1.0F);
     grid->setTransform(openvdb::math::Transform::createLinearTransform(0.25));
     options.scale.grid = grid;
