@@ -10,6 +10,8 @@ packages=(
 )
 test_packages=(
     libboost-test-dev
+    ccache         # the library is compiled once, also for the tests that build it otherwise
+    clang-format   # formatting is a test
     tetgen # fills cages, to see that others can use them
 )
 

@@ -7,10 +7,10 @@
 #include <openvdb/math/Mat3.h>
 #include <tbb/global_control.h>
 #include <tbb/info.h>
-#include <vdbcage/surface/decimate.h>
 #include <vdbcage/core/version.h>
 #include <vdbcage/mesh/mesh_io.h>
 #include <vdbcage/pipeline/pipeline.h>
+#include <vdbcage/surface/decimate.h>
 
 #include "bench.h"
 

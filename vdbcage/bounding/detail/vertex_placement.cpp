@@ -54,7 +54,7 @@ std::optional<Vec3d> nearestInside(const Vec3d& wish, const std::vector<HalfSpac
     return x;
 }
 
-/// The delta of least delta A delta / 2 + g delta with normal . (from + delta) >= offset for every half-space; 
+/// The delta of least delta A delta / 2 + g delta with normal . (from + delta) >= offset for every half-space;
 /// A = R^T R.
 std::optional<Vec3d> solve(const openvdb::Mat3d& inverseR, const Vec3d& g, const std::vector<HalfSpace>& halfSpaces,
                            const Vec3d& from)
