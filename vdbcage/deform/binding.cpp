@@ -35,7 +35,7 @@ struct Family {
 
 constexpr std::array<Family, 3> families{{{Coordinates::meanValue, "mvc", "qmvc", detail::meanValueRow},
                                           {Coordinates::green, "green", "qgc", detail::greenRow},
-                                          {Coordinates::likelihood, "mlc", "mlc", detail::likelihoodRow}}};
+                                          {Coordinates::maximumLikelihood, "mlc", "mlc", detail::likelihoodRow}}};
 
 const Family& entry(Coordinates family)
 {
