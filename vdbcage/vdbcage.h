@@ -29,6 +29,7 @@
 #include <vdbcage/surface/triquad.h>
 #include <vdbcage/volume/boundary_voxels.h>
 #include <vdbcage/volume/cavities.h>
+#include <vdbcage/volume/convex_hull.h>
 #include <vdbcage/volume/extract.h>
 #include <vdbcage/volume/mirror.h>
 #include <vdbcage/volume/morphology.h>
