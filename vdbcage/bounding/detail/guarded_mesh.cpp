@@ -133,22 +133,10 @@ bool GuardedMesh::isManifoldAt(std::uint32_t v) const
     return isOnPlane(v) ? at != first && isOnPlane(at) : at == first;
 }
 
-bool GuardedMesh::isOnPlane(std::uint32_t v) const
-{
-    const auto& plane = guard().symmetry();
-    return plane && points_[v][plane->axis] == plane->offset;
-}
-
 Vec3d GuardedMesh::ontoPlane(Vec3d p) const
 {
     p[guard().symmetry()->axis] = guard().symmetry()->offset;
     return p;
-}
-
-Corners GuardedMesh::corners(std::uint32_t f) const
-{
-    const Vec3I& t = faces_[f];
-    return {points_[t[0]], points_[t[1]], points_[t[2]]};
 }
 
 GuardedMesh::Vertices GuardedMesh::neighbours(std::uint32_t v) const
@@ -168,11 +156,6 @@ GuardedMesh::Vertices GuardedMesh::neighbours(std::uint32_t v) const
     std::sort(list.begin(), list.end());
     if (halved || !alternatesOf_[v].empty()) list.erase(std::unique(list.begin(), list.end()), list.end());
     return list;
-}
-
-bool GuardedMesh::areAlternatives(std::uint32_t f, std::uint32_t g) const
-{
-    return f != none && quadAt_[f] != none && quadAt_[f] == quadAt_[g] && life_[f] != life_[g];
 }
 
 void GuardedMesh::apply(const StarChange& star, const Vec3d& p)

@@ -45,13 +45,21 @@ public:
     bool isVertex(std::uint32_t v) const { return !facesOf_[v].empty(); }
     const Vec3d& point(std::uint32_t v) const { return points_[v]; }
     /// Whether a vertex is on the plane of symmetry.
-    bool isOnPlane(std::uint32_t v) const;
+    bool isOnPlane(std::uint32_t v) const
+    {
+        const auto& plane = guard().symmetry();
+        return plane && points_[v][plane->axis] == plane->offset;
+    }
     /// The nearest point on the plane of symmetry. \pre there is one
     Vec3d ontoPlane(Vec3d p) const;
     using FaceList = boost::container::small_vector<std::uint32_t, 8>;
     const FaceList& facesOf(std::uint32_t v) const { return facesOf_[v]; }
     const Vec3I& face(std::uint32_t f) const { return faces_[f]; }
-    Corners corners(std::uint32_t f) const;
+    Corners corners(std::uint32_t f) const
+    {
+        const Vec3I& t = faces_[f];
+        return {points_[t[0]], points_[t[1]], points_[t[2]]};
+    }
     using Vertices = boost::container::small_vector<std::uint32_t, 16>;
     /// The vertices joined to v by an edge, or by the other diagonal of a quad, or opposite to it in one; ascending.
     Vertices neighbours(std::uint32_t v) const;
@@ -86,7 +94,10 @@ public:
     bool isFace(std::uint32_t f) const { return life_[f] == live; }
     bool isInQuad(std::uint32_t f) const { return f != none && quadAt_[f] != none; }
     /// Whether one is a face and the other an alternate of the same quad.
-    bool areAlternatives(std::uint32_t f, std::uint32_t g) const;
+    bool areAlternatives(std::uint32_t f, std::uint32_t g) const
+    {
+        return isInQuad(f) && quadAt_[f] == quadAt_[g] && life_[f] != life_[g];
+    }
     /// The alternates of the quad that a face belongs to.
     const std::array<std::uint32_t, 2>& alternatesIn(std::uint32_t face) const
     {

@@ -154,9 +154,4 @@ Vec3d rounded(const GuardedMesh& mesh, const StarChange& star, const Vec3d& p)
     return mesh.guard().rounded(star.onPlane ? mesh.ontoPlane(p) : p);
 }
 
-Corners starCorners(const GuardedMesh& mesh, const StarChange& star, std::size_t i, const Vec3d& p)
-{
-    return {p, mesh.point(star.link[i][0]), mesh.point(star.link[i][1])};
-}
-
 } // namespace vdbcage::detail

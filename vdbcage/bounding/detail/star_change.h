@@ -46,6 +46,9 @@ Vec3d outward(const GuardedMesh& mesh, const StarChange& star);
 /// `p` as a place of the centre: on the plane of symmetry where it has to be, rounded as the guard asks.
 Vec3d rounded(const GuardedMesh& mesh, const StarChange& star, const Vec3d& p);
 /// The triangle at link edge i with the centre at `p`.
-Corners starCorners(const GuardedMesh& mesh, const StarChange& star, std::size_t i, const Vec3d& p);
+inline Corners starCorners(const GuardedMesh& mesh, const StarChange& star, std::size_t i, const Vec3d& p)
+{
+    return {p, mesh.point(star.link[i][0]), mesh.point(star.link[i][1])};
+}
 
 } // namespace vdbcage::detail
