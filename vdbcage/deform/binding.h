@@ -26,7 +26,8 @@ enum class Coordinates {
     green,
     /// Maximum likelihood coordinates, after Chang, Deng, Hormann 2023: never negative and the most local family here
     /// (the weights fall as the third power of the distance). Chosen before harmonic coordinates because they need no
-    /// volume mesh, and so keep the rest pose and affine maps exactly at every point. Inside and on the cage, which they
+    /// volume mesh, and so keep the rest pose and affine maps exactly at every point. Inside and on the cage, which
+    /// they
     /// interpolate; an error outside.
     maximumLikelihood,
 };

@@ -8,7 +8,7 @@
 
 namespace vdbcage::detail {
 
-/// Examines cages of one model by checkCage, other code than the guard's.
+/// Examines cages of one model by CageChecker, other code than the guard's.
 class Certifier {
 public:
     /// `model` must outlive this.
