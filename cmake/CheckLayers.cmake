@@ -1,17 +1,19 @@
 # cmake -P cmake/CheckLayers.cmake: fails, naming every offender, unless the floors of the house hold:
-#   core < mesh < gl < voxelize | volume | surface | check < pipeline < tools, tests
+#   core < geometry < mesh < gl < voxelize | volume | surface | check | deform < bounding < pipeline < tools, tests
 # A room includes only itself and rooms of lower floors; those of one floor do not know each other. Public headers
 # include no private ones. Third-party libraries stay in their files.
 cmake_minimum_required(VERSION 3.25)
 get_filename_component(root ${CMAKE_CURRENT_LIST_DIR}/.. ABSOLUTE)
 
 set(floor_core 0)
-set(floor_mesh 1)
-set(floor_gl 2)
+set(floor_geometry 1)
+set(floor_mesh 2)
+set(floor_gl 3)
 foreach(room voxelize volume surface check deform)
-    set(floor_${room} 3)
+    set(floor_${room} 4)
 endforeach()
-set(floor_pipeline 4)
+set(floor_bounding 5)
+set(floor_pipeline 6)
 
 set(gpl "CGAL/(Surface_mesh|AABB_|Side_of_triangle_mesh|Polygon_mesh_processing|Polyhedron_3|convex_hull_3|Nef_)")
 # library header pattern | files that may include it
@@ -19,7 +21,6 @@ set(confined
     "OpenMesh/|^vdbcage/(mesh/detail/open_mesh\\.h|surface/[a-z_]+\\.cpp)$"
     "GL/osmesa|^vdbcage/gl/detail/osmesa\\.cpp$"
     "EGL/|^vdbcage/gl/detail/egl\\.cpp$"
-    "GLFW/|^tools/view/window\\.cpp$"
     "tbb/parallel_|^(vdbcage/core/detail/parallel\\.h|tools/.*|tests/.*)$"
     "tbb/task_group|^(vdbcage/core/detail/parallel\\.h|tools/.*|tests/.*)$"
     "png\\.h|^(tools/vdbcage/picture\\.cpp|tests/.*)$"
@@ -45,6 +46,9 @@ foreach(file IN LISTS files)
             continue()
         endif()
         set(header ${CMAKE_MATCH_1})
+        if(room AND header STREQUAL "vdbcage/vdbcage.h")
+            list(APPEND problems "${file}: ${header} is for users: it has the rooms of all floors")
+        endif()
         if(room AND header MATCHES "^(support|tools|tests)/")
             list(APPEND problems "${file}: the library includes ${header}")
         endif()
@@ -53,7 +57,8 @@ foreach(file IN LISTS files)
             if(NOT other STREQUAL room AND NOT floor_${other} LESS floor_${room})
                 list(APPEND problems "${file}: ${room} must not include ${header}")
             endif()
-            if(file MATCHES "^vdbcage/[a-z]+/[a-z_]+\\.h$" AND NOT room STREQUAL gl AND header MATCHES "/detail/|^vdbcage/gl/")
+            if(file MATCHES "^vdbcage/[a-z]+/[a-z_]+\\.h$" AND NOT room MATCHES "^(geometry|gl)$" AND
+               header MATCHES "/detail/|^vdbcage/(geometry|gl|mesh/io)/")
                 list(APPEND problems "${file}: a public header includes the private ${header}")
             endif()
         endif()

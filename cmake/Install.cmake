@@ -5,9 +5,10 @@ set(packageDir ${CMAKE_INSTALL_LIBDIR}/cmake/vdbcage)
 install(TARGETS vdbcage EXPORT vdbcageTargets
     LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}
     ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
-# A header in vdbcage/ROOM/ is public; those in a detail/ folder and all of gl/ are not.
+# A header in vdbcage/ROOM/ is public; those in detail/, geometry/, gl/ and mesh/io/ are not.
 install(DIRECTORY vdbcage DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
-    FILES_MATCHING PATTERN "*.h" PATTERN detail EXCLUDE PATTERN gl EXCLUDE)
+    FILES_MATCHING PATTERN "*.h" PATTERN detail EXCLUDE
+    PATTERN geometry EXCLUDE PATTERN gl EXCLUDE PATTERN io EXCLUDE)
 install(EXPORT vdbcageTargets NAMESPACE vdbcage:: DESTINATION ${packageDir})
 configure_package_config_file(cmake/vdbcageConfig.cmake.in ${PROJECT_BINARY_DIR}/vdbcageConfig.cmake
     INSTALL_DESTINATION ${packageDir})

@@ -10,7 +10,7 @@
 #include <filesystem>
 #include <system_error>
 
-#include <vdbcage/core/atomic_file.h>
+#include <vdbcage/core/detail/atomic_file.h>
 #include <vdbcage/core/error.h>
 #include <vdbcage/mesh/mesh_io.h>
 

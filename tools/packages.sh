@@ -1,7 +1,7 @@
 # Sourced by tools/demo and tools/test: installs the Debian packages that the build, the command and the tests need.
 
 packages=(
-    g++ cmake ninja-build
+    g++ cmake ninja-build ccache # the library is compiled once, also for the tests that build it otherwise
     libopenvdb-dev libtbb-dev libblosc-dev zlib1g-dev                          # volumes
     libboost-dev libboost-iostreams-dev
     libopenmesh-dev libcgal-dev libgmp-dev libmpfr-dev libqhull-dev            # surfaces
@@ -10,6 +10,7 @@ packages=(
 )
 test_packages=(
     libboost-test-dev
+    clang-format   # formatting is a test
     tetgen # fills cages, to see that others can use them
 )
 

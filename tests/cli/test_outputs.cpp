@@ -104,10 +104,8 @@ BOOST_AUTO_TEST_CASE(frames_are_not_written_over_frames)
     const Scene scene;
     for (const char* name : {"f.0001.obj", "f.0002.obj"}) fs::copy_file(scene.posed, scene.folder / name);
     fs::create_hard_link(scene.folder / "f.0002.obj", scene.folder / "g.0001.obj");
-    expectRefusal(scene, {"deform", "@cage.obj", "@f.%04d.obj", "@model.obj", "-o", "@f.%04d.obj"},
-                  "it is the input");
-    expectRefusal(scene, {"deform", "@cage.obj", "@f.%04d.obj", "@model.obj", "-o", "@g.%04d.obj"},
-                  "it is the input");
+    expectRefusal(scene, {"deform", "@cage.obj", "@f.%04d.obj", "@model.obj", "-o", "@f.%04d.obj"}, "it is the input");
+    expectRefusal(scene, {"deform", "@cage.obj", "@f.%04d.obj", "@model.obj", "-o", "@g.%04d.obj"}, "it is the input");
     fs::remove(scene.folder / "g.0001.obj");
     writeMesh(test::box({-2, -2, -2}, {2, 2, 2}), scene.folder / "g.0001.obj");
     fs::create_symlink("g.0001.obj", scene.folder / "g.0002.obj");

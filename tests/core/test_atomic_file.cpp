@@ -6,7 +6,7 @@
 #include <sys/resource.h>
 
 #include <support/temporary_folder.h>
-#include <vdbcage/core/atomic_file.h>
+#include <vdbcage/core/detail/atomic_file.h>
 #include <vdbcage/core/error.h>
 
 using namespace vdbcage;

@@ -20,7 +20,7 @@ using test::randomCage;
 
 namespace {
 
-constexpr Coordinates families[] = {Coordinates::meanValue, Coordinates::green, Coordinates::likelihood};
+constexpr Coordinates families[] = {Coordinates::meanValue, Coordinates::green, Coordinates::maximumLikelihood};
 
 std::vector<Vec3d> jittered(std::vector<Vec3d> points, std::uint32_t seed, double by = 0.3)
 {

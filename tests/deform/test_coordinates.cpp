@@ -21,7 +21,7 @@ using test::weighted;
 
 namespace {
 
-constexpr Coordinates families[] = {Coordinates::meanValue, Coordinates::green, Coordinates::likelihood};
+constexpr Coordinates families[] = {Coordinates::meanValue, Coordinates::green, Coordinates::maximumLikelihood};
 
 Mesh moved(Mesh cage, const std::vector<Vec3d>& points)
 {
@@ -219,7 +219,7 @@ std::vector<double> reference(const Mesh& cage, const Vec3d& x, Coordinates fami
         Face seen;
         for (const openvdb::Index32 i : face) seen.corners.push_back(from(cage.points[i], x));
         integrals.push_back(seen.integral());
-        if (family == Coordinates::likelihood) {
+        if (family == Coordinates::maximumLikelihood) {
             Vec vector{0, 0, 0};
             Real total = 0;
             for (std::size_t k = 0; k < face.size(); ++k) {
@@ -233,12 +233,12 @@ std::vector<double> reference(const Mesh& cage, const Vec3d& x, Coordinates fami
         }
     }
     std::vector<Real> factors(faces.size(), 1);
-    if (family == Coordinates::likelihood) factors = balanced(vectors);
+    if (family == Coordinates::maximumLikelihood) factors = balanced(vectors);
     std::vector<Real> row(cage.points.size());
     for (std::size_t f = 0; f < faces.size(); ++f) {
         for (std::size_t k = 0; k < faces[f].size(); ++k) {
             Real value = integrals[f][(family == Coordinates::green ? 4 : 0) + k];
-            if (family == Coordinates::likelihood) value = std::abs(value);
+            if (family == Coordinates::maximumLikelihood) value = std::abs(value);
             row[faces[f][k]] += factors[f] * value;
         }
     }
@@ -297,7 +297,7 @@ BOOST_AUTO_TEST_CASE(affine_maps_are_kept)
         const auto affinely = [&](const Vec3d& p) { return affine * p + shift; };
         const auto similarly = [&](const Vec3d& p) { return 1.7 * (turn * p) + shift; };
         BOOST_TEST(error(cage, points, Coordinates::meanValue, affinely) < 1e-11);
-        BOOST_TEST(error(cage, points, Coordinates::likelihood, affinely) < 1e-11);
+        BOOST_TEST(error(cage, points, Coordinates::maximumLikelihood, affinely) < 1e-11);
         BOOST_TEST(error(cage, points, Coordinates::green, similarly) < 1e-11);
         BOOST_TEST(error(cage, points, Coordinates::green, affinely) > 1e-3); // they keep shapes instead
     }
@@ -402,10 +402,10 @@ BOOST_AUTO_TEST_CASE(likelihood_weights_are_not_negative_and_local)
         }
         return sum;
     };
-    BOOST_TEST(far(Coordinates::likelihood) < 0.3 * far(Coordinates::meanValue));
-    BOOST_TEST(least(Coordinates::likelihood) >= 0);
+    BOOST_TEST(far(Coordinates::maximumLikelihood) < 0.3 * far(Coordinates::meanValue));
+    BOOST_TEST(least(Coordinates::maximumLikelihood) >= 0);
     BOOST_TEST(least(Coordinates::meanValue) < -0.001);
-    BOOST_TEST(error(cage, points, Coordinates::likelihood, [](const Vec3d& p) { return p; }) < 1e-12);
+    BOOST_TEST(error(cage, points, Coordinates::maximumLikelihood, [](const Vec3d& p) { return p; }) < 1e-12);
 }
 
 BOOST_AUTO_TEST_CASE(degenerate_faces)
@@ -461,7 +461,7 @@ BOOST_AUTO_TEST_CASE(points_outside)
     const std::vector<Vec3d> points{Vec3d(0), Vec3d(2, 0, 0), Vec3d(0, 5, 0)};
     const auto same = [](const Vec3d& p) { return p; };
     BOOST_TEST(error(cage, points, Coordinates::meanValue, same) < 1e-11);
-    for (const Coordinates family : {Coordinates::green, Coordinates::likelihood}) {
+    for (const Coordinates family : {Coordinates::green, Coordinates::maximumLikelihood}) {
         BOOST_TEST(messageOf(cage, points, family) == "points: point 1 at (2, 0, 0) and 1 others have no " +
                                                           std::string(coordinatesName(family)) +
                                                           " coordinates in this cage; all must be inside of it");

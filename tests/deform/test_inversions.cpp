@@ -16,7 +16,7 @@ using test::randomCage;
 
 namespace {
 
-constexpr Coordinates families[] = {Coordinates::meanValue, Coordinates::green, Coordinates::likelihood};
+constexpr Coordinates families[] = {Coordinates::meanValue, Coordinates::green, Coordinates::maximumLikelihood};
 
 const Mesh model = test::sphere(Vec3d(0.1, 0, 0), 0.5, 12);
 

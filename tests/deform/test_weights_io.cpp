@@ -37,7 +37,7 @@ BOOST_AUTO_TEST_SUITE(weights_io)
 BOOST_AUTO_TEST_CASE(reads_back_what_was_written)
 {
     const TemporaryFolder folder;
-    for (const Coordinates family : {Coordinates::meanValue, Coordinates::green, Coordinates::likelihood}) {
+    for (const Coordinates family : {Coordinates::meanValue, Coordinates::green, Coordinates::maximumLikelihood}) {
         writeWeights(cage, points, family, computeWeights(cage, points, family), folder / "w.npy");
         const Binding back = readWeights(folder / "w.npy", cage, points);
         BOOST_TEST((back.family() == family));

@@ -8,7 +8,7 @@
 
 #include <mesh/mesh_samples.h>
 #include <vdbcage/core/error.h>
-#include <vdbcage/mesh/detail/formats.h>
+#include <vdbcage/mesh/io/formats.h>
 
 using namespace vdbcage;
 

@@ -11,10 +11,10 @@ endfunction()
 
 set(library ${build})
 if(kind STREQUAL "shared")
-    set(library ${work}/build)
+    set(library ${build}_shared) # beside the other: a compiler cache sees the same relative paths
     run(${CMAKE_COMMAND} -S ${source} -B ${library} -G Ninja -DCMAKE_BUILD_TYPE=Release -DBUILD_SHARED_LIBS=ON
         -DCMAKE_CXX_COMPILER=${compiler} -DCMAKE_CXX_COMPILER_LAUNCHER=${launcher} -DVDBCAGE_BUILD_TESTS=OFF
-        -DVDBCAGE_BUILD_TOOLS=OFF -DVDBCAGE_WITH_CGAL_GPL=OFF)
+        -DVDBCAGE_BUILD_TOOLS=OFF -DVDBCAGE_WITH_CGAL_GPL=OFF -DVDBCAGE_WARNINGS_AS_ERRORS=${strict})
     run(${CMAKE_COMMAND} --build ${library})
     # Ninja keeps what every object was compiled from.
     execute_process(COMMAND ninja -C ${library} -t deps OUTPUT_VARIABLE dependencies RESULT_VARIABLE status)
@@ -37,7 +37,8 @@ if(kind STREQUAL "shared")
 endif()
 
 run(${CMAKE_COMMAND} --install ${library} --prefix ${work}/prefix)
-file(GLOB_RECURSE private ${work}/prefix/include/*/detail/* ${work}/prefix/include/vdbcage/gl/*)
+file(GLOB_RECURSE private ${work}/prefix/include/*/detail/* ${work}/prefix/include/vdbcage/geometry/*
+    ${work}/prefix/include/vdbcage/gl/* ${work}/prefix/include/vdbcage/mesh/io/*)
 if(private)
     message(FATAL_ERROR "private headers were installed: ${private}")
 endif()

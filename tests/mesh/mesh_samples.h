@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include <vdbcage/mesh/detail/formats.h>
+#include <vdbcage/mesh/io/formats.h>
 
 namespace vdbcage::test {
 

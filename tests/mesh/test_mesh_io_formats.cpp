@@ -7,7 +7,7 @@
 
 #include <mesh/mesh_samples.h>
 #include <vdbcage/core/error.h>
-#include <vdbcage/mesh/detail/polygon_soup.h>
+#include <vdbcage/mesh/io/polygon_soup.h>
 
 using namespace vdbcage;
 using namespace vdbcage::test;

@@ -9,7 +9,7 @@
 #include <set>
 #include <vector>
 
-#include <vdbcage/mesh/detail/polygon_splitter.h>
+#include <vdbcage/mesh/io/polygon_splitter.h>
 
 using namespace vdbcage;
 using openvdb::Vec3d;

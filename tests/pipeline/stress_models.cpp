@@ -386,7 +386,7 @@ Mesh singleFaces(Random& random, int i)
         addTriangle(mesh, a, b, random.point(1));
     } else if (i % 4 == 1) { // one with its corners nearly on a line
         addTriangle(mesh, Vec3d(0), Vec3d(1, 0, 0), Vec3d(random.unit(), pick({1e-3, 1e-6, 1e-10}, i / 4), 0));
-    } else if (i % 4 == 2) { // a flat polygon, as a fan
+    } else if (i % 4 == 2) { // a flat polygon, as a star
         const int corners = pick({5, 17, 100}, i / 4);
         mesh.points.emplace_back(0);
         for (int k = 0; k <= corners; ++k) {

@@ -44,7 +44,7 @@ BOOST_AUTO_TEST_CASE(text_goes_in_and_comes_out)
     BOOST_CHECK(optionValues(CageOptions{}) != wanted);
     BOOST_TEST(options.faces == 100);
     BOOST_TEST(options.erodeRadius.value() == 0.0625);
-    BOOST_CHECK(options.element == Element::cube);
+    BOOST_CHECK(options.element == StructuringElement::cube);
     BOOST_CHECK(options.mesh == CageFaces::triquad);
     BOOST_TEST(!options.bounding);
     setOption(options, "erode-radius", "auto");

@@ -6,6 +6,7 @@
 #include <map>
 #include <set>
 
+#include <openvdb/tools/ChangeBackground.h>
 #include <support/cancelled_host.h>
 #include <support/shapes.h>
 #include <support/symmetric.h>
@@ -358,6 +359,62 @@ BOOST_AUTO_TEST_CASE(cancelling_throws_and_the_pipeline_runs_again)
         }
     }
     BOOST_CHECK(sameMesh(made.run(options), expected));
+}
+
+BOOST_AUTO_TEST_CASE(a_scale_grid_that_is_edited_in_place_counts_anew)
+{
+    const Mesh model = saturn();
+    CageOptions options = coarse();
+    options.closeRadius = 0.15; // it closes the gap between ball and ring
+    const auto grid = openvdb::FloatGrid::create(1.0F);
+    grid->setTransform(openvdb::math::Transform::createLinearTransform(0.25));
+    options.scale.grid = grid;
+    Pipeline made(model);
+    made.run(options);
+    const auto edit = [&](auto&& change) {
+        change();
+        const Mesh again = made.run(options);
+        Pipeline fresh(model);
+        BOOST_CHECK(sameMesh(again, fresh.run(options)));
+        BOOST_TEST(made.report().closedVoxels == fresh.report().closedVoxels);
+    };
+    const std::size_t before = made.report().closedVoxels;
+    edit([&] { grid->fill(openvdb::CoordBBox({-20, -20, -20}, {20, 20, 20}), 0.0F); }); // tiles and leaves
+    BOOST_TEST(made.report().closedVoxels < before);
+    const std::size_t none = made.report().closedVoxels;
+    edit([&] { grid->sparseFill(openvdb::CoordBBox({-8, -8, -8}, {7, 7, 7}), 2.0F); });
+    edit([&] { grid->tree().setValue({3, 3, 3}, 0.5F); }); // one voxel
+    edit([&] { grid->setTransform(openvdb::math::Transform::createLinearTransform(1e-3)); });
+    edit([&] { openvdb::tools::changeBackground(grid->tree(), 0.0F); });
+    BOOST_TEST(made.report().closedVoxels == none);
+}
+
+BOOST_AUTO_TEST_CASE(a_run_that_throws_leaves_the_last_good_result)
+{
+    const Mesh model = saturn();
+    CageOptions options = coarse();
+    Pipeline made(model);
+    const Mesh cage = made.run(options);
+    const auto closed = made.closed(), solid = made.solid();
+    const Mesh surface = made.surface(), decimated = made.decimated();
+    const auto isUnchanged = [&] {
+        return sameMesh(made.cage(), cage) && sameMesh(made.surface(), surface) &&
+               sameMesh(made.decimated(), decimated) && made.closed() == closed && made.solid() == solid &&
+               made.report().resolution == *options.resolution && made.report().check.bounding();
+    };
+    CageOptions other = options;
+    other.resolution = *options.resolution + 5;
+    other.faces = options.faces + 10;
+    for (int i = 0; i < 20; ++i) {
+        Watcher watcher(40 * i);
+        BOOST_CHECK_THROW(made.run(other, &watcher), Cancelled);
+        BOOST_TEST(isUnchanged());
+    }
+    CageOptions wrong = options;
+    wrong.faces = 3;
+    BOOST_CHECK_THROW(made.run(wrong), InputError);
+    BOOST_TEST(isUnchanged());
+    BOOST_CHECK(sameMesh(made.run(options), cage));
 }
 
 BOOST_AUTO_TEST_CASE(cages_are_whole_where_the_host_has_cancelled)

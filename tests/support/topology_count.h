@@ -16,7 +16,7 @@ namespace vdbcage::test {
 struct TopologyCount {
     std::size_t points = 0, edges = 0, faces = 0; // points used by faces; quads count once
     std::size_t openEdges = 0;                    // without exactly one face on each side
-    std::size_t splitPoints = 0;                  // whose faces form more than one fan
+    std::size_t splitPoints = 0;                  // whose faces form more than one umbrella
     std::size_t parts = 0;                        // connected over edges
     double volume = 0, area = 0;                  // quads split by the diagonal of corners 0 and 2
 
@@ -38,16 +38,16 @@ inline TopologyCount countTopology(const Mesh& mesh)
     TopologyCount count;
     const auto faces = polygons(mesh);
     count.faces = faces.size();
-    std::map<std::pair<unsigned, unsigned>, std::vector<std::size_t>> sides; // directed edge -> faces
-    std::map<unsigned, std::vector<std::pair<unsigned, unsigned>>> fans;     // point -> (from, to) of each face at it
+    std::map<std::pair<unsigned, unsigned>, std::vector<std::size_t>> sides;  // directed edge -> faces
+    std::map<unsigned, std::vector<std::pair<unsigned, unsigned>>> umbrellas; // point -> (from, to) of each face at it
     for (std::size_t f = 0; f < faces.size(); ++f) {
         const std::size_t n = faces[f].size();
         for (std::size_t i = 0; i < n; ++i) {
             sides[{faces[f][i], faces[f][(i + 1) % n]}].push_back(f);
-            fans[faces[f][i]].emplace_back(faces[f][(i + 1) % n], faces[f][(i + n - 1) % n]);
+            umbrellas[faces[f][i]].emplace_back(faces[f][(i + 1) % n], faces[f][(i + n - 1) % n]);
         }
     }
-    count.points = fans.size();
+    count.points = umbrellas.size();
     std::vector<std::size_t> part(faces.size());
     std::iota(part.begin(), part.end(), std::size_t(0));
     const auto root = [&](std::size_t f) {
@@ -66,17 +66,17 @@ inline TopologyCount countTopology(const Mesh& mesh)
     }
     count.edges = edges.size();
     for (std::size_t f = 0; f < faces.size(); ++f) count.parts += root(f) == f;
-    for (const auto& [point, fan] : fans) {
-        std::map<unsigned, unsigned> next(fan.begin(), fan.end());
-        unsigned at = fan.front().first;
+    for (const auto& [point, umbrella] : umbrellas) {
+        std::map<unsigned, unsigned> next(umbrella.begin(), umbrella.end());
+        unsigned at = umbrella.front().first;
         std::size_t steps = 0;
         do {
             const auto step = next.find(at);
             if (step == next.end()) break;
             at = step->second;
             ++steps;
-        } while (at != fan.front().first && steps < fan.size());
-        count.splitPoints += steps != fan.size();
+        } while (at != umbrella.front().first && steps < umbrella.size());
+        count.splitPoints += steps != umbrella.size();
     }
     for (const openvdb::Vec3I& t : triangulate(mesh)) {
         const openvdb::Vec3d &a = mesh.points[t[0]], &b = mesh.points[t[1]], &c = mesh.points[t[2]];

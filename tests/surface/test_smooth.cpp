@@ -4,8 +4,8 @@
 
 #include <tbb/global_control.h>
 #include <vdbcage/core/error.h>
-#include <vdbcage/surface/extract.h>
 #include <vdbcage/surface/smooth.h>
+#include <vdbcage/volume/extract.h>
 
 #include "support/solids.h"
 #include "support/stop_at.h"

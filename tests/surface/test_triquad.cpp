@@ -4,9 +4,9 @@
 
 #include <vdbcage/core/error.h>
 #include <vdbcage/surface/decimate.h>
-#include <vdbcage/surface/extract.h>
 #include <vdbcage/surface/smooth.h>
 #include <vdbcage/surface/triquad.h>
+#include <vdbcage/volume/extract.h>
 
 #include "support/solids.h"
 #include "support/topology_count.h"
@@ -157,11 +157,11 @@ BOOST_AUTO_TEST_CASE(concave_pairs_and_tetrahedra_stay_triangles)
 
 BOOST_AUTO_TEST_CASE(flat_and_square_pairs_come_first)
 {
-    // A strip of three triangles: the first two make a square, the last two a parallelogram.
-    Mesh strip;
-    strip.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}, {2, 0, 0}};
-    strip.triangles = {{1, 4, 3}, {1, 3, 2}, {0, 1, 2}};
-    const Mesh result = merge(strip, 10);
+    // A polychord of three triangles: the first two make a square, the last two a parallelogram.
+    Mesh polychord;
+    polychord.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}, {2, 0, 0}};
+    polychord.triangles = {{1, 4, 3}, {1, 3, 2}, {0, 1, 2}};
+    const Mesh result = merge(polychord, 10);
     BOOST_TEST_REQUIRE(result.quads.size() == 1U);
     BOOST_TEST((result.triangles == std::vector<openvdb::Vec3I>{{1, 4, 3}}));
 }

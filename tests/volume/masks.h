@@ -156,9 +156,9 @@ inline bool sameTree(const MaskGrid& a, const MaskGrid& b)
 }
 
 /// Says stop at the check with this number (from 0), and counts the checks.
-class StopAt : public Interrupter {
+class StopOnce : public Interrupter {
 public:
-    explicit StopAt(int check) : stopAt_(check) {}
+    explicit StopOnce(int check) : stopAt_(check) {}
     bool wasInterrupted(int percent = -1) override
     {
         if (percent < -1 || percent > 100) outOfRange = true;

@@ -152,9 +152,9 @@ BOOST_AUTO_TEST_CASE(cavities_of_whole_blocks)
     }
 }
 
-BOOST_AUTO_TEST_CASE(cavities_of_whole_regions)
+BOOST_AUTO_TEST_CASE(cavities_of_whole_upper_nodes)
 {
-    // Walls of block tiles around more than a region, and one of region tiles.
+    // Walls of block tiles around more than a upperNode, and one of upperNode tiles.
     const CoordBBox outer = cubeAt(Coord(-4096 - 512), 2 * 4096 + 1024);
     const auto grid = shell(outer, grown(outer, -256));
     std::size_t cavities = 0;
@@ -162,11 +162,11 @@ BOOST_AUTO_TEST_CASE(cavities_of_whole_regions)
     BOOST_TEST(cavities == 1U);
     BOOST_TEST(filled->activeVoxelCount() == outer.volume());
     BOOST_TEST(filled->tree().getValueDepth(Coord(0)) == 0);
-    auto regions = MaskGrid::create();
+    auto upperNodes = MaskGrid::create();
     for (int i = 0; i < 27; ++i) {
-        if (i != 13) regions->tree().addTile(3, Coord(i / 9 * 4096, i / 3 % 3 * 4096, i % 3 * 4096), true, true);
+        if (i != 13) upperNodes->tree().addTile(3, Coord(i / 9 * 4096, i / 3 % 3 * 4096, i % 3 * 4096), true, true);
     }
-    const auto full = fillCavities(*regions, &cavities);
+    const auto full = fillCavities(*upperNodes, &cavities);
     BOOST_TEST(cavities == 1U);
     BOOST_TEST(full->activeVoxelCount() == 27ULL << 36U);
 }
@@ -194,12 +194,12 @@ BOOST_AUTO_TEST_CASE(threads_transform_cancel)
     }
     BOOST_TEST(sameTree(*results[0], *results[1]));
     BOOST_CHECK(results[0]->transform() == grid->transform());
-    StopAt never(-1);
+    StopOnce never(-1);
     fillCavities(*grid, nullptr, &never);
     BOOST_TEST(!never.outOfRange);
     BOOST_TEST(never.checks > 2);
     for (int k = 0; k < never.checks; ++k) {
-        StopAt stop(k);
+        StopOnce stop(k);
         BOOST_CHECK_THROW(fillCavities(*grid, nullptr, &stop), Cancelled);
     }
     auto far = MaskGrid::create();

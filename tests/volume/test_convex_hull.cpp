@@ -5,8 +5,8 @@
 
 #include <vdbcage/core/error.h>
 #include <vdbcage/mesh/topology.h>
-#include <vdbcage/surface/extract.h>
 #include <vdbcage/volume/convex_hull.h>
+#include <vdbcage/volume/extract.h>
 
 #include "support/solids.h"
 #include "volume/masks.h"
@@ -117,11 +117,11 @@ BOOST_AUTO_TEST_CASE(of_nothing_it_is_nothing_and_what_is_too_large_is_refused)
 BOOST_AUTO_TEST_CASE(it_can_be_cancelled)
 {
     const auto mask = test::randomSolid(1, 40, 0.01, Coord(0));
-    test::StopAt never(-1);
+    test::StopOnce never(-1);
     convexHull(*mask, &never);
     BOOST_TEST(never.checks > 10);
     for (int k = 0; k < never.checks; ++k) {
-        test::StopAt stop(k);
+        test::StopOnce stop(k);
         BOOST_CHECK_THROW(convexHull(*mask, &stop), Cancelled);
     }
 }

@@ -57,7 +57,7 @@ BOOST_AUTO_TEST_CASE(bad_axes_and_cancelling)
     BOOST_CHECK_THROW(withMirrorImage(*mask, -1, 0), InputError);
     for (const bool tiles : {false, true}) {
         if (tiles) mask->tree().fill(openvdb::CoordBBox(Coord(0), Coord(7)), true, true);
-        test::StopAt stop(0);
+        test::StopOnce stop(0);
         BOOST_CHECK_THROW(withMirrorImage(*mask, 0, 0, &stop), Cancelled);
     }
 }

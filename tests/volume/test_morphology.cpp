@@ -14,9 +14,9 @@
 namespace vdbcage {
 
 /// For Boost.Test, which names the case by its data.
-static std::ostream& operator<<(std::ostream& out, Element element)
+static std::ostream& operator<<(std::ostream& out, StructuringElement element)
 {
-    return out << (element == Element::sphere ? "sphere" : "cube");
+    return out << (element == StructuringElement::sphere ? "sphere" : "cube");
 }
 
 } // namespace vdbcage
@@ -27,16 +27,17 @@ namespace data = boost::unit_test::data;
 
 namespace {
 
-const std::vector<Element> elements{Element::sphere, Element::cube};
+const std::vector<StructuringElement> elements{StructuringElement::sphere, StructuringElement::cube};
 const std::vector<double> radii{0, 0.5, 1, 1.41, 1.5, 2, 2.5, 3.7, 5, 8, 12.3};
 
-bool isInElement(const Coord& d, double radius, Element element)
+bool isInElement(const Coord& d, double radius, StructuringElement element)
 {
-    if (element == Element::cube) return std::max({std::abs(d.x()), std::abs(d.y()), std::abs(d.z())}) <= radius;
+    if (element == StructuringElement::cube)
+        return std::max({std::abs(d.x()), std::abs(d.y()), std::abs(d.z())}) <= radius;
     return d.x() * d.x() + d.y() * d.y() + d.z() * d.z() <= radius * radius;
 }
 
-std::vector<Coord> offsets(double radius, Element element)
+std::vector<Coord> offsets(double radius, StructuringElement element)
 {
     std::vector<Coord> result;
     const CoordBBox box = grown(CoordBBox(Coord(0), Coord(0)), static_cast<int>(radius));
@@ -47,7 +48,7 @@ std::vector<Coord> offsets(double radius, Element element)
 }
 
 // The box of the result leaves room for an erosion by the same radius.
-DenseSet dilatedByDefinition(const DenseSet& set, double radius, Element element)
+DenseSet dilatedByDefinition(const DenseSet& set, double radius, StructuringElement element)
 {
     DenseSet result(grown(set.box(), 2 * static_cast<int>(radius) + 1));
     const auto voxels = offsets(radius, element);
@@ -59,7 +60,7 @@ DenseSet dilatedByDefinition(const DenseSet& set, double radius, Element element
 }
 
 // `set` must leave a border of empty voxels as wide as the radius.
-DenseSet erodedByDefinition(const DenseSet& set, double radius, Element element)
+DenseSet erodedByDefinition(const DenseSet& set, double radius, StructuringElement element)
 {
     std::vector<std::ptrdiff_t> steps;
     const Coord first = set.box().min();
@@ -77,7 +78,7 @@ DenseSet erodedByDefinition(const DenseSet& set, double radius, Element element)
     return result;
 }
 
-MaskGrid::Ptr close(const MaskGrid& grid, double closeRadius, double erodeRadius, Element element)
+MaskGrid::Ptr close(const MaskGrid& grid, double closeRadius, double erodeRadius, StructuringElement element)
 {
     return closeMask(grid, {closeRadius, erodeRadius, element});
 }
@@ -168,18 +169,18 @@ BOOST_DATA_TEST_CASE(every_instruction_set_closes_blobs_by_definition,
         const DenseSet set = randomBlobs(cubeAt(Coord(120, -134, 4), 15), seed);
         const auto grid = toGrid(set);
         const auto squared = static_cast<std::int64_t>(radius * radius);
-        const DenseSet dilated = dilatedByDefinition(set, radius, Element::sphere);
+        const DenseSet dilated = dilatedByDefinition(set, radius, StructuringElement::sphere);
         const auto fast = gridOf(detail::dilateBySphere(grid->tree(), squared, {}, simd));
         BOOST_TEST(holds(*fast, dilated));
         BOOST_TEST(holds(*gridOf(detail::erodeBySphere(fast->tree(), &grid->tree(), squared, {}, simd)),
-                         erodedByDefinition(dilated, radius, Element::sphere)));
+                         erodedByDefinition(dilated, radius, StructuringElement::sphere)));
     }
 }
 
 BOOST_TEST_DECORATOR(*boost::unit_test::label("property"))
 BOOST_DATA_TEST_CASE(equals_the_definition, data::make(elements) * data::make(radii), element, radius)
 {
-    // Across the origin, across borders of leaves and blocks, across borders of regions.
+    // Across the origin, across borders of leaves and blocks, across borders of upperNodes.
     const std::vector<Coord> corners{Coord(-6), Coord(120, -133, 3), Coord(4090, -4100, -7)};
     const unsigned seeds = radius < 3 ? 6 : radius < 9 ? 3 : 1;
     for (unsigned seed = 0; seed < seeds; ++seed) {
@@ -209,16 +210,17 @@ BOOST_DATA_TEST_CASE(closing_is_extensive_idempotent_and_increasing, data::make(
     BOOST_TEST(isSubset(*closed, *close(*small, radius, 0.5 * radius, element)));
 }
 
-// The radii that equals_the_definition is too slow for: whole slots and parts of one, within a block and beyond.
+// The radii that equals_the_definition is too slow for: whole entries and parts of one, within a block and beyond.
 BOOST_TEST_DECORATOR(*boost::unit_test::label("property"))
 BOOST_DATA_TEST_CASE(cubes_add_up, data::make({8, 12, 16, 17, 33, 64, 121}) * data::make({3, 8, 11}), radius, more)
 {
     const auto grid = fatBlobs(160, 8);
     for (const Coord& lone : {Coord(-3, 120, 64), Coord(140, 0, -77)}) grid->tree().setValueOn(lone);
-    const auto large = dilate(*grid, radius + more, Element::cube);
-    BOOST_TEST(sameTree(*dilate(*dilate(*grid, radius, Element::cube), more, Element::cube), *large));
-    BOOST_TEST(sameTree(*erode(*erode(*large, radius, Element::cube), more, Element::cube),
-                        *erode(*large, radius + more, Element::cube)));
+    const auto large = dilate(*grid, radius + more, StructuringElement::cube);
+    BOOST_TEST(
+        sameTree(*dilate(*dilate(*grid, radius, StructuringElement::cube), more, StructuringElement::cube), *large));
+    BOOST_TEST(sameTree(*erode(*erode(*large, radius, StructuringElement::cube), more, StructuringElement::cube),
+                        *erode(*large, radius + more, StructuringElement::cube)));
 }
 
 BOOST_TEST_DECORATOR(*boost::unit_test::label("property"))
@@ -275,7 +277,7 @@ BOOST_AUTO_TEST_CASE(bool_grids_of_any_transform)
     const auto isSame = [&](const MaskGrid& fromBits, const MaskGrid& fromMask) {
         return sameTree(fromBits, fromMask) && fromBits.transform() == bits->transform();
     };
-    for (const Element element : elements) {
+    for (const StructuringElement element : elements) {
         BOOST_TEST(isSame(*dilate(*bits, 4, element), *dilate(*mask, 4, element)));
         BOOST_TEST(isSame(*erode(*bits, 2, element), *erode(*mask, 2, element)));
         BOOST_TEST(isSame(*openMask(*bits, 2, element), *openMask(*mask, 2, element)));
@@ -324,7 +326,7 @@ BOOST_AUTO_TEST_CASE(only_active_states_count)
 
 BOOST_AUTO_TEST_CASE(empty_and_single_voxel)
 {
-    for (const Element element : elements) {
+    for (const StructuringElement element : elements) {
         BOOST_TEST(dilate(*MaskGrid::create(), 5, element)->empty());
         BOOST_TEST(erode(*MaskGrid::create(), 5, element)->empty());
         BOOST_TEST(close(*MaskGrid::create(), 5, 5, element)->empty());
@@ -344,7 +346,7 @@ BOOST_DATA_TEST_CASE(large_radii, data::make({102, 103, 104, 150, 301}), radius)
     const auto ball = dilate(*voxel, radius);
     BOOST_TEST(ball->activeVoxelCount() == dilatedCubeCount(1, radius));
     const auto side = static_cast<std::uint64_t>(2 * radius + 1);
-    BOOST_TEST(dilate(*voxel, radius, Element::cube)->activeVoxelCount() == side * side * side);
+    BOOST_TEST(dilate(*voxel, radius, StructuringElement::cube)->activeVoxelCount() == side * side * side);
     BOOST_TEST(sameTree(*erode(*ball, radius), *voxel));
 }
 
@@ -359,23 +361,23 @@ BOOST_AUTO_TEST_CASE(radii_at_the_edge_of_rounding)
         if (std::fma(radius, radius, -3.0) < 0) BOOST_TEST(dilate(*voxel, radius)->activeVoxelCount() == 19U);
     }
     BOOST_TEST(dilate(*voxel, 1.7)->activeVoxelCount() == 19U);
-    BOOST_TEST(dilate(*voxel, 1.99, Element::cube)->activeVoxelCount() == 27U);
+    BOOST_TEST(dilate(*voxel, 1.99, StructuringElement::cube)->activeVoxelCount() == 27U);
 }
 
-BOOST_AUTO_TEST_CASE(a_region_tile_is_not_made_dense)
+BOOST_AUTO_TEST_CASE(an_upper_tile_is_not_made_dense)
 {
     auto grid = MaskGrid::create();
     grid->tree().addTile(3, Coord(-4096, 0, 0), true, true);
     grid->tree().addTile(3, Coord(0, 0, 0), true, true); // its neighbour: no contour between them
-    const auto dilated = dilate(*grid, 8, Element::cube);
+    const auto dilated = dilate(*grid, 8, StructuringElement::cube);
     BOOST_TEST(dilated->activeVoxelCount() == (8192ULL + 16) * (4096 + 16) * (4096 + 16));
     BOOST_TEST(dilated->tree().leafCount() == 0U);
-    BOOST_TEST(sameTree(*erode(*dilated, 8, Element::cube), *grid));
-    const auto eroded = erode(*grid, 8, Element::cube);
+    BOOST_TEST(sameTree(*erode(*dilated, 8, StructuringElement::cube), *grid));
+    const auto eroded = erode(*grid, 8, StructuringElement::cube);
     BOOST_TEST(eroded->activeVoxelCount() == (8192ULL - 16) * (4096 - 16) * (4096 - 16));
 }
 
-BOOST_AUTO_TEST_CASE(a_region_tile_and_the_sphere, *boost::unit_test::label("slow"))
+BOOST_AUTO_TEST_CASE(an_upper_tile_and_the_sphere, *boost::unit_test::label("slow"))
 {
     auto grid = MaskGrid::create();
     grid->tree().addTile(3, Coord(0), true, true);
@@ -391,7 +393,7 @@ BOOST_AUTO_TEST_CASE(block_tiles_and_the_sphere)
     const auto dilated = dilate(*grid, 13);
     BOOST_TEST(dilated->activeVoxelCount() == dilatedCubeCount(256, 13));
     BOOST_TEST(sameSet(*erode(*dilated, 13), *grid));
-    BOOST_TEST(sameSet(*close(*grid, 13, 13, Element::sphere), *grid));
+    BOOST_TEST(sameSet(*close(*grid, 13, 13, StructuringElement::sphere), *grid));
 }
 
 BOOST_AUTO_TEST_CASE(keeps_the_transform_and_nothing_else)
@@ -414,25 +416,26 @@ BOOST_AUTO_TEST_CASE(bad_input_is_refused)
         BOOST_CHECK_THROW(dilate(*grid, radius), InputError);
         BOOST_CHECK_THROW(erode(*grid, radius), InputError);
         BOOST_CHECK_THROW(openMask(*grid, radius), InputError);
-        BOOST_CHECK_THROW(closeMask(*grid, {radius, 0, Element::cube}), InputError);
-        BOOST_CHECK_THROW(closeMask(*grid, {4, radius, Element::cube}), InputError);
+        BOOST_CHECK_THROW(closeMask(*grid, {radius, 0, StructuringElement::cube}), InputError);
+        BOOST_CHECK_THROW(closeMask(*grid, {4, radius, StructuringElement::cube}), InputError);
     }
-    BOOST_CHECK_EXCEPTION(closeMask(*grid, {4, 4.5, Element::sphere}), InputError, [](const InputError& error) {
-        return std::string(error.what()) == "the erode radius is 4.5 voxels; it must be between 0 and 4";
-    });
+    BOOST_CHECK_EXCEPTION(
+        closeMask(*grid, {4, 4.5, StructuringElement::sphere}), InputError, [](const InputError& error) {
+            return std::string(error.what()) == "the erode radius is 4.5 voxels; it must be between 0 and 4";
+        });
     constexpr int limit = 1 << 30;
     for (const int bad : {limit, -limit - 1, std::numeric_limits<int>::max(), std::numeric_limits<int>::min()}) {
         auto far = MaskGrid::create();
         far->tree().setValueOn(Coord(0, bad, 0));
         BOOST_CHECK_THROW(dilate(*far, 1), InputError);
-        BOOST_CHECK_THROW(erode(*far, 1, Element::cube), InputError);
+        BOOST_CHECK_THROW(erode(*far, 1, StructuringElement::cube), InputError);
         BOOST_CHECK_THROW(openMask(*far, 1), InputError);
         BOOST_CHECK_THROW(closeMask(*far), InputError);
     }
     auto corners = MaskGrid::create();
     corners->tree().setValueOn(Coord(limit - 1));
     corners->tree().setValueOn(Coord(-limit));
-    for (const Element element : elements) {
+    for (const StructuringElement element : elements) {
         BOOST_TEST(dilate(*corners, 100, element)->activeVoxelCount() > 2U);
         BOOST_TEST(sameTree(*close(*corners, 60, 60, element), *corners));
     }
@@ -441,12 +444,12 @@ BOOST_AUTO_TEST_CASE(bad_input_is_refused)
 BOOST_DATA_TEST_CASE(stops_at_any_check, data::make(elements), element)
 {
     const auto grid = toGrid(randomBlobs(cubeAt(Coord(-6), 12), 9));
-    StopAt never(-1);
+    StopOnce never(-1);
     closeMask(*grid, {3, 3, element}, &never);
     BOOST_TEST(!never.outOfRange);
     BOOST_TEST(never.checks > 10);
     for (int k = 0; k < never.checks; ++k) {
-        StopAt stop(k);
+        StopOnce stop(k);
         BOOST_CHECK_THROW(closeMask(*grid, {3, 3, element}, &stop), Cancelled);
     }
 }

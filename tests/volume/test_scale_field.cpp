@@ -137,7 +137,7 @@ BOOST_DATA_TEST_CASE(closing_equals_the_definition,
             const DenseSet expected = scattered(dilated, field, factor);
             BOOST_TEST(
                 holds(*gridOf(detail::erodeByField(fast->tree(), &grid->tree(), field, factor, {}, simd)), expected));
-            CloseOptions options{radius, factor * radius, Element::sphere};
+            CloseOptions options{radius, factor * radius, StructuringElement::sphere};
             BOOST_TEST(holds(*closeMask(*grid, options, scale), expected));
         }
     }
@@ -161,7 +161,7 @@ BOOST_DATA_TEST_CASE(closing_by_large_radii_equals_the_definition, data::make({1
     const detail::RadiusField field(scale, grid->transform(), radius, set.box(), {});
     const DenseSet dilated = gathered(set, field);
     BOOST_TEST(holds(*dilate(*grid, radius, scale), dilated));
-    const auto closed = closeMask(*grid, {radius, radius, Element::sphere}, scale);
+    const auto closed = closeMask(*grid, {radius, radius, StructuringElement::sphere}, scale);
     BOOST_TEST(isSubset(*grid, *closed));
     BOOST_TEST(closed->activeVoxelCount() > grid->activeVoxelCount());
     const Coord first = set.box().min(), size = set.box().dim();
@@ -187,7 +187,7 @@ BOOST_AUTO_TEST_CASE(tiles_and_threads_make_no_difference)
     const auto dense = tiles->deepCopy();
     dense->tree().voxelizeActiveTiles();
     const ScaleField scale{nullptr, {sphereRegion(Vec3d(132, 12, 12), 14, 0.3)}};
-    const CloseOptions options{9, 8, Element::sphere};
+    const CloseOptions options{9, 8, StructuringElement::sphere};
     MaskGrid::Ptr results[2];
     for (const std::size_t threads : {1U, 2U}) {
         const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
@@ -207,7 +207,7 @@ BOOST_AUTO_TEST_CASE(far_from_the_origin)
         const auto field = [](const Coord& at) {
             return ScaleField{nullptr, {sphereRegion(at.asVec3d() + Vec3d(5), 3, 0.25)}};
         };
-        const CloseOptions options{4, 4, Element::sphere};
+        const CloseOptions options{4, 4, StructuringElement::sphere};
         BOOST_TEST(sameSet(*shifted(*closeMask(*grid, options, field(corner)), Coord(0) - corner),
                            *closeMask(*near, options, field(Coord(0)))));
     }
@@ -222,14 +222,14 @@ BOOST_DATA_TEST_CASE(closing_is_extensive_idempotent_and_increasing, data::make(
     const auto small = fatBlobs(90, 3), large = fatBlobs(90, 4);
     large->topologyUnion(*small);
     const ScaleField scale{nullptr, {sphereRegion(Vec3d(20, 0, 0), 25, 0.2), boxRegion(Vec3d(-50), Vec3d(-10), 1.5)}};
-    const CloseOptions options{radius, radius, Element::sphere};
+    const CloseOptions options{radius, radius, StructuringElement::sphere};
     const auto closed = closeMask(*small, options, scale);
     BOOST_TEST(isSubset(*small, *closed));
     BOOST_TEST(!isSubset(*closed, *small));
     BOOST_TEST(sameTree(*closed, *closeMask(*closed, options, scale)));
     BOOST_TEST(isSubset(*closed, *closeMask(*large, options, scale)));
     BOOST_TEST(!sameSet(*closed, *closeMask(*small, options)));
-    BOOST_TEST(isSubset(*closed, *closeMask(*small, {radius, 0.5 * radius, Element::sphere}, scale)));
+    BOOST_TEST(isSubset(*closed, *closeMask(*small, {radius, 0.5 * radius, StructuringElement::sphere}, scale)));
 }
 
 BOOST_TEST_DECORATOR(*boost::unit_test::label("property"))
@@ -262,12 +262,12 @@ BOOST_AUTO_TEST_CASE(radii_obey_the_field_and_the_slope)
 BOOST_AUTO_TEST_CASE(a_field_of_one_value_is_one_radius)
 {
     const auto grid = fatBlobs(60, 5);
-    const CloseOptions options{7.3, 6, Element::sphere};
+    const CloseOptions options{7.3, 6, StructuringElement::sphere};
     BOOST_TEST(sameTree(*closeMask(*grid, options, ScaleField{}), *closeMask(*grid, options)));
-    BOOST_TEST(
-        sameTree(*closeMask(*grid, {7.3, 6, Element::cube}, ScaleField{}), *closeMask(*grid, {7.3, 6, Element::cube})));
+    BOOST_TEST(sameTree(*closeMask(*grid, {7.3, 6, StructuringElement::cube}, ScaleField{}),
+                        *closeMask(*grid, {7.3, 6, StructuringElement::cube})));
     BOOST_TEST(sameTree(*closeMask(*grid, options, {FloatGrid::create(0.5F), {}}),
-                        *closeMask(*grid, {3.65, 3, Element::sphere})));
+                        *closeMask(*grid, {3.65, 3, StructuringElement::sphere})));
     const ScaleField elsewhere{nullptr, {sphereRegion(Vec3d(5000, 0, 0), 10, 0)}};
     BOOST_TEST(sameTree(*closeMask(*grid, options, elsewhere), *closeMask(*grid, options)));
 }
@@ -279,7 +279,7 @@ BOOST_AUTO_TEST_CASE(a_hole_stays_where_the_field_is_zero)
     plate->setTransform(openvdb::math::Transform::createLinearTransform(0.1));
     plate->sparseFill(CoordBBox(Coord(0), Coord(79, 39, 5)), true);
     for (const int x : {20, 60}) plate->sparseFill(CoordBBox(Coord(x - 3, 17, 0), Coord(x + 2, 22, 5)), false, false);
-    const CloseOptions options{6, 6, Element::sphere};
+    const CloseOptions options{6, 6, StructuringElement::sphere};
     const Coord first(20, 20, 3), second(60, 20, 3);
     BOOST_TEST(!plate->tree().isValueOn(first));
     BOOST_TEST(!plate->tree().isValueOn(second));
@@ -308,7 +308,7 @@ BOOST_AUTO_TEST_CASE(values_at_points_become_a_grid)
     BOOST_CHECK_THROW(scaleFromPoints(points, {1.0F, 1.0F, std::nanf("")}, 0.1, 0.3), InputError);
     BOOST_CHECK_THROW(scaleFromPoints({}, {}, 0, 0.3), InputError);
     BOOST_CHECK_THROW(scaleFromPoints({}, {}, 0.1, 6.5), InputError);
-    StopAt stop(0);
+    StopOnce stop(0);
     BOOST_CHECK_THROW(scaleFromPoints(points, {1.0F, 1.0F, 1.0F}, 0.1, 0.3, &stop), Cancelled);
 }
 
@@ -324,9 +324,9 @@ BOOST_AUTO_TEST_CASE(bad_input_is_refused)
     refused({nullptr, {sphereRegion(Vec3d(0), 5, std::nan(""))}}, options);
     refused({nullptr, {sphereRegion(Vec3d(0), -5, 0.5)}}, options);
     refused({nullptr, {boxRegion(Vec3d(0), Vec3d(std::numeric_limits<double>::infinity()), 0.5)}}, options);
-    refused({nullptr, {sphereRegion(Vec3d(0), 5, 0.5)}}, {4, 4, Element::cube});
-    refused({nullptr, {sphereRegion(Vec3d(0), 5, 0.5)}}, {4, 5, Element::sphere});
-    refused({nullptr, {sphereRegion(Vec3d(0), 5000, 8)}}, {100, 100, Element::sphere});
+    refused({nullptr, {sphereRegion(Vec3d(0), 5, 0.5)}}, {4, 4, StructuringElement::cube});
+    refused({nullptr, {sphereRegion(Vec3d(0), 5, 0.5)}}, {4, 5, StructuringElement::sphere});
+    refused({nullptr, {sphereRegion(Vec3d(0), 5000, 8)}}, {100, 100, StructuringElement::sphere});
     auto field = FloatGrid::create(1.0F);
     field->tree().setValue(Coord(0), std::numeric_limits<float>::infinity());
     refused({field, {}}, options);
@@ -346,13 +346,13 @@ BOOST_AUTO_TEST_CASE(stops_at_any_check)
 {
     const auto grid = toGrid(randomBlobs(cubeAt(Coord(-6), 12), 9));
     const ScaleField scale{nullptr, {sphereRegion(Vec3d(0), 5, 0.5)}};
-    const CloseOptions options{3, 3, Element::sphere};
-    StopAt never(-1);
+    const CloseOptions options{3, 3, StructuringElement::sphere};
+    StopOnce never(-1);
     closeMask(*grid, options, scale, &never);
     BOOST_TEST(!never.outOfRange);
     BOOST_TEST(never.checks > 10);
     for (int k = 0; k < never.checks; ++k) {
-        StopAt stop(k);
+        StopOnce stop(k);
         BOOST_CHECK_THROW(closeMask(*grid, options, scale, &stop), Cancelled);
     }
 }

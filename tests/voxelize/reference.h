@@ -101,7 +101,7 @@ struct Reference {
             const Vector centre = {Int128(ijk.x()) * detail::latticeStep, Int128(ijk.y()) * detail::latticeStep,
                                    Int128(ijk.z()) * detail::latticeStep};
             const auto touched = [&](const Triangle& t) {
-                return near(t, centre) && touches(t, centre, detail::latticeReach);
+                return near(t, centre) && touches(t, centre, detail::latticeBound);
             };
             surface[i] = std::any_of(counted.begin(), counted.end(), touched) ||
                          std::any_of(others.begin(), others.end(), touched);

@@ -103,7 +103,7 @@ Json measure(const std::string& model, int resolution, int radius, const CageOpt
     VoxelizeOptions voxels;
     voxels.resolution = resolution;
     const auto solid = voxelize(readMesh(model), voxels);
-    const Element element = shape.element;
+    const StructuringElement element = shape.element;
     const double r = radius;
     MaskGrid::Ptr dilated, closed;
     const double memory = memoryPeak([&] { closed = closeMask(*solid, {r, r, element}); });
@@ -111,7 +111,7 @@ Json measure(const std::string& model, int resolution, int radius, const CageOpt
     Json line{{"model", model},
               {"resolution", resolution},
               {"radius_voxels", radius},
-              {"element", element == Element::sphere ? "sphere" : "cube"},
+              {"element", element == StructuringElement::sphere ? "sphere" : "cube"},
               {"threads", tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism)},
               {"solid_voxels", solid->activeVoxelCount()},
               {"closed_voxels", closed->activeVoxelCount()},
@@ -121,10 +121,11 @@ Json measure(const std::string& model, int resolution, int radius, const CageOpt
     line["closing"] = toJson(ours);
     line["closing"]["memory_peak_mib"] = memory;
     // The cube's closing makes no tree of the dilation.
-    const double trees = mebibytes(closed->tree()) + (element == Element::sphere ? mebibytes(dilated->tree()) : 0);
+    const double trees =
+        mebibytes(closed->tree()) + (element == StructuringElement::sphere ? mebibytes(dilated->tree()) : 0);
     line["closing"]["memory_peak_beyond_trees_mib"] = memory - trees;
     line["interrupter"] = largestGap(runs, [&](GapClock& clock) { return closeMask(*solid, {r, r, element}, &clock); });
-    if (element == Element::sphere && (shape.scale.grid || !shape.scale.regions.empty())) {
+    if (element == StructuringElement::sphere && (shape.scale.grid || !shape.scale.regions.empty())) {
         const auto close = [&](Interrupter* watcher) {
             return closeMask(*solid, {r, r, element}, shape.scale, watcher);
         };
@@ -137,8 +138,8 @@ Json measure(const std::string& model, int resolution, int radius, const CageOpt
     Cost theirs;
     const double theirMemory = memoryPeak([&] {
         theirs = leastCost(1, [&] {
-            other = element == Element::sphere ? closeByDenseDistances(solid->tree(), radius)
-                                               : closeByRepetition(solid->tree(), radius);
+            other = element == StructuringElement::sphere ? closeByDenseDistances(solid->tree(), radius)
+                                                          : closeByRepetition(solid->tree(), radius);
         });
     });
     MaskTree difference(*other);

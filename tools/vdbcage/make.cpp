@@ -10,7 +10,7 @@
 #include <vdbcage/core/version.h>
 #include <vdbcage/mesh/mesh_io.h>
 #include <vdbcage/pipeline/pipeline.h>
-#include <vdbcage/volume/contour.h>
+#include <vdbcage/volume/boundary_voxels.h>
 #include <vdbcage/volume/morphology.h>
 #include <vdbcage/volume/vdb_io.h>
 
@@ -76,8 +76,8 @@ void addStages(const Pipeline& pipeline, const MakeArguments& arguments, Interru
         metadata["option_" + key] = option.second;
     }
     const double radius = pipeline.report().closeRadius * pipeline.report().resolution;
-    const auto dilated = arguments.options.element == Element::cube
-                             ? dilate(*pipeline.solid(), radius, Element::cube, interrupter)
+    const auto dilated = arguments.options.element == StructuringElement::cube
+                             ? dilate(*pipeline.solid(), radius, StructuringElement::cube, interrupter)
                              : dilate(*pipeline.solid(), radius, arguments.options.scale, interrupter);
     const auto border = contour(*pipeline.closed(), interrupter);
     const std::array<const openvdb::MaskGrid*, volumeStages.size()> volumes{pipeline.solid().get(), dilated.get(),

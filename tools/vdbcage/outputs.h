@@ -7,7 +7,7 @@
 #include <tuple>
 #include <vector>
 
-#include <vdbcage/core/atomic_file.h>
+#include <vdbcage/core/detail/atomic_file.h>
 
 #include "interrupt.h"
 

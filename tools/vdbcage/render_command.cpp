@@ -6,7 +6,7 @@
 #include <vdbcage/core/error.h>
 #include <vdbcage/deform/binding.h>
 #include <vdbcage/mesh/mesh_io.h>
-#include <vdbcage/surface/extract.h>
+#include <vdbcage/volume/extract.h>
 #include <vdbcage/volume/vdb_io.h>
 
 #include "commands.h"

@@ -25,7 +25,7 @@ struct CageCheck {
     long genus = 0;                      ///< sum over the components; only meaningful if closed and manifold
     std::size_t boundaryEdges = 0;       ///< edges with one face
     std::size_t nonManifoldEdges = 0;    ///< edges with more than two faces
-    std::size_t nonManifoldVertices = 0; ///< vertices whose faces form more than one fan
+    std::size_t nonManifoldVertices = 0; ///< vertices whose faces form more than one umbrella
     std::size_t misorientedEdges = 0;    ///< edges whose two faces run along them in the same direction
     /// Components whose volume is not positive for some choice of diagonals; those with a boundary or a misoriented
     /// edge have no volume and are not counted.

@@ -12,8 +12,8 @@
 namespace vdbcage {
 
 /// OpenVDB's interrupter: `start(name)` and `end()` bracket a stage (called from the caller's thread, never nested),
-/// `wasInterrupted(percent)` may be called from any thread at any time and answers true to cancel. Every function of
-/// the library takes one as its last pointer; null means nobody watches. `end` is called while exceptions are on their
+/// `wasInterrupted(percent)` may be called from any thread at any time and answers true to cancel. Every long
+/// function of the library takes one; null means nobody watches. `end` is called while exceptions are on their
 /// way: it must not throw.
 using Interrupter = openvdb::util::NullInterrupter;
 

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include <tbb/blocked_range.h>
+#include <vdbcage/core/detail/number_text.h>
 #include <vdbcage/core/detail/parallel.h>
 #include <vdbcage/core/error.h>
 #include <vdbcage/deform/detail/bound_cage.h>
@@ -18,7 +19,6 @@
 #include <vdbcage/deform/detail/likelihood.h>
 #include <vdbcage/deform/detail/mean_value.h>
 #include <vdbcage/deform/detail/weight_blocks.h>
-#include <vdbcage/mesh/detail/number_text.h>
 
 namespace vdbcage {
 
@@ -35,7 +35,7 @@ struct Family {
 
 constexpr std::array<Family, 3> families{{{Coordinates::meanValue, "mvc", "qmvc", detail::meanValueRow},
                                           {Coordinates::green, "green", "qgc", detail::greenRow},
-                                          {Coordinates::likelihood, "mlc", "mlc", detail::likelihoodRow}}};
+                                          {Coordinates::maximumLikelihood, "mlc", "mlc", detail::likelihoodRow}}};
 
 const Family& entry(Coordinates family)
 {

@@ -29,7 +29,7 @@ enum class Coordinates {
     /// volume mesh, and so keep the rest pose and affine maps exactly at every point. Inside and on the cage, which
     /// they
     /// interpolate; an error outside.
-    likelihood,
+    maximumLikelihood,
 };
 
 /// "mvc", "green" or "mlc".

@@ -10,7 +10,7 @@
 #include <string>
 #include <system_error>
 
-#include <vdbcage/core/atomic_file.h>
+#include <vdbcage/core/detail/atomic_file.h>
 #include <vdbcage/core/detail/read_file.h>
 #include <vdbcage/core/error.h>
 #include <vdbcage/deform/detail/weight_blocks.h>

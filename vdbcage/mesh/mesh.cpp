@@ -3,9 +3,9 @@
 #include <cmath>
 #include <string>
 
+#include <vdbcage/core/detail/number_text.h>
 #include <vdbcage/core/error.h>
 #include <vdbcage/mesh/detail/degenerate.h>
-#include <vdbcage/mesh/detail/number_text.h>
 
 namespace vdbcage {
 

@@ -8,11 +8,11 @@
 #include <system_error>
 #include <utility>
 
-#include <vdbcage/core/atomic_file.h>
+#include <vdbcage/core/detail/atomic_file.h>
 #include <vdbcage/core/detail/read_file.h>
 #include <vdbcage/core/error.h>
-#include <vdbcage/mesh/detail/formats.h>
-#include <vdbcage/mesh/detail/moved_obj.h>
+#include <vdbcage/mesh/io/formats.h>
+#include <vdbcage/mesh/io/moved_obj.h>
 
 namespace vdbcage {
 

@@ -14,14 +14,14 @@
 
 #include <vdbcage/core/detail/parallel.h>
 #include <vdbcage/core/error.h>
-#include <vdbcage/mesh/detail/triangle_tree.h>
+#include <vdbcage/geometry/triangle_bvh.h>
 
 namespace vdbcage {
 
 namespace {
 
 using detail::Corners;
-using detail::TriangleTree;
+using detail::TriangleBvh;
 using openvdb::Vec3d;
 
 /// A model as a tree, in units of its longest side from the middle of its box.
@@ -38,7 +38,7 @@ public:
         for (const Vec3d& p : model.points) points.push_back((p - centre_) / side_);
         const std::vector<Vec3I> triangles = triangulate(model);
         takeSamples(points, triangles);
-        tree_ = TriangleTree(std::move(points), triangles, interrupter, TriangleTree::Copies::drop);
+        tree_ = TriangleBvh(std::move(points), triangles, interrupter, TriangleBvh::Copies::drop);
     }
 
     Symmetry best(int axis) const
@@ -106,7 +106,7 @@ private:
         detail::parallelFor(std::size_t(0), samples_.size(), [&](std::size_t i) {
             Vec3d image = samples_[i];
             image[axis] = 2 * offset - image[axis];
-            const TriangleTree::Closest closest = tree_.closest(image);
+            const TriangleBvh::Closest closest = tree_.closest(image);
             distances[i] = std::sqrt(closest.squaredDistance);
             const Corners t = tree_.corners(tree_.items()[closest.item]);
             Vec3d normal = (t[1] - t[0]).cross(t[2] - t[0]);
@@ -129,7 +129,7 @@ private:
     double side_ = 1;
     Vec3d centre_{0.0};
     std::vector<Vec3d> samples_;
-    TriangleTree tree_;
+    TriangleBvh tree_;
 };
 
 } // namespace

@@ -6,7 +6,7 @@
 
 #include <tbb/blocked_range.h>
 #include <vdbcage/core/detail/parallel.h>
-#include <vdbcage/mesh/detail/union_find.h>
+#include <vdbcage/geometry/union_find.h>
 
 namespace vdbcage {
 
@@ -55,7 +55,7 @@ struct CornersOfPoints {
 };
 
 // A corner's edge to a neighbour of the vertex under examination.
-struct Spoke {
+struct IncidentEdge {
     Index neighbour;
     Index corner; // counted within the vertex
     bool outward; // the face runs from the vertex to the neighbour
@@ -87,45 +87,46 @@ public:
     {
     }
 
-    // Edges are counted at their end with the smaller index; fans at every vertex.
+    // Edges are counted at their end with the smaller index; umbrellas at every vertex.
     void examine(Index vertex, Counts& counts)
     {
         const std::size_t begin = ofPoints_.first[vertex], count = ofPoints_.first[vertex + 1] - begin;
         if (count == 0) return;
         ++counts.vertices;
-        spokes_.clear();
-        fans_.resize(count);
+        incidentEdges_.clear();
+        umbrellas_.resize(count);
         for (Index i = 0; i < count; ++i) {
-            fans_[i] = i;
+            umbrellas_[i] = i;
             const std::size_t corner = ofPoints_.corners[begin + i];
             const Index next = corners_.next(corner), previous = corners_.previous(corner);
-            if (next != vertex) spokes_.push_back({next, i, true});
-            if (previous != vertex) spokes_.push_back({previous, i, false});
+            if (next != vertex) incidentEdges_.push_back({next, i, true});
+            if (previous != vertex) incidentEdges_.push_back({previous, i, false});
         }
-        std::sort(spokes_.begin(), spokes_.end(),
-                  [](const Spoke& a, const Spoke& b) { return a.neighbour < b.neighbour; });
-        for (std::size_t i = 0, end; i < spokes_.size(); i = end) {
-            const Index first = spokes_[i].corner;
+        std::sort(incidentEdges_.begin(), incidentEdges_.end(),
+                  [](const IncidentEdge& a, const IncidentEdge& b) { return a.neighbour < b.neighbour; });
+        for (std::size_t i = 0, end; i < incidentEdges_.size(); i = end) {
+            const Index first = incidentEdges_[i].corner;
             std::size_t out = 0;
-            for (end = i; end < spokes_.size() && spokes_[end].neighbour == spokes_[i].neighbour; ++end) {
-                if (spokes_[end].outward) ++out;
-                fans_[root(spokes_[end].corner)] = root(first);
-                if (vertex < spokes_[i].neighbour) {
-                    faces_.sets.unite(face(begin, first), face(begin, spokes_[end].corner));
+            for (end = i; end < incidentEdges_.size() && incidentEdges_[end].neighbour == incidentEdges_[i].neighbour;
+                 ++end) {
+                if (incidentEdges_[end].outward) ++out;
+                umbrellas_[root(incidentEdges_[end].corner)] = root(first);
+                if (vertex < incidentEdges_[i].neighbour) {
+                    faces_.sets.unite(face(begin, first), face(begin, incidentEdges_[end].corner));
                 }
             }
-            if (vertex < spokes_[i].neighbour) countEdge(end - i, out, face(begin, first), counts);
+            if (vertex < incidentEdges_[i].neighbour) countEdge(end - i, out, face(begin, first), counts);
         }
-        std::size_t fans = 0;
-        for (Index i = 0; i < count; ++i) fans += fans_[i] == i ? 1 : 0;
-        if (fans > 1) ++counts.nonManifoldVertices;
+        std::size_t umbrellas = 0;
+        for (Index i = 0; i < count; ++i) umbrellas += umbrellas_[i] == i ? 1 : 0;
+        if (umbrellas > 1) ++counts.nonManifoldVertices;
     }
 
 private:
     Index face(std::size_t begin, Index corner) const { return corners_.face(ofPoints_.corners[begin + corner]); }
     Index root(Index i)
     {
-        while (fans_[i] != i) i = fans_[i] = fans_[fans_[i]];
+        while (umbrellas_[i] != i) i = umbrellas_[i] = umbrellas_[umbrellas_[i]];
         return i;
     }
     void countEdge(std::size_t uses, std::size_t out, Index face, Counts& counts)
@@ -140,8 +141,8 @@ private:
     const Corners& corners_;
     const CornersOfPoints& ofPoints_;
     FaceFacts& faces_;
-    std::vector<Spoke> spokes_;
-    std::vector<Index> fans_; // a union-find over the vertex's corners
+    std::vector<IncidentEdge> incidentEdges_;
+    std::vector<Index> umbrellas_; // a union-find over the vertex's corners
 };
 
 } // namespace

@@ -20,7 +20,7 @@ struct MeshTopology {
     std::size_t boundaryEdges = 0;       ///< edges with one face
     std::size_t nonManifoldEdges = 0;    ///< edges with more than two faces
     std::size_t misorientedEdges = 0;    ///< edges whose two faces run along them in the same direction
-    std::size_t nonManifoldVertices = 0; ///< vertices whose faces form more than one fan
+    std::size_t nonManifoldVertices = 0; ///< vertices whose faces form more than one umbrella
 
     /// For each face its component (connected over edges); components are numbered by their first face.
     std::vector<std::uint32_t> faceComponent;

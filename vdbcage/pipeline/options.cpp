@@ -12,11 +12,11 @@ namespace vdbcage {
 namespace {
 
 /// The names of an enumeration's values, in the order of the help; found by the type of a (null) value.
-using ElementNames = std::vector<std::pair<const char*, Element>>;
+using ElementNames = std::vector<std::pair<const char*, StructuringElement>>;
 
-const ElementNames& names(Element /*type*/)
+const ElementNames& names(StructuringElement /*type*/)
 {
-    static const ElementNames list{{"sphere", Element::sphere}, {"cube", Element::cube}};
+    static const ElementNames list{{"sphere", StructuringElement::sphere}, {"cube", StructuringElement::cube}};
     return list;
 }
 
@@ -262,7 +262,7 @@ void requireValid(const CageOptions& options)
         throw InputError("--symmetry: '" + ToText{}(options.symmetry) +
                          "' is not allowed with --bounding off; it must be auto or off");
     }
-    if (options.element != Element::sphere && ToText{}(options.scale) != "none") {
+    if (options.element != StructuringElement::sphere && ToText{}(options.scale) != "none") {
         throw InputError("--scale-field: '" + ToText{}(options.scale) +
                          "' is not allowed with --element cube; it must be none, or the element sphere");
     }

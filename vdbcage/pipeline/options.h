@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include <vdbcage/bounding/effort.h>
 #include <vdbcage/core/export.h>
-#include <vdbcage/surface/effort.h>
 #include <vdbcage/volume/morphology.h>
 #include <vdbcage/volume/scale_field.h>
 #include <vdbcage/voxelize/voxelize.h>
@@ -36,11 +36,11 @@ enum class CageSymmetry {
 
 /// Everything that decides how a cage comes out. Lengths are fractions of the model's longest side.
 struct CageOptions {
-    int faces = 400;                            ///< faces of the cage, at most; a quad counts once
-    std::optional<int> resolution;              ///< voxels along the model's longest side; unset: by the faces
-    std::optional<double> closeRadius;          ///< gaps up to twice this wide are bridged; unset: as the faces allow
-    std::optional<double> erodeRadius;          ///< at most the close radius, which must be set; unset: equal to it
-    Element element = Element::sphere;          ///< structuring element of the closing
+    int faces = 400;                   ///< faces of the cage, at most; a quad counts once
+    std::optional<int> resolution;     ///< voxels along the model's longest side; unset: by the faces
+    std::optional<double> closeRadius; ///< gaps up to twice this wide are bridged; unset: as the faces allow
+    std::optional<double> erodeRadius; ///< at most the close radius, which must be set; unset: equal to it
+    StructuringElement element = StructuringElement::sphere; ///< structuring element of the closing
     ScaleField scale;                           ///< what the close radius is multiplied by in places; for the sphere
     int smooth = 0;                             ///< sweeps of smoothing at the end: rounder, and less tight, with more
     CageParts parts = CageParts::keep;          ///< what becomes of separate parts of the closing
@@ -54,15 +54,11 @@ struct CageOptions {
     bool bounding = true;                       ///< only ever give a cage certified to bound the model
 };
 
-/// The stages of the pipeline in order; each option belongs to the first stage that depends on it.
-enum class PipelineStage { voxelize, close, decimate, merge };
-
 /// What is known of an option beside its value: one entry serves flags, help, range checks, README and metadata.
 struct OptionInfo {
-    const char* name;   ///< lower case with dashes: the flag without its leading dashes
-    const char* symbol; ///< stands for a number in the help ("N"); empty for names out of a list
-    const char* help;   ///< one line
-    PipelineStage stage;
+    const char* name;           ///< lower case with dashes: the flag without its leading dashes
+    const char* symbol;         ///< stands for a number in the help ("N"); empty for names out of a list
+    const char* help;           ///< one line
     double least = 0, most = 0; ///< allowed range of a number, ends included
 };
 
@@ -70,24 +66,22 @@ struct OptionInfo {
 template <typename Options, typename Visit>
 void visitOptions(Options& options, Visit&& visit)
 {
-    using In = PipelineStage;
-    visit(OptionInfo{"faces", "N", "faces of the cage, at most", In::decimate, 12, 1000000}, options.faces);
-    visit(OptionInfo{"resolution", "N", "voxels along the longest side", In::voxelize, 8, 2048}, options.resolution);
-    visit(OptionInfo{"close-radius", "F", "bridges gaps up to twice it", In::close, 0, 0.25}, options.closeRadius);
-    visit(OptionInfo{"erode-radius", "F", "if less, leaves an offset", In::close, 0, 0.25}, options.erodeRadius);
-    visit(OptionInfo{"element", "", "shape of the closing", In::close}, options.element);
-    visit(OptionInfo{"scale-field", "FILE.vdb|REGION", "multiplies the close radius in places", In::close},
-          options.scale);
-    visit(OptionInfo{"smooth", "K", "rounds it off: 0 is tightest", In::decimate, 0, 100}, options.smooth);
-    visit(OptionInfo{"parts", "", "separate parts of the closing", In::decimate}, options.parts);
-    visit(OptionInfo{"mesh", "", "faces of the cage", In::merge}, options.mesh);
-    visit(OptionInfo{"merge-angle", "DEG", "largest fold of a quad", In::merge, 0, 180}, options.mergeAngle);
-    visit(OptionInfo{"symmetry", "", "symmetric cages of symmetric models", In::voxelize}, options.symmetry);
-    visit(OptionInfo{"voxelizer", "", "what makes the voxels", In::voxelize}, options.voxelizer);
-    visit(OptionInfo{"bounding", "", "only ever a certified cage", In::decimate}, options.bounding);
-    visit(OptionInfo{"clearance", "F", "least distance to model", In::decimate, 1e-7, 0.1}, options.clearance);
-    visit(OptionInfo{"min-angle", "DEG", "floor for triangle angles", In::decimate, 0, 30}, options.minAngle);
-    visit(OptionInfo{"effort", "", "time against tightness", In::decimate}, options.effort);
+    visit(OptionInfo{"faces", "N", "faces of the cage, at most", 12, 1000000}, options.faces);
+    visit(OptionInfo{"resolution", "N", "voxels along the longest side", 8, 2048}, options.resolution);
+    visit(OptionInfo{"close-radius", "F", "bridges gaps up to twice it", 0, 0.25}, options.closeRadius);
+    visit(OptionInfo{"erode-radius", "F", "if less, leaves an offset", 0, 0.25}, options.erodeRadius);
+    visit(OptionInfo{"element", "", "shape of the closing"}, options.element);
+    visit(OptionInfo{"scale-field", "FILE.vdb|REGION", "multiplies the close radius in places"}, options.scale);
+    visit(OptionInfo{"smooth", "K", "rounds it off: 0 is tightest", 0, 100}, options.smooth);
+    visit(OptionInfo{"parts", "", "separate parts of the closing"}, options.parts);
+    visit(OptionInfo{"mesh", "", "faces of the cage"}, options.mesh);
+    visit(OptionInfo{"merge-angle", "DEG", "largest fold of a quad", 0, 180}, options.mergeAngle);
+    visit(OptionInfo{"symmetry", "", "symmetric cages of symmetric models"}, options.symmetry);
+    visit(OptionInfo{"voxelizer", "", "what makes the voxels"}, options.voxelizer);
+    visit(OptionInfo{"bounding", "", "only ever a certified cage"}, options.bounding);
+    visit(OptionInfo{"clearance", "F", "least distance to model", 1e-7, 0.1}, options.clearance);
+    visit(OptionInfo{"min-angle", "DEG", "floor for triangle angles", 0, 30}, options.minAngle);
+    visit(OptionInfo{"effort", "", "time against tightness"}, options.effort);
 }
 
 /// An option in words, for help and tables.

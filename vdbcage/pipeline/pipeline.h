@@ -67,12 +67,13 @@ public:
     Pipeline(Pipeline&&) noexcept;
     Pipeline& operator=(Pipeline&&) noexcept;
 
-    /// Makes the cage for `options` and returns it; valid until the next run. If it throws, the intermediates and the
-    /// cage of the run before may be gone, but the pipeline can run again.
-    /// Stages reported to `interrupter`: symmetry, guard (bounding only), voxelize, close, surface, smooth (bounding
-    /// off only), decimate, tighten (bounding only), certify; some more than once. The cage can have fewer faces than
-    /// asked, and more only where the topology of the closing does not allow fewer and `bounding` is off. \throw
-    /// InputError, DeviceError, Cancelled
+    /// Makes the cage for `options` and returns it; valid until the next run. A run that throws leaves the cage and the
+    /// intermediates of the last one that did not.
+    ///
+    /// Stages reported to `interrupter`, some more than once: symmetry, guard, voxelize, close, surface, decimate,
+    /// tighten or quads, smooth, near-coplanar, certify. The cage can have fewer faces than asked. It has more only
+    /// where the topology of the closing does not allow fewer and `bounding` is off.
+    /// \throw InputError, DeviceError, Cancelled
     const Mesh& run(const CageOptions& options, Interrupter* interrupter = nullptr);
 
     const Mesh& model() const;
@@ -86,8 +87,8 @@ public:
     const CageReport& report() const;
 
 private:
-    class Stages;
-    std::unique_ptr<Stages> stages_;
+    class Impl;
+    std::unique_ptr<Impl> impl_;
 };
 
 /// One model, one cage: Pipeline(model).run(options). What most callers need. \throw InputError, DeviceError, Cancelled

@@ -11,8 +11,8 @@
 
 #include <tbb/blocked_range.h>
 #include <vdbcage/core/detail/parallel.h>
+#include <vdbcage/geometry/quadric.h>
 #include <vdbcage/mesh/detail/open_mesh.h>
-#include <vdbcage/surface/detail/quadric.h>
 
 namespace vdbcage {
 
@@ -47,7 +47,7 @@ double quality(const Vec3d& a, const Vec3d& b, const Vec3d& c, double doubledAre
     return edges > 0 ? 2 * std::sqrt(3.0) * doubledArea / edges : 0;
 }
 
-/// The least cosine between the normals of each triangle and the next of a fan.
+/// The least cosine between the normals of each triangle and the next of a star.
 struct Fold {
     double sharpest = 1;
 
@@ -199,7 +199,7 @@ void Decimation::addQuadrics(Quadric& sum, HalfEdge outgoing) const
 void Decimation::initQuadrics(Interrupter* interrupter)
 {
     quadrics_.resize(places_.size());
-    // Each vertex gathers for itself, in the order of its fan: the same sums for any number of threads.
+    // Each vertex gathers for itself, in the order of its star: the same sums for any number of threads.
     detail::parallelFor(tbb::blocked_range<std::size_t>(0, places_.size(), 1024), [&](const auto& range) {
         throwIfInterrupted(interrupter, 0);
         for (std::size_t i = range.begin(); i != range.end(); ++i) {
@@ -275,34 +275,34 @@ bool Decimation::shapeAround(HalfEdge halfEdge, const Vec3d& place, double& wors
     bool good = true;
     // Around the origin from one apex of the edge to the other, and back around the target: this is the order of the
     // triangles in the star that the collapse makes, so each shares an edge with the one before.
-    Fold spokesBefore, spokesAfter;
+    Fold incidentEdgesBefore, incidentEdgesAfter;
     for (const HalfEdge first : {halfEdge, mesh_.opposite_halfedge_handle(halfEdge)}) {
         const Vertex other = mesh_.to_vertex_handle(first);
         const Vec3d& p = at(mesh_.from_vertex_handle(first));
         forEachOutgoing(first, [&](HalfEdge outgoing) {
             if (!good) return;
             if (mesh_.is_boundary(outgoing)) {
-                spokesBefore.restart();
-                spokesAfter.restart();
+                incidentEdgesBefore.restart();
+                incidentEdgesAfter.restart();
                 return;
             }
-            const HalfEdge rim = mesh_.next_halfedge_handle(outgoing);
-            const Vertex left = mesh_.to_vertex_handle(outgoing), right = mesh_.to_vertex_handle(rim);
+            const HalfEdge link = mesh_.next_halfedge_handle(outgoing);
+            const Vertex left = mesh_.to_vertex_handle(outgoing), right = mesh_.to_vertex_handle(link);
             const Vec3d &a = at(left), &b = at(right);
             const Vec3d before = (a - p).cross(b - p);
             const double areaBefore = before.length();
-            spokesBefore.add(before, areaBefore);
+            incidentEdgesBefore.add(before, areaBefore);
             if (left == other || right == other) return; // this one vanishes
             const Vec3d after = (a - place).cross(b - place);
             const double areaAfter = after.length();
-            spokesAfter.add(after, areaAfter);
+            incidentEdgesAfter.add(after, areaAfter);
             const double qualityBefore = quality(p, a, b, areaBefore), qualityAfter = quality(place, a, b, areaAfter);
             worstBefore = std::min(worstBefore, qualityBefore);
             worstAfter = std::min(worstAfter, qualityAfter);
             good = before.dot(after) >= limits.turn * areaBefore * areaAfter &&
                    (qualityAfter >= limits.quality || qualityAfter > qualityBefore);
-            // The neighbour across the rim stays; the triangle must not fold onto it.
-            const HalfEdge outer = mesh_.opposite_halfedge_handle(rim);
+            // The neighbour across the link stays; the triangle must not fold onto it.
+            const HalfEdge outer = mesh_.opposite_halfedge_handle(link);
             if (!good || mesh_.is_boundary(outer)) return;
             const Vec3d& c = at(mesh_.to_vertex_handle(mesh_.next_halfedge_handle(outer)));
             const Vec3d beyond = (b - c).cross(a - c);
@@ -311,8 +311,8 @@ bool Decimation::shapeAround(HalfEdge halfEdge, const Vec3d& place, double& wors
         });
         if (!good) return false;
     }
-    spokesAfter.close();
-    return spokesAfter.sharpest >= std::min(limits.fold, spokesBefore.sharpest);
+    incidentEdgesAfter.close();
+    return incidentEdgesAfter.sharpest >= std::min(limits.fold, incidentEdgesBefore.sharpest);
 }
 
 /// Whether the collapse to collapse.place is permitted at this level; works out its cost. Every veto belongs here.
@@ -364,8 +364,8 @@ void Decimation::apply(const Collapse& collapse)
     mesh_.set_point(kept, detail::fromVec3d(collapse.place * scale_ + centre_));
     mesh_.collapse(collapse.halfEdge);
     // Bounds of edges near by still hold: quadrics only grow. What was priced or blocked gets another chance.
-    forEachOutgoing(kept, [&](HalfEdge spoke) {
-        forEachOutgoing(mesh_.to_vertex_handle(spoke),
+    forEachOutgoing(kept, [&](HalfEdge edge) {
+        forEachOutgoing(mesh_.to_vertex_handle(edge),
                         [&](HalfEdge outgoing) { reconsider(mesh_.edge_handle(outgoing)); });
     });
 }

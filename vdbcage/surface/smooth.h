@@ -3,7 +3,6 @@
 #include <vdbcage/core/export.h>
 #include <vdbcage/core/interrupter.h>
 #include <vdbcage/mesh/mesh.h>
-#include <vdbcage/surface/bounding_guard.h>
 
 namespace vdbcage {
 
@@ -18,13 +17,5 @@ struct SmoothOptions {
 /// \throw InputError (an option out of range; no usable face), Cancelled
 /// Based on: Vollmer, Mencl, Muller, Improved Laplacian Smoothing of Noisy Surface Meshes, 1999.
 VDBCAGE_API Mesh smooth(const Mesh& surface, const SmoothOptions& options = {}, Interrupter* interrupter = nullptr);
-
-/// Rounds off a surface that bounds `guard`'s model and keeps it so: `sweeps` (0 to 100) of HC Laplacian smoothing,
-/// each vertex moved as far as the guard allows, so mostly outward where the surface is tight. Vertex order stays;
-/// quads count under both diagonals, and are split where one does not bound. TBB-parallel, same result for any number
-/// of threads. \pre `surface` is closed, 2-manifold and bounds the model with the guard's clearance \throw InputError
-/// (sweeps; not closed and 2-manifold), Cancelled
-VDBCAGE_API Mesh smooth(const Mesh& surface, const BoundingGuard& guard, int sweeps,
-                        Interrupter* interrupter = nullptr);
 
 } // namespace vdbcage

@@ -8,7 +8,7 @@
 #include <tuple>
 
 #include <vdbcage/core/error.h>
-#include <vdbcage/surface/detail/quad_shape.h>
+#include <vdbcage/geometry/quad_shape.h>
 
 namespace vdbcage {
 

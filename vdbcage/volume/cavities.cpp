@@ -1,5 +1,5 @@
 // Connected components of the inactive voxels by union-find, on the tree's own nodes: a voxel component of a leaf, an
-// empty slot, a run of empty blocks along x. Lines of blocks without any node belong to the outside as wholes.
+// empty entry, a run of empty blocks along x. Lines of blocks without any node belong to the outside as wholes.
 #include <vdbcage/volume/cavities.h>
 
 #include <algorithm>
@@ -49,7 +49,7 @@ private:
     std::vector<std::uint32_t> parent_;
 };
 
-// The bits of `space` that are face-connected, within the slot, to those of `seed`.
+// The bits of `space` that are face-connected, within the entry, to those of `seed`.
 Words flood(Words seed, const Words& space)
 {
     constexpr std::uint64_t firstZ = 0x0101010101010101ULL, lastZ = firstZ << 7;
@@ -73,7 +73,7 @@ Words flood(Words seed, const Words& space)
     }
 }
 
-// The bits on one face of a slot, where the two faces that meet have the same places: a byte a row, so that they are
+// The bits on one face of a entry, where the two faces that meet have the same places: a byte a row, so that they are
 // compared with one `and`.
 std::uint64_t faceBits(const std::uint64_t* words, int axis, bool upper)
 {
@@ -89,22 +89,22 @@ std::uint64_t faceBits(const std::uint64_t* words, int axis, bool upper)
     return bits;
 }
 
-// The empty space of one block that is a node: pieces (empty slots, components of leaves), each with its component.
+// The empty space of one block that is a node: pieces (empty entries, components of leaves), each with its component.
 class BlockSpace {
 public:
-    explicit BlockSpace(const MaskBlock& node) : origin_(node.origin()), block_(&node), first_(slotsPerBlock + 1)
+    explicit BlockSpace(const LowerNode& node) : origin_(node.origin()), block_(&node), first_(entriesPerBlock + 1)
     {
-        for (int n = 0; n < slotsPerBlock; ++n) {
+        for (int n = 0; n < entriesPerBlock; ++n) {
             first_[static_cast<std::size_t>(n)] = static_cast<std::uint32_t>(pieces_.size());
-            addPieces(block_.slot(n));
+            addPieces(block_.entry(n));
         }
         first_.back() = static_cast<std::uint32_t>(pieces_.size());
         UnionFind components(pieces_.size());
         const auto unite = [&](std::uint32_t a, std::uint32_t b) { components.unite(a, b); };
-        for (int n = 0; n < slotsPerBlock; ++n) {
+        for (int n = 0; n < entriesPerBlock; ++n) {
             for (const int axis : {0, 1, 2}) {
                 const int step = 256 >> (4 * axis);
-                if ((n / step) % slotsPerAxis + 1 < slotsPerAxis) forEachContact(n, *this, n + step, axis, unite);
+                if ((n / step) % entriesPerAxis + 1 < entriesPerAxis) forEachContact(n, *this, n + step, axis, unite);
             }
         }
         // Numbered in the order of their first piece.
@@ -118,7 +118,7 @@ public:
     const Coord& origin() const { return origin_; }
     std::uint32_t componentCount() const { return count_; }
 
-    /// Calls visit(own piece, other piece) where slot n here and slot m of `other`, next along `axis`, connect.
+    /// Calls visit(own piece, other piece) where entry n here and entry m of `other`, next along `axis`, connect.
     template <class Visit>
     void forEachContact(int n, const BlockSpace& other, int m, int axis, const Visit& visit) const
     {
@@ -134,8 +134,8 @@ public:
     void forEachOnSide(int axis, bool upper, const Visit& visit) const
     {
         const int step = 256 >> (4 * axis);
-        for (int n = 0; n < slotsPerBlock; ++n) {
-            if ((n / step) % slotsPerAxis != (upper ? slotsPerAxis - 1 : 0)) continue;
+        for (int n = 0; n < entriesPerBlock; ++n) {
+            if ((n / step) % entriesPerAxis != (upper ? entriesPerAxis - 1 : 0)) continue;
             for (std::uint32_t i = firstPiece(n); i < firstPiece(n + 1); ++i) {
                 if (faceBits(pieces_[i].data(), axis, upper) != 0) visit(component_[i]);
             }
@@ -148,8 +148,8 @@ public:
     BuiltBlock fill(const IsFilled& isFilled) const
     {
         BlockBuilder builder(origin_);
-        for (int n = 0; n < slotsPerBlock; ++n) {
-            const std::uint64_t* const own = block_.slot(n);
+        for (int n = 0; n < entriesPerBlock; ++n) {
+            const std::uint64_t* const own = block_.entry(n);
             Words words;
             std::copy(own, own + leafSize, words.begin());
             for (std::uint32_t i = firstPiece(n); i < firstPiece(n + 1); ++i) {
@@ -184,7 +184,7 @@ private:
 
     Coord origin_;
     Block block_;
-    std::vector<std::uint32_t> first_; // of each slot's pieces
+    std::vector<std::uint32_t> first_; // of each entry's pieces
     std::vector<Words> pieces_;
     std::vector<std::uint32_t> component_; // of each piece
     std::uint32_t count_ = 0;
@@ -200,10 +200,11 @@ public:
                                                                                            blocks);
         };
         const FullParts full = fullParts(tree);
-        constexpr int perRegion = regionSize / blockSize;
-        for (const Coord& origin : full.regions) {
-            for (int y = 0; y < perRegion; ++y) {
-                for (int z = 0; z < perRegion; ++z) occupy(origin.offsetBy(0, y * blockSize, z * blockSize), perRegion);
+        constexpr int perUpperNode = upperNodeSize / blockSize;
+        for (const Coord& origin : full.upperNodes) {
+            for (int y = 0; y < perUpperNode; ++y) {
+                for (int z = 0; z < perUpperNode; ++z)
+                    occupy(origin.offsetBy(0, y * blockSize, z * blockSize), perUpperNode);
             }
         }
         for (const Coord& origin : full.blocks) occupy(origin, 1);
@@ -287,9 +288,9 @@ private:
 
 std::vector<BlockSpace> nodeSpaces(const MaskTree& tree, Interrupter* interrupter)
 {
-    std::vector<const MaskBlock*> nodes;
-    for (auto region = tree.root().cbeginChildOn(); region; ++region) {
-        for (auto block = region->cbeginChildOn(); block; ++block) nodes.push_back(&*block);
+    std::vector<const LowerNode*> nodes;
+    for (auto upperNode = tree.root().cbeginChildOn(); upperNode; ++upperNode) {
+        for (auto block = upperNode->cbeginChildOn(); block; ++block) nodes.push_back(&*block);
     }
     std::vector<std::unique_ptr<BlockSpace>> built(nodes.size());
     std::atomic<std::size_t> done{0};
@@ -339,9 +340,9 @@ MaskGrid::Ptr fillCavities(const MaskGrid& mask, std::size_t* cavities, Interrup
                     const BlockSpace& a = nodes[i];
                     const BlockSpace& b = nodes[other->second];
                     const int step = 256 >> (4 * axis);
-                    for (int n = 0; n < slotsPerBlock; ++n) {
-                        if ((n / step) % slotsPerAxis != slotsPerAxis - 1) continue;
-                        a.forEachContact(n, b, n - (slotsPerAxis - 1) * step, axis,
+                    for (int n = 0; n < entriesPerBlock; ++n) {
+                        if ((n / step) % entriesPerAxis != entriesPerAxis - 1) continue;
+                        a.forEachContact(n, b, n - (entriesPerAxis - 1) * step, axis,
                                          [&](std::uint32_t p, std::uint32_t q) {
                                              elements.unite(firstElement[i] + a.component(p),
                                                             firstElement[other->second] + b.component(q));

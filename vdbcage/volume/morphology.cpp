@@ -42,21 +42,24 @@ int wholeVoxels(double radius)
     return static_cast<int>(std::floor(radius));
 }
 
-MaskTree::Ptr dilateTree(const MaskTree& mask, double radius, Element element, const detail::Progress& progress)
+MaskTree::Ptr dilateTree(const MaskTree& mask, double radius, StructuringElement element,
+                         const detail::Progress& progress)
 {
-    if (element == Element::sphere) return detail::dilateBySphere(mask, squared(radius), progress);
+    if (element == StructuringElement::sphere) return detail::dilateBySphere(mask, squared(radius), progress);
     return detail::applyCube(mask, {{CubeStep::dilation, wholeVoxels(radius)}}, progress);
 }
 
-MaskTree::Ptr erodeTree(const MaskTree& mask, double radius, Element element, const detail::Progress& progress)
+MaskTree::Ptr erodeTree(const MaskTree& mask, double radius, StructuringElement element,
+                        const detail::Progress& progress)
 {
-    if (element == Element::sphere) return detail::erodeBySphere(mask, nullptr, squared(radius), progress);
+    if (element == StructuringElement::sphere) return detail::erodeBySphere(mask, nullptr, squared(radius), progress);
     return detail::applyCube(mask, {{CubeStep::erosion, wholeVoxels(radius)}}, progress);
 }
 
-MaskTree::Ptr openTree(const MaskTree& mask, double radius, Element element, const detail::Progress& progress)
+MaskTree::Ptr openTree(const MaskTree& mask, double radius, StructuringElement element,
+                       const detail::Progress& progress)
 {
-    if (element == Element::cube) {
+    if (element == StructuringElement::cube) {
         const int r = wholeVoxels(radius);
         return detail::applyCube(mask, {{CubeStep::erosion, r}, {CubeStep::dilation, r}}, progress);
     }
@@ -69,7 +72,7 @@ MaskTree::Ptr openTree(const MaskTree& mask, double radius, Element element, con
 MaskTree::Ptr closeTree(const MaskTree& mask, const CloseOptions& options, const detail::Progress& progress)
 {
     const double dilation = options.closeRadiusVoxels, erosion = options.erodeRadiusVoxels;
-    if (options.element == Element::cube) {
+    if (options.element == StructuringElement::cube) {
         return detail::applyCube(
             mask, {{CubeStep::dilation, wholeVoxels(dilation)}, {CubeStep::erosion, wholeVoxels(erosion)}}, progress);
     }
@@ -87,21 +90,21 @@ MaskGrid::Ptr activeVoxels(const BoolGrid& grid)
 
 } // namespace
 
-MaskGrid::Ptr dilate(const MaskGrid& mask, double radiusVoxels, Element element, Interrupter* interrupter)
+MaskGrid::Ptr dilate(const MaskGrid& mask, double radiusVoxels, StructuringElement element, Interrupter* interrupter)
 {
     requireRadius(radiusVoxels, "the dilation radius", maximumRadius);
     detail::requireSupportedCoordinates(mask.tree());
     return detail::maskGridLike(mask, dilateTree(mask.tree(), radiusVoxels, element, {interrupter}));
 }
 
-MaskGrid::Ptr erode(const MaskGrid& mask, double radiusVoxels, Element element, Interrupter* interrupter)
+MaskGrid::Ptr erode(const MaskGrid& mask, double radiusVoxels, StructuringElement element, Interrupter* interrupter)
 {
     requireRadius(radiusVoxels, "the erosion radius", maximumRadius);
     detail::requireSupportedCoordinates(mask.tree());
     return detail::maskGridLike(mask, erodeTree(mask.tree(), radiusVoxels, element, {interrupter}));
 }
 
-MaskGrid::Ptr openMask(const MaskGrid& mask, double radiusVoxels, Element element, Interrupter* interrupter)
+MaskGrid::Ptr openMask(const MaskGrid& mask, double radiusVoxels, StructuringElement element, Interrupter* interrupter)
 {
     requireRadius(radiusVoxels, "the opening radius", maximumRadius);
     detail::requireSupportedCoordinates(mask.tree());
@@ -121,15 +124,15 @@ MaskGrid::Ptr closeMask(const MaskGrid& solid, const CloseOptions& options, Inte
     return detail::maskGridLike(solid, closeTree(solid.tree(), options, {interrupter}));
 }
 
-MaskGrid::Ptr dilate(const BoolGrid& mask, double radiusVoxels, Element element, Interrupter* interrupter)
+MaskGrid::Ptr dilate(const BoolGrid& mask, double radiusVoxels, StructuringElement element, Interrupter* interrupter)
 {
     return dilate(*activeVoxels(mask), radiusVoxels, element, interrupter);
 }
-MaskGrid::Ptr erode(const BoolGrid& mask, double radiusVoxels, Element element, Interrupter* interrupter)
+MaskGrid::Ptr erode(const BoolGrid& mask, double radiusVoxels, StructuringElement element, Interrupter* interrupter)
 {
     return erode(*activeVoxels(mask), radiusVoxels, element, interrupter);
 }
-MaskGrid::Ptr openMask(const BoolGrid& mask, double radiusVoxels, Element element, Interrupter* interrupter)
+MaskGrid::Ptr openMask(const BoolGrid& mask, double radiusVoxels, StructuringElement element, Interrupter* interrupter)
 {
     return openMask(*activeVoxels(mask), radiusVoxels, element, interrupter);
 }

@@ -18,7 +18,7 @@
 namespace vdbcage {
 
 /// The structuring element of radius r, a set of voxel offsets d on the integer lattice.
-enum class Element {
+enum class StructuringElement {
     sphere, ///< |d|^2 <= r^2, any real r
     cube    ///< max |d_i| <= r, so that r counts rounded down
 };
@@ -26,31 +26,37 @@ enum class Element {
 struct CloseOptions {
     double closeRadiusVoxels = 4; ///< radius of the dilation, in voxels, 0 to 512
     double erodeRadiusVoxels = 4; ///< radius of the erosion, in voxels, 0 to closeRadiusVoxels
-    Element element = Element::sphere;
+    StructuringElement element = StructuringElement::sphere;
 };
 
 /// Every voxel within the element's reach of an active voxel of `mask`.
 /// \throw InputError (radius negative, not finite or above 512 voxels; coordinates), Cancelled
 VDBCAGE_API openvdb::MaskGrid::Ptr dilate(const openvdb::MaskGrid& mask, double radiusVoxels,
-                                          Element element = Element::sphere, Interrupter* interrupter = nullptr);
+                                          StructuringElement element = StructuringElement::sphere,
+                                          Interrupter* interrupter = nullptr);
 
 /// Of the active voxels of any BoolGrid. \throw as above
 VDBCAGE_API openvdb::MaskGrid::Ptr dilate(const openvdb::BoolGrid& mask, double radiusVoxels,
-                                          Element element = Element::sphere, Interrupter* interrupter = nullptr);
+                                          StructuringElement element = StructuringElement::sphere,
+                                          Interrupter* interrupter = nullptr);
 
 /// Every voxel whose element lies wholly in the active voxels of `mask`. \throw InputError, Cancelled as dilate
 VDBCAGE_API openvdb::MaskGrid::Ptr erode(const openvdb::MaskGrid& mask, double radiusVoxels,
-                                         Element element = Element::sphere, Interrupter* interrupter = nullptr);
+                                         StructuringElement element = StructuringElement::sphere,
+                                         Interrupter* interrupter = nullptr);
 
 VDBCAGE_API openvdb::MaskGrid::Ptr erode(const openvdb::BoolGrid& mask, double radiusVoxels,
-                                         Element element = Element::sphere, Interrupter* interrupter = nullptr);
+                                         StructuringElement element = StructuringElement::sphere,
+                                         Interrupter* interrupter = nullptr);
 
 /// The opening of `mask`: the dilation of its erosion. It is within `mask`, idempotent and increasing: what no element
 /// within `mask` covers goes, such as thin parts, spikes and specks. \throw InputError, Cancelled as dilate
 VDBCAGE_API openvdb::MaskGrid::Ptr openMask(const openvdb::MaskGrid& mask, double radiusVoxels,
-                                            Element element = Element::sphere, Interrupter* interrupter = nullptr);
+                                            StructuringElement element = StructuringElement::sphere,
+                                            Interrupter* interrupter = nullptr);
 VDBCAGE_API openvdb::MaskGrid::Ptr openMask(const openvdb::BoolGrid& mask, double radiusVoxels,
-                                            Element element = Element::sphere, Interrupter* interrupter = nullptr);
+                                            StructuringElement element = StructuringElement::sphere,
+                                            Interrupter* interrupter = nullptr);
 
 /// The closing of `solid`: the erosion (by the erode radius) of its dilation (by the close radius). Extensive, it
 /// never loses a voxel of `solid`; idempotent and increasing for equal radii. Gaps, notches and handles narrower than

@@ -133,10 +133,10 @@ ScaleField readScaleField(const std::string& text)
 
 MaskGrid::Ptr dilate(const MaskGrid& mask, double radiusVoxels, const ScaleField& scale, Interrupter* interrupter)
 {
-    detail::requireValid({radiusVoxels, 0, Element::sphere});
+    detail::requireValid({radiusVoxels, 0, StructuringElement::sphere});
     const detail::Progress progress{interrupter};
     const detail::RadiusField field(scale, mask.transform(), radiusVoxels, boxOf(mask), progress.part(0, 10));
-    if (field.isUniform()) return dilate(mask, field.largest(), Element::sphere, interrupter);
+    if (field.isUniform()) return dilate(mask, field.largest(), StructuringElement::sphere, interrupter);
     detail::requireSupportedCoordinates(mask.tree());
     return detail::maskGridLike(mask, detail::dilateByField(mask.tree(), field, {interrupter, 10, 100}));
 }
@@ -153,7 +153,7 @@ MaskGrid::Ptr closeMask(const MaskGrid& solid, const CloseOptions& options, cons
         return closeMask(solid, {field.largest(), std::min(field.largest(), field.largest() * factor), options.element},
                          interrupter);
     }
-    if (options.element != Element::sphere) {
+    if (options.element != StructuringElement::sphere) {
         throw InputError("the cube has one radius everywhere; a scale field needs the sphere");
     }
     detail::requireSupportedCoordinates(solid.tree());

@@ -5,8 +5,9 @@
 
 #include <openvdb/io/Archive.h>
 #include <openvdb/tools/Prune.h>
-#include <vdbcage/core/atomic_file.h>
+#include <vdbcage/core/detail/atomic_file.h>
 #include <vdbcage/core/detail/mask_grid.h>
+#include <vdbcage/core/detail/parallel.h>
 #include <vdbcage/core/detail/read_file.h>
 #include <vdbcage/core/error.h>
 #include <vdbcage/core/version.h>
@@ -53,7 +54,7 @@ MaskGrid::Ptr maskWhere(const Grid& grid, const std::string& path, bool (*isInsi
             if (isInside(leaf->getValue(i), leaf->isValueOn(i))) out->setValueOn(i);
         }
     }
-    openvdb::tools::prune(*tree);
+    detail::isolated([&] { openvdb::tools::prune(*tree); });
     return detail::maskGridLike(grid, std::move(tree));
 }
 

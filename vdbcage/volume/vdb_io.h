@@ -13,8 +13,8 @@ namespace vdbcage {
 /// Writes `mask` as a .vdb that Blender, Houdini and others open as a volume: one FloatGrid named `density`, 1 in the
 /// active voxels (tiles stay tiles), background 0, class fog volume, the mask's transform, creator "vdbcage VERSION",
 /// compressed as OpenVDB does by default. Each entry of `metadata` becomes a string of the grid named `vdbcage_KEY`.
-/// The file appears whole or not at all (see core/atomic_file.h); equal grids need not give equal bytes (each file gets
-/// a UUID). Cost: 2 KiB of memory for each leaf node while it is written. \throw IoError naming the path
+/// The file appears whole or not at all (see core/detail/atomic_file.h); equal grids need not give equal bytes (each
+/// file gets a UUID). Cost: 2 KiB of memory for each leaf node while it is written. \throw IoError naming the path
 VDBCAGE_API void writeVdb(const openvdb::MaskGrid& mask, const std::filesystem::path& path,
                           const std::map<std::string, std::string>& metadata = {});
 

@@ -8,7 +8,7 @@
 #include <vdbcage/check/detail/face_triangles.h>
 #include <vdbcage/check/detail/predicates.h>
 #include <vdbcage/core/interrupter.h>
-#include <vdbcage/mesh/detail/triangle_tree.h>
+#include <vdbcage/geometry/triangle_bvh.h>
 
 namespace vdbcage::detail {
 
@@ -42,7 +42,7 @@ struct CageFaces {
 
     const Mesh& mesh;
     FaceTriangles faces;
-    TriangleTree tree;
+    TriangleBvh tree;
     std::vector<char> degenerate; ///< by triangle
     Flags bad;                    ///< by face
 };

@@ -8,7 +8,7 @@
 #include <vdbcage/check/detail/measures.h>
 #include <vdbcage/core/detail/parallel.h>
 #include <vdbcage/core/error.h>
-#include <vdbcage/mesh/detail/union_find.h>
+#include <vdbcage/geometry/union_find.h>
 #include <vdbcage/mesh/topology.h>
 
 namespace vdbcage::detail {
@@ -59,7 +59,7 @@ CheckedModel::CheckedModel(const Mesh& mesh, Interrupter* interrupter)
     bool dropped = false;
     const auto buildTree = [&] {
         const std::vector<Vec3I> triangles = everyTriangle(mesh, faces);
-        tree = TriangleTree(mesh.points, triangles, interrupter, TriangleTree::Copies::drop);
+        tree = TriangleBvh(mesh.points, triangles, interrupter, TriangleBvh::Copies::drop);
         dropped = tree.items().size() < triangles.size();
     };
     parallelInvoke(

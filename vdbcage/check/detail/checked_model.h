@@ -7,7 +7,7 @@
 #include <vdbcage/check/detail/face_triangles.h>
 #include <vdbcage/core/detail/nearest_float.h>
 #include <vdbcage/core/interrupter.h>
-#include <vdbcage/mesh/detail/triangle_tree.h>
+#include <vdbcage/geometry/triangle_bvh.h>
 
 namespace vdbcage::detail {
 
@@ -32,7 +32,7 @@ struct CheckedModel {
             const Vec3d& p = model.tree.points()[i];
             return asFloats ? nearestFloat(p) : p;
         }
-        Corners corners(const TriangleTree::Item& item) const
+        Corners corners(const TriangleBvh::Item& item) const
         {
             return {point(item.corners[0]), point(item.corners[1]), point(item.corners[2])};
         }
@@ -40,7 +40,7 @@ struct CheckedModel {
         double reach() const { return asFloats ? 2 * floatRounding({model.tree.box().lo, model.tree.box().hi}) : 0; }
     };
 
-    TriangleTree tree;                       ///< all four triangles of a quad; copies are dropped
+    TriangleBvh tree;                        ///< all four triangles of a quad; copies are dropped
     std::size_t usedVertices = 0;            ///< points that faces use
     std::vector<std::uint32_t> partOfPoint;  ///< only for these
     std::vector<std::uint32_t> partVertices; ///< the vertices of part k are partVertices[partFirst[k]] ...

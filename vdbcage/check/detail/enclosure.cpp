@@ -19,7 +19,7 @@ using Range = tbb::blocked_range<std::size_t>;
 bool liesOnCage(const CageFaces& cage, const Vec3d& p)
 {
     return !cage.tree.forEachOverlap(
-        Box::of(p), [&](const TriangleTree::Item& item) { return !contains(cage.tree.corners(item), p); });
+        Box::of(p), [&](const TriangleBvh::Item& item) { return !contains(cage.tree.corners(item), p); });
 }
 
 // p does not lie on the cage. `crossed` is room to work in.
@@ -32,7 +32,7 @@ bool liesInside(CageFaces& cage, const Vec3d& p, std::vector<std::uint32_t>& cro
     int winding = 0;
     crossed.clear();
     const Box ray{p, {std::numeric_limits<double>::infinity(), p[1], p[2]}};
-    cage.tree.forEachOverlap(ray, [&](const TriangleTree::Item& item) {
+    cage.tree.forEachOverlap(ray, [&](const TriangleBvh::Item& item) {
         const int crossing = rayCrossing(cage.tree.corners(item), p);
         if (crossing == 0) return true;
         if (cage.faces.ofFirstDiagonal(item.triangle)) winding += crossing;
@@ -65,7 +65,7 @@ std::size_t countContacts(CageFaces& cage, const CheckedModel::View& view, Flags
             for (std::size_t t = cage.faces.first(face); t < cage.faces.first(face + 1); ++t) {
                 const Corners corners = cage.corners(t);
                 const Box box = Box::of(corners);
-                model.tree.traverse(model.tree.near(corners, view.reach()), [&](const TriangleTree::Item& item) {
+                model.tree.traverse(model.tree.near(corners, view.reach()), [&](const TriangleBvh::Item& item) {
                     std::atomic<bool>& part = touched[model.partOfPoint[item.corners[0]]];
                     if (contact && isSet(part)) return true; // nothing left to learn from this pair
                     const Corners other = view.corners(item);

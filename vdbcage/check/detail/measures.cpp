@@ -30,7 +30,7 @@ Vec3d pointWithin(const std::vector<Vec3d>& points, const Vec3I& t, std::size_t 
     return a + u * (points[t[1]] - a) + v * (points[t[2]] - a);
 }
 
-// Systematic sampling: `samples` equal strips of area, a sample in the middle of each, so that every triangle gets its
+// Systematic sampling: `samples` equal shares of area, a sample in the middle of each, so that every triangle gets its
 // share to within one sample.
 std::vector<Vec3d> spreadSamples(const std::vector<Vec3d>& points, const FaceTriangles& faces, std::size_t samples)
 {
@@ -55,16 +55,16 @@ std::vector<Vec3d> spreadSamples(const std::vector<Vec3d>& points, const FaceTri
     return result;
 }
 
-std::vector<double> distancesOf(const std::vector<Vec3d>& from, const TriangleTree& tree, Interrupter* interrupter)
+std::vector<double> distancesOf(const std::vector<Vec3d>& from, const TriangleBvh& tree, Interrupter* interrupter)
 {
     std::vector<double> result(from.size());
     // Blocks of fixed size: each answer is the next one's seed, and a seed may change the last bit.
     constexpr std::size_t block = 64;
     parallelFor(std::size_t(0), (from.size() + block - 1) / block, [&](std::size_t b) {
         throwIfInterrupted(interrupter);
-        std::uint32_t seed = TriangleTree::none;
+        std::uint32_t seed = TriangleBvh::none;
         for (std::size_t i = b * block; i < std::min(from.size(), (b + 1) * block); ++i) {
-            const TriangleTree::Closest closest = tree.closest(from[i], seed);
+            const TriangleBvh::Closest closest = tree.closest(from[i], seed);
             seed = closest.item;
             result[i] = std::sqrt(closest.squaredDistance);
         }
@@ -125,7 +125,7 @@ Angles angles(const std::vector<Vec3d>& points, const FaceTriangles& faces)
     return {*std::min_element(all.begin(), percentile + 1), *percentile, median};
 }
 
-Distances distances(const std::vector<Vec3d>& points, const FaceTriangles& faces, const TriangleTree& tree,
+Distances distances(const std::vector<Vec3d>& points, const FaceTriangles& faces, const TriangleBvh& tree,
                     std::size_t samples, Interrupter* interrupter)
 {
     if (faces.size() == 0) return {};

@@ -5,7 +5,7 @@
 
 #include <vdbcage/check/detail/face_triangles.h>
 #include <vdbcage/core/interrupter.h>
-#include <vdbcage/mesh/detail/triangle_tree.h>
+#include <vdbcage/geometry/triangle_bvh.h>
 
 namespace vdbcage::detail {
 
@@ -23,7 +23,7 @@ struct Distances {
 };
 /// From the faces to the triangles of the tree: the mean over `samples` points spread evenly over the faces' area (a
 /// quad's over both diagonals), the extremes over these and the faces' corners. Zeros for no faces.
-Distances distances(const std::vector<Vec3d>& points, const FaceTriangles& faces, const TriangleTree& tree,
+Distances distances(const std::vector<Vec3d>& points, const FaceTriangles& faces, const TriangleBvh& tree,
                     std::size_t samples, Interrupter* interrupter);
 
 } // namespace vdbcage::detail

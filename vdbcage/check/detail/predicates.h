@@ -4,7 +4,7 @@
 #include <vector>
 
 #include <openvdb/Types.h>
-#include <vdbcage/mesh/detail/triangle_tree.h>
+#include <vdbcage/geometry/triangle_bvh.h>
 
 /// Exact answers about triangles with the coordinates given (any finite doubles). All sets are closed: a touch counts.
 namespace vdbcage::detail {

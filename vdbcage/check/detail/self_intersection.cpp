@@ -91,7 +91,7 @@ void forCollisions(const CageFaces& cage, std::size_t face, const Wanted& wanted
         if (cage.degenerate[t]) continue;
         const Corners corners = cage.corners(t);
         const Box box = Box::of(corners);
-        more = cage.tree.traverse(cage.tree.near(corners), [&](const TriangleTree::Item& item) {
+        more = cage.tree.traverse(cage.tree.near(corners), [&](const TriangleBvh::Item& item) {
             const Index other = cage.faces.face(item.triangle);
             if (other == face || cage.degenerate[item.triangle] || !wanted(other)) return true;
             if (!box.meets(Box::of(cage.tree.corners(item))) || !collide(cage, t, item.triangle)) return true;

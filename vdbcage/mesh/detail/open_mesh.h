@@ -110,7 +110,7 @@ inline OpenTriMesh toOpenMesh(const Mesh& mesh)
     // Boundary half-edges: one leaves each boundary vertex, and it is the one that the vertex must know.
     const auto failAt = [](std::size_t p) {
         throw InputError("the surface is not a 2-manifold: the faces at point " + std::to_string(p) +
-                         " form more than one fan");
+                         " form more than one umbrella");
     };
     std::vector<Handle> leaving(mesh.points.size());
     for (std::size_t h = 0; h < handles.size(); ++h) {
@@ -139,9 +139,9 @@ inline OpenTriMesh toOpenMesh(const Mesh& mesh)
     }
     for (std::size_t p = 0; p < mesh.points.size(); ++p) {
         if (degree[p] == 0) continue;
-        std::size_t fan = 0;
-        for (auto face = result.cvf_iter(OpenTriMesh::VertexHandle(int(p))); face.is_valid(); ++face) ++fan;
-        if (fan != degree[p]) failAt(p);
+        std::size_t incident = 0;
+        for (auto face = result.cvf_iter(OpenTriMesh::VertexHandle(int(p))); face.is_valid(); ++face) ++incident;
+        if (incident != degree[p]) failAt(p);
     }
     return result;
 }

@@ -9,7 +9,7 @@
 
 #include <vdbcage/core/detail/parallel.h>
 #include <vdbcage/core/detail/word_bits.h>
-#include <vdbcage/volume/detail/slot_set.h>
+#include <vdbcage/volume/detail/entry_set.h>
 
 namespace vdbcage::detail {
 
@@ -36,7 +36,7 @@ void zip(WordPair& a, WordPair& b)
         __builtin_shufflevector(x, y, 8, 24, 9, 25, 10, 26, 11, 27, 12, 28, 13, 29, 14, 30, 15, 31));
 }
 
-using WordPairs = std::array<WordPair, 4>; // of a slot
+using WordPairs = std::array<WordPair, 4>; // of a entry
 
 // Bit (x, y, z), in word x at 8 y + z, moves to word y at 8 z + x.
 Words turned(WordPairs w)
@@ -63,7 +63,7 @@ Words turned(WordPairs w)
 }
 
 // For one stretch, 16 planes or, transposed, 16 z with the bits of a lane along x.
-using Stretch = std::array<std::uint64_t, slotsPerAxis>;
+using Stretch = std::array<std::uint64_t, entriesPerAxis>;
 
 // Replaces every value by the union of as many as it returns from there on (fewer at the end): the largest power of two
 // that is at most `count`, so that two of them, overlapping, are the union of `count`.
@@ -79,25 +79,25 @@ std::size_t uniteAhead(std::uint64_t* values, std::size_t size, std::size_t coun
 // One pass along x. Everything is said for a dilation; for an erosion it holds for the complement.
 class AxisPass {
 public:
-    AxisPass(const SlotSet& mask, Side side, int radius, const Progress& progress)
+    AxisPass(const EntrySet& mask, Side side, int radius, const Progress& progress)
         : mask_(mask), flip_(side == Side::complement ? ~0ULL : 0), radius_(radius),
-          wholeSlots_(static_cast<std::size_t>(radius / leafSize)), rest_(radius % leafSize),
-          slotReach_(wholeSlots_ + (rest_ > 0 ? 1 : 0)), blockReach_((radius + blockSize - 1) / blockSize),
+          wholeEntries_(static_cast<std::size_t>(radius / leafSize)), rest_(radius % leafSize),
+          entryRadius_(wholeEntries_ + (rest_ > 0 ? 1 : 0)), blockRadius_((radius + blockSize - 1) / blockSize),
           progress_(progress)
     {
     }
 
-    SlotSet run()
+    EntrySet run()
     {
         progress_.check(0, 1);
         const std::vector<Row> rows = targetRows();
         std::vector<std::unique_ptr<FlatBlock>> built(rows.empty() ? 0 : rows.back().start + rows.back().blocks);
         std::atomic<std::size_t> done{0};
         parallelFor(std::size_t{0}, rows.size(), [&](std::size_t i) {
-            build(rows[i], &built[rows[i].start], [&] { progress_.check(done++, rows.size() * slotsPerAxis); });
+            build(rows[i], &built[rows[i].start], [&] { progress_.check(done++, rows.size() * entriesPerAxis); });
         });
         FullParts full = mask_.full();
-        for (auto* origins : {&full.regions, &full.blocks}) {
+        for (auto* origins : {&full.upperNodes, &full.blocks}) {
             for (Coord& origin : *origins) origin = turned(origin);
         }
         return {std::move(full), std::move(built), progress_};
@@ -112,15 +112,15 @@ private:
     };
     static constexpr std::size_t longestRow = 4; // longer ones share more, but leave the last thread alone with one
 
-    bool isFull(const Slots& block) const { return flip_ != 0 ? block.isEmpty() : block.isFull(); }
-    bool isEmpty(const Slots& block) const { return flip_ != 0 ? block.isFull() : block.isEmpty(); }
+    bool isFull(const BlockEntries& block) const { return flip_ != 0 ? block.isEmpty() : block.isFull(); }
+    bool isEmpty(const BlockEntries& block) const { return flip_ != 0 ? block.isFull() : block.isEmpty(); }
 
     // Whether a block so many blocks before or behind another has anything in reach of it.
-    bool isWithin(const Slots& block, int distance, bool before) const
+    bool isWithin(const BlockEntries& block, int distance, bool before) const
     {
         if (!block.flat) return !isEmpty(block);
-        const std::size_t away = static_cast<std::size_t>(distance - 1) * slotsPerAxis;
-        const std::size_t planes = std::min(slotReach_ - away, std::size_t{slotsPerAxis});
+        const std::size_t away = static_cast<std::size_t>(distance - 1) * entriesPerAxis;
+        const std::size_t planes = std::min(entryRadius_ - away, std::size_t{entriesPerAxis});
         const std::size_t count = stretchesPerPlane * planes, first = before ? FlatBlock::wordCount - count : 0;
         std::uint64_t any = 0;
         for (std::size_t i = first; i < first + count; ++i) {
@@ -138,22 +138,22 @@ private:
         progress_.check(0, 1);
         std::vector<Coord> targets;
         for (const Coord& origin : shell) {
-            for (int step = -blockReach_; step <= blockReach_; ++step) {
+            for (int step = -blockRadius_; step <= blockRadius_; ++step) {
                 const Coord near = origin.offsetBy(step * blockSize, 0, 0);
                 if (targets.empty() || isBefore(targets.back(), near)) targets.push_back(near);
             }
         }
-        const auto isSettled = [&](const Coord& origin) {
-            const Slots own = mask_.at(origin);
+        const auto isDecided = [&](const Coord& origin) {
+            const BlockEntries own = mask_.at(origin);
             if (isFull(own)) return true;
             if (!isEmpty(own)) return false;
-            for (int step = 1; step <= blockReach_; ++step) {
+            for (int step = 1; step <= blockRadius_; ++step) {
                 if (isWithin(mask_.at(origin.offsetBy(-step * blockSize, 0, 0)), step, true)) return false;
                 if (isWithin(mask_.at(origin.offsetBy(step * blockSize, 0, 0)), step, false)) return false;
             }
             return true;
         };
-        targets.erase(std::remove_if(targets.begin(), targets.end(), isSettled), targets.end());
+        targets.erase(std::remove_if(targets.begin(), targets.end(), isDecided), targets.end());
         std::vector<Row> rows;
         for (std::size_t i = 0; i < targets.size(); ++i) {
             const bool continues = !rows.empty() && rows.back().blocks < longestRow &&
@@ -167,10 +167,10 @@ private:
         return rows;
     }
 
-    // What a row can see: its blocks and those in reach on both sides, slot by slot along x.
+    // What a row can see: its blocks and those in reach on both sides, entry by entry along x.
     struct View {
         explicit View(std::size_t blockCount)
-            : blocks(blockCount), mixedLines(blockCount), fullLines(blockCount), line(slotsPerAxis * blockCount),
+            : blocks(blockCount), mixedLines(blockCount), fullLines(blockCount), line(entriesPerAxis * blockCount),
               any(line.size()), united(line.size())
         {
             for (auto* stretches : {&some, &full}) {
@@ -181,16 +181,16 @@ private:
         std::array<std::vector<std::uint64_t>, stretchesPerPlane> some, full;
         // Of one stretch, by block:
         std::vector<Stretch> mixedLines, fullLines;
-        // Of one line of slots along x:
+        // Of one line of entries along x:
         std::vector<const std::uint64_t*> line; // their words
         std::vector<std::uint64_t> any;         // the voxels of all words of each in one
-        std::vector<std::uint64_t> united;      // of `any`, of `unitedCount` slots from each on
+        std::vector<std::uint64_t> united;      // of `any`, of `unitedCount` entries from each on
         std::size_t unitedCount = 1;
     };
-    // Of one stretch of a row, by block: lines of slots that are full for certain, and that are to be looked at.
+    // Of one stretch of a row, by block: lines of entries that are full for certain, and that are to be looked at.
     struct Verdict {
         std::vector<Stretch> full, open;
-        bool isSettled = true; // nothing open
+        bool isDecided = true; // nothing open
     };
 
     template <class Check>
@@ -200,16 +200,16 @@ private:
         for (std::size_t i = 0; i < row.blocks; ++i) {
             result[i] = std::make_unique<FlatBlock>();
             result[i]->origin = turned(row.first.offsetBy(static_cast<int>(i) * blockSize, 0, 0));
-            if (const FlatBlock* const before = view.blocks[i + static_cast<std::size_t>(blockReach_)]) {
+            if (const FlatBlock* const before = view.blocks[i + static_cast<std::size_t>(blockRadius_)]) {
                 result[i]->words.reserve(before->words.size());
             }
         }
         for (std::size_t stretch = 0; stretch < stretchesPerPlane; ++stretch) {
-            const Verdict verdict = settle(view, row.blocks, stretch);
-            if (!verdict.isSettled) turnLines(view, stretch);
+            const Verdict verdict = decide(view, row.blocks, stretch);
+            if (!verdict.isDecided) turnLines(view, stretch);
             for (std::size_t lane = 0; lane < 4; ++lane) {
                 check();
-                for (std::size_t z = 0; z < slotsPerAxis; ++z) buildLine(verdict, {stretch, lane, z}, view, result);
+                for (std::size_t z = 0; z < entriesPerAxis; ++z) buildLine(verdict, {stretch, lane, z}, view, result);
             }
         }
         for (std::size_t i = 0; i < row.blocks; ++i) {
@@ -225,15 +225,16 @@ private:
 
     View look(const Row& row) const
     {
-        const std::size_t blocks = row.blocks + 2 * static_cast<std::size_t>(blockReach_);
+        const std::size_t blocks = row.blocks + 2 * static_cast<std::size_t>(blockRadius_);
         View view(blocks);
         for (std::size_t b = 0; b < blocks; ++b) {
-            const Slots slots = mask_.at(row.first.offsetBy((static_cast<int>(b) - blockReach_) * blockSize, 0, 0));
-            view.blocks[b] = slots.flat;
+            const BlockEntries entries =
+                mask_.at(row.first.offsetBy((static_cast<int>(b) - blockRadius_) * blockSize, 0, 0));
+            view.blocks[b] = entries.flat;
             for (std::size_t i = 0; i < FlatBlock::wordCount; ++i) {
-                const std::uint64_t some = slots.flat ? slots.flat->some[i] : slots.full ? ~0ULL : 0;
-                const std::uint64_t full = slots.flat ? slots.flat->full[i] : some;
-                const std::size_t stretch = i % stretchesPerPlane, x = slotsPerAxis * b + i / stretchesPerPlane;
+                const std::uint64_t some = entries.flat ? entries.flat->some[i] : entries.full ? ~0ULL : 0;
+                const std::uint64_t full = entries.flat ? entries.flat->full[i] : some;
+                const std::size_t stretch = i % stretchesPerPlane, x = entriesPerAxis * b + i / stretchesPerPlane;
                 view.some[stretch][x] = flip_ != 0 ? ~full : some;
                 view.full[stretch][x] = flip_ != 0 ? ~some : full;
             }
@@ -241,31 +242,31 @@ private:
         return view;
     }
 
-    // The slots of the row's blocks at this place in `values`, each united with `reach` on both sides.
+    // The entries of the row's blocks at this place in `values`, each united with `reach` on both sides.
     std::vector<Stretch> unitedAround(std::vector<std::uint64_t> values, std::size_t reach, std::size_t blocks) const
     {
         const std::size_t count = uniteAhead(values.data(), values.size(), 2 * reach + 1);
         std::vector<Stretch> result(blocks);
-        std::size_t own = static_cast<std::size_t>(blockReach_) * slotsPerAxis;
+        std::size_t own = static_cast<std::size_t>(blockRadius_) * entriesPerAxis;
         for (Stretch& block : result) {
-            for (std::uint64_t& slots : block) {
-                slots = values[own - reach] | values[own + reach + 1 - count];
+            for (std::uint64_t& entries : block) {
+                entries = values[own - reach] | values[own + reach + 1 - count];
                 ++own;
             }
         }
         return result;
     }
 
-    // What whole slots tell: one that is full fills all that are as many slots away as the radius has whole ones.
-    Verdict settle(const View& view, std::size_t blocks, std::size_t stretch) const
+    // What whole entries tell: one that is full fills all that are as many entries away as the radius has whole ones.
+    Verdict decide(const View& view, std::size_t blocks, std::size_t stretch) const
     {
         Verdict verdict;
-        verdict.full = unitedAround(view.full[stretch], wholeSlots_, blocks);
-        verdict.open = unitedAround(view.some[stretch], slotReach_, blocks);
+        verdict.full = unitedAround(view.full[stretch], wholeEntries_, blocks);
+        verdict.open = unitedAround(view.some[stretch], entryRadius_, blocks);
         for (std::size_t i = 0; i < blocks; ++i) {
-            for (std::size_t x = 0; x < slotsPerAxis; ++x) {
+            for (std::size_t x = 0; x < entriesPerAxis; ++x) {
                 verdict.open[i][x] &= ~verdict.full[i][x];
-                if (verdict.open[i][x] != 0) verdict.isSettled = false;
+                if (verdict.open[i][x] != 0) verdict.isDecided = false;
             }
             transposeLanes(verdict.full[i]);
             transposeLanes(verdict.open[i]);
@@ -276,8 +277,8 @@ private:
     void turnLines(View& view, std::size_t stretch) const
     {
         for (std::size_t b = 0; b < view.blocks.size(); ++b) {
-            for (std::size_t x = 0; x < slotsPerAxis; ++x) {
-                const std::size_t i = slotsPerAxis * b + x;
+            for (std::size_t x = 0; x < entriesPerAxis; ++x) {
+                const std::size_t i = entriesPerAxis * b + x;
                 view.fullLines[b][x] = view.full[stretch][i];
                 view.mixedLines[b][x] = view.some[stretch][i] & ~view.full[stretch][i];
             }
@@ -289,7 +290,7 @@ private:
         }
     }
 
-    // A line of slots along x.
+    // A line of entries along x.
     struct Line {
         std::size_t stretch, lane, z;
 
@@ -301,13 +302,13 @@ private:
     void buildLine(const Verdict& verdict, const Line& line, View& view, const std::unique_ptr<FlatBlock>* result) const
     {
         readAround(verdict, line, view);
-        // Turned, the slots of a block on this line are a quarter of a word.
-        const std::size_t n = (slotsPerAxis * line.y() + line.z) / 4, shift = 16 * (line.z % 4);
+        // Turned, the entries of a block on this line are a quarter of a word.
+        const std::size_t n = (entriesPerAxis * line.y() + line.z) / 4, shift = 16 * (line.z % 4);
         for (std::size_t i = 0; i < verdict.full.size(); ++i) {
             std::uint64_t full = line.of(verdict.full[i]), some = full;
             for (unsigned open = line.of(verdict.open[i]); open != 0; open &= open - 1) {
                 const auto x = static_cast<std::size_t>(__builtin_ctz(open));
-                const WordPairs near = smear(view, (i + static_cast<std::size_t>(blockReach_)) * slotsPerAxis + x);
+                const WordPairs near = smear(view, (i + static_cast<std::size_t>(blockRadius_)) * entriesPerAxis + x);
                 const WordPair any = near[0] | near[1] | near[2] | near[3], all = near[0] & near[1] & near[2] & near[3];
                 if ((any[0] | any[1]) == 0) continue;
                 some |= 1ULL << x;
@@ -335,16 +336,16 @@ private:
         return words;
     }
 
-    // All that is in reach of the open slots.
+    // All that is in reach of the open entries.
     void readAround(const Verdict& verdict, const Line& line, View& view) const
     {
-        std::size_t first = 0, end = 0; // of slots read in one go
+        std::size_t first = 0, end = 0; // of entries read in one go
         for (std::size_t i = 0; i < verdict.open.size(); ++i) {
             const unsigned open = line.of(verdict.open[i]);
             if (open == 0) continue;
-            const std::size_t block = (i + static_cast<std::size_t>(blockReach_)) * slotsPerAxis;
-            const std::size_t from = block + static_cast<std::size_t>(__builtin_ctz(open)) - slotReach_;
-            const std::size_t to = block + static_cast<std::size_t>(32 - __builtin_clz(open)) + slotReach_;
+            const std::size_t block = (i + static_cast<std::size_t>(blockRadius_)) * entriesPerAxis;
+            const std::size_t from = block + static_cast<std::size_t>(__builtin_ctz(open)) - entryRadius_;
+            const std::size_t to = block + static_cast<std::size_t>(32 - __builtin_clz(open)) + entryRadius_;
             if (from > end) {
                 unite(first, end, view);
                 first = end = from;
@@ -355,15 +356,15 @@ private:
         unite(first, end, view);
     }
 
-    // From one slot of the line to another, which is not included.
+    // From one entry of the line to another, which is not included.
     void read(const Line& line, std::size_t from, std::size_t to, View& view) const
     {
         for (std::size_t i = from; i < to; ++i) view.any[i] = 0;
-        for (std::size_t block = from - from % slotsPerAxis; block < to; block += slotsPerAxis) {
-            const std::size_t b = block / slotsPerAxis;
+        for (std::size_t block = from - from % entriesPerAxis; block < to; block += entriesPerAxis) {
+            const std::size_t b = block / entriesPerAxis;
             const auto inside = (from > block ? ~0U << (from - block) : ~0U) &
-                                (to - block < slotsPerAxis ? ~(~0U << (to - block)) : ~0U);
-            // Full slots tell nothing but at the end of a reach of more than whole slots: see settle().
+                                (to - block < entriesPerAxis ? ~(~0U << (to - block)) : ~0U);
+            // Full entries tell nothing but at the end of a reach of more than whole entries: see decide().
             for (unsigned full = rest_ > 0 ? line.of(view.fullLines[b]) & inside : 0; full != 0; full &= full - 1) {
                 const std::size_t i = block + static_cast<std::size_t>(__builtin_ctz(full));
                 view.any[i] = ~0ULL;
@@ -385,7 +386,7 @@ private:
     {
         std::uint64_t* const united = view.united.data();
         for (std::size_t i = first; i < end; ++i) united[i] = view.any[i];
-        view.unitedCount = uniteAhead(united + first, end - first, 2 * std::max(wholeSlots_, std::size_t{1}) - 1);
+        view.unitedCount = uniteAhead(united + first, end - first, 2 * std::max(wholeEntries_, std::size_t{1}) - 1);
     }
 
     const Words& mixedWords(const FlatBlock& block, std::size_t x, const Line& line) const
@@ -396,28 +397,28 @@ private:
         return block.words[block.firstWords[4 * n + line.lane] + bitCount(before)];
     }
 
-    // The result at slot `own` of the line.
+    // The result at entry `own` of the line.
     WordPairs smear(const View& view, std::size_t own) const
     {
         WordPairs near{};
-        if (wholeSlots_ == 0) {
+        if (wholeEntries_ == 0) {
             smearWithin(view, own, near);
         } else {
-            // All slots that lie wholly in reach of all of this one.
+            // All entries that lie wholly in reach of all of this one.
             const std::uint64_t all =
-                view.united[own + 1 - wholeSlots_] | view.united[own + wholeSlots_ - view.unitedCount];
+                view.united[own + 1 - wholeEntries_] | view.united[own + wholeEntries_ - view.unitedCount];
             near.fill(WordPair{all, all});
-            addBefore(view, own - wholeSlots_, 0, near);
-            addBehind(view, own + wholeSlots_, 0, near);
+            addBefore(view, own - wholeEntries_, 0, near);
+            addBehind(view, own + wholeEntries_, 0, near);
         }
         if (rest_ > 0) {
-            addBefore(view, own - wholeSlots_ - 1, leafSize, near);
-            addBehind(view, own + wholeSlots_ + 1, leafSize, near);
+            addBefore(view, own - wholeEntries_ - 1, leafSize, near);
+            addBehind(view, own + wholeEntries_ + 1, leafSize, near);
         }
         return near;
     }
 
-    // Within one slot, of a radius below its size.
+    // Within one entry, of a radius below its size.
     void smearWithin(const View& view, std::size_t own, WordPairs& near) const
     {
         if (view.any[own] == 0) return;
@@ -437,11 +438,11 @@ private:
         return flipped(pairs);
     }
 
-    // From a slot at the end of the reach, before this one: its words from to - rest + beyond on reach word `to`.
-    void addBefore(const View& view, std::size_t slot, int beyond, WordPairs& near) const
+    // From a entry at the end of the reach, before this one: its words from to - rest + beyond on reach word `to`.
+    void addBefore(const View& view, std::size_t entry, int beyond, WordPairs& near) const
     {
-        if (view.any[slot] == 0) return;
-        WordPairs sums = pairsOf(view.line[slot]); // each word with all behind it
+        if (view.any[entry] == 0) return;
+        WordPairs sums = pairsOf(view.line[entry]); // each word with all behind it
         WordPair sum{};
         for (std::size_t i = sums.size(); i-- > 0;) {
             sums[i] |= __builtin_shufflevector(sums[i], WordPair{}, 1, 2) | sum;
@@ -451,10 +452,10 @@ private:
     }
 
     // The same behind it: the words up to to + rest - beyond reach word `to`.
-    void addBehind(const View& view, std::size_t slot, int beyond, WordPairs& near) const
+    void addBehind(const View& view, std::size_t entry, int beyond, WordPairs& near) const
     {
-        if (view.any[slot] == 0) return;
-        WordPairs sums = pairsOf(view.line[slot]); // each word with all before it
+        if (view.any[entry] == 0) return;
+        WordPairs sums = pairsOf(view.line[entry]); // each word with all before it
         WordPair sum{};
         for (WordPair& pair : sums) {
             pair |= __builtin_shufflevector(WordPair{}, pair, 0, 2) | sum;
@@ -463,7 +464,7 @@ private:
         add(WordPair{}, sums, sum, leafSize + rest_ - beyond, near);
     }
 
-    // Adds 8 words from one on, of 8 that are `before`, 8 of a slot and 8 that are `behind`.
+    // Adds 8 words from one on, of 8 that are `before`, 8 of a entry and 8 that are `behind`.
     static void add(const WordPair& before, const WordPairs& sums, const WordPair& behind, int from, WordPairs& near)
     {
         const WordPair all[]{before,  before,  before, before, sums[0], sums[1],
@@ -473,13 +474,13 @@ private:
         for (std::size_t i = 0; i < near.size(); ++i) near[i] |= added[i];
     }
 
-    const SlotSet& mask_;
+    const EntrySet& mask_;
     std::uint64_t flip_;
     int radius_;
-    std::size_t wholeSlots_;
-    int rest_; // the radius is as many slots and voxels
-    std::size_t slotReach_;
-    int blockReach_;
+    std::size_t wholeEntries_;
+    int rest_; // the radius is as many entries and voxels
+    std::size_t entryRadius_;
+    int blockRadius_;
     Progress progress_;
 };
 
@@ -489,7 +490,7 @@ MaskTree::Ptr applyCube(const MaskTree& mask, std::initializer_list<CubeStep> st
 {
     const int parts = 3 * static_cast<int>(steps.size()) + 2;
     int part = 0;
-    SlotSet set(mask, progress.part(part++, parts));
+    EntrySet set(mask, progress.part(part++, parts));
     for (const CubeStep& step : steps) {
         const Side side = step.kind == CubeStep::dilation ? Side::mask : Side::complement;
         for (int axis = 0; axis < 3; ++axis) {

@@ -13,42 +13,42 @@ namespace vdbcage::detail {
 
 namespace {
 
-constexpr int blocksPerRegionAxis = regionSize / blockSize;
+constexpr int blocksPerUpperAxis = upperNodeSize / blockSize;
 
 template <class Visit>
 void forEachNode(const MaskTree& tree, const Visit& visit)
 {
-    for (auto region = tree.root().cbeginChildOn(); region; ++region) {
-        for (auto block = region->cbeginChildOn(); block; ++block) visit(*block);
+    for (auto upperNode = tree.root().cbeginChildOn(); upperNode; ++upperNode) {
+        for (auto block = upperNode->cbeginChildOn(); block; ++block) visit(*block);
     }
 }
 
 template <class Visit>
 void forEachFullBlockTile(const MaskTree& tree, const Visit& visit)
 {
-    for (auto region = tree.root().cbeginChildOn(); region; ++region) {
-        for (auto tile = region->cbeginValueOn(); tile; ++tile) visit(tile.getCoord());
+    for (auto upperNode = tree.root().cbeginChildOn(); upperNode; ++upperNode) {
+        for (auto tile = upperNode->cbeginValueOn(); tile; ++tile) visit(tile.getCoord());
     }
 }
 
-bool isUniformlyFull(const MaskBlock& node)
+bool isUniformlyFull(const LowerNode& node)
 {
     const Block block(&node);
-    for (int n = 0; n < slotsPerBlock; ++n) {
-        const std::uint64_t* const words = block.slot(n);
+    for (int n = 0; n < entriesPerBlock; ++n) {
+        const std::uint64_t* const words = block.entry(n);
         if (!std::equal(fullWords.begin(), fullWords.end(), words)) return false;
     }
     return true;
 }
 
-// The blocks along the face of a region on one side of one axis.
+// The blocks along the face of a upperNode on one side of one axis.
 template <class Visit>
-void forEachFaceBlock(const Coord& region, std::size_t axis, bool upper, const Visit& visit)
+void forEachFaceBlock(const Coord& upperNode, std::size_t axis, bool upper, const Visit& visit)
 {
-    for (int i = 0; i < blocksPerRegionAxis; ++i) {
-        for (int j = 0; j < blocksPerRegionAxis; ++j) {
-            Coord block = region;
-            block[axis] += upper ? regionSize - blockSize : 0;
+    for (int i = 0; i < blocksPerUpperAxis; ++i) {
+        for (int j = 0; j < blocksPerUpperAxis; ++j) {
+            Coord block = upperNode;
+            block[axis] += upper ? upperNodeSize - blockSize : 0;
             block[(axis + 1) % 3] += i * blockSize;
             block[(axis + 2) % 3] += j * blockSize;
             visit(block);
@@ -60,34 +60,34 @@ void forEachFaceBlock(const Coord& region, std::size_t axis, bool upper, const V
 
 Block blockAt(const MaskTree& tree, const Coord& origin)
 {
-    if (const auto* node = tree.root().probeConstNode<MaskBlock>(origin)) return Block(node);
+    if (const auto* node = tree.root().probeConstNode<LowerNode>(origin)) return Block(node);
     return Block(tree.isValueOn(origin));
 }
 
 std::vector<Coord> shellBlocks(const MaskTree& tree)
 {
     std::vector<Coord> blocks;
-    forEachNode(tree, [&](const MaskBlock& node) { blocks.push_back(node.origin()); });
+    forEachNode(tree, [&](const LowerNode& node) { blocks.push_back(node.origin()); });
     forEachFullBlockTile(tree, [&](const Coord& origin) { blocks.push_back(origin); });
-    std::vector<Coord> regions;
-    for (auto tile = tree.root().cbeginValueOn(); tile; ++tile) regions.push_back(tile.getCoord());
-    for (const Coord& block : facesOfRegions(regions)) blocks.push_back(block);
+    std::vector<Coord> upperNodes;
+    for (auto tile = tree.root().cbeginValueOn(); tile; ++tile) upperNodes.push_back(tile.getCoord());
+    for (const Coord& block : facesOfUpperNodes(upperNodes)) blocks.push_back(block);
     std::sort(blocks.begin(), blocks.end());
     blocks.erase(std::unique(blocks.begin(), blocks.end()), blocks.end());
     return blocks;
 }
 
-std::vector<Coord> facesOfRegions(const std::vector<Coord>& regions)
+std::vector<Coord> facesOfUpperNodes(const std::vector<Coord>& upperNodes)
 {
-    const std::set<Coord> all(regions.begin(), regions.end());
+    const std::set<Coord> all(upperNodes.begin(), upperNodes.end());
     std::vector<Coord> blocks;
-    for (const Coord& region : regions) {
+    for (const Coord& upperNode : upperNodes) {
         for (std::size_t axis = 0; axis < 3; ++axis) {
             for (const bool upper : {false, true}) {
-                Coord neighbour = region;
-                neighbour[axis] += upper ? regionSize : -regionSize;
+                Coord neighbour = upperNode;
+                neighbour[axis] += upper ? upperNodeSize : -upperNodeSize;
                 if (all.count(neighbour) > 0) continue;
-                forEachFaceBlock(region, axis, upper, [&](const Coord& c) { blocks.push_back(c); });
+                forEachFaceBlock(upperNode, axis, upper, [&](const Coord& c) { blocks.push_back(c); });
             }
         }
     }
@@ -97,9 +97,9 @@ std::vector<Coord> facesOfRegions(const std::vector<Coord>& regions)
 FullParts fullParts(const MaskTree& tree)
 {
     FullParts parts;
-    for (auto tile = tree.root().cbeginValueOn(); tile; ++tile) parts.regions.push_back(tile.getCoord());
+    for (auto tile = tree.root().cbeginValueOn(); tile; ++tile) parts.upperNodes.push_back(tile.getCoord());
     forEachFullBlockTile(tree, [&](const Coord& origin) { parts.blocks.push_back(origin); });
-    forEachNode(tree, [&](const MaskBlock& node) {
+    forEachNode(tree, [&](const LowerNode& node) {
         if (isUniformlyFull(node)) parts.blocks.push_back(node.origin());
     });
     return parts;
@@ -121,7 +121,7 @@ void BlockBuilder::set(int n, const std::uint64_t* words)
     if (all == ~0ULL) {
         full_[i] = 1;
     } else if (any != 0) {
-        leaves_[i] = std::make_unique<MaskLeaf>(origin_ + slotOffset(n));
+        leaves_[i] = std::make_unique<MaskLeaf>(origin_ + entryOffset(n));
         std::copy(words, words + leafSize, leaves_[i]->buffer().data());
     }
 }
@@ -131,9 +131,9 @@ BuiltBlock BlockBuilder::finish()
     BuiltBlock built{origin_, nullptr, false};
     const auto tiles = std::count(full_.begin(), full_.end(), 1);
     const bool hasLeaf = std::any_of(leaves_.begin(), leaves_.end(), [](const auto& leaf) { return leaf != nullptr; });
-    if (tiles == slotsPerBlock) built.full = true;
-    if (!hasLeaf && (tiles == 0 || tiles == slotsPerBlock)) return built;
-    built.node = std::make_unique<MaskBlock>(origin_, false, false);
+    if (tiles == entriesPerBlock) built.full = true;
+    if (!hasLeaf && (tiles == 0 || tiles == entriesPerBlock)) return built;
+    built.node = std::make_unique<LowerNode>(origin_, false, false);
     for (std::size_t i = 0; i < leaves_.size(); ++i) {
         if (leaves_[i]) {
             built.node->addChild(leaves_[i].release());
@@ -146,31 +146,31 @@ BuiltBlock BlockBuilder::finish()
 
 MaskTree::Ptr assemble(const FullParts& full, std::vector<BuiltBlock> built)
 {
-    std::map<Coord, std::unique_ptr<MaskRegion>> regions; // null: full
-    for (const Coord& origin : full.regions) regions[origin] = nullptr;
-    const auto regionOf = [&](const Coord& origin) -> MaskRegion& {
-        const Coord key = alignedTo(origin, regionSize);
-        const auto [place, isNew] = regions.try_emplace(key);
-        if (!place->second) place->second = std::make_unique<MaskRegion>(key, !isNew, !isNew);
+    std::map<Coord, std::unique_ptr<UpperNode>> upperNodes; // null: full
+    for (const Coord& origin : full.upperNodes) upperNodes[origin] = nullptr;
+    const auto upperNodeOf = [&](const Coord& origin) -> UpperNode& {
+        const Coord key = alignedTo(origin, upperNodeSize);
+        const auto [place, isNew] = upperNodes.try_emplace(key);
+        if (!place->second) place->second = std::make_unique<UpperNode>(key, !isNew, !isNew);
         return *place->second;
     };
-    const auto addTile = [](MaskRegion& region, const Coord& origin, bool on) {
-        region.addTile(MaskRegion::coordToOffset(origin), on, on);
+    const auto addTile = [](UpperNode& upperNode, const Coord& origin, bool on) {
+        upperNode.addTile(UpperNode::coordToOffset(origin), on, on);
     };
-    for (const Coord& origin : full.blocks) addTile(regionOf(origin), origin, true);
+    for (const Coord& origin : full.blocks) addTile(upperNodeOf(origin), origin, true);
     for (BuiltBlock& block : built) {
         if (block.node) {
-            regionOf(block.origin).addChild(block.node.release());
-        } else if (block.full || regions.count(alignedTo(block.origin, regionSize)) > 0) {
-            addTile(regionOf(block.origin), block.origin, block.full);
+            upperNodeOf(block.origin).addChild(block.node.release());
+        } else if (block.full || upperNodes.count(alignedTo(block.origin, upperNodeSize)) > 0) {
+            addTile(upperNodeOf(block.origin), block.origin, block.full);
         }
     }
     auto tree = std::make_shared<MaskTree>(false);
-    for (auto& [origin, region] : regions) {
-        if (!region || (region->isChildMaskOff() && region->isValueMaskOn())) {
+    for (auto& [origin, upperNode] : upperNodes) {
+        if (!upperNode || (upperNode->isChildMaskOff() && upperNode->isValueMaskOn())) {
             tree->root().addTile(origin, true, true);
-        } else if (!region->isChildMaskOff() || !region->isValueMaskOff()) { // isEmpty() knows of children only
-            tree->root().addChild(region.release());
+        } else if (!upperNode->isChildMaskOff() || !upperNode->isValueMaskOff()) { // isEmpty() knows of children only
+            tree->root().addChild(upperNode.release());
         }
     }
     return tree;
@@ -178,9 +178,9 @@ MaskTree::Ptr assemble(const FullParts& full, std::vector<BuiltBlock> built)
 
 void release(MaskTree& tree, const Progress& progress)
 {
-    std::vector<MaskBlock*> stolen;
+    std::vector<LowerNode*> stolen;
     tree.stealNodes(stolen);
-    std::vector<std::unique_ptr<MaskBlock>> blocks(stolen.begin(), stolen.end());
+    std::vector<std::unique_ptr<LowerNode>> blocks(stolen.begin(), stolen.end());
     std::atomic<std::size_t> done{0};
     parallelFor(std::size_t{0}, blocks.size(), [&](std::size_t i) {
         progress.check(done++, blocks.size());
@@ -201,10 +201,10 @@ void requireSupportedCoordinates(const MaskTree& tree)
         text << "the mask has active voxels near " << origin << "; coordinates must be in [-2^30, 2^30)";
         throw InputError(text.str());
     };
-    // The limit is at a border of regions, so the origins tell.
+    // The limit is at a border of upperNodes, so the origins tell.
     for (auto tile = tree.root().cbeginValueOn(); tile; ++tile) require(!outside(tile.getCoord()), tile.getCoord());
-    for (auto region = tree.root().cbeginChildOn(); region; ++region) {
-        require(!outside(region->origin()) || region->onVoxelCount() == 0, region->origin());
+    for (auto upperNode = tree.root().cbeginChildOn(); upperNode; ++upperNode) {
+        require(!outside(upperNode->origin()) || upperNode->onVoxelCount() == 0, upperNode->origin());
     }
 }
 

@@ -11,31 +11,31 @@
 
 /// A sparse mask seen as the nodes of its tree, the view that every algorithm of this room works on.
 ///
-/// A *region* is 4096^3 voxels (a child of the root), a *block* 128^3 (the node above the leaves), a *slot* one of the
-/// 4096 places of 8^3 voxels in a block: empty, full or a leaf. The bits of a slot are 8 words, word x holding voxel
-/// (x, y, z) in bit 8 y + z, as OpenVDB stores them. Regions and blocks are named by their origin. Only active states
-/// count; the values of a mask tree's tiles are not looked at.
+/// A *upperNode* is 4096^3 voxels (a child of the root), a *block* 128^3 (the node above the leaves), a *entry* one of
+/// the 4096 places of 8^3 voxels in a block: empty, full or a leaf. The bits of a entry are 8 words, word x holding
+/// voxel (x, y, z) in bit 8 y + z, as OpenVDB stores them. Regions and blocks are named by their origin. Only active
+/// states count; the values of a mask tree's tiles are not looked at.
 namespace vdbcage::detail {
 
 using openvdb::Coord;
 using openvdb::MaskTree;
-using MaskRegion = MaskTree::RootNodeType::ChildNodeType;
-using MaskBlock = MaskRegion::ChildNodeType;
+using UpperNode = MaskTree::RootNodeType::ChildNodeType;
+using LowerNode = UpperNode::ChildNodeType;
 using MaskLeaf = MaskTree::LeafNodeType;
 
-constexpr int leafSize = 8, blockSize = 128, regionSize = 4096;
-constexpr int slotsPerAxis = 16, slotsPerBlock = 4096;
+constexpr int leafSize = 8, blockSize = 128, upperNodeSize = 4096;
+constexpr int entriesPerAxis = 16, entriesPerBlock = 4096;
 
 using Words = std::array<std::uint64_t, 8>;
 inline constexpr Words emptyWords{};
 inline constexpr Words fullWords{~0ULL, ~0ULL, ~0ULL, ~0ULL, ~0ULL, ~0ULL, ~0ULL, ~0ULL};
 
-inline constexpr int slotIndex(int x, int y, int z)
+inline constexpr int entryIndex(int x, int y, int z)
 {
     return (x << 8) | (y << 4) | z;
 }
-/// The corner of slot n, relative to its block.
-inline Coord slotOffset(int n)
+/// The corner of entry n, relative to its block.
+inline Coord entryOffset(int n)
 {
     return {(n >> 8) * leafSize, ((n >> 4) & 15) * leafSize, (n & 15) * leafSize};
 }
@@ -44,15 +44,15 @@ inline Coord slotOffset(int n)
 class Block {
 public:
     Block() = default;
-    explicit Block(const MaskBlock* node) : node_(node) {}
+    explicit Block(const LowerNode* node) : node_(node) {}
     explicit Block(bool full) : full_(full) {}
 
     /// Uniform, and so without a node. (A node can be full or empty too, where nobody pruned it.)
     bool isFull() const { return full_; }
     bool isEmpty() const { return !node_ && !full_; }
 
-    /// The 8 words of slot n: those of the leaf, or exactly emptyWords or fullWords.
-    const std::uint64_t* slot(int n) const
+    /// The 8 words of entry n: those of the leaf, or exactly emptyWords or fullWords.
+    const std::uint64_t* entry(int n) const
     {
         const auto i = static_cast<openvdb::Index>(n);
         if (!node_) return full_ ? fullWords.data() : emptyWords.data();
@@ -60,12 +60,13 @@ public:
         return node_->isValueMaskOn(i) ? fullWords.data() : emptyWords.data();
     }
 
-    /// Calls visit(n, slot(n)) for every slot that is not empty, in no order. (A leaf without bits may be among them.)
+    /// Calls visit(n, entry(n)) for every entry that is not empty, in no order. (A leaf without bits may be among
+    /// them.)
     template <class Visit>
-    void forEachSlot(const Visit& visit) const
+    void forEachEntry(const Visit& visit) const
     {
         if (!node_) {
-            for (int n = 0; full_ && n < slotsPerBlock; ++n) visit(n, fullWords.data());
+            for (int n = 0; full_ && n < entriesPerBlock; ++n) visit(n, fullWords.data());
             return;
         }
         for (auto tile = node_->cbeginValueOn(); tile; ++tile) visit(static_cast<int>(tile.pos()), fullWords.data());
@@ -75,51 +76,51 @@ public:
     }
 
 private:
-    const MaskBlock* node_ = nullptr;
+    const LowerNode* node_ = nullptr;
     bool full_ = false;
 };
 
-/// The block of `tree` with this origin. O(log regions).
+/// The block of `tree` with this origin. O(log upperNodes).
 Block blockAt(const MaskTree& tree, const Coord& origin);
 
-/// The blocks that can hold a boundary voxel of the mask, sorted: the nodes, the full blocks, and of a full region
-/// those at the faces where its neighbour is not a full region.
+/// The blocks that can hold a boundary voxel of the mask, sorted: the nodes, the full blocks, and of a full upperNode
+/// those at the faces where its neighbour is not a full upperNode.
 std::vector<Coord> shellBlocks(const MaskTree& tree);
 
-/// The blocks along those faces of full regions where the neighbour is not among them; some maybe twice.
-std::vector<Coord> facesOfRegions(const std::vector<Coord>& regions);
+/// The blocks along those faces of full upperNodes where the neighbour is not among them; some maybe twice.
+std::vector<Coord> facesOfUpperNodes(const std::vector<Coord>& upperNodes);
 
-/// Calls visit(origin) for each block of a region.
+/// Calls visit(origin) for each block of a upperNode.
 template <class Visit>
-void forEachBlock(const Coord& region, const Visit& visit)
+void forEachBlock(const Coord& upperNode, const Visit& visit)
 {
-    for (int x = 0; x < regionSize; x += blockSize) {
-        for (int y = 0; y < regionSize; y += blockSize) {
-            for (int z = 0; z < regionSize; z += blockSize) visit(region.offsetBy(x, y, z));
+    for (int x = 0; x < upperNodeSize; x += blockSize) {
+        for (int y = 0; y < upperNodeSize; y += blockSize) {
+            for (int z = 0; z < upperNodeSize; z += blockSize) visit(upperNode.offsetBy(x, y, z));
         }
     }
 }
 
-/// Where a tree is full without a leaf or slot tile saying so.
+/// Where a tree is full without a leaf or entry tile saying so.
 struct FullParts {
-    std::vector<Coord> regions;
-    std::vector<Coord> blocks; ///< outside the regions
+    std::vector<Coord> upperNodes;
+    std::vector<Coord> blocks; ///< outside the upperNodes
 };
 FullParts fullParts(const MaskTree& tree);
 
 /// A finished block, on its way into a tree: a node, or uniform.
 struct BuiltBlock {
     Coord origin;
-    std::unique_ptr<MaskBlock> node; ///< null: uniform
+    std::unique_ptr<LowerNode> node; ///< null: uniform
     bool full = false;
 };
 
-/// Collects the slots of one block. Different slots may be set by different threads.
+/// Collects the entries of one block. Different entries may be set by different threads.
 class BlockBuilder {
 public:
-    explicit BlockBuilder(const Coord& origin) : origin_(origin), leaves_(slotsPerBlock), full_(slotsPerBlock, 0) {}
+    explicit BlockBuilder(const Coord& origin) : origin_(origin), leaves_(entriesPerBlock), full_(entriesPerBlock, 0) {}
 
-    /// Slot n becomes `words`; each slot at most once, empty where never set.
+    /// Entry n becomes `words`; each entry at most once, empty where never set.
     void set(int n, const std::uint64_t* words);
     BuiltBlock finish();
 

@@ -279,23 +279,23 @@ std::int32_t RadiusField::square(const Coord& voxel, double factor) const
 
 void RadiusField::findRanges(const Progress& progress)
 {
-    const int perSlot = leafSize >> shift_;
+    const int perEntry = leafSize >> shift_;
     for (std::size_t axis = 0; axis < 3; ++axis) {
-        firstSlot_[axis] = (first_[axis] * (1 << shift_)) >> 3;
-        slots_[axis] = (((first_[axis] + size_[axis] - 1) * (1 << shift_)) >> 3) + 1 - firstSlot_[axis];
+        firstEntry_[axis] = (first_[axis] * (1 << shift_)) >> 3;
+        entries_[axis] = (((first_[axis] + size_[axis] - 1) * (1 << shift_)) >> 3) + 1 - firstEntry_[axis];
     }
-    ranges_.resize(static_cast<std::size_t>(slots_.x()) * static_cast<std::size_t>(slots_.y()) *
-                   static_cast<std::size_t>(slots_.z()));
-    parallelFor(0, slots_.x(), [&](int x) {
-        for (int y = 0; y < slots_.y(); ++y) {
-            progress.check(static_cast<std::size_t>(x), static_cast<std::size_t>(slots_.x()));
-            for (int z = 0; z < slots_.z(); ++z) {
-                Coord corner = firstSlot_ + Coord(x, y, z); // then its first node
+    ranges_.resize(static_cast<std::size_t>(entries_.x()) * static_cast<std::size_t>(entries_.y()) *
+                   static_cast<std::size_t>(entries_.z()));
+    parallelFor(0, entries_.x(), [&](int x) {
+        for (int y = 0; y < entries_.y(); ++y) {
+            progress.check(static_cast<std::size_t>(x), static_cast<std::size_t>(entries_.x()));
+            for (int z = 0; z < entries_.z(); ++z) {
+                Coord corner = firstEntry_ + Coord(x, y, z); // then its first node
                 for (std::size_t axis = 0; axis < 3; ++axis)
                     corner[axis] = ((corner[axis] * leafSize) >> shift_) - first_[axis];
                 Range range{outside_, outside_};
                 bool isFirst = true;
-                for (auto c = CoordBBox(corner, corner.offsetBy(perSlot)).begin(); c; ++c) {
+                for (auto c = CoordBBox(corner, corner.offsetBy(perEntry)).begin(); c; ++c) {
                     bool isNode = true;
                     for (std::size_t axis = 0; axis < 3; ++axis)
                         isNode = isNode && (*c)[axis] >= 0 && (*c)[axis] < size_[axis];
@@ -304,25 +304,25 @@ void RadiusField::findRanges(const Progress& progress)
                     range.most = isFirst ? value : std::max(range.most, value);
                     isFirst = false;
                 }
-                ranges_[(static_cast<std::size_t>(x) * static_cast<std::size_t>(slots_.y()) +
+                ranges_[(static_cast<std::size_t>(x) * static_cast<std::size_t>(entries_.y()) +
                          static_cast<std::size_t>(y)) *
-                            static_cast<std::size_t>(slots_.z()) +
+                            static_cast<std::size_t>(entries_.z()) +
                         static_cast<std::size_t>(z)] = range;
             }
         }
     });
 }
 
-RadiusField::Range RadiusField::rangeOfSlot(const Coord& origin) const
+RadiusField::Range RadiusField::rangeOfEntry(const Coord& origin) const
 {
-    const Coord slot = Coord(origin.x() >> 3, origin.y() >> 3, origin.z() >> 3) - firstSlot_;
+    const Coord entry = Coord(origin.x() >> 3, origin.y() >> 3, origin.z() >> 3) - firstEntry_;
     for (std::size_t axis = 0; axis < 3; ++axis) {
-        if (slot[axis] < 0 || slot[axis] >= slots_[axis]) return {outside_, outside_};
+        if (entry[axis] < 0 || entry[axis] >= entries_[axis]) return {outside_, outside_};
     }
-    return ranges_[(static_cast<std::size_t>(slot.x()) * static_cast<std::size_t>(slots_.y()) +
-                    static_cast<std::size_t>(slot.y())) *
-                       static_cast<std::size_t>(slots_.z()) +
-                   static_cast<std::size_t>(slot.z())];
+    return ranges_[(static_cast<std::size_t>(entry.x()) * static_cast<std::size_t>(entries_.y()) +
+                    static_cast<std::size_t>(entry.y())) *
+                       static_cast<std::size_t>(entries_.z()) +
+                   static_cast<std::size_t>(entry.z())];
 }
 
 } // namespace vdbcage::detail

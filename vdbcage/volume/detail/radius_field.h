@@ -29,11 +29,11 @@ public:
     double largest() const { return largest_; }
     /// The squared radius at a voxel, of the radius times `factor` (0 to 1).
     std::int32_t square(const openvdb::Coord& voxel, double factor) const;
-    /// Bounds of the radius (not squared) among the voxels of a slot.
+    /// Bounds of the radius (not squared) among the voxels of a entry.
     struct Range {
         float least, most;
     };
-    Range rangeOfSlot(const openvdb::Coord& origin) const;
+    Range rangeOfEntry(const openvdb::Coord& origin) const;
     /// The largest square that a radius may stand for.
     std::int32_t squareOf(double radius) const;
 
@@ -52,10 +52,10 @@ private:
                static_cast<std::size_t>(c.z());
     }
 
-    int shift_ = 0;                    // nodes are at the multiples of 2^shift
-    openvdb::Coord first_, size_;      // in nodes
-    std::vector<float> nodes_;         // radii
-    openvdb::Coord firstSlot_, slots_; // in slots
+    int shift_ = 0;                       // nodes are at the multiples of 2^shift
+    openvdb::Coord first_, size_;         // in nodes
+    std::vector<float> nodes_;            // radii
+    openvdb::Coord firstEntry_, entries_; // in entries
     std::vector<Range> ranges_;
     float outside_ = 0; // the radius where there are no nodes
     double largest_ = 0;

@@ -1,7 +1,7 @@
 // Based on: the node-wise overlap tests of Calderon and Boubekeur, Bounding Proxies for Shape Approximation, 2017.
 // Differs: exact integer distances to the contour voxels alone (for a point outside a set some nearest voxel of it has
 // a face neighbour outside); the tree's nodes are asked as wholes (128^3, 32^3, 8^3), each with the contour leaves that
-// reach it, and only slots that are neither all in nor all out look at voxels (see sphere_reach.h).
+// reach it, and only entries that are neither all in nor all out look at voxels (see sphere_reach.h).
 #include <vdbcage/volume/detail/sphere_pass.h>
 
 #include <algorithm>
@@ -14,9 +14,9 @@
 #include <tbb/enumerable_thread_specific.h>
 
 #include <vdbcage/core/detail/parallel.h>
-#include <vdbcage/volume/detail/contour_leaves.h>
-#include <vdbcage/volume/detail/sphere_reach.h>
-#include <vdbcage/volume/detail/varying_reach.h>
+#include <vdbcage/volume/detail/boundary_leaves.h>
+#include <vdbcage/volume/detail/sphere_query.h>
+#include <vdbcage/volume/detail/varying_query.h>
 
 namespace vdbcage::detail {
 
@@ -35,31 +35,31 @@ std::int64_t squaredGap(const CoordBBox& a, const CoordBBox& b)
 }
 
 // What one thread needs while it works on a part of a block.
-template <class Reach>
+template <class Query>
 struct WorkSpace {
     std::vector<std::size_t> groups; // that reach the part
     std::vector<NearLeaf> near;      // their leaves, or samples of them
-    // Those that may reach open slots, by where they are along z: see SphereReach::Leaves.
+    // Those that may reach open entries, by where they are along z: see SphereQuery::Leaves.
     std::vector<std::uint16_t> order;
-    // For each pile of slots of the part those that may reach open ones.
+    // For each pile of entries of the part those that may reach open ones.
     std::vector<std::uint16_t> lists;
     std::array<std::array<std::size_t, 6>, 16> ends;
     std::optional<Coord> block; // that `reach` knows about
-    typename Reach::Work reach;
-    // By slot of the part: its voxels, and those that the pass may change.
+    typename Query::Work reach;
+    // By entry of the part: its voxels, and those that the pass may change.
     std::array<const std::uint64_t*, 64> base;
     std::array<const Words*, 64> open;
     std::array<Words, 64> partlyOpen;
 };
 
-// Reach tells what is within reach: SphereReach or VaryingReach.
-template <class Reach>
+// Query tells what is within reach: SphereQuery or VaryingQuery.
+template <class Query>
 class SpherePass {
 public:
     SpherePass(const MaskTree& base, const MaskTree* keep, ContourOf side, std::int64_t largestSquare,
-               const Reach& reach, const std::vector<ContourBlock>& contour, const Progress& progress)
+               const Query& reach, const std::vector<ContourBlock>& contour, const Progress& progress)
         : base_(base), keep_(keep), side_(side), squaredRadius_(largestSquare), contour_(contour), progress_(progress),
-          radius_(static_cast<int>(std::ceil(std::sqrt(static_cast<double>(largestSquare))))), reach_(reach)
+          radius_(static_cast<int>(std::ceil(std::sqrt(static_cast<double>(largestSquare))))), query_(reach)
     {
     }
 
@@ -73,7 +73,7 @@ public:
     }
 
 private:
-    using Work = WorkSpace<Reach>;
+    using Work = WorkSpace<Query>;
 
     struct Target {
         Coord origin;
@@ -103,11 +103,11 @@ private:
         }
         std::sort(targets.begin(), targets.end());
         targets.erase(std::unique(targets.begin(), targets.end()), targets.end());
-        const auto isSettled = [&](const Coord& origin) {
+        const auto isDecided = [&](const Coord& origin) {
             const Block block = blockAt(base_, origin);
             return side_ == ContourOf::mask ? block.isFull() : block.isEmpty();
         };
-        targets.erase(std::remove_if(targets.begin(), targets.end(), isSettled), targets.end());
+        targets.erase(std::remove_if(targets.begin(), targets.end(), isDecided), targets.end());
         return targets;
     }
 
@@ -149,27 +149,27 @@ private:
 
     void buildPart(const Target& target, int part, Work& work, BlockBuilder& builder) const
     {
-        const int firstSlot = slotIndex(part / 16 * partSlots, part / 4 % 4 * partSlots, part % 4 * partSlots);
-        std::uint64_t open = findOpenVoxels(target, firstSlot, work);
+        const int firstEntry = entryIndex(part / 16 * partEntries, part / 4 % 4 * partEntries, part % 4 * partEntries);
+        std::uint64_t open = findOpenVoxels(target, firstEntry, work);
         std::uint64_t covered = 0;
         if (open != 0) {
-            const Coord corner = target.origin + slotOffset(firstSlot);
+            const Coord corner = target.origin + entryOffset(firstEntry);
             const std::size_t leaves = selectGroups(target, corner, work), stride = leaves / samples + 1;
             gatherLeaves(target, corner, stride, work);
-            reach_.startPart(work.reach, corner);
-            covered = open & reach_.coveredSlots(work.near.data(), work.near.size(), open, work.reach);
+            query_.startPart(work.reach, corner);
+            covered = open & query_.coveredEntries(work.near.data(), work.near.size(), open, work.reach);
             open &= ~covered;
             if (open != 0 && stride > 1) gatherLeaves(target, corner, 1, work);
         }
         if (open != 0) {
-            if (work.block != target.origin) reach_.startBlock(work.reach, target.leaves);
+            if (work.block != target.origin) query_.startBlock(work.reach, target.leaves);
             work.block = target.origin;
             open &= listLeaves(open, work);
         }
         // The open voxels within reach change sides.
         for (int pile = 0; pile < 16; ++pile) {
             const int first = 4 * pile;
-            SphereReach::Pile pileOpen{};
+            SphereQuery::Pile pileOpen{};
             for (std::size_t z = 0; z < 4; ++z) {
                 const std::size_t i = static_cast<std::size_t>(first) + z;
                 if ((open >> i & 1) != 0) pileOpen[z] = work.open[i];
@@ -177,14 +177,14 @@ private:
             std::array<Words, 4> change;
             if ((open >> first & 15) != 0) {
                 progress_.check(partsDone_, parts_); // these take time with large radii
-                change = reach_.within(pileOpen, pile, work.near.data(), leavesOf(pile, work), work.reach);
+                change = query_.within(pileOpen, pile, work.near.data(), leavesOf(pile, work), work.reach);
             }
             for (int z = 0; z < 4; ++z) {
-                const int i = first + z, n = slotOfBlock(firstSlot, i);
-                const auto slot = static_cast<std::size_t>(i);
-                const std::uint64_t* const base = work.base[slot];
+                const int i = first + z, n = entryOfBlock(firstEntry, i);
+                const auto entry = static_cast<std::size_t>(i);
+                const std::uint64_t* const base = work.base[entry];
                 if ((covered >> i & 1) != 0) {
-                    setChanged(builder, n, base, *work.open[slot]);
+                    setChanged(builder, n, base, *work.open[entry]);
                 } else if ((open >> i & 1) != 0) {
                     setChanged(builder, n, base, change[static_cast<std::size_t>(z)]);
                 } else {
@@ -201,24 +201,24 @@ private:
         builder.set(n, words.data());
     }
 
-    // Tells which slots of the part have open voxels.
-    std::uint64_t findOpenVoxels(const Target& target, int firstSlot, Work& work) const
+    // Tells which entries of the part have open voxels.
+    std::uint64_t findOpenVoxels(const Target& target, int firstEntry, Work& work) const
     {
         std::uint64_t found = 0;
         for (int i = 0; i < 64; ++i) {
-            const auto slot = static_cast<std::size_t>(i);
-            const int n = slotOfBlock(firstSlot, i);
-            const std::uint64_t* const base = work.base[slot] = target.base.slot(n);
-            const std::uint64_t* const keep = side_ == ContourOf::mask ? base : target.keep.slot(n);
-            const std::uint64_t* const settled = (side_ == ContourOf::mask ? fullWords : emptyWords).data();
-            if (base == settled || keep == fullWords.data()) continue;
+            const auto entry = static_cast<std::size_t>(i);
+            const int n = entryOfBlock(firstEntry, i);
+            const std::uint64_t* const base = work.base[entry] = target.base.entry(n);
+            const std::uint64_t* const keep = side_ == ContourOf::mask ? base : target.keep.entry(n);
+            const std::uint64_t* const decided = (side_ == ContourOf::mask ? fullWords : emptyWords).data();
+            if (base == decided || keep == fullWords.data()) continue;
             if (keep == emptyWords.data() && (base == emptyWords.data() || base == fullWords.data())) {
-                work.open[slot] = &fullWords;
+                work.open[entry] = &fullWords;
                 found |= std::uint64_t{1} << i;
                 continue;
             }
-            Words& open = work.partlyOpen[slot];
-            work.open[slot] = &open;
+            Words& open = work.partlyOpen[entry];
+            work.open[entry] = &open;
             std::uint64_t any = 0;
             for (std::size_t x = 0; x < 8; ++x) {
                 open[x] = (side_ == ContourOf::mask ? ~0ULL : base[x]) & ~keep[x];
@@ -232,7 +232,7 @@ private:
     // A nearest one first. Returns how many leaves they have.
     std::size_t selectGroups(const Target& target, const Coord& corner, Work& work) const
     {
-        const CoordBBox box = CoordBBox::createCube(corner, partSlots * leafSize);
+        const CoordBBox box = CoordBBox::createCube(corner, partEntries * leafSize);
         work.groups.clear();
         std::size_t leaves = 0;
         std::int64_t least = squaredRadius_ + 1;
@@ -256,16 +256,16 @@ private:
         for (const std::size_t index : work.groups) {
             const auto& [block, group, firstId] = target.groups[index];
             const Coord voxels = block->origin - corner,
-                        offset(voxels.x() >> 3, voxels.y() >> 3, voxels.z() >> 3); // in slots
+                        offset(voxels.x() >> 3, voxels.y() >> 3, voxels.z() >> 3); // in entries
             std::size_t i = group->begin + skip;
             for (; i < group->end; i += stride) {
                 const ContourLeaf& leaf = block->leaves[i];
                 NearLeaf& near = work.near.emplace_back();
                 near.id = static_cast<std::uint32_t>(firstId + i - group->begin);
                 near.words = &block->words[i];
-                near.x = static_cast<std::int16_t>(offset.x() + (leaf.slot >> 8));
-                near.y = static_cast<std::int16_t>(offset.y() + (leaf.slot >> 4 & 15));
-                near.z = static_cast<std::int16_t>(offset.z() + (leaf.slot & 15));
+                near.x = static_cast<std::int16_t>(offset.x() + (leaf.entry >> 8));
+                near.y = static_cast<std::int16_t>(offset.y() + (leaf.entry >> 4 & 15));
+                near.z = static_cast<std::int16_t>(offset.z() + (leaf.entry & 15));
                 near.box = leaf.box;
                 near.sample = leaf.sample;
             }
@@ -273,16 +273,16 @@ private:
         }
     }
 
-    // Tells which of the open slots a leaf may reach.
+    // Tells which of the open entries a leaf may reach.
     std::uint64_t listLeaves(std::uint64_t open, Work& work) const
     {
-        constexpr std::uint64_t bottoms = 0x1111111111111111ULL; // the first slot of each pile
+        constexpr std::uint64_t bottoms = 0x1111111111111111ULL; // the first entry of each pile
         const std::size_t size = work.near.size();
-        reach_.reachedSlots(work.near.data(), size, work.reach);
+        query_.nearEntries(work.near.data(), size, work.reach);
         std::uint64_t any = 0;
         std::array<std::size_t, 7> starts{};
         const auto kindOf = [&](const NearLeaf& leaf) {
-            return static_cast<std::size_t>(std::clamp(leaf.z + 1, 0, partSlots + 1));
+            return static_cast<std::size_t>(std::clamp(leaf.z + 1, 0, partEntries + 1));
         };
         for (const NearLeaf& leaf : work.near) {
             if ((leaf.reached & open) == 0) continue;
@@ -314,17 +314,17 @@ private:
         return any;
     }
 
-    static SphereReach::Leaves leavesOf(int pile, const Work& work)
+    static SphereQuery::Leaves leavesOf(int pile, const Work& work)
     {
         const auto i = static_cast<std::size_t>(pile);
         return {work.lists.data() + i * work.near.size(), work.ends[i]};
     }
 
-    // The slot of the block that is bit i of the part.
-    static int slotOfBlock(int firstSlot, int i) { return firstSlot + slotIndex(i / 16, i / 4 % 4, i % 4); }
+    // The entry of the block that is bit i of the part.
+    static int entryOfBlock(int firstEntry, int i) { return firstEntry + entryIndex(i / 16, i / 4 % 4, i % 4); }
 
-    static constexpr int partSlots = 4;        // along an axis
-    static constexpr std::size_t samples = 48; // leaves that may cover slots alone: more hardly settle more
+    static constexpr int partEntries = 4;      // along an axis
+    static constexpr std::size_t samples = 48; // leaves that may cover entries alone: more hardly decide more
 
     const MaskTree& base_;
     const MaskTree* keep_;
@@ -333,19 +333,19 @@ private:
     const std::vector<ContourBlock>& contour_;
     Progress progress_;
     int radius_; // the largest, rounded up
-    const Reach& reach_;
+    const Query& query_;
     tbb::enumerable_thread_specific<Work> workSpaces_;
     std::size_t parts_ = 0;
     std::atomic<std::size_t> partsDone_{0};
 };
 
-template <class Reach>
+template <class Query>
 MaskTree::Ptr runPass(const MaskTree& base, const MaskTree* keep, ContourOf side, std::int64_t largestSquare,
-                      const Reach& reach, const Progress& progress)
+                      const Query& reach, const Progress& progress)
 {
     const std::vector<ContourBlock> contour = contourBlocks(base, side, progress.part(0, 8));
     const Progress rest{progress.interrupter, progress.part(0, 8).to, progress.to};
-    return SpherePass<Reach>(base, keep, side, largestSquare, reach, contour, rest).run();
+    return SpherePass<Query>(base, keep, side, largestSquare, reach, contour, rest).run();
 }
 
 std::int64_t largestSquare(const RadiusField& field, double factor)
@@ -357,27 +357,27 @@ std::int64_t largestSquare(const RadiusField& field, double factor)
 
 MaskTree::Ptr dilateBySphere(const MaskTree& mask, std::int64_t squaredRadius, const Progress& progress, Simd simd)
 {
-    const SphereReach reach(squaredRadius, simd, progress.part(0, 100));
+    const SphereQuery reach(squaredRadius, simd, progress.part(0, 100));
     return runPass(mask, nullptr, ContourOf::mask, squaredRadius, reach, progress);
 }
 
 MaskTree::Ptr erodeBySphere(const MaskTree& mask, const MaskTree* keep, std::int64_t squaredRadius,
                             const Progress& progress, Simd simd)
 {
-    const SphereReach reach(squaredRadius, simd, progress.part(0, 100));
+    const SphereQuery reach(squaredRadius, simd, progress.part(0, 100));
     return runPass(mask, keep, ContourOf::complement, squaredRadius, reach, progress);
 }
 
 MaskTree::Ptr dilateByField(const MaskTree& mask, const RadiusField& field, const Progress& progress, Simd simd)
 {
-    const VaryingReach reach(field, 1, VaryingReach::By::target, simd);
+    const VaryingQuery reach(field, 1, VaryingQuery::By::target, simd);
     return runPass(mask, nullptr, ContourOf::mask, largestSquare(field, 1), reach, progress);
 }
 
 MaskTree::Ptr erodeByField(const MaskTree& mask, const MaskTree* keep, const RadiusField& field, double factor,
                            const Progress& progress, Simd simd)
 {
-    const VaryingReach reach(field, factor, VaryingReach::By::source, simd);
+    const VaryingQuery reach(field, factor, VaryingQuery::By::source, simd);
     return runPass(mask, keep, ContourOf::complement, largestSquare(field, factor), reach, progress);
 }
 

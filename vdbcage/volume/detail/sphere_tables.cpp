@@ -34,20 +34,20 @@ int gap(int position, int lower, int upper)
 
 SphereTables::SphereTables(std::int64_t squared, const Progress& progress)
     : squaredRadius(squared), reach(static_cast<int>(std::ceil(std::sqrt(static_cast<double>(squared))))),
-      isSmall(reach <= smallRadius), slotReach((reach + 7) / 8 + 1), rowReach(8 * slotReach + 7),
+      isSmall(reach <= smallRadius), entryRadius((reach + 7) / 8 + 1), rowRadius(8 * entryRadius + 7),
       coordinates(2 * margin() + 32)
 {
     while ((squaredRadius >> shift) > std::numeric_limits<std::int16_t>::max() / 3 - 1) ++shift;
     limit = static_cast<std::int16_t>(squaredRadius >> shift);
-    isSmall ? fillHeights(smallRows, smallSlots, progress) : fillHeights(largeRows, largeSlots, progress);
+    isSmall ? fillHeights(smallRows, smallEntries, progress) : fillHeights(largeRows, largeEntries, progress);
     fillSquares();
 }
 
 template <class T>
-void SphereTables::fillHeights(std::vector<T>& rows, std::vector<T>& slots, const Progress& progress)
+void SphereTables::fillHeights(std::vector<T>& rows, std::vector<T>& entries, const Progress& progress)
 {
     // One quarter of the disc; the rest is its mirror image.
-    const int size = rowReach + 8;
+    const int size = rowRadius + 8;
     std::vector<T> heights(static_cast<std::size_t>(size * size));
     for (int dx = 0; dx < size; ++dx) {
         if (dx % 32 == 0) progress.check(0, 1);
@@ -57,17 +57,17 @@ void SphereTables::fillHeights(std::vector<T>& rows, std::vector<T>& slots, cons
         }
     }
     const auto at = [&](int dx, int dy) { return heights[static_cast<std::size_t>(dx * size + dy)]; };
-    for (int dx = -rowReach; dx <= rowReach; ++dx) {
+    for (int dx = -rowRadius; dx <= rowRadius; ++dx) {
         if (dx % 32 == 0) progress.check(0, 1);
-        for (int dy = -rowReach; dy <= rowReach + 7; ++dy) {
+        for (int dy = -rowRadius; dy <= rowRadius + 7; ++dy) {
             for (int x = 0; x < 8; ++x) rows.push_back(at(std::abs(dx + x), std::abs(dy)));
         }
     }
-    for (int dx = -slotReach; dx <= slotReach; ++dx) {
+    for (int dx = -entryRadius; dx <= entryRadius; ++dx) {
         progress.check(0, 1);
-        for (int dy = -slotReach; dy <= slotReach; ++dy) {
+        for (int dy = -entryRadius; dy <= entryRadius; ++dy) {
             for (int y = 0; y < 8; ++y) {
-                for (int x = 0; x < 8; ++x) slots.push_back(at(gap(8 * dx + x, 0, 7), gap(8 * dy + y, 0, 7)));
+                for (int x = 0; x < 8; ++x) entries.push_back(at(gap(8 * dx + x, 0, 7), gap(8 * dy + y, 0, 7)));
             }
         }
     }

@@ -9,7 +9,7 @@
 
 namespace vdbcage::detail {
 
-constexpr int lanes = 64;        // the columns of a slot: column (x, y) is lane 8 y + x
+constexpr int lanes = 64;        // the columns of a entry: column (x, y) is lane 8 y + x
 constexpr int smallRadius = 120; // largest radius, rounded up, for which heights fit bytes
 
 // Heights are kept above `none`, which stands for no voxel at all, so that differences of bytes stay above 0.
@@ -23,7 +23,7 @@ struct SphereTables {
     /// \throw Cancelled
     SphereTables(std::int64_t squared, const Progress& progress);
 
-    // Height above a contour voxel at (-dx, -dy) seen from column (x, y) of a slot: [rowPlace(dx, dy) + lane].
+    // Height above a contour voxel at (-dx, -dy) seen from column (x, y) of a entry: [rowPlace(dx, dy) + lane].
     template <class T>
     const T* rows() const
     {
@@ -32,30 +32,30 @@ struct SphereTables {
         else
             return largeRows.data();
     }
-    int rowStride() const { return (2 * rowReach + 8) * 8; } // to the next dx; the next dy is 8 away
-    int rowPlace(int dx, int dy) const { return (dx + rowReach) * rowStride() + (dy + rowReach) * 8; }
-    // The same for contour voxels anywhere in the columns of a slot at the offset (-dx, -dy), in slots.
+    int rowStride() const { return (2 * rowRadius + 8) * 8; } // to the next dx; the next dy is 8 away
+    int rowPlace(int dx, int dy) const { return (dx + rowRadius) * rowStride() + (dy + rowRadius) * 8; }
+    // The same for contour voxels anywhere in the columns of a entry at the offset (-dx, -dy), in entries.
     template <class T>
-    const T* slots() const
+    const T* entries() const
     {
         if constexpr (sizeof(T) == 1)
-            return smallSlots.data();
+            return smallEntries.data();
         else
-            return largeSlots.data();
+            return largeEntries.data();
     }
-    int slotStride() const { return (2 * slotReach + 1) * lanes; } // to the next dx; the next dy is 64 away
-    int slotPlace(int dx, int dy) const { return (dx + slotReach) * slotStride() + (dy + slotReach) * lanes; }
+    int entryStride() const { return (2 * entryRadius + 1) * lanes; } // to the next dx; the next dy is 64 away
+    int entryPlace(int dx, int dy) const { return (dx + entryRadius) * entryStride() + (dy + entryRadius) * lanes; }
 
     std::int64_t squaredRadius;
     int reach; // the radius, rounded up
     bool isSmall;
-    int slotReach, rowReach; // largest offsets that are asked for, in slots and voxels
+    int entryRadius, rowRadius; // largest offsets that are asked for, in entries and voxels
     int coordinates;
 
-    // Squared distances along one axis, by a voxel's coordinate in the part, to its four slots: divided by 2^shift,
+    // Squared distances along one axis, by a voxel's coordinate in the part, to its four entries: divided by 2^shift,
     // rounded down (near) or up (far), and cut just above the limit.
     struct Squares {
-        std::array<std::int16_t, 4> below, above; // to the near end, of a slot that is below or above it, else 0
+        std::array<std::int16_t, 4> below, above; // to the near end, of a entry that is below or above it, else 0
         std::array<std::int16_t, 4> far;          // to the far end
     };
     const Squares& squares(int coordinate) const { return squares_[static_cast<std::size_t>(coordinate + margin())]; }
@@ -71,12 +71,12 @@ struct SphereTables {
 private:
     int margin() const { return reach + 40; }
     template <class T>
-    void fillHeights(std::vector<T>& rows, std::vector<T>& slots, const Progress& progress);
+    void fillHeights(std::vector<T>& rows, std::vector<T>& entries, const Progress& progress);
     void fillSquares();
 
     int shift = 0;
-    std::vector<std::uint8_t> smallRows, smallSlots;
-    std::vector<std::int16_t> largeRows, largeSlots;
+    std::vector<std::uint8_t> smallRows, smallEntries;
+    std::vector<std::int16_t> largeRows, largeEntries;
     std::vector<Squares> squares_;
     std::vector<WideSquares> wideSquares_;
 };

@@ -25,7 +25,7 @@ Backend voxelizeGlHardware;
 Backend voxelizeCgal;
 
 /// From this resolution on, setting up a device may pay: below, the CPU is done before a context and its shaders are
-/// made (README, Voxelizers).
+/// made (docs/VOXELIZERS.md).
 constexpr int leastResolutionForDevice = 1024;
 
 /// By the device from leastResolutionForDevice on, unless it fails; else by the CPU. `report` says which and why.

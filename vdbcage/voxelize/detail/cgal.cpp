@@ -29,7 +29,7 @@ using Triangle = Kernel::Triangle_3;
 using Segment = Kernel::Segment_3;
 template <typename Primitive>
 using Tree = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, Primitive>>;
-using TriangleTree = Tree<CGAL::AABB_triangle_primitive<Kernel, std::vector<Triangle>::const_iterator>>;
+using TriangleBvh = Tree<CGAL::AABB_triangle_primitive<Kernel, std::vector<Triangle>::const_iterator>>;
 using SegmentTree = Tree<CGAL::AABB_segment_primitive<Kernel, std::vector<Segment>::const_iterator>>;
 using openvdb::Coord;
 using openvdb::CoordBBox;
@@ -132,7 +132,7 @@ private:
         for (const Point& p : points_) {
             const auto voxels = [](double x) {
                 const int at = static_cast<int>(x);
-                return Span{(at - latticeReach + latticeStep - 1) >> latticeBits, (at + latticeReach) >> latticeBits};
+                return Span{(at - latticeBound + latticeStep - 1) >> latticeBits, (at + latticeBound) >> latticeBits};
             };
             const Span xs = voxels(p.x()), ys = voxels(p.y()), zs = voxels(p.z());
             for (const Coord& ijk : CoordBBox(xs.first, ys.first, zs.first, xs.last, ys.last, zs.last)) set(ijk);
@@ -144,7 +144,7 @@ private:
         const auto corner = [](const Coord& ijk, int reach) {
             return Point(ijk.x() * latticeStep + reach, ijk.y() * latticeStep + reach, ijk.z() * latticeStep + reach);
         };
-        const Kernel::Iso_cuboid_3 cuboid(corner(box.min(), -latticeReach), corner(box.max(), latticeReach));
+        const Kernel::Iso_cuboid_3 cuboid(corner(box.min(), -latticeBound), corner(box.max(), latticeBound));
         if (!triangleTree_.do_intersect(cuboid) && !segmentTree_.do_intersect(cuboid)) return;
         if (box.volume() == 1) {
             set(box.min());
@@ -183,7 +183,7 @@ private:
             return Point(p[0], p[1], p[2]);
         };
         const auto drop = [&](const Point& p) { return Point2(p[u], p[v]); };
-        std::vector<TriangleTree::Primitive_id> met;
+        std::vector<TriangleBvh::Primitive_id> met;
         triangleTree_.all_intersected_primitives(Segment(at(-1), at(2 * last_[axis] + 1)), std::back_inserter(met));
         const Point2 centre = drop(at(0));
         for (const auto& id : met) {
@@ -215,7 +215,7 @@ private:
     std::vector<Segment> segments_;   ///< of degenerate triangles
     std::vector<Point> points_;
     std::size_t counted_ = 0; ///< the crossings of so many triangles count
-    TriangleTree triangleTree_;
+    TriangleBvh triangleTree_;
     SegmentTree segmentTree_;
 };
 

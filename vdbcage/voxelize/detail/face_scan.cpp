@@ -113,7 +113,7 @@ private:
         line.perFirst = -dv * latticeStep;
         line.perSecond = du * latticeStep;
         const std::int64_t atOrigin = dv * u - du * v;
-        line.touched = atOrigin + latticeReach * (std::abs(du) + std::abs(dv));
+        line.touched = atOrigin + latticeBound * (std::abs(du) + std::abs(dv));
         const bool keepsTies = dv < 0 || (dv == 0 && du > 0);
         line.centred = keepsTies ? atOrigin : atOrigin - 1;
         if (du != 0) line.inverse = 1 / static_cast<double>(std::abs(line.perSecond));
@@ -137,8 +137,8 @@ struct Face {
         for (int axis = 0; axis < 3; ++axis) {
             const int low = std::min({p[0][axis], p[1][axis], p[2][axis]});
             const int high = std::max({p[0][axis], p[1][axis], p[2][axis]});
-            lowest[axis] = (low - latticeReach + latticeStep - 1) >> latticeBits;
-            size[axis] = ((high + latticeReach) >> latticeBits) - lowest[axis] + 1;
+            lowest[axis] = (low - latticeBound + latticeStep - 1) >> latticeBits;
+            size[axis] = ((high + latticeBound) >> latticeBits) - lowest[axis] + 1;
             hasCentres[axis] = (low + latticeStep - 1) >> latticeBits <= high >> latticeBits;
             for (Vec3i& corner : triangle.corners) corner[axis] -= lowest[axis] * latticeStep;
         }
@@ -265,7 +265,7 @@ std::size_t scan(const Face& face, bool counted, const Slab& slab, ScanBuffer& b
     const Plane<Wide> plane(face);
     Wide touchLimit = 0, cell[3];
     for (int axis = 0; axis < 3; ++axis) {
-        touchLimit += Wide(std::abs(face.normal[axis])) * latticeReach;
+        touchLimit += Wide(std::abs(face.normal[axis])) * latticeBound;
         cell[axis] = face.halfCell<Wide>(axis);
     }
 

@@ -32,7 +32,7 @@ struct Slab {
 /// Buffer of scanSurface, to be kept from call to call.
 using ScanBuffer = std::vector<Span>;
 
-/// Sets, in the slab's `surface`, the voxels that the triangle touches: those whose cube, of half width latticeReach,
+/// Sets, in the slab's `surface`, the voxels that the triangle touches: those whose cube, of half width latticeBound,
 /// meets it. With `counted` it also flips, in `crossings`, the voxels in which it crosses the ray through voxel
 /// centres along each axis: the one that the point of crossing lies in. All exact; degenerate triangles are segments
 /// and points, cross no ray, and touch what these touch. Everything the triangle touches must lie in the grid's rows.

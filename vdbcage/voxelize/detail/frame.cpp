@@ -61,8 +61,8 @@ Frame makeFrame(const Mesh& model, int resolution, const std::optional<openvdb::
     openvdb::Coord low, high;
     for (int axis = 0; axis < 3; ++axis) {
         const auto i = static_cast<std::size_t>(axis); // as OpenVDB's Coord has it, other than its vectors
-        low[i] = (lattice(box.min(), axis) - latticeReach + latticeStep - 1) >> latticeBits;
-        high[i] = (lattice(box.max(), axis) + latticeReach) >> latticeBits;
+        low[i] = (lattice(box.min(), axis) - latticeBound + latticeStep - 1) >> latticeBits;
+        high[i] = (lattice(box.max(), axis) + latticeBound) >> latticeBits;
     }
     frame.voxels = openvdb::CoordBBox(low, high);
     return frame;

@@ -16,7 +16,7 @@ constexpr int latticeBits = 14;
 constexpr int latticeStep = 1 << latticeBits;
 /// Half the width of the cube that stands for a voxel: half a voxel and one unit. A point lies at most half a unit off
 /// by its own rounding and a quarter of a unit by the rounding of the transform, less than the unit that is added.
-constexpr int latticeReach = latticeStep / 2 + 1;
+constexpr int latticeBound = latticeStep / 2 + 1;
 
 /// The place of a model's voxels in the world. The centre of the model's bounding box is at the index resolution / 2 on
 /// each axis and the longest side is `resolution` voxels long: its two ends are at the indices 0 and `resolution`, in

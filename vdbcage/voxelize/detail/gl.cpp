@@ -44,7 +44,7 @@ constexpr std::size_t batchSize = std::size_t(1) << 18;
 /// The voxels that something may touch that goes from `low` to `high`.
 Span voxelsOf(int low, int high)
 {
-    return {(low - latticeReach + latticeStep - 1) >> latticeBits, (high + latticeReach) >> latticeBits};
+    return {(low - latticeBound + latticeStep - 1) >> latticeBits, (high + latticeBound) >> latticeBits};
 }
 
 /// The y of the voxels that the part of the triangle between two x may touch; one voxel more at times.
@@ -95,7 +95,7 @@ void cut(const LatticeTriangle& triangle, bool counted, const Span& planes, cons
     const int width = columns / thickness;
     for (int x = xs.first; x <= xs.last; x += thickness) {
         const int last = std::min(x + thickness - 1, xs.last);
-        Span rows = rowsBetween(triangle, x * latticeStep - latticeReach, last * latticeStep + latticeReach);
+        Span rows = rowsBetween(triangle, x * latticeStep - latticeBound, last * latticeStep + latticeBound);
         rows = {std::max(rows.first, ys.first), std::min(rows.last, ys.last)};
         for (int y = rows.first; y <= rows.last; y += width) {
             visitColumns(x, last, y, std::min(y + width - 1, rows.last));

@@ -28,8 +28,8 @@ Span SlabbedTriangles::planes(int slab) const
 Span SlabbedTriangles::slabsOf(const Vec3I& face) const
 {
     const int a = points_[face[0]].x(), b = points_[face[1]].x(), c = points_[face[2]].x();
-    const int first = (std::min({a, b, c}) - latticeReach + latticeStep - 1) >> latticeBits;
-    const int last = (std::max({a, b, c}) + latticeReach) >> latticeBits;
+    const int first = (std::min({a, b, c}) - latticeBound + latticeStep - 1) >> latticeBits;
+    const int last = (std::max({a, b, c}) + latticeBound) >> latticeBits;
     return {first / slabThickness_, last / slabThickness_};
 }
 

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include <vdbcage/bounding/detail/contact_planes.h>
+#include <vdbcage/bounding/detail/star_change.h>
+
+/// What a surface under a guard may become. A change is allowed if the new star keeps clear of the model, is well
+/// shaped, keeps off the rest of the surface, and sweeps over no part of the model.
+namespace vdbcage::detail {
+
+/// What allows() learns of the model.
+struct Obstacle {
+    std::uint32_t item = TriangleBvh::none; ///< of the model: the last that was in the way, the first to try
+    std::size_t clear = 0; ///< at the last place so many of the star's triangles, from the first, keep clear
+};
+
+/// Whether the star may have its centre at `p` (rounded as the guard asks).
+bool allows(const GuardedMesh& mesh, const StarChange& star, const Vec3d& p, Obstacle* obstacle = nullptr);
+
+/// The half-spaces that keep the star's centre, allowed at `from`, off what forbids it at `to`; `obstacle` is what
+/// allows() gave there.
+void contacts(const GuardedMesh& mesh, const StarChange& star, const Vec3d& from, const Vec3d& to, Obstacle obstacle,
+              std::vector<HalfSpace>& halfSpaces);
+
+/// Makes a quad of two faces that share an edge and are in no quad, if it is convex, its alternate diagonal joins no
+/// two vertices that are joined already, and the guard allows its alternates. Returns whether.
+bool makeQuad(GuardedMesh& mesh, std::uint32_t f, std::uint32_t g);
+
+/// Changes that were each allowed on the surface as it was when the batch began, made one after the other. The surface
+/// may not be asked what it allows before the batch ends.
+class Batch {
+public:
+    explicit Batch(GuardedMesh& mesh) : mesh_(mesh) {}
+    Batch(const Batch&) = delete;
+    Batch& operator=(const Batch&) = delete;
+    ~Batch();
+
+    /// Makes the change, unless one made before it in the batch moved a vertex of its star or came into its way.
+    bool apply(const StarChange& star, const Vec3d& p);
+
+private:
+    struct Made {
+        Box box; // of the star
+        std::uint32_t centre;
+    };
+
+    GuardedMesh& mesh_;
+    std::vector<std::uint32_t> moved_; // vertices, ascending
+    std::vector<Made> made_;
+};
+
+} // namespace vdbcage::detail

@@ -1,0 +1,342 @@
+// Based on: Garland, Heckbert, "Surface Simplification Using Quadric Error Metrics", 1997.
+//           Sander, Gu, Gortler, Hoppe, Snyder, "Silhouette Clipping", 2000 (decimation that stays outside).
+//           Hoppe, "Progressive Meshes", 1996 (a recorded sequence of collapses answers every number of faces).
+// Differs: every collapse has to pass the guard, its vertex pushed outward until it does and then drawn along what it
+// touches to where its quadric is least.
+
+#include <vdbcage/bounding/detail/collapse.h>
+
+#include <vdbcage/bounding/detail/admissible.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <queue>
+#include <utility>
+
+#include <tbb/blocked_range.h>
+#include <vdbcage/bounding/detail/vertex_placement.h>
+#include <vdbcage/core/detail/parallel.h>
+#include <vdbcage/geometry/quadric.h>
+
+namespace vdbcage::detail {
+
+namespace {
+
+/// The edge u < v at the front of a queue costs least; equal costs are told apart by number.
+struct QueuedEdge {
+    static constexpr std::uint32_t none = ~std::uint32_t(0);
+
+    double cost;
+    std::uint32_t u, v, stampU, stampV;
+    std::uint32_t place =
+        none; ///< its number; with none the cost is the best place's, allowed or not: it can only grow
+
+    bool operator<(const QueuedEdge& o) const // std::priority_queue has its largest in front
+    {
+        if (cost != o.cost) return cost > o.cost;
+        if (u != o.u) return u > o.u;
+        return v > o.v;
+    }
+};
+
+using Edge = std::pair<std::uint32_t, std::uint32_t>;
+
+std::vector<Edge> allEdges(const GuardedMesh& surface)
+{
+    std::vector<Edge> edges;
+    for (std::uint32_t u = 0; u < surface.vertices(); ++u) {
+        for (const std::uint32_t v : surface.neighbours(u)) {
+            if (u < v) edges.emplace_back(u, v);
+        }
+    }
+    return edges;
+}
+
+class QuadricCollapser {
+public:
+    explicit QuadricCollapser(GuardedMesh& surface)
+        : surface_(surface), quadrics_(surface.vertices()), stamp_(surface.vertices(), 0)
+    {
+        if (surface.vertices() > 0) origin_ = surface.point(0);
+        if (surface.guard().symmetry()) origin_ = surface.ontoPlane(origin_);
+        for (std::uint32_t v = 0; v < surface.vertices(); ++v) {
+            for (const std::uint32_t f : surface.facesOf(v)) {
+                const Corners t = surface.corners(f);
+                Vec3d normal = (t[1] - t[0]).cross(t[2] - t[0]);
+                const double twiceArea = normal.length();
+                if (!(twiceArea > 0)) continue;
+                normal /= twiceArea;
+                quadrics_[v].addPlane(normal, t[0] - origin_, twiceArea / 6);
+                quadrics_[v].addSpread((t[0] + t[1] + t[2]) / 3.0 - origin_, twiceArea / 6);
+            }
+        }
+    }
+
+    /// Collapses until `faces` are left.
+    void run(std::size_t faces, Interrupter* interrupter)
+    {
+        while (surface_.liveFaces() > faces && refillIfEmpty()) {
+            throwIfInterrupted(interrupter);
+            const std::size_t collapsesLeft = (surface_.liveFaces() - faces + 1) / 2;
+            collapseBatch(std::min(collapsesLeft, batchSize()), true, [](const StarChange&, const Vec3d&) {});
+        }
+    }
+
+    /// Collapses the next few edges, the same ones whatever comes after, and calls made(star, place) for each. Returns
+    /// whether anything was left to try.
+    template <typename Made>
+    bool runBatch(const Made& made)
+    {
+        if (!refillIfEmpty()) return false;
+        collapseBatch(batchSize(), false, made);
+        return true;
+    }
+
+private:
+    struct Proposal {
+        QueuedEdge edge;
+        std::optional<Vec3d> place;
+        StarChange star;
+    };
+
+    /// What was blocked may be free since its surroundings changed. False if they did not.
+    bool refillIfEmpty()
+    {
+        if (!queue_.empty()) return true;
+        if (surface_.liveFaces() == facesAtLastFill_) return false;
+        facesAtLastFill_ = surface_.liveFaces();
+        push(allEdges(surface_));
+        return !queue_.empty();
+    }
+
+    /// Few at a time where few are left, so that their order matters more.
+    std::size_t batchSize() const { return std::clamp<std::size_t>(surface_.liveFaces() / 200, 4, 64); }
+
+    template <typename Made>
+    void collapseBatch(std::size_t size, bool slides, const Made& made)
+    {
+        std::vector<Proposal> proposals;
+        while (proposals.size() < size && !queue_.empty()) {
+            const QueuedEdge& edge = queue_.top();
+            if (isCurrent(edge)) {
+                const bool hasPlace = edge.place != QueuedEdge::none;
+                proposals.push_back({edge, hasPlace ? std::optional<Vec3d>(places_[edge.place]) : std::nullopt, {}});
+            }
+            queue_.pop();
+        }
+        parallelFor(std::size_t(0), proposals.size(), [&](std::size_t i) { find(proposals[i], slides); });
+        std::stable_sort(proposals.begin(), proposals.end(),
+                         [](const Proposal& a, const Proposal& b) { return b.edge < a.edge; });
+        Batch batch(surface_);
+        std::vector<std::uint32_t> kept;
+        for (const Proposal& p : proposals) {
+            QueuedEdge edge = p.edge;
+            if (!p.place || !isCurrent(edge)) continue;
+            const bool isWorse = !queue_.empty() && queue_.top().cost < edge.cost;
+            if (isWorse || !batch.apply(p.star, *p.place)) {
+                edge.place = static_cast<std::uint32_t>(places_.size());
+                places_.push_back(*p.place);
+                queue_.push(edge);
+                continue;
+            }
+            made(p.star, *p.place);
+            quadrics_[edge.u] += quadrics_[edge.v];
+            ++stamp_[edge.u];
+            ++stamp_[edge.v];
+            kept.push_back(edge.u);
+        }
+        std::vector<Edge> edges;
+        for (const std::uint32_t u : kept) {
+            for (const std::uint32_t w : surface_.neighbours(u)) edges.push_back(std::minmax(u, w));
+        }
+        std::sort(edges.begin(), edges.end());
+        edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+        push(edges);
+    }
+
+    bool isCurrent(const QueuedEdge& edge) const
+    {
+        return edge.stampU == stamp_[edge.u] && edge.stampV == stamp_[edge.v] && surface_.isVertex(edge.u) &&
+               surface_.isVertex(edge.v);
+    }
+
+    Quadric sum(std::uint32_t u, std::uint32_t v) const
+    {
+        Quadric q = quadrics_[u];
+        q += quadrics_[v];
+        const bool uOnPlane = surface_.isOnPlane(u), vOnPlane = surface_.isOnPlane(v);
+        if (uOnPlane || vOnPlane) q.symmetrize(surface_.guard().symmetry()->axis);
+        if (uOnPlane && vOnPlane) q += Quadric(q); // both halves, for as many faces as others save in one
+        return q;
+    }
+
+    double cost(const Quadric& q, const Vec3d& p) const
+    {
+        constexpr double spreadWeight = 1e-3;
+        return q.cost(p - origin_, spreadWeight);
+    }
+
+    static constexpr double stiffness = 1e-3; // below this the planes leave a direction open
+
+    Vec3d optimum(const Quadric& q, std::uint32_t u, std::uint32_t v) const
+    {
+        Vec3d place;
+        const bool found = q.bestPlace(stiffness, place);
+        return optimum(found, place, u, v);
+    }
+
+    /// \param found, best what Quadric::bestPlace() gives
+    Vec3d optimum(bool found, const Vec3d& best, std::uint32_t u, std::uint32_t v) const
+    {
+        const Vec3d a = surface_.point(u), b = surface_.point(v);
+        const bool onPlane = surface_.isOnPlane(u) || surface_.isOnPlane(v);
+        const Vec3d middle = onPlane ? surface_.ontoPlane(0.5 * (a + b)) : 0.5 * (a + b);
+        if (!found) return middle;
+        const Vec3d place = best + origin_;
+        return (place - middle).length() > 2 * (a - b).length() ? middle : place;
+    }
+
+    void push(const std::vector<Edge>& edges)
+    {
+        std::vector<double> costs(edges.size());
+        parallelFor(tbb::blocked_range<std::size_t>(0, edges.size(), 32), [&](const auto& range) {
+            std::array<Quadric, 4> quadrics;
+            std::array<Vec3d, 4> places;
+            for (std::size_t first = range.begin(); first < range.end(); first += quadrics.size()) {
+                const std::size_t count = std::min(quadrics.size(), range.end() - first);
+                for (std::size_t i = 0; i < count; ++i) {
+                    quadrics[i] = sum(edges[first + i].first, edges[first + i].second);
+                }
+                const auto found = Quadric::bestPlaces(quadrics, stiffness, places);
+                for (std::size_t i = 0; i < count; ++i) {
+                    const auto [u, v] = edges[first + i];
+                    costs[first + i] = cost(quadrics[i], optimum(found[i], places[i], u, v));
+                }
+            }
+        });
+        for (std::size_t i = 0; i < edges.size(); ++i) {
+            const auto [u, v] = edges[i];
+            queue_.push({costs[i], u, v, stamp_[u], stamp_[v]});
+        }
+    }
+
+    /// Gives a proposal its star and an allowed place with its cost, or takes its place away.
+    void find(Proposal& proposal, bool slides) const
+    {
+        QueuedEdge& edge = proposal.edge;
+        std::optional<Vec3d>& place = proposal.place;
+        if (!starOfCollapse(surface_, edge.u, edge.v, proposal.star)) {
+            place.reset();
+            return;
+        }
+        if (place && allows(surface_, proposal.star, *place)) return;
+        const Quadric q = sum(edge.u, edge.v);
+        place = findPlace(proposal.star, q, slides);
+        if (place) edge.cost = cost(q, *place);
+    }
+
+    std::optional<Vec3d> findPlace(const StarChange& star, const Quadric& q, bool slides) const
+    {
+        const Vec3d a = surface_.point(star.centre), b = surface_.point(star.removed), middle = 0.5 * (a + b);
+        const Vec3d best = optimum(q, star.centre, star.removed);
+        const Vec3d up = outward(surface_, star) * (a - b).length();
+        Obstacle obstacle;
+        for (const Vec3d& at : {best, best + 0.1 * up, best + 0.25 * up, best + 0.5 * up, a, b, middle + 0.1 * up,
+                                middle + 0.35 * up, middle + 0.8 * up}) {
+            Vec3d place = rounded(surface_, star, at);
+            if (!allows(surface_, star, place, &obstacle)) continue;
+            if (slides && at != best) slide(star, q, best, place);
+            return place;
+        }
+        return std::nullopt;
+    }
+
+    /// Moves an allowed place towards the best one along what it touches.
+    void slide(const StarChange& star, const Quadric& q, const Vec3d& best, Vec3d& place) const
+    {
+        Quadratic change;
+        change.curvature = q.planes();
+        const double damping = 0.01 * change.curvature.trace();
+        for (int i = 0; i < 3; ++i) change.curvature[i][i] += damping;
+        change.slope = change.curvature * (place - best);
+        const double before = cost(q, place);
+        const double edge = (surface_.point(star.centre) - surface_.point(star.removed)).length();
+        descend(surface_, star, place, change, {4 * (edge + (place - best).length())},
+                [&](const Vec3d& target) { return cost(q, target) < before; });
+    }
+
+    GuardedMesh& surface_;
+    Vec3d origin_{0.0};
+    std::vector<Quadric> quadrics_;
+    std::vector<std::uint32_t> stamp_; // grows when an edge at the vertex changes: older entries of the queue are void
+    std::priority_queue<QueuedEdge> queue_;
+    std::vector<Vec3d> places_; // allowed when they were found, of edges that went back into the queue
+    std::size_t facesAtLastFill_ = 0;
+};
+
+} // namespace
+
+void collapseByQuadrics(GuardedMesh& surface, std::size_t faces, Interrupter* interrupter)
+{
+    QuadricCollapser(surface).run(faces, interrupter);
+}
+
+class CollapseSequence::Recorder {
+public:
+    explicit Recorder(GuardedMesh start)
+        : start_(std::move(start)), end_(start_), collapser_(end_), stops_{{0, start_.liveFaces()}}
+    {
+    }
+
+    GuardedMesh at(std::size_t faces, Interrupter* interrupter)
+    {
+        while (end_.liveFaces() > faces) {
+            throwIfInterrupted(interrupter);
+            const bool goesOn = collapser_.runBatch([&](const StarChange& star, const Vec3d& place) {
+                collapses_.push_back({star.centre, star.removed, place});
+            });
+            if (!goesOn) return end_;
+            stops_.push_back({collapses_.size(), end_.liveFaces()});
+        }
+        const auto hasMore = [&](const Stop& stop) { return stop.faces > faces; };
+        const auto stop = std::partition_point(stops_.begin(), stops_.end(), hasMore);
+        if (stop->collapses == collapses_.size()) return end_;
+        GuardedMesh surface = start_;
+        StarChange star;
+        for (std::size_t i = 0; i < stop->collapses; ++i) {
+            starOfCollapse(surface, collapses_[i].kept, collapses_[i].removed, star);
+            surface.apply(star, collapses_[i].place);
+        }
+        return surface;
+    }
+
+private:
+    struct Collapse {
+        std::uint32_t kept, removed;
+        Vec3d place;
+    };
+    struct Stop {
+        std::size_t collapses, faces; // made so far, left
+    };
+
+    const GuardedMesh start_;
+    GuardedMesh end_;
+    QuadricCollapser collapser_; // of end_
+    std::vector<Collapse> collapses_;
+    std::vector<Stop> stops_; // the start and the end of each batch
+};
+
+CollapseSequence::CollapseSequence(GuardedMesh start) : recorder_(std::make_unique<Recorder>(std::move(start)))
+{
+}
+CollapseSequence::~CollapseSequence() = default;
+CollapseSequence::CollapseSequence(CollapseSequence&&) noexcept = default;
+CollapseSequence& CollapseSequence::operator=(CollapseSequence&&) noexcept = default;
+
+GuardedMesh CollapseSequence::at(std::size_t faces, Interrupter* interrupter)
+{
+    return recorder_->at(faces, interrupter);
+}
+
+} // namespace vdbcage::detail

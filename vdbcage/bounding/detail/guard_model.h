@@ -1,0 +1,59 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include <vdbcage/bounding/bounding_guard.h>
+#include <vdbcage/geometry/triangle_bvh.h>
+#include <vdbcage/geometry/triangle_distance.h>
+#include <vdbcage/geometry/triangle_pair.h>
+
+namespace vdbcage::detail {
+
+/// What a guard knows of the model.
+class GuardModel {
+public:
+    GuardModel(const Mesh& model, const GuardOptions& options, Interrupter* interrupter);
+
+    /// All other functions work in units in which the model's longest side is 1 to 2, a power of two apart from the
+    /// world's, so that no product of lengths leaves the range of double. Exact both ways.
+    Vec3d scaled(const Vec3d& p) const;
+    Vec3d unscaled(const Vec3d& p) const;
+    /// `p` as it will be written.
+    Vec3d rounded(const Vec3d& p) const;
+    /// In these units too. What is said of the model below is said of the model and its mirror image, where both are
+    /// on the side of the plane where coordinates are larger (or across it): no nearer part is on the other side.
+    const std::optional<SymmetryPlane>& symmetry() const { return symmetry_; }
+    /// The mirror image of a point that is rounded: exact. \pre there is a plane of symmetry
+    Vec3d mirrored(Vec3d p) const;
+    /// Whether `triangle` keeps the clearance; if not and `blocker` is set, the item of a face it comes too near to.
+    /// `hint` is an item to try first (TriangleBvh::none: nothing to try).
+    bool clear(const Corners& triangle, std::uint32_t hint, std::uint32_t* blocker) const;
+    /// Calls visit(corners) for every model triangle that `triangle` comes too near to, until it answers false.
+    void forEachBlocker(const Corners& triangle, const std::function<bool(const Corners&)>& visit) const;
+    /// Whether a part of the model may lie in `box`, so that swept() has to be asked.
+    bool mayHoldPart(const Box& box) const;
+    /// Whether a closed surface sweeps over a part of the model: `surface` is the new star and the reversed old one.
+    bool swept(const std::vector<Corners>& surface, const Box& box) const;
+
+    const TriangleBvh& tree() const { return tree_; }
+    double clearance() const { return clearance_; }
+    double minSine() const { return minSine_; }
+    /// What triangles of a surface keep between each other. TetGen, for one, merges triangles that meet under more than
+    /// 179.9 degrees and triangulates them anew, up to some thousandths of their size away from where they were.
+    const Spacing& spacing() const { return spacing_; }
+    bool roundsToFloat() const { return roundsToFloat_; }
+
+private:
+    TriangleBvh tree_;
+    TriangleBvh parts_; // a point of each connected part, as a degenerate triangle
+    double scale_ = 1, clearance_ = 0, minSine_ = 0;
+    std::optional<SymmetryPlane> symmetry_;
+    double step_ = 0; // across the plane coordinates are rounded to multiples of it
+    bool roundsToFloat_ = false;
+    Spacing spacing_;
+};
+
+} // namespace vdbcage::detail

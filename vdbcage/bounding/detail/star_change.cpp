@@ -1,0 +1,157 @@
+#include <vdbcage/bounding/detail/star_change.h>
+
+#include <algorithm>
+
+namespace vdbcage::detail {
+
+StarChange starOf(const GuardedMesh& mesh, std::uint32_t v)
+{
+    StarChange star;
+    star.centre = v;
+    star.onPlane = mesh.isOnPlane(v);
+    star.alternates = mesh.alternatesOf(v).size();
+    star.oldFaces.assign(mesh.facesOf(v).begin(), mesh.facesOf(v).end());
+    star.oldFaces.insert(star.oldFaces.end(), mesh.alternatesOf(v).begin(), mesh.alternatesOf(v).end());
+    star.keptFaces = star.oldFaces;
+    for (const std::uint32_t f : star.oldFaces) {
+        const Vec3I& t = mesh.face(f);
+        const int i = t[0] == v ? 0 : t[1] == v ? 1 : 2;
+        star.link.push_back({t[(i + 1) % 3], t[(i + 2) % 3]});
+    }
+    return star;
+}
+
+bool starOfCollapse(const GuardedMesh& mesh, std::uint32_t keep, std::uint32_t remove, StarChange& star)
+{
+    // Link condition: the ends have two common neighbours, no more (on the plane of symmetry, where the half ends,
+    // one), and something is left.
+    const bool keepOnPlane = mesh.isOnPlane(keep), removeOnPlane = mesh.isOnPlane(remove);
+    const auto a = mesh.neighbours(keep), b = mesh.neighbours(remove);
+    std::size_t common = 0;
+    for (auto i = a.begin(), j = b.begin(); i != a.end() && j != b.end();) {
+        if (*i == *j) ++common;
+        const bool first = *i <= *j, second = *j <= *i;
+        i += first;
+        j += second;
+    }
+    star = StarChange{};
+    star.centre = keep;
+    star.onPlane = keepOnPlane || removeOnPlane;
+    if (common != (keepOnPlane && removeOnPlane ? 1U : 2U)) return false;
+    if (!star.onPlane && a.size() + b.size() < 8) return false;
+    star.removed = remove;
+    for (const std::uint32_t v : {keep, remove}) {
+        for (const std::uint32_t f : mesh.facesOf(v)) {
+            const Vec3I& t = mesh.face(f);
+            const bool both =
+                (t[0] == keep || t[1] == keep || t[2] == keep) && (t[0] == remove || t[1] == remove || t[2] == remove);
+            if (both) {
+                if (v == keep) star.oldFaces.push_back(f);
+                continue;
+            }
+            star.oldFaces.push_back(f);
+            star.keptFaces.push_back(f);
+            const int i = t[0] == v ? 0 : t[1] == v ? 1 : 2;
+            star.link.push_back({t[(i + 1) % 3], t[(i + 2) % 3]});
+        }
+    }
+    if (!star.onPlane) return star.link.size() >= 3;
+    // From the plane to the plane, off it on the way.
+    std::size_t onPlane = 0;
+    for (const auto& edge : star.link)
+        onPlane += std::size_t(mesh.isOnPlane(edge[0])) + std::size_t(mesh.isOnPlane(edge[1]));
+    return onPlane == 2 && star.link.size() >= 2;
+}
+
+StarChange starOfSplit(const GuardedMesh& mesh, std::uint32_t u, std::uint32_t v)
+{
+    StarChange star;
+    star.centre = mesh.vertices();
+    star.onPlane = mesh.isOnPlane(u) && mesh.isOnPlane(v);
+    for (const std::uint32_t f : mesh.facesOf(u)) {
+        const Vec3I& t = mesh.face(f);
+        for (int i = 0; i < 3; ++i) {
+            const std::uint32_t a = t[i], b = t[(i + 1) % 3], c = t[(i + 2) % 3];
+            if (!((a == u && b == v) || (a == v && b == u))) continue;
+            star.oldFaces.push_back(f);
+            star.keptFaces.push_back(f);
+            star.link.push_back({b, c});
+            star.keptFaces.push_back(StarChange::none);
+            star.link.push_back({c, a});
+        }
+    }
+    return star;
+}
+
+bool starOfFlip(const GuardedMesh& mesh, std::uint32_t c, std::uint32_t a, std::uint32_t b, StarChange& star)
+{
+    star = starOf(mesh, c);
+    const auto edge = std::find(star.link.begin(), star.link.end(), std::array<std::uint32_t, 2>{a, b});
+    if (edge == star.link.end()) return false;
+    for (const std::uint32_t f : mesh.facesOf(b)) {
+        const Vec3I& t = mesh.face(f);
+        const int i = t[0] == b ? 0 : t[1] == b ? 1 : 2;
+        if (t[(i + 1) % 3] != a) continue;
+        const std::uint32_t d = t[(i + 2) % 3];
+        const auto joined = mesh.neighbours(c);
+        if (std::binary_search(joined.begin(), joined.end(), d) || (star.onPlane && mesh.isOnPlane(d))) return false;
+        *edge = {a, d};
+        star.link.push_back({d, b});
+        star.oldFaces.push_back(f);
+        star.keptFaces.push_back(f);
+        return true;
+    }
+    return false;
+}
+
+bool starOfFaces(const GuardedMesh& mesh, const StarChange::Faces& faces, bool onPlane, StarChange& star)
+{
+    star = StarChange{};
+    star.centre = mesh.vertices();
+    star.onPlane = onPlane;
+    star.oldFaces = faces;
+    const auto isSide = [&](std::uint32_t f, std::uint32_t a, std::uint32_t b) {
+        const Vec3I& t = mesh.face(f);
+        return (t[0] == a && t[1] == b) || (t[1] == a && t[2] == b) || (t[2] == a && t[0] == b);
+    };
+    StarChange::Faces begins, ends;
+    std::size_t ofPlane = 0;
+    for (const std::uint32_t f : faces) {
+        for (int i = 0; i < 3; ++i) {
+            const std::uint32_t a = mesh.face(f)[i], b = mesh.face(f)[(i + 1) % 3];
+            if (onPlane && mesh.isOnPlane(a) && mesh.isOnPlane(b)) continue;
+            if (std::any_of(faces.begin(), faces.end(), [&](std::uint32_t g) { return isSide(g, b, a); })) continue;
+            star.keptFaces.push_back(star.link.size() < faces.size() ? faces[star.link.size()] : StarChange::none);
+            star.link.push_back({a, b});
+            begins.push_back(a);
+            ends.push_back(b);
+            ofPlane += std::size_t(mesh.isOnPlane(a)) + std::size_t(mesh.isOnPlane(b));
+        }
+    }
+    // A disk without a vertex inside has two sides more than faces, and goes through each corner once; where it ends on
+    // the plane one of them is left out, and no other side ends there.
+    for (StarChange::Faces* corners : {&begins, &ends}) {
+        std::sort(corners->begin(), corners->end());
+        if (std::adjacent_find(corners->begin(), corners->end()) != corners->end()) return false;
+    }
+    return star.link.size() == faces.size() + (onPlane ? 1 : 2) && (!onPlane || ofPlane == 2);
+}
+
+Vec3d outward(const GuardedMesh& mesh, const StarChange& star)
+{
+    Vec3d normal(0.0);
+    for (const std::uint32_t f : star.oldFaces) {
+        const Corners t = mesh.corners(f);
+        normal += (t[1] - t[0]).cross(t[2] - t[0]);
+    }
+    if (star.onPlane) normal[mesh.guard().symmetry()->axis] = 0;
+    const double length = normal.length();
+    return length > 0 ? normal / length : Vec3d(0.0);
+}
+
+Vec3d rounded(const GuardedMesh& mesh, const StarChange& star, const Vec3d& p)
+{
+    return mesh.guard().rounded(star.onPlane ? mesh.ontoPlane(p) : p);
+}
+
+} // namespace vdbcage::detail

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+
+#include <openvdb/math/Mat3.h>
+#include <vdbcage/bounding/detail/admissible.h>
+
+namespace vdbcage::detail {
+
+/// How some quantity changes when a star's centre moves by delta: about delta curvature delta / 2 + slope delta.
+struct Quadratic {
+    openvdb::Mat3d curvature = openvdb::Mat3d::zero();
+    Vec3d slope{0.0};
+};
+
+/// How far a centre may go at once.
+struct StepLimit {
+    double reach;        ///< no step is longer than half of it
+    double share = 1;    ///< of the way to the best place that is allowed; less than 1 leaves room for the neighbours
+    double least = 1e-3; ///< no step is shorter than this part of `reach`
+};
+
+/// Looks for a place of the star's centre, allowed at `p`, where `change` is negative, along the planes of the contacts
+/// it meets on the way. `accepts` is asked of the places that the guard allows, one after the other; the first that it
+/// takes becomes `p`. Returns whether there was one.
+bool descend(const GuardedMesh& surface, const StarChange& star, Vec3d& p, const Quadratic& change,
+             const StepLimit& limit, const std::function<bool(const Vec3d&)>& accepts);
+
+/// How far a surface is from the model: the integral of the distance over triangles, by sampling. A triangle is cut
+/// into k x k equal ones, each counted at its centroid, k growing with the triangle's size.
+class DistanceMeasure {
+public:
+    /// `areaPerSample` in world units squared.
+    DistanceMeasure(const GuardModel& guard, double areaPerSample) : guard_(guard), areaPerSample_(areaPerSample) {}
+
+    /// The integral over a triangle. `seed` is an item near it and gets a better one.
+    double integral(const Corners& t, std::uint32_t& seed) const;
+
+    /// The integral over a star with its centre at some place, and how it changes when the centre moves, the distances
+    /// being taken to where each sample's nearest point is now.
+    struct Fit {
+        double integral = 0;
+        Quadratic change;
+        double reach = 0; ///< length of the longest edge at the centre
+    };
+    Fit fit(const GuardedMesh& surface, const StarChange& star, const Vec3d& centre, std::uint32_t& seed) const;
+
+    /// What a step has to be worth; `share` and `least` as StepLimit.
+    struct Pace {
+        double share = 1;
+        double least = 1e-3;
+        double gain = 1e-3; ///< of the integral, at least
+    };
+    /// Pulls the centre of a star, allowed at `p`, to where the integral is less. Returns whether there was such a
+    /// place; `p` and `fit` are then those of the new place.
+    bool improve(const GuardedMesh& surface, const StarChange& star, Vec3d& p, Fit& fit, std::uint32_t& seed,
+                 const Pace& pace) const;
+
+private:
+    template <typename Visit>
+    void forEachSample(const Corners& t, std::uint32_t& seed, const Visit& visit) const;
+
+    const GuardModel& guard_;
+    double areaPerSample_;
+};
+
+} // namespace vdbcage::detail

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <vdbcage/bounding/bounding_guard.h>
+#include <vdbcage/core/export.h>
+#include <vdbcage/core/interrupter.h>
+#include <vdbcage/mesh/mesh.h>
+
+namespace vdbcage {
+
+struct BoundingSmoothOptions {
+    int sweeps = 3; ///< 0 to 100
+};
+
+/// Rounds off a surface that bounds the guard's model and keeps it so, by sweeps of HC Laplacian smoothing.
+///
+/// Each vertex moves as far as the guard allows, so mostly outward where the surface is tight. Vertex order stays.
+/// Quads count under both diagonals, and are split where one does not bound. The same for any number of threads.
+/// \pre `surface` is closed, 2-manifold and bounds the model with the guard's clearance
+/// \throw InputError sweeps out of range; not closed and 2-manifold
+/// \throw Cancelled
+/// Cost: O(sweeps * n log m) for n faces and m of the model.
+/// Based on: Vollmer, Mencl, Muller, Improved Laplacian Smoothing of Noisy Surface Meshes, 1999.
+VDBCAGE_API Mesh smooth(const Mesh& surface, const BoundingGuard& guard, const BoundingSmoothOptions& options = {},
+                        Interrupter* interrupter = nullptr);
+
+} // namespace vdbcage

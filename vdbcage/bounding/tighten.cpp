@@ -1,0 +1,62 @@
+#include <vdbcage/bounding/tighten.h>
+
+#include <vdbcage/bounding/detail/relax.h>
+#include <vdbcage/bounding/detail/tightening.h>
+#include <vdbcage/core/error.h>
+
+namespace vdbcage {
+
+namespace detail {
+
+void requireCount(const std::string& name, int value, int least)
+{
+    if (value >= least && value <= 100) return;
+    throw InputError(name + ": " + std::to_string(value) + " is not allowed; it must be " + std::to_string(least) +
+                     " to 100");
+}
+
+void requireFaces(std::size_t faces)
+{
+    if (faces >= 4) return;
+    throw InputError("faces: " + std::to_string(faces) + " is not allowed; a closed surface has at least 4");
+}
+
+void requireValid(const TightenOptions& options)
+{
+    requireCount("sweeps", options.sweeps);
+    requireCount("perturbations", options.perturbations);
+    requireCount("samples", options.samples, 1);
+}
+
+void tightenAndPerturb(GuardedMesh& surface, const TightenOptions& options, Interrupter* interrupter)
+{
+    const auto perSample = [&] { return areaPerSample(surface, surface.liveFaces(), options.samples); };
+    tighten(surface, options.sweeps, perSample(), interrupter);
+    perturb(surface, options.perturbations, options.sweeps, perSample(), interrupter);
+    if (options.perturbations > 0) relaxFinally(surface, perSample(), interrupter);
+}
+
+} // namespace detail
+
+TightenOptions tightenOptions(Effort effort)
+{
+    TightenOptions options;
+    if (effort == Effort::fast) options.samples = 3;
+    if (effort == Effort::fair) options.perturbations = 1;
+    if (effort == Effort::best) {
+        options.perturbations = 2;
+        options.samples = 12;
+    }
+    return options;
+}
+
+Mesh tighten(const Mesh& cage, const BoundingGuard& guard, const TightenOptions& options, Interrupter* interrupter)
+{
+    detail::requireValid(options);
+    detail::GuardedMesh guarded(cage, guard.model(), detail::GuardedMesh::Quads::keep);
+    if (guarded.liveFaces() == 0) return guarded.mesh();
+    detail::tightenAndPerturb(guarded, options, interrupter);
+    return guarded.mesh();
+}
+
+} // namespace vdbcage

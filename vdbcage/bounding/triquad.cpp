@@ -1,0 +1,100 @@
+#include <vdbcage/bounding/triquad.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include <vdbcage/bounding/detail/collapse.h>
+#include <vdbcage/bounding/detail/quad_pairing.h>
+#include <vdbcage/bounding/detail/relax.h>
+#include <vdbcage/bounding/detail/tightening.h>
+#include <vdbcage/core/error.h>
+#include <vdbcage/geometry/quad_shape.h>
+
+namespace vdbcage {
+
+namespace {
+
+/// Pairs up the triangles of a surface in rounds, until enough are quads.
+void makeQuads(detail::GuardedMesh& surface, const BoundingTriquadOptions& options, Interrupter* interrupter)
+{
+    constexpr int rounds = 6;
+    constexpr int sweepsBefore = 4;
+    double room = 0;
+    double loss = 1; // what a change may cost: the costly ones only where the others do not suffice
+    for (int round = 0; round < rounds; ++round) {
+        detail::tighten(surface, sweepsBefore,
+                        detail::areaPerSample(surface, surface.liveFaces(), options.tightening.samples), interrupter);
+        // The other diagonals need about as much room as the first ones have; it is made before pairing, since quads
+        // hold their vertices. Then only what is still triangles gets more.
+        if (round == 0) room = detail::medianDistance(surface);
+        detail::inflateTriangles(surface, room, interrupter);
+        detail::PairingOptions pairing{};
+        pairing.mergeAngleDegrees = options.mergeAngleDegrees;
+        pairing.share = options.quads;
+        pairing.reach = static_cast<std::size_t>(round) + 2;
+        pairing.mostLoss = loss;
+        pairing.collapses = round > 0;
+        pairing.splits = round > 0;
+        detail::pairUp(surface, pairing, interrupter);
+        if (detail::quadShare(surface) >= options.quads) return;
+        room *= 2;
+        loss *= 2;
+    }
+}
+
+} // namespace
+
+Mesh triquad(const Mesh& surface, const BoundingGuard& guard, const BoundingTriquadOptions& options,
+             Interrupter* interrupter)
+{
+    constexpr int attempts = 8;
+    constexpr double aim = 0.99, goodEnough = 0.97; // of the faces
+    detail::requireFaces(options.faces);
+    detail::requireMergeAngle(options.mergeAngleDegrees);
+    if (!(options.quads >= 0 && options.quads <= 1)) {
+        throw InputError("quads: " + std::to_string(options.quads) + " is not allowed; it must be 0 to 1");
+    }
+    detail::requireValid(options.tightening);
+    const detail::GuardedMesh fine(surface, guard.model(), detail::GuardedMesh::Quads::split);
+    if (fine.liveFaces() == 0) return fine.mesh();
+
+    // How many triangles become the faces wanted shows when they are paired; `low` of them do not become too many.
+    const std::size_t most = options.faces / fine.copies();
+    const auto wanted = static_cast<double>(most);
+    double low = wanted, high = std::max(wanted, static_cast<double>(fine.liveFaces()));
+    double target = std::min((1 + options.quads) * wanted, high);
+    std::optional<detail::GuardedMesh> best;
+    double reached = 0; // faces, counted as fewer where they have too few quads
+    for (int i = 0; i < attempts; ++i) {
+        detail::GuardedMesh paired = fine;
+        const auto triangles = static_cast<std::size_t>(target);
+        detail::collapseByQuadrics(paired, triangles, interrupter);
+        makeQuads(paired, options, interrupter);
+        const auto faces = static_cast<double>(paired.liveFaces() - paired.quads());
+        const double share = detail::quadShare(paired);
+        const double part = share < options.quads ? share / options.quads : 1; // of the share asked
+        const double counted = faces * part * part;
+        (faces <= wanted ? low : high) = target;
+        const bool isEnough = faces <= wanted && faces >= goodEnough * wanted && share >= options.quads;
+        if (isEnough || (faces <= wanted && counted > reached)) {
+            best = std::move(paired);
+            reached = counted;
+        }
+        if (isEnough || high - low < 2) break;
+        // Where polychords are split for want of pairs, faces are many of few triangles, too: longer steps until some
+        // fit.
+        target *= std::pow(aim * wanted / faces, best ? 1 : i + 1);
+        if (!(target > low && target < high)) target = 0.5 * (low + high);
+    }
+    if (!best) {
+        best = fine;
+        detail::collapseByQuadrics(*best, most, interrupter);
+    }
+    detail::tightenAndPerturb(*best, options.tightening, interrupter);
+    return best->mesh();
+}
+
+} // namespace vdbcage

@@ -1,0 +1,248 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <vector>
+
+#include <openvdb/Types.h>
+#include <vdbcage/core/interrupter.h>
+#include <vdbcage/geometry/floats.h>
+
+namespace vdbcage::detail {
+
+using openvdb::Vec3d;
+using openvdb::Vec3I;
+
+/// The three corners of a triangle.
+using Corners = std::array<Vec3d, 3>;
+
+/// A closed box: a point on its side belongs to it. Not initialized by default.
+struct Box {
+    Vec3d lo, hi;
+
+    static Box of(const Vec3d& p) { return {p, p}; }
+    static Box of(const Corners& t);
+    void expand(const Box& other);
+    bool meets(const Box& other) const
+    {
+        return lo[0] <= other.hi[0] && other.lo[0] <= hi[0] && lo[1] <= other.hi[1] && other.lo[1] <= hi[1] &&
+               lo[2] <= other.hi[2] && other.lo[2] <= hi[2];
+    }
+    /// Squared distance from p, 0 inside; rounded.
+    double squaredDistance(const Vec3d& p) const
+    {
+        double sum = 0;
+        for (int i = 0; i < 3; ++i) {
+            const double d = std::max(std::max(lo[i] - p[i], p[i] - hi[i]), 0.0);
+            sum += d * d;
+        }
+        return sum;
+    }
+};
+
+/// The point of the closed triangle nearest to `p`; the triangle may be degenerate. Rounded.
+Vec3d closestPointOnTriangle(const Vec3d& p, const Corners& triangle);
+
+/// A bounding volume hierarchy over triangles (indices into points; degenerate ones welcome). Immutable once built: any
+/// number of threads may ask at the same time. The tree, and so the order of its answers, is the same for any number of
+/// threads that built it.
+///
+/// Nodes have up to four children, whose boxes are compared at once, in float: rounded outward, so that no triangle is
+/// missed; what is left is told apart in double. Leaves hold a triangle, or in large trees up to four that follow each
+/// other in the list in about the same box.
+class TriangleBvh {
+public:
+    static constexpr std::uint32_t none = ~std::uint32_t(0);
+
+    struct Item {
+        Vec3I corners;          ///< indices into points()
+        std::uint32_t triangle; ///< its number in the list that the tree was built from
+    };
+    /// Whether triangles with the same three points in space as another, in any order, are to be items. A query that
+    /// meets one of a million copies meets all. Where copies are dropped, those that make queries slow are: some of a
+    /// few may stay.
+    enum class Copies { keep, drop };
+    struct Closest {
+        Vec3d point;
+        double squaredDistance = std::numeric_limits<double>::infinity();
+        std::uint32_t item = none; ///< none: the tree is empty
+    };
+    class Query;
+
+    TriangleBvh() = default;
+    /// Points must be finite where triangles use them. O(n log n), in parallel; less time and memory where triangles
+    /// of a face follow each other. \throw InputError (more than 2^29 triangles), Cancelled
+    TriangleBvh(std::vector<Vec3d> points, const std::vector<Vec3I>& triangles, Interrupter* interrupter = nullptr,
+                Copies copies = Copies::keep);
+
+    bool empty() const { return items_.empty(); }
+    const std::vector<Vec3d>& points() const { return points_; }
+    /// The triangles in the tree's order: neighbours in space are mostly neighbours here.
+    const std::vector<Item>& items() const { return items_; }
+    Corners corners(const Item& item) const
+    {
+        return {points_[item.corners[0]], points_[item.corners[1]], points_[item.corners[2]]};
+    }
+    /// The box of everything; the tree must not be empty.
+    const Box& box() const { return box_; }
+
+    /// What lies in a box (its sides may be infinite).
+    Query inBox(const Box& box) const;
+    /// What comes as near as `reach` to a triangle, which may be degenerate.
+    Query near(const Corners& triangle, double reach = 0) const;
+    /// What meets a tetrahedron, which may be flat.
+    Query inTetrahedron(const std::array<Vec3d, 4>& corners) const;
+
+    /// Calls `visit(item)` for each triangle whose box meets `query`, and perhaps for some more beside it, always in
+    /// the same order. `visit` answers whether to go on; returns false if it stopped. It may make `query` narrower:
+    /// what is left out then is not looked at any more.
+    template <typename Visit>
+    bool traverse(const Query& query, const Visit& visit) const;
+
+    /// Calls `visit(item)` for each triangle whose box meets `box`, exactly, until it answers false.
+    template <typename Visit>
+    bool forEachOverlap(const Box& box, const Visit& visit) const;
+
+    /// The closest point of the triangles to `p`. `seed`, an item number such as that of the last answer for a point
+    /// nearby, makes it faster (and may decide between equals). With `slack` a point up to 1 + slack times as far may
+    /// be given, which is faster too.
+    Closest closest(const Vec3d& p, std::uint32_t seed = none, double slack = 0) const;
+
+private:
+    friend class TreeBuilder;
+    struct alignas(64) Node : FourBoxes {   // two cache lines
+        std::array<std::uint32_t, 4> child; // a node, or a leaf
+    };
+    static constexpr std::uint32_t isLeaf = std::uint32_t(1) << 31;
+    static constexpr std::uint32_t maxItems = std::uint32_t(1) << 29;
+
+    // One to four items that follow each other, from the first to the last.
+    struct Leaf {
+        std::uint32_t first, last;
+    };
+    static std::uint32_t leafChild(std::uint32_t first, std::uint32_t count)
+    {
+        return isLeaf | (count - 1) << 29 | first;
+    }
+    static Leaf leafOf(std::uint32_t child)
+    {
+        const std::uint32_t first = child & (maxItems - 1);
+        return {first, first + (child >> 29 & 3U)};
+    }
+    // The builder switches to halving at a depth that keeps every path shorter than this.
+    static constexpr std::size_t maxDepth = 96;
+    template <typename T>
+    class Stack;
+
+    /// Sends for a child that is looked at soon: of a large tree most are in no cache.
+    void prefetch(std::uint32_t child) const
+    {
+        if (child & isLeaf) {
+            __builtin_prefetch(&items_[leafOf(child).first]);
+        } else {
+            const Node& node = nodes_[child];
+            __builtin_prefetch(&node.lo);
+            __builtin_prefetch(&node.child); // its other cache line
+        }
+    }
+
+    /// Nodes are in units in which the box is [-1, 1] along its longest side. Monotone in every coordinate.
+    Vec3d inUnits(const Vec3d& p) const { return (p - centre_) * scale_; }
+
+    std::vector<Vec3d> points_;
+    std::vector<Item> items_;
+    std::unique_ptr<Node[]> nodes_; // the root first
+    Box box_;
+    Vec3d centre_{0.0};
+    double scale_ = 1;
+};
+
+/// A box, cut by up to four slabs: where a tree is to look. In the units of the tree that made it.
+class TriangleBvh::Query {
+public:
+    /// Which of the node's children it meets, never wrongly denied: a bit each.
+    unsigned meets(const Node& node) const
+    {
+        Lanes met = node.meet(lo_, hi_);
+        const std::array<Floats, 3> sum{node.lo[0] + node.hi[0], node.lo[1] + node.hi[1], node.lo[2] + node.hi[2]};
+        const std::array<Floats, 3> size{node.hi[0] - node.lo[0], node.hi[1] - node.lo[1], node.hi[2] - node.lo[2]};
+        for (std::size_t i = 0; i < slabs_; ++i) {
+            const Slab& s = slab_[i];
+            if (bits(met) == 0) return 0;
+            const Floats middle = s.normal[0] * sum[0] + s.normal[1] * sum[1] + s.normal[2] * sum[2];
+            const Floats radius = s.absolute[0] * size[0] + s.absolute[1] * size[1] + s.absolute[2] * size[2];
+            // What cannot be computed (NaN) counts as met.
+            met &= ~((middle - radius > s.twiceHigh) | (middle + radius < s.twiceLow));
+        }
+        return bits(met);
+    }
+
+private:
+    friend class TriangleBvh;
+    struct Slab {
+        std::array<Floats, 3> normal, absolute; // absolute: each component's size
+        Floats twiceLow, twiceHigh;
+    };
+    explicit Query(const Box& box);
+    void addSlab(const Vec3d& normal, double low, double high, double farthest);
+
+    std::array<Floats, 3> lo_, hi_;
+    std::array<Slab, 4> slab_; // not initialized
+    std::size_t slabs_ = 0;
+};
+
+template <typename T>
+class TriangleBvh::Stack {
+public:
+    void push(const T& entry)
+    {
+        assert(size_ < entries_.size());
+        entries_[size_++] = entry;
+    }
+    T pop() { return entries_[--size_]; }
+    bool empty() const { return size_ == 0; }
+
+private:
+    std::size_t size_ = 0;
+    std::array<T, 3 * maxDepth + 1> entries_; // not initialized
+};
+
+template <typename Visit>
+bool TriangleBvh::traverse(const Query& query, const Visit& visit) const
+{
+    if (empty()) return true;
+    Stack<std::uint32_t> stack;
+    stack.push(0);
+    while (!stack.empty()) {
+        const Node& node = nodes_[stack.pop()];
+        const unsigned met = query.meets(node);
+        for (std::size_t i = 0; i < 4; ++i) {
+            if (!(met >> i & 1U)) continue;
+            const std::uint32_t child = node.child[i];
+            if (!(child & isLeaf)) {
+                prefetch(child);
+                stack.push(child);
+                continue;
+            }
+            const Leaf leaf = leafOf(child);
+            for (std::uint32_t item = leaf.first; item <= leaf.last; ++item) {
+                if (!visit(items_[item])) return false;
+            }
+        }
+    }
+    return true;
+}
+
+template <typename Visit>
+bool TriangleBvh::forEachOverlap(const Box& box, const Visit& visit) const
+{
+    return traverse(inBox(box), [&](const Item& item) { return !box.meets(Box::of(corners(item))) || visit(item); });
+}
+
+} // namespace vdbcage::detail

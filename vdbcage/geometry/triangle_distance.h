@@ -1,0 +1,70 @@
+#pragma once
+
+#include <algorithm>
+
+#include <vdbcage/geometry/triangle_bvh.h>
+
+/// How near triangles come to each other, in rounded arithmetic with stated errors.
+namespace vdbcage::detail {
+
+/// The nearest points of two triangles.
+struct Nearness {
+    Vec3d onFirst, onSecond;
+    double squaredDistance = 0; ///< 0 if they cross (the points then mean nothing)
+};
+
+/// How near two closed triangles come (either may be degenerate); rounded: the error of the distance is a few units of
+/// 2^-52 of their sizes, far below any clearance.
+Nearness nearness(const Corners& first, const Corners& second);
+
+/// Whether two triangles come nearer than `distance`: as nearness(), but faster where a pair of planes along edges
+/// tells; planes of the triangles are for the caller to try, who may have them.
+bool comeWithin(const Corners& first, const Corners& second, double distance);
+
+/// The nearest points of two segments.
+Nearness segmentNearness(const Vec3d& p1, const Vec3d& q1, const Vec3d& p2, const Vec3d& q2);
+
+/// Distances between two sets of points along an axis that is the cross product of u and v. Never wrongly yes.
+class Axis {
+public:
+    Axis(const Vec3d& u, const Vec3d& v)
+        : direction_(u.cross(v)), length2_(direction_.lengthSqr()), product2_(u.lengthSqr() * v.lengthSqr())
+    {
+    }
+    double along(const Vec3d& p) const { return direction_.dot(p); }
+    /// Whether a gap, computed of vectors no longer than the root of `size2`, is wider than `reach` for sure.
+    bool isWider(double gap, double reach, double size2) const
+    {
+        // The error is below 1e-14 |u| |v| size; (r + e)^2 < 1.001 r^2 + 1001 e^2.
+        return gap > 0 && gap * gap > 1.001 * length2_ * reach * reach + 2e-25 * product2_ * size2;
+    }
+
+private:
+    Vec3d direction_;
+    double length2_, product2_;
+};
+
+/// The plane of a triangle, to tell quickly that another triangle is far on one side of it.
+class Separator {
+public:
+    explicit Separator(const Corners& t)
+        : corner_(t[0]), normal_(t[1] - t[0], t[2] - t[0]),
+          size2_(std::max((t[1] - t[0]).lengthSqr(), (t[2] - t[0]).lengthSqr()))
+    {
+    }
+    /// Whether all corners of `other` lie on one side, farther than `reach`.
+    bool separates(const Corners& other, double reach) const
+    {
+        const Vec3d u = other[0] - corner_, v = other[1] - corner_, w = other[2] - corner_;
+        const double a = normal_.along(u), b = normal_.along(v), c = normal_.along(w);
+        const double height = std::max(std::min({a, b, c}), -std::max({a, b, c}));
+        return normal_.isWider(height, reach, size2_ + std::max({u.lengthSqr(), v.lengthSqr(), w.lengthSqr()}));
+    }
+
+private:
+    Vec3d corner_;
+    Axis normal_;
+    double size2_;
+};
+
+} // namespace vdbcage::detail

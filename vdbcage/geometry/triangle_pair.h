@@ -1,0 +1,99 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include <boost/container/small_vector.hpp>
+#include <vdbcage/geometry/triangle_bvh.h>
+
+/// How the triangles of one surface touch each other, decided exactly.
+namespace vdbcage::detail {
+
+/// How near two triangles of a surface may come to each other. Tools that take surfaces for cages, mesh generators
+/// most of all, fail at large triangles that nearly touch; small ones are always near some others.
+struct Spacing {
+    double distance = 0; ///< between any two without a common corner, or `share` of the longest edge, if that is less
+    double share = 0;    ///< the smaller triangle's longest edge counts
+    double sine = 0;     ///< of the angle between two with a common corner; that is less than 30 degrees
+
+    /// The distance that a triangle keeps from larger ones.
+    double around(double longestEdge) const { return std::min(distance, share * longestEdge); }
+};
+
+/// The plane of a triangle, to tell sides without exact arithmetic where that is safe.
+class Plane {
+public:
+    explicit Plane(const Corners& t) : corner_(t[0])
+    {
+        const Vec3d u = t[1] - t[0], v = t[2] - t[0];
+        normal_ = u.cross(v);
+        length2_ = normal_.lengthSqr();
+        error2_ = 1e-28 * u.lengthSqr() * v.lengthSqr();
+    }
+    /// -1, 0, 1: on which side p lies; 0 where rounding could decide, or the distance is less.
+    int side(const Vec3d& p, double distance) const
+    {
+        const Vec3d w = p - corner_;
+        return side(w, normal_.dot(w), length2_ * distance * distance);
+    }
+    /// The same as seen from a corner of the triangle at `from`; 0 where the angle with the plane is less.
+    int sideSeenFrom(const Vec3d& from, const Vec3d& p, double sine) const
+    {
+        const Vec3d w = p - from;
+        return side(w, normal_.dot(w), length2_ * sine * sine * w.lengthSqr());
+    }
+
+    /// Twice the area long.
+    const Vec3d& normal() const { return normal_; }
+
+private:
+    int side(const Vec3d& w, double volume, double least2) const
+    {
+        if (!(volume * volume > least2 + error2_ * w.lengthSqr())) return 0;
+        return volume > 0 ? 1 : -1;
+    }
+
+    Vec3d corner_, normal_;
+    double length2_, error2_;
+};
+
+/// A triangle of a surface.
+struct SurfaceTriangle {
+    Vec3I ids;
+    Corners corners;
+    Plane plane;
+
+    SurfaceTriangle(const Vec3I& vertices, const Corners& places) : ids(vertices), corners(places), plane(places) {}
+    const Vec3d& corner(int i) const { return corners[static_cast<std::size_t>(i % 3)]; }
+    double longestEdge() const
+    {
+        return std::sqrt(std::max({(corners[1] - corners[0]).lengthSqr(), (corners[2] - corners[1]).lengthSqr(),
+                                   (corners[0] - corners[2]).lengthSqr()}));
+    }
+};
+
+using SurfaceTriangles = boost::container::small_vector<SurfaceTriangle, 16>;
+
+/// Whether a triangle has no area, exactly.
+bool hasNoArea(const Corners& t);
+
+/// The sine of the smallest angle of a triangle; 0 for one without an area. Rounded.
+double minSine(const Corners& t);
+
+/// The distance that two triangles without a common corner have to keep.
+inline double distanceBetween(const SurfaceTriangle& a, const SurfaceTriangle& b, const Spacing& spacing)
+{
+    return spacing.around(std::min(a.longestEdge(), b.longestEdge()));
+}
+
+/// Whether two triangles of a surface come nearer than they may, or meet in more than the corners that they share.
+/// Rounded; but that they meet is never missed.
+bool tooNear(const SurfaceTriangle& a, const SurfaceTriangle& b, const Spacing& spacing);
+
+/// Whether, seen along some direction, a star lies spread out around its centre, corner 0 of all, without overlap and
+/// with no triangle steep: then no two are too near, if no angle of a triangle has a sine less than `leastSine`. No
+/// answer but false where rounding could matter.
+bool spreadOut(const SurfaceTriangles& star, const Spacing& spacing, double leastSine);
+
+} // namespace vdbcage::detail

@@ -1,0 +1,197 @@
+// Based on: Wavefront, "Object Files (.obj)", the polygonal part of version 3.0.
+// Differs: statements that carry no polygons are skipped unread, also unknown ones, as programs add their own; a face
+// of one or two corners is ignored, except at the end of a file that was cut off within it.
+
+#include <vdbcage/mesh/io/formats.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include <vdbcage/mesh/io/obj_syntax.h>
+#include <vdbcage/mesh/io/output_buffer.h>
+#include <vdbcage/mesh/io/polygon_soup.h>
+#include <vdbcage/mesh/io/text_cursor.h>
+
+namespace vdbcage::detail {
+
+namespace {
+
+/// What stands for geometry that is no face.
+bool isOtherElement(std::string_view keyword)
+{
+    return keyword == "p" || keyword == "l" || keyword == "curv" || keyword == "curv2" || keyword == "surf";
+}
+
+/// Words that no program's dialect has: a sign of a file that is no OBJ.
+bool looksLikeKeyword(std::string_view word)
+{
+    const auto isLetter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; };
+    if (!isLetter(word.front())) return false;
+    for (const char c : word) {
+        if (!isLetter(c) && !(c >= '0' && c <= '9') && c != '-' && c != '.') return false;
+    }
+    return true;
+}
+
+class ObjParser {
+public:
+    ObjParser(std::string_view bytes, const std::string& name)
+        : in_(bytes, name, objSyntax), name_(name),
+          endsWithinLine_(!bytes.empty() && bytes.back() != '\n' && bytes.back() != '\r')
+    {
+    }
+
+    Mesh parse(ReadSummary* summary)
+    {
+        while (in_.skipToWord()) statement();
+        for (const Reference& reference : ahead_) {
+            if (reference.index >= soup_.points.size()) failOutOfRange(reference.where, soup_.points.size());
+        }
+        if (endsWithinLine_) requireAllUsed();
+        return toMesh(std::move(soup_), name_, summary);
+    }
+
+private:
+    /// A corner that refers to a point that has not come yet.
+    struct Reference {
+        std::uint64_t index;
+        const char* where;
+    };
+
+    void statement()
+    {
+        const char* start = in_.position();
+        const std::string_view keyword = in_.word();
+        if (keyword == "v") {
+            point();
+        } else if (isObjFace(keyword)) {
+            face(start);
+        } else if (isObjNameStatement(keyword)) {
+            in_.nextLine();
+        } else if (isOtherElement(keyword)) {
+            ++soup_.ignoredElements;
+            in_.nextStatement();
+        } else if (looksLikeKeyword(keyword)) {
+            in_.nextStatement();
+        } else {
+            in_.fail(start, "a line cannot begin with " + in_.quoted(start) + " in an OBJ file");
+        }
+    }
+
+    void point()
+    {
+        const double x = in_.coordinate("the x coordinate");
+        const double y = in_.coordinate("the y coordinate");
+        const double z = in_.coordinate("the z coordinate");
+        soup_.points.emplace_back(x, y, z);
+        while (!in_.atLineEnd()) { // a weight or a colour: not used, but a number
+            if (!in_.skipNumber()) in_.fail(in_.quoted(in_.position()) + " behind the coordinates is not a number");
+        }
+        in_.nextLine();
+    }
+
+    void face(const char* start)
+    {
+        face_.clear();
+        int firstForm = 0;
+        bool sameForm = true;
+        while (!in_.atLineEnd()) {
+            const int form = corner();
+            if (face_.size() == 1) firstForm = form;
+            sameForm = sameForm && form == firstForm;
+        }
+        // The last line may be cut off anywhere if it has no end; what is left of its last corner may still look whole.
+        if (in_.atEnd() && (face_.size() < 3 || !sameForm)) {
+            in_.fail(start, "the file ends within a face");
+        }
+        soup_.addFace(face_.data(), face_.size());
+        in_.nextLine();
+    }
+
+    /// Returns the corner's form.
+    int corner()
+    {
+        const char* where = in_.position();
+        ObjCorner read;
+        if (!readObjCorner(in_, read) || !in_.atWordEnd()) {
+            in_.fail(where, "the corner " + in_.quoted(where) + " is none of v, v/vt, v//vn and v/vt/vn");
+        }
+        const std::int64_t index = read.point;
+        const std::uint64_t points = soup_.points.size();
+        if (index == 0) in_.fail(where, "the corner " + in_.quoted(where) + " has index 0; points count from 1");
+        if (index < 0 && std::uint64_t(-(index + 1)) >= points) failOutOfRange(where, points);
+        const std::uint64_t at = index > 0 ? std::uint64_t(index - 1) : points - std::uint64_t(-(index + 1)) - 1;
+        // Only the highest so far is kept: it is the first to be out of range for some number of points.
+        if (at >= points && (ahead_.empty() || at > ahead_.back().index)) ahead_.push_back({at, where});
+        face_.push_back(static_cast<openvdb::Index32>(at));
+        return read.form;
+    }
+
+    /// A file whose last line has no end may be whole or cut off. Points that nothing uses tell: without them a cut-off
+    /// file would silently become a part of its model.
+    void requireAllUsed() const
+    {
+        if (soup_.ignoredElements > 0 || (soup_.triangles.empty() && soup_.ends.empty())) return;
+        std::vector<bool> used(soup_.points.size(), false);
+        for (const openvdb::Vec3I& triangle : soup_.triangles) {
+            for (int i = 0; i < 3; ++i) used[triangle[i]] = true;
+        }
+        for (const openvdb::Index32 corner : soup_.corners) used[corner] = true;
+        const auto unused = std::find(used.begin(), used.end(), false);
+        if (unused == used.end()) return;
+        in_.fail("the file ends within a line, and no face uses point " + std::to_string(unused - used.begin() + 1) +
+                 ": it seems to be cut off (if it is whole, end its last line)");
+    }
+
+    [[noreturn]] void failOutOfRange(const char* where, std::uint64_t points) const
+    {
+        const char* there = *where == '-' ? " points before it" : " points";
+        in_.fail(where,
+                 "the corner " + in_.quoted(where) + " is out of range; there are " + std::to_string(points) + there);
+    }
+
+    TextCursor in_;
+    const std::string& name_;
+    bool endsWithinLine_;
+    PolygonSoup soup_;
+    std::vector<openvdb::Index32> face_;
+    std::vector<Reference> ahead_; // with growing index
+};
+
+template <typename Face>
+void writeFace(OutputBuffer& buffer, const Face& face)
+{
+    buffer.text("f");
+    for (int i = 0; i < Face::size; ++i) {
+        buffer.text(" ");
+        buffer.number(std::uint64_t(face[i]) + 1);
+    }
+    buffer.text("\n");
+}
+
+} // namespace
+
+Mesh parseObj(std::string_view bytes, const std::string& name, ReadSummary* summary)
+{
+    return ObjParser(bytes, name).parse(summary);
+}
+
+void writeObj(const Mesh& mesh, const std::string&, std::ostream& out)
+{
+    OutputBuffer buffer(out);
+    for (const openvdb::Vec3d& p : mesh.points) {
+        buffer.text("v");
+        for (int axis = 0; axis < 3; ++axis) {
+            buffer.text(" ");
+            buffer.number(p[axis]);
+        }
+        buffer.text("\n");
+    }
+    for (const openvdb::Vec3I& triangle : mesh.triangles) writeFace(buffer, triangle);
+    for (const openvdb::Vec4I& quad : mesh.quads) writeFace(buffer, quad);
+    buffer.flush();
+}
+
+} // namespace vdbcage::detail

@@ -1,0 +1,408 @@
+// Based on: Turk, "The PLY Polygon File Format" (1994).
+// Differs: elements and properties other than the points' coordinates and the faces' (or strips') corners are skipped;
+// 64 bit integers are known. Data behind the last element is an error, as in OFF, but for blanks and zero bytes.
+
+#include <vdbcage/mesh/io/formats.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include <vdbcage/core/detail/number_text.h>
+#include <vdbcage/core/error.h>
+#include <vdbcage/mesh/io/output_buffer.h>
+#include <vdbcage/mesh/io/ply_header.h>
+#include <vdbcage/mesh/io/polygon_soup.h>
+#include <vdbcage/mesh/io/text_cursor.h>
+
+namespace vdbcage::detail {
+
+namespace {
+
+constexpr const char* coordinateNames[3] = {"the x coordinate", "the y coordinate", "the z coordinate"};
+
+bool isFloating(PlyType type)
+{
+    return type == PlyType::float32 || type == PlyType::float64;
+}
+
+std::string ordinal(const PlyElement& element, std::uint64_t i)
+{
+    return "element " + quote(element.name) + " " + std::to_string(i + 1) + " of " + std::to_string(element.count);
+}
+
+/// The body of an ascii file: one line an element.
+class AsciiSource {
+public:
+    AsciiSource(std::string_view bytes, std::size_t headerSize, const std::string& name) : in_(bytes, name)
+    {
+        while (bytes.size() - in_.bytesLeft() < headerSize) in_.nextLine();
+    }
+
+    /// The fewest bytes that a value takes: a digit and a blank.
+    static std::size_t leastSize(PlyType) { return 2; }
+    /// The last line may lack its end.
+    std::uint64_t room() const { return std::uint64_t(in_.bytesLeft()) + 1; }
+
+    void beginElement(const PlyElement& element, std::uint64_t i)
+    {
+        if (!in_.skipToWord()) in_.fail("the file ends before " + ordinal(element, i));
+    }
+    void endElement(const PlyElement& element, std::uint64_t i)
+    {
+        if (!in_.atLineEnd()) {
+            in_.fail(in_.quoted(in_.position()) + " follows the properties of " + ordinal(element, i));
+        }
+        in_.nextLine();
+    }
+    double coordinate(PlyType, int axis)
+    {
+        mark();
+        return in_.coordinate(coordinateNames[axis]);
+    }
+    std::int64_t integer(PlyType type, const char* what)
+    {
+        mark();
+        if (!isFloating(type)) return in_.integer(what);
+        const double value = in_.coordinate(what);
+        if (std::abs(value) > 1e15 || std::nearbyint(value) != value) {
+            fail(std::string(what) + " is " + in_.quoted(marked_) + ", which is not an integer");
+        }
+        return static_cast<std::int64_t>(value);
+    }
+    void skip(PlyType, std::uint64_t count)
+    {
+        mark();
+        for (; count > 0; --count) {
+            if (in_.word().empty()) in_.fail("the line ends before the element is complete");
+        }
+    }
+    void finish()
+    {
+        if (in_.skipToWord()) in_.fail(in_.quoted(in_.position()) + " follows the last element");
+    }
+    /// \throw IoError for the value read last
+    [[noreturn]] void fail(const std::string& problem) const { in_.fail(marked_, problem); }
+
+private:
+    void mark()
+    {
+        in_.atLineEnd(); // to the start of the word
+        marked_ = in_.position();
+    }
+
+    TextCursor in_;
+    const char* marked_ = nullptr;
+};
+
+/// The body of a binary file.
+class BinarySource {
+public:
+    BinarySource(std::string_view bytes, std::size_t headerSize, const std::string& name, bool reversed)
+        : bytes_(bytes), at_(headerSize), marked_(headerSize), name_(name), reversed_(reversed)
+    {
+    }
+
+    static std::size_t leastSize(PlyType type) { return sizeOf(type); }
+    std::uint64_t room() const { return bytes_.size() - at_; }
+
+    void beginElement(const PlyElement& element, std::uint64_t i)
+    {
+        element_ = &element;
+        index_ = i;
+    }
+    void endElement(const PlyElement&, std::uint64_t) {}
+    double coordinate(PlyType type, int axis)
+    {
+        const double value = isFloating(type) ? floating(type) : static_cast<double>(whole(type));
+        if (!std::isfinite(value)) {
+            fail(coordinateNames[axis] + std::string(" of ") + ordinal(*element_, index_) + " is " + numberText(value) +
+                 "; coordinates must be finite");
+        }
+        return value;
+    }
+    std::int64_t integer(PlyType type, const char* what)
+    {
+        if (!isFloating(type)) return whole(type);
+        const double value = floating(type);
+        if (!(std::abs(value) <= 1e15) || std::nearbyint(value) != value)
+            fail(std::string(what) + " is not an integer");
+        return static_cast<std::int64_t>(value);
+    }
+    void skip(PlyType type, std::uint64_t count)
+    {
+        const std::size_t size = sizeOf(type);
+        if (count > room() / size) failEnd();
+        at_ += static_cast<std::size_t>(count) * size;
+    }
+    void finish()
+    {
+        marked_ = at_;
+        const auto isPadding = [](char c) { return c == '\0' || c == ' ' || c == '\n' || c == '\r' || c == '\t'; };
+        if (!std::all_of(bytes_.begin() + static_cast<std::ptrdiff_t>(at_), bytes_.end(), isPadding)) {
+            fail("the last element ends here, but " + std::to_string(room()) + " bytes follow");
+        }
+    }
+    /// \throw IoError for the value read last
+    [[noreturn]] void fail(const std::string& problem) const
+    {
+        throw IoError(name_ + ": byte " + std::to_string(marked_) + ": " + problem);
+    }
+
+private:
+    [[noreturn]] void failEnd()
+    {
+        marked_ = bytes_.size();
+        fail("the file ends within " + ordinal(*element_, index_));
+    }
+
+    template <typename Value>
+    Value load()
+    {
+        if (room() < sizeof(Value)) failEnd();
+        marked_ = at_;
+        char raw[sizeof(Value)];
+        std::memcpy(raw, bytes_.data() + at_, sizeof(Value));
+        if (reversed_) std::reverse(raw, raw + sizeof(Value));
+        at_ += sizeof(Value);
+        Value value;
+        std::memcpy(&value, raw, sizeof(Value));
+        return value;
+    }
+    double floating(PlyType type) { return type == PlyType::float32 ? double(load<float>()) : load<double>(); }
+    std::int64_t whole(PlyType type)
+    {
+        switch (type) {
+        case PlyType::int8:
+            return load<std::int8_t>();
+        case PlyType::uint8:
+            return load<std::uint8_t>();
+        case PlyType::int16:
+            return load<std::int16_t>();
+        case PlyType::uint16:
+            return load<std::uint16_t>();
+        case PlyType::int32:
+            return load<std::int32_t>();
+        case PlyType::uint32:
+            return load<std::uint32_t>();
+        case PlyType::int64:
+            return load<std::int64_t>();
+        default:
+            break;
+        }
+        const std::uint64_t value = load<std::uint64_t>();
+        return static_cast<std::int64_t>(std::min<std::uint64_t>(value, std::numeric_limits<std::int64_t>::max()));
+    }
+
+    std::string_view bytes_;
+    std::size_t at_, marked_;
+    const std::string& name_;
+    bool reversed_;
+    const PlyElement* element_ = nullptr;
+    std::uint64_t index_ = 0;
+};
+
+/// What becomes of a property.
+enum class Use { x, y, z, face, strips, none };
+
+template <typename Source>
+class BodyParser {
+public:
+    BodyParser(const PlyHeader& header, const std::string& name, Source source)
+        : header_(header), name_(name), in_(std::move(source))
+    {
+    }
+
+    PolygonSoup parse()
+    {
+        for (const PlyElement& element : header_.elements) {
+            if (element.name == "vertex") points_ = element.count;
+        }
+        for (const PlyElement& element : header_.elements) read(element);
+        in_.finish();
+        return std::move(soup_);
+    }
+
+private:
+    void read(const PlyElement& element)
+    {
+        const bool hasPoints = element.name == "vertex";
+        const bool hasFaces = element.name == "face";
+        const bool hasStrips = element.name == "tristrips";
+        if (!hasPoints && !hasFaces && !hasStrips) soup_.ignoredElements += static_cast<std::size_t>(element.count);
+        if (element.properties.empty()) return;
+
+        uses_.clear();
+        std::uint64_t least = 0;
+        for (const PlyProperty& property : element.properties) {
+            Use use = Use::none;
+            const std::string& name = property.name;
+            if (hasPoints && name.size() == 1 && name[0] >= 'x' && name[0] <= 'z') use = Use(name[0] - 'x');
+            if (name == "vertex_indices" || name == "vertex_index") {
+                if (hasFaces) use = Use::face;
+                if (hasStrips) use = Use::strips;
+            }
+            uses_.push_back(use);
+            least += Source::leastSize(property.isList ? property.countType : property.type);
+        }
+        // Before anything is stored: a header can announce more than any memory holds.
+        if (element.count > in_.room() / least) {
+            throw IoError(name_ + ": line " + std::to_string(element.line) + ": the header announces " +
+                          std::to_string(element.count) + " elements " + quote(element.name) + " of at least " +
+                          std::to_string(least) + " bytes, but only " + std::to_string(in_.room()) + " bytes are left");
+        }
+        const std::size_t count = static_cast<std::size_t>(element.count);
+        if (hasPoints) soup_.points.reserve(count);
+        if (hasFaces) soup_.triangles.reserve(std::min<std::size_t>(count, in_.room() / 8));
+        for (std::size_t i = 0; i < count; ++i) {
+            in_.beginElement(element, i);
+            openvdb::Vec3d point(0, 0, 0);
+            for (std::size_t j = 0; j < element.properties.size(); ++j) {
+                const PlyProperty& property = element.properties[j];
+                if (uses_[j] <= Use::z) {
+                    point[int(uses_[j])] = in_.coordinate(property.type, int(uses_[j]));
+                } else if (property.isList) {
+                    list(property, uses_[j]);
+                } else {
+                    in_.skip(property.type, 1);
+                }
+            }
+            in_.endElement(element, i);
+            if (hasPoints) soup_.points.push_back(point);
+        }
+    }
+
+    void list(const PlyProperty& property, Use use)
+    {
+        const std::int64_t count = in_.integer(property.countType, "the length of a list");
+        if (count < 0) in_.fail("the length of a list is " + std::to_string(count) + ", which is below 0");
+        if (std::uint64_t(count) > in_.room() / Source::leastSize(property.type)) {
+            in_.fail("a list of " + std::to_string(count) + " values cannot fit in the " + std::to_string(in_.room()) +
+                     " bytes that are left");
+        }
+        if (use == Use::none) {
+            in_.skip(property.type, std::uint64_t(count));
+            return;
+        }
+        face_.clear();
+        for (std::int64_t i = 0; i < count; ++i) {
+            const std::int64_t index = in_.integer(property.type, "the index of a corner");
+            if (use == Use::strips && index == -1) { // begins a new strip
+                addStrip();
+                continue;
+            }
+            if (index < 0 || std::uint64_t(index) >= points_) {
+                in_.fail("the corner " + std::to_string(index) + " is out of range; there are " +
+                         std::to_string(points_) + " points, counted from 0");
+            }
+            face_.push_back(static_cast<openvdb::Index32>(index));
+        }
+        if (use == Use::strips) {
+            addStrip();
+        } else {
+            soup_.addFace(face_.data(), face_.size());
+        }
+    }
+
+    /// Each corner from the third on makes a triangle with the two before it, every second one turned around. A
+    /// repeated corner only steers the strip: its triangle is not part of the surface.
+    void addStrip()
+    {
+        for (std::size_t i = 2; i < face_.size(); ++i) {
+            const openvdb::Index32 a = face_[i - 2], b = face_[i - 1], c = face_[i];
+            if (a == b || b == c || c == a) continue;
+            if (i % 2 == 0) {
+                soup_.triangles.emplace_back(a, b, c);
+            } else {
+                soup_.triangles.emplace_back(b, a, c);
+            }
+        }
+        face_.clear();
+    }
+
+    const PlyHeader& header_;
+    const std::string& name_;
+    Source in_;
+    PolygonSoup soup_;
+    std::uint64_t points_ = 0;
+    std::vector<Use> uses_;
+    std::vector<openvdb::Index32> face_;
+};
+
+void requireGeometry(const PlyHeader& header, const std::string& name)
+{
+    const auto fail = [&](const std::string& problem) { throw IoError(name + ": the PLY header " + problem); };
+    int points = 0;
+    for (const PlyElement& element : header.elements) {
+        if (element.name != "vertex") continue;
+        ++points;
+        for (const char* axis : {"x", "y", "z"}) {
+            const auto isAxis = [&](const PlyProperty& property) { return property.name == axis; };
+            const auto found = std::find_if(element.properties.begin(), element.properties.end(), isAxis);
+            if (found == element.properties.end()) fail(std::string("has no property \"") + axis + "\" of \"vertex\"");
+            if (std::count_if(element.properties.begin(), element.properties.end(), isAxis) != 1) {
+                fail(std::string("has two properties \"") + axis + "\" of \"vertex\"");
+            }
+            if (found->isList) fail(std::string("makes the property \"") + axis + "\" of \"vertex\" a list");
+        }
+    }
+    if (points != 1) fail(points == 0 ? "has no element \"vertex\"" : "has two elements \"vertex\"");
+    for (const PlyElement& element : header.elements) {
+        if (element.name != "face" && element.name != "tristrips") continue;
+        const auto isCorners = [](const PlyProperty& p) {
+            return p.name == "vertex_indices" || p.name == "vertex_index";
+        };
+        const auto found = std::find_if(element.properties.begin(), element.properties.end(), isCorners);
+        if (element.count > 0 && found == element.properties.end()) {
+            fail("has no property \"vertex_indices\" of \"" + element.name + "\"");
+        }
+        if (found != element.properties.end() && !found->isList) {
+            fail("makes the property \"" + found->name + "\" of \"" + element.name + "\" no list");
+        }
+    }
+}
+
+template <typename Face>
+void writeFace(OutputBuffer& buffer, const Face& face)
+{
+    buffer.binary(std::uint8_t(Face::size));
+    for (int i = 0; i < Face::size; ++i) buffer.binary(std::uint32_t(face[i]));
+}
+
+} // namespace
+
+Mesh parsePly(std::string_view bytes, const std::string& name, ReadSummary* summary)
+{
+    const PlyHeader header = parsePlyHeader(bytes, name);
+    requireGeometry(header, name);
+    const auto parse = [&](auto source) {
+        return toMesh(BodyParser(header, name, std::move(source)).parse(), name, summary);
+    };
+    if (header.format == PlyFormat::ascii) return parse(AsciiSource(bytes, header.size, name));
+    return parse(BinarySource(bytes, header.size, name, header.format == PlyFormat::binaryBigEndian));
+}
+
+void writePly(const Mesh& mesh, const std::string&, std::ostream& out)
+{
+    OutputBuffer buffer(out);
+    buffer.text("ply\nformat binary_little_endian 1.0\nelement vertex ");
+    buffer.number(mesh.points.size());
+    buffer.text("\nproperty double x\nproperty double y\nproperty double z\nelement face ");
+    buffer.number(faceCount(mesh));
+    // Signed indices are what most programs write and read; they hold all but the largest meshes.
+    const bool isHuge = mesh.points.size() > std::size_t(std::numeric_limits<std::int32_t>::max());
+    buffer.text(isHuge ? "\nproperty list uchar uint vertex_indices\nend_header\n"
+                       : "\nproperty list uchar int vertex_indices\nend_header\n");
+    for (const openvdb::Vec3d& p : mesh.points) {
+        for (int axis = 0; axis < 3; ++axis) buffer.binary(p[axis]);
+    }
+    for (const openvdb::Vec3I& triangle : mesh.triangles) writeFace(buffer, triangle);
+    for (const openvdb::Vec4I& quad : mesh.quads) writeFace(buffer, quad);
+    buffer.flush();
+}
+
+} // namespace vdbcage::detail

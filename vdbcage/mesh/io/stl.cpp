@@ -1,0 +1,256 @@
+// Based on: 3D Systems, "StereoLithography Interface Specification" (1989).
+// Differs: normals and attributes are not read, and coordinates may be negative; the two forms are told apart by what
+// is in the file, as many binary files begin with the word "solid".
+
+#include <vdbcage/mesh/io/formats.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include <vdbcage/core/detail/number_text.h>
+#include <vdbcage/core/error.h>
+#include <vdbcage/mesh/io/output_buffer.h>
+#include <vdbcage/mesh/io/polygon_soup.h>
+#include <vdbcage/mesh/io/text_cursor.h>
+
+namespace vdbcage::detail {
+
+namespace {
+
+constexpr std::size_t headerSize = 84; // 80 bytes of anything and the number of triangles
+constexpr std::size_t facetSize = 50;  // a normal, three corners, two bytes of attributes
+
+constexpr const char* coordinateNames[3] = {"the x coordinate", "the y coordinate", "the z coordinate"};
+
+/// Gives corners with the same coordinates (-0 being 0) the same index: a hash table with open addressing.
+class PointMerger {
+public:
+    explicit PointMerger(std::vector<openvdb::Vec3d>& points) : points_(points), buckets_(1024, empty) {}
+
+    openvdb::Index32 index(const openvdb::Vec3d& p)
+    {
+        if (2 * points_.size() >= buckets_.size()) grow();
+        openvdb::Index32& bucket = buckets_[find(p)];
+        if (bucket == empty) {
+            bucket = static_cast<openvdb::Index32>(points_.size());
+            points_.push_back(p);
+        }
+        return bucket;
+    }
+
+private:
+    static constexpr openvdb::Index32 empty = std::numeric_limits<openvdb::Index32>::max();
+
+    static std::uint64_t hash(const openvdb::Vec3d& p)
+    {
+        std::uint64_t h = 0;
+        for (int axis = 0; axis < 3; ++axis) {
+            const double value = p[axis] + 0.0; // turns -0 into 0
+            std::uint64_t bits = 0;
+            std::memcpy(&bits, &value, sizeof(bits));
+            h = (h ^ bits) * 0x9E3779B97F4A7C15U;
+            h ^= h >> 29U;
+        }
+        return h;
+    }
+    /// The bucket of `p`, or the empty one where it belongs.
+    std::size_t find(const openvdb::Vec3d& p) const
+    {
+        std::size_t bucket = hash(p) & (buckets_.size() - 1);
+        while (buckets_[bucket] != empty && points_[buckets_[bucket]] != p)
+            bucket = (bucket + 1) & (buckets_.size() - 1);
+        return bucket;
+    }
+    void grow()
+    {
+        buckets_.assign(2 * buckets_.size(), empty);
+        for (std::size_t i = 0; i < points_.size(); ++i) buckets_[find(points_[i])] = static_cast<openvdb::Index32>(i);
+    }
+
+    std::vector<openvdb::Vec3d>& points_;
+    std::vector<openvdb::Index32> buckets_; // a power of two of them, at most half full
+};
+
+template <typename Value>
+Value loadLittleEndian(const char* bytes)
+{
+    static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "reverse the bytes here");
+    Value value;
+    std::memcpy(&value, bytes, sizeof(Value));
+    return value;
+}
+
+std::string_view lowerCase(std::string_view word, char (&buffer)[16])
+{
+    const std::size_t length = std::min(word.size(), sizeof(buffer));
+    std::transform(word.begin(), word.begin() + std::ptrdiff_t(length), buffer,
+                   [](char c) { return c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c; });
+    return {buffer, length};
+}
+
+class AsciiParser {
+public:
+    AsciiParser(std::string_view bytes, const std::string& name) : in_(bytes, name), merger_(soup_.points) {}
+
+    PolygonSoup parse()
+    {
+        do {
+            expect("solid");
+            in_.nextLine(); // the rest is a name
+            while (!next("endsolid")) facet();
+            in_.nextLine();
+        } while (in_.skipToWord()); // some files hold several solids
+        return std::move(soup_);
+    }
+
+private:
+    void facet()
+    {
+        expect("facet");
+        expect("normal");
+        // The normal follows from the corners; that of a face without area is often written as "nan".
+        for (int axis = 0; axis < 3; ++axis) {
+            if (in_.word().empty()) in_.fail("the facet's normal is missing");
+        }
+        expect("outer");
+        expect("loop");
+        openvdb::Vec3I triangle;
+        for (int corner = 0; corner < 3; ++corner) {
+            expect("vertex");
+            openvdb::Vec3d p;
+            for (int axis = 0; axis < 3; ++axis) p[axis] = in_.coordinate(coordinateNames[axis]);
+            triangle[corner] = merger_.index(p);
+        }
+        expect("endloop");
+        expect("endfacet");
+        soup_.triangles.push_back(triangle);
+    }
+
+    /// Skips the next word, on this line or a later one, if it is `keyword`.
+    bool next(const char* keyword)
+    {
+        if (!in_.skipToWord()) in_.fail("the file ends before \"endsolid\"");
+        TextCursor ahead = in_;
+        char buffer[16];
+        if (lowerCase(ahead.word(), buffer) != keyword) return false;
+        in_.word();
+        return true;
+    }
+    void expect(const char* keyword)
+    {
+        if (!next(keyword)) in_.fail(in_.quoted(in_.position()) + " stands where \"" + keyword + "\" should be");
+    }
+
+    TextCursor in_;
+    PolygonSoup soup_;
+    PointMerger merger_;
+};
+
+PolygonSoup parseBinary(std::string_view bytes, const std::string& name)
+{
+    const auto fail = [&](std::size_t byte, const std::string& problem) {
+        throw IoError(name + ": byte " + std::to_string(byte) + ": " + problem);
+    };
+    if (bytes.size() < headerSize) fail(bytes.size(), "the file ends within the header of a binary STL (84 bytes)");
+    const std::uint64_t count = loadLittleEndian<std::uint32_t>(bytes.data() + 80);
+    const std::uint64_t end = headerSize + count * facetSize;
+    if (bytes.size() < end) {
+        fail(80, "the header announces " + std::to_string(count) + " triangles, which take " + std::to_string(end) +
+                     " bytes, but the file has " + std::to_string(bytes.size()));
+    }
+    if (bytes.substr(end).find_first_not_of('\0') != std::string_view::npos) {
+        fail(end, "the last of " + std::to_string(count) + " triangles ends here, but " +
+                      std::to_string(bytes.size() - end) + " bytes follow");
+    }
+    PolygonSoup soup;
+    soup.triangles.reserve(count);
+    PointMerger merger(soup.points);
+    for (std::size_t facet = headerSize; facet < end; facet += facetSize) {
+        openvdb::Vec3I triangle;
+        for (std::size_t corner = 0; corner < 3; ++corner) {
+            openvdb::Vec3d p;
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                const std::size_t at = facet + 12 * (corner + 1) + 4 * axis;
+                const float value = loadLittleEndian<float>(bytes.data() + at);
+                if (!std::isfinite(value)) {
+                    fail(at, coordinateNames[axis] + std::string(" of triangle ") +
+                                 std::to_string((facet - headerSize) / facetSize + 1) + " is " +
+                                 numberText(double(value)) + "; coordinates must be finite");
+                }
+                p[int(axis)] = double(value);
+            }
+            triangle[int(corner)] = merger.index(p);
+        }
+        soup.triangles.push_back(triangle);
+    }
+    return soup;
+}
+
+/// A file whose size is the one that its header announces is binary. Of the others (a cut-off binary file may be among
+/// them) one that begins with "solid" and has no zero byte near its start is ascii: in a binary file the number of
+/// triangles, if below 2^24, and the attributes have zero bytes.
+bool isAscii(std::string_view bytes)
+{
+    if (bytes.size() >= headerSize) {
+        const std::uint64_t count = loadLittleEndian<std::uint32_t>(bytes.data() + 80);
+        if (bytes.size() == headerSize + count * facetSize) return false;
+    }
+    if (bytes.substr(0, 256).find('\0') != std::string_view::npos) return false;
+    const std::string noName;
+    TextCursor in(bytes, noName);
+    char buffer[16];
+    return in.skipToWord() && lowerCase(in.word(), buffer) == "solid";
+}
+
+} // namespace
+
+Mesh parseStl(std::string_view bytes, const std::string& name, ReadSummary* summary)
+{
+    PolygonSoup soup = isAscii(bytes) ? AsciiParser(bytes, name).parse() : parseBinary(bytes, name);
+    return toMesh(std::move(soup), name, summary);
+}
+
+void writeStl(const Mesh& mesh, const std::string& name, std::ostream& out)
+{
+    const std::vector<openvdb::Vec3I> triangles = triangulate(mesh);
+    if (triangles.size() > std::numeric_limits<std::uint32_t>::max()) {
+        throw IoError(name + ": an STL file cannot hold " + std::to_string(triangles.size()) + " triangles");
+    }
+    constexpr double largest = double(std::numeric_limits<float>::max());
+    OutputBuffer buffer(out);
+    constexpr std::string_view header = "binary STL"; // not "solid", which some readers take for ascii
+    buffer.text(header);
+    buffer.text(std::string(80 - header.size(), '\0'));
+    buffer.binary(static_cast<std::uint32_t>(triangles.size()));
+    for (const openvdb::Vec3I& triangle : triangles) {
+        openvdb::Vec3s corners[3];
+        for (int corner = 0; corner < 3; ++corner) {
+            for (int axis = 0; axis < 3; ++axis) {
+                const double value = mesh.points[triangle[corner]][axis];
+                if (std::abs(value) > largest) {
+                    throw IoError(name + ": " + coordinateNames[axis] + " of point " +
+                                  std::to_string(triangle[corner]) + " is " + numberText(value) +
+                                  ", which does not fit the floats of an STL file");
+                }
+                corners[corner][axis] = static_cast<float>(value);
+            }
+        }
+        const openvdb::Vec3d first(corners[0]);
+        openvdb::Vec3d normal = (openvdb::Vec3d(corners[1]) - first).cross(openvdb::Vec3d(corners[2]) - first);
+        const double length = normal.length();
+        if (length > 0) normal /= length;
+        for (int axis = 0; axis < 3; ++axis) buffer.binary(static_cast<float>(normal[axis]));
+        for (const openvdb::Vec3s& p : corners) {
+            for (int axis = 0; axis < 3; ++axis) buffer.binary(p[axis]);
+        }
+        buffer.binary(std::uint16_t(0));
+    }
+    buffer.flush();
+}
+
+} // namespace vdbcage::detail

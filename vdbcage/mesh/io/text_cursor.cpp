@@ -1,0 +1,221 @@
+#include <vdbcage/mesh/io/text_cursor.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <system_error>
+
+#include <vdbcage/core/error.h>
+
+namespace vdbcage::detail {
+
+namespace {
+
+bool isDigit(char c)
+{
+    return c >= '0' && c <= '9';
+}
+
+/// std::from_chars with the leading plus sign that it does not take.
+template <typename Number>
+std::from_chars_result parse(const char* first, const char* last, Number& value)
+{
+    const bool plus = last - first > 1 && first[0] == '+' && first[1] != '-';
+    const std::from_chars_result result = std::from_chars(plus ? first + 1 : first, last, value);
+    return result.ec == std::errc::invalid_argument ? std::from_chars_result{first, result.ec} : result;
+}
+
+/// For a decimal number outside the range of double: is it too small (and not too large)? std::from_chars does not
+/// say which. The position of the first digit that is not zero, with the exponent, tells them apart: the two ranges are
+/// six hundred powers of ten away from each other.
+bool isTooSmall(const char* first, const char* last)
+{
+    const char* exponentMark = std::find_if(first, last, [](char c) { return c == 'e' || c == 'E'; });
+    const char* point = std::find(first, exponentMark, '.');
+    const char* digit = std::find_if(first, exponentMark, [](char c) { return c >= '1' && c <= '9'; });
+    const long long magnitude = point - digit;
+    if (exponentMark == last) return magnitude < 0;
+    long long exponent = 0;
+    const bool negative = exponentMark + 1 != last && exponentMark[1] == '-';
+    for (const char* c = exponentMark + 1; c != last; ++c) {
+        // 1e17 is beyond the length of any file, so that saturating there cannot change the answer.
+        if (isDigit(*c)) exponent = std::min(exponent * 10 + (*c - '0'), 100'000'000'000'000'000LL);
+    }
+    return magnitude + (negative ? -exponent : exponent) < 0;
+}
+
+} // namespace
+
+std::string quote(std::string_view piece)
+{
+    constexpr std::size_t longest = 24;
+    std::string text = "\"";
+    for (const char c : piece.substr(0, longest)) {
+        const unsigned char byte = static_cast<unsigned char>(c);
+        if (byte >= 0x20 && byte < 0x7F) {
+            text += c;
+        } else {
+            constexpr const char* digits = "0123456789abcdef";
+            text += {'\\', 'x', digits[byte >> 4U], digits[byte & 15U]};
+        }
+    }
+    return text + (piece.size() > longest ? "...\"" : "\"");
+}
+
+TextCursor::TextCursor(std::string_view bytes, const std::string& name, TextSyntax syntax)
+    : begin_(bytes.data()), at_(bytes.data()), end_(bytes.data() + bytes.size()), name_(name), syntax_(syntax)
+{
+    if (bytes.substr(0, 3) == "\xEF\xBB\xBF") at_ += 3;
+}
+
+bool TextCursor::continuesAt(const char* at) const
+{
+    return syntax_.continuesLines && *at == '\\' && end_ - at > 1 && isLineEnd(at[1]);
+}
+
+bool TextCursor::endsWord(const char* at) const
+{
+    if (at == end_) return true;
+    return isBlank(*at) || isLineEnd(*at) || (*at == syntax_.comment && *at != '\0') || continuesAt(at);
+}
+
+const char* TextCursor::wordEnd(const char* at) const
+{
+    while (!endsWord(at)) ++at;
+    return at;
+}
+
+void TextCursor::skipBlanks()
+{
+    for (;;) {
+        while (at_ != end_ && isBlank(*at_)) ++at_;
+        if (at_ == end_ || !continuesAt(at_)) return;
+        at_ += end_ - at_ > 2 && at_[1] == '\r' && at_[2] == '\n' ? 3 : 2;
+    }
+}
+
+bool TextCursor::atLineEnd()
+{
+    skipBlanks();
+    return at_ == end_ || isLineEnd(*at_) || (*at_ == syntax_.comment && *at_ != '\0');
+}
+
+void TextCursor::nextLine()
+{
+    while (at_ != end_ && !isLineEnd(*at_)) ++at_;
+    if (at_ == end_) return;
+    at_ += end_ - at_ > 1 && at_[0] == '\r' && at_[1] == '\n' ? 2 : 1;
+}
+
+void TextCursor::nextStatement()
+{
+    bool continues = false;
+    do {
+        const char* start = at_;
+        while (at_ != end_ && !isLineEnd(*at_)) ++at_;
+        continues = at_ != start && continuesAt(at_ - 1);
+        nextLine();
+    } while (continues && at_ != end_);
+}
+
+bool TextCursor::skipToWord()
+{
+    while (atLineEnd()) {
+        if (at_ == end_) return false;
+        nextLine();
+    }
+    return true;
+}
+
+std::string_view TextCursor::word()
+{
+    if (atLineEnd()) return {};
+    const char* first = at_;
+    at_ = wordEnd(at_);
+    return {first, static_cast<std::size_t>(at_ - first)};
+}
+
+bool TextCursor::skipWord(std::string_view expected)
+{
+    const char* start = at_;
+    if (word() == expected) return true;
+    at_ = start;
+    return false;
+}
+
+double TextCursor::coordinate(const char* what)
+{
+    skipBlanks();
+    double value = 0;
+    const std::from_chars_result result = parse(at_, end_, value);
+    const bool wholeWord = result.ptr != at_ && endsWord(result.ptr);
+    if (wholeWord && result.ec == std::errc() && std::isfinite(value)) {
+        at_ = result.ptr;
+        return value;
+    }
+    if (atLineEnd()) failMissing(what);
+    if (!wholeWord) fail(std::string(what) + " is " + quoted(at_) + ", which is not a number");
+    if (result.ec == std::errc() || !isTooSmall(at_, result.ptr)) {
+        fail(std::string(what) + " is " + quoted(at_) + "; coordinates must be finite");
+    }
+    const bool negative = *at_ == '-';
+    at_ = result.ptr;
+    return negative ? -0.0 : 0.0;
+}
+
+bool TextCursor::skipNumber()
+{
+    skipBlanks();
+    double value = 0;
+    const std::from_chars_result result = parse(at_, end_, value);
+    if (result.ptr == at_ || !endsWord(result.ptr)) return false;
+    at_ = result.ptr;
+    return true;
+}
+
+std::int64_t TextCursor::integer(const char* what)
+{
+    if (atLineEnd()) failMissing(what);
+    const char* first = at_;
+    std::int64_t value = 0;
+    if (!integerPrefix(value) || !atWordEnd()) {
+        fail(first, std::string(what) + " is " + quoted(first) + ", which is not an integer");
+    }
+    return value;
+}
+
+bool TextCursor::integerPrefix(std::int64_t& value)
+{
+    const std::from_chars_result result = parse(at_, end_, value);
+    if (result.ptr == at_) return false;
+    if (result.ec != std::errc()) fail("the integer " + quoted(at_) + " is too large");
+    at_ = result.ptr;
+    return true;
+}
+
+void TextCursor::failMissing(const char* what) const
+{
+    if (at_ == end_) fail(std::string("the file ends where ") + what + " should be");
+    fail(std::string(what) + " is missing");
+}
+
+std::size_t TextCursor::lineOf(const char* where) const
+{
+    std::size_t line = 1;
+    for (const char* c = begin_; c < where; ++c) {
+        if (*c == '\n' || (*c == '\r' && (c + 1 == end_ || c[1] != '\n'))) ++line;
+    }
+    return line;
+}
+
+void TextCursor::fail(const char* where, const std::string& problem) const
+{
+    throw IoError(name_ + ": line " + std::to_string(lineOf(where)) + ": " + problem);
+}
+
+std::string TextCursor::quoted(const char* where) const
+{
+    return quote({where, static_cast<std::size_t>(wordEnd(where) - where)});
+}
+
+} // namespace vdbcage::detail

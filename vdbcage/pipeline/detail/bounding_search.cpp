@@ -1,0 +1,279 @@
+#include <vdbcage/pipeline/detail/bounding_search.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <vdbcage/bounding/near_coplanar.h>
+#include <vdbcage/bounding/smooth.h>
+#include <vdbcage/bounding/tighten.h>
+#include <vdbcage/bounding/triquad.h>
+#include <vdbcage/core/detail/parallel.h>
+#include <vdbcage/core/error.h>
+#include <vdbcage/pipeline/detail/starting_surface.h>
+#include <vdbcage/pipeline/detail/textbook.h>
+
+namespace vdbcage::detail {
+
+namespace {
+
+double longestSide(const openvdb::BBoxd& box)
+{
+    return box.extents()[static_cast<int>(box.maxExtent())];
+}
+
+/// The six faces of `box`, each as two triangles facing outward.
+Mesh boxMesh(const openvdb::BBoxd& box)
+{
+    Mesh mesh;
+    for (int corner = 0; corner < 8; ++corner) {
+        mesh.points.emplace_back((corner & 1 ? box.max() : box.min()).x(), (corner & 2 ? box.max() : box.min()).y(),
+                                 (corner & 4 ? box.max() : box.min()).z());
+    }
+    const openvdb::Vec4I sides[6] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4},
+                                     {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
+    for (const openvdb::Vec4I& side : sides) {
+        mesh.triangles.emplace_back(side[0], side[1], side[2]);
+        mesh.triangles.emplace_back(side[0], side[2], side[3]);
+    }
+    return mesh;
+}
+
+/// Side by side. \throw Cancelled
+template <typename Change>
+void forEach(std::vector<Candidate>& candidates, Interrupter* interrupter, const char* name, const Change& change)
+{
+    const Stage stage(interrupter, name);
+    parallelFor(std::size_t(0), candidates.size(), [&](std::size_t i) { change(candidates[i]); });
+}
+
+void keepAtMost(std::size_t most, const Mesh Candidate::*mesh, std::vector<Candidate>& candidates)
+{
+    const auto hasTooMany = [&](const Candidate& candidate) { return faceCount(candidate.*mesh) > most; };
+    candidates.erase(std::remove_if(candidates.begin(), candidates.end(), hasTooMany), candidates.end());
+}
+
+} // namespace
+
+Candidate BoundingSearch::run(const CageOptions& options, const ScaleVersion& scale, Interrupter* interrupter)
+{
+    for (const auto& start : starts_) start->isUsed = false;
+    try {
+        Candidate best = find({options, scale, interrupter});
+        best.from.reset();
+        const auto isUnused = [](const auto& start) { return !start->isUsed; };
+        starts_.erase(std::remove_if(starts_.begin(), starts_.end(), isUnused), starts_.end());
+        return best;
+    } catch (const Cancelled&) {
+        throw; // asked for between two steps: what was recorded of the decimations is right
+    } catch (...) {
+        starts_.clear(); // a step may be half done
+        throw;
+    }
+}
+
+/// A symmetric cage where there is a plane, or else one that is not.
+Candidate BoundingSearch::find(const Run& run)
+{
+    std::string noSymmetry;
+    if (run.options.symmetry != CageSymmetry::off) {
+        noSymmetry = "the model is not symmetric across x, y or z";
+        if (std::optional<Symmetry> symmetry = planeFor(run)) {
+            const BoundingGuard& guard = guardFor(run, symmetry->plane);
+            if (auto candidate = climb(run, guard)) {
+                symmetry->plane = *guard.symmetry();
+                candidate->symmetry = symmetry;
+                return *std::move(candidate);
+            }
+            noSymmetry = "no symmetric cage with so few faces was certified";
+        }
+    }
+    const BoundingGuard& guard = guardFor(run, std::nullopt);
+    std::optional<Candidate> found = climb(run, guard);
+    Candidate candidate = found ? *std::move(found) : box(run, guard);
+    candidate.noSymmetry = noSymmetry;
+    return candidate;
+}
+
+/// The plane found or given; the model has the same one in every run.
+std::optional<Symmetry> BoundingSearch::planeFor(const Run& run)
+{
+    const CageSymmetry wanted = run.options.symmetry;
+    if (wanted == soughtSymmetry_) return symmetry_;
+    const Stage stage(run.interrupter, "symmetry");
+    if (wanted == CageSymmetry::automatic) {
+        symmetry_ = findSymmetry(model_, policy::symmetryTolerance, run.interrupter);
+    } else {
+        const int axis = wanted == CageSymmetry::x ? 0 : wanted == CageSymmetry::y ? 1 : 2;
+        symmetry_ = bestSymmetry(model_, axis, run.interrupter);
+    }
+    soughtSymmetry_ = wanted;
+    return symmetry_;
+}
+
+const BoundingGuard& BoundingSearch::guardFor(const Run& run, const std::optional<SymmetryPlane>& plane)
+{
+    GuardOptions options = guardOptions(run.options);
+    options.symmetry = plane;
+    const auto& last = guardOptions_.symmetry;
+    const bool samePlane = plane ? last && plane->axis == last->axis && plane->offset == last->offset : !last;
+    if (!guard_ || options.clearance != guardOptions_.clearance ||
+        options.minAngleDegrees != guardOptions_.minAngleDegrees || !samePlane) {
+        const Stage stage(run.interrupter, "guard");
+        starts_.clear(); // they are under the guard
+        guard_.reset();
+        guard_ = std::make_unique<const BoundingGuard>(model_, options, run.interrupter);
+        guardOptions_ = options;
+    }
+    return *guard_;
+}
+
+/// A cage from the first rung of the ladder that leads to few enough faces, or else from the convex hull; nothing if
+/// that has too many too.
+std::optional<Candidate> BoundingSearch::climb(const Run& run, const BoundingGuard& guard)
+{
+    const std::vector<Voxels> rungs = ladder(run.options);
+    for (Voxels voxels : rungs) {
+        voxels.plane = guard.symmetry();
+        Candidates starts = startsFrom(run, voxels, guard);
+        if (starts.empty()) continue;
+        if (auto candidate = shrinkOnto(run, std::move(starts), guard)) return candidate;
+    }
+    Voxels voxels = rungs.front();
+    voxels.resolution = std::min(voxels.resolution, policy::hullResolution);
+    voxels.plane = guard.symmetry();
+    return shrinkOnto(run, {begin(run, voxels, CageStart::hull, guard)}, guard);
+}
+
+/// What cages may be shrunk from with voxels like these: nothing if there are too many handles.
+BoundingSearch::Candidates BoundingSearch::startsFrom(const Run& run, const Voxels& voxels, const BoundingGuard& guard)
+{
+    const int resolution = resolutionFor(run, voxels);
+    Candidates starts;
+    for (const double scale : startScales(run.options)) {
+        Voxels scaled = voxels;
+        scaled.resolution = static_cast<int>(std::lround(scale * resolution));
+        Candidate candidate = begin(run, scaled, CageStart::closing, guard);
+        if (hasFewEnoughHandles(run.options, candidate.topology)) starts.push_back(std::move(candidate));
+        if (starts.empty()) break;
+    }
+    return starts;
+}
+
+int BoundingSearch::resolutionFor(const Run& run, const Voxels& voxels)
+{
+    if (!dependsOnSurface(run.options)) return voxels.resolution;
+    ClosingKey key = closingKey(run.options, run.scale, voxels);
+    if (!counted_ || !(counted_->key == key)) {
+        const auto closing = volumes_.closing(run.options, run.scale, voxels, run.interrupter);
+        counted_ = Counted{std::move(key), faceCount(*surfaceOf(*closing, run.interrupter))};
+    }
+    return affordableResolution(run.options, voxels, counted_->quads);
+}
+
+/// A candidate with what it is made from: of the run before, or anew.
+Candidate BoundingSearch::begin(const Run& run, const Voxels& voxels, CageStart kind, const BoundingGuard& guard)
+{
+    const ClosingKey key = closingKey(run.options, run.scale, voxels);
+    const auto isIt = [&](const auto& start) { return start->kind == kind && start->closing->key == key; };
+    auto known = std::find_if(starts_.begin(), starts_.end(), isIt);
+    if (known == starts_.end()) {
+        auto closing = volumes_.closing(run.options, run.scale, voxels, run.interrupter);
+        auto start =
+            std::make_shared<StartingSurface>(startingSurface(std::move(closing), kind, guard, run.interrupter));
+        known = starts_.insert(starts_.end(), std::move(start));
+    }
+    const std::shared_ptr<StartingSurface>& start = *known;
+    start->isUsed = true;
+    Candidate candidate;
+    candidate.voxels = voxels;
+    candidate.start = kind;
+    candidate.offsetVoxels = start->offsetVoxels;
+    candidate.from = start;
+    candidate.closing = start->closing;
+    candidate.surface = candidate.smoothed = start->surface;
+    candidate.topology = start->topology;
+    return candidate;
+}
+
+/// Makes cages of the candidates' surfaces, side by side; the tightest that has few enough faces and is certified.
+std::optional<Candidate> BoundingSearch::shrinkOnto(const Run& run, Candidates starts, const BoundingGuard& guard)
+{
+    const CageOptions& options = run.options;
+    Interrupter* const interrupter = run.interrupter;
+    const auto faces = static_cast<std::size_t>(options.faces);
+    const bool onlyTriangles = options.mesh == CageFaces::triangles;
+    BoundingDecimateOptions decimation;
+    decimation.faces = onlyTriangles ? faces : policy::trianglesPerQuad * faces;
+    decimation.effort = options.effort;
+    forEach(starts, interrupter, "decimate", [&](Candidate& candidate) {
+        auto& known = candidate.from->decimation;
+        if (!known) known.emplace(*candidate.surface, guard, interrupter);
+        candidate.decimated = known->to(decimation, interrupter);
+    });
+    keepAtMost(decimation.faces, &Candidate::decimated, starts);
+
+    TightenOptions tightening = tightenOptions(options.effort);
+    if (guard.symmetry()) tightening.perturbations *= policy::symmetricPerturbations;
+    if (onlyTriangles) {
+        forEach(starts, interrupter, "tighten", [&](Candidate& candidate) {
+            candidate.cage = tighten(candidate.decimated, guard, tightening, interrupter);
+        });
+    } else {
+        BoundingTriquadOptions pairing;
+        pairing.mergeAngleDegrees = mergeAngle(options);
+        pairing.faces = faces;
+        if (options.mesh == CageFaces::quads) pairing.quads = policy::mostlyQuads;
+        pairing.tightening = tightening;
+        forEach(starts, interrupter, "quads", [&](Candidate& candidate) {
+            candidate.cage = triquad(candidate.decimated, guard, pairing, interrupter);
+        });
+    }
+    keepAtMost(faces, &Candidate::cage, starts);
+    if (options.smooth > 0) {
+        forEach(starts, interrupter, "smooth", [&](Candidate& candidate) {
+            candidate.cage = smooth(candidate.cage, guard, {options.smooth}, interrupter);
+        });
+    }
+    if (onlyTriangles) {
+        const Stage stage(interrupter, "near-coplanar");
+        for (Candidate& candidate : starts) {
+            candidate.cage = bendNearCoplanarEdges(candidate.cage, guard, interrupter);
+        }
+    }
+    return tightestCertified(run, std::move(starts));
+}
+
+std::optional<Candidate> BoundingSearch::tightestCertified(const Run& run, Candidates candidates)
+{
+    for (Candidate& candidate : candidates) candidate.check = certifier_.check(candidate.cage, run.interrupter);
+    std::stable_sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
+        return a.check.meanDistance < b.check.meanDistance;
+    });
+    for (Candidate& candidate : candidates) {
+        if (!candidate.check.bounding()) continue;
+        candidate.boundsAsFloats = certifier_.boundsAsFloats(candidate.cage, run.interrupter);
+        if (candidate.boundsAsFloats) return std::move(candidate);
+    }
+    return std::nullopt;
+}
+
+/// The last resort.
+Candidate BoundingSearch::box(const Run& run, const BoundingGuard& guard)
+{
+    openvdb::BBoxd box = boundingBox(model_);
+    box.expand(std::max(2 * guard.clearance(), policy::boxMargin * longestSide(box)));
+    Candidate candidate;
+    candidate.voxels = ladder(run.options).back();
+    candidate.start = CageStart::box;
+    candidate.closing = volumes_.closing(run.options, run.scale, candidate.voxels, run.interrupter);
+    candidate.surface = candidate.smoothed = std::make_shared<const Mesh>(boxMesh(box));
+    candidate.topology = analyzeTopology(*candidate.surface, nullptr);
+    candidate.decimated = certifier_.rounded(*candidate.surface);
+    candidate.cage = merged(candidate.decimated, run.options);
+    candidate.check = certifier_.check(candidate.cage, run.interrupter);
+    candidate.boundsAsFloats = certifier_.boundsAsFloats(candidate.cage, run.interrupter);
+    return candidate;
+}
+
+} // namespace vdbcage::detail

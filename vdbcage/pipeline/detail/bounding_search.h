@@ -1,0 +1,61 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include <vdbcage/bounding/bounding_guard.h>
+#include <vdbcage/pipeline/detail/candidate.h>
+#include <vdbcage/pipeline/detail/certifier.h>
+
+namespace vdbcage::detail {
+
+/// Looks for the bounding cage: shrinks surfaces under the guard, in the order of search.h, until one is certified.
+/// What several runs share (guard, plane of symmetry, starting surfaces with their decimations) is kept between them.
+class BoundingSearch {
+public:
+    /// All must outlive this.
+    BoundingSearch(const Mesh& model, Volumes& volumes, Certifier& certifier)
+        : model_(model), volumes_(volumes), certifier_(certifier)
+    {
+    }
+
+    /// A certified cage, or the model's bounding box unchecked. Can be asked again after any exception.
+    Candidate run(const CageOptions& options, const ScaleVersion& scale, Interrupter* interrupter);
+
+private:
+    /// One run: the options do not change.
+    struct Run {
+        const CageOptions& options;
+        const ScaleVersion& scale;
+        Interrupter* interrupter;
+    };
+    using Candidates = std::vector<Candidate>;
+
+    Candidate find(const Run& run);
+    std::optional<Symmetry> planeFor(const Run& run);
+    const BoundingGuard& guardFor(const Run& run, const std::optional<SymmetryPlane>& plane);
+    std::optional<Candidate> climb(const Run& run, const BoundingGuard& guard);
+    Candidates startsFrom(const Run& run, const Voxels& voxels, const BoundingGuard& guard);
+    int resolutionFor(const Run& run, const Voxels& voxels);
+    Candidate begin(const Run& run, const Voxels& voxels, CageStart kind, const BoundingGuard& guard);
+    std::optional<Candidate> shrinkOnto(const Run& run, Candidates starts, const BoundingGuard& guard);
+    std::optional<Candidate> tightestCertified(const Run& run, Candidates candidates);
+    Candidate box(const Run& run, const BoundingGuard& guard);
+
+    const Mesh& model_;
+    Volumes& volumes_;
+    Certifier& certifier_;
+    CageSymmetry soughtSymmetry_ = CageSymmetry::off; // what was asked for `symmetry_`; off: nothing yet
+    std::optional<Symmetry> symmetry_;
+    std::unique_ptr<const BoundingGuard> guard_; // of the last run
+    GuardOptions guardOptions_;                  // that it was made with
+    struct Counted {
+        ClosingKey key;
+        std::size_t quads = 0;
+    };
+    std::optional<Counted> counted_;                       // the last closing whose faces were counted
+    std::vector<std::shared_ptr<StartingSurface>> starts_; // of the last run, under guard_
+};
+
+} // namespace vdbcage::detail

@@ -1,0 +1,87 @@
+#include <vdbcage/pipeline/detail/search.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace vdbcage::detail {
+
+using namespace policy;
+
+namespace {
+
+double shareOf(Effort effort)
+{
+    return effort == Effort::fast ? shareFast : effort == Effort::fair ? shareFair : 1.0;
+}
+
+double growth(const CageOptions& options)
+{
+    return std::max(1.0, options.faces / usualFaces);
+}
+
+} // namespace
+
+std::vector<Voxels> ladder(const CageOptions& options)
+{
+    const double wanted = shareOf(options.effort) * usualResolution * std::sqrt(growth(options));
+    const int resolution = options.resolution.value_or(std::min(finestResolution, static_cast<int>(std::ceil(wanted))));
+    std::vector<Voxels> list{{resolution, options.closeRadius.value_or(leastRadius)}};
+    if (!options.closeRadius) {
+        for (double radius = 2 * leastRadius; radius <= greatestRadius; radius *= 2) {
+            list.push_back({resolution, radius});
+        }
+    }
+    if (!options.resolution) {
+        for (int coarser = resolution / 2; coarser >= coarsestResolution; coarser /= 2) {
+            list.push_back({coarser, options.closeRadius.value_or(greatestRadius)});
+        }
+    }
+    return list;
+}
+
+std::vector<double> startScales(const CageOptions& options)
+{
+    if (options.resolution) return {1.0};
+    if (options.effort != Effort::best && options.faces <= fewestFaces) return {0.65, 0.5};
+    if (options.effort == Effort::best && options.faces <= fewFaces) return {1.0, 0.85, 0.7, 0.6};
+    return {1.0};
+}
+
+bool dependsOnSurface(const CageOptions& options)
+{
+    return options.effort == Effort::fast && !options.resolution && options.faces > fewestFaces;
+}
+
+int affordableResolution(const CageOptions& options, const Voxels& voxels, std::size_t quads)
+{
+    const double triangles = 2 * static_cast<double>(quads);
+    const double share = std::sqrt(enoughTriangles * growth(options) / triangles);
+    return static_cast<int>(std::lround(std::clamp(share, coarsestShare, 1.0) * voxels.resolution));
+}
+
+bool hasFewEnoughHandles(const CageOptions& options, const MeshTopology& topology)
+{
+    const auto parts = static_cast<double>(topology.components());
+    if (options.parts == CageParts::merge && parts > 1) return false;
+    const double taken = facesPerPart * (parts - 1) + facesPerHandle * static_cast<double>(topology.genus());
+    return taken <= handleShare * options.faces;
+}
+
+double mergeAngle(const CageOptions& options)
+{
+    const double automatic = options.mesh == CageFaces::quads ? mergeAnyFold
+                             : options.bounding               ? mergeUsual
+                                                              : mergeFlat;
+    return options.mergeAngle.value_or(automatic);
+}
+
+GuardOptions guardOptions(const CageOptions& options)
+{
+    const bool isWide = options.mesh == CageFaces::triangles && options.effort == Effort::fair;
+    GuardOptions guarding;
+    guarding.clearance = options.clearance;
+    guarding.minAngleDegrees = options.minAngle.value_or(isWide ? wideAngle : usualAngle);
+    return guarding;
+}
+
+} // namespace vdbcage::detail

@@ -1,0 +1,81 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include <vdbcage/bounding/bounding_guard.h>
+#include <vdbcage/mesh/symmetry.h>
+#include <vdbcage/mesh/topology.h>
+#include <vdbcage/pipeline/options.h>
+
+/// What the search for a cage tries, and in which order. Pure functions of the options and of what was found so far;
+/// every constant of policy is in `policy`, with what chose it.
+namespace vdbcage::detail {
+
+/// What the options leave to us is decided by these. Where one was measured, its comment says what others cost;
+/// `vdbcage-bench cage` and `vdbcage-bench stages` measure it again.
+namespace policy {
+
+// Voxels. The surface should have several times the faces that the cage is to have; still more gain little.
+constexpr int usualResolution = 64;    ///< voxels along the longest side, for up to `usualFaces` and Effort::best
+constexpr double usualFaces = 1000;    ///< beyond, the resolution grows with the root of the faces
+constexpr int finestResolution = 512;  ///< that is chosen; finer ones have to be asked for
+constexpr int coarsestResolution = 16; ///< no rung of the ladder is below
+constexpr double shareFast = 2.0 / 3, shareFair = 5.0 / 6; ///< of the resolution, for time (docs/BENCHMARKS.md)
+constexpr int hullResolution = 32;                         ///< a hull has no detail that more could show
+constexpr double leastRadius = 0.03;                       ///< of a closing, of the longest side
+constexpr double greatestRadius = 0.24;                    ///< after three doublings; the option's range ends at 0.25
+
+// Surfaces.
+constexpr double enoughTriangles = 9000; ///< for up to `usualFaces` and Effort::fast; with 7500 some are 8 % looser
+constexpr double coarsestShare = 0.75;   ///< of the resolution to have no more: thin parts need some
+constexpr double handleShare = 0.15;     ///< of the faces, that parts and handles may take
+constexpr double facesPerPart = 8, facesPerHandle = 12; ///< that one takes at least, about
+
+// Starts. Among few faces the order of the collapses is luck, so that several starts pay. For the fewest, voxels of up
+// to twice the width are as good, and two starts with these take hardly more time than one without.
+constexpr int fewFaces = 200, fewestFaces = 60;
+
+// Shape of the cage.
+constexpr double mergeAnyFold = 90, mergeFlat = 10, mergeUsual = 30; ///< degrees: quads, no guard, triquad
+constexpr double wideAngle = 10, usualAngle = 6; ///< degrees; the wide one costs up to 5 % of the tightness
+constexpr double mostlyQuads = 0.875;
+///< of the faces; more cost a third of the tightness on models with edges
+constexpr std::size_t trianglesPerQuad = 3; ///< to begin with: two a quad, and some that vanish; 2 to 4 are alike
+constexpr int symmetricPerturbations = 3;   ///< times as many, in the time that half a surface saves
+constexpr double symmetryTolerance = 0.005; ///< of the longest side: below the distance of tight cages of some hundred
+constexpr double boxMargin = 0.01;          ///< of the longest side, between the model and its box
+constexpr int stepSmoothing = 3;            ///< sweeps that take the steps of the voxels away, where no guard does
+
+} // namespace policy
+
+/// What auto options stand for.
+struct Voxels {
+    int resolution = 0;
+    double closeRadius = 0;
+    std::optional<SymmetryPlane> plane = {}; ///< across the middle of the voxels: the index resolution / 2
+};
+
+/// The voxels to try, finest first. What is given is obeyed.
+std::vector<Voxels> ladder(const CageOptions& options);
+
+/// The shares of a resolution that cages are begun with, to take the tightest.
+std::vector<double> startScales(const CageOptions& options);
+
+/// Whether the resolution depends on how large the surface is, which the longest side tells little of.
+bool dependsOnSurface(const CageOptions& options);
+/// The resolution of `voxels`, or a coarser one where its surface, of so many quads, would have more triangles than
+/// cages of so many faces gain from. \pre dependsOnSurface()
+int affordableResolution(const CageOptions& options, const Voxels& voxels, std::size_t quads);
+
+/// Whether parts and handles leave faces enough for the shape.
+bool hasFewEnoughHandles(const CageOptions& options, const MeshTopology& topology);
+
+/// Degrees. \pre the options ask for quads
+double mergeAngle(const CageOptions& options);
+
+/// Without a plane of symmetry.
+GuardOptions guardOptions(const CageOptions& options);
+
+} // namespace vdbcage::detail

@@ -1,0 +1,83 @@
+#include <vdbcage/pipeline/detail/starting_surface.h>
+
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include <vdbcage/core/detail/mask_grid.h>
+#include <vdbcage/volume/convex_hull.h>
+#include <vdbcage/volume/extract.h>
+#include <vdbcage/volume/morphology.h>
+
+namespace vdbcage::detail {
+
+namespace {
+
+/// Adds the voxels on the outer side of faces between voxels; returns how many there were not.
+std::size_t addVoxelsOutside(const Mesh& surface, const std::vector<std::size_t>& faces, openvdb::MaskGrid& mask)
+{
+    auto voxels = mask.getAccessor();
+    std::size_t added = 0;
+    for (const std::size_t face : faces) {
+        const openvdb::Vec4I& q = surface.quads[face - surface.triangles.size()];
+        const auto corner = [&](int i) { return mask.worldToIndex(surface.points[q[i]]); };
+        const openvdb::Vec3d a = corner(0), b = corner(1), c = corner(2), d = corner(3);
+        openvdb::Vec3d outward = (c - a).cross(d - b);
+        outward.normalize();
+        const auto voxel = openvdb::Coord::round(0.25 * (a + b + c + d) + 0.5 * outward);
+        added += !voxels.isValueOn(voxel);
+        voxels.setValueOn(voxel);
+    }
+    return added;
+}
+
+/// The surface of a mask that is symmetric: so is what is added to make it well-composed.
+Mesh symmetricSurface(const openvdb::MaskGrid& mask, const SolidKey& voxels, Interrupter* interrupter)
+{
+    for (auto both = mirroredToo(mask, voxels.plane, voxels.resolution, interrupter);;) {
+        const auto composed = makeWellComposed(*both, interrupter);
+        both = mirroredToo(*composed, voxels.plane, voxels.resolution, interrupter);
+        if (countOf(*both) == countOf(*composed)) return extractSurface(*composed, interrupter);
+    }
+}
+
+} // namespace
+
+StartingSurface startingSurface(std::shared_ptr<Closing> closing, CageStart kind, const BoundingGuard& guard,
+                                Interrupter* interrupter)
+{
+    StartingSurface start;
+    start.kind = kind;
+    start.closing = std::move(closing);
+    const SolidKey& voxels = start.closing->key.solid;
+    const openvdb::MaskGrid::ConstPtr solid =
+        kind == CageStart::hull ? convexHull(*start.closing->mask, interrupter) : start.closing->mask;
+    const Stage stage(interrupter, "surface");
+    start.offsetVoxels = std::floor(guard.clearance() / solid->voxelSize()[0]);
+    const auto grownBy = [&](double radius, const openvdb::MaskGrid& mask) {
+        return dilate(mask, radius, StructuringElement::sphere, interrupter);
+    };
+    openvdb::MaskGrid::Ptr mask; // the solid itself until it has to grow
+    if (start.offsetVoxels > 0) mask = grownBy(start.offsetVoxels, *solid);
+    for (;;) {
+        throwIfInterrupted(interrupter);
+        const openvdb::MaskGrid& now = mask ? *mask : *solid;
+        if (guard.symmetry()) {
+            const Mesh whole = symmetricSurface(now, voxels, interrupter);
+            start.surface = std::make_shared<const Mesh>(guard.symmetrized(whole, now.voxelSize()[0] / 4));
+        } else if (!mask && kind == CageStart::closing && start.closing->surface) {
+            start.surface = start.closing->surface;
+        } else {
+            start.surface = std::make_shared<const Mesh>(extractSurface(now, interrupter));
+        }
+        const std::vector<std::size_t> tooNear = guard.facesTooNear(*start.surface);
+        if (tooNear.empty()) break;
+        if (!mask) mask = maskGridLike(*solid, std::make_shared<openvdb::MaskTree>(solid->tree()));
+        if (addVoxelsOutside(*start.surface, tooNear, *mask) == 0) mask = grownBy(1, *mask);
+    }
+    start.closing->surface.reset(); // it was for this
+    start.topology = analyzeTopology(*start.surface, interrupter);
+    return start;
+}
+
+} // namespace vdbcage::detail

@@ -1,0 +1,54 @@
+#include <vdbcage/pipeline/detail/textbook.h>
+
+#include <algorithm>
+#include <utility>
+
+#include <vdbcage/surface/decimate.h>
+#include <vdbcage/surface/repair.h>
+#include <vdbcage/surface/smooth.h>
+#include <vdbcage/surface/triquad.h>
+
+namespace vdbcage::detail {
+
+Mesh merged(const Mesh& triangles, const CageOptions& options)
+{
+    if (options.mesh == CageFaces::triangles) return triangles;
+    TriquadOptions merging;
+    merging.mergeAngleDegrees = mergeAngle(options);
+    return triquad(triangles, merging);
+}
+
+Candidate textbookCage(const CageOptions& options, const ScaleVersion& scale, Volumes& volumes, Certifier& certifier,
+                       Interrupter* interrupter)
+{
+    Candidate candidate;
+    if (options.symmetry != CageSymmetry::off) candidate.noSymmetry = "bounding is off";
+    candidate.voxels = ladder(options).front();
+    candidate.closing = volumes.closing(options, scale, candidate.voxels, interrupter);
+    candidate.surface = surfaceOf(*candidate.closing, interrupter);
+    candidate.closing->surface.reset();
+    candidate.topology = analyzeTopology(*candidate.surface, interrupter);
+    {
+        const Stage stage(interrupter, "smooth");
+        SmoothOptions smoothing;
+        smoothing.iterations = std::min(100, policy::stepSmoothing + options.smooth);
+        candidate.smoothed = std::make_shared<const Mesh>(smooth(*candidate.surface, smoothing, interrupter));
+    }
+    {
+        const Stage stage(interrupter, "decimate");
+        DecimateOptions target;
+        target.faces = static_cast<std::size_t>(options.faces);
+        candidate.decimated = certifier.rounded(decimate(*candidate.smoothed, target, interrupter));
+    }
+    CageCheck check = certifier.check(candidate.decimated, interrupter);
+    if (hasRepair() && !check.valid()) {
+        candidate.decimated = repair(candidate.decimated, nullptr, interrupter);
+        candidate.repaired = true;
+    }
+    candidate.cage = merged(candidate.decimated, options);
+    const bool isExamined = !candidate.repaired && options.mesh == CageFaces::triangles;
+    candidate.check = isExamined ? std::move(check) : certifier.check(candidate.cage, interrupter);
+    return candidate;
+}
+
+} // namespace vdbcage::detail

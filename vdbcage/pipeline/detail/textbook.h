@@ -1,0 +1,16 @@
+#pragma once
+
+#include <vdbcage/pipeline/detail/candidate.h>
+#include <vdbcage/pipeline/detail/certifier.h>
+
+namespace vdbcage::detail {
+
+/// A cage by the operators of the textbook, one after the other: as they leave it, valid or not, bounding or not.
+/// \throw InputError, DeviceError, Cancelled
+Candidate textbookCage(const CageOptions& options, const ScaleVersion& scale, Volumes& volumes, Certifier& certifier,
+                       Interrupter* interrupter);
+
+/// Quads by merging alone, as the options ask.
+Mesh merged(const Mesh& triangles, const CageOptions& options);
+
+} // namespace vdbcage::detail

@@ -1,0 +1,188 @@
+#include <vdbcage/pipeline/detail/volumes.h>
+
+#include <algorithm>
+#include <cstring>
+#include <utility>
+
+#include <vdbcage/core/detail/parallel.h>
+#include <vdbcage/mesh/topology.h>
+#include <vdbcage/volume/cavities.h>
+#include <vdbcage/volume/extract.h>
+#include <vdbcage/volume/mirror.h>
+#include <vdbcage/volume/morphology.h>
+
+namespace vdbcage::detail {
+
+namespace {
+
+/// A digest of numbers in their order, by multiplication and shifts after the finalizer of MurmurHash3.
+class Digest {
+public:
+    template <typename Number>
+    void add(Number number)
+    {
+        std::uint64_t bits = 0;
+        static_assert(sizeof number <= sizeof bits);
+        std::memcpy(&bits, &number, sizeof number);
+        value_ = (value_ ^ bits) * 0xff51afd7ed558ccdU;
+        value_ ^= value_ >> 33U;
+        value_ *= 0xc4ceb9fe1a85ec53U;
+        value_ ^= value_ >> 29U;
+    }
+    void add(const openvdb::Coord& c)
+    {
+        for (const int i : {0, 1, 2}) add(c[i]);
+    }
+    std::uint64_t value() const { return value_ == 0 ? 1 : value_; }
+
+private:
+    std::uint64_t value_ = 0x9e3779b97f4a7c15U;
+};
+
+/// Active states do not count: values are interpolated whether active or not.
+std::uint64_t digestOf(const openvdb::FloatGrid& grid)
+{
+    Digest digest;
+    for (const openvdb::Vec3d& corner : {openvdb::Vec3d(0, 0, 0), {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}) {
+        const openvdb::Vec3d place = grid.transform().indexToWorld(corner);
+        for (const int i : {0, 1, 2}) digest.add(place[i]);
+    }
+    const openvdb::FloatTree& tree = grid.constTree();
+    digest.add(tree.background());
+    auto tile = tree.cbeginValueAll();
+    tile.setMaxDepth(openvdb::FloatTree::ValueAllCIter::LEAF_DEPTH - 1);
+    for (; tile; ++tile) {
+        digest.add(tile.getDepth());
+        digest.add(tile.getCoord());
+        digest.add(*tile);
+    }
+    for (auto leaf = tree.cbeginLeaf(); leaf; ++leaf) {
+        digest.add(leaf->origin());
+        const float* const values = leaf->buffer().data();
+        for (openvdb::Index i = 0; i < openvdb::FloatTree::LeafNodeType::SIZE; ++i) digest.add(values[i]);
+    }
+    return digest.value();
+}
+
+bool same(const std::optional<SymmetryPlane>& a, const std::optional<SymmetryPlane>& b)
+{
+    return a ? b && a->axis == b->axis && a->offset == b->offset : !b;
+}
+
+/// The box of a box and its mirror image.
+openvdb::BBoxd withMirrorImage(const openvdb::BBoxd& box, const SymmetryPlane& plane)
+{
+    openvdb::Vec3d low = box.min(), high = box.max();
+    const double farther = std::max(high[plane.axis] - plane.offset, plane.offset - low[plane.axis]);
+    low[plane.axis] = plane.offset - farther;
+    high[plane.axis] = plane.offset + farther;
+    openvdb::BBoxd both = box; // rounding must not make it smaller
+    both.expand(openvdb::BBoxd(low, high));
+    return both;
+}
+
+} // namespace
+
+ScaleVersion::ScaleVersion(const ScaleField& scale)
+    : regions(scale.regions), grid(scale.grid ? isolated([&] { return digestOf(*scale.grid); }) : 0)
+{
+}
+
+bool ScaleVersion::operator==(const ScaleVersion& other) const
+{
+    const auto areEqual = [](const ScaleRegion& a, const ScaleRegion& b) {
+        return a.shape == b.shape && a.lower == b.lower && a.upper == b.upper && a.radius == b.radius &&
+               a.scale == b.scale;
+    };
+    return grid == other.grid &&
+           std::equal(regions.begin(), regions.end(), other.regions.begin(), other.regions.end(), areEqual);
+}
+
+bool SolidKey::operator==(const SolidKey& other) const
+{
+    return resolution == other.resolution && voxelizer == other.voxelizer && same(plane, other.plane);
+}
+
+bool ClosingKey::operator==(const ClosingKey& other) const
+{
+    return solid == other.solid && closeRadius == other.closeRadius && erodeRadius == other.erodeRadius &&
+           element == other.element && scale == other.scale;
+}
+
+ClosingKey closingKey(const CageOptions& options, const ScaleVersion& scale, const Voxels& voxels)
+{
+    return {{voxels.resolution, options.voxelizer, voxels.plane},
+            voxels.closeRadius,
+            options.erodeRadius.value_or(voxels.closeRadius),
+            options.element,
+            scale};
+}
+
+const std::shared_ptr<const Mesh>& surfaceOf(Closing& closing, Interrupter* interrupter)
+{
+    if (!closing.surface) {
+        const Stage stage(interrupter, "surface");
+        closing.surface = std::make_shared<const Mesh>(extractSurface(*closing.mask, interrupter));
+    }
+    return closing.surface;
+}
+
+openvdb::MaskGrid::Ptr mirroredToo(const openvdb::MaskGrid& mask, const std::optional<SymmetryPlane>& plane,
+                                   int resolution, Interrupter* interrupter)
+{
+    return vdbcage::withMirrorImage(mask, plane->axis, resolution, interrupter);
+}
+
+std::size_t countOf(const openvdb::MaskGrid& mask)
+{
+    return static_cast<std::size_t>(isolated([&] { return mask.activeVoxelCount(); }));
+}
+
+std::shared_ptr<const Solid> Volumes::solid(const SolidKey& key, Interrupter* interrupter)
+{
+    if (solid_ && solid_->key == key) return solid_;
+    closing_.reset(); // before more memory is taken
+    solid_.reset();
+    const Stage stage(interrupter, "voxelize");
+    VoxelizeOptions voxelization;
+    voxelization.resolution = key.resolution;
+    voxelization.voxelizer = key.voxelizer;
+    if (key.plane) voxelization.box = withMirrorImage(boundingBox(model_), *key.plane);
+    auto made = std::make_shared<Solid>();
+    made->key = key;
+    openvdb::MaskGrid::Ptr mask = voxelize(model_, voxelization, interrupter, &made->report);
+    if (key.plane) mask = mirroredToo(*mask, key.plane, key.resolution, interrupter);
+    made->voxels = countOf(*mask);
+    const MeshTopology topology = analyzeTopology(extractSurface(*mask, interrupter), interrupter);
+    made->parts = topology.components();
+    made->handles = topology.genus();
+    made->mask = std::move(mask);
+    solid_ = std::move(made);
+    return solid_;
+}
+
+std::shared_ptr<Closing> Volumes::closing(const CageOptions& options, const ScaleVersion& scale, const Voxels& voxels,
+                                          Interrupter* interrupter)
+{
+    const ClosingKey key = closingKey(options, scale, voxels);
+    if (closing_ && closing_->key == key) return closing_;
+    auto made = std::make_shared<Closing>();
+    made->key = key;
+    made->solid = solid(key.solid, interrupter);
+    closing_.reset();
+    const Stage stage(interrupter, "close");
+    CloseOptions closing;
+    closing.closeRadiusVoxels = key.closeRadius * voxels.resolution;
+    closing.erodeRadiusVoxels = key.erodeRadius * voxels.resolution;
+    closing.element = key.element;
+    auto closed = closeMask(*made->solid->mask, closing, options.scale, interrupter);
+    // The scale may be anything.
+    if (voxels.plane) closed = mirroredToo(*closed, voxels.plane, voxels.resolution, interrupter);
+    openvdb::MaskGrid::Ptr filled = fillCavities(*closed, &made->cavitiesFilled, interrupter);
+    made->voxels = countOf(*filled);
+    made->mask = std::move(filled);
+    closing_ = std::move(made);
+    return closing_;
+}
+
+} // namespace vdbcage::detail

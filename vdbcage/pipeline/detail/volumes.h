@@ -1,0 +1,98 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include <openvdb/openvdb.h>
+#include <vdbcage/core/interrupter.h>
+#include <vdbcage/mesh/mesh.h>
+#include <vdbcage/pipeline/detail/search.h>
+#include <vdbcage/pipeline/options.h>
+
+/// The volumes that cages are made from, kept from run to run under typed keys: equal keys, equal volumes.
+namespace vdbcage::detail {
+
+/// What a scale field says. The grid counts by its content: whoever holds it may write to it between two runs.
+struct ScaleVersion {
+    std::vector<ScaleRegion> regions;
+    std::uint64_t grid = 0; ///< digest of transform, background, tiles and leaves; 0 without a grid
+
+    ScaleVersion() = default;
+    /// O(values of the grid).
+    explicit ScaleVersion(const ScaleField& scale);
+    bool operator==(const ScaleVersion& other) const;
+};
+
+struct SolidKey {
+    int resolution = 0;
+    Voxelizer voxelizer = Voxelizer::automatic;
+    std::optional<SymmetryPlane> plane;
+
+    bool operator==(const SolidKey& other) const;
+};
+
+struct ClosingKey {
+    SolidKey solid;
+    double closeRadius = 0, erodeRadius = 0;
+    StructuringElement element = StructuringElement::sphere;
+    ScaleVersion scale;
+
+    bool operator==(const ClosingKey& other) const;
+};
+
+/// The voxelized model.
+struct Solid {
+    SolidKey key;
+    openvdb::MaskGrid::ConstPtr mask;
+    VoxelizeReport report;
+    std::size_t voxels = 0; ///< active ones
+    std::size_t parts = 0;  ///< separate surfaces, inner ones too
+    std::int64_t handles = 0;
+};
+
+/// Its closing, cavities filled.
+struct Closing {
+    ClosingKey key;
+    std::shared_ptr<const Solid> solid;
+    openvdb::MaskGrid::ConstPtr mask;
+    std::size_t cavitiesFilled = 0;
+    std::size_t voxels = 0;                   ///< active ones
+    std::shared_ptr<const Mesh> surface = {}; ///< once surfaceOf() was asked for it
+};
+
+/// The surface of a closing. \throw Cancelled
+const std::shared_ptr<const Mesh>& surfaceOf(Closing& closing, Interrupter* interrupter);
+
+/// Makes volumes of one model; the last of each kind is kept. What was given out stays as it is.
+class Volumes {
+public:
+    /// `model` must outlive this.
+    explicit Volumes(const Mesh& model) : model_(model) {}
+
+    /// The closing of the model by the radii of `voxels` and the options. `scale` is the version of their scale field.
+    /// \throw InputError, DeviceError, Cancelled
+    std::shared_ptr<Closing> closing(const CageOptions& options, const ScaleVersion& scale, const Voxels& voxels,
+                                     Interrupter* interrupter);
+
+private:
+    std::shared_ptr<const Solid> solid(const SolidKey& key, Interrupter* interrupter);
+
+    const Mesh& model_;
+    std::shared_ptr<const Solid> solid_;
+    std::shared_ptr<Closing> closing_;
+};
+
+/// Which closing it would be.
+ClosingKey closingKey(const CageOptions& options, const ScaleVersion& scale, const Voxels& voxels);
+
+/// `mask` united with its mirror image, where `plane` is one. \throw Cancelled
+openvdb::MaskGrid::Ptr mirroredToo(const openvdb::MaskGrid& mask, const std::optional<SymmetryPlane>& plane,
+                                   int resolution, Interrupter* interrupter);
+
+/// The active voxels of `mask`.
+std::size_t countOf(const openvdb::MaskGrid& mask);
+
+} // namespace vdbcage::detail

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include <vdbcage/volume/detail/mask_blocks.h>
+#include <vdbcage/volume/detail/progress.h>
+
+namespace vdbcage::detail {
+
+/// Where the contour voxels of one entry are, roughly.
+struct ContourLeaf {
+    std::uint16_t entry;               ///< of the block
+    BitBox box;                        ///< of the voxels, in the entry
+    std::array<std::int8_t, 3> sample; ///< one of the voxels, near the middle of them
+};
+
+/// The contour leaves within one 32^3 part of a block.
+struct ContourGroup {
+    openvdb::CoordBBox box; ///< of the voxels
+    std::size_t begin, end; ///< in ContourBlock::leaves
+};
+
+struct ContourBlock {
+    Coord origin;
+    openvdb::CoordBBox box; ///< of the voxels
+    std::vector<ContourLeaf> leaves;
+    std::vector<Words> words; ///< the voxels of each leaf
+    std::vector<ContourGroup> groups;
+};
+
+enum class ContourOf {
+    mask,      ///< active voxels with an inactive face neighbour
+    complement ///< inactive voxels with an active face neighbour
+};
+
+/// The contour of a mask or of its complement, the blocks sorted by origin; blocks without contour are left out.
+std::vector<ContourBlock> contourBlocks(const MaskTree& tree, ContourOf side, const Progress& progress);
+
+} // namespace vdbcage::detail

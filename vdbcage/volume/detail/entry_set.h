@@ -1,0 +1,73 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <unordered_map>
+#include <unordered_set>
+#include <vector>
+
+#include <vdbcage/volume/detail/mask_blocks.h>
+#include <vdbcage/volume/detail/progress.h>
+
+/// A mask between two passes along an axis: blocks without the nodes of a tree, whose entries are known by single bits.
+namespace vdbcage::detail {
+
+/// 4 x 16 entries of one x in a block, for one of the 4 stretches of 4 y: entry (y, z) at bit 16 (y % 4) + z.
+constexpr int stretchesPerPlane = 4;
+
+/// One block. Entry n is bit n % 64 of word n / 64, so that word 4 x + y / 4 is one stretch of plane x.
+struct FlatBlock {
+    static constexpr std::size_t wordCount = entriesPerBlock / 64;
+
+    Coord origin;
+    std::array<std::uint64_t, wordCount> some{}, full{};          ///< which entries are not empty; which are full
+    std::vector<Words> words;                                     ///< of the mixed ones, by entry
+    std::array<std::uint16_t, entriesPerBlock / 16> firstWords{}; ///< by n / 16: how many mixed entries are before
+    bool isUniform = true;
+
+    /// To be called when the bits and the words are set: finds the rest.
+    void finish();
+    bool isFull() const { return isUniform && full[0] != 0; }
+};
+
+/// One block of a mask: flat, or uniformly full or empty.
+struct BlockEntries {
+    const FlatBlock* flat = nullptr;
+    bool full = false; ///< where it is uniform
+
+    bool isFull() const { return !flat && full; }
+    bool isEmpty() const { return !flat && !full; }
+};
+
+/// A mask by its blocks.
+class EntrySet {
+public:
+    /// \throw Cancelled, as the others
+    EntrySet(const MaskTree& tree, const Progress& progress);
+    /// The full parts, with the blocks (each origin once) in their places.
+    EntrySet(FullParts full, std::vector<std::unique_ptr<FlatBlock>> flat, const Progress& progress);
+
+    BlockEntries at(const Coord& origin) const
+    {
+        const auto found = blocks_.find(origin);
+        return found != blocks_.end() ? found->second
+                                      : BlockEntries{nullptr, upperNodes_.count(alignedTo(origin, upperNodeSize)) > 0};
+    }
+    const FullParts& full() const { return full_; }
+    /// The blocks where the mask may begin or end, in no order.
+    std::vector<Coord> shell() const;
+    /// Frees the blocks on the way.
+    MaskTree::Ptr tree(const Progress& progress) &&;
+
+private:
+    void indexFlat();
+    void indexFull();
+
+    std::vector<std::unique_ptr<FlatBlock>> flat_;
+    FullParts full_;
+    std::unordered_map<Coord, BlockEntries> blocks_;
+    std::unordered_set<Coord> upperNodes_; // the full ones
+};
+
+} // namespace vdbcage::detail
