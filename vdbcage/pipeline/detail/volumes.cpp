@@ -31,7 +31,7 @@ public:
     }
     void add(const openvdb::Coord& c)
     {
-        for (const int i : {0, 1, 2}) add(c[i]);
+        for (const std::size_t i : {0U, 1U, 2U}) add(c[i]);
     }
     std::uint64_t value() const { return value_ == 0 ? 1 : value_; }
 
