@@ -154,7 +154,7 @@ BOOST_AUTO_TEST_CASE(cavities_of_whole_blocks)
 
 BOOST_AUTO_TEST_CASE(cavities_of_whole_upper_nodes)
 {
-    // Walls of block tiles around more than a upperNode, and one of upperNode tiles.
+    // Walls of block tiles around more than an upper node, and one of upper node tiles.
     const CoordBBox outer = cubeAt(Coord(-4096 - 512), 2 * 4096 + 1024);
     const auto grid = shell(outer, grown(outer, -256));
     std::size_t cavities = 0;

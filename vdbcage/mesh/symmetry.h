@@ -12,6 +12,8 @@ namespace vdbcage {
 struct SymmetryPlane {
     int axis = 0;      ///< 0, 1, 2: x, y, z
     double offset = 0; ///< of its points along the axis, world units
+
+    bool operator==(const SymmetryPlane& other) const { return axis == other.axis && offset == other.offset; }
 };
 
 /// How well a model agrees with its mirror image.

@@ -6,6 +6,7 @@
 #include <vdbcage/pipeline/pipeline.h>
 
 #include <optional>
+#include <string_view>
 #include <type_traits>
 #include <utility>
 
@@ -30,7 +31,7 @@ bool areEqual(const CageOptions& a, const CageOptions& b)
             using First = std::decay_t<decltype(first)>;
             using Second = std::decay_t<decltype(second)>;
             if constexpr (std::is_same_v<First, Second> && !std::is_same_v<First, ScaleField>) {
-                if (of.name == other.name) equal = equal && first == second;
+                if (std::string_view(of.name) == other.name) equal = equal && first == second;
             }
         });
     });

@@ -47,13 +47,14 @@ struct CageReport {
 /// that they touch: another face count or smoothness needs no new voxels and no new closing.
 ///
 /// With CageOptions::bounding the surface of the closing is shrunk, decimated and tightened under a BoundingGuard, and
-/// the cage is certified: examined by checkCage, other code than the guard's, on its coordinates as they are returned,
-/// against the model as given and (where float can hold it) as rounded to float. A cage that is not certified is never
-/// returned. Where the closing has too many parts and handles for the faces, and its radius and resolution are not
-/// given, it is closed more, then voxelized more coarsely (Effort::best at few faces also tries some coarser
+/// the cage is certified: examined by CageChecker, other code than the guard's, on its coordinates as they are
+/// returned, against the model as given and (where float can hold it) as rounded to float. A cage that is not certified
+/// is never returned. Where the closing has too many parts and handles for the faces, and its radius and resolution are
+/// not given, it is closed more, then voxelized more coarsely (Effort::best at few faces also tries some coarser
 /// resolutions side by side and keeps the tightest cage, Effort::fast takes a coarser one where the surface is large);
 /// where that is not enough, the cage is shrunk from the closing's convex hull, and the last resort is the model's
-/// bounding box. So there are never more faces than asked for.
+/// bounding box, of which CageReport::floatSafe says whether it also bounds as floats. So there are never more faces
+/// than asked for.
 ///
 /// Where a plane of symmetry is found or given, voxels are united with their mirror image and everything after is done
 /// on one half, under a guard that knows the plane: the cage is exactly symmetric, point for point and face for face,
@@ -71,7 +72,7 @@ public:
     /// intermediates of the last one that did not.
     ///
     /// Stages reported to `interrupter`, some more than once: symmetry, guard, voxelize, close, surface, decimate,
-    /// tighten or quads, smooth, near-coplanar, certify. The cage can have fewer faces than asked. It has more only
+    /// tighten or quads, smooth, coplanar, certify. The cage can have fewer faces than asked. It has more only
     /// where the topology of the closing does not allow fewer and `bounding` is off.
     /// \throw InputError, DeviceError, Cancelled
     const Mesh& run(const CageOptions& options, Interrupter* interrupter = nullptr);

@@ -73,7 +73,7 @@ Words flood(Words seed, const Words& space)
     }
 }
 
-// The bits on one face of a entry, where the two faces that meet have the same places: a byte a row, so that they are
+// The bits on one face of an entry, where the two faces that meet have the same places: a byte a row, so that they are
 // compared with one `and`.
 std::uint64_t faceBits(const std::uint64_t* words, int axis, bool upper)
 {

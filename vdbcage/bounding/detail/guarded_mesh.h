@@ -18,13 +18,13 @@ struct StarChange;
 
 /// A closed surface that bounds a model and is only changed in ways that keep it so. A value; copies share the guard.
 ///
-/// It is made of triangles; two that share an edge can be the pair of a quad. A quad bounds under both diagonals: for
-/// that the two triangles of its other diagonal, its alternates, go through the same tests as live faces, against all
-/// but its pair. Faces below are triangles; alternates have numbers among them, but are in no list unless it says so.
+/// It is made of triangles, called faces below; two that share an edge can be a quad. A quad bounds under both
+/// diagonals: for that the two triangles of its alternate diagonal, its alternates, go through the same tests as live
+/// faces, against all but its own two. Alternates have numbers among the faces, but are in no list unless it says so.
 ///
 /// Where the guard has a plane of symmetry, this is the half of the surface beyond it, and all counts are of the half.
 /// The other half is its mirror image and not stored: vertices on the plane, where the half ends, stay on it, all
-/// alternates stay beyond it, and no edge but those where the half ends has both its ends on the plane; so the pair can
+/// other ones stay beyond it, and no edge but those where the half ends has both its ends on the plane; so the two can
 /// meet in nothing but vertices and edges on the plane, and what is allowed here is allowed there.
 class GuardedMesh {
 public:

@@ -115,10 +115,8 @@ const BoundingGuard& BoundingSearch::guardFor(const Run& run, const std::optiona
 {
     GuardOptions options = guardOptions(run.options);
     options.symmetry = plane;
-    const auto& last = guardOptions_.symmetry;
-    const bool samePlane = plane ? last && plane->axis == last->axis && plane->offset == last->offset : !last;
     if (!guard_ || options.clearance != guardOptions_.clearance ||
-        options.minAngleDegrees != guardOptions_.minAngleDegrees || !samePlane) {
+        options.minAngleDegrees != guardOptions_.minAngleDegrees || !(plane == guardOptions_.symmetry)) {
         const Stage stage(run.interrupter, "guard");
         starts_.clear(); // they are under the guard
         guard_.reset();
@@ -236,7 +234,7 @@ std::optional<Candidate> BoundingSearch::shrinkOnto(const Run& run, Candidates s
         });
     }
     if (onlyTriangles) {
-        const Stage stage(interrupter, "near-coplanar");
+        const Stage stage(interrupter, "coplanar");
         for (Candidate& candidate : starts) {
             candidate.cage = bendNearCoplanarEdges(candidate.cage, guard, interrupter);
         }

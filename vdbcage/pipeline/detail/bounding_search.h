@@ -20,7 +20,7 @@ public:
     {
     }
 
-    /// A certified cage, or the model's bounding box unchecked. Can be asked again after any exception.
+    /// A certified cage, or the model's bounding box with its verdict. Can be asked again after any exception.
     Candidate run(const CageOptions& options, const ScaleVersion& scale, Interrupter* interrupter);
 
 private:

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace vdbcage::detail {
 
@@ -42,8 +43,10 @@ std::vector<Voxels> ladder(const CageOptions& options)
 std::vector<double> startScales(const CageOptions& options)
 {
     if (options.resolution) return {1.0};
-    if (options.effort != Effort::best && options.faces <= fewestFaces) return {0.65, 0.5};
-    if (options.effort == Effort::best && options.faces <= fewFaces) return {1.0, 0.85, 0.7, 0.6};
+    if (options.effort != Effort::best && options.faces <= fewestFaces)
+        return {std::begin(fewestStarts), std::end(fewestStarts)};
+    if (options.effort == Effort::best && options.faces <= fewFaces)
+        return {std::begin(fewStarts), std::end(fewStarts)};
     return {1.0};
 }
 

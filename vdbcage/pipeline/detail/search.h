@@ -10,7 +10,7 @@
 #include <vdbcage/pipeline/options.h>
 
 /// What the search for a cage tries, and in which order. Pure functions of the options and of what was found so far;
-/// every constant of policy is in `policy`, with what chose it.
+/// every constant of policy is in `policy`.
 namespace vdbcage::detail {
 
 /// What the options leave to us is decided by these. Where one was measured, its comment says what others cost;
@@ -36,6 +36,7 @@ constexpr double facesPerPart = 8, facesPerHandle = 12; ///< that one takes at l
 // Starts. Among few faces the order of the collapses is luck, so that several starts pay. For the fewest, voxels of up
 // to twice the width are as good, and two starts with these take hardly more time than one without.
 constexpr int fewFaces = 200, fewestFaces = 60;
+constexpr double fewStarts[] = {1.0, 0.85, 0.7, 0.6}, fewestStarts[] = {0.65, 0.5}; ///< shares of the resolution
 
 // Shape of the cage.
 constexpr double mergeAnyFold = 90, mergeFlat = 10, mergeUsual = 30; ///< degrees: quads, no guard, triquad

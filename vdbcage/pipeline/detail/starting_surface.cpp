@@ -7,6 +7,7 @@
 #include <vdbcage/core/detail/mask_grid.h>
 #include <vdbcage/volume/convex_hull.h>
 #include <vdbcage/volume/extract.h>
+#include <vdbcage/volume/mirror.h>
 #include <vdbcage/volume/morphology.h>
 
 namespace vdbcage::detail {
@@ -34,9 +35,9 @@ std::size_t addVoxelsOutside(const Mesh& surface, const std::vector<std::size_t>
 /// The surface of a mask that is symmetric: so is what is added to make it well-composed.
 Mesh symmetricSurface(const openvdb::MaskGrid& mask, const SolidKey& voxels, Interrupter* interrupter)
 {
-    for (auto both = mirroredToo(mask, voxels.plane, voxels.resolution, interrupter);;) {
+    for (auto both = withMirrorImage(mask, voxels.plane->axis, voxels.resolution, interrupter);;) {
         const auto composed = makeWellComposed(*both, interrupter);
-        both = mirroredToo(*composed, voxels.plane, voxels.resolution, interrupter);
+        both = withMirrorImage(*composed, voxels.plane->axis, voxels.resolution, interrupter);
         if (countOf(*both) == countOf(*composed)) return extractSurface(*composed, interrupter);
     }
 }

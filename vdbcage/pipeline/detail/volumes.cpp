@@ -64,13 +64,8 @@ std::uint64_t digestOf(const openvdb::FloatGrid& grid)
     return digest.value();
 }
 
-bool same(const std::optional<SymmetryPlane>& a, const std::optional<SymmetryPlane>& b)
-{
-    return a ? b && a->axis == b->axis && a->offset == b->offset : !b;
-}
-
 /// The box of a box and its mirror image.
-openvdb::BBoxd withMirrorImage(const openvdb::BBoxd& box, const SymmetryPlane& plane)
+openvdb::BBoxd boxWithMirrorImage(const openvdb::BBoxd& box, const SymmetryPlane& plane)
 {
     openvdb::Vec3d low = box.min(), high = box.max();
     const double farther = std::max(high[plane.axis] - plane.offset, plane.offset - low[plane.axis]);
@@ -100,7 +95,7 @@ bool ScaleVersion::operator==(const ScaleVersion& other) const
 
 bool SolidKey::operator==(const SolidKey& other) const
 {
-    return resolution == other.resolution && voxelizer == other.voxelizer && same(plane, other.plane);
+    return resolution == other.resolution && voxelizer == other.voxelizer && plane == other.plane;
 }
 
 bool ClosingKey::operator==(const ClosingKey& other) const
@@ -127,12 +122,6 @@ const std::shared_ptr<const Mesh>& surfaceOf(Closing& closing, Interrupter* inte
     return closing.surface;
 }
 
-openvdb::MaskGrid::Ptr mirroredToo(const openvdb::MaskGrid& mask, const std::optional<SymmetryPlane>& plane,
-                                   int resolution, Interrupter* interrupter)
-{
-    return vdbcage::withMirrorImage(mask, plane->axis, resolution, interrupter);
-}
-
 std::size_t countOf(const openvdb::MaskGrid& mask)
 {
     return static_cast<std::size_t>(isolated([&] { return mask.activeVoxelCount(); }));
@@ -147,11 +136,11 @@ std::shared_ptr<const Solid> Volumes::solid(const SolidKey& key, Interrupter* in
     VoxelizeOptions voxelization;
     voxelization.resolution = key.resolution;
     voxelization.voxelizer = key.voxelizer;
-    if (key.plane) voxelization.box = withMirrorImage(boundingBox(model_), *key.plane);
+    if (key.plane) voxelization.box = boxWithMirrorImage(boundingBox(model_), *key.plane);
     auto made = std::make_shared<Solid>();
     made->key = key;
     openvdb::MaskGrid::Ptr mask = voxelize(model_, voxelization, interrupter, &made->report);
-    if (key.plane) mask = mirroredToo(*mask, key.plane, key.resolution, interrupter);
+    if (key.plane) mask = withMirrorImage(*mask, key.plane->axis, key.resolution, interrupter);
     made->voxels = countOf(*mask);
     const MeshTopology topology = analyzeTopology(extractSurface(*mask, interrupter), interrupter);
     made->parts = topology.components();
@@ -177,7 +166,7 @@ std::shared_ptr<Closing> Volumes::closing(const CageOptions& options, const Scal
     closing.element = key.element;
     auto closed = closeMask(*made->solid->mask, closing, options.scale, interrupter);
     // The scale may be anything.
-    if (voxels.plane) closed = mirroredToo(*closed, voxels.plane, voxels.resolution, interrupter);
+    if (voxels.plane) closed = withMirrorImage(*closed, voxels.plane->axis, voxels.resolution, interrupter);
     openvdb::MaskGrid::Ptr filled = fillCavities(*closed, &made->cavitiesFilled, interrupter);
     made->voxels = countOf(*filled);
     made->mask = std::move(filled);

@@ -88,10 +88,6 @@ private:
 /// Which closing it would be.
 ClosingKey closingKey(const CageOptions& options, const ScaleVersion& scale, const Voxels& voxels);
 
-/// `mask` united with its mirror image, where `plane` is one. \throw Cancelled
-openvdb::MaskGrid::Ptr mirroredToo(const openvdb::MaskGrid& mask, const std::optional<SymmetryPlane>& plane,
-                                   int resolution, Interrupter* interrupter);
-
 /// The active voxels of `mask`.
 std::size_t countOf(const openvdb::MaskGrid& mask);
 

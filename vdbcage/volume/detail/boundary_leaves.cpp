@@ -54,7 +54,7 @@ public:
         return groups;
     }
 
-    // The words of a entry, -1 to 16 along one axis, else 0 to 15.
+    // The words of an entry, -1 to 16 along one axis, else 0 to 15.
     const std::uint64_t* words(Coord entry) const
     {
         for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -99,7 +99,7 @@ private:
     std::array<Kind, size * size * size> kinds_{};
 };
 
-// The contour within a entry; false if there is none. `flip` is ~0 for the complement.
+// The contour within an entry; false if there is none. `flip` is ~0 for the complement.
 bool contourWords(const PaddedEntries& entries, const Coord& entry, std::uint64_t flip, Words& contour)
 {
     const auto wordsAt = [&](int x, int y, int z) { return entries.words(entry.offsetBy(x, y, z)); };

@@ -36,7 +36,7 @@ void zip(WordPair& a, WordPair& b)
         __builtin_shufflevector(x, y, 8, 24, 9, 25, 10, 26, 11, 27, 12, 28, 13, 29, 14, 30, 15, 31));
 }
 
-using WordPairs = std::array<WordPair, 4>; // of a entry
+using WordPairs = std::array<WordPair, 4>; // of an entry
 
 // Bit (x, y, z), in word x at 8 y + z, moves to word y at 8 z + x.
 Words turned(WordPairs w)
@@ -438,7 +438,7 @@ private:
         return flipped(pairs);
     }
 
-    // From a entry at the end of the reach, before this one: its words from to - rest + beyond on reach word `to`.
+    // From an entry at the end of the reach, before this one: its words from to - rest + beyond on reach word `to`.
     void addBefore(const View& view, std::size_t entry, int beyond, WordPairs& near) const
     {
         if (view.any[entry] == 0) return;
@@ -464,7 +464,7 @@ private:
         add(WordPair{}, sums, sum, leafSize + rest_ - beyond, near);
     }
 
-    // Adds 8 words from one on, of 8 that are `before`, 8 of a entry and 8 that are `behind`.
+    // Adds 8 words from one on, of 8 that are `before`, 8 of an entry and 8 that are `behind`.
     static void add(const WordPair& before, const WordPairs& sums, const WordPair& behind, int from, WordPairs& near)
     {
         const WordPair all[]{before,  before,  before, before, sums[0], sums[1],

@@ -95,7 +95,7 @@ EntrySet::EntrySet(FullParts full, std::vector<std::unique_ptr<FlatBlock>> flat,
 {
     progress.check(1, 1);
     indexFlat();
-    std::unordered_set<Coord> broken; // full upperNodes that no longer are
+    std::unordered_set<Coord> broken; // full upper nodes that no longer are
     for (const auto& block : flat_) {
         if (!block->isFull()) broken.insert(alignedTo(block->origin, upperNodeSize));
     }

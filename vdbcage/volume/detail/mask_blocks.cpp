@@ -41,7 +41,7 @@ bool isUniformlyFull(const LowerNode& node)
     return true;
 }
 
-// The blocks along the face of a upperNode on one side of one axis.
+// The blocks along the face of an upper node on one side of one axis.
 template <class Visit>
 void forEachFaceBlock(const Coord& upperNode, std::size_t axis, bool upper, const Visit& visit)
 {
@@ -201,7 +201,7 @@ void requireSupportedCoordinates(const MaskTree& tree)
         text << "the mask has active voxels near " << origin << "; coordinates must be in [-2^30, 2^30)";
         throw InputError(text.str());
     };
-    // The limit is at a border of upperNodes, so the origins tell.
+    // The limit is at a border of upper nodes, so the origins tell.
     for (auto tile = tree.root().cbeginValueOn(); tile; ++tile) require(!outside(tile.getCoord()), tile.getCoord());
     for (auto upperNode = tree.root().cbeginChildOn(); upperNode; ++upperNode) {
         require(!outside(upperNode->origin()) || upperNode->onVoxelCount() == 0, upperNode->origin());

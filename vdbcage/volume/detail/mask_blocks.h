@@ -11,10 +11,10 @@
 
 /// A sparse mask seen as the nodes of its tree, the view that every algorithm of this room works on.
 ///
-/// A *upperNode* is 4096^3 voxels (a child of the root), a *block* 128^3 (the node above the leaves), a *entry* one of
-/// the 4096 places of 8^3 voxels in a block: empty, full or a leaf. The bits of a entry are 8 words, word x holding
-/// voxel (x, y, z) in bit 8 y + z, as OpenVDB stores them. Regions and blocks are named by their origin. Only active
-/// states count; the values of a mask tree's tiles are not looked at.
+/// An *upper node* is 4096^3 voxels (a child of the root), a *block* 128^3 (a lower node), an *entry* one of
+/// the 4096 places of 8^3 voxels in a block: empty, full or a leaf. The bits of an entry are 8 words, word x holding
+/// voxel (x, y, z) in bit 8 y + z, as OpenVDB stores them. Upper nodes and blocks are named by their origin. Only
+/// active states count; the values of a mask tree's tiles are not looked at.
 namespace vdbcage::detail {
 
 using openvdb::Coord;
@@ -80,17 +80,17 @@ private:
     bool full_ = false;
 };
 
-/// The block of `tree` with this origin. O(log upperNodes).
+/// The block of `tree` with this origin. O(log upper nodes).
 Block blockAt(const MaskTree& tree, const Coord& origin);
 
-/// The blocks that can hold a boundary voxel of the mask, sorted: the nodes, the full blocks, and of a full upperNode
-/// those at the faces where its neighbour is not a full upperNode.
+/// The blocks that can hold a boundary voxel of the mask, sorted: the nodes, the full blocks, and of a full upper node
+/// those at the faces where its neighbour is not a full upper node.
 std::vector<Coord> shellBlocks(const MaskTree& tree);
 
-/// The blocks along those faces of full upperNodes where the neighbour is not among them; some maybe twice.
+/// The blocks along those faces of full upper nodes where the neighbour is not among them; some maybe twice.
 std::vector<Coord> facesOfUpperNodes(const std::vector<Coord>& upperNodes);
 
-/// Calls visit(origin) for each block of a upperNode.
+/// Calls visit(origin) for each block of an upper node.
 template <class Visit>
 void forEachBlock(const Coord& upperNode, const Visit& visit)
 {
@@ -104,7 +104,7 @@ void forEachBlock(const Coord& upperNode, const Visit& visit)
 /// Where a tree is full without a leaf or entry tile saying so.
 struct FullParts {
     std::vector<Coord> upperNodes;
-    std::vector<Coord> blocks; ///< outside the upperNodes
+    std::vector<Coord> blocks; ///< outside the upper nodes
 };
 FullParts fullParts(const MaskTree& tree);
 

@@ -29,7 +29,7 @@ public:
     double largest() const { return largest_; }
     /// The squared radius at a voxel, of the radius times `factor` (0 to 1).
     std::int32_t square(const openvdb::Coord& voxel, double factor) const;
-    /// Bounds of the radius (not squared) among the voxels of a entry.
+    /// Bounds of the radius (not squared) among the voxels of an entry.
     struct Range {
         float least, most;
     };

@@ -1,7 +1,7 @@
 // Based on: the node-wise overlap tests of Calderon and Boubekeur, Bounding Proxies for Shape Approximation, 2017.
 // Differs: exact integer distances to the contour voxels alone (for a point outside a set some nearest voxel of it has
 // a face neighbour outside); the tree's nodes are asked as wholes (128^3, 32^3, 8^3), each with the contour leaves that
-// reach it, and only entries that are neither all in nor all out look at voxels (see sphere_reach.h).
+// reach it, and only entries that are neither all in nor all out look at voxels (see sphere_query.h).
 #include <vdbcage/volume/detail/sphere_pass.h>
 
 #include <algorithm>

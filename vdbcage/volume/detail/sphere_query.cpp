@@ -25,7 +25,7 @@ struct VectorOf {
 };
 
 template <class T, int bytes>
-struct Columns { // one T for each column of a entry
+struct Columns { // one T for each column of an entry
     using Vector = typename VectorOf<T, bytes>::type;
     static constexpr int count = lanes * static_cast<int>(sizeof(T)) / bytes;
     Vector v[count];
@@ -65,7 +65,7 @@ VDBCAGE_INLINE bool isAny(const Vector& v)
     return (pairs[0][0] | pairs[0][1]) != 0;
 }
 
-// The voxels of a leaf that no other one hides from a entry (all but a few that one further along x hides): hidden is
+// The voxels of a leaf that no other one hides from an entry (all but a few that one further along x hides): hidden is
 // what has another voxel ahead of it. Ahead is towards the entry along the axes where `side` is not 0, and the same
 // place along the others.
 template <int bytes>
@@ -215,7 +215,7 @@ private:
         return &query.fronts.voxels[start];
     }
 
-    // A leaf near a entry, by their entries: the nearest of a few. After it others have less to add.
+    // A leaf near an entry, by their entries: the nearest of a few. After it others have less to add.
     static VDBCAGE_INLINE std::size_t nearest(const PileQuery& query, int z, std::size_t begin, std::size_t end)
     {
         constexpr std::size_t few = 8;
@@ -232,7 +232,7 @@ private:
         return found;
     }
 
-    // How high in each column the voxels are up to the first open one, and up to the last one, of a entry and all
+    // How high in each column the voxels are up to the first open one, and up to the last one, of an entry and all
     // behind it.
     struct Heights {
         C first, last;

@@ -29,7 +29,7 @@ struct NearLeaf {
 /// four entries along z.
 ///
 /// Exact: a contour voxel q reaches, in each column along z, the voxels up to h(dx, dy) above and below it. Of contour
-/// voxels below a entry so the largest q.z + h tells all, column by column, in bytes side by side (16-bit integers
+/// voxels below an entry so the largest q.z + h tells all, column by column, in bytes side by side (16-bit integers
 /// beyond smallRadius), and for the next entry above too. Voxels hidden behind others of their leaf are left out
 /// before, and leaves that can add nothing too.
 ///
@@ -47,7 +47,7 @@ public:
             std::int32_t z;     ///< in the leaf; beside the entry the byte of all voxels in the column
         };
         std::vector<std::uint32_t>
-            starts;                ///< by leaf's id and direction to a entry: where its front is, 0 if not yet there
+            starts;                ///< by leaf's id and direction to an entry: where its front is, 0 if not yet there
         std::vector<Voxel> voxels; ///< a front is the number of its voxels and the voxels
         std::size_t size = 0;      ///< of the part of `voxels` that is in use
     };
@@ -68,7 +68,7 @@ public:
     /// By entry of a pile: its open voxels, or none.
     using Pile = std::array<const Words*, 4>;
     /// Those of the open voxels of pile 4 x + y of the part that are within reach of the listed leaves, which were
-    /// given to nearEntries before; anything where a entry has none.
+    /// given to nearEntries before; anything where an entry has none.
     std::array<Words, 4> within(const Pile& open, int pile, const NearLeaf* near, const Leaves& leaves,
                                 Work& work) const;
 

@@ -9,7 +9,7 @@
 
 namespace vdbcage::detail {
 
-constexpr int lanes = 64;        // the columns of a entry: column (x, y) is lane 8 y + x
+constexpr int lanes = 64;        // the columns of an entry: column (x, y) is lane 8 y + x
 constexpr int smallRadius = 120; // largest radius, rounded up, for which heights fit bytes
 
 // Heights are kept above `none`, which stands for no voxel at all, so that differences of bytes stay above 0.
@@ -23,7 +23,7 @@ struct SphereTables {
     /// \throw Cancelled
     SphereTables(std::int64_t squared, const Progress& progress);
 
-    // Height above a contour voxel at (-dx, -dy) seen from column (x, y) of a entry: [rowPlace(dx, dy) + lane].
+    // Height above a contour voxel at (-dx, -dy) seen from column (x, y) of an entry: [rowPlace(dx, dy) + lane].
     template <class T>
     const T* rows() const
     {
@@ -34,7 +34,7 @@ struct SphereTables {
     }
     int rowStride() const { return (2 * rowRadius + 8) * 8; } // to the next dx; the next dy is 8 away
     int rowPlace(int dx, int dy) const { return (dx + rowRadius) * rowStride() + (dy + rowRadius) * 8; }
-    // The same for contour voxels anywhere in the columns of a entry at the offset (-dx, -dy), in entries.
+    // The same for contour voxels anywhere in the columns of an entry at the offset (-dx, -dy), in entries.
     template <class T>
     const T* entries() const
     {
@@ -55,7 +55,7 @@ struct SphereTables {
     // Squared distances along one axis, by a voxel's coordinate in the part, to its four entries: divided by 2^shift,
     // rounded down (near) or up (far), and cut just above the limit.
     struct Squares {
-        std::array<std::int16_t, 4> below, above; // to the near end, of a entry that is below or above it, else 0
+        std::array<std::int16_t, 4> below, above; // to the near end, of an entry that is below or above it, else 0
         std::array<std::int16_t, 4> far;          // to the far end
     };
     const Squares& squares(int coordinate) const { return squares_[static_cast<std::size_t>(coordinate + margin())]; }
