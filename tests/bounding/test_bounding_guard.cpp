@@ -76,8 +76,8 @@ BoundingGuard guardOf(const Mesh& model, double minAngle = 0, double clearance =
 /// Whether the top of `surface` (its point 0) may go to `p`.
 bool topMayGo(const Mesh& surface, const BoundingGuard& guard, const Vec3d& p)
 {
-    const GuardedMesh guarded(surface, guard.model());
-    return allows(guarded, starOf(guarded, 0), guard.model().rounded(guard.model().scaled(p)));
+    const GuardedMesh guarded(surface, detail::modelOf(guard));
+    return allows(guarded, starOf(guarded, 0), detail::modelOf(guard).rounded(detail::modelOf(guard).scaled(p)));
 }
 
 std::vector<std::uint32_t> neighboursOf(const GuardedMesh& surface, std::uint32_t v)
@@ -134,7 +134,7 @@ BOOST_AUTO_TEST_CASE(clearance_agrees_with_every_triangle_asked_one_by_one)
         int clear = 0;
         for (int round = 0; round < 2000; ++round) {
             const Corners world = randomTriangle(random, round % 2 ? 0.1 : 0.4);
-            const auto scaled = [&](const Vec3d& p) { return guard.model().scaled(p); };
+            const auto scaled = [&](const Vec3d& p) { return detail::modelOf(guard).scaled(p); };
             const Corners t{scaled(world[0]), scaled(world[1]), scaled(world[2])};
             bool expected = true;
             for (const auto& m : model.triangles) {
@@ -142,9 +142,9 @@ BOOST_AUTO_TEST_CASE(clearance_agrees_with_every_triangle_asked_one_by_one)
                 expected &= detail::nearness(world, other).squaredDistance >= guard.clearance() * guard.clearance();
             }
             std::uint32_t blocker = detail::TriangleBvh::none;
-            BOOST_REQUIRE_EQUAL(guard.model().clear(t, detail::TriangleBvh::none, &blocker), expected);
+            BOOST_REQUIRE_EQUAL(detail::modelOf(guard).clear(t, detail::TriangleBvh::none, &blocker), expected);
             BOOST_REQUIRE_EQUAL(blocker == detail::TriangleBvh::none, expected);
-            if (!expected) BOOST_REQUIRE(!guard.model().clear(t, blocker, nullptr));
+            if (!expected) BOOST_REQUIRE(!detail::modelOf(guard).clear(t, blocker, nullptr));
             clear += expected;
         }
         BOOST_TEST(clear > 200);
@@ -193,7 +193,7 @@ BOOST_AUTO_TEST_CASE(many_quads_are_kept_clear_of_under_both_diagonals)
             }
         }
         const double distance = std::sqrt(squared);
-        const bool isClear = guard.model().clear(probe, detail::TriangleBvh::none, nullptr);
+        const bool isClear = detail::modelOf(guard).clear(probe, detail::TriangleBvh::none, nullptr);
         if (distance < clearance) BOOST_REQUIRE(!isClear);
         if (distance > guard.clearance()) BOOST_REQUIRE(isClear);
         tooNear += distance < clearance;
@@ -215,8 +215,8 @@ BOOST_AUTO_TEST_CASE(impacts_are_the_first_on_the_way)
     const auto firstTime = [&](const BoundingGuard& guard, const Corners& now, const Vec3d& to) {
         std::vector<detail::HalfSpace> halfSpaces;
         // The edge from b is the edge from a of the triangle beside it.
-        detail::addImpacts(guard.model(), now, to, true, 0, halfSpaces);
-        detail::addImpacts(guard.model(), {now[0], now[2], now[1]}, to, false, 0, halfSpaces);
+        detail::addImpacts(detail::modelOf(guard), now, to, true, 0, halfSpaces);
+        detail::addImpacts(detail::modelOf(guard), {now[0], now[2], now[1]}, to, false, 0, halfSpaces);
         double time = never;
         for (const detail::HalfSpace& h : halfSpaces) {
             time = std::min(time, (h.offset - h.normal.dot(now[0])) / h.normal.dot(to - now[0]));
@@ -226,7 +226,7 @@ BOOST_AUTO_TEST_CASE(impacts_are_the_first_on_the_way)
     const auto distanceTo = [](const Mesh& model, const BoundingGuard& guard, const Corners& t) {
         double least = 1;
         for (const openvdb::Vec3I& other : model.triangles) {
-            const auto corner = [&](int i) { return guard.model().scaled(model.points[other[i]]); };
+            const auto corner = [&](int i) { return detail::modelOf(guard).scaled(model.points[other[i]]); };
             least = std::min(least, detail::nearness(t, {corner(0), corner(1), corner(2)}).squaredDistance);
         }
         return std::sqrt(least);
@@ -237,7 +237,7 @@ BOOST_AUTO_TEST_CASE(impacts_are_the_first_on_the_way)
         const BoundingGuard guard = guardOf(model);
         Corners now = randomTriangle(random, 0.7);
         Vec3d to = randomPoint(random);
-        for (Vec3d* p : {&now[0], &now[1], &now[2], &to}) *p = guard.model().scaled(*p);
+        for (Vec3d* p : {&now[0], &now[1], &now[2], &to}) *p = detail::modelOf(guard).scaled(*p);
         const auto at = [&](double time) { return Corners{now[0] + time * (to - now[0]), now[1], now[2]}; };
         if (!(distanceTo(model, guard, now) > 1e-6)) continue;
         const double time = firstTime(guard, now, to);
@@ -328,10 +328,10 @@ BOOST_AUTO_TEST_CASE(changes_made_side_by_side_do_not_run_into_each_other)
     const Mesh model = test::joined(inLowerHalf, test::box({-0.05, -0.05, 3.35}, {0.05, 0.05, 3.4}));
     const Mesh surface = test::joined(bipyramid({0, 0, 0}, 1), bipyramid({0, 0, 3}, 1));
     const BoundingGuard guard = guardOf(model);
-    GuardedMesh guarded(surface, guard.model());
+    GuardedMesh guarded(surface, detail::modelOf(guard));
     const StarChange below = starOf(guarded, 0), above = starOf(guarded, 9);
-    const Vec3d up = guard.model().rounded(guard.model().scaled({0, 0, 1.6}));
-    const Vec3d down = guard.model().rounded(guard.model().scaled({0, 0, 1.4}));
+    const Vec3d up = detail::modelOf(guard).rounded(detail::modelOf(guard).scaled({0, 0, 1.6}));
+    const Vec3d down = detail::modelOf(guard).rounded(detail::modelOf(guard).scaled({0, 0, 1.4}));
     BOOST_REQUIRE(allows(guarded, below, up));
     BOOST_REQUIRE(allows(guarded, above, down));
     {
@@ -343,9 +343,9 @@ BOOST_AUTO_TEST_CASE(changes_made_side_by_side_do_not_run_into_each_other)
     }
     BOOST_TEST(!allows(guarded, above, down)); // what was changed is seen when the batch has ended
     // Nor nearly: two thousandths of the model's 3.9 between them is asked.
-    GuardedMesh apart(surface, guard.model());
-    const Vec3d place = guard.model().rounded(guard.model().scaled({0, 0, 1.5}));
-    const Vec3d near = guard.model().rounded(guard.model().scaled({0, 0, 1.502}));
+    GuardedMesh apart(surface, detail::modelOf(guard));
+    const Vec3d place = detail::modelOf(guard).rounded(detail::modelOf(guard).scaled({0, 0, 1.5}));
+    const Vec3d near = detail::modelOf(guard).rounded(detail::modelOf(guard).scaled({0, 0, 1.502}));
     BOOST_REQUIRE(allows(apart, above, near));
     detail::Batch second(apart);
     BOOST_TEST(second.apply(below, place));
@@ -358,13 +358,13 @@ BOOST_AUTO_TEST_CASE(contacts_do_not_depend_on_what_was_learned_before)
     for (unsigned seed = 0; seed < 10; ++seed) {
         std::mt19937 random(seed);
         const BoundingGuard guard = guardOf(soup(random, 200, 0.2));
-        const GuardedMesh surface(bipyramid({0, 0, 0}, 4, 8), guard.model());
+        const GuardedMesh surface(bipyramid({0, 0, 0}, 4, 8), detail::modelOf(guard));
         for (std::uint32_t v = 0; v < surface.vertices(); ++v) {
             const StarChange star = starOf(surface, v);
             const Vec3d from = surface.point(v);
             detail::Obstacle obstacle;
             for (const double way : {1.0, 0.9, 0.7, 0.5, 0.3}) {
-                const Vec3d inside = guard.model().scaled(randomPoint(random));
+                const Vec3d inside = detail::modelOf(guard).scaled(randomPoint(random));
                 const Vec3d to = rounded(surface, star, (1 - way) * from + way * inside);
                 if (allows(surface, star, to, &obstacle)) continue;
                 if (obstacle.clear > 0 && obstacle.clear < star.link.size()) ++known;
@@ -385,7 +385,7 @@ BOOST_AUTO_TEST_CASE(contacts_do_not_depend_on_what_was_learned_before)
 BOOST_AUTO_TEST_CASE(a_new_vertex_takes_the_place_of_faces)
 {
     const BoundingGuard guard = guardOf(inLowerHalf);
-    GuardedMesh guarded(bipyramid({0, 0, 0}, 1, 6), guard.model());
+    GuardedMesh guarded(bipyramid({0, 0, 0}, 1, 6), detail::modelOf(guard));
     StarChange star;
     BOOST_TEST(!starOfFaces(guarded, {0, 4}, false, star));              // they touch at the top alone
     BOOST_TEST(!starOfFaces(guarded, {0, 2, 4, 6, 8, 10}, false, star)); // the top is inside
@@ -393,8 +393,8 @@ BOOST_AUTO_TEST_CASE(a_new_vertex_takes_the_place_of_faces)
     BOOST_TEST(star.link.size() == 5U);
     const auto at = [&](double height) {
         const Mesh mesh = guarded.mesh();
-        return guard.model().rounded(
-            guard.model().scaled(0.45 * (mesh.points[3] + mesh.points[4]) + Vec3d(0, 0, height)));
+        return detail::modelOf(guard).rounded(
+            detail::modelOf(guard).scaled(0.45 * (mesh.points[3] + mesh.points[4]) + Vec3d(0, 0, height)));
     };
     BOOST_TEST(!allows(guarded, star, at(-0.4))); // through the bottom's faces
     BOOST_REQUIRE(allows(guarded, star, at(0.3)));
@@ -420,7 +420,7 @@ BOOST_AUTO_TEST_CASE(a_new_vertex_on_the_plane_of_symmetry_takes_the_place_of_fa
     for (const auto& [image, of] : {std::pair<std::size_t, std::size_t>{5, 3}, {6, 2}, {7, 9}}) {
         surface.points[image] = test::mirrored(surface.points[of], {0, 0});
     }
-    GuardedMesh guarded(surface, guard.model());
+    GuardedMesh guarded(surface, detail::modelOf(guard));
     BOOST_REQUIRE(guarded.liveFaces() == 8U);
     const auto corners = [&](std::uint32_t f) {
         const openvdb::Vec3I& t = guarded.face(f);
@@ -437,9 +437,9 @@ BOOST_AUTO_TEST_CASE(a_new_vertex_on_the_plane_of_symmetry_takes_the_place_of_fa
     BOOST_REQUIRE(starOfFaces(guarded, {2, 0}, true, star));
     BOOST_TEST(star.onPlane);
     BOOST_TEST(star.link.size() == 3U);
-    const Vec3d aside(0.05, 0.6, 0.6), place = rounded(guarded, star, guard.model().scaled(aside));
-    BOOST_TEST(place[0] == guard.model().symmetry()->offset);
-    BOOST_TEST(!allows(guarded, star, guard.model().rounded(guard.model().scaled(aside))));
+    const Vec3d aside(0.05, 0.6, 0.6), place = rounded(guarded, star, detail::modelOf(guard).scaled(aside));
+    BOOST_TEST(place[0] == detail::modelOf(guard).symmetry()->offset);
+    BOOST_TEST(!allows(guarded, star, detail::modelOf(guard).rounded(detail::modelOf(guard).scaled(aside))));
     BOOST_REQUIRE(allows(guarded, star, place));
     guarded.apply(star, place);
     BOOST_TEST(guarded.liveFaces() == 9U);
@@ -462,7 +462,7 @@ Mesh boxAt(double x, double y, double z)
 bool makesQuad(const Mesh& model, double minAngle = 0, double fold = 90)
 {
     const BoundingGuard guard = guardOf(model, minAngle);
-    GuardedMesh guarded(bipyramid({0, 0, 0}, 1, 8), guard.model());
+    GuardedMesh guarded(bipyramid({0, 0, 0}, 1, 8), detail::modelOf(guard));
     guarded.limitQuadFold(fold);
     const bool made = makeQuad(guarded, 0, 2);
     const Mesh mesh = guarded.mesh();
@@ -485,9 +485,9 @@ BOOST_AUTO_TEST_CASE(a_quad_bounds_under_both_diagonals)
 BOOST_AUTO_TEST_CASE(a_quad_bounds_under_both_diagonals_while_it_moves)
 {
     const BoundingGuard guard = guardOf(boxAt(0.27, 0.27, 0.37));
-    GuardedMesh guarded(bipyramid({0, 0, 0}, 1, 8), guard.model());
+    GuardedMesh guarded(bipyramid({0, 0, 0}, 1, 8), detail::modelOf(guard));
     const auto mayGo = [&](std::uint32_t v, const Vec3d& p) {
-        return allows(guarded, starOf(guarded, v), guard.model().rounded(guard.model().scaled(p)));
+        return allows(guarded, starOf(guarded, v), detail::modelOf(guard).rounded(detail::modelOf(guard).scaled(p)));
     };
     const Vec3d cuts(0.8, 0, 0), concave(1.5, -1, 0), up(0, 0, 1.1);
     for (const Vec3d& p : {cuts, concave, up}) BOOST_TEST(mayGo(2, p + (p == up ? Vec3d(1, 0, -1) : Vec3d(0.0))));
@@ -518,10 +518,10 @@ BOOST_AUTO_TEST_CASE(a_part_between_the_diagonals_of_a_quad_stays_inside)
     surface.points[2] = Vec3d(1.6, 0, 0);
     surface.points[4] = Vec3d(0, 1.6, 0);
     surface.points[3] = Vec3d(1.1, 1.1, 0);
-    GuardedMesh guarded(surface, guard.model());
+    GuardedMesh guarded(surface, detail::modelOf(guard));
     BOOST_REQUIRE(makeQuad(guarded, 0, 2));
     const auto mayGo = [&](const Vec3d& p) {
-        return allows(guarded, starOf(guarded, 2), guard.model().rounded(guard.model().scaled(p)));
+        return allows(guarded, starOf(guarded, 2), detail::modelOf(guard).rounded(detail::modelOf(guard).scaled(p)));
     };
     BOOST_TEST(mayGo({1.5, 0, 0}));
     BOOST_TEST(!mayGo({0.72, 0, 0})); // past the part, clear of it
@@ -538,7 +538,7 @@ BOOST_AUTO_TEST_CASE(bad_options_and_surfaces_are_refused)
     const BoundingGuard guard = guardOf(inLowerHalf);
     Mesh open = bipyramid({0, 0, 0}, 1);
     open.triangles.pop_back();
-    BOOST_CHECK_THROW(GuardedMesh(open, guard.model()), InputError);
+    BOOST_CHECK_THROW(GuardedMesh(open, detail::modelOf(guard)), InputError);
 }
 
 BOOST_AUTO_TEST_CASE(faces_of_a_whole_surface_that_are_too_near_are_found)

@@ -126,7 +126,7 @@ BOOST_AUTO_TEST_CASE(a_ball_is_wrapped_tightly)
     const CageCheck check = checkCage(cage, model);
     BOOST_TEST(check.bounding());
     // The least possible: 100 equal triangles that touch the ball at their centres are 0.6 % of the diagonal off.
-    BOOST_TEST(check.meanDistance < 0.012);
+    BOOST_TEST(check.meanDistance < 0.012 * check.diagonal);
     BOOST_TEST(check.minAngleDegrees >= 5.9);
 }
 

@@ -70,7 +70,7 @@ BOOST_AUTO_TEST_CASE(edges_may_be_flipped_where_the_surface_stays_a_manifold)
     int refused = 0, found = 0;
     for (const std::size_t faces : {8U, 14U, 40U}) {
         const Mesh cage = decimate(ball(), guard, to(faces, Effort::fast));
-        const GuardedMesh surface(cage, guard.model());
+        const GuardedMesh surface(cage, detail::modelOf(guard));
         forEachCorner(surface, [&](std::uint32_t c, std::uint32_t a, std::uint32_t b) {
             // By hand: a cage's points keep their numbers, its faces their order.
             Mesh flipped = cage;
@@ -107,7 +107,7 @@ BOOST_AUTO_TEST_CASE(no_edge_is_flipped_into_the_plane_of_symmetry)
         surface.triangles.emplace_back(5U, next, i);
     }
     const BoundingGuard guard = guardOf(model, true), without = guardOf(model, false);
-    const GuardedMesh half(surface, guard.model()), whole(surface, without.model());
+    const GuardedMesh half(surface, detail::modelOf(guard)), whole(surface, detail::modelOf(without));
     BOOST_REQUIRE(half.liveFaces() == 4U);
     StarChange star;
     forEachCorner(
@@ -121,7 +121,7 @@ BOOST_AUTO_TEST_CASE(flips_that_the_guard_allows_bound_the_model)
     for (const bool isSymmetric : {false, true}) {
         const BoundingGuard guard = guardOf(model, isSymmetric);
         const Mesh cage = decimate(start(guard), guard, to(60, Effort::fast));
-        const GuardedMesh surface(cage, guard.model());
+        const GuardedMesh surface(cage, detail::modelOf(guard));
         int made = 0, inner = 0;
         forEachCorner(surface, [&](std::uint32_t c, std::uint32_t a, std::uint32_t b) {
             StarChange star;
@@ -141,7 +141,7 @@ BOOST_AUTO_TEST_CASE(flips_that_the_guard_allows_bound_the_model)
                 BOOST_TEST(checker.check(mesh).bounding());
                 if (guard.symmetry()) BOOST_CHECK(test::isSymmetric(mesh, *guard.symmetry()));
                 // The faces are where it looks for them: it answers as a surface made anew does.
-                const GuardedMesh anew(mesh, guard.model());
+                const GuardedMesh anew(mesh, detail::modelOf(guard));
                 for (const std::uint32_t v : anew.neighbours(c)) {
                     for (const double push : {-0.1, 0.1}) {
                         const StarChange fresh = starOf(anew, v), again = starOf(changed, v);
@@ -163,7 +163,7 @@ BOOST_AUTO_TEST_CASE(a_ridge_becomes_a_valley_where_that_is_nearer)
     for (const bool isLow : {true, false}) {
         const Mesh& inside = isLow ? low : high;
         const BoundingGuard guard(inside);
-        GuardedMesh surface(roof(), guard.model());
+        GuardedMesh surface(roof(), detail::modelOf(guard));
         const double perSample = detail::areaPerSample(surface, surface.liveFaces(), 12);
         const double before = detail::integratedDistance(surface, perSample);
         detail::flipEdges(surface, 0, nullptr);
@@ -197,7 +197,7 @@ BOOST_AUTO_TEST_CASE(of_two_flips_that_would_cross_one_is_made)
         inside = test::joined(inside, test::sphere({0.92 * p[0], 0.92 * p[1], p[2] + 0.125}, 0.06, 6));
     }
     const BoundingGuard guard(inside);
-    GuardedMesh surface(slab, guard.model());
+    GuardedMesh surface(slab, detail::modelOf(guard));
     BOOST_REQUIRE(checkCage(slab, inside).bounding());
     detail::flipEdges(surface, 0, nullptr);
     BOOST_TEST(checkCage(surface.mesh(), inside).bounding());
@@ -212,7 +212,7 @@ BOOST_AUTO_TEST_CASE(flips_bring_surfaces_nearer_to_the_model)
             const BoundingGuard guard = guardOf(inside, isSymmetric);
             const CageChecker checker(inside);
             for (const std::size_t faces : {20U, 40U, 60U, 100U}) {
-                GuardedMesh surface(decimate(start(guard), guard, to(faces, Effort::fast)), guard.model());
+                GuardedMesh surface(decimate(start(guard), guard, to(faces, Effort::fast)), detail::modelOf(guard));
                 const double perSample = detail::areaPerSample(surface, surface.liveFaces(), 4);
                 double last = detail::integratedDistance(surface, perSample);
                 for (const int sweeps : {0, 0, 6}) {
@@ -229,7 +229,7 @@ BOOST_AUTO_TEST_CASE(flips_bring_surfaces_nearer_to_the_model)
     }
     BOOST_TEST(nearer > all / 2);
     const BoundingGuard guard(model);
-    GuardedMesh nothing(Mesh{}, guard.model());
+    GuardedMesh nothing(Mesh{}, detail::modelOf(guard));
     detail::flipEdges(nothing, 6, nullptr);
     BOOST_TEST(nothing.liveFaces() == 0U);
 }

@@ -218,10 +218,10 @@ BOOST_AUTO_TEST_CASE(vertices_keep_off_the_plane)
     const Mesh surface = test::joined(octahedron, test::mirrored(octahedron, plane));
     // The model and its mirror image are 1.2 long: half of two thousandths of it are asked on either side.
     const BoundingGuard guard = guardOf(test::box({0.4, -0.1, -0.1}, {0.6, 0.1, 0.1}), plane);
-    const detail::GuardedMesh guarded(surface, guard.model());
+    const detail::GuardedMesh guarded(surface, detail::modelOf(guard));
     const auto mayGo = [&](double x) {
         const detail::StarChange star = starOf(guarded, 0);
-        return allows(guarded, star, rounded(guarded, star, guard.model().scaled({x, 0, 0})));
+        return allows(guarded, star, rounded(guarded, star, detail::modelOf(guard).scaled({x, 0, 0})));
     };
     BOOST_TEST(mayGo(0.00121));
     BOOST_TEST(!mayGo(0.00119));
@@ -280,7 +280,7 @@ BOOST_AUTO_TEST_CASE(a_polychord_to_the_plane_is_split)
     // There is one triangle in each half: it can become a quad only by splitting the one quad between it and the plane.
     const Mesh model = test::sphere({0, 0, 0}, 0.2, 8);
     const BoundingGuard guard = guardOf(model, {0, 0});
-    detail::GuardedMesh surface(prism(), guard.model(), detail::GuardedMesh::Quads::keep);
+    detail::GuardedMesh surface(prism(), detail::modelOf(guard), detail::GuardedMesh::Quads::keep);
     BOOST_REQUIRE(surface.quads() == 6U);
     BOOST_REQUIRE(surface.liveFaces() == 13U);
     detail::PairingOptions options{};

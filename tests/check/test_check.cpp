@@ -455,11 +455,13 @@ BOOST_AUTO_TEST_CASE(exact_moves_and_scales_change_nothing, *boost::unit_test::l
 BOOST_AUTO_TEST_CASE(measures_of_spheres)
 {
     const Mesh model = triangulated(sphere({}, 1, 40)), cage = sphere({}, 2, 40);
-    const double diagonal = (boundingBox(model).max() - boundingBox(model).min()).length();
+    const openvdb::Vec3d extent = boundingBox(model).extents();
+    const double side = std::max({extent[0], extent[1], extent[2]});
     const CageCheck result = checkCage(cage, model);
-    BOOST_TEST(result.meanDistance * diagonal == 1, boost::test_tools::tolerance(0.01));
-    BOOST_TEST(result.maxDistance * diagonal == 1, boost::test_tools::tolerance(0.01));
-    BOOST_TEST(result.minDistance * diagonal == 1, boost::test_tools::tolerance(0.01));
+    BOOST_TEST(result.diagonal * side == extent.length(), boost::test_tools::tolerance(1e-12));
+    BOOST_TEST(result.meanDistance * side == 1, boost::test_tools::tolerance(0.01));
+    BOOST_TEST(result.maxDistance * side == 1, boost::test_tools::tolerance(0.01));
+    BOOST_TEST(result.minDistance * side == 1, boost::test_tools::tolerance(0.01));
     BOOST_TEST(result.cageVolume == 32.0 / 3 * 3.14159265, boost::test_tools::tolerance(0.01));
     BOOST_TEST(result.volumeRatio == 8, boost::test_tools::tolerance(0.001));
     // Far away the volume keeps its digits.
@@ -481,9 +483,10 @@ BOOST_AUTO_TEST_CASE(measures_of_boxes)
     // right.
     BOOST_TEST(result.medianAngleDegrees == std::atan2(10, 2) * 180 / 3.14159265358979,
                boost::test_tools::tolerance(1e-9));
-    const double diagonal = std::sqrt(66.0);
-    BOOST_TEST(result.maxDistance * diagonal == std::sqrt(1.5), boost::test_tools::tolerance(1e-12)); // a corner
-    BOOST_TEST(result.minDistance * diagonal == 0.5, boost::test_tools::tolerance(1e-9));
+    const double side = 8;
+    BOOST_TEST(result.diagonal * side == std::sqrt(66.0), boost::test_tools::tolerance(1e-12));
+    BOOST_TEST(result.maxDistance * side == std::sqrt(1.5), boost::test_tools::tolerance(1e-12)); // a corner
+    BOOST_TEST(result.minDistance * side == 0.5, boost::test_tools::tolerance(1e-9));
     // By a fine even grid.
     const auto distance = [](const Vec3d& p) {
         Vec3d d(0.0);
@@ -505,7 +508,7 @@ BOOST_AUTO_TEST_CASE(measures_of_boxes)
             }
         }
     }
-    BOOST_TEST(result.meanDistance * diagonal == sum / area, boost::test_tools::tolerance(1e-3));
+    BOOST_TEST(result.meanDistance * side == sum / area, boost::test_tools::tolerance(1e-3));
     CheckOptions none;
     none.measure = false;
     BOOST_TEST(checkCage(cage, model, none).volumeRatio == 0);

@@ -10,7 +10,7 @@
 
 namespace vdbcage::test {
 
-using Parse = Mesh (*)(std::string_view, const std::string&, ReadSummary*);
+using Parse = MeshFile (*)(std::string_view, const std::string&);
 using Write = void (*)(const Mesh&, const std::string&, std::ostream&);
 
 /// The bytes of a file of each kind.

@@ -17,24 +17,24 @@ using openvdb::Vec4I;
 
 namespace {
 
-Mesh obj(const std::string& text, ReadSummary* summary = nullptr)
+Mesh obj(const std::string& text)
 {
-    return detail::parseObj(text, "a.obj", summary);
+    return detail::parseObj(text, "a.obj").mesh;
 }
 
-Mesh off(const std::string& text, ReadSummary* summary = nullptr)
+Mesh off(const std::string& text)
 {
-    return detail::parseOff(text, "a.off", summary);
+    return detail::parseOff(text, "a.off").mesh;
 }
 
-Mesh ply(const std::string& text, ReadSummary* summary = nullptr)
+Mesh ply(const std::string& text)
 {
-    return detail::parsePly(text, "a.ply", summary);
+    return detail::parsePly(text, "a.ply").mesh;
 }
 
-Mesh stl(const std::string& text, ReadSummary* summary = nullptr)
+Mesh stl(const std::string& text)
 {
-    return detail::parseStl(text, "a.stl", summary);
+    return detail::parseStl(text, "a.stl").mesh;
 }
 
 std::string replaced(std::string text, const std::string& what, const std::string& by)
@@ -74,16 +74,16 @@ BOOST_AUTO_TEST_CASE(line_ends_and_byte_order_mark)
     for (const Sample& sample : samples()) {
         const std::string kind = sample.kind;
         if (kind.find("obj") != 0 && kind.find("off") != 0 && kind.find("ascii") != 0) continue;
-        const Mesh expected = sample.parse(sample.bytes, "a", nullptr);
+        const Mesh expected = sample.parse(sample.bytes, "a").mesh;
         for (const char* lineEnd : {"\r\n", "\r", "\n\n", " \t\n"}) {
             const std::string text = replaced(sample.bytes, "\n", lineEnd);
             // A PLY header ends exactly one line end behind end_header, but blank lines before and behind do no harm.
-            BOOST_TEST(sameBits(sample.parse(text, "a", nullptr), expected), kind);
+            BOOST_TEST(sameBits(sample.parse(text, "a").mesh, expected), kind);
         }
-        BOOST_TEST(sameBits(sample.parse("\xEF\xBB\xBF" + sample.bytes, "a", nullptr), expected), kind);
-        BOOST_TEST(sameBits(sample.parse(sample.bytes + "\n \r\n\n", "a", nullptr), expected), kind);
+        BOOST_TEST(sameBits(sample.parse("\xEF\xBB\xBF" + sample.bytes, "a").mesh, expected), kind);
+        BOOST_TEST(sameBits(sample.parse(sample.bytes + "\n \r\n\n", "a").mesh, expected), kind);
         const std::string noLastLineEnd = sample.bytes.substr(0, sample.bytes.size() - 1);
-        BOOST_TEST(sameBits(sample.parse(noLastLineEnd, "a", nullptr), expected), kind);
+        BOOST_TEST(sameBits(sample.parse(noLastLineEnd, "a").mesh, expected), kind);
     }
 }
 
@@ -147,12 +147,11 @@ BOOST_AUTO_TEST_CASE(obj_weights_and_colours_are_not_read)
 
 BOOST_AUTO_TEST_CASE(obj_other_statements_are_ignored_and_elements_counted)
 {
-    ReadSummary summary;
-    const Mesh mesh =
-        obj("# by hand \\\nmtllib C:\\models\\\no a\ng a b\ns off\nusemtl stone #1\n" + threePoints +
-                "vp 1 2\nvt 1 1\nvn 0 0 1\np 1 2 3\nl 1 2 \\\n 3\nf 1 2\nf 3\ncurv 0 1 1 \\\n2\nparm u 0 \\\n"
-                "1 2\nend\nf 1 2 3\nd_interp on\nmy_own-word.2 77 \"\x01\xFF\n",
-            &summary);
+    const auto [mesh, summary] = detail::parseObj(
+        "# by hand \\\nmtllib C:\\models\\\no a\ng a b\ns off\nusemtl stone #1\n" + threePoints +
+            "vp 1 2\nvt 1 1\nvn 0 0 1\np 1 2 3\nl 1 2 \\\n 3\nf 1 2\nf 3\ncurv 0 1 1 \\\n2\nparm u 0 \\\n"
+            "1 2\nend\nf 1 2 3\nd_interp on\nmy_own-word.2 77 \"\x01\xFF\n",
+        "a.obj");
     BOOST_TEST(mesh.points.size() == 3U);
     BOOST_TEST(mesh.triangles.size() == 1U);
     BOOST_TEST(summary.ignoredElements == 5U); // p, l, curv and two faces without area
@@ -160,17 +159,16 @@ BOOST_AUTO_TEST_CASE(obj_other_statements_are_ignored_and_elements_counted)
 
 BOOST_AUTO_TEST_CASE(polygons_are_split_and_bad_faces_counted)
 {
-    ReadSummary summary;
-    const Mesh mesh = obj("v 0 0 0\nv 2 0 0\nv 2 2 0\nv 0 2 0\nv 0.5 1 0\n"
-                          "f 1 2 3 4\n"    // convex: stays
-                          "f 1 2 3 5\n"    // convex as well
-                          "f 1 2 5 4\n"    // has an inward corner: two triangles
-                          "f 1 2 3 4 5\n"  // five corners: three triangles
-                          "f 1 1 2\n"      // no area
-                          "f 1 1 2 2\n"    // no area
-                          "f 1 2 3 3\n"    // repeats a corner, but has an area
-                          "f 1 2 3 3 4\n", // the same with five corners
-                          &summary);
+    const auto [mesh, summary] = detail::parseObj("v 0 0 0\nv 2 0 0\nv 2 2 0\nv 0 2 0\nv 0.5 1 0\n"
+                                                  "f 1 2 3 4\n"    // convex: stays
+                                                  "f 1 2 3 5\n"    // convex as well
+                                                  "f 1 2 5 4\n"    // has an inward corner: two triangles
+                                                  "f 1 2 3 4 5\n"  // five corners: three triangles
+                                                  "f 1 1 2\n"      // no area
+                                                  "f 1 1 2 2\n"    // no area
+                                                  "f 1 2 3 3\n"    // repeats a corner, but has an area
+                                                  "f 1 2 3 3 4\n", // the same with five corners
+                                                  "a.obj");
     BOOST_TEST(mesh.quads.size() == 4U);
     BOOST_TEST(mesh.triangles.size() == 1U + 2U + 3U + 3U);
     BOOST_TEST(summary.polygons == 2U);
@@ -178,17 +176,10 @@ BOOST_AUTO_TEST_CASE(polygons_are_split_and_bad_faces_counted)
     BOOST_TEST(summary.ignoredElements == 0U);
 }
 
-BOOST_AUTO_TEST_CASE(the_summary_is_that_of_the_last_file)
-{
-    ReadSummary summary{7, 7, 7};
-    obj(threePoints + "f 1 2 3\n", &summary);
-    BOOST_TEST(summary.polygons + summary.degenerateFaces + summary.ignoredElements == 0U);
-}
-
 namespace {
 
 /// Faces over points on a circle: each of `count` corners that follow each other, from the given one.
-Mesh onCircle(const std::vector<std::pair<std::size_t, std::size_t>>& firstAndCount, ReadSummary& summary)
+MeshFile onCircle(const std::vector<std::pair<std::size_t, std::size_t>>& firstAndCount)
 {
     constexpr std::size_t points = 5000;
     detail::PolygonSoup soup;
@@ -201,7 +192,7 @@ Mesh onCircle(const std::vector<std::pair<std::size_t, std::size_t>>& firstAndCo
         for (std::size_t i = 0; i < count; ++i) face.push_back(static_cast<openvdb::Index32>((first + i) % points));
         soup.addFace(face.data(), count);
     }
-    return detail::toMesh(std::move(soup), "circle", &summary);
+    return detail::toMesh(std::move(soup), "circle");
 }
 
 } // namespace
@@ -220,8 +211,7 @@ BOOST_AUTO_TEST_CASE(equal_polygons_have_their_alternatives_once)
         }
         text += '\n';
     }
-    ReadSummary summary;
-    const Mesh mesh = off(text, &summary);
+    const auto [mesh, summary] = detail::parseOff(text, "a.off");
     BOOST_TEST(mesh.triangles.size() == 60U * 62U); // they stay faces
     BOOST_TEST(mesh.alternatives.size() == 64U * 62U);
     BOOST_TEST(summary.polygons == 60U);
@@ -235,8 +225,7 @@ BOOST_AUTO_TEST_CASE(equal_polygons_have_their_alternatives_once)
 
 BOOST_AUTO_TEST_CASE(faces_of_more_than_64_corners_are_told)
 {
-    ReadSummary summary;
-    const Mesh mesh = onCircle({{0, 65}, {10, 65}, {0, 64}, {0, 5}}, summary);
+    const auto [mesh, summary] = onCircle({{0, 65}, {10, 65}, {0, 64}, {0, 5}});
     BOOST_TEST(mesh.alternatives.size() == 64U * 62U + 10U);
     BOOST_TEST(summary.alternateCorners == 64U);
     BOOST_TEST(summary.facesAsSplit == 2U);
@@ -248,15 +237,17 @@ BOOST_AUTO_TEST_CASE(alternatives_keep_within_their_budget)
     std::vector<std::pair<std::size_t, std::size_t>> faces;
     const std::size_t fit = detail::mostAlternates / (64 * 62);
     for (std::size_t i = 0; i < fit; ++i) faces.emplace_back(i, 64);
-    ReadSummary summary;
     faces.emplace_back(0, 64);
-    BOOST_TEST(onCircle(faces, summary).alternatives.size() == fit * 64 * 62);
-    BOOST_TEST(summary.alternateCorners == 64U);
+    {
+        const auto [mesh, summary] = onCircle(faces);
+        BOOST_TEST(mesh.alternatives.size() == fit * 64 * 62);
+        BOOST_TEST(summary.alternateCorners == 64U);
+    }
     faces.emplace_back(fit, 64);
     faces.emplace_back(0, 65);
     faces.emplace_back(0, 5);
     faces.emplace_back(0, 20);
-    const Mesh mesh = onCircle(faces, summary);
+    const auto [mesh, summary] = onCircle(faces);
     BOOST_TEST(mesh.alternatives.size() == 10U + 20U * 18U);
     BOOST_TEST(summary.alternateCorners == 63U);
     BOOST_TEST(summary.facesAsSplit == fit + 3);
@@ -291,8 +282,7 @@ BOOST_AUTO_TEST_CASE(off_records_may_go_over_line_ends)
 
 BOOST_AUTO_TEST_CASE(off_faces_of_one_or_two_corners_are_ignored)
 {
-    ReadSummary summary;
-    const Mesh mesh = off("OFF 3 3 0\n0 0 0\n1 0 0\n0 1 0\n1 0\n2 0 1\n3 0 1 2\n", &summary);
+    const auto [mesh, summary] = detail::parseOff("OFF 3 3 0\n0 0 0\n1 0 0\n0 1 0\n1 0\n2 0 1\n3 0 1 2\n", "a.off");
     BOOST_TEST(mesh.triangles.size() == 1U);
     BOOST_TEST(summary.ignoredElements == 2U);
 }
@@ -353,18 +343,17 @@ BOOST_AUTO_TEST_CASE(ply_of_every_type_and_order, *boost::unit_test::label("prop
 
 BOOST_AUTO_TEST_CASE(ply_other_elements_and_properties_are_skipped)
 {
-    ReadSummary summary;
-    const Mesh mesh =
-        ply(plyHeader("ascii", "obj_info anything goes: format element\nelement camera 1\n"
-                               "property float view\nproperty list uchar float matrix\nelement nothing 9\n" +
-                                   vertexElement +
-                                   "property uchar red\nproperty list int int lists\nelement face 2\n"
-                                   "property float quality\nproperty list uchar int texnumber\n"
-                                   "property list uchar uint vertex_indices\nelement edge 2\n"
-                                   "property int vertex1\nproperty int vertex2\n") +
-                "0.5 3 1 2 3\n0 0 0 255 0\n1 0 0 255 2 7 7\n0 1 0 255 1 -9\n0.5 0 3 0 1 2\nnan 1 5 3 2 1 0\n"
-                "0 1\n1 2\n",
-            &summary);
+    const auto [mesh, summary] = detail::parsePly(
+        plyHeader("ascii", "obj_info anything goes: format element\nelement camera 1\n"
+                           "property float view\nproperty list uchar float matrix\nelement nothing 9\n" +
+                               vertexElement +
+                               "property uchar red\nproperty list int int lists\nelement face 2\n"
+                               "property float quality\nproperty list uchar int texnumber\n"
+                               "property list uchar uint vertex_indices\nelement edge 2\n"
+                               "property int vertex1\nproperty int vertex2\n") +
+            "0.5 3 1 2 3\n0 0 0 255 0\n1 0 0 255 2 7 7\n0 1 0 255 1 -9\n0.5 0 3 0 1 2\nnan 1 5 3 2 1 0\n"
+            "0 1\n1 2\n",
+        "a.ply");
     BOOST_CHECK(mesh.points[2] == Vec3d(0, 1, 0));
     const std::vector<Vec3I> expected = {{0, 1, 2}, {2, 1, 0}};
     BOOST_CHECK(mesh.triangles == expected);
@@ -373,12 +362,11 @@ BOOST_AUTO_TEST_CASE(ply_other_elements_and_properties_are_skipped)
 
 BOOST_AUTO_TEST_CASE(ply_faces_before_points_polygons_and_faces_without_area)
 {
-    ReadSummary summary;
-    const Mesh mesh =
-        ply(plyHeader("ascii", "element face 4\nproperty list uchar int vertex_indices\n"
-                               "element vertex 5\nproperty double z\nproperty double x\nproperty double y\n") +
-                "5 0 1 2 3 4\n2 0 1\n0\n3 1 1 2\n7 0 0\n7 2 0\n7 2 2\n7 0 2\n7 -1 1\n",
-            &summary);
+    const auto [mesh, summary] = detail::parsePly(
+        plyHeader("ascii", "element face 4\nproperty list uchar int vertex_indices\n"
+                           "element vertex 5\nproperty double z\nproperty double x\nproperty double y\n") +
+            "5 0 1 2 3 4\n2 0 1\n0\n3 1 1 2\n7 0 0\n7 2 0\n7 2 2\n7 0 2\n7 -1 1\n",
+        "a.ply");
     BOOST_CHECK(mesh.points[1] == Vec3d(2, 0, 7));
     BOOST_TEST(mesh.triangles.size() == 4U);
     BOOST_TEST(summary.polygons == 1U);

@@ -14,7 +14,7 @@ namespace vdbcage::test {
 inline std::size_t pairsTooNear(const Mesh& surface, const BoundingGuard& guard, double part = 1)
 {
     using openvdb::Vec3I;
-    detail::Spacing spacing = guard.model().spacing();
+    detail::Spacing spacing = detail::modelOf(guard).spacing();
     spacing.distance *= part;
     spacing.share *= part;
     spacing.sine *= part;
@@ -25,7 +25,7 @@ inline std::size_t pairsTooNear(const Mesh& surface, const BoundingGuard& guard,
     };
     std::vector<Triangle> triangles;
     const auto add = [&](std::size_t face, int split, const Vec3I& t) {
-        const auto corner = [&](int i) { return guard.model().scaled(surface.points[t[i]]); };
+        const auto corner = [&](int i) { return detail::modelOf(guard).scaled(surface.points[t[i]]); };
         triangles.push_back({face, split, {t, {corner(0), corner(1), corner(2)}}});
     };
     for (std::size_t i = 0; i < surface.triangles.size(); ++i) add(i, 0, surface.triangles[i]);

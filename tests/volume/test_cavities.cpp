@@ -50,8 +50,7 @@ std::size_t fillByFlood(DenseSet& set)
 
 void requireSameAsFlood(DenseSet set)
 {
-    std::size_t cavities = 99;
-    const auto filled = fillCavities(*toGrid(set), &cavities);
+    const auto [filled, cavities] = fillCavities(*toGrid(set));
     const std::size_t expected = fillByFlood(set);
     BOOST_TEST(cavities == expected);
     BOOST_TEST(sameSet(*filled, *toGrid(set)));
@@ -74,9 +73,7 @@ MaskGrid::Ptr shell(const CoordBBox& outer, const CoordBBox& inner)
 
 std::size_t cavitiesOf(const MaskGrid& grid)
 {
-    std::size_t cavities = 99;
-    fillCavities(grid, &cavities);
-    return cavities;
+    return fillCavities(grid).cavities;
 }
 
 } // namespace
@@ -120,8 +117,7 @@ BOOST_AUTO_TEST_CASE(an_edge_is_no_way_out)
 {
     const auto grid = shell(cubeAt(Coord(0), 20), cubeAt(Coord(1), 18));
     grid->tree().setValueOff(Coord(0, 0, 7));
-    std::size_t cavities = 0;
-    const auto filled = fillCavities(*grid, &cavities);
+    const auto [filled, cavities] = fillCavities(*grid);
     BOOST_TEST(cavities == 1U);
     BOOST_TEST(filled->activeVoxelCount() == 20U * 20U * 20U - 1U);
 }
@@ -131,8 +127,8 @@ BOOST_AUTO_TEST_CASE(nothing_to_fill)
     BOOST_TEST(cavitiesOf(*MaskGrid::create()) == 0U);
     const auto grid = fatBlobs(60);
     BOOST_TEST(cavitiesOf(*grid) == 0U);
-    BOOST_TEST(sameSet(*fillCavities(*grid), *grid));
-    BOOST_TEST(fillCavities(*grid)->tree().activeTileCount() > 0U); // and the result is pruned
+    BOOST_TEST(sameSet(*fillCavities(*grid).mask, *grid));
+    BOOST_TEST(fillCavities(*grid).mask->tree().activeTileCount() > 0U); // and the result is pruned
 }
 
 BOOST_AUTO_TEST_CASE(cavities_of_whole_blocks)
@@ -140,13 +136,15 @@ BOOST_AUTO_TEST_CASE(cavities_of_whole_blocks)
     const CoordBBox outer = cubeAt(Coord(-300), 900);
     for (const int wall : {1, 40, 130}) {
         const auto grid = shell(outer, grown(outer, -wall));
-        std::size_t cavities = 0;
-        BOOST_TEST(sameTree(*fillCavities(*grid, &cavities), *fillCavities(*box(outer))));
-        BOOST_TEST(cavities == 1U);
+        const auto whole = fillCavities(*box(outer)).mask;
+        const auto hollow = fillCavities(*grid);
+        BOOST_TEST(sameTree(*hollow.mask, *whole));
+        BOOST_TEST(hollow.cavities == 1U);
         // Something floats inside, with a cavity of its own.
         grid->topologyUnion(*shell(cubeAt(Coord(0), 290), cubeAt(Coord(100), 150)));
-        BOOST_TEST(sameTree(*fillCavities(*grid, &cavities), *fillCavities(*box(outer))));
-        BOOST_TEST(cavities == 2U);
+        const auto nested = fillCavities(*grid);
+        BOOST_TEST(sameTree(*nested.mask, *whole));
+        BOOST_TEST(nested.cavities == 2U);
         grid->topologyDifference(*box(CoordBBox(Coord(-300, 5, 5), Coord(-300 + wall - 1, 5, 5))));
         BOOST_TEST(cavitiesOf(*grid) == 1U);
     }
@@ -157,8 +155,7 @@ BOOST_AUTO_TEST_CASE(cavities_of_whole_upper_nodes)
     // Walls of block tiles around more than an upper node, and one of upper node tiles.
     const CoordBBox outer = cubeAt(Coord(-4096 - 512), 2 * 4096 + 1024);
     const auto grid = shell(outer, grown(outer, -256));
-    std::size_t cavities = 0;
-    const auto filled = fillCavities(*grid, &cavities);
+    const auto [filled, cavities] = fillCavities(*grid);
     BOOST_TEST(cavities == 1U);
     BOOST_TEST(filled->activeVoxelCount() == outer.volume());
     BOOST_TEST(filled->tree().getValueDepth(Coord(0)) == 0);
@@ -166,9 +163,9 @@ BOOST_AUTO_TEST_CASE(cavities_of_whole_upper_nodes)
     for (int i = 0; i < 27; ++i) {
         if (i != 13) upperNodes->tree().addTile(3, Coord(i / 9 * 4096, i / 3 % 3 * 4096, i % 3 * 4096), true, true);
     }
-    const auto full = fillCavities(*upperNodes, &cavities);
-    BOOST_TEST(cavities == 1U);
-    BOOST_TEST(full->activeVoxelCount() == 27ULL << 36U);
+    const auto full = fillCavities(*upperNodes);
+    BOOST_TEST(full.cavities == 1U);
+    BOOST_TEST(full.mask->activeVoxelCount() == 27ULL << 36U);
 }
 
 BOOST_AUTO_TEST_CASE(far_scattered_voxels_cost_nothing)
@@ -190,17 +187,17 @@ BOOST_AUTO_TEST_CASE(threads_transform_cancel)
     MaskGrid::Ptr results[2];
     for (const std::size_t threads : {1U, 2U}) {
         const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
-        results[threads - 1] = fillCavities(*grid);
+        results[threads - 1] = fillCavities(*grid).mask;
     }
     BOOST_TEST(sameTree(*results[0], *results[1]));
     BOOST_CHECK(results[0]->transform() == grid->transform());
     StopOnce never(-1);
-    fillCavities(*grid, nullptr, &never);
+    fillCavities(*grid, &never);
     BOOST_TEST(!never.outOfRange);
     BOOST_TEST(never.checks > 2);
     for (int k = 0; k < never.checks; ++k) {
         StopOnce stop(k);
-        BOOST_CHECK_THROW(fillCavities(*grid, nullptr, &stop), Cancelled);
+        BOOST_CHECK_THROW(fillCavities(*grid, &stop), Cancelled);
     }
     auto far = MaskGrid::create();
     far->tree().setValueOn(Coord(1 << 30, 0, 0));

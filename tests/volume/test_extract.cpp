@@ -4,6 +4,8 @@
 
 #include <tbb/global_control.h>
 #include <vdbcage/core/error.h>
+#include <vdbcage/mesh/topology.h>
+#include <vdbcage/volume/detail/boundary_topology.h>
 #include <vdbcage/volume/extract.h>
 
 #include "support/solids.h"
@@ -84,6 +86,9 @@ bool holdsFor(const MaskGrid& solid, double voxelSize = 1)
     const Mesh surface = extractSurface(solid);
     const std::size_t faces = exposedFaces(*composed);
     const TopologyCount count = countTopology(surface);
+    const detail::BoundaryTopology counted = detail::boundaryTopology(solid);
+    const MeshTopology topology = analyzeTopology(surface);
+    if (counted.components != topology.components() || counted.genus != topology.genus()) return false;
     const double volume = double(composed->activeVoxelCount()) * std::pow(voxelSize, 3);
     const double area = double(faces) * voxelSize * voxelSize;
     return surface.triangles.empty() && surface.quads.size() == faces && count.points == surface.points.size() &&

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <thread>
+#include <tuple>
 
 #include <support/stop_at.h>
 #include <tbb/parallel_for.h>
@@ -258,10 +259,10 @@ BOOST_AUTO_TEST_CASE(threads_voxelize_at_once_each_with_its_context)
 BOOST_AUTO_TEST_CASE(tasks_of_tbb_may_voxelize)
 {
     const Mesh model = test::torus(1, 0.4, 40, 20);
-    const openvdb::MaskGrid::Ptr expected = voxelize(model, {50, Voxelizer::cpu});
+    const openvdb::MaskGrid::Ptr expected = voxelize(model, {50, Voxelizer::cpu}).mask;
     std::array<openvdb::MaskGrid::Ptr, 8> masks;
     tbb::parallel_for(std::size_t(0), masks.size(), [&](std::size_t i) {
-        masks[i] = voxelize(model, {50, Voxelizer::gl});
+        masks[i] = voxelize(model, {50, Voxelizer::gl}).mask;
     });
     for (const auto& mask : masks) BOOST_TEST(mask->tree().hasSameTopology(expected->tree()));
 }
@@ -273,24 +274,23 @@ BOOST_AUTO_TEST_CASE(automatic_is_the_cpu_where_the_device_fails_or_does_not_pay
     Backend& cancelled = *+[](const Mesh&, const Frame&, Interrupter*) -> BitGrid { throw Cancelled(); };
     const auto frame = [&](int resolution) { return makeFrame(model, resolution); };
     constexpr int large = leastResolutionForDevice;
-    VoxelizeReport report;
 
-    BitGrid bits = voxelizeAutomatically(model, frame(large), failing, report, nullptr);
+    auto [bits, report] = voxelizeAutomatically(model, frame(large), failing, nullptr);
     BOOST_TEST((report.voxelizer == Voxelizer::cpu));
     BOOST_TEST(report.fallback == "broken device");
     BOOST_TEST(difference(bits, onCpu(model, large)) == 0U);
 
-    bits = voxelizeAutomatically(model, frame(large), voxelizeGl, report, nullptr);
+    std::tie(bits, report) = voxelizeAutomatically(model, frame(large), voxelizeGl, nullptr);
     BOOST_TEST((report.voxelizer == Voxelizer::gl));
     BOOST_TEST(report.fallback == "");
     BOOST_TEST(difference(bits, onCpu(model, large)) == 0U);
 
-    bits = voxelizeAutomatically(model, frame(large - 1), failing, report, nullptr);
+    std::tie(bits, report) = voxelizeAutomatically(model, frame(large - 1), failing, nullptr);
     BOOST_TEST((report.voxelizer == Voxelizer::cpu));
     BOOST_TEST(report.fallback == "");
-    BOOST_CHECK_THROW((void)voxelizeAutomatically(model, frame(large), cancelled, report, nullptr), Cancelled);
+    BOOST_CHECK_THROW((void)voxelizeAutomatically(model, frame(large), cancelled, nullptr), Cancelled);
 
-    (void)voxelize(model, {large}, nullptr, &report);
+    report = voxelize(model, {large}).report;
     BOOST_TEST(((report.voxelizer == Voxelizer::gl) == report.fallback.empty()));
 }
 

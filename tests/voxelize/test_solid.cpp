@@ -43,7 +43,7 @@ BOOST_DATA_TEST_CASE(solid_voxels_are_those_of_the_definition, boost::unit_test:
 {
     const detail::Frame frame = detail::makeFrame(model.mesh, model.resolution);
     const test::Reference& reference = test::referenceOf(model);
-    const openvdb::MaskGrid::Ptr mask = voxelize(model.mesh, {model.resolution});
+    const openvdb::MaskGrid::Ptr mask = voxelize(model.mesh, {model.resolution}).mask;
     auto accessor = mask->getConstAccessor();
     std::size_t missing = 0, extra = 0, count = 0;
     for (const Coord& ijk : frame.voxels) {
@@ -65,7 +65,7 @@ BOOST_AUTO_TEST_CASE(closed_models_are_filled_where_their_surface_winds_round)
         test::joined(ball, test::transformed(ball, 0.7, Vec3d(0.9, 0, 0))), // overlapping
     };
     for (const Mesh& model : models) {
-        const openvdb::MaskGrid::Ptr mask = voxelize(model, {28});
+        const openvdb::MaskGrid::Ptr mask = voxelize(model, {28}).mask;
         const detail::Frame frame = detail::makeFrame(model, 28);
         auto accessor = mask->getConstAccessor();
         std::size_t wrong = 0, inside = 0;
@@ -84,18 +84,18 @@ BOOST_AUTO_TEST_CASE(closed_models_are_filled_where_their_surface_winds_round)
 BOOST_AUTO_TEST_CASE(the_inside_of_nested_shells_is_solid)
 {
     const Mesh ball = test::sphere(Vec3d(0), 1, 16), inner = test::transformed(ball, 0.5, Vec3d(0));
-    BOOST_TEST(sameVoxels(*voxelize(test::joined(ball, inner), {40}), *voxelize(ball, {40})));
+    BOOST_TEST(sameVoxels(*voxelize(test::joined(ball, inner), {40}).mask, *voxelize(ball, {40}).mask));
 }
 
 BOOST_AUTO_TEST_CASE(orientation_does_not_matter)
 {
     const Mesh ball = test::sphere(Vec3d(0), 1, 16);
-    BOOST_TEST(sameVoxels(*voxelize(test::halfReversed(ball), {40}), *voxelize(ball, {40})));
+    BOOST_TEST(sameVoxels(*voxelize(test::halfReversed(ball), {40}).mask, *voxelize(ball, {40}).mask));
 }
 
 BOOST_AUTO_TEST_CASE(an_open_bowl_is_filled_to_its_rim_and_no_higher)
 {
-    const openvdb::MaskGrid::Ptr mask = voxelize(test::bowl(1, 40), {64});
+    const openvdb::MaskGrid::Ptr mask = voxelize(test::bowl(1, 40), {64}).mask;
     const auto isOn = [&](const Vec3d& p) {
         return mask->tree().isValueOn(mask->transform().worldToIndexCellCentered(p));
     };
@@ -114,7 +114,7 @@ BOOST_AUTO_TEST_CASE(a_leak_along_one_axis_fills_nothing)
         const Vec3d far = open % 2 == 0 ? Vec3d(-3) : Vec3d(4);
         model.points.push_back(far);
         model.triangles.emplace_back(8U, 8U, 8U);
-        const openvdb::MaskGrid::Ptr mask = voxelize(model, {96});
+        const openvdb::MaskGrid::Ptr mask = voxelize(model, {96}).mask;
         const openvdb::Coord corner = mask->transform().worldToIndexCellCentered(far);
         BOOST_TEST(mask->tree().isValueOn(corner));
         mask->tree().setValueOff(corner);
@@ -132,7 +132,7 @@ BOOST_AUTO_TEST_CASE(a_sheet_has_no_inside)
     sheet.quads = {{0, 1, 2, 3}};
     const Vec3d normal = sheet.points[1].cross(sheet.points[3]).unit();
     for (const double side : {1, -1}) {
-        const openvdb::MaskGrid::Ptr mask = voxelize(test::transformed(sheet, side, Vec3d(0)), {64});
+        const openvdb::MaskGrid::Ptr mask = voxelize(test::transformed(sheet, side, Vec3d(0)), {64}).mask;
         std::size_t far = 0;
         for (const openvdb::Coord& ijk : mask->evalActiveVoxelBoundingBox()) {
             if (!mask->tree().isValueOn(ijk)) continue;
@@ -151,11 +151,11 @@ BOOST_AUTO_TEST_CASE(open_models_get_mirrored_voxels_when_mirrored)
     constexpr int resolution = 41; // with no point of the bowl's rim in the middle of a voxel
     for (const Mesh& model :
          {bowl, tilted, test::joined(tilted, test::transformed(tilted, -0.7, Vec3d(0.3, 0, 0.2)))}) {
-        const openvdb::MaskGrid::Ptr mask = voxelize(model, {resolution});
+        const openvdb::MaskGrid::Ptr mask = voxelize(model, {resolution}).mask;
         for (std::size_t axis = 0; axis < 3; ++axis) {
             Mesh mirrored = model;
             for (Vec3d& p : mirrored.points) p(static_cast<int>(axis)) *= -1;
-            const openvdb::MaskGrid::Ptr other = voxelize(mirrored, {resolution});
+            const openvdb::MaskGrid::Ptr other = voxelize(mirrored, {resolution}).mask;
             BOOST_TEST(other->activeVoxelCount() == mask->activeVoxelCount());
             std::size_t different = 0;
             for (const openvdb::Coord& ijk : mask->evalActiveVoxelBoundingBox()) {
@@ -171,7 +171,7 @@ BOOST_AUTO_TEST_CASE(open_models_get_mirrored_voxels_when_mirrored)
 BOOST_AUTO_TEST_CASE(a_box_gets_as_many_voxels_on_both_sides)
 {
     for (const int resolution : {1, 2, 7, 8, 64}) {
-        const openvdb::MaskGrid::Ptr mask = voxelize(test::box(Vec3d(5), Vec3d(7, 6.3, 5.9)), {resolution});
+        const openvdb::MaskGrid::Ptr mask = voxelize(test::box(Vec3d(5), Vec3d(7, 6.3, 5.9)), {resolution}).mask;
         const openvdb::CoordBBox box = mask->evalActiveVoxelBoundingBox();
         BOOST_TEST(box.min().x() == 0);
         BOOST_TEST(box.max().x() == resolution);
@@ -188,7 +188,7 @@ BOOST_AUTO_TEST_CASE(two_threads_find_what_one_finds)
         openvdb::MaskGrid::Ptr masks[2];
         for (const std::size_t threads : {1U, 2U}) {
             const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
-            masks[threads - 1] = voxelize(model.mesh, {3 * model.resolution});
+            masks[threads - 1] = voxelize(model.mesh, {3 * model.resolution}).mask;
         }
         BOOST_TEST(sameVoxels(*masks[0], *masks[1]), model.name);
     }
@@ -202,11 +202,11 @@ BOOST_AUTO_TEST_CASE(moving_and_scaling_the_model_changes_no_voxel)
         for (int axis = 0; axis < 3; ++axis) p[axis] = std::round(p[axis] * 0x1p20) * 0x1p-20;
     }
     for (const int resolution : {32, 50}) {
-        const openvdb::MaskGrid::Ptr mask = voxelize(model, {resolution});
+        const openvdb::MaskGrid::Ptr mask = voxelize(model, {resolution}).mask;
         for (const double scale : {0x1p-300, 0x1p-20, 0x1p-1, 1.0, 0x1p20, 0x1p300}) {
             for (const Vec3d& move : {Vec3d(0), Vec3d(-1000, 77, 12345)}) {
                 const Mesh moved = test::transformed(test::transformed(model, 1, move), scale, Vec3d(0));
-                const openvdb::MaskGrid::Ptr other = voxelize(moved, {resolution});
+                const openvdb::MaskGrid::Ptr other = voxelize(moved, {resolution}).mask;
                 BOOST_TEST(sameVoxels(*mask, *other));
                 BOOST_TEST(other->voxelSize().x() == scale * mask->voxelSize().x());
                 const Vec3d corner(3, 0, 7), there = scale * (mask->indexToWorld(corner) + move);
@@ -220,10 +220,10 @@ BOOST_AUTO_TEST_CASE(moving_and_scaling_the_model_changes_no_voxel)
 BOOST_AUTO_TEST_CASE(inexact_moves_and_scales_change_no_voxel_of_a_box)
 {
     const Mesh model = test::box(Vec3d(0), Vec3d(1, 0.75, 0.5));
-    const openvdb::MaskGrid::Ptr mask = voxelize(model, {100});
+    const openvdb::MaskGrid::Ptr mask = voxelize(model, {100}).mask;
     for (const double scale : {1e-6, 0.1, 3.0, 1e6}) {
         for (const Vec3d& move : {Vec3d(0), Vec3d(-1000, 0.1, 1e6)}) {
-            BOOST_TEST(sameVoxels(*mask, *voxelize(test::transformed(model, scale, scale * move), {100})));
+            BOOST_TEST(sameVoxels(*mask, *voxelize(test::transformed(model, scale, scale * move), {100}).mask));
         }
     }
 }
@@ -231,10 +231,10 @@ BOOST_AUTO_TEST_CASE(inexact_moves_and_scales_change_no_voxel_of_a_box)
 BOOST_AUTO_TEST_CASE(points_that_no_face_uses_do_not_count)
 {
     Mesh model = test::sphere(Vec3d(0), 1, 8);
-    const openvdb::MaskGrid::Ptr mask = voxelize(model, {20});
+    const openvdb::MaskGrid::Ptr mask = voxelize(model, {20}).mask;
     model.points.emplace_back(1e308, -1e308, std::numeric_limits<double>::quiet_NaN());
     model.points.emplace_back(0, std::numeric_limits<double>::infinity(), 50);
-    BOOST_TEST(sameVoxels(*mask, *voxelize(model, {20})));
+    BOOST_TEST(sameVoxels(*mask, *voxelize(model, {20}).mask));
 }
 
 BOOST_AUTO_TEST_CASE(every_question_can_cancel)
@@ -244,8 +244,8 @@ BOOST_AUTO_TEST_CASE(every_question_can_cancel)
     const Mesh model = test::joined(test::sphere(Vec3d(0), 1, 60), test::soup(3, 30, 10, 2, false));
     constexpr int many = 1 << 20;
     test::StopAt counter(many);
-    const openvdb::MaskGrid::Ptr mask = voxelize(model, {64}, &counter);
-    BOOST_TEST(sameVoxels(*mask, *voxelize(model, {64})));
+    const openvdb::MaskGrid::Ptr mask = voxelize(model, {64}, &counter).mask;
+    BOOST_TEST(sameVoxels(*mask, *voxelize(model, {64}).mask));
     const int asked = test::questions(counter, many);
     BOOST_TEST(asked > 30);
     for (int k = 0; k < asked; ++k) {
@@ -258,14 +258,14 @@ BOOST_AUTO_TEST_CASE(voxels_are_laid_out_by_the_box_that_is_given)
 {
     const Mesh model = test::sphere(Vec3d(0.5, -1, 2), 1, 9);
     VoxelizeOptions options{20, Voxelizer::cpu, boundingBox(model)};
-    const auto own = voxelize(model, {20});
-    BOOST_CHECK(sameVoxels(*own, *voxelize(model, options)));
+    const auto own = voxelize(model, {20}).mask;
+    BOOST_CHECK(sameVoxels(*own, *voxelize(model, options).mask));
     // A side of 4 instead of 2, twice the voxels, from the same low corner on x: equal ones, moved by half of what was
     // added before them on the other axes.
     options.box->max() += Vec3d(2, 1, 1);
     options.box->min() -= Vec3d(0, 1, 1);
     options.resolution = 40;
-    const auto moved = voxelize(model, options);
+    const auto moved = voxelize(model, options).mask;
     std::size_t found = 0;
     for (auto voxel = own->tree().cbeginValueOn(); voxel; ++voxel) {
         openvdb::CoordBBox box;
@@ -309,7 +309,7 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_voxelized_is_refused_with_the_value_and_what
     Mesh bad = model;
     bad.points[3].y() = std::numeric_limits<double>::quiet_NaN();
     BOOST_TEST(names(message(bad, {}), "coordinates must be finite"));
-    BOOST_TEST(sameVoxels(*voxelize(model, {16, Voxelizer::cpu}), *voxelize(model, {16})));
+    BOOST_TEST(sameVoxels(*voxelize(model, {16, Voxelizer::cpu}).mask, *voxelize(model, {16}).mask));
 }
 
 BOOST_AUTO_TEST_SUITE_END()

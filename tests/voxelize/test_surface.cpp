@@ -74,7 +74,7 @@ BOOST_DATA_TEST_CASE(no_voxel_of_the_unrounded_model_is_missed, boost::unit_test
     // In world space, on the cubes as the transform has them, with exact numbers.
     using Kernel = CGAL::Exact_predicates_exact_constructions_kernel;
     using Number = Kernel::FT;
-    const openvdb::MaskGrid::Ptr mask = voxelize(model.mesh, {model.resolution});
+    const openvdb::MaskGrid::Ptr mask = voxelize(model.mesh, {model.resolution}).mask;
     const BitGrid surface = scannedSurface(model.mesh, makeFrame(model.mesh, model.resolution), 100);
     const double size = mask->voxelSize().x();
     const Vec3d translation = mask->transform().indexToWorld(Vec3d(0));

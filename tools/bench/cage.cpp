@@ -27,13 +27,14 @@ Mesh copyOf(Mesh model, int copy)
     return model;
 }
 
+/// Distances are in % of the diagonal, as papers on cages give them.
 Json quality(const Mesh& cage, const CageCheck& check)
 {
     return {{"faces", faceCount(cage)},
             {"valid", check.valid()},
             {"bounding", check.bounding()},
-            {"mean_distance_percent", 100 * check.meanDistance},
-            {"max_distance_percent", 100 * check.maxDistance},
+            {"mean_distance_percent", 100 * check.meanDistance / check.diagonal},
+            {"max_distance_percent", 100 * check.maxDistance / check.diagonal},
             {"volume_ratio", check.volumeRatio},
             {"angle_percentile_degrees",
              {{"0", check.minAngleDegrees}, {"1", check.angle1stPercentileDegrees}, {"50", check.medianAngleDegrees}}}};

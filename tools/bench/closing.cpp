@@ -102,7 +102,7 @@ Json measure(const std::string& model, int resolution, int radius, const CageOpt
 {
     VoxelizeOptions voxels;
     voxels.resolution = resolution;
-    const auto solid = voxelize(readMesh(model), voxels);
+    const auto solid = voxelize(readMesh(model), voxels).mask;
     const StructuringElement element = shape.element;
     const double r = radius;
     MaskGrid::Ptr dilated, closed;

@@ -32,13 +32,12 @@ int runCheck(std::vector<std::string> words)
 
     std::optional<Progress> progress(quiet);
     const Mesh cage = readMesh(cagePath);
-    ReadSummary summary;
-    const Mesh model = readMesh(modelPath, &summary);
-    const CageCheck check = checkCage(cage, model, {}, &*progress);
+    const MeshFile file = readMeshFile(modelPath);
+    const CageCheck check = checkCage(cage, file.mesh, {}, &*progress);
     if (!reportPath.empty()) {
         const Json report{{"vdbcage", VDBCAGE_VERSION},
                           {"cage", cagePath.string()},
-                          {"model", toJson(summary, model, modelPath)},
+                          {"model", toJson(file, modelPath)},
                           {"check", toJson(check)}};
         outputs.add(reportPath, [&](std::ostream& out) { out << toText(report); });
     }
@@ -49,7 +48,7 @@ int runCheck(std::vector<std::string> words)
                       : check.valid()  ? "NOT bounding"
                                        : "NOT a valid cage")
                   << '\n'
-                  << describe(summary) << describe(check);
+                  << describe(file.summary) << describe(check);
         flushOutput();
     }
     outputs.commit();

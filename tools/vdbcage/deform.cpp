@@ -5,6 +5,7 @@
 #include <vdbcage/core/error.h>
 #include <vdbcage/deform/inversions.h>
 #include <vdbcage/deform/weights_io.h>
+#include <vdbcage/mesh/io/formats.h>
 #include <vdbcage/mesh/mesh_io.h>
 
 #include "commands.h"
@@ -135,7 +136,7 @@ int runDeform(std::vector<std::string> words)
     app.add_flag("-q,--quiet", quiet, "print nothing but errors");
     if (!parse(app, std::move(words))) return exitGood;
     coordinatesNamed(family);
-    requireMeshExtension(output);
+    detail::requireMeshExtension(output);
     if (isPattern(posedPath) != isPattern(output)) {
         throw InputError("POSED_CAGE and OUT: both or none must have a frame number, as in cage.%04d.obj");
     }

@@ -8,6 +8,7 @@
 
 #include <vdbcage/core/error.h>
 #include <vdbcage/core/version.h>
+#include <vdbcage/mesh/io/formats.h>
 #include <vdbcage/mesh/mesh_io.h>
 #include <vdbcage/pipeline/pipeline.h>
 #include <vdbcage/volume/boundary_voxels.h>
@@ -39,7 +40,7 @@ constexpr std::array<const char*, 3> surfaceStages{"surface", "smoothed", "decim
 /// Refuses what cannot work before any work is done: formats, folders, permissions, one file under two names.
 void announce(const MakeArguments& arguments, Outputs& outputs)
 {
-    requireMeshExtension(arguments.cage);
+    detail::requireMeshExtension(arguments.cage);
     if (!arguments.picture.empty()) requirePngExtension(arguments.picture);
     requireValid(arguments.options);
     outputs.reads(arguments.model);
@@ -107,7 +108,7 @@ std::string summaryOf(const MakeArguments& arguments, const ReadSummary& summary
     out << (check.bounding() ? ", certified bounding"
             : check.valid()  ? ", NOT bounding"
                              : ", NOT a valid cage")
-        << ", mean distance " << 100 * check.meanDistance << " % of the diagonal, " << seconds << " s\n";
+        << ", mean distance " << 100 * check.meanDistance << " % of the longest side, " << seconds << " s\n";
     if (report.start == CageStart::hull) {
         out << "  shrunk from the convex hull: the closing has too many parts or handles for so few faces\n";
     } else if (report.start == CageStart::box) {
@@ -156,13 +157,12 @@ std::string makeFiles(const MakeArguments& arguments, Outputs& outputs, Interrup
     const auto began = std::chrono::steady_clock::now();
     StageClock clock(&interrupter);
 
-    ReadSummary summary;
     std::optional<Stage> reading(std::in_place, &clock, "read");
-    Mesh model = readMesh(arguments.model, &summary);
-    const Json modelReport = toJson(summary, model, arguments.model);
+    MeshFile file = readMeshFile(arguments.model);
+    const Json modelReport = toJson(file, arguments.model);
     reading.reset();
 
-    Pipeline pipeline = makePipeline(std::move(model), arguments, clock);
+    Pipeline pipeline = makePipeline(std::move(file.mesh), arguments, clock);
     const Mesh& cage = pipeline.cage();
 
     std::optional<Stage> writing(std::in_place, &clock, "write");
@@ -185,7 +185,7 @@ std::string makeFiles(const MakeArguments& arguments, Outputs& outputs, Interrup
                     {"check", toJson(pipeline.report().check)}};
         outputs.add(arguments.report, [&](std::ostream& out) { out << toText(report); });
     }
-    return summaryOf(arguments, summary, pipeline, clock.stages(), seconds);
+    return summaryOf(arguments, file.summary, pipeline, clock.stages(), seconds);
 }
 
 } // namespace

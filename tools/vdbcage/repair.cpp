@@ -5,6 +5,7 @@
 #include <vdbcage/check/check.h>
 #include <vdbcage/core/error.h>
 #include <vdbcage/core/version.h>
+#include <vdbcage/mesh/io/formats.h>
 #include <vdbcage/mesh/mesh_io.h>
 #include <vdbcage/surface/repair.h>
 
@@ -47,15 +48,14 @@ int runRepair(std::vector<std::string> words)
     if (!parse(app, std::move(words))) return exitGood;
     if (!hasRepair())
         throw InputError("this vdbcage was built without its GPL part (VDBCAGE_WITH_CGAL_GPL), and so without repair");
-    requireMeshExtension(outputPath);
+    detail::requireMeshExtension(outputPath);
     Outputs outputs;
     outputs.reads(cagePath);
     outputs.writes(outputPath);
     if (!reportPath.empty()) outputs.writes(reportPath);
 
     std::optional<Progress> progress(quiet);
-    RepairReport report;
-    const Mesh mended = repair(readMesh(cagePath), &report, &*progress);
+    const auto [mended, report] = repair(readMesh(cagePath), &*progress);
     outputs.add(outputPath, [&](std::ostream& out) { writeMesh(mended, out, outputPath); });
     if (!reportPath.empty()) {
         const Json facts{{"vdbcage", VDBCAGE_VERSION},

@@ -27,6 +27,7 @@ Json toJson(const CageCheck& check)
             {"self_intersections", check.selfIntersections},
             {"contact_faces", check.contactFaces},
             {"model_vertices_outside", check.modelVerticesOutside},
+            {"model_diagonal", check.diagonal},
             {"mean_distance", check.meanDistance},
             {"max_distance", check.maxDistance},
             {"min_distance", check.minDistance},
@@ -77,8 +78,9 @@ Json toJson(const CageReport& report)
             {"closed_voxels", report.closedVoxels}};
 }
 
-Json toJson(const ReadSummary& summary, const Mesh& mesh, const std::filesystem::path& path)
+Json toJson(const MeshFile& file, const std::filesystem::path& path)
 {
+    const auto& [mesh, summary] = file;
     return {{"file", path.string()},
             {"points", mesh.points.size()},
             {"triangles", mesh.triangles.size()},
@@ -135,8 +137,10 @@ std::string describe(const CageCheck& check)
     };
     const auto count = [&](const char* name, std::size_t value) { fact(name, std::to_string(value)); };
     const auto percent = [&](const char* name, double fraction) {
-        char buffer[64];
-        std::snprintf(buffer, sizeof buffer, "%.3f %% of the model's diagonal", 100 * fraction);
+        char buffer[96];
+        const double ofDiagonal = check.diagonal > 0 ? fraction / check.diagonal : 0;
+        std::snprintf(buffer, sizeof buffer, "%.3f %% of the model's longest side (%.3f %% of its diagonal)",
+                      100 * fraction, 100 * ofDiagonal);
         fact(name, buffer);
     };
     fact("faces", std::to_string(check.triangles) + " triangles, " + std::to_string(check.quads) + " quads");

@@ -13,10 +13,10 @@ namespace vdbcage::tool {
 
 using Json = nlohmann::ordered_json;
 
-/// JSON forms of what the commands report; lengths are fractions of the model's bounding-box diagonal.
+/// JSON forms of what the commands report; lengths are fractions of the model's longest side.
 Json toJson(const CageCheck& check);
 Json toJson(const CageReport& report);
-Json toJson(const ReadSummary& summary, const Mesh& mesh, const std::filesystem::path& path);
+Json toJson(const MeshFile& file, const std::filesystem::path& path);
 Json toJson(const std::vector<StageTime>& stages);
 Json toJson(const CageOptions& options);
 

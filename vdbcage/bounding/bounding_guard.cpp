@@ -22,6 +22,11 @@ BoundingGuard::~BoundingGuard() = default;
 BoundingGuard::BoundingGuard(BoundingGuard&&) noexcept = default;
 BoundingGuard& BoundingGuard::operator=(BoundingGuard&&) noexcept = default;
 
+const detail::GuardModel& detail::modelOf(const BoundingGuard& guard)
+{
+    return *guard.model_;
+}
+
 double BoundingGuard::clearance() const
 {
     return model_->unscaled(openvdb::Vec3d(model_->clearance()))[0];

@@ -7,44 +7,54 @@
 
 #include <vdbcage/core/export.h>
 #include <vdbcage/core/interrupter.h>
+#include <vdbcage/core/range.h>
 #include <vdbcage/mesh/mesh.h>
 #include <vdbcage/mesh/symmetry.h>
 
 namespace vdbcage {
 
+class BoundingGuard;
+
 namespace detail {
 class GuardModel;
-}
+const GuardModel& modelOf(const BoundingGuard& guard);
+} // namespace detail
 
 struct GuardOptions {
-    /// Least distance from model to surface, fraction of the model's longest side, 1e-7 to 0.1. Where float holds the
-    /// model, at least four times the rounding of its largest coordinate. Models of a quarter of a million quads and
-    /// more may get up to a quarter more, in less time.
+    static constexpr Range clearances{1e-7, 0.1}, minAngles{0, 30};
+
+    /// Least distance from model to surface, fraction of the model's longest side. Where float holds the model, at
+    /// least four times the rounding of its largest coordinate. Models of a quarter of a million quads and more may get
+    /// up to a quarter more, in less time.
     double clearance = 3e-5;
-    double minAngleDegrees = 6; ///< no move makes a triangle angle smaller than this (or than it was), 0 to 30
+    double minAngleDegrees = 6; ///< no move makes a triangle angle smaller than this (or than it was)
     /// If set, surfaces are exactly symmetric in it and stay so, and bound the model and its mirror image.
     std::optional<SymmetryPlane> symmetry = {};
 };
 
-/// Keeps a surface bounding while it is changed: built once from a model (any polygon soup), it lets smooth, decimate
-/// and tighten replace one star of triangles by another only if the new one
+/// Keeps a surface bounding while it is changed. Built once from a model, any polygon soup. It lets smooth, decimate,
+/// tighten and triquad replace one star of triangles by another only if the new one
 /// - keeps its clearance to every face of the model,
 /// - keeps off the rest of the surface: triangles without a common corner by 0.002 of the model's longest side,
 ///   or a twentieth of their longest edge (the smaller triangle's) if that is less, others by an angle of one degree,
 /// - sweeps, together with the old one, over no part of the model,
 /// - has no degenerate triangle and none with a smaller angle than allowed.
-/// A surface that bounds the model with that clearance at the start therefore does at the end; where it comes nearer to
-/// itself, only what leads out of that is allowed. Distances are decided up to a few units of 2^-52 of the sizes
-/// involved, far below any clearance; all on the coordinates as they will be written: points are rounded to float where
-/// float can hold the model.
-/// Immutable; any number of threads may use one at the same time. Building: O(n log n) in the model's faces.
+/// So a surface that bounds the model with that clearance at the start does at the end. Where it comes nearer to itself
+/// than that, only what leads out of it is allowed.
+///
+/// All is decided on the coordinates as they will be written: points are rounded to float where float can hold the
+/// model. Distances are decided up to a few units of 2^-52 of the sizes involved, far below any clearance.
 ///
 /// With a plane of symmetry coordinates across it are rounded to multiples of one number, fine enough for the largest
-/// of them, so that the mirror image of every point is exact. The operators then take surfaces only that are exactly
-/// symmetric, with no face across the plane, and work on one half of them, in half of the time.
+/// of them. So the mirror image of every point is exact. The operators then take only surfaces that are exactly
+/// symmetric, with no face across the plane. They work on one half of them, in half of the time.
+///
+/// Immutable; any number of threads may use one at the same time.
+/// Cost: building is O(n log n) for n faces of the model.
 class VDBCAGE_API BoundingGuard {
 public:
-    /// \throw InputError (an unusable model, options out of range), Cancelled
+    /// \throw InputError an unusable model; options out of range
+    /// \throw Cancelled
     explicit BoundingGuard(const Mesh& model, const GuardOptions& options = {}, Interrupter* interrupter = nullptr);
     ~BoundingGuard();
     BoundingGuard(BoundingGuard&&) noexcept;
@@ -58,17 +68,18 @@ public:
 
     /// The plane of symmetry, if one was asked for: moved by less than the rounding of coordinates.
     std::optional<SymmetryPlane> symmetry() const;
-    /// The part of a closed surface on the side of the plane of symmetry where coordinates are larger, and its mirror
-    /// image: rounded, exactly symmetric. Faces across the plane are cut off there, by moving corners that lie behind
-    /// it, or before it by at most `snap` (world units), onto it. Of quads made by extractSurface from voxels that are
-    /// symmetric in the plane the result is closed and 2-manifold; `snap` is then a quarter of a voxel.
+    /// The part of a closed surface on the side of the plane of symmetry where coordinates are larger, with its mirror
+    /// image. Rounded, exactly symmetric.
+    ///
+    /// Faces across the plane are cut off there: corners that lie behind it, or before it by at most `snap` (world
+    /// units), are moved onto it. Of quads made by extractSurface from voxels that are symmetric in the plane the
+    /// result is closed and 2-manifold; `snap` is then a quarter of a voxel.
     /// \pre there is a plane of symmetry
     Mesh symmetrized(const Mesh& surface, double snap) const;
 
-    /// For the operators of this library.
-    const detail::GuardModel& model() const { return *model_; }
-
 private:
+    friend const detail::GuardModel& detail::modelOf(const BoundingGuard& guard);
+
     std::unique_ptr<const detail::GuardModel> model_;
 };
 

@@ -13,7 +13,7 @@ namespace {
 
 GuardedMesh shrunk(const Mesh& surface, const BoundingGuard& guard, Interrupter* interrupter)
 {
-    GuardedMesh guarded(surface, guard.model(), GuardedMesh::Quads::split);
+    GuardedMesh guarded(surface, detail::modelOf(guard), GuardedMesh::Quads::split);
     shrink(guarded, interrupter);
     return guarded;
 }

@@ -175,7 +175,7 @@ Mesh bendNearCoplanarEdges(const Mesh& surface, const BoundingGuard& guard, Inte
 {
     constexpr int passes = 8;
     if (!surface.quads.empty()) throw InputError("surface: it has quads, which is not allowed; only triangles are");
-    GuardedMesh guarded(surface, guard.model());
+    GuardedMesh guarded(surface, detail::modelOf(guard));
     bool hasMoved = true;
     for (int i = 0; hasMoved && i < passes; ++i) {
         throwIfInterrupted(interrupter);

@@ -11,7 +11,7 @@ namespace vdbcage {
 /// corner of their triangles is at most 3e-5 of the model's longest side off the other's plane. As far as the guard
 /// allows. Mesh generators make one facet of triangles that meet under less than 0.1 degrees, and TetGen fails at
 /// those facets that are not flat: a cage over a flat part of a model has many. Connectivity and vertex order stay;
-/// most cages change little or not at all, those of flat models get looser by about 1e-4 of the diagonal.
+/// most cages change little or not at all, those of flat models get looser by about 1.5e-4 of the longest side.
 /// Deterministic.
 /// \pre `surface` is closed, 2-manifold, of triangles, and bounds the guard's model with its clearance.
 /// \throw InputError (a quad; not closed and 2-manifold), Cancelled. O(faces).

@@ -3,12 +3,15 @@
 #include <vdbcage/bounding/bounding_guard.h>
 #include <vdbcage/core/export.h>
 #include <vdbcage/core/interrupter.h>
+#include <vdbcage/core/range.h>
 #include <vdbcage/mesh/mesh.h>
 
 namespace vdbcage {
 
 struct BoundingSmoothOptions {
-    int sweeps = 3; ///< 0 to 100
+    static constexpr Range sweepCounts{0, 100};
+
+    int sweeps = 3;
 };
 
 /// Rounds off a surface that bounds the guard's model and keeps it so, by sweeps of HC Laplacian smoothing.

@@ -8,13 +8,6 @@ namespace vdbcage {
 
 namespace detail {
 
-void requireCount(const std::string& name, int value, int least)
-{
-    if (value >= least && value <= 100) return;
-    throw InputError(name + ": " + std::to_string(value) + " is not allowed; it must be " + std::to_string(least) +
-                     " to 100");
-}
-
 void requireFaces(std::size_t faces)
 {
     if (faces >= 4) return;
@@ -23,9 +16,9 @@ void requireFaces(std::size_t faces)
 
 void requireValid(const TightenOptions& options)
 {
-    requireCount("sweeps", options.sweeps);
-    requireCount("perturbations", options.perturbations);
-    requireCount("samples", options.samples, 1);
+    requireWithin(TightenOptions::sweepCounts, options.sweeps, "sweeps");
+    requireWithin(TightenOptions::perturbationCounts, options.perturbations, "perturbations");
+    requireWithin(TightenOptions::sampleCounts, options.samples, "samples");
 }
 
 void tightenAndPerturb(GuardedMesh& surface, const TightenOptions& options, Interrupter* interrupter)
@@ -53,7 +46,7 @@ TightenOptions tightenOptions(Effort effort)
 Mesh tighten(const Mesh& cage, const BoundingGuard& guard, const TightenOptions& options, Interrupter* interrupter)
 {
     detail::requireValid(options);
-    detail::GuardedMesh guarded(cage, guard.model(), detail::GuardedMesh::Quads::keep);
+    detail::GuardedMesh guarded(cage, detail::modelOf(guard), detail::GuardedMesh::Quads::keep);
     if (guarded.liveFaces() == 0) return guarded.mesh();
     detail::tightenAndPerturb(guarded, options, interrupter);
     return guarded.mesh();

@@ -4,27 +4,34 @@
 #include <vdbcage/bounding/effort.h>
 #include <vdbcage/core/export.h>
 #include <vdbcage/core/interrupter.h>
+#include <vdbcage/core/range.h>
 #include <vdbcage/mesh/mesh.h>
 
 namespace vdbcage {
 
 struct TightenOptions {
-    int sweeps = 16; ///< times that each vertex is tried, at most, 0 to 100
-    /// Times that it is pushed out a little and tightened again, kept where tighter, 0 to 100; if any, sweeps of small
-    /// steps end it, which lay faces flat over flat parts of the model.
+    static constexpr Range sweepCounts{0, 100}, perturbationCounts{0, 100}, sampleCounts{1, 100};
+
+    int sweeps = 16; ///< times that each vertex is tried, at most
+    /// Times that it is pushed out a little and tightened again, kept where tighter. If any, sweeps of small steps end
+    /// it, which lay faces flat over flat parts of the model.
     int perturbations = 0;
-    int samples = 4; ///< of the distance, for a face of mean size, 1 to 100: more cost more and are a percent tighter
+    int samples = 4; ///< of the distance, for a face of mean size: more cost more and are a percent tighter
 };
 
 /// How a cage of this effort is tightened last: with no perturbation and fewer samples (fast), one perturbation (fair),
 /// or two and more samples (best).
 [[nodiscard]] VDBCAGE_API TightenOptions tightenOptions(Effort effort);
 
-/// Pulls a bounding surface onto its model: one vertex at a time goes to where the integral of the distance to the
-/// model over its star is least, as far as the guard allows, sliding along what it touches. Connectivity and vertex
-/// order stay; the mean distance never grows. Quads count under both diagonals, and are split where one does not bound.
-/// \pre `cage` is closed, 2-manifold, and bounds the guard's model with its clearance. \throw InputError, Cancelled.
-/// O(sweeps * (1 + perturbations) * faces * log(model faces)).
+/// Pulls a bounding surface onto its model.
+///
+/// One vertex at a time goes to where the integral of the distance to the model over its star is least. It goes as far
+/// as the guard allows, sliding along what it touches. Connectivity and vertex order stay. The mean distance never
+/// grows. Quads count under both diagonals, and are split where one does not bound.
+/// \pre `cage` is closed, 2-manifold and bounds the model with the guard's clearance
+/// \throw InputError an option out of range; not closed and 2-manifold
+/// \throw Cancelled
+/// Cost: O(sweeps * (1 + perturbations) * n log m) for n faces and m of the model.
 VDBCAGE_API Mesh tighten(const Mesh& cage, const BoundingGuard& guard, const TightenOptions& options = {},
                          Interrupter* interrupter = nullptr);
 

@@ -3,14 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <string>
 #include <utility>
 
 #include <vdbcage/bounding/detail/collapse.h>
 #include <vdbcage/bounding/detail/quad_pairing.h>
 #include <vdbcage/bounding/detail/relax.h>
 #include <vdbcage/bounding/detail/tightening.h>
-#include <vdbcage/core/error.h>
 #include <vdbcage/geometry/quad_shape.h>
 
 namespace vdbcage {
@@ -53,12 +51,10 @@ Mesh triquad(const Mesh& surface, const BoundingGuard& guard, const BoundingTriq
     constexpr int attempts = 8;
     constexpr double aim = 0.99, goodEnough = 0.97; // of the faces
     detail::requireFaces(options.faces);
-    detail::requireMergeAngle(options.mergeAngleDegrees);
-    if (!(options.quads >= 0 && options.quads <= 1)) {
-        throw InputError("quads: " + std::to_string(options.quads) + " is not allowed; it must be 0 to 1");
-    }
+    requireWithin(BoundingTriquadOptions::mergeAngles, options.mergeAngleDegrees, "merge angle");
+    requireWithin(BoundingTriquadOptions::quadShares, options.quads, "quads");
     detail::requireValid(options.tightening);
-    const detail::GuardedMesh fine(surface, guard.model(), detail::GuardedMesh::Quads::split);
+    const detail::GuardedMesh fine(surface, detail::modelOf(guard), detail::GuardedMesh::Quads::split);
     if (fine.liveFaces() == 0) return fine.mesh();
 
     // How many triangles become the faces wanted shows when they are paired; `low` of them do not become too many.

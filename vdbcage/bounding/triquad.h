@@ -6,15 +6,18 @@
 #include <vdbcage/bounding/tighten.h>
 #include <vdbcage/core/export.h>
 #include <vdbcage/core/interrupter.h>
+#include <vdbcage/core/range.h>
 #include <vdbcage/mesh/mesh.h>
 
 namespace vdbcage {
 
 struct BoundingTriquadOptions {
-    /// Largest angle between the triangles of a quad in the end, under either diagonal, 0 to 180; 90 allows most.
+    static constexpr Range mergeAngles{0, 180}, quadShares{0, 1};
+
+    /// Largest angle between the triangles of a quad in the end, under either diagonal; 90 allows most.
     double mergeAngleDegrees = 30;
     std::size_t faces = 400; ///< to end with, at most; a quad counts once; at least 4
-    double quads = 0.62;     ///< the part of the faces to be quads, 0 to 1; more where they cost no distance
+    double quads = 0.62;     ///< the part of the faces to be quads; more where they cost no distance
     TightenOptions tightening = {};
 };
 

@@ -68,12 +68,13 @@ void measure(CageCheck& result, const detail::CageFaces& cage, const detail::Che
     result.minAngleDegrees = angles.least;
     result.angle1stPercentileDegrees = angles.firstPercentile;
     result.medianAngleDegrees = angles.median;
-    if (!(model.diagonal > 0)) return;
+    if (!(model.longestSide > 0)) return;
+    result.diagonal = model.diagonal / model.longestSide;
     const detail::Distances distances =
         detail::distances(cage.mesh.points, cage.faces, model.tree, samples, interrupter);
-    result.meanDistance = distances.mean / model.diagonal;
-    result.maxDistance = distances.most / model.diagonal;
-    result.minDistance = distances.least / model.diagonal;
+    result.meanDistance = distances.mean / model.longestSide;
+    result.maxDistance = distances.most / model.longestSide;
+    result.minDistance = distances.least / model.longestSide;
 }
 
 } // namespace

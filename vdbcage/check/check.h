@@ -44,7 +44,8 @@ struct CageCheck {
     std::vector<std::uint32_t> badFaces; ///< sorted: cage faces in a self-intersection or contact, degenerate, folded,
                                          ///< or with a model vertex between the two diagonals of the quad
 
-    // Measures; lengths are fractions of the diagonal of the model's bounding box
+    // Measures; lengths are fractions of the longest side of the model's bounding box
+    double diagonal = 0;        ///< of the model's bounding box: 1 to the root of 3; 0 if the model is one point
     double meanDistance = 0;    ///< from the cage to the model under every split of its faces, over an even sample
     double maxDistance = 0;     ///< the largest of these and of the distances of the cage's corners
     double minDistance = 0;     ///< the smallest of these (sampled, not exact)

@@ -2,9 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
-#include <vdbcage/core/error.h>
 
 namespace vdbcage::detail {
 
@@ -33,14 +31,6 @@ bool isConvexQuad(const std::array<Vec3d, 4>& corners, double leastCosine, doubl
     }
     return std::all_of(normals.begin(), normals.end(), [&](const Vec3d& normal) { return normal.dot(mean) > 0; }) &&
            normals[0].dot(normals[2]) > leastCosine && normals[1].dot(normals[3]) > leastCosine;
-}
-
-void requireMergeAngle(double degrees)
-{
-    if (degrees >= 0 && degrees <= 180) return;
-    std::ostringstream text;
-    text << "tri-quad: the merge angle is " << degrees << " degrees; it must be from 0 to 180";
-    throw InputError(text.str());
 }
 
 } // namespace vdbcage::detail

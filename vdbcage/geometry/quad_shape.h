@@ -14,7 +14,4 @@ bool isConvexQuad(const std::array<openvdb::Vec3d, 4>& corners, double leastCosi
 /// The angle between two vectors in degrees, 0 to 180; 0 if one is zero.
 double angleDegrees(const openvdb::Vec3d& a, const openvdb::Vec3d& b);
 
-/// \throw InputError unless `degrees` is 0 to 180
-void requireMergeAngle(double degrees);
-
 } // namespace vdbcage::detail

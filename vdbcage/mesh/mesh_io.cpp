@@ -20,7 +20,7 @@ namespace {
 
 struct Format {
     const char* extension;
-    Mesh (*parse)(std::string_view, const std::string&, ReadSummary*);
+    MeshFile (*parse)(std::string_view, const std::string&);
     void (*write)(const Mesh&, const std::string&, std::ostream&);
 };
 
@@ -50,17 +50,17 @@ std::string readModel(const std::filesystem::path& path)
 {
     std::error_code ignored;
     if (!std::filesystem::is_directory(path, ignored)) formatOf(path);
-    return detail::readFile(path);
+    try {
+        return detail::readFile(path);
+    } catch (const std::bad_alloc&) {
+        throw IoError(path.string() + ": there is not enough memory to read it");
+    }
 }
 
-/// \param text may be null; else gets all of the file
-Mesh readMesh(const std::filesystem::path& path, ReadSummary* summary, std::string* text)
+MeshFile parsed(const std::string& bytes, const std::filesystem::path& path)
 {
     try {
-        std::string bytes = readModel(path);
-        Mesh mesh = formatOf(path).parse(bytes, path.string(), summary);
-        if (text) *text = std::move(bytes);
-        return mesh;
+        return formatOf(path).parse(bytes, path.string());
     } catch (const std::bad_alloc&) {
         throw IoError(path.string() + ": there is not enough memory to read it");
     }
@@ -78,19 +78,24 @@ void requireFinitePoints(const std::vector<openvdb::Vec3d>& points, const std::s
 
 } // namespace
 
-void requireMeshExtension(const std::filesystem::path& path)
+void detail::requireMeshExtension(const std::filesystem::path& path)
 {
     formatOf(path);
 }
 
-Mesh readMesh(const std::filesystem::path& path, ReadSummary* summary)
+MeshFile readMeshFile(const std::filesystem::path& path)
 {
-    return readMesh(path, summary, nullptr);
+    return parsed(readModel(path), path);
+}
+
+Mesh readMesh(const std::filesystem::path& path)
+{
+    return readMeshFile(path).mesh;
 }
 
 void writeMesh(const Mesh& mesh, const std::filesystem::path& path)
 {
-    requireMeshExtension(path);
+    detail::requireMeshExtension(path);
     writeFileAtomically(path, [&](std::ostream& out) { writeMesh(mesh, out, path); });
 }
 
@@ -115,8 +120,8 @@ void writeMoved(const std::filesystem::path& original, const std::vector<openvdb
     const std::string name = path.string();
     const bool isObj = formatOf(original).parse == detail::parseObj && formatOf(path).parse == detail::parseObj;
     requireFinitePoints(points, name);
-    std::string text;
-    Mesh mesh = readMesh(original, nullptr, &text);
+    const std::string text = readModel(original);
+    Mesh mesh = parsed(text, original).mesh;
     if (mesh.points.size() != points.size()) {
         throw InputError(name + ": " + std::to_string(points.size()) + " positions were given; " + original.string() +
                          " has " + std::to_string(mesh.points.size()) + " points");

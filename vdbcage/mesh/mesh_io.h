@@ -11,7 +11,7 @@
 
 namespace vdbcage {
 
-/// What a reader met beside plain triangles and quads: for reports, never needed to use the mesh.
+/// What a reader met beside plain triangles and quads. For reports, never needed to use the mesh.
 struct ReadSummary {
     std::size_t polygons = 0;        ///< faces with more than four corners, split into triangles
     std::size_t degenerateFaces = 0; ///< faces that repeat a corner or have zero area (kept: they are geometry)
@@ -22,39 +22,49 @@ struct ReadSummary {
     std::size_t facesAsSplit = 0; ///< faces of more corners: in the mesh only as they are split here
 };
 
-/// Checks that readMesh and writeMesh know the format of `path` by its extension: .obj .off .ply .stl in any case.
-/// \throw IoError naming the path and the extensions
-VDBCAGE_API void requireMeshExtension(const std::filesystem::path& path);
+/// What a file holds.
+struct MeshFile {
+    Mesh mesh;
+    ReadSummary summary;
+};
 
-/// Reads a model or cage: OBJ, OFF (also COFF, NOFF, STOFF; ascii), PLY (ascii, binary of both byte orders; faces or
-/// strips) or STL (ascii, binary), told apart by the file name's extension in any case. Points keep their order and
-/// exact values; corners of an STL with the same coordinates become one point. Faces with more than four corners are
-/// split into triangles, and so are quads that are concave (that only one diagonal divides into two triangles of their
-/// orientation). The reader does not depend on the locale.
-/// `summary` may be null; it is left alone if an error is thrown.
+/// Reads a model or cage.
+///
+/// The formats, told apart by the file name's extension in any case: OBJ; OFF (also COFF, NOFF, STOFF; ascii); PLY
+/// (ascii, binary of both byte orders; faces or strips); STL (ascii, binary). Points keep their order and exact values.
+/// Corners of an STL with the same coordinates become one point. Faces with more than four corners are split into
+/// triangles. So are concave quads: those that only one diagonal divides into two triangles of their orientation. The
+/// reader does not depend on the locale.
+///
+/// An OBJ has no mark of its end. One whose last line has no end, and that has points which no face uses, is taken for
+/// truncated. One that was cut off at the end of a line is read as what is left of it.
 /// \throw IoError naming the path, the line or byte, and the value: the file cannot be read, is truncated or
-///        malformed, has a coordinate that is not finite, an index out of range, no face, or only degenerate faces.
-///        An OBJ has no mark of its end: one whose last line has no end and that has points which no face uses is
-///        taken for truncated; one that was cut off at the end of a line is read as what is left of it.
+///        malformed, has a coordinate that is not finite, an index out of range, no face, or only degenerate faces
 /// Cost: one pass over the file, held in memory; about 200 MB a second.
-VDBCAGE_API Mesh readMesh(const std::filesystem::path& path, ReadSummary* summary = nullptr);
+VDBCAGE_API MeshFile readMeshFile(const std::filesystem::path& path);
+
+/// The mesh of readMeshFile.
+VDBCAGE_API Mesh readMesh(const std::filesystem::path& path);
 
 /// Writes `mesh` to `path` in the format of its extension: OBJ, OFF, PLY (binary little endian, doubles) or STL
-/// (binary: float coordinates, quads as two triangles). OBJ, OFF and PLY read back bit-equal (triangles, then quads),
-/// but for quads that are concave: they come back as triangles. The file appears whole or not at all: it is written
-/// under a temporary name in the same folder, then renamed.
+/// (binary: float coordinates, quads as two triangles).
+///
+/// OBJ, OFF and PLY read back bit-equal, triangles first, then quads. Concave quads alone come back as triangles. The
+/// file appears whole or not at all: it is written under a temporary name in the same folder, then renamed.
 /// \throw IoError naming the path: unknown extension, it cannot be written, a coordinate does not fit STL's floats
-/// \throw InputError if the mesh is not usable (see requireUsable) or any of its points is not finite
+/// \throw InputError the mesh is not usable (see requireUsable), or one of its points is not finite
 VDBCAGE_API void writeMesh(const Mesh& mesh, const std::filesystem::path& path);
 
 /// The same to a stream, whose state tells whether it took all; `path` gives the format, and the name in errors.
 VDBCAGE_API void writeMesh(const Mesh& mesh, std::ostream& out, const std::filesystem::path& path);
 
-/// Writes the model file `original` to `path` with its points at `points`, in the order of readMesh. From OBJ to OBJ
-/// all else stays byte by byte: polygons of any size, texture coordinates, groups, materials, comments, what stands
-/// behind the coordinates of a point; but for normals, which are turned as the faces around them turn. Other formats
-/// get what readMesh finds in `original`: points and faces. The file appears whole or not at all. \throw InputError if
-/// `points` are not as many as the model's, or not finite; IoError as readMesh and writeMesh
+/// Writes the model file `original` to `path` with its points at `points`, in the order of readMesh.
+///
+/// From OBJ to OBJ all else stays byte by byte: polygons of any size, texture coordinates, groups, materials, comments,
+/// what stands behind the coordinates of a point. Only normals are turned, as the faces around them turn. Other formats
+/// get what readMesh finds in `original`: points and faces. The file appears whole or not at all.
+/// \throw InputError `points` are not as many as the model's, or not finite
+/// \throw IoError as readMesh and writeMesh
 VDBCAGE_API void writeMoved(const std::filesystem::path& original, const std::vector<openvdb::Vec3d>& points,
                             const std::filesystem::path& path);
 

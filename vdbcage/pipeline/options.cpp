@@ -1,10 +1,10 @@
 #include <vdbcage/pipeline/options.h>
 
 #include <charconv>
-#include <cmath>
 #include <type_traits>
 #include <utility>
 
+#include <vdbcage/core/detail/number_text.h>
 #include <vdbcage/core/error.h>
 
 namespace vdbcage {
@@ -72,22 +72,11 @@ std::string nameList()
     return list;
 }
 
-template <typename Number>
-std::string numberText(Number value)
+std::string numberText(int value)
 {
-    char buffer[32];
-    const auto end = std::to_chars(buffer, buffer + sizeof buffer, value).ptr;
-    return {buffer, end};
+    return std::to_string(value);
 }
-
-std::string rangeText(const OptionInfo& info)
-{
-    // Whole numbers in full: 1000000, not 1e+06.
-    const auto text = [](double value) {
-        return value == std::floor(value) ? numberText(static_cast<long>(value)) : numberText(value);
-    };
-    return text(info.least) + " to " + text(info.most);
-}
+using detail::numberText;
 
 [[noreturn]] void refuse(const OptionInfo& info, const std::string& value, const std::string& allowed)
 {
@@ -97,10 +86,7 @@ std::string rangeText(const OptionInfo& info)
 template <typename Number>
 void requireInRange(const OptionInfo& info, Number value)
 {
-    // Written so that a NaN is refused too.
-    if (!(static_cast<double>(value) >= info.least && static_cast<double>(value) <= info.most)) {
-        refuse(info, numberText(value), rangeText(info));
-    }
+    if (!info.range.contains(value)) refuse(info, numberText(value), toText(info.range));
 }
 
 template <typename Number>
@@ -110,7 +96,7 @@ Number parseNumber(const OptionInfo& info, const std::string& text, const char* 
     const char* end = text.data() + text.size();
     const auto parsed = std::from_chars(text.data(), end, value);
     if (parsed.ec != std::errc() || parsed.ptr != end) {
-        refuse(info, text, std::string(kind) + ", " + rangeText(info));
+        refuse(info, text, std::string(kind) + ", " + toText(info.range));
     }
     requireInRange(info, value);
     return value;
@@ -218,9 +204,9 @@ std::vector<OptionText> describeOptions()
     std::vector<OptionText> list;
     const CageOptions defaults;
     visitOptions(defaults, [&](const OptionInfo& info, const auto& field) {
-        const bool isNumber = info.least < info.most;
+        const bool isNumber = info.range.least < info.range.most;
         list.push_back(
-            {info.name, Placeholder{info}(field), info.help, isNumber ? rangeText(info) : "", ToText{}(field)});
+            {info.name, Placeholder{info}(field), info.help, isNumber ? toText(info.range) : "", ToText{}(field)});
     });
     return list;
 }

@@ -4,8 +4,12 @@
 #include <string>
 #include <vector>
 
+#include <vdbcage/bounding/bounding_guard.h>
 #include <vdbcage/bounding/effort.h>
+#include <vdbcage/bounding/smooth.h>
+#include <vdbcage/bounding/triquad.h>
 #include <vdbcage/core/export.h>
+#include <vdbcage/core/range.h>
 #include <vdbcage/volume/morphology.h>
 #include <vdbcage/volume/scale_field.h>
 #include <vdbcage/voxelize/voxelize.h>
@@ -41,46 +45,48 @@ struct CageOptions {
     std::optional<double> closeRadius; ///< gaps up to twice this wide are bridged; unset: as the faces allow
     std::optional<double> erodeRadius; ///< at most the close radius, which must be set; unset: equal to it
     StructuringElement element = StructuringElement::sphere; ///< structuring element of the closing
-    ScaleField scale;                           ///< what the close radius is multiplied by in places; for the sphere
-    int smooth = 0;                             ///< sweeps of smoothing at the end: rounder, and less tight, with more
-    CageParts parts = CageParts::keep;          ///< what becomes of separate parts of the closing
-    double clearance = 3e-5;                    ///< least distance from model to cage
-    std::optional<double> minAngle;             ///< degrees: no triangle angle gets smaller; unset: by the effort
-    Effort effort = Effort::fair;               ///< time against tightness
-    CageFaces mesh = CageFaces::triangles;      ///< triangles only, or quads too
-    std::optional<double> mergeAngle;           ///< degrees: flatter pairs become quads; unset: as the faces ask
-    CageSymmetry symmetry = CageSymmetry::off;  ///< exactly symmetric cages; bounding only
-    Voxelizer voxelizer = Voxelizer::automatic; ///< what turns the model into voxels
-    bool bounding = true;                       ///< only ever give a cage certified to bound the model
+    ScaleField scale;                            ///< what the close radius is multiplied by in places; for the sphere
+    int smooth = 0;                              ///< sweeps of smoothing at the end: rounder, and less tight, with more
+    CageParts parts = CageParts::keep;           ///< what becomes of separate parts of the closing
+    double clearance = GuardOptions{}.clearance; ///< least distance from model to cage
+    std::optional<double> minAngle;              ///< degrees: no triangle angle gets smaller; unset: by the effort
+    Effort effort = Effort::fair;                ///< time against tightness
+    CageFaces mesh = CageFaces::triangles;       ///< triangles only, or quads too
+    std::optional<double> mergeAngle;            ///< degrees: flatter pairs become quads; unset: as the faces ask
+    CageSymmetry symmetry = CageSymmetry::off;   ///< exactly symmetric cages; bounding only
+    Voxelizer voxelizer = Voxelizer::automatic;  ///< what turns the model into voxels
+    bool bounding = true;                        ///< only ever give a cage certified to bound the model
 };
 
 /// What is known of an option beside its value: one entry serves flags, help, range checks, README and metadata.
 struct OptionInfo {
-    const char* name;           ///< lower case with dashes: the flag without its leading dashes
-    const char* symbol;         ///< stands for a number in the help ("N"); empty for names out of a list
-    const char* help;           ///< one line
-    double least = 0, most = 0; ///< allowed range of a number, ends included
+    const char* name;   ///< lower case with dashes: the flag without its leading dashes
+    const char* symbol; ///< stands for a number in the help ("N"); empty for names out of a list
+    const char* help;   ///< one line
+    Range range = {};   ///< allowed for a number
 };
 
 /// Calls `visit(info, field)` for every option, in the order of the help. `Options` is CageOptions, const or not.
 template <typename Options, typename Visit>
 void visitOptions(Options& options, Visit&& visit)
 {
-    visit(OptionInfo{"faces", "N", "faces of the cage, at most", 12, 1000000}, options.faces);
-    visit(OptionInfo{"resolution", "N", "voxels along the longest side", 8, 2048}, options.resolution);
-    visit(OptionInfo{"close-radius", "F", "bridges gaps up to twice it", 0, 0.25}, options.closeRadius);
-    visit(OptionInfo{"erode-radius", "F", "if less, leaves an offset", 0, 0.25}, options.erodeRadius);
+    visit(OptionInfo{"faces", "N", "faces of the cage, at most", {12, 1000000}}, options.faces);
+    visit(OptionInfo{"resolution", "N", "voxels along the longest side", {8, 2048}}, options.resolution);
+    visit(OptionInfo{"close-radius", "F", "bridges gaps up to twice it", {0, 0.25}}, options.closeRadius);
+    visit(OptionInfo{"erode-radius", "F", "if less, leaves an offset", {0, 0.25}}, options.erodeRadius);
     visit(OptionInfo{"element", "", "shape of the closing"}, options.element);
     visit(OptionInfo{"scale-field", "FILE.vdb|REGION", "multiplies the close radius in places"}, options.scale);
-    visit(OptionInfo{"smooth", "K", "rounds it off: 0 is tightest", 0, 100}, options.smooth);
+    visit(OptionInfo{"smooth", "K", "rounds it off: 0 is tightest", BoundingSmoothOptions::sweepCounts},
+          options.smooth);
     visit(OptionInfo{"parts", "", "separate parts of the closing"}, options.parts);
     visit(OptionInfo{"mesh", "", "faces of the cage"}, options.mesh);
-    visit(OptionInfo{"merge-angle", "DEG", "largest fold of a quad", 0, 180}, options.mergeAngle);
+    visit(OptionInfo{"merge-angle", "DEG", "largest fold of a quad", BoundingTriquadOptions::mergeAngles},
+          options.mergeAngle);
     visit(OptionInfo{"symmetry", "", "symmetric cages of symmetric models"}, options.symmetry);
     visit(OptionInfo{"voxelizer", "", "what makes the voxels"}, options.voxelizer);
     visit(OptionInfo{"bounding", "", "only ever a certified cage"}, options.bounding);
-    visit(OptionInfo{"clearance", "F", "least distance to model", 1e-7, 0.1}, options.clearance);
-    visit(OptionInfo{"min-angle", "DEG", "floor for triangle angles", 0, 30}, options.minAngle);
+    visit(OptionInfo{"clearance", "F", "least distance to model", GuardOptions::clearances}, options.clearance);
+    visit(OptionInfo{"min-angle", "DEG", "floor for triangle angles", GuardOptions::minAngles}, options.minAngle);
     visit(OptionInfo{"effort", "", "time against tightness"}, options.effort);
 }
 

@@ -54,8 +54,8 @@ CageReport reportOf(const Candidate& made, const CageOptions& options, bool fits
     report.noSymmetry = made.noSymmetry;
     report.repaired = made.repaired;
     report.cavitiesFilled = closing.cavitiesFilled;
-    report.solidParts = solid.parts;
-    report.solidHandles = solid.handles;
+    report.solidParts = solid.boundary.components;
+    report.solidHandles = solid.boundary.genus;
     report.parts = made.topology.components();
     report.handles = made.topology.genus();
     report.solidVoxels = solid.voxels;

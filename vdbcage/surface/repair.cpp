@@ -69,7 +69,7 @@ bool hasRepair()
     return true;
 }
 
-Mesh repair(const Mesh& cage, RepairReport* report, Interrupter* interrupter)
+RepairedCage repair(const Mesh& cage, Interrupter* interrupter)
 {
     requireUsable(cage, "cage");
     RepairReport done;
@@ -140,8 +140,7 @@ Mesh repair(const Mesh& cage, RepairReport* report, Interrupter* interrupter)
                std::binary_search(edgesAfter.begin(), edgesAfter.end(),
                                   std::array<Kernel::Point_3, 2>{edge[1], edge[0]});
     });
-    if (report) *report = done;
-    return mended;
+    return {std::move(mended), done};
 }
 
 } // namespace vdbcage

@@ -24,11 +24,18 @@ struct RepairReport {
 /// Whether this build has repair(): it was made with VDBCAGE_WITH_CGAL_GPL.
 VDBCAGE_API bool hasRepair();
 
-/// Mends a cage made elsewhere: merges coincident points, removes degenerate and duplicate faces, orients, stitches,
-/// fills holes and removes self-intersections, by CGAL's Polygon_mesh_processing. The result is triangles, closed and
-/// outward where that could be reached; `report`, if not null, says what was done and what was not.
-/// Only in builds with VDBCAGE_WITH_CGAL_GPL (GPL when distributed).
-/// \throw InputError (no usable face; a build without it), Cancelled
-VDBCAGE_API Mesh repair(const Mesh& cage, RepairReport* report = nullptr, Interrupter* interrupter = nullptr);
+struct RepairedCage {
+    Mesh cage; ///< of triangles; closed and outward, as far as `report` says
+    RepairReport report;
+};
+
+/// Mends a cage made elsewhere, by CGAL's Polygon_mesh_processing.
+///
+/// It merges coincident points, removes degenerate and duplicate faces, orients, stitches, fills holes and removes
+/// self-intersections. Only in builds with VDBCAGE_WITH_CGAL_GPL (GPL when distributed).
+/// \throw InputError no usable face; a build without it
+/// \throw Cancelled
+/// Cost: O(n log n) for n faces, and CGAL's search for places of new triangles where faces meet.
+VDBCAGE_API RepairedCage repair(const Mesh& cage, Interrupter* interrupter = nullptr);
 
 } // namespace vdbcage

@@ -10,7 +10,7 @@ bool hasRepair()
     return false;
 }
 
-Mesh repair(const Mesh& /*cage*/, RepairReport* /*report*/, Interrupter* /*interrupter*/)
+RepairedCage repair(const Mesh& /*cage*/, Interrupter* /*interrupter*/)
 {
     throw InputError("repair: this build was made without VDBCAGE_WITH_CGAL_GPL and has none");
 }

@@ -4,11 +4,9 @@
 
 #include <algorithm>
 #include <numeric>
-#include <sstream>
 
 #include <tbb/blocked_range.h>
 #include <vdbcage/core/detail/parallel.h>
-#include <vdbcage/core/error.h>
 
 namespace vdbcage {
 
@@ -77,21 +75,13 @@ Neighbours findNeighbours(const Mesh& mesh, Interrupter* interrupter)
     return result;
 }
 
-void requireIn(const char* name, double value, double low, double high)
-{
-    if (value >= low && value <= high) return;
-    std::ostringstream text;
-    text << "smoothing: " << name << " is " << value << "; it must be from " << low << " to " << high;
-    throw InputError(text.str());
-}
-
 } // namespace
 
 Mesh smooth(const Mesh& surface, const SmoothOptions& options, Interrupter* interrupter)
 {
-    requireIn("iterations", options.iterations, 0, 100);
-    requireIn("alpha", options.alpha, 0, 1);
-    requireIn("beta", options.beta, 0, 1);
+    requireWithin(SmoothOptions::iterationCounts, options.iterations, "iterations");
+    requireWithin(SmoothOptions::alphas, options.alpha, "alpha");
+    requireWithin(SmoothOptions::betas, options.beta, "beta");
     requireUsable(surface, "the surface to smooth");
 
     Mesh result = surface;

@@ -2,14 +2,17 @@
 
 #include <vdbcage/core/export.h>
 #include <vdbcage/core/interrupter.h>
+#include <vdbcage/core/range.h>
 #include <vdbcage/mesh/mesh.h>
 
 namespace vdbcage {
 
 struct SmoothOptions {
-    int iterations = 3; ///< 0 to 100
-    double alpha = 0;   ///< pull towards the original position, 0 to 1
-    double beta = 0.5;  ///< weight of a vertex's own correction against its neighbours', 0 to 1
+    static constexpr Range iterationCounts{0, 100}, alphas{0, 1}, betas{0, 1};
+
+    int iterations = 3;
+    double alpha = 0;  ///< pull towards the original position
+    double beta = 0.5; ///< weight of a vertex's own correction against its neighbours'
 };
 
 /// HC Laplacian smoothing: rounds a surface without shrinking it. Connectivity and vertex order stay; vertices that no

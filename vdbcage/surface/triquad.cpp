@@ -7,7 +7,6 @@
 #include <limits>
 #include <tuple>
 
-#include <vdbcage/core/error.h>
 #include <vdbcage/geometry/quad_shape.h>
 
 namespace vdbcage {
@@ -114,7 +113,7 @@ std::vector<Pair> findPairs(const Mesh& mesh, const Adjacency& adjacency, double
 
 Mesh triquad(const Mesh& triangles, const TriquadOptions& options)
 {
-    detail::requireMergeAngle(options.mergeAngleDegrees);
+    requireWithin(TriquadOptions::mergeAngles, options.mergeAngleDegrees, "merge angle");
     requireUsable(triangles, "the mesh to merge into quads");
 
     Adjacency adjacency(triangles);

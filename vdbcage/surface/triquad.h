@@ -2,12 +2,15 @@
 
 #include <vdbcage/core/export.h>
 #include <vdbcage/core/interrupter.h>
+#include <vdbcage/core/range.h>
 #include <vdbcage/mesh/mesh.h>
 
 namespace vdbcage {
 
 struct TriquadOptions {
-    double mergeAngleDegrees = 10; ///< largest dihedral angle between two triangles that become a quad, 0 to 180
+    static constexpr Range mergeAngles{0, 180};
+
+    double mergeAngleDegrees = 10; ///< largest dihedral angle between two triangles that become a quad
 };
 
 /// Merges pairs of triangles into quads, flattest and squarest pairs first. Quads are convex under both diagonals, with

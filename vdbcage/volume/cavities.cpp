@@ -306,7 +306,7 @@ std::vector<BlockSpace> nodeSpaces(const MaskTree& tree, Interrupter* interrupte
 
 } // namespace
 
-MaskGrid::Ptr fillCavities(const MaskGrid& mask, std::size_t* cavities, Interrupter* interrupter)
+FilledMask fillCavities(const MaskGrid& mask, Interrupter* interrupter)
 {
     const MaskTree& tree = mask.tree();
     requireSupportedCoordinates(tree);
@@ -369,8 +369,7 @@ MaskGrid::Ptr fillCavities(const MaskGrid& mask, std::size_t* cavities, Interrup
     runs.forEachInnerBlock([&](std::uint32_t element, const Coord& origin) {
         if (isCavity[element] != 0) built.push_back({origin, nullptr, true});
     });
-    if (cavities) *cavities = count;
-    return maskGridLike(mask, assemble(fullParts(tree), std::move(built)));
+    return {maskGridLike(mask, assemble(fullParts(tree), std::move(built))), count};
 }
 
 } // namespace vdbcage

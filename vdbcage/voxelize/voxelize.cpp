@@ -1,6 +1,5 @@
 #include <vdbcage/voxelize/voxelize.h>
 
-#include <string>
 #include <utility>
 
 #include <vdbcage/core/error.h>
@@ -10,52 +9,42 @@ namespace vdbcage {
 
 namespace detail {
 
-BitGrid voxelizeAutomatically(const Mesh& model, const Frame& frame, Backend& device, VoxelizeReport& report,
-                              Interrupter* interrupter)
+std::pair<BitGrid, VoxelizeReport> voxelizeAutomatically(const Mesh& model, const Frame& frame, Backend& device,
+                                                         Interrupter* interrupter)
 {
-    report = {};
+    VoxelizeReport report;
     if (frame.resolution >= leastResolutionForDevice) {
         try {
-            BitGrid bits = device(model, frame, interrupter);
-            report.voxelizer = Voxelizer::gl;
-            return bits;
+            return {device(model, frame, interrupter), VoxelizeReport{Voxelizer::gl, {}}};
         } catch (const DeviceError& error) {
             report.fallback = error.what();
         }
     }
-    return voxelizeCpu(model, frame, interrupter);
+    return {voxelizeCpu(model, frame, interrupter), report};
 }
 
 } // namespace detail
 
-openvdb::MaskGrid::Ptr voxelize(const Mesh& model, const VoxelizeOptions& options, Interrupter* interrupter,
-                                VoxelizeReport* report)
+Voxelization voxelize(const Mesh& model, const VoxelizeOptions& options, Interrupter* interrupter)
 {
-    constexpr int highest = 4096;
-    if (options.resolution < 1 || options.resolution > highest) {
-        throw InputError("resolution is " + std::to_string(options.resolution) + "; 1 to " + std::to_string(highest) +
-                         " is allowed");
-    }
+    requireWithin(VoxelizeOptions::resolutions, options.resolution, "resolution");
     requireUsable(model, "model");
     const detail::Frame frame = detail::makeFrame(model, options.resolution, options.box);
-    VoxelizeReport done;
-    done.voxelizer = options.voxelizer;
-    const auto run = [&] {
+    const auto run = [&]() -> std::pair<detail::BitGrid, VoxelizeReport> {
         switch (options.voxelizer) {
         case Voxelizer::gl:
-            return detail::voxelizeGl(model, frame, interrupter);
+            return {detail::voxelizeGl(model, frame, interrupter), VoxelizeReport{Voxelizer::gl, {}}};
         case Voxelizer::cgal:
-            return detail::voxelizeCgal(model, frame, interrupter);
+            return {detail::voxelizeCgal(model, frame, interrupter), VoxelizeReport{Voxelizer::cgal, {}}};
         case Voxelizer::cpu:
-            return detail::voxelizeCpu(model, frame, interrupter);
+            return {detail::voxelizeCpu(model, frame, interrupter), VoxelizeReport{Voxelizer::cpu, {}}};
         case Voxelizer::automatic:
             break;
         }
-        return detail::voxelizeAutomatically(model, frame, detail::voxelizeGlHardware, done, interrupter);
+        return detail::voxelizeAutomatically(model, frame, detail::voxelizeGlHardware, interrupter);
     };
-    openvdb::MaskGrid::Ptr mask = detail::toMask(run(), detail::makeTransform(frame), interrupter);
-    if (report) *report = std::move(done);
-    return mask;
+    auto [bits, report] = run();
+    return {detail::toMask(std::move(bits), detail::makeTransform(frame), interrupter), std::move(report)};
 }
 
 } // namespace vdbcage

@@ -6,6 +6,7 @@
 #include <openvdb/openvdb.h>
 #include <vdbcage/core/export.h>
 #include <vdbcage/core/interrupter.h>
+#include <vdbcage/core/range.h>
 #include <vdbcage/mesh/mesh.h>
 
 namespace vdbcage {
@@ -19,7 +20,9 @@ enum class Voxelizer {
 };
 
 struct VoxelizeOptions {
-    int resolution = 128; ///< voxels along the model's longest side, 1 to 4096
+    static constexpr Range resolutions{1, 4096};
+
+    int resolution = 128; ///< voxels along the model's longest side
     Voxelizer voxelizer = Voxelizer::automatic;
     /// The voxels are laid out as for a model with this bounding box, which must hold the model's own; unset: that one.
     std::optional<openvdb::BBoxd> box = {};
@@ -29,6 +32,11 @@ struct VoxelizeOptions {
 struct VoxelizeReport {
     Voxelizer voxelizer = Voxelizer::cpu; ///< whose voxels these are, never automatic
     std::string fallback;                 ///< why automatic took cpu after it had tried gl; else empty
+};
+
+struct Voxelization {
+    openvdb::MaskGrid::Ptr mask;
+    VoxelizeReport report;
 };
 
 /// Turns any polygon soup into a solid: the voxels that a face touches, and those inside.
@@ -66,9 +74,7 @@ struct VoxelizeReport {
 /// Based on: Akenine-Moller, Fast 3D Triangle-Box Overlap Testing, 2001; Schwarz and Seidel, Fast Parallel Surface and
 /// Solid Voxelization on GPUs, 2010; Nooruddin and Turk, Simplification and Repair of Polygonal Models Using
 /// Volumetric Techniques, 2003 (votes of parity counts).
-///
-/// `report`, if not null, says which voxelizer did it.
-VDBCAGE_API openvdb::MaskGrid::Ptr voxelize(const Mesh& model, const VoxelizeOptions& options = {},
-                                            Interrupter* interrupter = nullptr, VoxelizeReport* report = nullptr);
+VDBCAGE_API Voxelization voxelize(const Mesh& model, const VoxelizeOptions& options = {},
+                                  Interrupter* interrupter = nullptr);
 
 } // namespace vdbcage

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 #include <string>
 #include <utility>
 
@@ -86,14 +85,8 @@ Faces facesOf(const Mesh& model, const std::vector<Vec3d>& points, double reach)
 GuardModel::GuardModel(const Mesh& model, const GuardOptions& options, Interrupter* interrupter)
 {
     requireUsable(model, "model");
-    const auto require = [](const char* name, double value, double least, double most) {
-        if (value >= least && value <= most) return;
-        std::ostringstream text;
-        text << name << ": " << value << " is not allowed; it must be " << least << " to " << most;
-        throw InputError(text.str());
-    };
-    require("clearance", options.clearance, 1e-7, 0.1);
-    require("min angle", options.minAngleDegrees, 0, 30);
+    requireWithin(GuardOptions::clearances, options.clearance, "clearance");
+    requireWithin(GuardOptions::minAngles, options.minAngleDegrees, "min angle");
     openvdb::BBoxd box = boundingBox(model);
     if (options.symmetry) {
         const int axis = options.symmetry->axis;

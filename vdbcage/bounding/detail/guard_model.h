@@ -56,4 +56,7 @@ private:
     Spacing spacing_;
 };
 
+/// For the operators of this library.
+const GuardModel& modelOf(const BoundingGuard& guard);
+
 } // namespace vdbcage::detail

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstddef>
-#include <string>
 
 #include <vdbcage/bounding/detail/guarded_mesh.h>
 #include <vdbcage/bounding/tighten.h>
@@ -9,8 +8,6 @@
 /// What several operators under the guard have in common.
 namespace vdbcage::detail {
 
-/// \throw InputError unless `value` is `least` to 100
-void requireCount(const std::string& name, int value, int least = 0);
 /// \throw InputError fewer than 4
 void requireFaces(std::size_t faces);
 /// \throw InputError

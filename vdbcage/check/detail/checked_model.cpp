@@ -71,7 +71,9 @@ CheckedModel::CheckedModel(const Mesh& mesh, Interrupter* interrupter)
         });
     // What touches a copy that was dropped is only known to touch the one that was kept, maybe of another part.
     if (dropped) findParts(mesh, faces, true, interrupter);
-    diagonal = (tree.box().hi - tree.box().lo).length();
+    const Vec3d extent = tree.box().hi - tree.box().lo;
+    longestSide = std::max({extent[0], extent[1], extent[2]});
+    diagonal = extent.length();
 }
 
 void CheckedModel::findParts(const Mesh& mesh, const FaceTriangles& faces, bool joinPlaces, Interrupter* interrupter)

@@ -45,7 +45,7 @@ struct CheckedModel {
     std::vector<std::uint32_t> partOfPoint;  ///< only for these
     std::vector<std::uint32_t> partVertices; ///< the vertices of part k are partVertices[partFirst[k]] ...
     std::vector<std::size_t> partFirst;      ///< ... partVertices[partFirst[k + 1] - 1]
-    double diagonal = 0;                     ///< of the bounding box
+    double longestSide = 0, diagonal = 0;    ///< of the bounding box
     double volume = 0;                       ///< 0 if the model has no inside
 
 private:

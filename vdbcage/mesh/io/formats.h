@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <ostream>
 #include <string>
 #include <string_view>
@@ -7,8 +8,8 @@
 #include <vdbcage/mesh/mesh.h>
 #include <vdbcage/mesh/mesh_io.h>
 
-// One parser and one writer a format. A parser gets the bytes of a whole file and its name, which begins each message;
-// `summary` may be null. \throw IoError
+// One parser and one writer a format. A parser gets the bytes of a whole file and its name, which begins each message.
+// \throw IoError
 //
 // They are written here, on std::from_chars over a buffer, and not taken from a library, because none at hand does all
 // that readMesh promises: tinyobjloader reads numbers by its own, not correctly rounded, routine and accepts NaN;
@@ -17,10 +18,14 @@
 
 namespace vdbcage::detail {
 
-Mesh parseObj(std::string_view bytes, const std::string& name, ReadSummary* summary);
-Mesh parseOff(std::string_view bytes, const std::string& name, ReadSummary* summary);
-Mesh parsePly(std::string_view bytes, const std::string& name, ReadSummary* summary);
-Mesh parseStl(std::string_view bytes, const std::string& name, ReadSummary* summary);
+/// Checks that the extension of `path` is that of a format: .obj .off .ply .stl in any case.
+/// \throw IoError naming the path and the extensions
+VDBCAGE_API void requireMeshExtension(const std::filesystem::path& path);
+
+MeshFile parseObj(std::string_view bytes, const std::string& name);
+MeshFile parseOff(std::string_view bytes, const std::string& name);
+MeshFile parsePly(std::string_view bytes, const std::string& name);
+MeshFile parseStl(std::string_view bytes, const std::string& name);
 
 void writeObj(const Mesh& mesh, const std::string& name, std::ostream& out);
 void writeOff(const Mesh& mesh, const std::string& name, std::ostream& out);

@@ -43,14 +43,14 @@ public:
     {
     }
 
-    Mesh parse(ReadSummary* summary)
+    MeshFile parse()
     {
         while (in_.skipToWord()) statement();
         for (const Reference& reference : ahead_) {
             if (reference.index >= soup_.points.size()) failOutOfRange(reference.where, soup_.points.size());
         }
         if (endsWithinLine_) requireAllUsed();
-        return toMesh(std::move(soup_), name_, summary);
+        return toMesh(std::move(soup_), name_);
     }
 
 private:
@@ -173,9 +173,9 @@ void writeFace(OutputBuffer& buffer, const Face& face)
 
 } // namespace
 
-Mesh parseObj(std::string_view bytes, const std::string& name, ReadSummary* summary)
+MeshFile parseObj(std::string_view bytes, const std::string& name)
 {
-    return ObjParser(bytes, name).parse(summary);
+    return ObjParser(bytes, name).parse();
 }
 
 void writeObj(const Mesh& mesh, const std::string&, std::ostream& out)

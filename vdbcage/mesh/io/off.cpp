@@ -23,7 +23,7 @@ class OffParser {
 public:
     OffParser(std::string_view bytes, const std::string& name) : in_(bytes, name, TextSyntax{'#'}), name_(name) {}
 
-    Mesh parse(ReadSummary* summary)
+    MeshFile parse()
     {
         if (!in_.skipToWord()) in_.fail("the file ends before a header");
         header();
@@ -47,7 +47,7 @@ public:
             in_.fail(in_.quoted(in_.position()) + " follows the last of the " + std::to_string(faces_) +
                      " faces that the header announces");
         }
-        return toMesh(std::move(soup_), name_, summary);
+        return toMesh(std::move(soup_), name_);
     }
 
 private:
@@ -140,9 +140,9 @@ void writeFace(OutputBuffer& buffer, const Face& face)
 
 } // namespace
 
-Mesh parseOff(std::string_view bytes, const std::string& name, ReadSummary* summary)
+MeshFile parseOff(std::string_view bytes, const std::string& name)
 {
-    return OffParser(bytes, name).parse(summary);
+    return OffParser(bytes, name).parse();
 }
 
 void writeOff(const Mesh& mesh, const std::string&, std::ostream& out)

@@ -375,13 +375,11 @@ void writeFace(OutputBuffer& buffer, const Face& face)
 
 } // namespace
 
-Mesh parsePly(std::string_view bytes, const std::string& name, ReadSummary* summary)
+MeshFile parsePly(std::string_view bytes, const std::string& name)
 {
     const PlyHeader header = parsePlyHeader(bytes, name);
     requireGeometry(header, name);
-    const auto parse = [&](auto source) {
-        return toMesh(BodyParser(header, name, std::move(source)).parse(), name, summary);
-    };
+    const auto parse = [&](auto source) { return toMesh(BodyParser(header, name, std::move(source)).parse(), name); };
     if (header.format == PlyFormat::ascii) return parse(AsciiSource(bytes, header.size, name));
     return parse(BinarySource(bytes, header.size, name, header.format == PlyFormat::binaryBigEndian));
 }

@@ -116,17 +116,17 @@ private:
 
 } // namespace
 
-Mesh toMesh(PolygonSoup soup, const std::string& name, ReadSummary* summary)
+MeshFile toMesh(PolygonSoup soup, const std::string& name)
 {
     if (soup.points.size() > std::numeric_limits<openvdb::Index32>::max()) {
         throw IoError(name + ": it has " + std::to_string(soup.points.size()) + " points; at most " +
                       std::to_string(std::numeric_limits<openvdb::Index32>::max()) + " are supported");
     }
-    Mesh mesh;
+    MeshFile file;
+    auto& [mesh, found] = file;
     mesh.points = std::move(soup.points);
     mesh.triangles = std::move(soup.triangles);
 
-    ReadSummary found;
     found.ignoredElements = soup.ignoredElements;
     bool hasArea = false;
     for (const openvdb::Vec3I& triangle : mesh.triangles) {
@@ -168,8 +168,7 @@ Mesh toMesh(PolygonSoup soup, const std::string& name, ReadSummary* summary)
     if (!hasArea) {
         throw IoError(name + ": every face is degenerate (its corners are on a line); at least one must have an area");
     }
-    if (summary) *summary = found;
-    return mesh;
+    return file;
 }
 
 } // namespace vdbcage::detail

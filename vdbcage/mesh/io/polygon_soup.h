@@ -37,7 +37,8 @@ struct PolygonSoup {
 constexpr std::size_t mostAlternates = std::size_t(1) << 24U;
 
 /// Splits the polygons, and checks that there is a face with an area. All indices must be in range and all coordinates
-/// finite. `summary` may be null. \throw IoError naming `name` (of the file)
-Mesh toMesh(PolygonSoup soup, const std::string& name, ReadSummary* summary);
+/// finite.
+/// \throw IoError naming `name` (of the file)
+MeshFile toMesh(PolygonSoup soup, const std::string& name);
 
 } // namespace vdbcage::detail

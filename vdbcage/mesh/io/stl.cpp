@@ -209,10 +209,10 @@ bool isAscii(std::string_view bytes)
 
 } // namespace
 
-Mesh parseStl(std::string_view bytes, const std::string& name, ReadSummary* summary)
+MeshFile parseStl(std::string_view bytes, const std::string& name)
 {
     PolygonSoup soup = isAscii(bytes) ? AsciiParser(bytes, name).parse() : parseBinary(bytes, name);
-    return toMesh(std::move(soup), name, summary);
+    return toMesh(std::move(soup), name);
 }
 
 void writeStl(const Mesh& mesh, const std::string& name, std::ostream& out)

@@ -42,7 +42,7 @@ Candidate textbookCage(const CageOptions& options, const ScaleVersion& scale, Vo
     }
     CageCheck check = certifier.check(candidate.decimated, interrupter);
     if (hasRepair() && !check.valid()) {
-        candidate.decimated = repair(candidate.decimated, nullptr, interrupter);
+        candidate.decimated = repair(candidate.decimated, interrupter).cage;
         candidate.repaired = true;
     }
     candidate.cage = merged(candidate.decimated, options);

@@ -5,7 +5,6 @@
 #include <utility>
 
 #include <vdbcage/core/detail/parallel.h>
-#include <vdbcage/mesh/topology.h>
 #include <vdbcage/volume/cavities.h>
 #include <vdbcage/volume/extract.h>
 #include <vdbcage/volume/mirror.h>
@@ -139,12 +138,11 @@ std::shared_ptr<const Solid> Volumes::solid(const SolidKey& key, Interrupter* in
     if (key.plane) voxelization.box = boxWithMirrorImage(boundingBox(model_), *key.plane);
     auto made = std::make_shared<Solid>();
     made->key = key;
-    openvdb::MaskGrid::Ptr mask = voxelize(model_, voxelization, interrupter, &made->report);
+    auto [mask, report] = voxelize(model_, voxelization, interrupter);
+    made->report = std::move(report);
     if (key.plane) mask = withMirrorImage(*mask, key.plane->axis, key.resolution, interrupter);
     made->voxels = countOf(*mask);
-    const MeshTopology topology = analyzeTopology(extractSurface(*mask, interrupter), interrupter);
-    made->parts = topology.components();
-    made->handles = topology.genus();
+    made->boundary = boundaryTopology(*mask, interrupter);
     made->mask = std::move(mask);
     solid_ = std::move(made);
     return solid_;
@@ -167,9 +165,10 @@ std::shared_ptr<Closing> Volumes::closing(const CageOptions& options, const Scal
     auto closed = closeMask(*made->solid->mask, closing, options.scale, interrupter);
     // The scale may be anything.
     if (voxels.plane) closed = withMirrorImage(*closed, voxels.plane->axis, voxels.resolution, interrupter);
-    openvdb::MaskGrid::Ptr filled = fillCavities(*closed, &made->cavitiesFilled, interrupter);
-    made->voxels = countOf(*filled);
-    made->mask = std::move(filled);
+    FilledMask filled = fillCavities(*closed, interrupter);
+    made->cavitiesFilled = filled.cavities;
+    made->voxels = countOf(*filled.mask);
+    made->mask = std::move(filled.mask);
     closing_ = std::move(made);
     return closing_;
 }

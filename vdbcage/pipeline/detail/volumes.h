@@ -11,6 +11,7 @@
 #include <vdbcage/mesh/mesh.h>
 #include <vdbcage/pipeline/detail/search.h>
 #include <vdbcage/pipeline/options.h>
+#include <vdbcage/volume/detail/boundary_topology.h>
 
 /// The volumes that cages are made from, kept from run to run under typed keys: equal keys, equal volumes.
 namespace vdbcage::detail {
@@ -49,8 +50,7 @@ struct Solid {
     openvdb::MaskGrid::ConstPtr mask;
     VoxelizeReport report;
     std::size_t voxels = 0; ///< active ones
-    std::size_t parts = 0;  ///< separate surfaces, inner ones too
-    std::int64_t handles = 0;
+    BoundaryTopology boundary;
 };
 
 /// Its closing, cavities filled.

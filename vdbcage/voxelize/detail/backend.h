@@ -1,5 +1,7 @@
 #pragma once
 
+#include <utility>
+
 #include <vdbcage/core/interrupter.h>
 #include <vdbcage/mesh/mesh.h>
 #include <vdbcage/voxelize/detail/bit_grid.h>
@@ -28,8 +30,8 @@ Backend voxelizeCgal;
 /// made (docs/VOXELIZERS.md).
 constexpr int leastResolutionForDevice = 1024;
 
-/// By the device from leastResolutionForDevice on, unless it fails; else by the CPU. `report` says which and why.
-BitGrid voxelizeAutomatically(const Mesh& model, const Frame& frame, Backend& device, VoxelizeReport& report,
-                              Interrupter* interrupter);
+/// By the device from leastResolutionForDevice on, unless it fails; else by the CPU. The report says which and why.
+std::pair<BitGrid, VoxelizeReport> voxelizeAutomatically(const Mesh& model, const Frame& frame, Backend& device,
+                                                         Interrupter* interrupter);
 
 } // namespace vdbcage::detail
