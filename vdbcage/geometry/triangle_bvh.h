@@ -94,8 +94,8 @@ public:
 
     /// What lies in a box (its sides may be infinite).
     Query inBox(const Box& box) const;
-    /// What comes as near as `reach` to a triangle, which may be degenerate.
-    Query near(const Corners& triangle, double reach = 0) const;
+    /// What comes as near as `maxDistance` to a triangle, which may be degenerate.
+    Query near(const Corners& triangle, double maxDistance = 0) const;
     /// What meets a tetrahedron, which may be flat.
     Query inTetrahedron(const std::array<Vec3d, 4>& corners) const;
 

@@ -32,11 +32,11 @@ public:
     {
     }
     double along(const Vec3d& p) const { return direction_.dot(p); }
-    /// Whether a gap, computed of vectors no longer than the root of `size2`, is wider than `reach` for sure.
-    bool isWider(double gap, double reach, double size2) const
+    /// Whether a gap, computed of vectors no longer than the root of `size2`, is wider than `distance` for sure.
+    bool isWider(double gap, double distance, double size2) const
     {
         // The error is below 1e-14 |u| |v| size; (r + e)^2 < 1.001 r^2 + 1001 e^2.
-        return gap > 0 && gap * gap > 1.001 * length2_ * reach * reach + 2e-25 * product2_ * size2;
+        return gap > 0 && gap * gap > 1.001 * length2_ * distance * distance + 2e-25 * product2_ * size2;
     }
 
 private:
@@ -52,13 +52,13 @@ public:
           size2_(std::max((t[1] - t[0]).lengthSqr(), (t[2] - t[0]).lengthSqr()))
     {
     }
-    /// Whether all corners of `other` lie on one side, farther than `reach`.
-    bool separates(const Corners& other, double reach) const
+    /// Whether all corners of `other` lie on one side, farther than `distance`.
+    bool separates(const Corners& other, double distance) const
     {
         const Vec3d u = other[0] - corner_, v = other[1] - corner_, w = other[2] - corner_;
         const double a = normal_.along(u), b = normal_.along(v), c = normal_.along(w);
         const double height = std::max(std::min({a, b, c}), -std::max({a, b, c}));
-        return normal_.isWider(height, reach, size2_ + std::max({u.lengthSqr(), v.lengthSqr(), w.lengthSqr()}));
+        return normal_.isWider(height, distance, size2_ + std::max({u.lengthSqr(), v.lengthSqr(), w.lengthSqr()}));
     }
 
 private:

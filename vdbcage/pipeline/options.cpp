@@ -5,6 +5,7 @@
 #include <type_traits>
 #include <utility>
 
+#include <vdbcage/core/detail/number_text.h>
 #include <vdbcage/core/error.h>
 
 namespace vdbcage {
@@ -72,58 +73,14 @@ std::string nameList()
     return list;
 }
 
-template <typename Number>
-std::string numberText(Number value)
-{
-    char buffer[32];
-    const auto end = std::to_chars(buffer, buffer + sizeof buffer, value).ptr;
-    return {buffer, end};
-}
-
-std::string rangeText(const OptionInfo& info)
-{
-    // Whole numbers in full: 1000000, not 1e+06.
-    const auto text = [](double value) {
-        return value == std::floor(value) ? numberText(static_cast<long>(value)) : numberText(value);
-    };
-    return text(info.least) + " to " + text(info.most);
-}
-
-[[noreturn]] void refuse(const OptionInfo& info, const std::string& value, const std::string& allowed)
-{
-    throw InputError("--" + std::string(info.name) + ": '" + value + "' is not allowed; it must be " + allowed);
-}
-
-template <typename Number>
-void requireInRange(const OptionInfo& info, Number value)
-{
-    // Written so that a NaN is refused too.
-    if (!(static_cast<double>(value) >= info.least && static_cast<double>(value) <= info.most)) {
-        refuse(info, numberText(value), rangeText(info));
-    }
-}
-
-template <typename Number>
-Number parseNumber(const OptionInfo& info, const std::string& text, const char* kind)
-{
-    Number value{};
-    const char* end = text.data() + text.size();
-    const auto parsed = std::from_chars(text.data(), end, value);
-    if (parsed.ec != std::errc() || parsed.ptr != end) {
-        refuse(info, text, std::string(kind) + ", " + rangeText(info));
-    }
-    requireInRange(info, value);
-    return value;
-}
-
 /// One overload set a concern: the text of a value, setting it from text, its range, its placeholder in the help.
 struct ToText {
-    std::string operator()(int value) const { return numberText(value); }
-    std::string operator()(double value) const { return numberText(value); }
+    std::string operator()(int value) const { return std::to_string(value); }
+    std::string operator()(double value) const { return detail::numberText(value); }
     template <typename Number>
     std::string operator()(const std::optional<Number>& value) const
     {
-        return value ? numberText(*value) : "auto";
+        return value ? (*this)(*value) : "auto";
     }
     std::string operator()(const ScaleField& value) const
     {
@@ -139,6 +96,42 @@ struct ToText {
         return {};
     }
 };
+
+std::string rangeText(const OptionInfo& info)
+{
+    // Whole numbers in full: 1000000, not 1e+06.
+    const auto text = [](double value) {
+        return value == std::floor(value) ? std::to_string(static_cast<long>(value)) : detail::numberText(value);
+    };
+    return text(info.least) + " to " + text(info.most);
+}
+
+[[noreturn]] void refuse(const OptionInfo& info, const std::string& value, const std::string& allowed)
+{
+    throw InputError("--" + std::string(info.name) + ": '" + value + "' is not allowed; it must be " + allowed);
+}
+
+template <typename Number>
+void requireInRange(const OptionInfo& info, Number value)
+{
+    // Written so that a NaN is refused too.
+    if (!(static_cast<double>(value) >= info.least && static_cast<double>(value) <= info.most)) {
+        refuse(info, ToText()(value), rangeText(info));
+    }
+}
+
+template <typename Number>
+Number parseNumber(const OptionInfo& info, const std::string& text, const char* kind)
+{
+    Number value{};
+    const char* end = text.data() + text.size();
+    const auto parsed = std::from_chars(text.data(), end, value);
+    if (parsed.ec != std::errc() || parsed.ptr != end) {
+        refuse(info, text, std::string(kind) + ", " + rangeText(info));
+    }
+    requireInRange(info, value);
+    return value;
+}
 
 struct FromText {
     const OptionInfo& info;
@@ -253,9 +246,10 @@ void requireValid(const CageOptions& options)
 {
     visitOptions(options, [](const OptionInfo& info, const auto& field) { RequireRange{info}(field); });
     if (options.erodeRadius && !(options.closeRadius && *options.erodeRadius <= *options.closeRadius)) {
-        throw InputError("--erode-radius: '" + numberText(*options.erodeRadius) +
-                         "' is not allowed; it must be at most the close radius, " +
-                         (options.closeRadius ? numberText(*options.closeRadius) : "which has to be given too"));
+        throw InputError(
+            "--erode-radius: '" + detail::numberText(*options.erodeRadius) +
+            "' is not allowed; it must be at most the close radius, " +
+            (options.closeRadius ? detail::numberText(*options.closeRadius) : "which has to be given too"));
     }
     const bool asksForSymmetry = options.symmetry != CageSymmetry::automatic && options.symmetry != CageSymmetry::off;
     if (!options.bounding && asksForSymmetry) {

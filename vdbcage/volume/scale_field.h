@@ -36,11 +36,12 @@ struct ScaleField {
 VDBCAGE_API ScaleField readScaleField(const std::string& text);
 
 /// A grid for ScaleField::grid from values at points, such as the vertices of a mesh: each voxel that a point is
-/// within `reach` of gets the nearest one's value (of equally near ones the first), all others 1. `voxelSize` and
-/// `reach` are world lengths. O(points (reach / voxelSize)^3).
-/// \throw InputError (as many values as points, finite; voxelSize and reach above 0, reach up to 64 voxels), Cancelled
+/// within `radius` of gets the nearest one's value (of equally near ones the first), all others 1. `voxelSize` and
+/// `radius` are world lengths. O(points (radius / voxelSize)^3).
+/// \throw InputError (as many values as points, finite; voxelSize and radius above 0, radius up to 64 voxels),
+/// Cancelled
 VDBCAGE_API openvdb::FloatGrid::Ptr scaleFromPoints(const std::vector<openvdb::Vec3d>& points,
-                                                    const std::vector<float>& values, double voxelSize, double reach,
+                                                    const std::vector<float>& values, double voxelSize, double radius,
                                                     Interrupter* interrupter = nullptr);
 
 /// Every voxel with an active voxel of `mask` within its own radius: `radiusVoxels` times the field, clamped as below.

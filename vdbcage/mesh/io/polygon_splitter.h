@@ -53,7 +53,7 @@ private:
     void clip(std::size_t corner, const openvdb::Index32* face, std::vector<openvdb::Vec3I>& triangles);
     bool isEar(std::size_t corner);
     bool isBlocked(std::size_t corner, const Box& box, std::size_t node, std::size_t begin, std::size_t end);
-    bool mayReach(std::size_t corner, const Box& box, const Box& other) const;
+    bool mayOverlap(std::size_t corner, const Box& box, const Box& other) const;
     void growTree(std::size_t node, std::size_t begin, std::size_t end);
     void dropObstacle(std::size_t corner);
 
