@@ -9,10 +9,10 @@ list(SORT headers)
 file(READ ${root}/vdbcage/vdbcage.h all)
 # The name that a line of a header declares, if one does.
 set(declarations
-    "^class VDBCAGE_API ([A-Za-z]+)" "^class ([A-Za-z]+)( :.*)? {" "^struct VDBCAGE_API ([A-Za-z]+)"
-    "^struct ([A-Za-z]+)( :.*)? {" "^enum class ([A-Za-z]+)" "^constexpr .* ([A-Za-z]+) =" "^#define (VDBCAGE_[A-Z]+)"
-    "^using ([A-Za-z]+) =" "^[a-z ]*VDBCAGE_API [^()]*[ *&]([A-Za-z]+)\\(" "^inline [^()]*[ *&]([A-Za-z]+)\\("
-    "^void ([A-Za-z]+)\\(")
+    "^class VDBCAGE_API ([A-Za-z][A-Za-z0-9]*)" "^class ([A-Za-z][A-Za-z0-9]*)( :.*)? {" "^struct VDBCAGE_API ([A-Za-z][A-Za-z0-9]*)"
+    "^struct ([A-Za-z][A-Za-z0-9]*)( :.*)? {" "^enum class ([A-Za-z][A-Za-z0-9]*)" "^constexpr .* ([A-Za-z][A-Za-z0-9]*) =" "^#define (VDBCAGE_[A-Z0-9_]+)"
+    "^using ([A-Za-z][A-Za-z0-9]*) =" "^[a-z ]*VDBCAGE_API [^()]*[ *&]([A-Za-z][A-Za-z0-9]*)\\(" "^inline [^()]*[ *&]([A-Za-z][A-Za-z0-9]*)\\("
+    "^void ([A-Za-z][A-Za-z0-9]*)\\(")
 set(names "")
 set(problems "")
 foreach(header IN LISTS headers)

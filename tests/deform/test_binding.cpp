@@ -162,11 +162,11 @@ std::vector<double> sizesOf(const std::vector<double>& coordinates, const Mesh& 
     openvdb::BBoxd box;
     for (const Vec3d& p : cage.points) box.expand(p);
     const double size = box.extents()[int(box.maxExtent())];
-    std::vector<double> reaches(cage.points.size(), 1.0);
+    std::vector<double> maxDistances(cage.points.size(), 1.0);
     if (family == Coordinates::green) {
         const auto add = [&](openvdb::Index32 corner, openvdb::Index32 next, openvdb::Index32 before) {
             const Vec3d &at = cage.points[corner], &a = cage.points[next], &b = cage.points[before];
-            reaches.push_back(std::pow(0.5 * ((a - at).length() + (b - at).length()) / size, 2));
+            maxDistances.push_back(std::pow(0.5 * ((a - at).length() + (b - at).length()) / size, 2));
         };
         for (const openvdb::Vec3I& t : cage.triangles) add(t[0], t[1], t[2]);
         for (const openvdb::Vec4I& q : cage.quads) {
@@ -174,9 +174,10 @@ std::vector<double> sizesOf(const std::vector<double>& coordinates, const Mesh& 
         }
     }
     std::vector<double> sizes;
-    for (std::size_t i = 0; i < coordinates.size(); i += reaches.size()) {
+    for (std::size_t i = 0; i < coordinates.size(); i += maxDistances.size()) {
         sizes.push_back(0);
-        for (std::size_t k = 0; k < reaches.size(); ++k) sizes.back() += reaches[k] * std::abs(coordinates[i + k]);
+        for (std::size_t k = 0; k < maxDistances.size(); ++k)
+            sizes.back() += maxDistances[k] * std::abs(coordinates[i + k]);
     }
     return sizes;
 }

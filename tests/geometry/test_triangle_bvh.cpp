@@ -195,9 +195,9 @@ BOOST_AUTO_TEST_CASE(queries_miss_no_triangle, *boost::unit_test::label("propert
         if (i % 10 == 1) t[2] = t[1];
         if (i % 10 == 2) t[2] = t[0] + (t[1] - t[0]) * (1 + 1e-9); // a sliver
         if (i % 10 == 3) t[0] = soup.points[random() % soup.points.size()];
-        const double reach = i % 3 == 0 ? 0 : 0.1 * std::abs(unit(random));
+        const double maxDistance = i % 3 == 0 ? 0 : 0.1 * std::abs(unit(random));
         std::set<std::uint32_t> near, inside;
-        tree.traverse(tree.near(t, reach),
+        tree.traverse(tree.near(t, maxDistance),
                       [&](const TriangleBvh::Item& item) { return near.insert(item.triangle).second; });
         const std::array<Vec3d, 4> corners{t[0], t[1], t[2], i % 7 ? point() : t[0]};
         tree.traverse(tree.inTetrahedron(corners),
@@ -222,7 +222,7 @@ BOOST_AUTO_TEST_CASE(queries_miss_no_triangle, *boost::unit_test::label("propert
                 distance = std::min(distance, (closestPointOnTriangle(onTriangle, other) - onTriangle).length());
                 within = within || Box::of(mixed({a, b, c, d})).meets(Box::of(other));
             }
-            if (distance <= reach) BOOST_TEST(near.count(s) == 1);
+            if (distance <= maxDistance) BOOST_TEST(near.count(s) == 1);
             if (within) BOOST_TEST(inside.count(s) == 1);
         }
     }

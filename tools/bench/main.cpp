@@ -1,5 +1,5 @@
-// vdbcage-bench: what cages cost and how good they are, as JSON lines on standard output. Each run is a process of its
-// own.
+// vdbcage-bench: what cages cost and how good they are, as JSON lines on standard output. Each whole run (`cage`, or no
+// subcommand) is a process of its own; closing, voxelize and deform run in this process.
 
 #include <cstdio>
 #include <exception>

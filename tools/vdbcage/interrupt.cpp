@@ -15,7 +15,7 @@ namespace vdbcage::tool {
 
 namespace {
 
-// A signal handler can reach nothing but static storage. It runs on any thread.
+// A signal handler can use nothing but static storage. It runs on any thread.
 std::atomic<bool> signalCame{false};
 std::atomic<bool> lineOnScreen{false};
 std::atomic<int> holds{0};

@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// A command has one Outputs. Who ends the process can reach nothing but static storage.
+// A command has one Outputs. Who ends the process can use nothing but static storage.
 std::atomic<Outputs*> pending{nullptr};
 
 [[noreturn]] void failFolder(const fs::path& path, const std::string& reason)

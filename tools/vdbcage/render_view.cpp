@@ -95,7 +95,7 @@ Eye fitEye(const View& view, const std::vector<const Geometry*>& geometries, dou
     eye.halfHeight = half * std::max(1 / aspect, 1.0);
 
     // A point at (x, z) is inside the right side of the view if x - ex <= t (ez - z), that is x + t z <= ex + t ez;
-    // with the left side the same for -x. Both bounds are reached when ex and ez solve the two equations.
+    // with the left side the same for -x. Both hold with equality when ex and ez solve the two equations.
     struct Bounds {
         double middle, distance;
     };

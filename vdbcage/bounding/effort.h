@@ -2,7 +2,7 @@
 
 namespace vdbcage {
 
-/// What a cage may cost in time to be tighter.
+/// How much time a cage may take to be tighter.
 enum class Effort { fast, fair, best };
 
 } // namespace vdbcage

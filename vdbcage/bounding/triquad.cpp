@@ -63,7 +63,7 @@ Mesh triquad(const Mesh& surface, const BoundingGuard& guard, const BoundingTriq
     double low = wanted, high = std::max(wanted, static_cast<double>(fine.liveFaces()));
     double target = std::min((1 + options.quads) * wanted, high);
     std::optional<detail::GuardedMesh> best;
-    double reached = 0; // faces, counted as fewer where they have too few quads
+    double bestCount = 0; // faces, counted as fewer where they have too few quads
     for (int i = 0; i < attempts; ++i) {
         detail::GuardedMesh paired = fine;
         const auto triangles = static_cast<std::size_t>(target);
@@ -75,9 +75,9 @@ Mesh triquad(const Mesh& surface, const BoundingGuard& guard, const BoundingTriq
         const double counted = faces * part * part;
         (faces <= wanted ? low : high) = target;
         const bool isEnough = faces <= wanted && faces >= goodEnough * wanted && share >= options.quads;
-        if (isEnough || (faces <= wanted && counted > reached)) {
+        if (isEnough || (faces <= wanted && counted > bestCount)) {
             best = std::move(paired);
-            reached = counted;
+            bestCount = counted;
         }
         if (isEnough || high - low < 2) break;
         // Where polychords are split for want of pairs, faces are many of few triangles, too: longer steps until some

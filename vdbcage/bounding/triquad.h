@@ -24,11 +24,11 @@ struct BoundingTriquadOptions {
 /// Makes triangles and quads of a surface that bounds the guard's model and keeps it so, each quad under both
 /// diagonals.
 ///
-/// The surface is decimated as far as pairing needs to reach `faces`, and given a little room. Pairs of triangles
-/// become quads: flat and square ones along the directions of curvature first. Until enough of the faces are quads,
-/// more are made, with ever more room and at ever more cost of distance. Triangles are paired across the quads between
-/// them, vanish in twos, or become quads by splitting the polychord between two of them. The result is tightened with
-/// all four triangles of every quad under the guard. Quads are convex with no corner above 160 degrees. No two polygons
+/// The surface is decimated as far as pairing needs for `faces`, and given a little room. Pairs of triangles become
+/// quads: flat and square ones along the directions of curvature first. Until enough of the faces are quads, more are
+/// made, with ever more room and at ever more cost of distance. Triangles are paired across the quads between them,
+/// vanish in twos, or become quads by splitting the polychord between two of them. The result is tightened with all
+/// four triangles of every quad under the guard. Quads are convex with no corner above 160 degrees. No two polygons
 /// come to share two edges, under either diagonal.
 ///
 /// A surface of two to three times the faces wanted gives the best result. More than the faces asked for are left only

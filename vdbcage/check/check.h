@@ -11,12 +11,13 @@
 
 namespace vdbcage {
 
-/// So many self-intersections are counted and no more: n faces have up to n^2 / 2, which would take hours.
+/// So many self-intersections are counted and no more. n faces have up to n^2 / 2, which would take hours.
 constexpr std::size_t mostSelfIntersections = 1'000'000;
 
-/// The verdict on a cage. Yes/no answers and counts are exact on the coordinates given; measures are rounded. A quad
-/// stands for all four triangles of its two diagonals: a defect under one of them counts. All sets are closed: a touch
-/// is a contact, and points are the same only if their index is, so two at one place touch. Faces are numbered
+/// The verdict on a cage. Yes/no answers and counts are exact on the coordinates given; measures are rounded.
+///
+/// A quad stands for all four triangles of its two diagonals: a defect under one of them counts. All sets are closed: a
+/// touch is a contact. Points are the same only if their index is, so two at one place touch. Faces are numbered
 /// triangles first, then quads.
 struct CageCheck {
     // The cage by itself
@@ -27,19 +28,19 @@ struct CageCheck {
     std::size_t nonManifoldEdges = 0;    ///< edges with more than two faces
     std::size_t nonManifoldVertices = 0; ///< vertices whose faces form more than one umbrella
     std::size_t misorientedEdges = 0;    ///< edges whose two faces run along them in the same direction
-    /// Components whose volume is not positive for some choice of diagonals; those with a boundary or a misoriented
+    /// Components whose volume is not positive for some choice of diagonals. Those with a boundary or a misoriented
     /// edge have no volume and are not counted.
     std::size_t inwardComponents = 0;
     std::size_t degenerateFaces = 0; ///< faces with a repeated corner or a triangle of zero area
     /// Pairs of faces that meet in more than the corners and edges they share, and quads folded over a diagonal.
-    /// Degenerate triangles are not tested. At most `mostSelfIntersections`, which then stands for as many or more;
+    /// Degenerate triangles are not tested. At most `mostSelfIntersections`, which then stands for as many or more.
     /// `badFaces` has the faces of all of them.
     std::size_t selfIntersections = 0;
 
     // The cage against the model
     std::size_t contactFaces = 0; ///< cage faces that touch or cross the model
-    /// Model vertices (used by faces) not strictly inside: their winding number is not 1 for every choice of diagonals,
-    /// or they lie on the cage. All of them if the cage has no inside (see MeshTopology::isCycle).
+    /// Model vertices (used by faces) not strictly inside: they lie on the cage, or their winding number is not 1 for
+    /// every choice of diagonals. All of them if the cage has no inside (see MeshTopology::isCycle).
     std::size_t modelVerticesOutside = 0;
     std::vector<std::uint32_t> badFaces; ///< sorted: cage faces in a self-intersection or contact, degenerate, folded,
                                          ///< or with a model vertex between the two diagonals of the quad
@@ -73,18 +74,22 @@ struct CheckOptions {
     std::size_t samples = 20000; ///< points on the cage for the distances
 };
 
-/// Checks cages against one model, which is examined once. A value: copies share what was found out, and any number of
-/// threads may check at the same time.
+/// Checks cages against one model, which is examined once. Copies share what was found out. Any number of threads may
+/// check at the same time.
 class VDBCAGE_API CageChecker {
 public:
-    /// `model` is any polygon soup; degenerate faces count as the segments or points that they are. O(m log m) in its
-    /// faces, in parallel.
-    /// \throw InputError (no faces, an index out of range, a point of a face that is not finite), Cancelled
+    /// `model` is any polygon soup. Degenerate faces count as the segments or points that they are.
+    /// \throw InputError no faces; an index out of range; a point of a face that is not finite
+    /// \throw Cancelled
+    /// Cost: O(m log m) in its faces, in parallel.
     explicit CageChecker(const Mesh& model, Interrupter* interrupter = nullptr);
 
     /// Examines `cage`, any polygon soup; never throws for a bad one. Exact predicates (CGAL's filtered kernel) decide
-    /// every yes/no. O(n log m) for ordinary meshes, in parallel; the same for any number of threads.
-    /// \throw InputError (an index out of range, a point of a face that is not finite, or not as a float), Cancelled
+    /// every yes/no. The same for any number of threads.
+    /// \throw InputError an index out of range; a point of a face that is not finite; with `asFloats` one that is not
+    /// finite as a float, or a model beyond the range of float
+    /// \throw Cancelled
+    /// Cost: O(n log m) for ordinary meshes, in parallel.
     CageCheck check(const Mesh& cage, const CheckOptions& options = {}, Interrupter* interrupter = nullptr) const;
 
 private:

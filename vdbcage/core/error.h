@@ -7,7 +7,7 @@
 
 namespace vdbcage {
 
-/// Base of every exception that the library throws on purpose. `what()` is one line for a person to read: control
+/// Base of every exception that the library throws on purpose. `what()` is one line for a person to read. Control
 /// characters, which names of files and values may have, are written as codes.
 class VDBCAGE_API Error : public std::runtime_error {
 public:
@@ -15,22 +15,22 @@ public:
     ~Error() override;
 };
 
-/// A value handed in is not acceptable; the message names what, its value and what is allowed. Thrown before any
-/// work is done.
+/// A value handed in is not acceptable. The message names what, its value and what is allowed. Thrown before any work
+/// is done.
 class VDBCAGE_API InputError : public Error {
 public:
     using Error::Error;
     ~InputError() override;
 };
 
-/// A file could not be read or written; the message starts with its path.
+/// A file could not be read or written. The message starts with its path.
 class VDBCAGE_API IoError : public Error {
 public:
     using Error::Error;
     ~IoError() override;
 };
 
-/// A device (an OpenGL context, say) is missing or failed; the message carries the driver's own words.
+/// A device, such as an OpenGL context, is missing or failed. The message carries the driver's own words.
 class VDBCAGE_API DeviceError : public Error {
 public:
     using Error::Error;

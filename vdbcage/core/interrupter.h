@@ -11,20 +11,23 @@
 
 namespace vdbcage {
 
-/// OpenVDB's interrupter: `start(name)` and `end()` bracket a stage (called from the caller's thread, never nested),
-/// `wasInterrupted(percent)` may be called from any thread at any time and answers true to cancel. Every long
-/// function of the library takes one; null means nobody watches. `end` is called while exceptions are on their
-/// way: it must not throw.
+/// OpenVDB's interrupter. Every long function of the library takes one; null means nobody watches.
+///
+/// `start(name)` and `end()` bracket a stage. They are called from the caller's thread and never nested.
+/// `wasInterrupted(percent)` may be called from any thread at any time; true cancels. `end` is also called while an
+/// exception is on its way, so it must not throw.
 using Interrupter = openvdb::util::NullInterrupter;
 
-/// Asks `interrupter` (may be null) whether to stop; `percent` in [0, 100] is the progress of the stage, -1 unknown.
-/// \throw Cancelled
+/// Asks `interrupter`, which may be null, whether to stop. `percent` is the progress of the stage, 0 to 100, or -1 if
+/// unknown.
+/// \throw Cancelled if asked to stop
 VDBCAGE_API void throwIfInterrupted(Interrupter* interrupter, int percent = -1);
 
 /// Brackets one stage of work: `start` now, `end` when the scope is left, also by an exception.
 class VDBCAGE_API Stage {
 public:
-    /// `interrupter` may be null; `name` must outlive the stage (a literal). \throw Cancelled if asked to stop.
+    /// `interrupter` may be null. `name` must outlive the stage, as a literal does.
+    /// \throw Cancelled if asked to stop
     Stage(Interrupter* interrupter, const char* name);
     ~Stage();
     Stage(const Stage&) = delete;
@@ -41,7 +44,7 @@ struct StageTime {
     double cpuSeconds = 0; ///< of all threads of the process
 };
 
-/// An interrupter that records what each stage took and passes everything on to another one (or to nobody).
+/// An interrupter that records what each stage took. It passes everything on to another interrupter, if there is one.
 class VDBCAGE_API StageClock : public Interrupter {
 public:
     explicit StageClock(Interrupter* next = nullptr) : next_(next) {}
@@ -51,8 +54,8 @@ public:
     void end() override;
     bool wasInterrupted(int percent = -1) override;
 
-    /// The stages in the order in which they began first; a name that ran more than once is listed once, with its times
-    /// added up, and one that has not ended yet with those of its earlier runs.
+    /// The stages, in the order in which they first began. A name that ran more than once is listed once, with its
+    /// times added up. One that has not ended yet has the times of its earlier runs.
     const std::vector<StageTime>& stages() const { return stages_; }
 
 private:

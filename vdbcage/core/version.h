@@ -1,4 +1,4 @@
 #pragma once
 
-/// Version of these headers (read from here by CMakeLists.txt too).
+/// Version of these headers. CMakeLists.txt reads it from here too.
 #define VDBCAGE_VERSION "0.1.0"

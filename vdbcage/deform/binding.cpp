@@ -159,10 +159,10 @@ std::vector<Number> computeRows(const Mesh& cage, const std::vector<Vec3d>& poin
 
 /// How far handles go, in units of the cage: its points as far as it is large, and normals, which stretch with their
 /// edges, as far as these would let them.
-std::vector<float> reachesOf(const Mesh& cage, Coordinates family)
+std::vector<float> maxDistancesOf(const Mesh& cage, Coordinates family)
 {
-    std::vector<float> reaches(cage.points.size(), 1.0F);
-    if (family != Coordinates::green) return reaches;
+    std::vector<float> maxDistances(cage.points.size(), 1.0F);
+    if (family != Coordinates::green) return maxDistances;
     const double size = detail::CageFrame(cage).size;
     const auto addNormal = [&](openvdb::Index32 corner, openvdb::Index32 next, openvdb::Index32 before) {
         const auto edge = [&](openvdb::Index32 to) {
@@ -170,10 +170,10 @@ std::vector<float> reachesOf(const Mesh& cage, Coordinates family)
         };
         // No less than the edges' product, and not zero if one of them is.
         const double mean = 0.5 * (edge(next) + edge(before));
-        reaches.push_back(static_cast<float>(mean * mean));
+        maxDistances.push_back(static_cast<float>(mean * mean));
     };
     forEachNormal(cage, addNormal);
-    return reaches;
+    return maxDistances;
 }
 
 } // namespace
@@ -230,15 +230,17 @@ Binding::Binding(const Mesh& cage, std::vector<Vec3d> points, Coordinates family
     const Stage stage(interrupter, "bind");
     RowMaker maker(cage_, points_, family_, interrupter);
     restHandles_ = cageHandles(cage_, cage_.points, family_);
-    weights_ = std::make_shared<detail::WeightBlocks>(
-        points_, reachesOf(cage_, family_), [&](const std::vector<std::uint32_t>& block, std::vector<float>& rows) {
-            maker.make(
-                block.size(), [&](std::size_t i) { return block[i]; },
-                [&](std::size_t i, const std::vector<double>& row) {
-                    float* const to = rows.data() + i * row.size();
-                    for (std::size_t k = 0; k < row.size(); ++k) to[k] = static_cast<float>(row[k]);
-                });
-        });
+    weights_ =
+        std::make_shared<detail::WeightBlocks>(points_, maxDistancesOf(cage_, family_),
+                                               [&](const std::vector<std::uint32_t>& block, std::vector<float>& rows) {
+                                                   maker.make(
+                                                       block.size(), [&](std::size_t i) { return block[i]; },
+                                                       [&](std::size_t i, const std::vector<double>& row) {
+                                                           float* const to = rows.data() + i * row.size();
+                                                           for (std::size_t k = 0; k < row.size(); ++k)
+                                                               to[k] = static_cast<float>(row[k]);
+                                                       });
+                                               });
     maker.requireDefined();
 }
 
@@ -250,7 +252,8 @@ Binding::Binding(const Mesh& cage, std::vector<Vec3d> points, Coordinates family
     restHandles_ = cageHandles(cage, cage.points, family);
     detail::requireWeights(weights.size(), points_.size(), handles());
     weights_ = std::make_shared<detail::WeightBlocks>(
-        points_, reachesOf(cage_, family_), [&](const std::vector<std::uint32_t>& block, std::vector<float>& rows) {
+        points_, maxDistancesOf(cage_, family_),
+        [&](const std::vector<std::uint32_t>& block, std::vector<float>& rows) {
             for (std::size_t i = 0; i < block.size(); ++i) {
                 std::copy_n(weights.begin() + static_cast<std::ptrdiff_t>(block[i] * handles()), handles(),
                             rows.begin() + static_cast<std::ptrdiff_t>(i * handles()));

@@ -18,43 +18,49 @@ class WeightBlocks;
 /// How a cage moves what is in it. Quads are bilinear patches, never two triangles.
 enum class Coordinates {
     /// Mean value coordinates: Ju, Schaefer, Warren 2005 on triangles; Thiery, Memari, Boubekeur 2018 on quads. Defined
-    /// everywhere, also outside of the cage; smooth but on the cage, where they interpolate it. Can be negative.
+    /// everywhere, also outside of the cage. Smooth but on the cage, where they interpolate it. Can be negative.
     meanValue,
     /// Green coordinates: Lipman, Levin, Cohen-Or 2008 on triangles; Thiery, Boubekeur 2022 on quads. They follow the
-    /// faces' normals and nearly keep shapes, so the posed model does not touch the cage where the rest model does.
-    /// Inside and, as the limit from inside, on the cage; an error outside.
+    /// faces' normals and nearly keep shapes. So the posed model does not touch the cage where the rest model does.
+    /// Defined inside and, as the limit from inside, on the cage; an error outside.
     green,
-    /// Maximum likelihood coordinates, after Chang, Deng, Hormann 2023: never negative and the most local family here
-    /// (the weights fall as the third power of the distance). Chosen before harmonic coordinates because they need no
-    /// volume mesh, and so keep the rest pose and affine maps exactly at every point. Inside and on the cage, which
-    /// they
-    /// interpolate; an error outside.
+    /// Maximum likelihood coordinates, after Chang, Deng, Hormann 2023: never negative. They are the most local family
+    /// here: the weights fall as the third power of the distance. Chosen before harmonic coordinates because they need
+    /// no volume mesh, and so keep the rest pose and affine maps exactly at every point. Defined inside and on the
+    /// cage, which they interpolate; an error outside.
     maximumLikelihood,
 };
 
 /// "mvc", "green" or "mlc".
 VDBCAGE_API const char* coordinatesName(Coordinates family);
 
-/// The family of a name; "qmvc" and "qgc" are other names of "mvc" and "green", as their papers call them on quads.
+/// The family of a name. "qmvc" and "qgc" are other names of "mvc" and "green", as their papers call them on quads.
 /// \throw InputError naming the families
 VDBCAGE_API Coordinates coordinatesNamed(const std::string& name);
 
-/// What coordinates are weights of, in the order of their columns: the points of the cage as posed; for Green
-/// coordinates then one stretched normal a triangle and four, at its corners, a quad. A stretched normal belongs to two
-/// edges that meet in a corner: it is as long as their parallelogram at rest is large, times how much the pose
-/// stretches it (the root mean square of the two principal stretches), over the longest side of the cage at rest.
-/// `posed` are the posed points of `cage`. O(cage). \throw InputError (not as many points, or one not finite)
+/// What coordinates are weights of, in the order of their columns. `posed` are the posed points of `cage`.
+///
+/// First come the posed points. For Green coordinates stretched normals follow: one a triangle, then four a quad, at
+/// its corners. A stretched normal belongs to two edges that meet in a corner. Its length is the area of their
+/// parallelogram at rest, times how much the pose stretches it, over the longest side of the cage at rest. The stretch
+/// is the root mean square of the two principal stretches.
+/// \throw InputError not as many points as `cage` has, or one not finite
+/// Cost: O(cage).
 VDBCAGE_API std::vector<openvdb::Vec3d> cageHandles(const Mesh& cage, const std::vector<openvdb::Vec3d>& posed,
                                                     Coordinates family);
 
-/// The coordinates of `points` in `cage`, in double: a row a point of as many columns as there are handles, row after
-/// row. Point i is the sum over the handles at rest, each times its weight, to 1e-12 of the cage's size; the weights of
-/// the cage's points have sum 1, and those of points that no face uses are 0. The weights are accurate to 1e-7, less
-/// where faces meet at a distance below 1e-7 of the cage's size; points at less than 1e-12 of it count as on the cage.
-/// The cage is closed and faces outward (self-intersections are not looked for); degenerate faces are allowed.
-/// O(points x faces), in parallel; the same for any number of threads. Quads cost several times what triangles do.
-/// \throw InputError (a cage that is not closed, faces inward or is flat; a point not finite; a point for which the
-///        family is not defined: the message has the first and how many), Cancelled
+/// The coordinates of `points` in `cage`, in double: a row a point, row after row, of as many columns as there are
+/// handles.
+///
+/// Point i is the sum over the handles at rest, each times its weight, to 1e-12 of the cage's size. The weights of the
+/// cage's points have sum 1; those of points that no face uses are 0. The weights are accurate to 1e-7, less where
+/// faces meet at a distance below 1e-7 of the cage's size. Points at less than 1e-12 of it count as on the cage.
+/// Self-intersections are not looked for. Degenerate faces are allowed. The same for any number of threads.
+/// \pre `cage` is closed and faces outward
+/// \throw InputError a cage that is not closed, faces inward or is flat; a point not finite; a point for which the
+/// family is not defined (the message has the first and how many)
+/// \throw Cancelled
+/// Cost: O(points x faces), in parallel. Quads cost several times what triangles do.
 VDBCAGE_API std::vector<double> computeCoordinates(const Mesh& cage, const std::vector<openvdb::Vec3d>& points,
                                                    Coordinates family, Interrupter* interrupter = nullptr);
 
@@ -66,36 +72,39 @@ VDBCAGE_API std::vector<float> computeWeights(const Mesh& cage, const std::vecto
 /// plus what the handles moved by, so the rest pose is exact.
 ///
 /// Of points that are close together only some have their weights held; the others' are combinations of these. For that
-/// a posed point is off by at most 1e-6 of the cage's size, times the sum of its weights' absolute values (of normals'
-/// times the square of their edges' mean length), where no point of the cage moves farther than this size and no edge
-/// gets more than twice as long. Rounding to floats adds about 1e-7 of the motion.
+/// a posed point is off by at most 1e-6 of the cage's size, times the sum of its weights' absolute values. A normal's
+/// weight counts times the square of its edges' mean length. This holds where no point of the cage moves farther than
+/// its size and no edge gets more than twice as long. Rounding to floats adds about 1e-7 of the motion.
 class VDBCAGE_API Binding {
 public:
-    /// Computes the coordinates; see computeCoordinates. \throw InputError, Cancelled
+    /// Computes the coordinates.
+    /// \throw InputError as computeCoordinates
+    /// \throw Cancelled
     Binding(const Mesh& cage, std::vector<openvdb::Vec3d> points, Coordinates family,
             Interrupter* interrupter = nullptr);
     /// Takes coordinates computed before by computeWeights. The same as computing them here.
-    /// \throw InputError (their number is not points times handles; a point not finite)
+    /// \throw InputError their number is not points times handles; a point not finite
     Binding(const Mesh& cage, std::vector<openvdb::Vec3d> points, Coordinates family,
             const std::vector<float>& weights);
 
     const Mesh& cage() const { return cage_; }
     const std::vector<openvdb::Vec3d>& points() const { return points_; }
     Coordinates family() const { return family_; }
-    /// The number of handles, so of weights a point.
+    /// The number of handles, which is the number of weights a point.
     std::size_t handles() const { return restHandles_.size(); }
     /// The memory that the weights take: 4 bytes a point and handle, or less where points are close together for their
-    /// distance from faces; a third where there are hundreds of points a face.
+    /// distance from faces. A third where there are hundreds of points a face.
     std::size_t weightBytes() const;
 
-    /// Where the points are when the cage's points are at `cagePoints`. Costs reading the weights held of the handles
-    /// that moved, and the combinations, once. The same for any number of threads.
-    /// \throw InputError (not as many points as the cage has, or one not finite)
+    /// Where the points are when the cage's points are at `cagePoints`. The same for any number of threads.
+    /// \throw InputError not as many points as the cage has, or one not finite
+    /// Cost: reading, once, the combinations and the held weights of the handles that moved.
     std::vector<openvdb::Vec3d> pose(const std::vector<openvdb::Vec3d>& cagePoints) const;
 
-    /// Moves `posed`, which was posed by the cage `from`, to the pose of the cage `to`: only handles that moved between
-    /// the two are looked at. Each update rounds to about 1e-7 of the motion. \throw InputError as pose(); `posed` has
-    /// another number of points
+    /// Moves `posed`, which was posed by the cage `from`, to the pose of the cage `to`. Each update rounds to about
+    /// 1e-7 of the motion.
+    /// \throw InputError as pose(); `posed` has another number of points
+    /// Cost: as pose(), for the handles that moved between the two.
     void update(std::vector<openvdb::Vec3d>& posed, const std::vector<openvdb::Vec3d>& from,
                 const std::vector<openvdb::Vec3d>& to) const;
 

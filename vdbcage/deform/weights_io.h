@@ -9,25 +9,27 @@
 
 namespace vdbcage {
 
-/// Writes weights of computeWeights as a NumPy file (.npy, version 1.0, little endian). It holds one record, whose
-/// fields `numpy.load(path)[NAME]` gives:
+/// Writes weights of computeWeights as a NumPy file (.npy, version 1.0, little endian).
+///
+/// It holds nothing but one record, whose fields `numpy.load(path)[NAME]` gives:
 ///   family       S8           coordinatesName()
 ///   cage_hash    uint64       of the cage's points and faces
 ///   points_hash  uint64       of the points
 ///   weights      float32      points x handles; see cageHandles for what the columns belong to
-/// and nothing else. The hashes are FNV-1a of the counts, doubles and indices as bytes. The file appears whole or not
-/// at all. \throw IoError; InputError if their number is not points times handles, or it would have 2 GiB or more,
-/// which NumPy does not take
+/// The hashes are FNV-1a of the counts, doubles and indices as bytes. The file appears whole or not at all.
+/// \throw InputError their number is not points times handles; the file would have 2 GiB or more, which NumPy does not
+/// take
+/// \throw IoError naming the path
 VDBCAGE_API void writeWeights(const Mesh& cage, const std::vector<openvdb::Vec3d>& points, Coordinates family,
                               const std::vector<float>& weights, const std::filesystem::path& path);
 
-/// The same to a stream, whose state tells whether it took all; `path` is the name in errors.
+/// The same to a stream, whose state tells whether it took all. `path` is the name in errors.
 VDBCAGE_API void writeWeights(const Mesh& cage, const std::vector<openvdb::Vec3d>& points, Coordinates family,
                               const std::vector<float>& weights, std::ostream& out, const std::filesystem::path& path);
 
 /// Reads what writeWeights wrote, for the same cage and points.
 /// \throw IoError naming the path: it cannot be read, is truncated or no such file, or was made for another cage or
-///        other points
+/// other points
 VDBCAGE_API Binding readWeights(const std::filesystem::path& path, const Mesh& cage,
                                 std::vector<openvdb::Vec3d> points);
 

@@ -13,17 +13,18 @@
 
 namespace vdbcage::detail {
 
-/// Boxes of things that move, come and vanish: a tree of four children a node, whose boxes are refitted from changed
-/// leaves upwards; things that came since it was built are looked through one by one. Deterministic.
+/// Boxes of things that move, come and vanish, in a tree of four children a node. Deterministic.
 ///
-/// Children's boxes are compared at once, in float: rounding keeps the order, so that no meeting is missed; what is
+/// Boxes are refitted from changed leaves upwards. Things that came since the tree was built are looked through one by
+/// one. Children's boxes are compared at once, in float. Rounding keeps the order, so no meeting is missed; what is
 /// left is told apart in double.
 class DynamicBvh {
 public:
     static constexpr std::uint32_t none = ~std::uint32_t(0);
 
     DynamicBvh() = default;
-    /// Thing i has boxes[i]. O(n log n), in parallel.
+    /// Thing i has boxes[i].
+    /// Cost: O(n log n), in parallel.
     explicit DynamicBvh(std::vector<Box> boxes) : boxes_(std::move(boxes)), placeOf_(boxes_.size(), none)
     {
         std::vector<Thing> things;
@@ -55,14 +56,14 @@ public:
         ++live_;
     }
 
-    /// To be seen after refit().
+    /// Changes the box of a thing. Seen after refit().
     void update(std::uint32_t thing, const Box& box)
     {
         boxes_[thing] = box;
         if (placeOf_[thing] != none) set(placeOf_[thing], FloatBox(box));
     }
 
-    /// To be seen after refit().
+    /// Removes a thing. Seen after refit().
     void remove(std::uint32_t thing)
     {
         --live_;
@@ -74,7 +75,8 @@ public:
         placeOf_[thing] = none;
     }
 
-    /// To be called once for many changes, so that a node above several of them is computed once.
+    /// Makes updates and removals seen. To be called once for many changes, so that a node above several of them is
+    /// computed once.
     void refit()
     {
         // A node's number is above its parent's.
@@ -153,7 +155,7 @@ private:
         {
             for (std::size_t i = 0; i < 4; ++i) set(i, FloatBox());
         }
-        /// Returns whether that changed the child's box.
+        /// Sets a child's box. Returns whether that changed it.
         bool set(std::size_t i, const FloatBox& box)
         {
             bool hasChanged = false;
@@ -194,7 +196,8 @@ private:
         return {Range{things.begin, middle}, Range{middle, things.end}};
     }
 
-    /// Brings half of the things, along the longest side of their centres' box, before the others; so in each half.
+    /// Brings the half of the things that is lower along the longest side of their centres' box before the others; so
+    /// in each half.
     static void sort(const Range& things)
     {
         constexpr std::ptrdiff_t taskSize = 1024; // worth a task
@@ -231,7 +234,7 @@ private:
         changed_.assign(nodes_.size() / 64 + 1, 0);
     }
 
-    /// Returns its number.
+    /// Builds the node of these things, and those below it. Returns its number.
     std::uint32_t buildNode(const Range& things, Place place)
     {
         const auto self = static_cast<std::uint32_t>(nodes_.size());

@@ -42,11 +42,11 @@ inline unsigned bits(const Lanes& lanes)
 #endif
 }
 
-/// The boxes of a node's children; NaN, or the least above the most: no such child.
+/// The boxes of a node's children. There is no such child where a value is NaN, or the least is above the most.
 struct FourBoxes {
     std::array<Floats, 3> lo, hi;
 
-    /// Which of them meet the box from `otherLo` to `otherHi`, each the same four times.
+    /// Which of them meet the box from `otherLo` to `otherHi`. Each of these is the same four times.
     Lanes meet(const std::array<Floats, 3>& otherLo, const std::array<Floats, 3>& otherHi) const
     {
         return (lo[0] <= otherHi[0]) & (hi[0] >= otherLo[0]) & (lo[1] <= otherHi[1]) & (hi[1] >= otherLo[1]) &

@@ -11,14 +11,14 @@
 namespace vdbcage::detail {
 
 /// What merging points into one place costs: the integral of the squared distance to the planes of the faces around
-/// them, and the spread, the integral of the squared distance to where their area was.
+/// them, and the spread. The spread is the integral of the squared distance to where their area was.
 ///
-/// The planes say where the surface is, the spread says nothing about it; but on flat ground, where the planes do not
-/// care, the spread alone makes the places even. It comes in by a small weight in the cost, and in the choice of the
-/// place only in directions that the planes leave open: a corner of a box stays where it is.
+/// The planes say where the surface is; the spread says nothing about it. But on flat ground, where the planes do not
+/// care, the spread alone makes the places even. In the cost it has a small weight. In the choice of the place it
+/// counts only in directions that the planes leave open: a corner of a box stays where it is.
 class Quadric {
 public:
-    /// `unitNormal`, `point`: the plane; `weight`: its area.
+    /// Adds the plane through `point` with the normal `unitNormal`. `weight` is its area.
     void addPlane(const openvdb::Vec3d& unitNormal, const openvdb::Vec3d& point, double weight)
     {
         const openvdb::Vec3d& n = unitNormal;
@@ -56,8 +56,8 @@ public:
         return *this;
     }
 
-    /// Becomes the mean of itself and its mirror image in the plane through the origin across `axis` (0 to 2): of the
-    /// places in that plane, each costs as much as before.
+    /// Becomes the mean of itself and its mirror image in the plane through the origin across `axis` (0 to 2). Places
+    /// in that plane cost as much as before.
     void symmetrize(int axis)
     {
         if (axis != 2) xy_ = 0;
@@ -66,7 +66,7 @@ public:
         linear_[axis] = first_[axis] = 0;
     }
 
-    /// The cost of the place `p`, at least 0; `spreadWeight` is that of the spread.
+    /// The cost of the place `p`, at least 0. `spreadWeight` is that of the spread.
     double cost(const openvdb::Vec3d& p, double spreadWeight) const
     {
         const double planes = p.dot(times(p)) + 2 * linear_.dot(p) + constant_;
@@ -77,8 +77,8 @@ public:
     /// Half the second derivative of the plane error.
     openvdb::Mat3d planes() const { return {xx_, xy_, xz_, xy_, yy_, yz_, xz_, yz_, zz_}; }
 
-    /// The place of least plane error nearest to the middle of the area; directions in which the planes are softer
-    /// than `stiffness` times the area count as open. False, and no place, if there is no area.
+    /// The place of least plane error nearest to the middle of the area. Directions in which the planes are softer than
+    /// `stiffness` times the area count as open. False, and no place, if there is no area.
     bool bestPlace(double stiffness, openvdb::Vec3d& place) const
     {
         std::array<openvdb::Vec3d, 1> places;
@@ -87,8 +87,8 @@ public:
         return found[0];
     }
 
-    /// bestPlace() of several quadrics, to the bit. It waits for divisions: four side by side take little longer than
-    /// one.
+    /// bestPlace() of several quadrics, to the bit. It waits for divisions, so four side by side take little longer
+    /// than one.
     template <std::size_t n>
     static std::array<bool, n> bestPlaces(const std::array<Quadric, n>& quadrics, double stiffness,
                                           std::array<openvdb::Vec3d, n>& places)

@@ -257,11 +257,11 @@ TriangleBvh::Query TriangleBvh::inBox(const Box& box) const
     return Query({inUnits(box.lo), inUnits(box.hi)});
 }
 
-TriangleBvh::Query TriangleBvh::near(const Corners& triangle, double reach) const
+TriangleBvh::Query TriangleBvh::near(const Corners& triangle, double maxDistance) const
 {
     Box box = Box::of(triangle);
-    box.lo -= Vec3d(reach);
-    box.hi += Vec3d(reach);
+    box.lo -= Vec3d(maxDistance);
+    box.hi += Vec3d(maxDistance);
     Query query = inBox(box);
     const Corners t{inUnits(triangle[0]), inUnits(triangle[1]), inUnits(triangle[2])};
     const Vec3d u = t[1] - t[0], v = t[2] - t[0];
@@ -269,7 +269,7 @@ TriangleBvh::Query TriangleBvh::near(const Corners& triangle, double reach) cons
     const double length = normal.length();
     if (!(length > leastSine * u.length() * v.length()) || !(length > smallest)) return query;
     normal /= length;
-    const double margin = reach * scale_, farthest = std::max({maxAbs(t[0]), maxAbs(t[1]), maxAbs(t[2])});
+    const double margin = maxDistance * scale_, farthest = std::max({maxAbs(t[0]), maxAbs(t[1]), maxAbs(t[2])});
     const double height = normal.dot(t[0]);
     query.addSlab(normal, height - margin, height + margin, farthest);
     for (std::size_t i = 0; i < 3; ++i) {
@@ -606,29 +606,29 @@ TriangleBvh::Closest TriangleBvh::closest(const Vec3d& p, std::uint32_t seed, do
     };
     if (seed != none) tryItem(seed);
 
-    // In the tree's units, in float: what is not farther than `reach`, which is rounded up, may be nearer. Points far
-    // away are taken for nearer ones.
+    // In the tree's units, in float: what is within `maxSquaredDistance`, which is rounded up, may be nearer. Points
+    // far away are taken for nearer ones.
     std::array<float, 3> lo, hi;
     for (std::size_t i = 0; i < 3; ++i) {
         const double x = std::clamp(inUnits(p)[static_cast<int>(i)], -1e15, 1e15);
         lo[i] = roundedDown(x);
         hi[i] = roundedUp(x);
     }
-    const auto radiusOf = [&](double squaredDistance) {
+    const auto limitOf = [&](double squaredDistance) {
         const double distance = std::sqrt(squaredDistance) * scale_ / (1 + slack);
         return static_cast<float>(std::min(1.00001 * distance * distance + 1e-30, 1e38));
     };
-    float reach = radiusOf(best.squaredDistance);
+    float maxSquaredDistance = limitOf(best.squaredDistance);
     Stack<Near> stack;
     stack.push({0, 0});
     while (!stack.empty()) {
         const Near nearest = stack.pop();
-        if (nearest.squaredDistance() > reach) continue;
+        if (nearest.squaredDistance() > maxSquaredDistance) continue;
         const std::uint32_t child = nearest.child();
         if (child & isLeaf) {
             const Leaf leaf = leafOf(child);
             for (std::uint32_t item = leaf.first; item <= leaf.last; ++item) {
-                if (item != seed && tryItem(item)) reach = radiusOf(best.squaredDistance);
+                if (item != seed && tryItem(item)) maxSquaredDistance = limitOf(best.squaredDistance);
             }
             continue;
         }
@@ -640,7 +640,7 @@ TriangleBvh::Closest TriangleBvh::closest(const Vec3d& p, std::uint32_t seed, do
             away = away < 0 ? Floats{} : away; // keeps NaN
             squaredDistance += away * away;
         }
-        const unsigned met = bits(squaredDistance <= reach);
+        const unsigned met = bits(squaredDistance <= maxSquaredDistance);
         // The nearest is to be popped first.
         std::array<Near, 4> near;
         std::size_t count = 0;

@@ -46,16 +46,17 @@ struct Box {
     }
 };
 
-/// The point of the closed triangle nearest to `p`; the triangle may be degenerate. Rounded.
+/// The point of the closed triangle nearest to `p`; rounded. The triangle may be degenerate.
 Vec3d closestPointOnTriangle(const Vec3d& p, const Corners& triangle);
 
-/// A bounding volume hierarchy over triangles (indices into points; degenerate ones welcome). Immutable once built: any
-/// number of threads may ask at the same time. The tree, and so the order of its answers, is the same for any number of
-/// threads that built it.
+/// A bounding volume hierarchy over triangles, which are indices into points and may be degenerate.
 ///
-/// Nodes have up to four children, whose boxes are compared at once, in float: rounded outward, so that no triangle is
-/// missed; what is left is told apart in double. Leaves hold a triangle, or in large trees up to four that follow each
-/// other in the list in about the same box.
+/// It is immutable once built: any number of threads may ask at the same time. The tree, and so the order of its
+/// answers, is the same for any number of threads that built it.
+///
+/// Nodes have up to four children, whose boxes are compared at once, in float. They are rounded outward, so that no
+/// triangle is missed; what is left is told apart in double. Leaves hold a triangle. In large trees they hold up to
+/// four that follow each other in the list in about the same box.
 class TriangleBvh {
 public:
     static constexpr std::uint32_t none = ~std::uint32_t(0);
@@ -71,13 +72,15 @@ public:
     struct Closest {
         Vec3d point;
         double squaredDistance = std::numeric_limits<double>::infinity();
-        std::uint32_t item = none; ///< none: the tree is empty
+        std::uint32_t item = none; ///< none if the tree is empty
     };
     class Query;
 
     TriangleBvh() = default;
-    /// Points must be finite where triangles use them. O(n log n), in parallel; less time and memory where triangles
-    /// of a face follow each other. \throw InputError (more than 2^29 triangles), Cancelled
+    /// Points must be finite where triangles use them.
+    /// \throw InputError more than 2^29 triangles
+    /// \throw Cancelled
+    /// Cost: O(n log n), in parallel; less time and memory where triangles of a face follow each other.
     TriangleBvh(std::vector<Vec3d> points, const std::vector<Vec3I>& triangles, Interrupter* interrupter = nullptr,
                 Copies copies = Copies::keep);
 
@@ -89,19 +92,20 @@ public:
     {
         return {points_[item.corners[0]], points_[item.corners[1]], points_[item.corners[2]]};
     }
-    /// The box of everything; the tree must not be empty.
+    /// The box of everything.
+    /// \pre the tree is not empty
     const Box& box() const { return box_; }
 
-    /// What lies in a box (its sides may be infinite).
+    /// What lies in a box, whose sides may be infinite.
     Query inBox(const Box& box) const;
-    /// What comes as near as `reach` to a triangle, which may be degenerate.
-    Query near(const Corners& triangle, double reach = 0) const;
+    /// What comes within `maxDistance` of a triangle, which may be degenerate.
+    Query near(const Corners& triangle, double maxDistance = 0) const;
     /// What meets a tetrahedron, which may be flat.
     Query inTetrahedron(const std::array<Vec3d, 4>& corners) const;
 
     /// Calls `visit(item)` for each triangle whose box meets `query`, and perhaps for some more beside it, always in
-    /// the same order. `visit` answers whether to go on; returns false if it stopped. It may make `query` narrower:
-    /// what is left out then is not looked at any more.
+    /// the same order. `visit` answers whether to go on; returns false if it stopped. `visit` may make `query`
+    /// narrower: what is left out then is not looked at any more.
     template <typename Visit>
     bool traverse(const Query& query, const Visit& visit) const;
 
@@ -109,8 +113,8 @@ public:
     template <typename Visit>
     bool forEachOverlap(const Box& box, const Visit& visit) const;
 
-    /// The closest point of the triangles to `p`. `seed`, an item number such as that of the last answer for a point
-    /// nearby, makes it faster (and may decide between equals). With `slack` a point up to 1 + slack times as far may
+    /// The closest point of the triangles to `p`. `seed` is an item number, such as that of the last answer for a point
+    /// nearby: it makes it faster, and may decide between equals. With `slack` a point up to 1 + slack times as far may
     /// be given, which is faster too.
     Closest closest(const Vec3d& p, std::uint32_t seed = none, double slack = 0) const;
 
@@ -140,7 +144,7 @@ private:
     template <typename T>
     class Stack;
 
-    /// Sends for a child that is looked at soon: of a large tree most are in no cache.
+    /// Prefetches a child that is looked at soon: of a large tree most are in no cache.
     void prefetch(std::uint32_t child) const
     {
         if (child & isLeaf) {
@@ -152,7 +156,7 @@ private:
         }
     }
 
-    /// Nodes are in units in which the box is [-1, 1] along its longest side. Monotone in every coordinate.
+    /// A point in the units of nodes, in which the box is [-1, 1] along its longest side. Monotone in every coordinate.
     Vec3d inUnits(const Vec3d& p) const { return (p - centre_) * scale_; }
 
     std::vector<Vec3d> points_;
@@ -163,10 +167,10 @@ private:
     double scale_ = 1;
 };
 
-/// A box, cut by up to four slabs: where a tree is to look. In the units of the tree that made it.
+/// Where a tree is to look: a box, cut by up to four slabs, in the units of the tree that made it.
 class TriangleBvh::Query {
 public:
-    /// Which of the node's children it meets, never wrongly denied: a bit each.
+    /// Which of the node's children it meets, a bit each. Never wrongly denied.
     unsigned meets(const Node& node) const
     {
         Lanes met = node.meet(lo_, hi_);

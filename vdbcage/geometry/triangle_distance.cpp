@@ -37,8 +37,8 @@ bool pierces(const Corners& from, const Corners& t)
     return false;
 }
 
-/// Whether a pair of planes along an edge of each keeps the triangles farther apart than `reach`.
-bool edgesSeparate(const Corners& first, const Corners& second, double reach)
+/// Whether a pair of planes along an edge of each keeps the triangles farther apart than `distance`.
+bool edgesSeparate(const Corners& first, const Corners& second, double distance)
 {
     for (std::size_t i = 0; i < 3; ++i) {
         const Vec3d edge = first[(i + 1) % 3] - first[i], arm = first[(i + 2) % 3] - first[i];
@@ -51,7 +51,7 @@ bool edgesSeparate(const Corners& first, const Corners& second, double reach)
                                         std::min(0.0, from) - between - std::max(0.0, to));
             const double size2 = std::max(
                 {edge.lengthSqr(), arm.lengthSqr(), otherEdge.lengthSqr(), otherArm.lengthSqr(), across.lengthSqr()});
-            if (axis.isWider(gap, reach, size2)) return true;
+            if (axis.isWider(gap, distance, size2)) return true;
         }
     }
     return false;

@@ -10,21 +10,21 @@ namespace vdbcage::detail {
 /// The nearest points of two triangles.
 struct Nearness {
     Vec3d onFirst, onSecond;
-    double squaredDistance = 0; ///< 0 if they cross (the points then mean nothing)
+    double squaredDistance = 0; ///< 0 if they cross; then the points mean nothing
 };
 
-/// How near two closed triangles come (either may be degenerate); rounded: the error of the distance is a few units of
-/// 2^-52 of their sizes, far below any clearance.
+/// The nearest points of two closed triangles, either of which may be degenerate. Rounded: the error of the distance is
+/// a few units of 2^-52 of their sizes, far below any clearance.
 Nearness nearness(const Corners& first, const Corners& second);
 
-/// Whether two triangles come nearer than `distance`: as nearness(), but faster where a pair of planes along edges
-/// tells; planes of the triangles are for the caller to try, who may have them.
+/// Whether two triangles come nearer than `distance`. As nearness(), but faster where a pair of planes along edges
+/// tells. Planes of the triangles are for the caller to try, who may have them.
 bool comeWithin(const Corners& first, const Corners& second, double distance);
 
 /// The nearest points of two segments.
 Nearness segmentNearness(const Vec3d& p1, const Vec3d& q1, const Vec3d& p2, const Vec3d& q2);
 
-/// Distances between two sets of points along an axis that is the cross product of u and v. Never wrongly yes.
+/// Distances between two sets of points along the cross product of u and v. Never wrongly yes.
 class Axis {
 public:
     Axis(const Vec3d& u, const Vec3d& v)
@@ -32,11 +32,12 @@ public:
     {
     }
     double along(const Vec3d& p) const { return direction_.dot(p); }
-    /// Whether a gap, computed of vectors no longer than the root of `size2`, is wider than `reach` for sure.
-    bool isWider(double gap, double reach, double size2) const
+    /// Whether a gap is wider than `distance` for sure. The gap is computed of vectors no longer than the root of
+    /// `size2`.
+    bool isWider(double gap, double distance, double size2) const
     {
         // The error is below 1e-14 |u| |v| size; (r + e)^2 < 1.001 r^2 + 1001 e^2.
-        return gap > 0 && gap * gap > 1.001 * length2_ * reach * reach + 2e-25 * product2_ * size2;
+        return gap > 0 && gap * gap > 1.001 * length2_ * distance * distance + 2e-25 * product2_ * size2;
     }
 
 private:
@@ -52,13 +53,13 @@ public:
           size2_(std::max((t[1] - t[0]).lengthSqr(), (t[2] - t[0]).lengthSqr()))
     {
     }
-    /// Whether all corners of `other` lie on one side, farther than `reach`.
-    bool separates(const Corners& other, double reach) const
+    /// Whether all corners of `other` lie on one side, farther than `distance`.
+    bool separates(const Corners& other, double distance) const
     {
         const Vec3d u = other[0] - corner_, v = other[1] - corner_, w = other[2] - corner_;
         const double a = normal_.along(u), b = normal_.along(v), c = normal_.along(w);
         const double height = std::max(std::min({a, b, c}), -std::max({a, b, c}));
-        return normal_.isWider(height, reach, size2_ + std::max({u.lengthSqr(), v.lengthSqr(), w.lengthSqr()}));
+        return normal_.isWider(height, distance, size2_ + std::max({u.lengthSqr(), v.lengthSqr(), w.lengthSqr()}));
     }
 
 private:

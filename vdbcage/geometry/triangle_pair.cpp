@@ -105,7 +105,7 @@ bool tooNear(const SurfaceTriangle& a, const SurfaceTriangle& b, const Spacing& 
         }
     }
     if (shared == 0) {
-        // One plane between them settles most pairs.
+        // One plane between them decides most pairs.
         const auto apart = [&](const SurfaceTriangle& one, const SurfaceTriangle& other) {
             const int side = one.plane.side(other.corners[0], spacing.distance);
             return side != 0 && one.plane.side(other.corners[1], spacing.distance) == side &&

@@ -10,12 +10,12 @@
 /// How the triangles of one surface touch each other, decided exactly.
 namespace vdbcage::detail {
 
-/// How near two triangles of a surface may come to each other. Tools that take surfaces for cages, mesh generators
-/// most of all, fail at large triangles that nearly touch; small ones are always near some others.
+/// How near two triangles of a surface may come to each other. Tools that take surfaces for cages, mesh generators most
+/// of all, fail at large triangles that nearly touch. Small ones are always near some others.
 struct Spacing {
     double distance = 0; ///< between any two without a common corner, or `share` of the longest edge, if that is less
-    double share = 0;    ///< the smaller triangle's longest edge counts
-    double sine = 0;     ///< of the angle between two with a common corner; that is less than 30 degrees
+    double share = 0;    ///< of the smaller triangle's longest edge
+    double sine = 0;     ///< of the angle between two with a common corner, less than 30 degrees
 
     /// The distance that a triangle keeps from larger ones.
     double around(double longestEdge) const { return std::min(distance, share * longestEdge); }
@@ -31,20 +31,20 @@ public:
         length2_ = normal_.lengthSqr();
         error2_ = 1e-28 * u.lengthSqr() * v.lengthSqr();
     }
-    /// -1, 0, 1: on which side p lies; 0 where rounding could decide, or the distance is less.
+    /// On which side p lies: -1, 0 or 1. It is 0 where rounding could decide, or the distance is less.
     int side(const Vec3d& p, double distance) const
     {
         const Vec3d w = p - corner_;
         return side(w, normal_.dot(w), length2_ * distance * distance);
     }
-    /// The same as seen from a corner of the triangle at `from`; 0 where the angle with the plane is less.
+    /// The same as seen from a corner of the triangle at `from`. It is 0 where the angle with the plane is less.
     int sideSeenFrom(const Vec3d& from, const Vec3d& p, double sine) const
     {
         const Vec3d w = p - from;
         return side(w, normal_.dot(w), length2_ * sine * sine * w.lengthSqr());
     }
 
-    /// Twice the area long.
+    /// Its length is twice the area.
     const Vec3d& normal() const { return normal_; }
 
 private:
@@ -78,7 +78,7 @@ using SurfaceTriangles = boost::container::small_vector<SurfaceTriangle, 16>;
 /// Whether a triangle has no area, exactly.
 bool hasNoArea(const Corners& t);
 
-/// The sine of the smallest angle of a triangle; 0 for one without an area. Rounded.
+/// The sine of the smallest angle of a triangle; rounded. It is 0 for one without an area.
 double minSine(const Corners& t);
 
 /// The distance that two triangles without a common corner have to keep.
@@ -88,12 +88,14 @@ inline double distanceBetween(const SurfaceTriangle& a, const SurfaceTriangle& b
 }
 
 /// Whether two triangles of a surface come nearer than they may, or meet in more than the corners that they share.
-/// Rounded; but that they meet is never missed.
+/// Rounded, but it never misses that they meet.
 bool tooNear(const SurfaceTriangle& a, const SurfaceTriangle& b, const Spacing& spacing);
 
-/// Whether, seen along some direction, a star lies spread out around its centre, corner 0 of all, without overlap and
-/// with no triangle steep: then no two are too near, if no angle of a triangle has a sine less than `leastSine`. No
-/// answer but false where rounding could matter.
+/// Whether, seen along some direction, a star lies spread out around its centre, without overlap and with no triangle
+/// steep. The centre is corner 0 of all triangles.
+///
+/// Then no two triangles are too near, if no angle of one has a sine less than `leastSine`. The answer is false where
+/// rounding could matter.
 bool spreadOut(const SurfaceTriangles& star, const Spacing& spacing, double leastSine);
 
 } // namespace vdbcage::detail

@@ -9,7 +9,7 @@
 namespace vdbcage::detail {
 
 /// Disjoint sets of the numbers 0 ... n - 1 that several threads may unite at once. The root of a set is its smallest
-/// member, so the sets and their roots do not depend on the order of the calls.
+/// member. So the sets and their roots do not depend on the order of the calls.
 class UnionFind {
 public:
     explicit UnionFind(std::size_t n) : parents_(n)

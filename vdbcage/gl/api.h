@@ -83,15 +83,16 @@
 
 namespace vdbcage::gl {
 
-/// Looks an entry point up by its full name ("glClear"); null if there is none.
+/// Looks an entry point up by its full name, such as "glClear". Null if there is none.
 using AnyFunction = void (*)();
 using GetProc = AnyFunction (*)(const char* name);
 
 /// The entry points of ONE context: two contexts may come from two drivers, so nothing here is global. Functions that
 /// take an `Api` need its context to be current on the calling thread.
 struct Api {
-    /// Fills the table through the context's own `getProc`; that context is current.
-    /// \throw DeviceError if an entry point is missing or the context is older than OpenGL 4.5
+    /// Fills the table through the context's own `getProc`.
+    /// \pre that context is current
+    /// \throw DeviceError an entry point is missing, or the context is older than OpenGL 4.5
     explicit Api(GetProc getProc);
 
 #define VDBCAGE_GL_DECLARE(Type, name) Type name = nullptr;
@@ -102,10 +103,10 @@ struct Api {
 /// Makes the context record in full what it calls an error or undefined, for `throwIfFailed` to report.
 void enableDebugMessages(const Api& api);
 
-/// What failed since the last call, in words; empty if nothing did.
+/// What failed since the last call, in words. Empty if nothing did.
 std::string takeFailures(const Api& api);
 
-/// Asks the context whether anything failed since the last call; `what` says what was being done ("rendering").
+/// Asks the context whether anything failed since the last call. `what` says what was being done, such as "rendering".
 /// \throw DeviceError with the error codes and, after `enableDebugMessages`, the driver's own words
 void throwIfFailed(const Api& api, const char* what);
 

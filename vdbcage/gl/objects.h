@@ -8,7 +8,7 @@
 
 namespace vdbcage::gl {
 
-/// Owns one OpenGL object; movable. It must be destroyed while its context is current, and before that context.
+/// Owns one OpenGL object; movable. It must be destroyed before its context, and while that is current.
 template <void (*destroy)(const Api&, GLuint)>
 class Object {
 public:
@@ -54,8 +54,9 @@ using Framebuffer = Object<detail::deleteFramebuffer>;
 using ShaderObject = Object<detail::deleteShader>;
 using ProgramObject = Object<detail::deleteProgram>;
 
-/// Memory of the device that holds `size` bytes of `data` (null: undefined contents). Shaders may write to it; `flags`
-/// of GL_DYNAMIC_STORAGE_BIT lets the program do so too. \throw DeviceError (out of memory)
+/// Memory of the device that holds `size` bytes of `data`; null leaves the contents undefined. Shaders may write to it.
+/// `flags` of GL_DYNAMIC_STORAGE_BIT lets the program do so too.
+/// \throw DeviceError out of memory
 [[nodiscard]] Buffer makeBuffer(const Api& api, std::size_t size, const void* data, GLbitfield flags = 0);
 
 template <typename Value>
@@ -66,17 +67,20 @@ template <typename Value>
 
 [[nodiscard]] VertexArray makeVertexArray(const Api& api);
 
-/// A picture of `width` x `height` pixels, `samples` samples a pixel (1: an ordinary texture).
-/// \throw DeviceError (too large, out of memory)
+/// A picture of `width` x `height` pixels with `samples` samples a pixel; 1 is an ordinary texture.
+/// \throw DeviceError too large, or out of memory
 [[nodiscard]] Texture makeTexture2D(const Api& api, GLenum format, int width, int height, int samples = 1);
 
-/// The values of `format` in `buffer`, which must outlive it, as an image of one row. \throw DeviceError
+/// The values of `format` in `buffer` as an image of one row. `buffer` must outlive it.
+/// \throw DeviceError
 [[nodiscard]] Texture makeBufferTexture(const Api& api, GLenum format, const Buffer& buffer);
 
-/// Draws into `colour` and `depthStencil`, of which one may be empty; both must outlive it. \throw DeviceError
+/// Draws into `colour` and `depthStencil`, of which one may be empty. Both must outlive it.
+/// \throw DeviceError
 [[nodiscard]] Framebuffer makeFramebuffer(const Api& api, const Texture& colour, const Texture& depthStencil);
 
-/// Nothing to draw into, of `width` x `height` pixels: for fragment shaders that write elsewhere. \throw DeviceError
+/// A framebuffer of `width` x `height` pixels with nothing to draw into, for fragment shaders that write elsewhere.
+/// \throw DeviceError
 [[nodiscard]] Framebuffer makeEmptyFramebuffer(const Api& api, int width, int height);
 
 } // namespace vdbcage::gl

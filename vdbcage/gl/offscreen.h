@@ -8,7 +8,7 @@
 namespace vdbcage::gl {
 
 /// An OpenGL 4.5 core context that needs no display. It has no usable default framebuffer: draw into framebuffers of
-/// your own. Any number may exist; one may be used from any thread, by one thread at a time.
+/// your own. Any number may exist. One may be used from any thread, by one thread at a time.
 class OffscreenContext {
     struct State;
 
@@ -21,15 +21,15 @@ public:
         osmesa    ///< OSMesa only: Mesa's rasterizer in software, which needs nothing but its library
     };
 
-    /// With `Debug::on` errors carry the driver's own words (see `throwIfFailed`). Takes some 10 ms; the first of a
-    /// process loads the driver too.
-    /// \throw DeviceError if no such context can be had here: why not, for each way that was tried
+    /// With `Debug::on` errors carry the driver's own words (see `throwIfFailed`).
+    /// \throw DeviceError no such context can be had here, and why not, for each way that was tried
+    /// Cost: some 10 ms; the first of a process loads the driver too.
     explicit OffscreenContext(Debug debug = Debug::off, Source source = Source::any);
     ~OffscreenContext();
     OffscreenContext(const OffscreenContext&) = delete;
     OffscreenContext& operator=(const OffscreenContext&) = delete;
 
-    /// Keeps the context current on the calling thread, until it is destroyed by that same thread.
+    /// Keeps the context current on the calling thread until it is destroyed by that same thread.
     class Current {
     public:
         ~Current();
@@ -42,11 +42,12 @@ public:
         State& state_;
     };
 
-    /// `const auto current = context.makeCurrent();` before any call through `api()`, also before GL objects of this
-    /// context are destroyed. \throw DeviceError if a context is current on this thread already, or this one elsewhere
+    /// Makes the context current: `const auto current = context.makeCurrent();`. Needed before any call through
+    /// `api()`, and before GL objects of this context are destroyed.
+    /// \throw DeviceError a context is current on this thread already, or this one elsewhere
     [[nodiscard]] Current makeCurrent() const;
 
-    /// The entry points; valid as long as this object is.
+    /// The entry points. Valid as long as this object is.
     const Api& api() const;
 
     /// Where it comes from and the driver's name and version, for reports.

@@ -7,17 +7,19 @@
 
 namespace vdbcage::gl {
 
-/// One stage of a program, as cmake/EmbedShaders.cmake makes them from the files in shaders/.
+/// One stage of a program. cmake/EmbedShaders.cmake makes them from the files in shaders/.
 struct ShaderSource {
     GLenum stage;     ///< GL_VERTEX_SHADER, ...
     const char* name; ///< for messages: the file's name
     const char* text; ///< GLSL, null-terminated
 };
 
-/// Compiles and links the stages. \throw DeviceError naming the stage and carrying the driver's log
+/// Compiles and links the stages.
+/// \throw DeviceError naming the stage and carrying the driver's log
 [[nodiscard]] ProgramObject makeProgram(const Api& api, std::initializer_list<ShaderSource> stages);
 
-/// The place of a uniform that the program uses. \throw DeviceError if it has none of this name
+/// The place of a uniform that the program uses.
+/// \throw DeviceError there is none of this name
 GLint uniformLocation(const Api& api, const ProgramObject& program, const char* name);
 
 } // namespace vdbcage::gl

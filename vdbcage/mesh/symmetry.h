@@ -19,18 +19,24 @@ struct SymmetryPlane {
 /// How well a model agrees with its mirror image.
 struct Symmetry {
     SymmetryPlane plane;
-    /// Almost all of the surface (99 % of its area) is no farther than this from its mirror image, fraction of the
-    /// model's longest side.
+    /// Fraction of the model's longest side: almost all of the surface (99 % of its area) is no farther than this from
+    /// its mirror image.
     double deviation = 0;
 };
 
-/// The plane across `axis` (0 to 2) in which the model agrees best with its mirror image: from the middle of its
-/// bounding box moved to where the samples of the surface, mirrored, lie on it as well as can be. Any soup will do.
-/// \throw InputError (axis; what requireUsable refuses), Cancelled O(faces log faces), in parallel.
+/// The plane across `axis` (0 to 2) in which the model agrees best with its mirror image. Any soup will do.
+///
+/// The search begins in the middle of the model's bounding box. It moves the plane to where mirrored samples of the
+/// surface lie on the surface as well as can be.
+/// \throw InputError `axis` out of range; what requireUsable refuses
+/// \throw Cancelled
+/// Cost: O(faces log faces), in parallel.
 /// Based on: Besl and McKay, A Method for Registration of 3-D Shapes, 1992 (nearest points as counterparts).
 VDBCAGE_API Symmetry bestSymmetry(const Mesh& model, int axis, Interrupter* interrupter = nullptr);
 
-/// The best of the three, if its deviation is at most `tolerance`.
+/// The best plane of the three axes, if its deviation is at most `tolerance`.
+/// \throw InputError what requireUsable refuses
+/// \throw Cancelled
 VDBCAGE_API std::optional<Symmetry> findSymmetry(const Mesh& model, double tolerance,
                                                  Interrupter* interrupter = nullptr);
 

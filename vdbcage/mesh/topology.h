@@ -10,9 +10,11 @@
 
 namespace vdbcage {
 
-/// How the faces of a mesh hang together, by their indices alone (points at the same place are not merged; a quad is
-/// one face). Faces are numbered triangles first, then quads. An edge is a pair of different points that follow each
-/// other around a face; a face that uses an edge twice (one with a repeated corner) counts there twice.
+/// How the faces of a mesh hang together, by their indices alone.
+///
+/// Points at the same place are not merged. A quad is one face. Faces are numbered triangles first, then quads. An edge
+/// is a pair of different points that follow each other around a face. A face that uses an edge twice, as one with a
+/// repeated corner may, counts there twice.
 struct MeshTopology {
     std::size_t faces = 0;
     std::size_t edges = 0;
@@ -22,22 +24,25 @@ struct MeshTopology {
     std::size_t misorientedEdges = 0;    ///< edges whose two faces run along them in the same direction
     std::size_t nonManifoldVertices = 0; ///< vertices whose faces form more than one umbrella
 
-    /// For each face its component (connected over edges); components are numbered by their first face.
+    /// For each face its component (connected over edges). Components are numbered by their first face.
     std::vector<std::uint32_t> faceComponent;
     /// For each component, 1 if its faces run along each edge equally often in both directions. Then it has a signed
     /// volume, and every point off its faces has a winding number.
     std::vector<std::uint8_t> componentIsCycle;
 
     std::size_t components() const { return componentIsCycle.size(); }
-    /// There are faces, and all components are cycles.
+    /// Whether there are faces, and all components are cycles.
     bool isCycle() const;
     /// Vertices - edges + faces.
     long eulerCharacteristic() const;
-    /// The sum over the components; only meaningful without boundary and non-manifold edges and vertices.
+    /// The sum over the components. Only meaningful without boundary and non-manifold edges and vertices.
     long genus() const { return static_cast<long>(components()) - eulerCharacteristic() / 2; }
 };
 
-/// Examines any polygon soup with valid indices. O(faces) for ordinary meshes, in parallel. \throw Cancelled
+/// Examines any polygon soup.
+/// \pre all indices are valid
+/// \throw Cancelled
+/// Cost: O(faces) for ordinary meshes, in parallel.
 VDBCAGE_API MeshTopology analyzeTopology(const Mesh& mesh, Interrupter* interrupter = nullptr);
 
 } // namespace vdbcage

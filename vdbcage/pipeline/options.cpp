@@ -72,44 +72,14 @@ std::string nameList()
     return list;
 }
 
-std::string numberText(int value)
-{
-    return std::to_string(value);
-}
-using detail::numberText;
-
-[[noreturn]] void refuse(const OptionInfo& info, const std::string& value, const std::string& allowed)
-{
-    throw InputError("--" + std::string(info.name) + ": '" + value + "' is not allowed; it must be " + allowed);
-}
-
-template <typename Number>
-void requireInRange(const OptionInfo& info, Number value)
-{
-    if (!info.range.contains(value)) refuse(info, numberText(value), toText(info.range));
-}
-
-template <typename Number>
-Number parseNumber(const OptionInfo& info, const std::string& text, const char* kind)
-{
-    Number value{};
-    const char* end = text.data() + text.size();
-    const auto parsed = std::from_chars(text.data(), end, value);
-    if (parsed.ec != std::errc() || parsed.ptr != end) {
-        refuse(info, text, std::string(kind) + ", " + toText(info.range));
-    }
-    requireInRange(info, value);
-    return value;
-}
-
 /// One overload set a concern: the text of a value, setting it from text, its range, its placeholder in the help.
 struct ToText {
-    std::string operator()(int value) const { return numberText(value); }
-    std::string operator()(double value) const { return numberText(value); }
+    std::string operator()(int value) const { return std::to_string(value); }
+    std::string operator()(double value) const { return detail::numberText(value); }
     template <typename Number>
     std::string operator()(const std::optional<Number>& value) const
     {
-        return value ? numberText(*value) : "auto";
+        return value ? (*this)(*value) : "auto";
     }
     std::string operator()(const ScaleField& value) const
     {
@@ -125,6 +95,30 @@ struct ToText {
         return {};
     }
 };
+
+[[noreturn]] void refuse(const OptionInfo& info, const std::string& value, const std::string& allowed)
+{
+    throw InputError("--" + std::string(info.name) + ": '" + value + "' is not allowed; it must be " + allowed);
+}
+
+template <typename Number>
+void requireInRange(const OptionInfo& info, Number value)
+{
+    if (!info.range.contains(value)) refuse(info, ToText{}(value), toText(info.range));
+}
+
+template <typename Number>
+Number parseNumber(const OptionInfo& info, const std::string& text, const char* kind)
+{
+    Number value{};
+    const char* end = text.data() + text.size();
+    const auto parsed = std::from_chars(text.data(), end, value);
+    if (parsed.ec != std::errc() || parsed.ptr != end) {
+        refuse(info, text, std::string(kind) + ", " + toText(info.range));
+    }
+    requireInRange(info, value);
+    return value;
+}
 
 struct FromText {
     const OptionInfo& info;
@@ -239,9 +233,10 @@ void requireValid(const CageOptions& options)
 {
     visitOptions(options, [](const OptionInfo& info, const auto& field) { RequireRange{info}(field); });
     if (options.erodeRadius && !(options.closeRadius && *options.erodeRadius <= *options.closeRadius)) {
-        throw InputError("--erode-radius: '" + numberText(*options.erodeRadius) +
-                         "' is not allowed; it must be at most the close radius, " +
-                         (options.closeRadius ? numberText(*options.closeRadius) : "which has to be given too"));
+        throw InputError(
+            "--erode-radius: '" + detail::numberText(*options.erodeRadius) +
+            "' is not allowed; it must be at most the close radius, " +
+            (options.closeRadius ? detail::numberText(*options.closeRadius) : "which has to be given too"));
     }
     const bool asksForSymmetry = options.symmetry != CageSymmetry::automatic && options.symmetry != CageSymmetry::off;
     if (!options.bounding && asksForSymmetry) {

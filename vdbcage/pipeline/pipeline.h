@@ -46,20 +46,21 @@ struct CageReport {
 /// From a model to its cage, keeping every intermediate. Running again with other options starts from the first stage
 /// that they touch: another face count or smoothness needs no new voxels and no new closing.
 ///
-/// With CageOptions::bounding the surface of the closing is shrunk, decimated and tightened under a BoundingGuard, and
-/// the cage is certified: examined by CageChecker, other code than the guard's, on its coordinates as they are
-/// returned, against the model as given and (where float can hold it) as rounded to float. A cage that is not certified
-/// is never returned. Where the closing has too many parts and handles for the faces, and its radius and resolution are
-/// not given, it is closed more, then voxelized more coarsely (Effort::best at few faces also tries some coarser
-/// resolutions side by side and keeps the tightest cage, Effort::fast takes a coarser one where the surface is large);
-/// where that is not enough, the cage is shrunk from the closing's convex hull, and the last resort is the model's
-/// bounding box, of which CageReport::floatSafe says whether it also bounds as floats. So there are never more faces
-/// than asked for.
+/// With CageOptions::bounding the surface of the closing is shrunk, decimated and tightened under a BoundingGuard. The
+/// cage is then certified by CageChecker, other code than the guard's, on its coordinates as they are returned. It is
+/// examined against the model as given and, where float can hold it, as rounded to float. A cage that is not certified
+/// is never returned.
 ///
-/// Where a plane of symmetry is found or given, voxels are united with their mirror image and everything after is done
-/// on one half, under a guard that knows the plane: the cage is exactly symmetric, point for point and face for face,
-/// has an edge wherever it meets the plane, and bounds the mirror image of the model too. If no such cage reaches the
-/// face count, one without symmetry is made, and the report says so.
+/// The closing may have too many parts and handles for the faces. If its radius and resolution are not given, it is
+/// closed more, then voxelized more coarsely. Where that is not enough, the cage is shrunk from the closing's convex
+/// hull. The last resort is the model's bounding box; CageReport::floatSafe says whether it also bounds as floats. So
+/// there are never more faces than asked for. Effort::best at few faces also tries some coarser resolutions side by
+/// side and keeps the tightest cage. Effort::fast takes a coarser one where the surface is large.
+///
+/// Where a plane of symmetry is found or given, voxels are united with their mirror image. Everything after is done on
+/// one half, under a guard that knows the plane. The cage is then exactly symmetric, point for point and face for face.
+/// It has an edge wherever it meets the plane, and bounds the mirror image of the model too. If no such cage has few
+/// enough faces, one without symmetry is made, and the report says so.
 class VDBCAGE_API Pipeline {
 public:
     /// \throw InputError the model has no usable face (see requireUsable)
@@ -72,9 +73,12 @@ public:
     /// intermediates of the last one that did not.
     ///
     /// Stages reported to `interrupter`, some more than once: symmetry, guard, voxelize, close, surface, decimate,
-    /// tighten or quads, smooth, coplanar, certify. The cage can have fewer faces than asked. It has more only
-    /// where the topology of the closing does not allow fewer and `bounding` is off.
-    /// \throw InputError, DeviceError, Cancelled
+    /// tighten or quads, smooth, coplanar, certify. The cage can have fewer faces than asked. It has more only where
+    /// the topology of the closing does not allow fewer and `bounding` is off.
+    /// \throw InputError what requireValid, voxelize or closeMask refuses
+    /// \throw DeviceError the voxelizer asked for is missing or fails
+    /// \throw Error the cage could not be certified, which is a defect of vdbcage
+    /// \throw Cancelled
     const Mesh& run(const CageOptions& options, Interrupter* interrupter = nullptr);
 
     const Mesh& model() const;
@@ -92,7 +96,11 @@ private:
     std::unique_ptr<Impl> impl_;
 };
 
-/// One model, one cage: Pipeline(model).run(options). What most callers need. \throw InputError, DeviceError, Cancelled
+/// One model, one cage: Pipeline(model).run(options). What most callers need.
+/// \throw InputError as Pipeline and run()
+/// \throw DeviceError as run()
+/// \throw Error as run()
+/// \throw Cancelled
 VDBCAGE_API Mesh makeCage(const Mesh& model, const CageOptions& options = {}, Interrupter* interrupter = nullptr);
 
 } // namespace vdbcage

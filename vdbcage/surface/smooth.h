@@ -15,9 +15,13 @@ struct SmoothOptions {
     double beta = 0.5; ///< weight of a vertex's own correction against its neighbours'
 };
 
-/// HC Laplacian smoothing: rounds a surface without shrinking it. Connectivity and vertex order stay; vertices that no
-/// face uses stay where they are. TBB-parallel, same result for any number of threads. O(iterations * edges).
-/// \throw InputError (an option out of range; no usable face), Cancelled
+/// HC Laplacian smoothing: rounds a surface without shrinking it.
+///
+/// Connectivity and vertex order stay. Vertices that no face uses stay where they are. The same for any number of
+/// threads.
+/// \throw InputError an option out of range; no usable face
+/// \throw Cancelled
+/// Cost: O(iterations * edges), in parallel.
 /// Based on: Vollmer, Mencl, Muller, Improved Laplacian Smoothing of Noisy Surface Meshes, 1999.
 VDBCAGE_API Mesh smooth(const Mesh& surface, const SmoothOptions& options = {}, Interrupter* interrupter = nullptr);
 

@@ -13,11 +13,14 @@ struct TriquadOptions {
     double mergeAngleDegrees = 10; ///< largest dihedral angle between two triangles that become a quad
 };
 
-/// Merges pairs of triangles into quads, flattest and squarest pairs first. Quads are convex under both diagonals, with
-/// no corner above 160 degrees; no two faces come to share two edges, no inner point is left with fewer than three.
-/// The merged edge runs from a quad's corner 0 to corner 2. Points keep their order; quads of the input stay and come
-/// first. Any soup will do: edges that are not between two faces in opposite directions are left alone. O(n log n).
-/// \throw InputError (an angle out of range; no usable face)
+/// Merges pairs of triangles into quads, flattest and squarest pairs first.
+///
+/// Quads are convex under both diagonals, with no corner above 160 degrees. No two faces come to share two edges. No
+/// inner point is left with fewer than three faces. The merged edge runs from a quad's corner 0 to corner 2. Points
+/// keep their order; quads of the input stay and come first. Any soup will do: edges that are not between two faces in
+/// opposite directions are left alone.
+/// \throw InputError an angle out of range; no usable face
+/// Cost: O(n log n).
 VDBCAGE_API Mesh triquad(const Mesh& triangles, const TriquadOptions& options = {});
 
 } // namespace vdbcage

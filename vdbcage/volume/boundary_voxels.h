@@ -6,9 +6,11 @@
 
 namespace vdbcage {
 
-/// The contour of `mask`: its active voxels with a face neighbour that is not active. Same transform, no other
-/// metadata. Full tiles are never made dense; TBB-parallel, O(nodes of the tree and entries on the faces of tiles).
-/// \throw InputError (coordinates outside [-2^30, 2^30)), Cancelled
+/// The contour of `mask`: its active voxels with a face neighbour that is not active. It has the same transform and no
+/// other metadata. Full tiles are never made dense.
+/// \throw InputError active voxels outside [-2^30, 2^30)
+/// \throw Cancelled
+/// Cost: O(nodes of the tree + entries on the faces of tiles), in parallel.
 VDBCAGE_API openvdb::MaskGrid::Ptr contour(const openvdb::MaskGrid& mask, Interrupter* interrupter = nullptr);
 
 } // namespace vdbcage

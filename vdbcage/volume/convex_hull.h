@@ -6,11 +6,14 @@
 
 namespace vdbcage {
 
-/// All voxels whose centre lies in the convex hull of the active voxels of `mask`, each a whole cube, or within 1e-7
-/// voxels of it; so the result is connected by faces. Same transform, no other metadata; empty for an empty mask.
-/// Serial, O(a + c * f) for a active voxels (a tile: those of one side), c columns of voxels along z in the bounding
-/// box and f facets of the hull; 8 bytes a column. \throw Cancelled, Error (an extent of more than 2^20 voxels, more
-/// than 2^28 columns)
+/// All voxels whose centre lies in the convex hull of the active voxels of `mask`, or within 1e-7 voxels of it.
+///
+/// Each active voxel counts as a whole cube, so the result is connected by faces. It has the same transform and no
+/// other metadata. It is empty for an empty mask.
+/// \throw Error an extent of more than 2^20 voxels; more than 2^28 columns
+/// \throw Cancelled
+/// Cost: O(a + c * f) for a active voxels (of a tile, those of one side), c columns of voxels along z in the bounding
+/// box, and f facets of the hull. Serial; 8 bytes a column.
 VDBCAGE_API openvdb::MaskGrid::Ptr convexHull(const openvdb::MaskGrid& mask, Interrupter* interrupter = nullptr);
 
 } // namespace vdbcage

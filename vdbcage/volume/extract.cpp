@@ -46,7 +46,7 @@ Coord voxelToAdd(const MaskAccessor& tree, const Coord& low, const Coord& sides)
     return best;
 }
 
-/// Adds to `added` one voxel for each critical configuration that reaches into the block: a 2x2 square whose one
+/// Adds to `added` one voxel for each critical configuration that overlaps the block: a 2x2 square whose one
 /// diagonal pair differs from the other, or a 2x2x2 cube of which one space-diagonal pair differs from the other six.
 void findCritical(const MaskAccessor& tree, const Coord& block, std::vector<Coord>& added)
 {

@@ -6,10 +6,13 @@
 
 namespace vdbcage {
 
-/// `mask` and its mirror image across `axis` (0, 1, 2: x, y, z): a voxel with the index i along the axis has its image
-/// at `sum` - i. Symmetric, and the least such mask that holds `mask`. Same transform, no other metadata; tiles stay
-/// tiles where the image of one is one. Serial, O(active voxels outside of tiles).
-/// \throw InputError (axis), Cancelled
+/// `mask` and its mirror image across `axis` (0, 1, 2: x, y, z), united.
+///
+/// A voxel with the index i along the axis has its image at `sum` - i. The result is the smallest symmetric mask that
+/// holds `mask`. It has the same transform and no other metadata. Tiles stay tiles where the image of one is one.
+/// \throw InputError `axis` out of range
+/// \throw Cancelled
+/// Cost: O(active voxels outside of tiles), serial.
 VDBCAGE_API openvdb::MaskGrid::Ptr withMirrorImage(const openvdb::MaskGrid& mask, int axis, int sum,
                                                    Interrupter* interrupter = nullptr);
 

@@ -66,7 +66,7 @@ openvdb::CoordBBox boxOf(const MaskGrid& mask)
 } // namespace
 
 FloatGrid::Ptr scaleFromPoints(const std::vector<Vec3d>& points, const std::vector<float>& values, double voxelSize,
-                               double reach, Interrupter* interrupter)
+                               double radius, Interrupter* interrupter)
 {
     if (points.size() != values.size()) {
         std::ostringstream text;
@@ -77,15 +77,15 @@ FloatGrid::Ptr scaleFromPoints(const std::vector<Vec3d>& points, const std::vect
         require(std::isfinite(value), "a value at a point", static_cast<double>(value), "finite");
     }
     require(voxelSize > 0 && std::isfinite(voxelSize), "the voxel size", voxelSize, "above 0");
-    require(reach > 0 && reach <= 64 * voxelSize, "the reach", reach, "above 0 and at most 64 voxels");
+    require(radius > 0 && radius <= 64 * voxelSize, "the radius", radius, "above 0 and at most 64 voxels");
     auto scale = FloatGrid::create(1.0F);
     scale->setTransform(openvdb::math::Transform::createLinearTransform(voxelSize));
-    FloatGrid nearest(static_cast<float>(openvdb::math::Pow2(reach / voxelSize))); // squared distances in voxels
+    FloatGrid nearest(static_cast<float>(openvdb::math::Pow2(radius / voxelSize))); // squared distances in voxels
     auto scales = scale->getAccessor();
     auto distances = nearest.getAccessor();
     for (std::size_t i = 0; i < points.size(); ++i) {
         const Vec3d place = scale->worldToIndex(points[i]);
-        const Vec3d span(reach / voxelSize);
+        const Vec3d span(radius / voxelSize);
         const Coord lower = Coord::ceil(place - span), upper = Coord::floor(place + span);
         for (int x = lower.x(); x <= upper.x(); ++x) {
             throwIfInterrupted(interrupter, static_cast<int>(100 * i / points.size()));

@@ -12,17 +12,18 @@
 /// Closing with a radius that varies in space: smaller where features matter, 0 where a hole has to stay.
 namespace vdbcage {
 
-/// A box or a sphere, in world space, where the radius is multiplied by `scale`.
+/// A box or a sphere in world space, where the radius is multiplied by `scale`.
 struct ScaleRegion {
     enum class Shape { box, sphere };
     Shape shape = Shape::sphere;
-    openvdb::Vec3d lower{0}, upper{0}; ///< box: its corners; sphere: `lower` is the centre
-    double radius = 0;                 ///< of the sphere, at least 0
+    openvdb::Vec3d lower{0}, upper{0}; ///< box: its corners; sphere: `lower` is the centre; world units
+    double radius = 0;                 ///< of the sphere, world units, at least 0
     double scale = 1;                  ///< 0 to 8
 };
 
-/// What the radius of a closing is multiplied by, place by place: the grid's value (interpolated; in world space, so
-/// its voxels may be of any size) times the scale of every region around the place. No grid counts as 1 everywhere.
+/// What the radius of a closing is multiplied by, place by place. It is the grid's value, interpolated, times the scale
+/// of every region around the place. The grid is in world space, so its voxels may be of any size. No grid counts as 1
+/// everywhere.
 struct ScaleField {
     openvdb::FloatGrid::ConstPtr grid; ///< values cut to 0 to 8; its background holds outside; a linear transform
     std::vector<ScaleRegion> regions;
@@ -30,38 +31,50 @@ struct ScaleField {
     std::filesystem::path file = {}; ///< that `grid` was read from; empty if it was not read
 };
 
-/// A field from text: parts separated by semicolons, each `sphere:X,Y,Z,RADIUS,SCALE`, `box:X,Y,Z,X,Y,Z,SCALE` (two
-/// corners) or a .vdb file, whose grid `scale` (the first of them) or else only grid counts, a FloatGrid.
-/// "none" is no field. \throw InputError naming the part, IoError naming the file
+/// A field from text; "none" is no field.
+///
+/// The text is parts separated by semicolons: `sphere:X,Y,Z,RADIUS,SCALE`, `box:X,Y,Z,X,Y,Z,SCALE` (two corners) or a
+/// .vdb file. Of a file its first grid named `scale` counts, or else its only grid; it must be a FloatGrid.
+/// \throw InputError naming the part
+/// \throw IoError naming the file
 VDBCAGE_API ScaleField readScaleField(const std::string& text);
 
-/// A grid for ScaleField::grid from values at points, such as the vertices of a mesh: each voxel that a point is
-/// within `reach` of gets the nearest one's value (of equally near ones the first), all others 1. `voxelSize` and
-/// `reach` are world lengths. O(points (reach / voxelSize)^3).
-/// \throw InputError (as many values as points, finite; voxelSize and reach above 0, reach up to 64 voxels), Cancelled
+/// A grid for ScaleField::grid from values at points, such as the vertices of a mesh.
+///
+/// Each voxel within `radius` of a point gets the value of the nearest one, of equally near ones the first. All others
+/// get 1. `voxelSize` and `radius` are world lengths above 0; `radius` is at most 64 voxels.
+/// \throw InputError not as many values as points; a value that is not finite; `voxelSize` or `radius` out of range
+/// \throw Cancelled
+/// Cost: O(points (radius / voxelSize)^3).
 VDBCAGE_API openvdb::FloatGrid::Ptr scaleFromPoints(const std::vector<openvdb::Vec3d>& points,
-                                                    const std::vector<float>& values, double voxelSize, double reach,
+                                                    const std::vector<float>& values, double voxelSize, double radius,
                                                     Interrupter* interrupter = nullptr);
 
 /// Every voxel with an active voxel of `mask` within its own radius: `radiusVoxels` times the field, clamped as below.
-/// \throw InputError, Cancelled as closeMask
+/// \throw InputError as closeMask
+/// \throw Cancelled
 VDBCAGE_API openvdb::MaskGrid::Ptr dilate(const openvdb::MaskGrid& mask, double radiusVoxels, const ScaleField& scale,
                                           Interrupter* interrupter = nullptr);
 
-/// The closing of `solid` by spheres, both radii of the options multiplied by the field, and clamped: from voxel to
-/// voxel along an axis a radius grows by half a voxel at most (so its slope is below 1 in every direction), and where
-/// the field is steeper the smaller radius spreads. The dilation asks, at each voxel, for a voxel of `solid` within the
-/// voxel's own radius; the erosion takes away all that is within a voxel's radius of a voxel outside, with the radius
-/// that the voxel outside has. So the two are adjoint, and the closing is extensive and increasing, and idempotent for
-/// equal radii, as with one radius everywhere; a field of 1 everywhere is exactly that.
+/// The closing of `solid` by spheres, both radii of the options multiplied by the field and clamped.
 ///
-/// The field is sampled at every h-th voxel and interpolated between, where h is the largest power of 2 that is
-/// not above a quarter of the close radius, 1 to 8. Where radii vary, some below 3.5 voxels reach as if they were up to
-/// 0.27 less: so that the rule for neighbours holds on the lattice of voxels too. Costs about three times as much as
-/// one radius, and 4 / h^3 bytes for each voxel of the box where the field is not the same. \throw InputError (as
-/// closeMask; the cube, which has one radius only; a region's scale outside 0 to 8 or its radius
-///        negative; a grid's value not finite; a radius above 512 voxels; a grid whose transform is not linear; a field
-///        of more than 2^28 samples), Cancelled
+/// From voxel to voxel along an axis a radius grows by half a voxel at most, so its slope is below 1 in every
+/// direction. Where the field is steeper, the smaller radius spreads.
+///
+/// The dilation asks, at each voxel, for a voxel of `solid` within the voxel's own radius. The erosion takes away all
+/// that is within the radius of a voxel outside, where the radius is that of the voxel outside. So the two are adjoint.
+/// The closing is extensive and increasing, and idempotent for equal radii, as with one radius everywhere. A field of 1
+/// everywhere is exactly that.
+///
+/// The field is sampled at every h-th voxel and interpolated between. Here h is the largest power of 2, 1 to 8, that is
+/// not above a quarter of the close radius. Where radii vary, some below 3.5 voxels act as if they were up to 0.27
+/// less. So the rule for neighbours holds on the lattice of voxels too.
+/// \throw InputError as closeMask; the cube, which has one radius only; a region's scale outside 0 to 8 or its radius
+/// negative; a grid's value not finite; a radius above 512 voxels; a grid whose transform is not linear; a field of
+/// more than 2^28 samples
+/// \throw Cancelled
+/// Cost: about three times that of one radius, and 4 / h^3 bytes for each voxel of the box where the field is not the
+/// same.
 VDBCAGE_API openvdb::MaskGrid::Ptr closeMask(const openvdb::MaskGrid& solid, const CloseOptions& options,
                                              const ScaleField& scale, Interrupter* interrupter = nullptr);
 

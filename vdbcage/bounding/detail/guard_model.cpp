@@ -49,17 +49,17 @@ void addMirrorImage(const SymmetryPlane& plane, std::vector<Vec3d>& points, std:
     triangles = std::move(kept);
 }
 
-/// The faces of a model as triangles, and how far the model reaches beyond them at most.
+/// The faces of a model as triangles, and how far beyond them the model lies at most.
 struct Faces {
     std::vector<Vec3I> triangles;
     double beyond = 0;
 };
 
-/// Both splits of each quad count, but of many quads the second is left out where it is within `reach` of the first.
-/// It is as near as the points p and q of the diagonals that are nearest to each other: the four triangles from q to
-/// the quad's edges are the second split, those from p are the first, and what maps one onto the other moves no point
-/// by more than |p - q|.
-Faces facesOf(const Mesh& model, const std::vector<Vec3d>& points, double reach)
+/// Both splits of each quad count, but of many quads the second is left out where it is within `maxDistance` of the
+/// first. It is as near as the points p and q of the diagonals that are nearest to each other: the four triangles from
+/// q to the quad's edges are the second split, those from p are the first, and what maps one onto the other moves no
+/// point by more than |p - q|.
+Faces facesOf(const Mesh& model, const std::vector<Vec3d>& points, double maxDistance)
 {
     constexpr std::size_t many = std::size_t(1) << 18; // fewer cost too little to give away any clearance for
     if (model.quads.size() < many) return {everySplit(model), 0};
@@ -68,7 +68,7 @@ Faces facesOf(const Mesh& model, const std::vector<Vec3d>& points, double reach)
     double squared = 0;
     for (const openvdb::Vec4I& q : model.quads) {
         const double apart = segmentNearness(points[q[0]], points[q[2]], points[q[1]], points[q[3]]).squaredDistance;
-        if (apart <= reach * reach) {
+        if (apart <= maxDistance * maxDistance) {
             squared = std::max(squared, apart);
         } else {
             faces.triangles.emplace_back(q[0], q[1], q[3]);
@@ -113,7 +113,7 @@ GuardModel::GuardModel(const Mesh& model, const GuardOptions& options, Interrupt
     auto [triangles, beyond] = facesOf(model, points, clearance_ / 4);
     clearance_ += beyond;
     if (options.symmetry) {
-        // Surfaces reach little farther than the model: multiples of the step up to four times as far are floats, or
+        // Surfaces are little larger than the model: multiples of the step up to four times as far are floats, or
         // doubles with some bits to spare for the rounding of points that are to be symmetric.
         step_ = std::ldexp(scale_, std::ilogb(farthest(box)) + (roundsToFloat_ ? 2 - 23 : 2 - 50));
         const double offset = step_ * std::round(options.symmetry->offset * scale_ / step_);

@@ -108,9 +108,9 @@ bool descend(const GuardedMesh& surface, const StarChange& star, Vec3d& p, const
         if (!solution) return false;
         Vec3d delta = *solution;
         const double length = delta.length();
-        if (length > 0.5 * limit.reach) delta *= 0.5 * limit.reach / length;
+        if (length > 0.5 * limit.radius) delta *= 0.5 * limit.radius / length;
         delta *= share;
-        if (!(delta.length() > limit.least * limit.reach)) return false;
+        if (!(delta.length() > limit.least * limit.radius)) return false;
         const Vec3d target = rounded(surface, star, p + delta);
         if (!allows(surface, star, target, &obstacle)) {
             const std::size_t before = halfSpaces.size();
@@ -168,7 +168,7 @@ DistanceMeasure::Fit DistanceMeasure::fit(const GuardedMesh& surface, const Star
         const auto& edge = star.link[k];
         const double share = surface.weight(star.keptFaces[k]);
         const Corners t{centre, surface.point(edge[0]), surface.point(edge[1])};
-        fit.reach = std::max({fit.reach, (t[1] - centre).length(), (t[2] - centre).length()});
+        fit.radius = std::max({fit.radius, (t[1] - centre).length(), (t[2] - centre).length()});
         forEachSample(t, seed, [&](double sampleWeight, double b0, const Vec3d& away, double d) {
             const double weight = share * sampleWeight;
             fit.integral += weight * d;
@@ -202,7 +202,7 @@ bool DistanceMeasure::improve(const GuardedMesh& surface, const StarChange& star
 {
     Fit there;
     const bool found =
-        descend(surface, star, p, fit.change, {fit.reach, pace.share, pace.least}, [&](const Vec3d& target) {
+        descend(surface, star, p, fit.change, {fit.radius, pace.share, pace.least}, [&](const Vec3d& target) {
             there = this->fit(surface, star, target, seed);
             return there.integral < fit.integral * (1 - pace.gain);
         });

@@ -16,9 +16,9 @@ struct Quadratic {
 
 /// How far a centre may go at once.
 struct StepLimit {
-    double reach;        ///< no step is longer than half of it
+    double radius;       ///< of the star; no step is longer than half of it
     double share = 1;    ///< of the way to the best place that is allowed; less than 1 leaves room for the neighbours
-    double least = 1e-3; ///< no step is shorter than this part of `reach`
+    double least = 1e-3; ///< no step is shorter than this part of `radius`
 };
 
 /// Looks for a place of the star's centre, allowed at `p`, where `change` is negative, along the planes of the contacts
@@ -42,7 +42,7 @@ public:
     struct Fit {
         double integral = 0;
         Quadratic change;
-        double reach = 0; ///< length of the longest edge at the centre
+        double radius = 0; ///< of the star: the length of the longest edge at the centre
     };
     Fit fit(const GuardedMesh& surface, const StarChange& star, const Vec3d& centre, std::uint32_t& seed) const;
 

@@ -37,7 +37,10 @@ struct CheckedModel {
             return {point(item.corners[0]), point(item.corners[1]), point(item.corners[2])};
         }
         /// How far its triangles may lie from those in the tree.
-        double reach() const { return asFloats ? 2 * floatRounding({model.tree.box().lo, model.tree.box().hi}) : 0; }
+        double maxDistance() const
+        {
+            return asFloats ? 2 * floatRounding({model.tree.box().lo, model.tree.box().hi}) : 0;
+        }
     };
 
     TriangleBvh tree;                        ///< all four triangles of a quad; copies are dropped

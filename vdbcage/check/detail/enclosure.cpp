@@ -65,7 +65,7 @@ std::size_t countContacts(CageFaces& cage, const CheckedModel::View& view, Flags
             for (std::size_t t = cage.faces.first(face); t < cage.faces.first(face + 1); ++t) {
                 const Corners corners = cage.corners(t);
                 const Box box = Box::of(corners);
-                model.tree.traverse(model.tree.near(corners, view.reach()), [&](const TriangleBvh::Item& item) {
+                model.tree.traverse(model.tree.near(corners, view.maxDistance()), [&](const TriangleBvh::Item& item) {
                     std::atomic<bool>& part = touched[model.partOfPoint[item.corners[0]]];
                     if (contact && isSet(part)) return true; // nothing left to learn from this pair
                     const Corners other = view.corners(item);

@@ -7,8 +7,8 @@
 
 namespace vdbcage::detail {
 
-/// Gives `grid` a copy of the transform of `source`. Where voxels are smaller than some 1e-5, which OpenVDB can read
-/// and write but refuses to copy, they share one.
+/// Gives `grid` a copy of the transform of `source`. Where voxels are smaller than some 1e-5 the two share one: OpenVDB
+/// can read and write it, but refuses to copy it.
 inline void copyTransform(const openvdb::GridBase& source, openvdb::GridBase& grid)
 {
     try {

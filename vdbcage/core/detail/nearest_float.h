@@ -7,7 +7,7 @@
 
 namespace vdbcage::detail {
 
-/// The float next to `value`. Volatile, because g++ 12 -O3 drops the conversion in parts of vectorized code.
+/// The float nearest to `value`. Volatile, because g++ 12 -O3 drops the conversion in parts of vectorized code.
 inline double nearestFloat(double value)
 {
     const volatile float rounded = static_cast<float>(value);
@@ -19,7 +19,7 @@ inline openvdb::Vec3d nearestFloat(const openvdb::Vec3d& p)
     return {nearestFloat(p[0]), nearestFloat(p[1]), nearestFloat(p[2])};
 }
 
-/// The size of the largest coordinate.
+/// The largest absolute value of a coordinate in `box`.
 inline double farthest(const openvdb::BBoxd& box)
 {
     double largest = 0;
@@ -27,14 +27,15 @@ inline double farthest(const openvdb::BBoxd& box)
     return largest;
 }
 
-/// What rounding to float moves a coordinate in `box` by, at most: 2^-24 of the largest, and no less than floats tell
+/// How far rounding to float moves a coordinate in `box`, at most: 2^-24 of the largest, and no less than floats tell
 /// apart.
 inline double floatRounding(const openvdb::BBoxd& box)
 {
     return farthest(box) * 0x1p-24 + 0x1p-149;
 }
 
-/// Whether a host that stores floats can hold a model of this (not empty) box at all: rounding is far below its size.
+/// Whether a host that stores floats can hold a model of this box at all: rounding is far below its size.
+/// \pre `box` is not empty
 inline bool fitsFloat(const openvdb::BBoxd& box)
 {
     const double side = box.extents()[static_cast<int>(box.maxExtent())], rounding = floatRounding(box);

@@ -10,14 +10,13 @@
 #include <tbb/parallel_sort.h>
 #include <tbb/task_group.h>
 
-/// TBB's parallel loops, but each runs all of its bodies or throws.
+/// TBB's parallel loops, but each runs all of its bodies or throws. The arguments are those of TBB's functions of the
+/// same name, without a context.
 ///
 /// TBB cancels the loops within a loop when one of its bodies throws. A loop that was cancelled so returns as if it had
-/// run: what its bodies should have filled stays empty, and whoever called it cannot tell. The loop around may be the
-/// host's. Here every loop has a context of its own, which only an exception of its own bodies cancels. A body that
-/// throws thus lets the bodies beside it go on until they ask the interrupter themselves.
-///
-/// The arguments are those of TBB's functions of the same name, without a context.
+/// run. What its bodies should have filled stays empty, and whoever called it cannot tell. The loop around may be the
+/// host's. Here every loop has a context of its own, which only an exception of its own bodies cancels. So a body that
+/// throws lets the bodies beside it go on until they ask the interrupter themselves.
 namespace vdbcage::detail {
 
 template <typename... Arguments>
@@ -41,7 +40,7 @@ void parallelInvoke(Arguments&&... arguments)
     tbb::parallel_invoke(std::forward<Arguments>(arguments)..., own);
 }
 
-/// Runs a function whose parallel loops are not ours (OpenVDB's, say) and returns what it returns: its loops, too, run
+/// Runs a function whose parallel loops are not ours (OpenVDB's, say) and returns what it returns. Its loops, too, run
 /// whole or throw.
 template <typename Function>
 auto isolated(const Function& function)

@@ -5,12 +5,13 @@
 
 namespace vdbcage::detail {
 
-/// Pipes and devices have no size and may never end. What does not exist is left to whoever opens it.
-/// \throw IoError naming the path: a directory, a pipe, socket or device
+/// Checks that `path`, if it exists, is a regular file: pipes and devices have no size and may never end. What does not
+/// exist is left to whoever opens it.
+/// \throw IoError naming the path: a directory, pipe, socket or device
 void requireRegularFile(const std::filesystem::path& path);
 
-/// All of a regular file. Its size is asked once: what is appended meanwhile is not read.
-/// \throw IoError naming the path: a directory, a pipe, socket or device, cannot be read, empty
+/// Reads all of a regular file. Its size is asked once: what is appended meanwhile is not read.
+/// \throw IoError naming the path: a directory, pipe, socket or device; cannot be read; empty
 std::string readFile(const std::filesystem::path& path);
 
 } // namespace vdbcage::detail

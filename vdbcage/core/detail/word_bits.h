@@ -6,8 +6,8 @@
 
 namespace vdbcage::detail {
 
-/// Swaps the bits of `low` that are `shift` places above `mask` with those of `high` under it. Words, or vectors of
-/// them.
+/// Swaps the bits of `low` that are `shift` places above `mask` with those of `high` under it. Takes words, or vectors
+/// of them.
 template <class Word>
 inline void swapBits(Word& low, Word& high, std::uint64_t mask, int shift)
 {
@@ -16,7 +16,7 @@ inline void swapBits(Word& low, Word& high, std::uint64_t mask, int shift)
     low ^= difference << shift;
 }
 
-/// Byte y of word x goes to byte x of word y.
+/// Transposes bytes: byte y of word x goes to byte x of word y.
 inline void transposeBytes(std::array<std::uint64_t, 8>& w)
 {
     for (std::size_t i = 0; i < 4; ++i) swapBits(w[i], w[i + 4], 0x00000000FFFFFFFFULL, 32);
@@ -24,7 +24,7 @@ inline void transposeBytes(std::array<std::uint64_t, 8>& w)
     for (const std::size_t i : {0U, 2U, 4U, 6U}) swapBits(w[i], w[i + 1], 0x00FF00FF00FF00FFULL, 8);
 }
 
-/// Each word is four lanes of 16 bits: in every lane, bit z of word x goes to bit x of word z.
+/// Transposes each of four lanes of 16 bits: in every lane, bit z of word x goes to bit x of word z.
 inline void transposeLanes(std::array<std::uint64_t, 16>& w)
 {
     const auto swapApart = [&](std::size_t distance, std::uint64_t mask) {
@@ -38,7 +38,7 @@ inline void transposeLanes(std::array<std::uint64_t, 16>& w)
     swapApart(1, 0x5555555555555555ULL);
 }
 
-/// How many bits are set. (The builtin calls a function where the processor may lack the instruction.)
+/// How many bits are set. The builtin would call a function where the processor may lack the instruction.
 inline unsigned bitCount(std::uint16_t bits)
 {
     unsigned v = bits;

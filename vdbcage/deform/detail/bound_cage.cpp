@@ -188,9 +188,9 @@ BoundCage::Place BoundCage::nearest(const Vec3d& x) const
     for (std::size_t face = 0; face < faces_.size(); ++face) {
         const PatchCorners c = cornersFrom(faces_[face], x);
         const Vec3d middle = 0.25 * (c[0] + c[1] + c[2] + c[3]);
-        double reach = 0;
-        for (const Vec3d& corner : c) reach = std::max(reach, (corner - middle).lengthSqr());
-        const double sum = best.distance + std::sqrt(reach);
+        double squaredRadius = 0;
+        for (const Vec3d& corner : c) squaredRadius = std::max(squaredRadius, (corner - middle).lengthSqr());
+        const double sum = best.distance + std::sqrt(squaredRadius);
         if (middle.lengthSqr() >= sum * sum) continue; // its sphere is farther away
         const Place place = nearestOf(face, x);
         if (place.distance < best.distance) best = place;

@@ -49,13 +49,13 @@ void samplePatch(const PatchCorners& corners, double least, const Visit& visit)
         const PatchCorners& c = piece.c;
         const Vec3d middle = 0.25 * (c[0] + c[1] + c[2] + c[3]);
         const double away = middle.length();
-        double reach = 0, front = away;
+        double radius = 0, front = away;
         for (const Vec3d& corner : c) {
-            reach = std::max(reach, (corner - middle).length());
+            radius = std::max(radius, (corner - middle).length());
             if (away > 0) front = std::min(front, corner.dot(middle) / away);
         }
-        if (reach < least) continue;
-        const double distance = std::max({away - reach, front, 0.0});
+        if (radius < least) continue;
+        const double distance = std::max({away - radius, front, 0.0});
         const double halfU = 0.5 * std::max((c[1] - c[0]).length(), (c[2] - c[3]).length());
         const double halfV = 0.5 * std::max((c[3] - c[0]).length(), (c[2] - c[1]).length());
         const auto points = [&](double halfLength) {

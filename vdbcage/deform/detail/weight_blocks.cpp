@@ -137,9 +137,9 @@ void requireWeights(std::size_t weights, std::size_t points, std::size_t handles
                      std::to_string(handles) + " handles need " + std::to_string(points * handles));
 }
 
-WeightBlocks::WeightBlocks(const std::vector<Vec3d>& points, const std::vector<float>& reaches,
+WeightBlocks::WeightBlocks(const std::vector<Vec3d>& points, const std::vector<float>& maxDistances,
                            const MakeRows& makeRows)
-    : handles_(reaches.size())
+    : handles_(maxDistances.size())
 {
     Indices all(points.size());
     std::iota(all.begin(), all.end(), 0U);
@@ -149,7 +149,7 @@ WeightBlocks::WeightBlocks(const std::vector<Vec3d>& points, const std::vector<f
     parallelFor(std::size_t(0), blocks.size(), [&](std::size_t b) {
         std::vector<float> rows(blocks[b].size() * handles_);
         makeRows(blocks[b], rows);
-        const InterpolativeRows few = interpolativeRows(rows, reaches, tolerance, groupSize);
+        const InterpolativeRows few = interpolativeRows(rows, maxDistances, tolerance, groupSize);
         Block& block = blocks_[b];
         block.held = few.kept;
         for (const std::uint32_t i : few.order) block.points.push_back(blocks[b][i]);

@@ -28,9 +28,9 @@ public:
     /// What combinations may be off by: four times what rounding to float takes.
     static constexpr float tolerance = 1.0F / (1 << 22);
 
-    /// `points` are finite; `reaches` has how far each handle may go, about. A row is off by at most `tolerance` of its
-    /// size, both in sum over the handles of absolute values times reach, but for rounding.
-    WeightBlocks(const std::vector<openvdb::Vec3d>& points, const std::vector<float>& reaches,
+    /// `points` are finite; `maxDistances` has how far each handle may go, about. A row is off by at most `tolerance`
+    /// of its size, both in sum over the handles of absolute values times reach, but for rounding.
+    WeightBlocks(const std::vector<openvdb::Vec3d>& points, const std::vector<float>& maxDistances,
                  const MakeRows& makeRows);
 
     /// Adds what `moves` move them by, times `size`, to `points`. Costs reading the weights of these handles and the

@@ -33,8 +33,9 @@ inline OpenMesh::Vec3d fromVec3d(const openvdb::Vec3d& p)
 }
 
 /// Pairs up the half-edges of `triangles`: 3 t + i runs from corner i of triangle t to the next. Gives each its
-/// opposite, or `none` at a boundary. \throw InputError an edge that is not between one or two faces in opposite
-/// directions, a triangle that repeats a corner
+/// opposite, or `none` at a boundary.
+/// \throw InputError an edge that is not between one or two faces in opposite directions; a triangle that repeats a
+/// corner
 class HalfEdgePairs {
 public:
     static constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
@@ -71,8 +72,10 @@ public:
     std::vector<std::size_t> opposite;
 };
 
-/// `mesh`, its quads split, as an OpenMesh with the same numbers for the points and, after the split, the faces.
-/// \throw InputError not an oriented 2-manifold (boundaries are allowed). O(faces).
+/// `mesh`, its quads split, as an OpenMesh. Points and, after the split, faces keep their numbers. Boundaries are
+/// allowed.
+/// \throw InputError not an oriented 2-manifold
+/// Cost: O(faces).
 inline OpenTriMesh toOpenMesh(const Mesh& mesh)
 {
     using Handle = OpenTriMesh::HalfedgeHandle;

@@ -9,12 +9,11 @@
 #include <vdbcage/mesh/mesh_io.h>
 
 // One parser and one writer a format. A parser gets the bytes of a whole file and its name, which begins each message.
-// \throw IoError
+// \throw IoError naming the file
 //
-// They are written here, on std::from_chars over a buffer, and not taken from a library, because none at hand does all
-// that readMesh promises: tinyobjloader reads numbers by its own, not correctly rounded, routine and accepts NaN;
-// CGAL's and OpenMesh's readers go through iostreams and report "failed" without a line or a value; Assimp keeps
-// floats.
+// They are written here, on std::from_chars over a buffer, because no library at hand does all that readMesh promises.
+// tinyobjloader reads numbers by its own routine, not correctly rounded, and accepts NaN. CGAL's and OpenMesh's readers
+// go through iostreams and report "failed" without a line or a value. Assimp keeps floats.
 
 namespace vdbcage::detail {
 
@@ -30,7 +29,7 @@ MeshFile parseStl(std::string_view bytes, const std::string& name);
 void writeObj(const Mesh& mesh, const std::string& name, std::ostream& out);
 void writeOff(const Mesh& mesh, const std::string& name, std::ostream& out);
 void writePly(const Mesh& mesh, const std::string& name, std::ostream& out);
-/// \throw IoError naming `name` if a coordinate does not fit a float
+/// \throw IoError naming `name`: a coordinate does not fit a float
 void writeStl(const Mesh& mesh, const std::string& name, std::ostream& out);
 
 } // namespace vdbcage::detail

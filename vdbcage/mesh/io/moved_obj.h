@@ -9,9 +9,9 @@
 
 namespace vdbcage::detail {
 
-/// The text of an OBJ file with its points at `points` and its normals turned as the faces that use them turn;
-/// everything else stays byte by byte. The text is one that parseObj takes, and has as many points; `name` is the
-/// file's.
+/// The text of an OBJ file with its points at `points` and its normals turned as the faces that use them turn.
+/// Everything else stays byte by byte. `name` is the file's.
+/// \pre the text is one that parseObj takes, with as many points
 std::string movedObj(std::string_view bytes, const std::string& name, const std::vector<openvdb::Vec3d>& points);
 
 } // namespace vdbcage::detail

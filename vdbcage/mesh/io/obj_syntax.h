@@ -5,12 +5,12 @@
 
 #include <vdbcage/mesh/io/text_cursor.h>
 
-/// What the two readers of OBJ files share: one makes a Mesh, the other replaces positions in the text.
+/// What the two readers of OBJ files share. One makes a Mesh, the other replaces positions in the text.
 namespace vdbcage::detail {
 
 constexpr TextSyntax objSyntax{'#', /*continuesLines=*/true};
 
-/// A statement of names, of which the last may be a path that ends with a backslash: no continued line.
+/// Whether it is a statement of names. The last may be a path that ends with a backslash, which continues no line.
 inline bool isObjNameStatement(std::string_view keyword)
 {
     return keyword == "o" || keyword == "g" || keyword == "usemtl" || keyword == "mtllib" || keyword == "usemap" ||
@@ -28,7 +28,7 @@ struct ObjCorner {
     int form = 0; ///< the same for corners that give the same parts
 };
 
-/// Reads a corner as far as it is one; false if there is none.
+/// Reads a corner as far as it is one. False if there is none.
 inline bool readObjCorner(TextCursor& in, ObjCorner& corner)
 {
     if (!in.integerPrefix(corner.point)) return false;

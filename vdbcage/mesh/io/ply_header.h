@@ -12,7 +12,7 @@ enum class PlyFormat { ascii, binaryLittleEndian, binaryBigEndian };
 
 enum class PlyType { int8, uint8, int16, uint16, int32, uint32, int64, uint64, float32, float64 };
 
-/// In bytes, in a binary file.
+/// The size of a value in a binary file, in bytes.
 std::size_t sizeOf(PlyType type);
 
 struct PlyProperty {
@@ -35,6 +35,7 @@ struct PlyHeader {
     std::size_t size = 0; ///< in bytes: where the body begins
 };
 
+/// Parses the header of a PLY file.
 /// \throw IoError naming `name`, the line and the value
 PlyHeader parsePlyHeader(std::string_view bytes, const std::string& name);
 

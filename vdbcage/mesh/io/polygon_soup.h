@@ -9,7 +9,7 @@
 
 namespace vdbcage::detail {
 
-/// What a parser collects from a file before polygons are split: faces may come before the points that they use.
+/// What a parser collects from a file before polygons are split. Faces may come before the points that they use.
 struct PolygonSoup {
     std::vector<openvdb::Vec3d> points;
     std::vector<openvdb::Vec3I> triangles;
@@ -17,7 +17,7 @@ struct PolygonSoup {
     std::vector<std::size_t> ends;         ///< where in `corners` each of these faces ends
     std::size_t ignoredElements = 0;
 
-    /// A face of fewer than three corners is not a surface: it counts as ignored.
+    /// Adds a face. One of fewer than three corners is not a surface: it counts as ignored.
     void addFace(const openvdb::Index32* face, std::size_t count)
     {
         if (count < 3) {
@@ -31,13 +31,13 @@ struct PolygonSoup {
     }
 };
 
-/// The most triangles that alternate splits of a model's polygons have in all (those of quads do not count). They take
-/// about 80 bytes each while a cage is made: 1.3 GB, measured with 4200 faces of 64 corners. 20,000 such faces took
-/// 7.6 GB without a bound.
+/// The most triangles that alternate splits of a model's polygons have in all; those of quads do not count. They take
+/// about 80 bytes each while a cage is made: 1.3 GB, measured with 4200 faces of 64 corners. 20,000 such faces took 7.6
+/// GB without a bound.
 constexpr std::size_t mostAlternates = std::size_t(1) << 24U;
 
-/// Splits the polygons, and checks that there is a face with an area. All indices must be in range and all coordinates
-/// finite.
+/// Splits the polygons, and checks that there is a face with an area.
+/// \pre all indices are in range and all coordinates finite
 /// \throw IoError naming `name` (of the file)
 MeshFile toMesh(PolygonSoup soup, const std::string& name);
 

@@ -174,7 +174,7 @@ bool PolygonSplitter::isBlocked(std::size_t corner, const Box& box, std::size_t 
                                 std::size_t end)
 {
     ++work_;
-    if (nodes_[node].left == 0 || !mayReach(corner, box, nodes_[node].box)) return false;
+    if (nodes_[node].left == 0 || !mayOverlap(corner, box, nodes_[node].box)) return false;
     if (end - begin > obstaclesPerLeaf) {
         const std::size_t middle = begin + (end - begin) / 2;
         return isBlocked(corner, box, 2 * node + 1, begin, middle) || isBlocked(corner, box, 2 * node + 2, middle, end);
@@ -195,7 +195,7 @@ bool PolygonSplitter::isBlocked(std::size_t corner, const Box& box, std::size_t 
 
 /// Never wrongly denied: coordinates are up to 1 (see scaleToUnit), areas of the corners of `other` are rounded by less
 /// than 1e-14.
-bool PolygonSplitter::mayReach(std::size_t corner, const Box& box, const Box& other) const
+bool PolygonSplitter::mayOverlap(std::size_t corner, const Box& box, const Box& other) const
 {
     if (other.left > box.right || other.right < box.left || other.bottom > box.top || other.top < box.bottom) {
         return false;

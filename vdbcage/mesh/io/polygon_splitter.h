@@ -7,22 +7,24 @@
 
 namespace vdbcage::detail {
 
-/// Splits faces of four and more corners into triangles that keep the face's orientation. It decides in rounded
-/// arithmetic: every choice of diagonals fills the same loop of edges, so an error of rounding can at worst choose a
-/// worse diagonal in a face that is nearly degenerate. Corners are never added, moved or dropped.
+/// Splits faces of four and more corners into triangles that keep the face's orientation. Corners are never added,
+/// moved or dropped.
+///
+/// It decides in rounded arithmetic. Every choice of diagonals fills the same loop of edges. So an error of rounding
+/// can at worst choose a worse diagonal in a face that is nearly degenerate.
 class PolygonSplitter {
 public:
     /// `points` must outlive the splitter and not change.
     explicit PolygonSplitter(const std::vector<openvdb::Vec3d>& points) : points_(points) {}
 
-    /// Appends `count` - 2 triangles, or the face itself to `quads` if it has four corners and is convex, or if no
-    /// diagonal divides it well (it crosses itself or has no area). Cost: O(count log count) for most faces. The work
-    /// is bounded by a multiple of `count`, where that is large: what is left of the face then is split as if it had no
-    /// right division.
+    /// Appends `count` - 2 triangles, or the face itself to `quads`. To `quads` goes a face of four corners that is
+    /// convex, or that no diagonal divides well (it crosses itself or has no area).
+    /// Cost: O(count log count) for most faces. The work is bounded by a multiple of `count`, where that is large. What
+    /// is left of the face then is split as if it had no right division.
     void split(const openvdb::Index32* face, std::size_t count, std::vector<openvdb::Vec3I>& triangles,
                std::vector<openvdb::Vec4I>& quads);
 
-    /// What the search for ears in the faces split so far has cost, in corners looked at, about. 0 for fans.
+    /// What the search for ears in the faces split so far has cost: about the number of corners looked at. 0 for fans.
     std::size_t work() const { return allWork_; }
 
 private:
@@ -53,7 +55,7 @@ private:
     void clip(std::size_t corner, const openvdb::Index32* face, std::vector<openvdb::Vec3I>& triangles);
     bool isEar(std::size_t corner);
     bool isBlocked(std::size_t corner, const Box& box, std::size_t node, std::size_t begin, std::size_t end);
-    bool mayReach(std::size_t corner, const Box& box, const Box& other) const;
+    bool mayOverlap(std::size_t corner, const Box& box, const Box& other) const;
     void growTree(std::size_t node, std::size_t begin, std::size_t end);
     void dropObstacle(std::size_t corner);
 
@@ -75,7 +77,7 @@ private:
 constexpr std::size_t mostCornersWithAlternates = 64;
 
 /// Appends the triangles of other ways to split a face of four or more corners than the one that a PolygonSplitter
-/// chooses: any three corners up to eight; beyond, up to 64 corners, the fans around each; nothing for larger faces.
+/// chooses. Up to eight corners these are any three corners; up to 64, the fans around each. Larger faces have none.
 void addAlternatives(const openvdb::Index32* face, std::size_t count, std::vector<openvdb::Vec3I>& triangles);
 
 /// How many triangles addAlternatives() appends for a face of `count` corners.

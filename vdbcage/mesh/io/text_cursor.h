@@ -15,8 +15,9 @@ struct TextSyntax {
     bool continuesLines = false; ///< a backslash before the line's end joins the next line to it
 };
 
-/// Walks over the text of a file by words and lines. Lines end with LF, CR LF or CR; a UTF-8 byte order mark is
-/// skipped. Nothing depends on the locale. Every failure throws IoError "NAME: line N: PROBLEM".
+/// Walks over the text of a file by words and lines. Lines end with LF, CR LF or CR. A UTF-8 byte order mark is
+/// skipped. Nothing depends on the locale.
+/// \throw IoError "NAME: line N: PROBLEM", from every failure
 class TextCursor {
 public:
     /// `bytes` and `name` (the file's, for messages) must outlive the cursor.
@@ -26,27 +27,27 @@ public:
     /// The bytes from here to the end of the file.
     std::size_t bytesLeft() const { return static_cast<std::size_t>(end_ - at_); }
     bool atEnd() const { return at_ == end_; }
-    /// Skips blanks; true if nothing but a comment is left on the line.
+    /// Skips blanks. True if nothing but a comment is left on the line.
     bool atLineEnd();
     /// Goes behind the end of the line. What is left on it is skipped.
     void nextLine();
     /// The same, but a line that continues takes its continuation with it.
     void nextStatement();
-    /// Skips blanks, comments and line ends up to a word; false if there is none.
+    /// Skips blanks, comments and line ends up to a word. False if there is none.
     bool skipToWord();
 
     /// The next word of the line, empty if there is none.
     std::string_view word();
     /// Skips the next word of the line if it is `expected`.
     bool skipWord(std::string_view expected);
-    /// The next word as a finite number; one that is too small for a double becomes zero. `what` is what it stands for
-    /// in messages ("the x coordinate").
+    /// The next word as a finite number. One that is too small for a double becomes zero. `what` is what it stands for
+    /// in messages, such as "the x coordinate".
     double coordinate(const char* what);
     /// True if the next word is a number of any kind, which is then skipped.
     bool skipNumber();
     /// The next word as an integer.
     std::int64_t integer(const char* what);
-    /// An integer that may end before the end of its word (as in the corner 1/2/3); false if there is none. One that
+    /// An integer that may end before the end of its word, as in the corner 1/2/3. False if there is none. One that
     /// does not fit in 64 bits fails.
     bool integerPrefix(std::int64_t& value);
     /// Skips `c` if it comes next in the same word.
@@ -59,7 +60,7 @@ public:
     /// True between two words: at a blank, a comment, or the end of the line or file.
     bool atWordEnd() const { return endsWord(at_); }
 
-    /// Counted from 1.
+    /// The number of the line of `where`, counted from 1.
     std::size_t lineOf(const char* where) const;
     /// \throw IoError for the line of `where`
     [[noreturn]] void fail(const char* where, const std::string& problem) const;

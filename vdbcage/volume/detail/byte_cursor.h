@@ -45,7 +45,7 @@ public:
     {
         if (count > left()) {
             if (bytes_.size() == fileSize_) refuse("is not a .vdb file, or is truncated");
-            damaged("a grid reaches beyond its end");
+            damaged("a grid extends beyond its end");
         }
         if (fields_ && count > 0) fields_->push_back({position_, count});
         const std::string_view result = bytes_.substr(position_, count);

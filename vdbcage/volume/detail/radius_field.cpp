@@ -27,7 +27,7 @@ int spacingShift(double radius)
 }
 
 // By square, the least radius such that from a voxel q with it, of the g at that squared distance, one of q's
-// neighbours with half a voxel less still reaches each, if its own square obeys the same rule.
+// neighbours with half a voxel less still has each within its radius, if its own square obeys the same rule.
 std::vector<double> leastRadii(int largest)
 {
     const auto size = static_cast<std::size_t>(largest * largest) + 1;
@@ -91,7 +91,7 @@ BBoxd extentOf(const ScaleField& scale, const openvdb::math::Transform& voxels)
         scale.grid->tree().evalLeafBoundingBox(leaves);
         active.expand(leaves);
         if (!active.empty()) {
-            // Not with coordinates: the field may reach to their ends.
+            // Not with coordinates: the field may extend to their ends.
             const Vec3d lower = active.min().asVec3d() - Vec3d(1), upper = active.max().asVec3d() + Vec3d(1);
             for (int corner = 0; corner < 8; ++corner) {
                 const Vec3d index((corner & 1 ? upper : lower).x(), (corner & 2 ? upper : lower).y(),
@@ -164,7 +164,7 @@ RadiusField::RadiusField(const ScaleField& scale, const openvdb::math::Transform
         }
         const double spread = most / steepest + 2 * (1 << shift_);
         BBoxd around(box.min().asVec3d(), box.max().asVec3d());
-        around.expand(spread + most + 2); // radii are asked for as far from the box as they reach
+        around.expand(spread + most + 2); // radii are asked for as far from the box as they are long
         extent.expand(spread);
         double count = 1;
         for (std::size_t axis = 0; axis < 3; ++axis) {

@@ -1,7 +1,7 @@
 // Based on: the node-wise overlap tests of Calderon and Boubekeur, Bounding Proxies for Shape Approximation, 2017.
 // Differs: exact integer distances to the contour voxels alone (for a point outside a set some nearest voxel of it has
-// a face neighbour outside); the tree's nodes are asked as wholes (128^3, 32^3, 8^3), each with the contour leaves that
-// reach it, and only entries that are neither all in nor all out look at voxels (see sphere_query.h).
+// a face neighbour outside); the tree's nodes are asked as wholes (128^3, 32^3, 8^3), each with the contour leaves
+// within the radius, and only entries that are neither all in nor all out look at voxels (see sphere_query.h).
 #include <vdbcage/volume/detail/sphere_pass.h>
 
 #include <algorithm>
@@ -37,29 +37,29 @@ std::int64_t squaredGap(const CoordBBox& a, const CoordBBox& b)
 // What one thread needs while it works on a part of a block.
 template <class Query>
 struct WorkSpace {
-    std::vector<std::size_t> groups; // that reach the part
+    std::vector<std::size_t> groups; // within the radius of the part
     std::vector<NearLeaf> near;      // their leaves, or samples of them
-    // Those that may reach open entries, by where they are along z: see SphereQuery::Leaves.
+    // Those within the radius of open entries, maybe, by where they are along z: see SphereQuery::Leaves.
     std::vector<std::uint16_t> order;
-    // For each pile of entries of the part those that may reach open ones.
+    // For each pile of entries of the part the same for its open ones.
     std::vector<std::uint16_t> lists;
     std::array<std::array<std::size_t, 6>, 16> ends;
-    std::optional<Coord> block; // that `reach` knows about
-    typename Query::Work reach;
+    std::optional<Coord> block; // that `queryWork` knows about
+    typename Query::Work queryWork;
     // By entry of the part: its voxels, and those that the pass may change.
     std::array<const std::uint64_t*, 64> base;
     std::array<const Words*, 64> open;
     std::array<Words, 64> partlyOpen;
 };
 
-// Query tells what is within reach: SphereQuery or VaryingQuery.
+// Query tells what is within the radius: SphereQuery or VaryingQuery.
 template <class Query>
 class SpherePass {
 public:
     SpherePass(const MaskTree& base, const MaskTree* keep, ContourOf side, std::int64_t largestSquare,
-               const Query& reach, const std::vector<ContourBlock>& contour, const Progress& progress)
+               const Query& query, const std::vector<ContourBlock>& contour, const Progress& progress)
         : base_(base), keep_(keep), side_(side), squaredRadius_(largestSquare), contour_(contour), progress_(progress),
-          radius_(static_cast<int>(std::ceil(std::sqrt(static_cast<double>(largestSquare))))), query_(reach)
+          radius_(static_cast<int>(std::ceil(std::sqrt(static_cast<double>(largestSquare))))), query_(query)
     {
     }
 
@@ -83,11 +83,11 @@ private:
             const ContourGroup* group;
             std::size_t firstId; // its leaves are numbered from here
         };
-        std::vector<Group> groups; // those that reach it
+        std::vector<Group> groups; // those within the radius of it
         std::size_t leaves = 0;    // of all groups
     };
 
-    // The blocks in reach of the contour that the pass may change.
+    // The blocks within the radius of the contour that the pass may change.
     std::vector<Coord> targetBlocks() const
     {
         std::vector<Coord> targets;
@@ -156,17 +156,17 @@ private:
             const Coord corner = target.origin + entryOffset(firstEntry);
             const std::size_t leaves = selectGroups(target, corner, work), stride = leaves / samples + 1;
             gatherLeaves(target, corner, stride, work);
-            query_.startPart(work.reach, corner);
-            covered = open & query_.coveredEntries(work.near.data(), work.near.size(), open, work.reach);
+            query_.startPart(work.queryWork, corner);
+            covered = open & query_.coveredEntries(work.near.data(), work.near.size(), open, work.queryWork);
             open &= ~covered;
             if (open != 0 && stride > 1) gatherLeaves(target, corner, 1, work);
         }
         if (open != 0) {
-            if (work.block != target.origin) query_.startBlock(work.reach, target.leaves);
+            if (work.block != target.origin) query_.startBlock(work.queryWork, target.leaves);
             work.block = target.origin;
             open &= listLeaves(open, work);
         }
-        // The open voxels within reach change sides.
+        // The open voxels within the radius change sides.
         for (int pile = 0; pile < 16; ++pile) {
             const int first = 4 * pile;
             SphereQuery::Pile pileOpen{};
@@ -177,7 +177,7 @@ private:
             std::array<Words, 4> change;
             if ((open >> first & 15) != 0) {
                 progress_.check(partsDone_, parts_); // these take time with large radii
-                change = query_.within(pileOpen, pile, work.near.data(), leavesOf(pile, work), work.reach);
+                change = query_.within(pileOpen, pile, work.near.data(), leavesOf(pile, work), work.queryWork);
             }
             for (int z = 0; z < 4; ++z) {
                 const int i = first + z, n = entryOfBlock(firstEntry, i);
@@ -273,27 +273,27 @@ private:
         }
     }
 
-    // Tells which of the open entries a leaf may reach.
+    // Tells which of the open entries may be within the radius of a leaf.
     std::uint64_t listLeaves(std::uint64_t open, Work& work) const
     {
         constexpr std::uint64_t bottoms = 0x1111111111111111ULL; // the first entry of each pile
         const std::size_t size = work.near.size();
-        query_.nearEntries(work.near.data(), size, work.reach);
+        query_.nearEntries(work.near.data(), size, work.queryWork);
         std::uint64_t any = 0;
         std::array<std::size_t, 7> starts{};
         const auto kindOf = [&](const NearLeaf& leaf) {
             return static_cast<std::size_t>(std::clamp(leaf.z + 1, 0, partEntries + 1));
         };
         for (const NearLeaf& leaf : work.near) {
-            if ((leaf.reached & open) == 0) continue;
-            any |= leaf.reached & open;
+            if ((leaf.entriesInRadius & open) == 0) continue;
+            any |= leaf.entriesInRadius & open;
             ++starts[kindOf(leaf) + 1];
         }
         std::partial_sum(starts.begin(), starts.end(), starts.begin());
         const auto kindEnds = starts;
         if (work.order.size() < size) work.order.resize(size);
         for (std::size_t i = 0; i < size; ++i) {
-            if ((work.near[i].reached & open) == 0) continue;
+            if ((work.near[i].entriesInRadius & open) == 0) continue;
             work.order[starts[kindOf(work.near[i])]++] = static_cast<std::uint16_t>(i);
         }
         if (work.lists.size() < 16 * size) work.lists.resize(16 * size);
@@ -301,7 +301,7 @@ private:
         for (std::size_t kind = 0; kind < 6; ++kind) {
             for (std::size_t k = kindEnds[kind]; k < kindEnds[kind + 1]; ++k) {
                 const std::uint16_t i = work.order[k];
-                std::uint64_t piles = work.near[i].reached & open;
+                std::uint64_t piles = work.near[i].entriesInRadius & open;
                 piles |= piles >> 2;
                 piles |= piles >> 1;
                 for (piles &= bottoms; piles != 0; piles &= piles - 1) {
@@ -341,11 +341,11 @@ private:
 
 template <class Query>
 MaskTree::Ptr runPass(const MaskTree& base, const MaskTree* keep, ContourOf side, std::int64_t largestSquare,
-                      const Query& reach, const Progress& progress)
+                      const Query& query, const Progress& progress)
 {
     const std::vector<ContourBlock> contour = contourBlocks(base, side, progress.part(0, 8));
     const Progress rest{progress.interrupter, progress.part(0, 8).to, progress.to};
-    return SpherePass<Query>(base, keep, side, largestSquare, reach, contour, rest).run();
+    return SpherePass<Query>(base, keep, side, largestSquare, query, contour, rest).run();
 }
 
 std::int64_t largestSquare(const RadiusField& field, double factor)
@@ -357,28 +357,28 @@ std::int64_t largestSquare(const RadiusField& field, double factor)
 
 MaskTree::Ptr dilateBySphere(const MaskTree& mask, std::int64_t squaredRadius, const Progress& progress, Simd simd)
 {
-    const SphereQuery reach(squaredRadius, simd, progress.part(0, 100));
-    return runPass(mask, nullptr, ContourOf::mask, squaredRadius, reach, progress);
+    const SphereQuery query(squaredRadius, simd, progress.part(0, 100));
+    return runPass(mask, nullptr, ContourOf::mask, squaredRadius, query, progress);
 }
 
 MaskTree::Ptr erodeBySphere(const MaskTree& mask, const MaskTree* keep, std::int64_t squaredRadius,
                             const Progress& progress, Simd simd)
 {
-    const SphereQuery reach(squaredRadius, simd, progress.part(0, 100));
-    return runPass(mask, keep, ContourOf::complement, squaredRadius, reach, progress);
+    const SphereQuery query(squaredRadius, simd, progress.part(0, 100));
+    return runPass(mask, keep, ContourOf::complement, squaredRadius, query, progress);
 }
 
 MaskTree::Ptr dilateByField(const MaskTree& mask, const RadiusField& field, const Progress& progress, Simd simd)
 {
-    const VaryingQuery reach(field, 1, VaryingQuery::By::target, simd);
-    return runPass(mask, nullptr, ContourOf::mask, largestSquare(field, 1), reach, progress);
+    const VaryingQuery query(field, 1, VaryingQuery::By::target, simd);
+    return runPass(mask, nullptr, ContourOf::mask, largestSquare(field, 1), query, progress);
 }
 
 MaskTree::Ptr erodeByField(const MaskTree& mask, const MaskTree* keep, const RadiusField& field, double factor,
                            const Progress& progress, Simd simd)
 {
-    const VaryingQuery reach(field, factor, VaryingQuery::By::source, simd);
-    return runPass(mask, keep, ContourOf::complement, largestSquare(field, factor), reach, progress);
+    const VaryingQuery query(field, factor, VaryingQuery::By::source, simd);
+    return runPass(mask, keep, ContourOf::complement, largestSquare(field, factor), query, progress);
 }
 
 } // namespace vdbcage::detail

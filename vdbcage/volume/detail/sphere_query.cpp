@@ -281,7 +281,7 @@ private:
             firstStep = step;
         }
         if (firstStep == levels) return false;
-        C reached = heights[firstStep].first;
+        C top = heights[firstStep].first;
         const auto& ends = query.leaves.ends;
         for (std::size_t step = firstStep; step <= lastStep; ++step) {
             const std::size_t level = levelAt(step);
@@ -290,18 +290,17 @@ private:
             const std::size_t end = side > 0 ? ends[level] : step == firstStep ? ends[levels + 1] : ends[level + 2];
             if (step > firstStep) {
                 for (int i = 0; i < C::count; ++i) {
-                    reached.v[i] -= static_cast<T>(leafSize);
-                    raiseTo<Vector>(reached.v[i], heights[step].first.v[i]);
+                    top.v[i] -= static_cast<T>(leafSize);
+                    raiseTo<Vector>(top.v[i], heights[step].first.v[i]);
                 }
             }
-            if (begin < end)
-                raise(tables, query, static_cast<int>(level), side, begin, end, heights[step].last, reached);
+            if (begin < end) raise(tables, query, static_cast<int>(level), side, begin, end, heights[step].last, top);
             if (!isAny(open[level])) continue;
             for (int i = 0; i < C::count; ++i) {
                 Vector bits{};
                 for (int k = 0; k < 8; ++k) {
                     const T bit = static_cast<T>(side > 0 ? 1 << k : 128 >> k), before = static_cast<T>(none<T> + k);
-                    bits |= reinterpret_cast<Vector>(reached.v[i] > before) & bit;
+                    bits |= reinterpret_cast<Vector>(top.v[i] > before) & bit;
                 }
                 open[level].v[i] &= ~bits;
             }
@@ -312,9 +311,9 @@ private:
         return false;
     }
 
-    // Raises the heights reached by those of the listed leaves, no higher than needed.
+    // Raises `top` to the heights above the listed leaves, no higher than needed.
     static VDBCAGE_INLINE void raise(const Tables& tables, const PileQuery& query, int z, int side, std::size_t begin,
-                                     std::size_t end, const C& needed, C& reached)
+                                     std::size_t end, const C& needed, C& top)
     {
         const T* const entries = tables.entries<T>() + query.entryPlace;
         const T* const rows = tables.rows<T>() + query.rowPlace;
@@ -323,7 +322,7 @@ private:
         for (std::size_t n = begin; n <= end; ++n) {
             const std::size_t index = query.leaves.indices[n == begin ? first : n - 1];
             const NearLeaf& near = query.near[index];
-            if ((near.reached & entry) == 0) continue; // and so not those behind it
+            if ((near.entriesInRadius & entry) == 0) continue; // and so not those behind it
             // Distance below the entry's first voxel (above the last) of the leaf's z = 0.
             const int base = side > 0 ? 8 * (z - near.z) : 8 * (near.z - z) - 7;
             const T least = static_cast<T>(side > 0 ? base - near.box.upper[2] : base + near.box.lower[2]);
@@ -334,8 +333,8 @@ private:
                 load(most, best, i);
                 most -= least;
                 lowerTo<Vector>(most, needed.v[i]);
-                raiseTo<Vector>(most, reached.v[i]);
-                gain |= most ^ reached.v[i];
+                raiseTo<Vector>(most, top.v[i]);
+                gain |= most ^ top.v[i];
             }
             if (!detail::isAny<Vector>(gain)) continue;
             const Fronts::Voxel* front = frontOf(tables, query, index, side);
@@ -347,7 +346,7 @@ private:
                 for (int i = 0; i < C::count; ++i) {
                     Vector height;
                     load(height, corner + front->place, i);
-                    raiseTo<Vector>(reached.v[i], height - depth);
+                    raiseTo<Vector>(top.v[i], height - depth);
                 }
             }
         }
@@ -377,7 +376,7 @@ private:
             for (++front; front != end; ++front) {
                 Signed heights[C::count];
                 std::memcpy(&heights, corner + front->place, sizeof heights);
-                // Most columns are reached whole or not at all.
+                // Most columns are covered whole or not at all.
                 Vector some{};
                 for (int i = 0; i < C::count; ++i) {
                     const Vector isWhole = reinterpret_cast<Vector>(heights[i] > static_cast<S>(none<T> + 7));
@@ -447,7 +446,7 @@ struct MaskKernel {
         return word;
     }
 
-    static VDBCAGE_INLINE void reached(const Tables& tables, NearLeaf* near, std::size_t total)
+    static VDBCAGE_INLINE void entriesInRadius(const Tables& tables, NearLeaf* near, std::size_t total)
     {
         for (std::size_t n = 0; n < total; ++n) {
             NearLeaf& leaf = near[n];
@@ -469,7 +468,7 @@ struct MaskKernel {
             std::memcpy(alongX, &nearX, sizeof alongX);
             leaf.entryPlace = tables.entryPlace(-leaf.x, -leaf.y);
             leaf.rowPlace = tables.rowPlace(-x, -y);
-            leaf.reached = within(alongX, nearY, quad(lowZ.below) | quad(highZ.above), tables.limit);
+            leaf.entriesInRadius = within(alongX, nearY, quad(lowZ.below) | quad(highZ.above), tables.limit);
         }
     }
 
@@ -499,7 +498,7 @@ void withinPlain(const Tables& tables, const PileQuery& query, Words* result)
 }
 void nearPlain(const Tables& tables, NearLeaf* near, std::size_t count)
 {
-    MaskKernel<16>::reached(tables, near, count);
+    MaskKernel<16>::entriesInRadius(tables, near, count);
 }
 std::uint64_t coveredPlain(const Tables& tables, const NearLeaf* near, std::size_t count, std::uint64_t wanted)
 {
@@ -513,7 +512,7 @@ VDBCAGE_TARGET_AVX2 void withinAvx2(const Tables& tables, const PileQuery& query
 }
 VDBCAGE_TARGET_AVX2 void nearAvx2(const Tables& tables, NearLeaf* near, std::size_t count)
 {
-    MaskKernel<32>::reached(tables, near, count);
+    MaskKernel<32>::entriesInRadius(tables, near, count);
 }
 VDBCAGE_TARGET_AVX2 std::uint64_t coveredAvx2(const Tables& tables, const NearLeaf* near, std::size_t count,
                                               std::uint64_t wanted)

@@ -20,7 +20,7 @@ struct NearLeaf {
     BitBox box;
     std::array<std::int8_t, 3> sample;
     // Set by nearEntries:
-    std::uint64_t reached;             ///< at least the entries of the part with a voxel within its reach
+    std::uint64_t entriesInRadius;     ///< at least the entries of the part with a voxel within the radius of its own
     std::int32_t entryPlace, rowPlace; ///< of the part's first entry in the tables
 };
 

@@ -14,7 +14,8 @@ std::int64_t square(std::int64_t v)
     return v * v;
 }
 
-// Of a column at an offset (dx, dy): how many voxels at z = 0, 1, ... are within reach of a contour voxel at z = 0.
+// Of a column at an offset (dx, dy): how many voxels at z = 0, 1, ... are within the radius of a contour voxel at z =
+// 0.
 int heightAt(int dx, int dy, std::int64_t squaredRadius)
 {
     const std::int64_t rest = squaredRadius - square(dx) - square(dy);
@@ -33,8 +34,8 @@ int gap(int position, int lower, int upper)
 } // namespace
 
 SphereTables::SphereTables(std::int64_t squared, const Progress& progress)
-    : squaredRadius(squared), reach(static_cast<int>(std::ceil(std::sqrt(static_cast<double>(squared))))),
-      isSmall(reach <= smallRadius), entryRadius((reach + 7) / 8 + 1), rowRadius(8 * entryRadius + 7),
+    : squaredRadius(squared), radius(static_cast<int>(std::ceil(std::sqrt(static_cast<double>(squared))))),
+      isSmall(radius <= smallRadius), entryRadius((radius + 7) / 8 + 1), rowRadius(8 * entryRadius + 7),
       coordinates(2 * margin() + 32)
 {
     while ((squaredRadius >> shift) > std::numeric_limits<std::int16_t>::max() / 3 - 1) ++shift;

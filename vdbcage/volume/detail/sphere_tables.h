@@ -18,7 +18,7 @@ constexpr T none = 0;
 template <>
 constexpr std::uint8_t none<std::uint8_t> = 128;
 
-/// What a sphere's reach depends on but the voxels: heights above them and squares of distances along an axis.
+/// What a query needs to know of its sphere: heights above them and squares of distances along an axis.
 struct SphereTables {
     /// \throw Cancelled
     SphereTables(std::int64_t squared, const Progress& progress);
@@ -47,7 +47,7 @@ struct SphereTables {
     int entryPlace(int dx, int dy) const { return (dx + entryRadius) * entryStride() + (dy + entryRadius) * lanes; }
 
     std::int64_t squaredRadius;
-    int reach; // the radius, rounded up
+    int radius; // rounded up
     bool isSmall;
     int entryRadius, rowRadius; // largest offsets that are asked for, in entries and voxels
     int coordinates;
@@ -69,7 +69,7 @@ struct SphereTables {
     std::int16_t limit = 0;
 
 private:
-    int margin() const { return reach + 40; }
+    int margin() const { return radius + 40; }
     template <class T>
     void fillHeights(std::vector<T>& rows, std::vector<T>& entries, const Progress& progress);
     void fillSquares();

@@ -48,7 +48,7 @@ std::uint64_t entriesWithin(const Squares& x, const Squares& y, const Squares& z
     return mask;
 }
 
-// plane = min(plane, squared distance in the plane to (y, z), less what that voxel reaches)
+// plane = min(plane, squared distance in the plane to (y, z), less the square of that voxel's radius)
 VDBCAGE_INLINE void lower(std::int32_t* plane, int siteY, int siteZ, std::int32_t square)
 {
     std::int32_t alongZ[8];
@@ -173,9 +173,9 @@ void VaryingQuery::nearEntries(NearLeaf* near, std::size_t count, const Work& wo
             const auto most = field_.rangeOfEntry(work.corner.offsetBy(x, y, z)).most;
             limits.fill(field_.squareOf(static_cast<double>(most) * factor_));
         }
-        leaf.reached = entriesWithin(nearSquares(x + leaf.box.lower[0], x + leaf.box.upper[0]),
-                                     nearSquares(y + leaf.box.lower[1], y + leaf.box.upper[1]),
-                                     nearSquares(z + leaf.box.lower[2], z + leaf.box.upper[2]), limits);
+        leaf.entriesInRadius = entriesWithin(nearSquares(x + leaf.box.lower[0], x + leaf.box.upper[0]),
+                                             nearSquares(y + leaf.box.lower[1], y + leaf.box.upper[1]),
+                                             nearSquares(z + leaf.box.lower[2], z + leaf.box.upper[2]), limits);
     }
 }
 
@@ -193,7 +193,7 @@ Words VaryingQuery::withinEntry(const Words& open, int entry, const NearLeaf* ne
                                 Work& work) const
 {
     const Coord offset(entry / 16 * 8, entry / 4 % 4 * 8, entry % 4 * 8), origin = work.corner + offset;
-    const int span = static_cast<int>(field_.largest()) + 16; // a leaf in reach, and its far side
+    const int span = static_cast<int>(field_.largest()) + 16; // a leaf within the radius, and its far side
     const auto planes = static_cast<std::size_t>(2 * span + 1);
     work.planes.resize(planes * lanes);
     work.isUsed.resize(planes, 0);
@@ -201,7 +201,7 @@ Words VaryingQuery::withinEntry(const Words& open, int entry, const NearLeaf* ne
     work.used.clear();
     for (std::size_t n = 0; n < leaves.ends.back(); ++n) {
         const NearLeaf& leaf = near[leaves.indices[n]];
-        if ((leaf.reached >> entry & 1) == 0) continue;
+        if ((leaf.entriesInRadius >> entry & 1) == 0) continue;
         const Coord place(8 * leaf.x, 8 * leaf.y, 8 * leaf.z);
         std::uint32_t& start = work.starts[leaf.id];
         if (start == 0) {

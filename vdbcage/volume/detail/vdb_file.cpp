@@ -501,7 +501,7 @@ private:
             refuseForParent(descriptor);
         }
         choose(descriptors);
-        return nullptr; // not reached: the chosen one was returned
+        return nullptr; // never: the chosen one was returned
     }
 
     GridBase::Ptr readPart(const Descriptor& descriptor) const

@@ -11,22 +11,25 @@
 namespace vdbcage::detail {
 
 /// What every voxelizer is: the solid voxels of `model`, as voxelize() defines them, in a grid over `frame.voxels`.
-/// `model` has passed requireUsable, `frame` is makeFrame's. \throw DeviceError, Cancelled
+/// \pre `model` has passed requireUsable, and `frame` is makeFrame's
+/// \throw DeviceError
+/// \throw Cancelled
 using Backend = BitGrid(const Mesh& model, const Frame& frame, Interrupter* interrupter);
 
 Backend voxelizeCpu;
 
-/// Through an OpenGL context of its own, that lives as long as the call.
+/// Through an OpenGL context of its own that lives as long as the call.
 Backend voxelizeGl;
 
-/// The same, but only through one that is hardware. \throw DeviceError also if there is none
+/// The same, but only through a context that is hardware.
+/// \throw DeviceError also if there is none
 Backend voxelizeGlHardware;
 
-/// By CGAL's predicates and AABB tree: slow, and of other make. \throw DeviceError in builds without
-/// VDBCAGE_WITH_CGAL_GPL
+/// By CGAL's predicates and AABB tree: slow, and independent of the others.
+/// \throw DeviceError in builds without VDBCAGE_WITH_CGAL_GPL
 Backend voxelizeCgal;
 
-/// From this resolution on, setting up a device may pay: below, the CPU is done before a context and its shaders are
+/// From this resolution on, setting up a device may pay. Below, the CPU is done before a context and its shaders are
 /// made (docs/VOXELIZERS.md).
 constexpr int leastResolutionForDevice = 1024;
 

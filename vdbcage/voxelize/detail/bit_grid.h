@@ -12,15 +12,16 @@
 
 namespace vdbcage::detail {
 
-/// A dense box of bits, one a voxel, 64 voxels to a word along z: voxel (x, y, z), counted from the box's lowest
-/// corner, is bit z % 64 of word z / 64 of row (x, y); rows lie y after y, x after x. The bits of a row's last word
-/// that are beyond the box are zero.
+/// A dense box of bits, one a voxel, 64 voxels to a word along z.
+///
+/// Voxel (x, y, z), counted from the box's lowest corner, is bit z % 64 of word z / 64 of row (x, y). Rows lie y after
+/// y, x after x. The bits of a row's last word that are beyond the box are zero.
 class BitGrid {
 public:
     using Word = std::uint64_t;
     static constexpr int wordBits = 64;
 
-    /// All bits zero; pages of memory that are never written take none. `box` is inclusive and not empty.
+    /// All bits are zero. Pages of memory that are never written take none. `box` is inclusive and not empty.
     /// \throw std::bad_alloc
     explicit BitGrid(const openvdb::CoordBBox& box);
 
@@ -48,8 +49,10 @@ private:
     std::unique_ptr<Word[], Free> words_;
 };
 
-/// The set bits of `bits` as a mask with this transform: leaves where a voxel of 8^3 is on, tiles where all are; there
-/// is nothing left to prune. TBB-parallel. O(words of bits). \throw Cancelled
+/// The set bits of `bits` as a mask with this transform. It has leaves where a voxel of 8^3 is on, tiles where all are.
+/// There is nothing left to prune.
+/// \throw Cancelled
+/// Cost: O(words of bits), in parallel.
 openvdb::MaskGrid::Ptr toMask(const BitGrid& bits, const openvdb::math::Transform::Ptr& transform,
                               Interrupter* interrupter = nullptr);
 

@@ -141,8 +141,9 @@ private:
 
     void touch(const CoordBBox& box)
     {
-        const auto corner = [](const Coord& ijk, int reach) {
-            return Point(ijk.x() * latticeStep + reach, ijk.y() * latticeStep + reach, ijk.z() * latticeStep + reach);
+        const auto corner = [](const Coord& ijk, int offset) {
+            return Point(ijk.x() * latticeStep + offset, ijk.y() * latticeStep + offset,
+                         ijk.z() * latticeStep + offset);
         };
         const Kernel::Iso_cuboid_3 cuboid(corner(box.min(), -latticeBound), corner(box.max(), latticeBound));
         if (!triangleTree_.do_intersect(cuboid) && !segmentTree_.do_intersect(cuboid)) return;

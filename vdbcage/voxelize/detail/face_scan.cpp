@@ -30,9 +30,9 @@ Span intersection(const Span& a, const Span& b)
 }
 
 /// Quotients beyond this are cut to it; no voxel has such an index.
-constexpr int unreachable = 1 << 20;
+constexpr int largestQuotient = 1 << 20;
 
-/// floor(value / divisor), cut to +-unreachable; divisor > 0, and `inverse` is 1.0 / divisor.
+/// floor(value / divisor), cut to +-largestQuotient; divisor > 0, and `inverse` is 1.0 / divisor.
 ///
 /// value * inverse is rounded four times, so it is off by less than 2^-51 of itself, 2^-31 at most. Only where it comes
 /// nearer than 2^-30 to an integer is the division done on integers.
@@ -40,8 +40,8 @@ template <typename Integer>
 int floorQuotient(Integer value, Integer divisor, double inverse)
 {
     const double quotient = static_cast<double>(value) * inverse;
-    if (quotient >= unreachable) return unreachable;
-    if (quotient <= -unreachable) return -unreachable;
+    if (quotient >= largestQuotient) return largestQuotient;
+    if (quotient <= -largestQuotient) return -largestQuotient;
     const int truncated = static_cast<int>(quotient);
     const int floor = quotient < truncated ? truncated - 1 : truncated;
     const double fraction = quotient - floor;
@@ -190,10 +190,10 @@ public:
     }
     /// At voxel (x, y, 0).
     Wide value(int x, int y) const { return atOrigin_ + x * perVoxel_[0] + y * perVoxel_[1]; }
-    /// The z where a plane of value a at z = 0 reaches `lower` and one of value b does not pass `upper`.
+    /// The z where a plane of value a at z = 0 is at least `lower` and one of value b at most `upper`.
     Span between(Wide lower, Wide a, Wide upper, Wide b) const
     {
-        if (perVoxel_[2] == 0) return a >= lower && b <= upper ? Span{-unreachable, unreachable} : Span{};
+        if (perVoxel_[2] == 0) return a >= lower && b <= upper ? Span{-largestQuotient, largestQuotient} : Span{};
         return {-floorQuotient(a - lower, perVoxel_[2], inverse_), floorQuotient(upper - b, perVoxel_[2], inverse_)};
     }
     Span between(Wide lower, Wide upper, Wide value) const { return between(lower, value, upper, value); }

@@ -19,7 +19,7 @@ struct LatticeTriangle {
     openvdb::Vec3i corners[3];
 };
 
-/// The planes `planes` of a grid of bits, packed as in BitGrid: where scanSurface leaves what it finds.
+/// The planes `planes` of a grid of bits, packed as in BitGrid. scanSurface leaves here what it finds.
 struct Slab {
     Span planes;                      ///< x
     int rowsPerPlane = 0;             ///< the grid's size along y
@@ -33,14 +33,18 @@ struct Slab {
 using ScanBuffer = std::vector<Span>;
 
 /// Sets, in the slab's `surface`, the voxels that the triangle touches: those whose cube, of half width latticeBound,
-/// meets it. With `counted` it also flips, in `crossings`, the voxels in which it crosses the ray through voxel
-/// centres along each axis: the one that the point of crossing lies in. All exact; degenerate triangles are segments
-/// and points, cross no ray, and touch what these touch. Everything the triangle touches must lie in the grid's rows.
-/// Returns the number of columns looked at, as a measure of the work. O(columns of the triangle's box in the slab).
+/// meets it.
+///
+/// With `counted` it also flips, in `crossings`, the voxels in which it crosses the ray through voxel centres along
+/// each axis: those that the points of crossing lie in. All is exact. Degenerate triangles are segments and points:
+/// they cross no ray, and touch what these touch. Returns the number of columns looked at, as a measure of the work.
+/// \pre everything that the triangle touches lies in the grid's rows
+/// Cost: O(columns of the triangle's box in the slab).
 std::size_t scanSurface(const LatticeTriangle& triangle, bool counted, const Slab& slab, ScanBuffer& buffer);
 
-/// The crossings along x of all `planes` together: flips (y, z) in `plane` where scanSurface would flip an odd number
-/// of times. O(rows of the triangle's box).
+/// Finds the crossings along x of all `planes` together. Flips (y, z) in `plane` where scanSurface would flip an odd
+/// number of times.
+/// Cost: O(rows of the triangle's box).
 void scanCrossingsAlongX(const LatticeTriangle& triangle, const Span& planes, std::uint64_t* plane, int wordsPerRow);
 
 } // namespace vdbcage::detail

@@ -6,8 +6,9 @@
 namespace vdbcage::detail {
 
 /// Sets every voxel of `bits` that no path of zero voxels, from face to face, joins to the outside of the box.
-/// O(words of bits + enclosed and hidden voxels); takes memory only where a voxel lies between set ones both along y
-/// and along z. \throw Cancelled
+/// \throw Cancelled
+/// Cost: O(words of bits + enclosed and hidden voxels). It takes memory only where a voxel lies between set ones both
+/// along y and along z.
 void fillEnclosed(BitGrid& bits, Interrupter* interrupter = nullptr);
 
 } // namespace vdbcage::detail

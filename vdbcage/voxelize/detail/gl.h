@@ -8,8 +8,8 @@
 
 namespace vdbcage::detail {
 
-/// Voxelizes with the shaders of one OpenGL context, which must be current whenever a function of this is called, and
-/// when it is destroyed. The bits are those of voxelizeCpu.
+/// Voxelizes with the shaders of one OpenGL context. The context must be current whenever a function of this is called,
+/// and when it is destroyed. The bits are those of voxelizeCpu.
 class GlVoxelizer {
 public:
     /// How triangles become columns of voxels.
@@ -17,13 +17,15 @@ public:
         compute, ///< a loop over the columns of each triangle
         raster   ///< a fragment for each column of each triangle
     };
-    /// Memory of the device for the voxels that are worked on at a time; more of them are done slab by slab.
+    /// Memory of the device for the voxels that are worked on at a time. More of them are done slab by slab.
     static constexpr std::size_t usualGridBytes = std::size_t(128) << 20;
 
-    /// Compiles the shaders; `api` must outlive this. \throw DeviceError
+    /// Compiles the shaders. `api` must outlive this.
+    /// \throw DeviceError
     GlVoxelizer(const gl::Api& api, Path path, std::size_t gridBytes = usualGridBytes);
 
-    /// As Backend. Uses TBB: a thread that waits must not take up work of others that need a context, see voxelizeGl.
+    /// As Backend. It uses TBB: a thread that waits must not take up work of others that need a context (see
+    /// voxelizeGl).
     BitGrid run(const Mesh& model, const Frame& frame, Interrupter* interrupter) const;
 
 private:

@@ -11,18 +11,19 @@
 
 namespace vdbcage::detail {
 
-/// The triangles of a model on the lattice, and for each slab of planes along x a list of those that reach into it, in
-/// the order of the faces. Quads are there under both diagonals.
+/// The triangles of a model on the lattice, and for each slab of planes along x a list of those that enter it. Lists
+/// are in the order of the faces. Quads are there under both diagonals.
 class SlabbedTriangles {
 public:
-    /// Slabs of `slabThickness` planes, the last may have fewer. TBB-parallel. O(faces + slabs reached by faces).
+    /// Makes slabs of `slabThickness` planes; the last may have fewer.
+    /// Cost: O(faces + slabs entered by faces), in parallel.
     SlabbedTriangles(const Mesh& model, const Frame& frame, int slabThickness);
 
     int slabCount() const { return slabCount_; }
     int slabThickness() const { return slabThickness_; }
     Span planes(int slab) const;
 
-    /// How many triangles reach into the slab.
+    /// How many triangles enter the slab.
     std::size_t size(int slab) const { return begins_[index(slab) + 1] - begins_[index(slab)]; }
     /// The i-th of them.
     LatticeTriangle triangle(int slab, std::size_t i) const
@@ -30,7 +31,7 @@ public:
         const openvdb::Vec3I& face = faces_[members_[begins_[index(slab)] + i]];
         return {{points_[face[0]], points_[face[1]], points_[face[2]]}};
     }
-    /// Whether its crossings count: those of a quad do under one of its diagonals only.
+    /// Whether its crossings count. Those of a quad do under one of its diagonals only.
     bool counted(int slab, std::size_t i) const { return members_[begins_[index(slab)] + i] < counted_; }
 
 private:
