@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-
 namespace vdbcage::detail {
 
 using openvdb::Vec3d;
