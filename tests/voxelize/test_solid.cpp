@@ -295,7 +295,7 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_voxelized_is_refused_with_the_value_and_what
     };
     for (const int resolution : {-1, 0, 4097, std::numeric_limits<int>::max()}) {
         const std::string text = message(model, {resolution});
-        BOOST_TEST(names(text, "resolution is " + std::to_string(resolution) + ";"), text);
+        BOOST_TEST(names(text, "resolution: " + std::to_string(resolution) + " is not allowed"), text);
         BOOST_TEST(names(text, "1 to 4096"), text);
     }
     BOOST_TEST(names(message(Mesh(), {}), "model: it has no faces"));
