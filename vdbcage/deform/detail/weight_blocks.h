@@ -28,8 +28,9 @@ public:
     /// What combinations may be off by: four times what rounding to float takes.
     static constexpr float tolerance = 1.0F / (1 << 22);
 
-    /// `points` are finite; `maxDistances` has how far each handle may go, about. A row is off by at most `tolerance`
-    /// of its size, both in sum over the handles of absolute values times reach, but for rounding.
+    /// `maxDistances` has how far each handle may go, about. The size of a row is the sum of its weights' absolute
+    /// values, each times its handle's maxDistance. A row is off by at most `tolerance` of its size, but for rounding.
+    /// \pre `points` are finite
     WeightBlocks(const std::vector<openvdb::Vec3d>& points, const std::vector<float>& maxDistances,
                  const MakeRows& makeRows);
 

@@ -24,19 +24,22 @@ struct NearLeaf {
     std::int32_t entryPlace, rowPlace; ///< of the part's first entry in the tables
 };
 
-/// Which voxels lie within a sphere's reach of contour voxels: a rough answer for the 64 entries of a part at once, and
-/// an exact one for the voxels of a pile of entries. Entry (x, y, z) of a part is bit 16 x + 4 y + z; its piles are the
-/// four entries along z.
+/// Which voxels lie within a radius of contour voxels.
 ///
-/// Exact: a contour voxel q reaches, in each column along z, the voxels up to h(dx, dy) above and below it. Of contour
-/// voxels below an entry so the largest q.z + h tells all, column by column, in bytes side by side (16-bit integers
-/// beyond smallRadius), and for the next entry above too. Voxels hidden behind others of their leaf are left out
-/// before, and leaves that can add nothing too.
+/// There is a rough answer for the 64 entries of a part at once, and an exact one for the voxels of a pile of entries.
+/// Entry (x, y, z) of a part is bit 16 x + 4 y + z. A pile is four entries along z.
 ///
-/// Const once it is made: threads share one. Memory: 32 r^2 bytes (64 r^2 beyond smallRadius).
+/// For the exact answer, let h(dx, dy) be half the sphere's chord in a column along z. A contour voxel q covers the
+/// voxels up to h above and below it. So of the contour voxels below an entry the largest q.z + h tells all, and for
+/// the next entry above too. Columns are compared side by side, in bytes (16-bit integers beyond smallRadius). Voxels
+/// hidden behind others of their leaf are left out before, and so are leaves that can add nothing.
+///
+/// It is const once it is made: threads share one.
+/// Cost: 32 r^2 bytes (64 r^2 beyond smallRadius).
 class SphereQuery {
 public:
-    /// `squaredRadius` up to 512^2; `simd` must be supported. \throw Cancelled
+    /// \pre `squaredRadius` is at most 512^2; `simd` is supported
+    /// \throw Cancelled
     SphereQuery(std::int64_t squaredRadius, Simd simd, const Progress& progress);
     ~SphereQuery();
 
@@ -51,24 +54,27 @@ public:
         std::vector<Voxel> voxels; ///< a front is the number of its voxels and the voxels
         std::size_t size = 0;      ///< of the part of `voxels` that is in use
     };
-    /// Starts a block with leaves that are numbered from 0, then each part of it, with its corner.
+    /// Starts a block. Its near leaves are numbered from 0.
     void startBlock(Work& work, std::size_t leaves) const;
+    /// Starts a part of the block, with its corner.
     void startPart(Work& work, const Coord& corner) const;
-    /// Completes the `count` leaves.
+    /// Completes the `count` leaves: sets what a NearLeaf lacks before.
     void nearEntries(NearLeaf* near, std::size_t count, const Work& work) const;
-    /// The `wanted` entries that lie wholly within reach of the sample of one of the `count` leaves, and maybe others.
+    /// The `wanted` entries that lie wholly within the radius of the sample of one of the `count` leaves. Entries that
+    /// are not wanted may be among them.
     std::uint64_t coveredEntries(const NearLeaf* near, std::size_t count, std::uint64_t wanted, const Work& work) const;
 
-    /// The leaves that may reach a pile of entries, as indices: first those below it, then those beside its first entry
-    /// and so on, at last those above.
+    /// The leaves that may be within the radius of a pile of entries, as indices. First come those below it, then those
+    /// beside its first entry and so on, at last those above.
     struct Leaves {
         const std::uint16_t* indices;
         std::array<std::size_t, 6> ends; ///< of each kind
     };
     /// By entry of a pile: its open voxels, or none.
     using Pile = std::array<const Words*, 4>;
-    /// Those of the open voxels of pile 4 x + y of the part that are within reach of the listed leaves, which were
-    /// given to nearEntries before; anything where an entry has none.
+    /// Those of the open voxels of pile 4 x + y of the part that are within the radius of the listed leaves. Where an
+    /// entry has no open ones, the result has anything.
+    /// \pre nearEntries() has completed the leaves
     std::array<Words, 4> within(const Pile& open, int pile, const NearLeaf* near, const Leaves& leaves,
                                 Work& work) const;
 

@@ -5,16 +5,19 @@
 
 namespace vdbcage::detail {
 
-/// SphereQuery where each voxel has a radius of its own. Squared distances to the contour voxels, less what these reach
-/// (scatter), are minimised axis by axis as in Saito and Toriwaki, New Algorithms for Euclidean Distance
-/// Transformation, 1994, and compared with what the entry's voxels reach (gather).
+/// SphereQuery where each voxel has a radius of its own.
+///
+/// Squared distances to the contour voxels, less the squares of their radii (scatter), are minimised axis by axis. The
+/// least are compared with the squared radii of the entry's voxels (gather). Where one of the two is not wanted, its
+/// squares are 0.
+/// Based on: Saito and Toriwaki, New Algorithms for Euclidean Distance Transformation, 1994.
 class VaryingQuery {
 public:
     enum class By {
-        target, ///< a contour voxel is within reach of a voxel if it is within that voxel's radius (gather)
-        source  ///< ... if the voxel is within the contour voxel's radius (scatter)
+        target, ///< the radius counts of the voxel that looks for contour voxels (gather)
+        source  ///< the radius counts of the contour voxel (scatter)
     };
-    /// All radii are `factor` (0 to 1) times those of the field, which must live on.
+    /// All radii are `factor` (0 to 1) times those of the field, which must outlive this.
     VaryingQuery(const RadiusField& field, double factor, By by, Simd simd)
         : field_(field), factor_(factor), by_(by), simd_(simd)
     {
