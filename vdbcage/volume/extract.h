@@ -22,8 +22,9 @@ VDBCAGE_API openvdb::MaskGrid::Ptr makeWellComposed(const openvdb::MaskGrid& sol
 ///
 /// It is closed, 2-manifold at edges and vertices, and faces outward. Its order is deterministic. It is empty for an
 /// empty grid.
-/// \throw InputError a transform that is not linear; active voxels beyond 2^30; more than 10^8 quads, or 2^22 blocks of
-/// 8^3 voxels at the surface
+/// \throw InputError a transform that is not linear; active voxels outside [-2^30, 2^30); more than 10^8 quads, or 2^22
+/// blocks of 8^3 voxels at the surface; active tiles where the leaf nodes and the outer layers of tiles have more than
+/// 2^26 blocks of 8^3 voxels
 /// \throw Cancelled
 VDBCAGE_API Mesh extractSurface(const openvdb::MaskGrid& solid, Interrupter* interrupter = nullptr);
 

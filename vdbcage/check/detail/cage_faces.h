@@ -25,8 +25,11 @@ inline bool isSet(const std::atomic<bool>& flag)
     return flag.load(std::memory_order_relaxed);
 }
 
-/// The cage as its examinations need it. The mesh must outlive it; it must be sound (see requireSound).
+/// The cage as its examinations need it.
 struct CageFaces {
+    /// `cage` must outlive this.
+    /// \pre `cage` has passed requireSound
+    /// \throw Cancelled
     CageFaces(const Mesh& cage, Interrupter* interrupter)
         : mesh(cage), faces(cage), tree(mesh.points, faces.triangles(), interrupter), degenerate(faces.size()),
           bad(faces.faces())
@@ -47,8 +50,10 @@ struct CageFaces {
     Flags bad;                    ///< by face
 };
 
-/// Counts the pairs of faces that meet in more than the corners and edges they share, and folded quads, up to
-/// `mostSelfIntersections`; marks all of them bad. O(n log n + candidates), in parallel. \throw Cancelled
+/// Counts the pairs of faces that meet in more than the corners and edges they share, and folded quads. It counts up to
+/// `mostSelfIntersections`. All of these faces are marked bad.
+/// \throw Cancelled
+/// Cost: O(n log n + candidates), in parallel.
 std::size_t countSelfIntersections(CageFaces& cage, Interrupter* interrupter);
 
 } // namespace vdbcage::detail

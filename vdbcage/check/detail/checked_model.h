@@ -11,13 +11,16 @@
 
 namespace vdbcage::detail {
 
-/// \throw InputError unless all indices are below the number of points and all points of faces are finite
+/// \throw InputError an index that is not below the number of points; a point of a face that is not finite
 void requireSound(const Mesh& mesh, const char* what);
 
-/// What is found out about a model once: its triangles in a tree, and its parts. A part is what hangs together over
-/// shared vertices (by index; also over points in one place if triangles were dropped as copies of others).
+/// What is found out about a model once: its triangles in a tree, and its parts.
+///
+/// A part is what hangs together over shared vertices. Vertices are shared by index. Where triangles were dropped as
+/// copies of others, points in one place are shared too.
 struct CheckedModel {
-    /// \throw InputError (no faces, not sound), Cancelled
+    /// \throw InputError no faces; as requireSound
+    /// \throw Cancelled
     CheckedModel(const Mesh& mesh, Interrupter* interrupter);
 
     std::size_t parts() const { return partFirst.size() - 1; }

@@ -8,7 +8,7 @@
 
 namespace vdbcage::detail {
 
-/// All triangles that the faces of a mesh stand for: one for a triangle; for a quad the two of the diagonal 0-2, then
+/// All triangles that the faces of a mesh stand for. A triangle has one. A quad has the two of the diagonal 0-2, then
 /// the two of the diagonal 1-3.
 class FaceTriangles {
 public:
@@ -37,7 +37,7 @@ public:
         return static_cast<std::uint32_t>(triangle < plain_ ? triangle : plain_ + (triangle - plain_) / 4);
     }
     bool ofQuad(std::size_t triangle) const { return triangle >= plain_; }
-    /// One of the triangles of the surface in which every quad is split by its diagonal 0-2.
+    /// Whether it is of the surface in which every quad is split by its diagonal 0-2.
     bool ofFirstDiagonal(std::size_t triangle) const { return !ofQuad(triangle) || (triangle - plain_) % 4 < 2; }
 
 private:

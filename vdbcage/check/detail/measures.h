@@ -9,20 +9,23 @@
 
 namespace vdbcage::detail {
 
-/// The signed volume within a surface without boundary, the mean over the diagonals of its quads.
+/// The signed volume within a surface, the mean over the diagonals of its quads.
+/// \pre the surface has no boundary
 double volume(const std::vector<Vec3d>& points, const FaceTriangles& faces);
 
 struct Angles {
     double least = 0, firstPercentile = 0, median = 0; ///< degrees
 };
-/// Of all corners of all triangles; zeros for no faces.
+/// Of all corners of all triangles. Zeros for no faces.
 Angles angles(const std::vector<Vec3d>& points, const FaceTriangles& faces);
 
 struct Distances {
     double mean = 0, most = 0, least = 0; ///< in world units
 };
-/// From the faces to the triangles of the tree: the mean over `samples` points spread evenly over the faces' area (a
-/// quad's over both diagonals), the extremes over these and the faces' corners. Zeros for no faces.
+/// Distances from the faces to the triangles of the tree. Zeros for no faces.
+///
+/// The mean is over `samples` points spread evenly over the faces' area, of a quad over both diagonals. The extremes
+/// are over these points and the faces' corners. \throw Cancelled
 Distances distances(const std::vector<Vec3d>& points, const FaceTriangles& faces, const TriangleBvh& tree,
                     std::size_t samples, Interrupter* interrupter);
 

@@ -8,15 +8,16 @@
 
 namespace vdbcage::detail {
 
-/// Corners of a face seen from a point, counter-clockwise from outside. A triangle repeats its last corner: as a
-/// bilinear patch that is the same surface, and its barycentric coordinates are the patch's with the last two added.
+/// Corners of a face seen from a point, counter-clockwise from outside.
+///
+/// A triangle repeats its last corner. As a bilinear patch that is the same surface. Its barycentric coordinates are
+/// the patch's with the last two added.
 using PatchCorners = std::array<openvdb::Vec3d, 4>;
 
-/// A cage as the coordinates need it, moved and scaled into the unit cube around the origin. Points closer to it than
-/// `touching` count as on it.
+/// A cage as the coordinates need it, moved and scaled into the unit cube around the origin.
 class BoundCage {
 public:
-    static constexpr double touching = 1e-12;
+    static constexpr double touching = 1e-12; ///< points closer to the cage count as on it
 
     struct Face {
         std::array<openvdb::Index32, 4> at; ///< a triangle repeats its last corner
@@ -29,7 +30,7 @@ public:
         double distance = 0; ///< to the point that was asked for
     };
 
-    /// \throw InputError if the cage is not closed, faces inward or is flat
+    /// \throw InputError the cage is not closed; it faces inward; it is flat
     explicit BoundCage(const Mesh& cage);
 
     const std::vector<openvdb::Vec3d>& points() const { return points_; }
@@ -39,13 +40,16 @@ public:
 
     PatchCorners cornersFrom(const Face& face, const openvdb::Vec3d& x) const;
 
-    /// The place nearest to `x`. O(faces).
+    /// The place nearest to `x`.
+    /// Cost: O(faces).
     Place nearest(const openvdb::Vec3d& x) const;
     /// The place of face `face` nearest to `x`.
     Place nearestOf(std::size_t face, const openvdb::Vec3d& x) const;
 
-    /// Changes the points' weights, as little as possible in the sum of squares, so that their sum stays and the sum of
-    /// the points times their weights grows by `missing`. Makes what was rounded or integrated reproduce affine maps.
+    /// Changes the points' weights so that the sum of the points times their weights grows by `missing`.
+    ///
+    /// The sum of the weights stays. The change is the least in the sum of squares. Weights that were rounded or
+    /// integrated reproduce affine maps after it.
     void restore(const openvdb::Vec3d& missing, double* weights) const;
 
 private:
@@ -53,7 +57,7 @@ private:
     double size_ = 1;
     std::vector<openvdb::Vec3d> points_;
     std::vector<Face> faces_;
-    std::vector<openvdb::Vec3d> restoring_; // per point: its weight's change per missing unit
+    std::vector<openvdb::Vec3d> restoring_; // by point: its weight's change for each missing unit
 };
 
 /// The centre of the box of the cage's faces and its longest side.

@@ -4,15 +4,15 @@
 
 namespace vdbcage::detail {
 
-/// The largest number of points that gaussRule() has.
 constexpr int mostGaussPoints = 12;
 
-/// Points in [0, 1] and their weights, of sum 1.
 struct GaussRule {
-    std::array<double, mostGaussPoints> at, weight;
+    std::array<double, mostGaussPoints> at;     ///< points in [0, 1]
+    std::array<double, mostGaussPoints> weight; ///< of sum 1
 };
 
-/// Gauss-Legendre quadrature with 1 to mostGaussPoints points.
+/// Gauss-Legendre quadrature.
+/// \pre `points` is 1 to mostGaussPoints
 const GaussRule& gaussRule(int points);
 
 } // namespace vdbcage::detail

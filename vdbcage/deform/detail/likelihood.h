@@ -5,8 +5,8 @@
 
 namespace vdbcage::detail {
 
-/// The coordinates of `x` (scaled) into `row`, one a point of the cage, none negative. False if `x` is outside of the
-/// cage, or if no non-negative combination of the faces is balanced around it.
+/// Writes the coordinates of `x`, which is scaled, to `row`, one a point of the cage. None is negative. Returns false
+/// if `x` is outside of the cage, or if no non-negative combination of the faces is balanced around it.
 bool likelihoodRow(const BoundCage& cage, const openvdb::Vec3d& x, double* row);
 
 } // namespace vdbcage::detail

@@ -11,7 +11,7 @@
 
 namespace vdbcage::detail {
 
-/// One sample of a bilinear patch p(u, v), (u, v) in the unit square.
+/// One sample of a bilinear patch p(u, v), where (u, v) is in the unit square.
 struct PatchSample {
     openvdb::Vec3d point;
     openvdb::Vec3d normal;       ///< dp/du x dp/dv, times `area`
@@ -19,16 +19,18 @@ struct PatchSample {
     double area;                 ///< du dv
 };
 
-/// Integrates functions over a bilinear patch that are smooth in u and v but where the patch comes close to the origin,
-/// as powers of the distance times polynomials are: calls `visit` with samples to be summed up. The relative error is
-/// about 1e-9.
+/// Integrates functions over a bilinear patch: calls `visit` with samples to be summed up. The relative error is about
+/// 1e-9.
 ///
-/// The patch is halved until each piece can be integrated by a Gauss rule of known accuracy. For a function of u
-/// that is analytic within the ellipse around [-1, 1] with half axes of sum r, n Gauss points err by r^(-2n). Along a
-/// line of half length s at the distance d from the origin, the distance is zero at complex u no nearer to the line
-/// than d / s; the ellipse through there has r = d / s + sqrt(1 + (d / s)^2), or more.
+/// The functions are smooth in u and v but where the patch comes close to the origin. Powers of the distance times
+/// polynomials are such.
 ///
-/// Pieces smaller than `least` (in the units of the corners) are left out.
+/// The patch is halved until each piece can be integrated by a Gauss rule of known accuracy. Take a function of u that
+/// is analytic within the ellipse around [-1, 1] with half axes of sum r. Then n Gauss points err by r^(-2n). Take a
+/// line of half length s at the distance d from the origin. The distance is zero at complex u no nearer to the line
+/// than d / s. The ellipse through there has r = d / s + sqrt(1 + (d / s)^2), or more.
+///
+/// Pieces smaller than `least`, in the units of the corners, are left out.
 template <typename Visit>
 void samplePatch(const PatchCorners& corners, double least, const Visit& visit)
 {

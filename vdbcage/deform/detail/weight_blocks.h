@@ -9,7 +9,7 @@
 
 namespace vdbcage::detail {
 
-/// \throw InputError unless there are as many weights as points times handles
+/// \throw InputError not as many weights as points times handles
 void requireWeights(std::size_t weights, std::size_t points, std::size_t handles);
 
 /// What a handle moves by.
@@ -18,14 +18,16 @@ struct HandleMove {
     openvdb::Vec3f by;
 };
 
-/// The weights by which points move, in blocks of points that are close together. A block holds the weights of as few
-/// of its points as it can, and the others as combinations of these.
+/// The weights by which points move, in blocks of points that are close together.
+///
+/// A block holds the weights of as few of its points as it can. The weights of the others are combinations of these.
 class WeightBlocks {
 public:
-    /// Puts the weights of `points` (indices, sorted) into `rows`, which has their size. Called from several threads.
+    /// Writes the weights of `points`, which are sorted indices, to `rows`, which has their size. Several threads call
+    /// it.
     using MakeRows = std::function<void(const std::vector<std::uint32_t>& points, std::vector<float>& rows)>;
 
-    /// What combinations may be off by: four times what rounding to float takes.
+    /// What combinations may be off by: four times what rounding to float costs.
     static constexpr float tolerance = 1.0F / (1 << 22);
 
     /// `maxDistances` has how far each handle may go, about. The size of a row is the sum of its weights' absolute
@@ -34,8 +36,8 @@ public:
     WeightBlocks(const std::vector<openvdb::Vec3d>& points, const std::vector<float>& maxDistances,
                  const MakeRows& makeRows);
 
-    /// Adds what `moves` move them by, times `size`, to `points`. Costs reading the weights of these handles and the
-    /// combinations once, in parallel; the same for any number of threads.
+    /// Adds what `moves` move them by, times `size`, to `points`. The number of threads does not matter.
+    /// Cost: reading the weights of these handles and the combinations once, in parallel.
     void move(const std::vector<HandleMove>& moves, double size, std::vector<openvdb::Vec3d>& points) const;
 
     std::size_t bytes() const;

@@ -11,20 +11,25 @@
 namespace vdbcage::detail {
 
 /// Looks for the bounding cage: shrinks surfaces under the guard, in the order of search.h, until one is certified.
-/// What several runs share (guard, plane of symmetry, starting surfaces with their decimations) is kept between them.
+///
+/// What several runs share is kept between them: the guard, the plane of symmetry, and starting surfaces with their
+/// decimations.
 class BoundingSearch {
 public:
-    /// All must outlive this.
+    /// The arguments must outlive this.
     BoundingSearch(const Mesh& model, Volumes& volumes, Certifier& certifier)
         : model_(model), volumes_(volumes), certifier_(certifier)
     {
     }
 
-    /// A certified cage, or the model's bounding box with its verdict. Can be asked again after any exception.
+    /// A certified cage, or the model's bounding box with its verdict. It can be called again after any exception.
+    /// \throw InputError as Pipeline::run
+    /// \throw DeviceError
+    /// \throw Cancelled
     Candidate run(const CageOptions& options, const ScaleVersion& scale, Interrupter* interrupter);
 
 private:
-    /// One run: the options do not change.
+    /// What stays the same in one run.
     struct Run {
         const CageOptions& options;
         const ScaleVersion& scale;

@@ -13,7 +13,7 @@
 
 namespace vdbcage::detail {
 
-/// What bounding cages of any face count begin with: a surface around a closing, or around its convex hull.
+/// What bounding cages of any face count begin with: a surface around a closing or its convex hull.
 struct StartingSurface {
     CageStart kind = CageStart::closing;
     std::shared_ptr<Closing> closing;

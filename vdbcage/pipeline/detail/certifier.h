@@ -8,15 +8,16 @@
 
 namespace vdbcage::detail {
 
-/// Examines cages of one model by CageChecker, other code than the guard's.
+/// Examines cages of one model by CageChecker, which is other code than the guard's.
 class Certifier {
 public:
     /// `model` must outlive this.
     explicit Certifier(const Mesh& model);
 
-    /// Verdict and measures of a cage, against the model as given. \throw Cancelled
+    /// Verdict and measures of a cage, against the model as given.
+    /// \throw Cancelled
     CageCheck check(const Mesh& cage, Interrupter* interrupter);
-    /// Whether a cage also bounds the model as a host that stores floats would hold it; true if float cannot hold it.
+    /// Whether a cage also bounds the model as a host that stores floats would hold it. True if float cannot hold it.
     /// \throw Cancelled
     bool boundsAsFloats(const Mesh& cage, Interrupter* interrupter);
 

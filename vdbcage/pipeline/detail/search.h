@@ -9,12 +9,14 @@
 #include <vdbcage/mesh/topology.h>
 #include <vdbcage/pipeline/options.h>
 
-/// What the search for a cage tries, and in which order. Pure functions of the options and of what was found so far;
-/// every constant of policy is in `policy`.
+/// What the search for a cage tries, and in which order. These are pure functions of the options and of what was found
+/// so far.
 namespace vdbcage::detail {
 
-/// What the options leave to us is decided by these. Where one was measured, its comment says what others cost;
-/// `vdbcage-bench cage` and `vdbcage-bench stages` measure it again.
+/// Every constant of policy: they decide what the options leave to us.
+///
+/// Where one was measured, its comment says what others cost. `vdbcage-bench cage` and `vdbcage-bench stages` measure
+/// it again.
 namespace policy {
 
 // Voxels. The surface should have several times the faces that the cage is to have; still more gain little.
@@ -51,14 +53,14 @@ constexpr int stepSmoothing = 3;            ///< sweeps that take the steps of t
 
 } // namespace policy
 
-/// What auto options stand for.
+/// What the options `auto` of the voxels stand for.
 struct Voxels {
     int resolution = 0;
     double closeRadius = 0;
     std::optional<SymmetryPlane> plane = {}; ///< across the middle of the voxels: the index resolution / 2
 };
 
-/// The voxels to try, finest first. What is given is obeyed.
+/// The voxels to try, finest first. Options that are not `auto` are obeyed.
 std::vector<Voxels> ladder(const CageOptions& options);
 
 /// The shares of a resolution that cages are begun with, to take the tightest.
@@ -66,8 +68,8 @@ std::vector<double> startScales(const CageOptions& options);
 
 /// Whether the resolution depends on how large the surface is, which the longest side tells little of.
 bool dependsOnSurface(const CageOptions& options);
-/// The resolution of `voxels`, or a coarser one where its surface, of so many quads, would have more triangles than
-/// cages of so many faces gain from. \pre dependsOnSurface()
+/// The resolution of `voxels`, or a coarser one where their surface of `quads` quads is larger than the cage gains
+/// from. \pre dependsOnSurface()
 int affordableResolution(const CageOptions& options, const Voxels& voxels, std::size_t quads);
 
 /// Whether parts and handles leave faces enough for the shape.

@@ -7,9 +7,11 @@
 
 namespace vdbcage::detail {
 
-/// The surface of a closing or of its convex hull, grown to keep the guard's clearance: all of it by as many whole
-/// voxels as the clearance has, then the places where that is not enough, until it is. Symmetric where the guard has a
-/// plane. \throw Cancelled
+/// The surface of a closing or of its convex hull, grown to keep the guard's clearance.
+///
+/// All of it grows by as many whole voxels as the clearance has. Then places where that is not enough grow until it is.
+/// The surface is symmetric where the guard has a plane.
+/// \throw Cancelled
 StartingSurface startingSurface(std::shared_ptr<Closing> closing, CageStart kind, const BoundingGuard& guard,
                                 Interrupter* interrupter);
 

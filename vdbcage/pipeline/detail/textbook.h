@@ -5,8 +5,10 @@
 
 namespace vdbcage::detail {
 
-/// A cage by the operators of the textbook, one after the other: as they leave it, valid or not, bounding or not.
-/// \throw InputError, DeviceError, Cancelled
+/// A cage by the operators of the textbook, one after the other. It is as they leave it, valid or not, bounding or not.
+/// \throw InputError as Pipeline::run
+/// \throw DeviceError
+/// \throw Cancelled
 Candidate textbookCage(const CageOptions& options, const ScaleVersion& scale, Volumes& volumes, Certifier& certifier,
                        Interrupter* interrupter);
 

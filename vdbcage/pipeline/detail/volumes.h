@@ -13,16 +13,16 @@
 #include <vdbcage/pipeline/options.h>
 #include <vdbcage/volume/detail/boundary_topology.h>
 
-/// The volumes that cages are made from, kept from run to run under typed keys: equal keys, equal volumes.
+/// The volumes that cages are made from. They are kept from run to run under typed keys: equal keys, equal volumes.
 namespace vdbcage::detail {
 
-/// What a scale field says. The grid counts by its content: whoever holds it may write to it between two runs.
+/// What a scale field says. The grid counts by its content, as whoever holds it may write to it between two runs.
 struct ScaleVersion {
     std::vector<ScaleRegion> regions;
     std::uint64_t grid = 0; ///< digest of transform, background, tiles and leaves; 0 without a grid
 
     ScaleVersion() = default;
-    /// O(values of the grid).
+    /// Cost: O(values of the grid).
     explicit ScaleVersion(const ScaleField& scale);
     bool operator==(const ScaleVersion& other) const;
 };
@@ -63,17 +63,20 @@ struct Closing {
     std::shared_ptr<const Mesh> surface = {}; ///< once surfaceOf() was asked for it
 };
 
-/// The surface of a closing. \throw Cancelled
+/// The surface of a closing, made once.
+/// \throw Cancelled
 const std::shared_ptr<const Mesh>& surfaceOf(Closing& closing, Interrupter* interrupter);
 
-/// Makes volumes of one model; the last of each kind is kept. What was given out stays as it is.
+/// Makes volumes of one model. The last of each kind is kept. What was given out stays as it is.
 class Volumes {
 public:
     /// `model` must outlive this.
     explicit Volumes(const Mesh& model) : model_(model) {}
 
     /// The closing of the model by the radii of `voxels` and the options. `scale` is the version of their scale field.
-    /// \throw InputError, DeviceError, Cancelled
+    /// \throw InputError as voxelize, closeMask
+    /// \throw DeviceError
+    /// \throw Cancelled
     std::shared_ptr<Closing> closing(const CageOptions& options, const ScaleVersion& scale, const Voxels& voxels,
                                      Interrupter* interrupter);
 
@@ -85,10 +88,10 @@ private:
     std::shared_ptr<Closing> closing_;
 };
 
-/// Which closing it would be.
+/// The key of the closing that Volumes::closing gives.
 ClosingKey closingKey(const CageOptions& options, const ScaleVersion& scale, const Voxels& voxels);
 
-/// The active voxels of `mask`.
+/// How many active voxels `mask` has.
 std::size_t countOf(const openvdb::MaskGrid& mask);
 
 } // namespace vdbcage::detail

@@ -35,7 +35,8 @@ enum class ContourOf {
     complement ///< inactive voxels with an active face neighbour
 };
 
-/// The contour of a mask or of its complement, the blocks sorted by origin; blocks without contour are left out.
+/// The blocks with contour voxels of the mask or of its complement, sorted by origin.
+/// \throw Cancelled
 std::vector<ContourBlock> contourBlocks(const MaskTree& tree, ContourOf side, const Progress& progress);
 
 } // namespace vdbcage::detail

@@ -16,7 +16,7 @@ struct BoundaryTopology {
 /// What analyzeTopology would find in extractSurface(solid), without the mesh: by Euler's formula.
 /// \throw InputError as makeWellComposed; more than 10^8 quads
 /// \throw Cancelled
-/// Cost: O(voxels at the surface); 4 bytes a point.
+/// Cost: O(voxels at the surface), and 4 bytes a point.
 BoundaryTopology boundaryTopology(const openvdb::MaskGrid& solid, Interrupter* interrupter = nullptr);
 
 } // namespace vdbcage::detail

@@ -12,13 +12,13 @@
 
 namespace vdbcage::detail {
 
-/// Where a value of a file lies: what a fuzzer changes to get deep.
+/// Where a value of a file lies. A fuzzer changes values to get past the checks.
 struct ByteField {
     std::size_t position, size;
 };
 
-/// Reads values from the bytes of a file, one after the other and never beyond their end. Values are as this machine
-/// has them: little-endian.
+/// Reads values from the bytes of a file, one after the other. It never reads beyond their end. Values are
+/// little-endian, as they are on this machine.
 class ByteCursor {
 public:
     /// \param name  of the file, for messages
@@ -41,6 +41,7 @@ public:
     std::size_t left() const { return bytes_.size() - position_; }
 
     /// The next `count` bytes.
+    /// \throw IoError there are fewer; so do all functions below that read
     std::string_view take(std::size_t count)
     {
         if (count > left()) {
@@ -76,7 +77,7 @@ public:
     /// A string: its length in 32 bits, then its characters.
     std::string_view string() { return take(value<std::uint32_t>()); }
 
-    /// \throw IoError with the position behind what was read last
+    /// \throw IoError always, with the position behind what was read last
     [[noreturn]] void damaged(const std::string& what) const
     {
         refuse("is damaged: " + what + " (at byte " + std::to_string(position_) + ")");

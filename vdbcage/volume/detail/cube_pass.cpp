@@ -39,12 +39,14 @@ void dilateRow(const Foreground& foreground, const Segment& segment, const Block
             result[i]->words.reserve(own->words.size());
         }
     }
+    StretchLines lines;
+    LineEntries entries(view, lines);
     for (std::size_t stretch = 0; stretch < stretchesPerPlane; ++stretch) {
-        const StretchLines lines = stretchLines(view, stretch);
-        LineEntries entries(view, lines, stretch);
-        for (std::size_t lane = 0; lane < 4; ++lane) {
+        lines.find(view, stretch);
+        if (!lines.isDecided) entries.prefetchStretch(stretch);
+        for (std::size_t i = 0; i < 4; ++i) {
             check();
-            for (std::size_t z = 0; z < entriesPerAxis; ++z) dilateLine({stretch, lane, z}, entries, result);
+            dilateLines(stretch, i, entries, result);
         }
     }
     for (std::size_t i = 0; i < row.blocks; ++i) finish(*result[i], foreground.flip);

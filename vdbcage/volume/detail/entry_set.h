@@ -10,13 +10,15 @@
 #include <vdbcage/volume/detail/mask_blocks.h>
 #include <vdbcage/volume/detail/progress.h>
 
-/// A mask between two passes along an axis: blocks without the nodes of a tree, whose entries are known by single bits.
+/// A mask between two passes along an axis. Its blocks have no nodes of a tree. Bits tell which entries are empty or
+/// full.
 namespace vdbcage::detail {
 
-/// 4 x 16 entries of one x in a block, for one of the 4 stretches of 4 y: entry (y, z) at bit 16 (y % 4) + z.
+/// A plane of a block is its entries of one x. A stretch is a quarter of a plane, 4 x 16 entries: (y, z) is bit
+/// 16 (y % 4) + z.
 constexpr int stretchesPerPlane = 4;
 
-/// One block. Entry n is bit n % 64 of word n / 64, so that word 4 x + y / 4 is one stretch of plane x.
+/// One block. Entry n is bit n % 64 of word n / 64. So word 4 x + y / 4 is one stretch of plane x.
 struct FlatBlock {
     static constexpr std::size_t wordCount = entriesPerBlock / 64;
 
@@ -26,7 +28,8 @@ struct FlatBlock {
     std::array<std::uint16_t, entriesPerBlock / 16> firstWords{}; ///< by n / 16: how many mixed entries are before
     bool isUniform = true;
 
-    /// To be called when the bits and the words are set: finds the rest.
+    /// Finds the rest.
+    /// \pre the bits and the words are set
     void finish();
     bool isFull() const { return isUniform && full[0] != 0; }
 };
@@ -40,12 +43,13 @@ struct BlockEntries {
     bool isEmpty() const { return !flat && !full; }
 };
 
-/// A mask by its blocks.
 class EntrySet {
 public:
-    /// \throw Cancelled, as the others
+    /// \throw Cancelled
     EntrySet(const MaskTree& tree, const Progress& progress);
-    /// The full parts, with the blocks (each origin once) in their places.
+    /// The full parts, with the blocks in their places.
+    /// \pre no two blocks have the same origin
+    /// \throw Cancelled
     EntrySet(FullParts full, std::vector<std::unique_ptr<FlatBlock>> flat, const Progress& progress);
 
     BlockEntries at(const Coord& origin) const
@@ -58,6 +62,7 @@ public:
     /// The blocks where the mask may begin or end, in no order.
     std::vector<Coord> shell() const;
     /// Frees the blocks on the way.
+    /// \throw Cancelled
     MaskTree::Ptr tree(const Progress& progress) &&;
 
 private:

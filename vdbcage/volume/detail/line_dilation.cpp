@@ -2,14 +2,13 @@
 
 #include <algorithm>
 
-#include <vdbcage/volume/detail/simd.h>
-
 namespace vdbcage::detail {
 
 namespace {
 
 // Adds 8 words from one on, of 8 that are `before`, 8 of an entry and 8 that are `behind`.
-VDBCAGE_INLINE void add(const WordPair& before, const WordPairs& sums, const WordPair& behind, int from, WordPairs& result)
+VDBCAGE_INLINE void add(const WordPair& before, const WordPairs& sums, const WordPair& behind, int from,
+                        WordPairs& result)
 {
     const WordPair all[]{before,  before,  before, before, sums[0], sums[1],
                          sums[2], sums[3], behind, behind, behind,  behind};
@@ -18,7 +17,7 @@ VDBCAGE_INLINE void add(const WordPair& before, const WordPairs& sums, const Wor
     for (std::size_t i = 0; i < result.size(); ++i) result[i] |= added[i];
 }
 
-// Adds an entry at the end of the segment, before this one: its words from to - rest + beyond on count for word `to`.
+// Adds an entry at the end of the segment, before this one: its words from to - rest + beyond on go to word `to`.
 VDBCAGE_INLINE void addBefore(const LineEntries& line, std::size_t x, int beyond, WordPairs& result)
 {
     if (line.isEmpty(x)) return;
@@ -31,7 +30,7 @@ VDBCAGE_INLINE void addBefore(const LineEntries& line, std::size_t x, int beyond
     add(sum, sums, WordPair{}, leafSize - line.segment().rest + beyond, result);
 }
 
-// The same behind it: the words up to to + rest - beyond count for word `to`.
+// The same behind it: the words up to to + rest - beyond go to word `to`.
 VDBCAGE_INLINE void addBehind(const LineEntries& line, std::size_t x, int beyond, WordPairs& result)
 {
     if (line.isEmpty(x)) return;
@@ -45,9 +44,10 @@ VDBCAGE_INLINE void addBehind(const LineEntries& line, std::size_t x, int beyond
 }
 
 // An entry dilated within itself, by a radius below its size.
-void addOwn(const LineEntries& line, std::size_t x, WordPairs& result)
+WordPairs dilatedWithin(const LineEntries& line, std::size_t x)
 {
-    if (line.isEmpty(x)) return;
+    WordPairs result{};
+    if (line.isEmpty(x)) return result;
     const int radius = line.segment().radius;
     Words sums{};
     for (int from = 0; from < leafSize; ++from) {
@@ -56,15 +56,16 @@ void addOwn(const LineEntries& line, std::size_t x, WordPairs& result)
         for (int to = std::max(from - radius, 0); to <= last; ++to) sums[static_cast<std::size_t>(to)] |= word;
     }
     std::memcpy(result.data(), sums.data(), sizeof sums);
+    return result;
 }
 
-WordPairs dilatedEntry(const LineEntries& line, std::size_t x)
+VDBCAGE_INLINE WordPairs dilatedEntry(const LineEntries& line, std::size_t x)
 {
     const Segment& segment = line.segment();
     const std::size_t whole = segment.wholeEntries;
-    WordPairs result{};
+    WordPairs result;
     if (whole == 0) {
-        addOwn(line, x, result);
+        result = dilatedWithin(line, x);
     } else {
         const std::uint64_t inAll = line.unionAround(x); // within the segment of every voxel of the entry
         result.fill(WordPair{inAll, inAll});
@@ -78,9 +79,7 @@ WordPairs dilatedEntry(const LineEntries& line, std::size_t x)
     return result;
 }
 
-} // namespace
-
-void dilateLine(const Line& line, LineEntries& entries, const std::unique_ptr<FlatBlock>* result)
+VDBCAGE_INLINE void dilateLine(const Line& line, LineEntries& entries, const std::unique_ptr<FlatBlock>* result)
 {
     entries.read(line);
     const RowView& view = entries.view();
@@ -91,20 +90,27 @@ void dilateLine(const Line& line, LineEntries& entries, const std::unique_ptr<Fl
         for (unsigned open = line.of(entries.lines().open[i]); open != 0; open &= open - 1) {
             const auto x = static_cast<std::size_t>(__builtin_ctz(open));
             WordPairs words = dilatedEntry(entries, view.ownBlock(i) * entriesPerAxis + x);
-            const WordPair any = words[0] | words[1] | words[2] | words[3],
-                           all = words[0] & words[1] & words[2] & words[3];
+            const WordPair any = words[0] | words[1] | words[2] | words[3];
+            const WordPair all = words[0] & words[1] & words[2] & words[3];
             if ((any[0] | any[1]) == 0) continue;
             some |= 1ULL << x;
             if ((all[0] & all[1]) == ~0ULL) {
                 full |= 1ULL << x;
             } else {
-                for (WordPair& pair : words) pair ^= entries.flip();
+                for (WordPair& pair : words) pair ^= view.foreground.flip;
                 result[i]->words.push_back(permuted(words));
             }
         }
         result[i]->some[n] |= some << shift;
         result[i]->full[n] |= full << shift;
     }
+}
+
+} // namespace
+
+void dilateLines(std::size_t stretch, std::size_t i, LineEntries& entries, const std::unique_ptr<FlatBlock>* result)
+{
+    for (std::size_t z = 0; z < entriesPerAxis; ++z) dilateLine({stretch, i, z}, entries, result);
 }
 
 } // namespace vdbcage::detail

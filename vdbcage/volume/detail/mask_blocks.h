@@ -11,10 +11,12 @@
 
 /// A sparse mask seen as the nodes of its tree, the view that every algorithm of this room works on.
 ///
-/// An *upper node* is 4096^3 voxels (a child of the root), a *block* 128^3 (a lower node), an *entry* one of
-/// the 4096 places of 8^3 voxels in a block: empty, full or a leaf. The bits of an entry are 8 words, word x holding
-/// voxel (x, y, z) in bit 8 y + z, as OpenVDB stores them. Upper nodes and blocks are named by their origin. Only
-/// active states count; the values of a mask tree's tiles are not looked at.
+/// - An *upper node* is 4096^3 voxels, a child of the root.
+/// - A *block* is 128^3 voxels, a lower node.
+/// - An *entry* is one of the 4096 places of 8^3 voxels in a block: empty, full or a leaf.
+///
+/// The bits of an entry are 8 words. Word x holds voxel (x, y, z) in bit 8 y + z, as OpenVDB stores them. Upper nodes
+/// and blocks are named by their origin. Only active states count, not the values of a mask tree's tiles.
 namespace vdbcage::detail {
 
 using openvdb::Coord;
@@ -47,7 +49,7 @@ public:
     explicit Block(const LowerNode* node) : node_(node) {}
     explicit Block(bool full) : full_(full) {}
 
-    /// Uniform, and so without a node. (A node can be full or empty too, where nobody pruned it.)
+    /// Uniform, and so without a node. A node can be full too, where nobody pruned it, or empty.
     bool isFull() const { return full_; }
     bool isEmpty() const { return !node_ && !full_; }
 
@@ -60,8 +62,7 @@ public:
         return node_->isValueMaskOn(i) ? fullWords.data() : emptyWords.data();
     }
 
-    /// Calls visit(n, entry(n)) for every entry that is not empty, in no order. (A leaf without bits may be among
-    /// them.)
+    /// Calls visit(n, entry(n)) for every entry that is not empty, in no order. A leaf without bits may be among them.
     template <class Visit>
     void forEachEntry(const Visit& visit) const
     {
@@ -80,14 +81,16 @@ private:
     bool full_ = false;
 };
 
-/// The block of `tree` with this origin. O(log upper nodes).
+/// The block of `tree` with this origin.
+/// Cost: O(log upper nodes).
 Block blockAt(const MaskTree& tree, const Coord& origin);
 
-/// The blocks that can hold a boundary voxel of the mask, sorted: the nodes, the full blocks, and of a full upper node
-/// those at the faces where its neighbour is not a full upper node.
+/// The blocks that can hold a boundary voxel of the mask, sorted.
+///
+/// These are the nodes and the full blocks. Of a full upper node they are those that facesOfUpperNodes() gives.
 std::vector<Coord> shellBlocks(const MaskTree& tree);
 
-/// The blocks along those faces of full upper nodes where the neighbour is not among them; some maybe twice.
+/// The blocks along those faces of the upper nodes where the neighbour is not one of them. Some may be there twice.
 std::vector<Coord> facesOfUpperNodes(const std::vector<Coord>& upperNodes);
 
 /// Calls visit(origin) for each block of an upper node.
@@ -108,7 +111,7 @@ struct FullParts {
 };
 FullParts fullParts(const MaskTree& tree);
 
-/// A finished block, on its way into a tree: a node, or uniform.
+/// A finished block, on its way into a tree.
 struct BuiltBlock {
     Coord origin;
     std::unique_ptr<LowerNode> node; ///< null: uniform
@@ -120,7 +123,8 @@ class BlockBuilder {
 public:
     explicit BlockBuilder(const Coord& origin) : origin_(origin), leaves_(entriesPerBlock), full_(entriesPerBlock, 0) {}
 
-    /// Entry n becomes `words`; each entry at most once, empty where never set.
+    /// Entry n becomes `words`. Entries that are never set are empty.
+    /// \pre n was not set before
     void set(int n, const std::uint64_t* words);
     BuiltBlock finish();
 
@@ -130,25 +134,29 @@ private:
     std::vector<char> full_;
 };
 
-/// The tree of the full parts with the built blocks put in their place (each origin once). It is the smallest tree of
-/// its set: no empty node, no full one, so equal sets give equal trees.
+/// The tree of the full parts with the built blocks put in their place. It is the smallest tree of its set, with no
+/// empty node and no full one. So equal sets give equal trees.
+/// \pre no two blocks have the same origin
 MaskTree::Ptr assemble(const FullParts& full, std::vector<BuiltBlock> built);
 
-/// Frees a tree that nobody else has, block by block: all at once would be long without a question to the interrupter.
+/// Frees a tree block by block. All at once would be long without a question to the interrupter.
+/// \pre nobody else has the tree
 /// \throw Cancelled
 void release(MaskTree& tree, const Progress& progress);
 
-/// Checks that there is room around the active voxels for the arithmetic on coordinates: all within [-2^30, 2^30).
-/// \throw InputError
+/// Requires room around the active voxels for the arithmetic on coordinates.
+/// \throw InputError active voxels outside [-2^30, 2^30)
 void requireSupportedCoordinates(const MaskTree& tree);
 
-/// The box of the set bits, as offsets 0 to 7; `words` must not be empty.
+/// The box of the set bits of an entry.
 struct BitBox {
-    std::array<std::int8_t, 3> lower, upper; // inclusive
+    std::array<std::int8_t, 3> lower, upper; ///< 0 to 7, inclusive
 };
+/// \pre a bit is set
 BitBox bitBox(const std::uint64_t* words);
 
-/// Rounds down to a multiple of a power of two.
+/// Rounds down to a multiple of `size`.
+/// \pre `size` is a power of two
 inline Coord alignedTo(const Coord& c, int size)
 {
     return {c.x() & ~(size - 1), c.y() & ~(size - 1), c.z() & ~(size - 1)};

@@ -9,27 +9,32 @@
 
 namespace vdbcage::detail {
 
-/// \throw InputError (a scale or a radius out of range, a coordinate that is not finite)
+/// \throw InputError a scale or a radius out of range; a coordinate that is not finite
 void requireValid(const ScaleRegion& region);
 
-/// A radius for each voxel, as its square, a whole number, such that what a scatter erosion removes (all g with a q
-/// outside, |g - q|^2 <= square(q)) is removed by the q that have a face neighbour inside alone.
+/// A radius for each voxel, as its square, a whole number.
 ///
-/// For this any g that q reaches, but by one step along an axis, must also be reached by a face neighbour of q that is
-/// nearer to g. A step towards g gains at least half a voxel, unless g is very near; so radii that change by less than
-/// half a voxel a step do, with squares a little below the radius' own where that is small (see leastRadius).
+/// A scatter erosion removes all g with a voxel q outside such that |g - q|^2 <= square(q). The squares are chosen so
+/// that the q with a face neighbour inside alone remove all of it.
+///
+/// For this, let g be within the radius of q, more than one step along an axis away. Then g must be within the radius
+/// of a face neighbour of q that is nearer to g. A step towards g gains at least half a voxel, unless g is very near.
+/// So it is enough that radii change by less than half a voxel a step. Where radii are small, their squares are a
+/// little below the radius' own (see leastRadius_).
 class RadiusField {
 public:
-    /// For the voxels of `box`, in the index space of `voxels`. \throw InputError, Cancelled
+    /// For the voxels of `box`, in the index space of `voxels`.
+    /// \throw InputError as closeMask with a scale field
+    /// \throw Cancelled
     RadiusField(const ScaleField& scale, const openvdb::math::Transform& voxels, double radius,
                 const openvdb::CoordBBox& box, const Progress& progress);
 
     /// Whether the radius is `largest()` everywhere.
     bool isUniform() const { return nodes_.empty(); }
     double largest() const { return largest_; }
-    /// The squared radius at a voxel, of the radius times `factor` (0 to 1).
+    /// The square at a voxel of the radius times `factor`, which is 0 to 1.
     std::int32_t square(const openvdb::Coord& voxel, double factor) const;
-    /// Bounds of the radius (not squared) among the voxels of an entry.
+    /// Bounds of the radius among the voxels of an entry.
     struct Range {
         float least, most;
     };

@@ -1,13 +1,11 @@
 #include <vdbcage/volume/detail/row_view.h>
 
-#include <algorithm>
-
 #include <vdbcage/core/detail/word_bits.h>
 
 namespace vdbcage::detail {
 
-RowView::RowView(const Foreground& foreground_, const Segment& segment_, const BlockRow& row)
-    : foreground(foreground_), segment(segment_), ownBlocks(row.blocks),
+RowView::RowView(const Foreground& foregroundSeen, const Segment& segmentAround, const BlockRow& row)
+    : foreground(foregroundSeen), segment(segmentAround), ownBlocks(row.blocks),
       blocks(row.blocks + 2 * static_cast<std::size_t>(segment.blockRadius))
 {
     for (auto* stretches : {&some, &full}) {
@@ -25,54 +23,49 @@ RowView::RowView(const Foreground& foreground_, const Segment& segment_, const B
     }
 }
 
-namespace {
+void StretchLines::find(const RowView& view, std::size_t stretch)
+{
+    const auto &viewSome = view.some[stretch], &viewFull = view.full[stretch];
+    // A full entry fills all that are as many entries away as the radius has whole ones.
+    dilate(view, viewFull, view.segment.wholeEntries, full);
+    dilate(view, viewSome, view.segment.entryRadius, open);
+    isDecided = true;
+    for (std::size_t i = 0; i < view.ownBlocks; ++i) {
+        for (std::size_t x = 0; x < entriesPerAxis; ++x) {
+            open[i][x] &= ~full[i][x];
+            if (open[i][x] != 0) isDecided = false;
+        }
+        transposeLanes(full[i]);
+        transposeLanes(open[i]);
+    }
+    if (isDecided) return;
+    fullAround.resize(view.blocks.size());
+    mixedAround.resize(view.blocks.size());
+    for (std::size_t b = 0; b < view.blocks.size(); ++b) {
+        for (std::size_t x = 0; x < entriesPerAxis; ++x) {
+            const std::size_t viewX = entriesPerAxis * b + x;
+            fullAround[b][x] = viewFull[viewX];
+            mixedAround[b][x] = viewSome[viewX] & ~viewFull[viewX];
+        }
+        transposeLanes(fullAround[b]);
+        transposeLanes(mixedAround[b]);
+    }
+}
 
 // The entries of the row's own blocks, each united with `radius` on both sides.
-std::vector<BlockLines> dilatedEntries(const RowView& view, std::vector<std::uint64_t> values, std::size_t radius)
+void StretchLines::dilate(const RowView& view, const std::vector<std::uint64_t>& entries, std::size_t radius,
+                          std::vector<BlockLines>& result)
 {
-    const std::size_t count = uniteAhead(values.data(), values.size(), 2 * radius + 1);
-    std::vector<BlockLines> result(view.ownBlocks);
+    united_ = entries;
+    const std::size_t count = uniteAhead(united_.data(), united_.size(), 2 * radius + 1);
+    result.resize(view.ownBlocks);
     std::size_t own = view.ownBlock(0) * entriesPerAxis;
     for (BlockLines& block : result) {
-        for (std::uint64_t& entries : block) {
-            entries = values[own - radius] | values[own + radius + 1 - count];
+        for (std::uint64_t& word : block) {
+            word = united_[own - radius] | united_[own + radius + 1 - count];
             ++own;
         }
     }
-    return result;
-}
-
-} // namespace
-
-StretchLines stretchLines(const RowView& view, std::size_t stretch)
-{
-    const auto &some = view.some[stretch], &full = view.full[stretch];
-    StretchLines lines;
-    // A full entry fills all that are as many entries away as the radius has whole ones.
-    lines.full = dilatedEntries(view, full, view.segment.wholeEntries);
-    lines.open = dilatedEntries(view, some, view.segment.entryRadius);
-    bool isDecided = true;
-    for (std::size_t i = 0; i < view.ownBlocks; ++i) {
-        for (std::size_t x = 0; x < entriesPerAxis; ++x) {
-            lines.open[i][x] &= ~lines.full[i][x];
-            if (lines.open[i][x] != 0) isDecided = false;
-        }
-        transposeLanes(lines.full[i]);
-        transposeLanes(lines.open[i]);
-    }
-    if (isDecided) return lines;
-    lines.fullAround.resize(view.blocks.size());
-    lines.mixedAround.resize(view.blocks.size());
-    for (std::size_t b = 0; b < view.blocks.size(); ++b) {
-        for (std::size_t x = 0; x < entriesPerAxis; ++x) {
-            const std::size_t i = entriesPerAxis * b + x;
-            lines.fullAround[b][x] = full[i];
-            lines.mixedAround[b][x] = some[i] & ~full[i];
-        }
-        transposeLanes(lines.fullAround[b]);
-        transposeLanes(lines.mixedAround[b]);
-    }
-    return lines;
 }
 
 } // namespace vdbcage::detail

@@ -2,9 +2,10 @@
 
 #include <vector>
 
-/// Kernels that are compiled for several instruction sets, of which one is chosen at run time. A kernel is an inline
-/// template over the width of the vectors (GNU vector types: any machine), and a few functions with the attributes
-/// below that instantiate it.
+/// Kernels that are compiled for several instruction sets, of which one is chosen at run time.
+///
+/// A kernel is an inline template over the width of the vectors. These are GNU vector types, which any machine has. A
+/// few functions with the attributes below instantiate it.
 namespace vdbcage::detail {
 
 enum class Simd {
@@ -13,7 +14,7 @@ enum class Simd {
     avx512 ///< F, BW, DQ and VL, as x86-64-v4
 };
 
-/// Those that this build and machine have, plain first, best last.
+/// What this build and machine have, plain first, best last.
 const std::vector<Simd>& supportedSimd();
 inline Simd bestSimd()
 {
@@ -27,7 +28,7 @@ inline Simd bestSimd()
 #else
 #define VDBCAGE_WITH_AVX 0
 #endif
-/// A function without a target of its own that takes on that of the kernel it is called in.
+/// Inlines a function by force. It takes on the target of the kernel that it is called in.
 #define VDBCAGE_INLINE inline __attribute__((always_inline))
 
 } // namespace vdbcage::detail

@@ -26,7 +26,7 @@ struct NearLeaf {
 
 /// Which voxels lie within a radius of contour voxels.
 ///
-/// There is a rough answer for the 64 entries of a part at once, and an exact one for the voxels of a pile of entries.
+/// One answer is rough, for the 64 entries of a part at once. The other is exact, for the voxels of a pile of entries.
 /// Entry (x, y, z) of a part is bit 16 x + 4 y + z. A pile is four entries along z.
 ///
 /// For the exact answer, let h(dx, dy) be half the sphere's chord in a column along z. A contour voxel q covers the

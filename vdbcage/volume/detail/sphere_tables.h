@@ -9,10 +9,10 @@
 
 namespace vdbcage::detail {
 
-constexpr int lanes = 64;        // the columns of an entry: column (x, y) is lane 8 y + x
-constexpr int smallRadius = 120; // largest radius, rounded up, for which heights fit bytes
+constexpr int lanes = 64;        ///< the columns of an entry: column (x, y) is lane 8 y + x
+constexpr int smallRadius = 120; ///< largest radius, rounded up, for which heights fit bytes
 
-// Heights are kept above `none`, which stands for no voxel at all, so that differences of bytes stay above 0.
+/// Heights count from `none`, which stands for no voxel at all. So differences of bytes stay above 0.
 template <class T>
 constexpr T none = 0;
 template <>
@@ -23,7 +23,7 @@ struct SphereTables {
     /// \throw Cancelled
     SphereTables(std::int64_t squared, const Progress& progress);
 
-    // Height above a contour voxel at (-dx, -dy) seen from column (x, y) of an entry: [rowPlace(dx, dy) + lane].
+    /// Height above a contour voxel at (-dx, -dy) seen from column (x, y) of an entry: [rowPlace(dx, dy) + lane].
     template <class T>
     const T* rows() const
     {
@@ -32,9 +32,10 @@ struct SphereTables {
         else
             return largeRows.data();
     }
-    int rowStride() const { return (2 * rowRadius + 8) * 8; } // to the next dx; the next dy is 8 away
+    /// To the next dx. The next dy is 8 away.
+    int rowStride() const { return (2 * rowRadius + 8) * 8; }
     int rowPlace(int dx, int dy) const { return (dx + rowRadius) * rowStride() + (dy + rowRadius) * 8; }
-    // The same for contour voxels anywhere in the columns of an entry at the offset (-dx, -dy), in entries.
+    /// The same for contour voxels anywhere in the columns of an entry at the offset (-dx, -dy), in entries.
     template <class T>
     const T* entries() const
     {
@@ -43,23 +44,25 @@ struct SphereTables {
         else
             return largeEntries.data();
     }
-    int entryStride() const { return (2 * entryRadius + 1) * lanes; } // to the next dx; the next dy is 64 away
+    /// To the next dx. The next dy is 64 away.
+    int entryStride() const { return (2 * entryRadius + 1) * lanes; }
     int entryPlace(int dx, int dy) const { return (dx + entryRadius) * entryStride() + (dy + entryRadius) * lanes; }
 
     std::int64_t squaredRadius;
-    int radius; // rounded up
+    int radius; ///< rounded up
     bool isSmall;
-    int entryRadius, rowRadius; // largest offsets that are asked for, in entries and voxels
+    int entryRadius, rowRadius; ///< largest offsets that are asked for, in entries and voxels
     int coordinates;
 
-    // Squared distances along one axis, by a voxel's coordinate in the part, to its four entries: divided by 2^shift,
-    // rounded down (near) or up (far), and cut just above the limit.
+    /// Squared distances along one axis, from a coordinate in the part to its four entries. They are divided by
+    /// 2^shift, rounded down (near) or up (far), and cut just above the limit.
     struct Squares {
-        std::array<std::int16_t, 4> below, above; // to the near end, of an entry that is below or above it, else 0
-        std::array<std::int16_t, 4> far;          // to the far end
+        std::array<std::int16_t, 4> below, above; ///< to the near end, of an entry that is below or above it, else 0
+        std::array<std::int16_t, 4> far;          ///< to the far end
     };
     const Squares& squares(int coordinate) const { return squares_[static_cast<std::size_t>(coordinate + margin())]; }
-    struct WideSquares { // each four times
+    /// Each four times.
+    struct WideSquares {
         std::array<std::int16_t, 16> below, above, far;
     };
     const WideSquares& wideSquares(int coordinate) const

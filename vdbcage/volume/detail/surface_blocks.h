@@ -11,22 +11,21 @@
 #include <vdbcage/core/detail/parallel.h>
 #include <vdbcage/core/interrupter.h>
 
-// The boundary of a well-composed mask, block by block of 8^3 voxels, before it becomes a mesh.
-
+/// The boundary of a well-composed mask, block by block of 8^3 voxels, before it becomes a mesh.
 namespace vdbcage::detail {
 
 using MaskAccessor = openvdb::tree::ValueAccessor<const openvdb::MaskTree>;
 
 constexpr int surfaceBlockSide = 8;
 
-/// The voxels of a block and the layer around it: voxel (x, y, z) of the block, each in [-1, 8], is bit z + 1 of
+/// The voxels of a block and the layer around it. Voxel (x, y, z) of the block, each in [-1, 8], is bit z + 1 of
 /// rows[x + 1][y + 1].
 struct Window {
     static constexpr int side = surfaceBlockSide + 2;
     static constexpr unsigned full = (1U << side) - 1;
     std::array<std::array<std::uint16_t, side>, side> rows;
 
-    /// Whether every voxel has the same state: then there is no surface here.
+    /// Whether every voxel has the same state. Then there is no surface here.
     bool uniform() const
     {
         unsigned any = 0, all = full;
@@ -43,6 +42,7 @@ struct Window {
 Window readWindow(const MaskAccessor& tree, const openvdb::Coord& block);
 
 /// Calls visit(i, accessor) for every i below `count`, in parallel, each task with an accessor of its own.
+/// \throw Cancelled
 template <typename Visit>
 void forEachBlock(std::size_t count, const openvdb::MaskTree& tree, Interrupter* interrupter, const Visit& visit)
 {
@@ -57,15 +57,15 @@ void sortUnique(std::vector<openvdb::Coord>& coords);
 
 /// The origins of the 8^3 blocks that hold active voxels and touch a surface, sorted. Of an active tile only the
 /// blocks of its outer layer can.
-/// \throw InputError active voxels beyond 2^30; more blocks than memory is for
+/// \throw InputError active voxels outside [-2^30, 2^30); more than 2^22 blocks; more than 2^26 to look at, which are
+/// the leaves and the outer layers of tiles
 /// \throw Cancelled
 std::vector<openvdb::Coord> surfaceBlocks(const openvdb::MaskTree& tree, Interrupter* interrupter);
 
-/// The quads and points of the boundary of a well-composed mask, numbered: points and quads in order of their blocks.
+/// The quads and points of the boundary of a well-composed mask. They are numbered in the order of their blocks.
 class SurfaceBlocks {
 public:
-    /// Points are numbered by 32 bits: there are at most 10^8 quads.
-    /// \throw InputError as surfaceBlocks; more than 10^8 quads
+    /// \throw InputError as surfaceBlocks; more than 10^8 quads, so that 32 bits number the points
     /// \throw Cancelled
     SurfaceBlocks(const openvdb::MaskTree& tree, Interrupter* interrupter);
 
@@ -73,7 +73,7 @@ public:
     std::size_t pointCount() const { return points_; }
     std::size_t quadCount() const { return quads_; }
 
-    /// Calls visit(number, corner) for each point of block i: the corner of voxels at the low end of voxel `corner`.
+    /// Calls visit(number, corner) for each point of block i. The point is at the low end of voxel `corner`.
     template <typename Visit>
     void forEachPoint(std::size_t i, const Visit& visit) const
     {
@@ -86,7 +86,7 @@ public:
             }
         }
     }
-    /// Calls visit(number, points) for each quad of block i; points are counter-clockwise from outside.
+    /// Calls visit(number, points) for each quad of block i. Points are counter-clockwise from outside.
     template <typename Visit>
     void forEachQuad(std::size_t i, const Visit& visit) const
     {
@@ -112,14 +112,14 @@ private:
     /// The part of the surface in one block: its corners of voxels and its faces.
     struct Block {
         Window window;
-        /// Bit 8 y + z of [x]: the corner at the low end of voxel (x, y, z). It is on the surface if the eight voxels
-        /// around it do not all have the same state.
+        /// Bit 8 y + z of [x] is the corner at the low end of voxel (x, y, z). It is set if that is on the surface: the
+        /// eight voxels around it do not all have the same state.
         std::array<std::uint64_t, surfaceBlockSide> corners;
         std::array<openvdb::Index32, surfaceBlockSide> firstPoint; ///< number of the first point of each x
         std::size_t pointCount = 0;
         std::size_t firstQuad = 0, quadCount = 0;
     };
-    /// A block and the seven that follow it along the axes: they hold the points of its faces.
+    /// A block and the seven that follow it along the axes. They hold the points of its faces.
     using Around = std::array<const Block*, 8>;
 
     /// Calls visit(x, y, z, face) for every face between an active voxel of the block and an inactive one.

@@ -12,18 +12,20 @@ namespace vdbcage::detail {
 /// The types of grids that are wanted.
 enum class VdbValues { scalars /* float, double, bool and mask */, floats };
 
-/// Reads one grid of a .vdb file: the first named `wanted`, or else the only one. OpenVDB's own reader believes what a
-/// file says about lengths and counts; here each is compared with the bytes that are there before memory is taken for
-/// it. So nothing is read or written outside of buffers whatever the bytes are, and the grid takes at most 40 times the
-/// memory of `bytes`, plus 1 MiB. Worst are nodes of which the file has little more than masks: an upper internal node
-/// has 264 KiB in memory for 8 KiB in the file, a lower one 33 KiB for 1 KiB, a leaf node of doubles 4 KiB for 129
-/// bytes, each some 33 times as much; then there is what the allocator adds.
-/// Grids of other types are passed by with the file's offsets; where it has none (it was streamed), they cannot be.
-/// OpenVDB must be initialized.
+/// Reads one grid of a .vdb file: the first named `wanted`, or else the only one.
+///
+/// OpenVDB's own reader believes what a file says about lengths and counts. Here each is compared with the bytes that
+/// are there before memory is taken for it. So nothing is read or written outside of buffers, whatever the bytes are.
+///
+/// Grids of other types are passed by with the file's offsets. A file that was streamed has none: in it they cannot be.
 /// \param name  of the file, for messages
 /// \param fields  if not null gets the places of all values, for the fuzzer
-/// \throw IoError naming the file: not a .vdb, truncated, damaged, of a version before 222 (2013) or after 224, no such
-///        grid, of another type
+/// \pre OpenVDB is initialized
+/// \throw IoError naming the file: not a .vdb; truncated; damaged; a version before 222 (2013) or after 224; no such
+/// grid; a grid of another type
+/// Cost: memory of at most 40 times `bytes`, plus 1 MiB. Worst are nodes of which the file has little more than masks.
+/// An upper internal node has 264 KiB in memory for 8 KiB in the file, a lower one 33 KiB for 1 KiB. A leaf node of
+/// doubles has 4 KiB for 129 bytes. Each is some 33 times as much, and the allocator adds to it.
 openvdb::GridBase::Ptr parseVdb(std::string_view bytes, const std::string& name, const std::string& wanted,
                                 VdbValues values, std::vector<ByteField>* fields = nullptr);
 
