@@ -23,7 +23,7 @@ set(confined
     "EGL/|^vdbcage/gl/detail/egl\\.cpp$"
     "tbb/parallel_|^(vdbcage/core/detail/parallel\\.h|tools/.*|tests/.*)$"
     "tbb/task_group|^(vdbcage/core/detail/parallel\\.h|tools/.*|tests/.*)$"
-    "png\\.h|^(tools/vdbcage/picture\\.cpp|tests/.*)$"
+    "png\\.h|^(tools/draw/picture\\.cpp|tests/.*)$"
     "CGAL/|^(vdbcage/.*\\.cpp|tests/.*)$")
 
 set(problems "")

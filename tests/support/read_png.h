@@ -4,7 +4,7 @@
 #include <stdexcept>
 
 #include <png.h>
-#include <tools/vdbcage/picture.h>
+#include <tools/draw/picture.h>
 
 namespace vdbcage::test {
 

@@ -4,14 +4,15 @@
 
 #include <GL/glcorearb.h>
 
-/// Every OpenGL entry point that the project calls: its type in GL/glcorearb.h and its name without "gl".
+/// Every OpenGL entry point that the project calls, also from its window: its type in GL/glcorearb.h and its name without "gl".
 #define VDBCAGE_GL_ENTRY_POINTS(X)                                                                                     \
     X(PFNGLATTACHSHADERPROC, AttachShader)                                                                             \
     X(PFNGLBINDBUFFERBASEPROC, BindBufferBase)                                                                         \
     X(PFNGLBINDFRAMEBUFFERPROC, BindFramebuffer)                                                                       \
     X(PFNGLBINDIMAGETEXTUREPROC, BindImageTexture)                                                                     \
+    X(PFNGLBINDTEXTUREUNITPROC, BindTextureUnit)                                                                       \
     X(PFNGLBINDVERTEXARRAYPROC, BindVertexArray)                                                                       \
-    X(PFNGLBLENDFUNCPROC, BlendFunc)                                                                                   \
+    X(PFNGLBLENDFUNCSEPARATEPROC, BlendFuncSeparate)                                                                   \
     X(PFNGLBLITNAMEDFRAMEBUFFERPROC, BlitNamedFramebuffer)                                                             \
     X(PFNGLCHECKNAMEDFRAMEBUFFERSTATUSPROC, CheckNamedFramebufferStatus)                                               \
     X(PFNGLCLEARNAMEDBUFFERDATAPROC, ClearNamedBufferData)                                                             \
@@ -40,6 +41,8 @@
     X(PFNGLDISPATCHCOMPUTEPROC, DispatchCompute)                                                                       \
     X(PFNGLDRAWARRAYSPROC, DrawArrays)                                                                                 \
     X(PFNGLDRAWARRAYSINSTANCEDPROC, DrawArraysInstanced)                                                               \
+    X(PFNGLDRAWELEMENTSPROC, DrawElements)                                                                             \
+    X(PFNGLDRAWELEMENTSBASEVERTEXPROC, DrawElementsBaseVertex)                                                         \
     X(PFNGLENABLEPROC, Enable)                                                                                         \
     X(PFNGLENABLEVERTEXARRAYATTRIBPROC, EnableVertexArrayAttrib)                                                       \
     X(PFNGLFINISHPROC, Finish)                                                                                         \
@@ -68,16 +71,20 @@
     X(PFNGLPROGRAMUNIFORM4FPROC, ProgramUniform4f)                                                                     \
     X(PFNGLPROGRAMUNIFORMMATRIX4FVPROC, ProgramUniformMatrix4fv)                                                       \
     X(PFNGLREADPIXELSPROC, ReadPixels)                                                                                 \
+    X(PFNGLSCISSORPROC, Scissor)                                                                                       \
     X(PFNGLSHADERSOURCEPROC, ShaderSource)                                                                             \
     X(PFNGLSTENCILFUNCPROC, StencilFunc)                                                                               \
     X(PFNGLSTENCILOPPROC, StencilOp)                                                                                   \
     X(PFNGLTEXTUREBUFFERPROC, TextureBuffer)                                                                           \
+    X(PFNGLTEXTUREPARAMETERIPROC, TextureParameteri)                                                                   \
     X(PFNGLTEXTURESTORAGE2DPROC, TextureStorage2D)                                                                     \
     X(PFNGLTEXTURESTORAGE2DMULTISAMPLEPROC, TextureStorage2DMultisample)                                               \
+    X(PFNGLTEXTURESUBIMAGE2DPROC, TextureSubImage2D)                                                                   \
     X(PFNGLUSEPROGRAMPROC, UseProgram)                                                                                 \
     X(PFNGLVERTEXARRAYATTRIBBINDINGPROC, VertexArrayAttribBinding)                                                     \
     X(PFNGLVERTEXARRAYATTRIBFORMATPROC, VertexArrayAttribFormat)                                                       \
     X(PFNGLVERTEXARRAYBINDINGDIVISORPROC, VertexArrayBindingDivisor)                                                   \
+    X(PFNGLVERTEXARRAYELEMENTBUFFERPROC, VertexArrayElementBuffer)                                                     \
     X(PFNGLVERTEXARRAYVERTEXBUFFERPROC, VertexArrayVertexBuffer)                                                       \
     X(PFNGLVIEWPORTPROC, Viewport)
 
