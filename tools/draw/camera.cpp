@@ -177,13 +177,14 @@ Eye eyeOf(const Camera& camera, double aspect, const PointSets& seen)
     const bool perspective = camera.projection == Projection::perspective;
     const Extent extent = extentOf(aspect);
     const double scale = perspective ? 1 : camera.distance;
-    Eye eye{right,
-            up,
-            back,
-            camera.target + camera.distance * back,
-            camera.projection,
-            scale * extent.halfWidth,
-            scale * extent.halfHeight};
+    Eye eye;
+    eye.right = right;
+    eye.up = up;
+    eye.back = back;
+    eye.position = camera.target + camera.distance * back;
+    eye.projection = camera.projection;
+    eye.halfWidth = scale * extent.halfWidth;
+    eye.halfHeight = scale * extent.halfHeight;
     eye.viewpoint = perspective ? eye.position : camera.target + orthographicViewpoint * camera.distance * back;
     if (camera.distance < closeUp) {
         for (int i = 0; i < 3; ++i) eye.origin[i] = toFloatAndBack(camera.target[i]);

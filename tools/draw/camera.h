@@ -3,7 +3,7 @@
 #include <array>
 #include <vector>
 
-#include <openvdb/math/Vec3.h>
+#include <openvdb/Types.h>
 #include <tools/draw/frame.h>
 
 namespace vdbcage::draw {

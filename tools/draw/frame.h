@@ -2,8 +2,8 @@
 
 #include <array>
 
+#include <openvdb/Types.h>
 #include <openvdb/math/BBox.h>
-#include <openvdb/math/Vec3.h>
 
 namespace vdbcage::draw {
 

@@ -25,7 +25,9 @@ std::vector<std::uint8_t> interleaved(const Picture& picture)
 
 Picture fromPixels(const std::vector<std::uint8_t>& rgba, int width, int height, bool transparent)
 {
-    Picture picture{width, height, {}};
+    Picture picture;
+    picture.width = width;
+    picture.height = height;
     const auto columns = static_cast<std::size_t>(width);
     const auto rows = static_cast<std::size_t>(height);
     picture.rgb.reserve(3 * columns * rows);
