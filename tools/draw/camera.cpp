@@ -195,7 +195,7 @@ Eye eyeOf(const Camera& camera, double aspect, const PointSets& seen)
     const double rear = -largest(seen, [axis = back](const Vec3d& p) { return -axis.dot(p); });
     if (perspective) {
         eye.nearest = std::max(0.98 * (ahead - front), nearestShare * camera.distance);
-        eye.farthest = std::max(1.02 * (ahead - rear), 2 * eye.nearest);
+        eye.farthest = std::max(1.02 * (ahead - rear), 1.01 * eye.nearest);
     } else {
         const double spare = 0.02 * std::max(front - rear, camera.distance);
         eye.nearest = ahead - front - spare;

@@ -93,11 +93,13 @@ void Renderer::aim(const Target& target, const Look& look) const
 {
     const Eye& eye = look.eye;
     const Matrix toClip = clipMatrix(eye, look.crop);
-    const Section section = look.section.value_or(Section());
+    // Without a section nothing is cut off; Mesa's software drivers ask the shader's distances even when told not to.
+    const Vec3d sectionNormal = look.section ? look.section->normal : Vec3d(0);
+    const double sectionShift = look.section ? sectionNormal.dot(eye.origin) - look.section->offset : 1;
     for (const gl::ProgramObject* program : {&surface_, &tint_, &line_}) {
         set(*program, "toClip", toClip);
         set(*program, "origin", eye.origin, 0);
-        set(*program, "section", section.normal, section.normal.dot(eye.origin) - section.offset);
+        set(*program, "section", sectionNormal, sectionShift);
     }
     set(surface_, "toView", viewMatrix(eye));
     set(line_, "eye", eye.viewpoint - eye.origin, liftOf(eye));

@@ -4,7 +4,8 @@
 
 #include <GL/glcorearb.h>
 
-/// Every OpenGL entry point that the project calls, also from its window: its type in GL/glcorearb.h and its name without "gl".
+/// Every OpenGL entry point that the project calls, also from its window: its type in GL/glcorearb.h and its name
+/// without "gl".
 #define VDBCAGE_GL_ENTRY_POINTS(X)                                                                                     \
     X(PFNGLATTACHSHADERPROC, AttachShader)                                                                             \
     X(PFNGLBINDBUFFERBASEPROC, BindBufferBase)                                                                         \
