@@ -10,12 +10,15 @@
 #include <tuple>
 
 #include <vdbcage/core/error.h>
+#include <vdbcage/mesh/detail/half_edges.h>
 
 namespace vdbcage::draw {
 
 namespace {
 
 using Index = Geometry::Index;
+using detail::EdgeTable;
+using detail::HalfEdges;
 using openvdb::Vec3d;
 
 Vec3f toFloat(const Vec3d& v)
@@ -29,28 +32,13 @@ Vec3d unitOrZero(const Vec3d& v)
     return length > 0 ? v / length : Vec3d(0);
 }
 
-/// Triangles, then quads, as indices of points: those of one face are consecutive.
-struct Faces {
-    const std::vector<Index>& corners;
-    std::size_t triangles, quads;
-
-    std::size_t count() const { return triangles + quads; }
-    std::size_t size(std::size_t face) const { return face < triangles ? 3 : 4; }
-    std::size_t first(std::size_t face) const
-    {
-        return face < triangles ? 3 * face : 3 * triangles + 4 * (face - triangles);
-    }
-    const Vec3d& at(const std::vector<Vec3d>& points, std::size_t face, std::size_t corner) const
-    {
-        return points[corners[first(face) + corner]];
-    }
-};
-
 /// For each point the one that stands for all at its place. Points that no face uses (they may be anything) stand for
 /// themselves.
-std::vector<Index> weld(const Mesh& mesh, const std::vector<Index>& corners)
+std::vector<Index> weld(const Mesh& mesh)
 {
-    std::vector<Index> used = corners;
+    const HalfEdges halfEdges(mesh);
+    std::vector<Index> used(halfEdges.size());
+    for (std::size_t h = 0; h < used.size(); ++h) used[h] = halfEdges.from(h);
     const auto key = [&](Index i) {
         const Vec3d& p = mesh.points[i];
         return std::make_tuple(p.x(), p.y(), p.z(), i);
@@ -66,74 +54,45 @@ std::vector<Index> weld(const Mesh& mesh, const std::vector<Index>& corners)
     return same;
 }
 
-std::vector<Index> weldedCorners(const Mesh& mesh)
+/// The mesh with one point for each place that its faces use, in drawing coordinates.
+Mesh weldedMesh(const Mesh& mesh, const Frame& frame)
 {
-    std::vector<Index> corners;
-    corners.reserve(3 * mesh.triangles.size() + 4 * mesh.quads.size());
-    for (const openvdb::Vec3I& triangle : mesh.triangles) {
-        for (int i = 0; i < 3; ++i) corners.push_back(triangle[i]);
-    }
-    for (const openvdb::Vec4I& quad : mesh.quads) {
-        for (int i = 0; i < 4; ++i) corners.push_back(quad[i]);
-    }
-    const std::vector<Index> same = weld(mesh, corners);
-    for (Index& corner : corners) corner = same[corner];
-    return corners;
-}
-
-Vec3d faceNormal(const std::vector<Vec3d>& points, const Faces& faces, std::size_t face)
-{
-    const Vec3d& first = faces.at(points, face, 0);
-    const Vec3d& second = faces.at(points, face, 1);
-    const Vec3d& third = faces.at(points, face, 2);
-    if (faces.size(face) == 3) return unitOrZero((second - first).cross(third - first));
-    return unitOrZero((third - first).cross(faces.at(points, face, 3) - second)); // diagonals
-}
-
-double angleAt(const std::vector<Vec3d>& points, const Faces& faces, std::size_t face, std::size_t corner)
-{
-    const std::size_t size = faces.size(face);
-    const Vec3d& apex = faces.at(points, face, corner);
-    const Vec3d a = faces.at(points, face, (corner + 1) % size) - apex;
-    const Vec3d b = faces.at(points, face, (corner + size - 1) % size) - apex;
-    return std::atan2(a.cross(b).length(), a.dot(b));
-}
-
-/// One face's side: the points it joins, smaller index first, and the corners at them.
-struct Side {
-    Index low, high;
-    std::size_t face;
-    std::size_t lowCorner, highCorner;
-};
-
-std::vector<Side> makeSides(const Faces& faces)
-{
-    std::vector<Side> sides;
-    sides.reserve(faces.corners.size());
-    for (std::size_t face = 0; face < faces.count(); ++face) {
-        const std::size_t size = faces.size(face);
-        for (std::size_t i = 0; i < size; ++i) {
-            std::size_t a = faces.first(face) + i;
-            std::size_t b = faces.first(face) + (i + 1) % size;
-            if (faces.corners[a] == faces.corners[b]) continue;
-            if (faces.corners[a] > faces.corners[b]) std::swap(a, b);
-            sides.push_back({faces.corners[a], faces.corners[b], face, a, b});
+    const std::vector<Index> same = weld(mesh);
+    Mesh welded;
+    welded.points.resize(mesh.points.size());
+    welded.triangles = mesh.triangles;
+    welded.quads = mesh.quads;
+    const auto rename = [&](auto& faces, int size) {
+        for (auto& face : faces) {
+            for (int i = 0; i < size; ++i) {
+                face[i] = same[face[i]];
+                welded.points[face[i]] = frame.toDrawing(mesh.points[face[i]]);
+            }
         }
-    }
-    std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
-        return std::tie(a.low, a.high, a.face, a.lowCorner) < std::tie(b.low, b.high, b.face, b.lowCorner);
-    });
-    return sides;
+    };
+    rename(welded.triangles, 3);
+    rename(welded.quads, 4);
+    return welded;
 }
 
-/// Calls visit(begin, end) for the sides of each edge.
-template <typename Visit>
-void forEachEdge(const std::vector<Side>& sides, const Visit& visit)
+template <typename Face>
+Vec3d faceNormal(const std::vector<Vec3d>& points, const Face& face)
 {
-    for (std::size_t begin = 0, end = 0; begin < sides.size(); begin = end) {
-        while (end < sides.size() && sides[end].low == sides[begin].low && sides[end].high == sides[begin].high) ++end;
-        visit(begin, end);
+    const Vec3d& first = points[face[0]];
+    if constexpr (Face::size == 3) {
+        return unitOrZero((points[face[1]] - first).cross(points[face[2]] - first));
+    } else {
+        return unitOrZero((points[face[2]] - first).cross(points[face[3]] - points[face[1]])); // diagonals
     }
+}
+
+template <typename Face>
+double angleAt(const std::vector<Vec3d>& points, const Face& face, int corner)
+{
+    const Vec3d& apex = points[face[corner]];
+    const Vec3d a = points[face[(corner + 1) % Face::size]] - apex;
+    const Vec3d b = points[face[(corner + Face::size - 1) % Face::size]] - apex;
+    return std::atan2(a.cross(b).length(), a.dot(b));
 }
 
 /// Disjoint sets of corners.
@@ -153,59 +112,70 @@ private:
 };
 
 /// Joins the corners at both ends of each smooth edge.
-CornerSets joinSmooth(const Faces& faces, const std::vector<Side>& sides, const std::vector<Vec3d>& points,
-                      double creaseDegrees)
+CornerSets joinSmooth(const Mesh& mesh, const HalfEdges& halfEdges, const EdgeTable& edges, double creaseDegrees)
 {
-    CornerSets sets(faces.corners.size());
+    CornerSets sets(halfEdges.size());
     if (creaseDegrees <= 0) return sets;
-    std::vector<Vec3d> normals(faces.count());
-    for (std::size_t face = 0; face < normals.size(); ++face) normals[face] = faceNormal(points, faces, face);
+    std::vector<Vec3d> normals;
+    normals.reserve(faceCount(mesh));
+    for (const openvdb::Vec3I& triangle : mesh.triangles) normals.push_back(faceNormal(mesh.points, triangle));
+    for (const openvdb::Vec4I& quad : mesh.quads) normals.push_back(faceNormal(mesh.points, quad));
     const double smooth = std::cos(creaseDegrees * 3.14159265358979323846 / 180);
-    forEachEdge(sides, [&](std::size_t begin, std::size_t end) {
-        if (end - begin != 2) return;
-        const Side& one = sides[begin];
-        const Side& two = sides[begin + 1];
-        if (normals[one.face].dot(normals[two.face]) <= smooth) return;
-        sets.join(one.lowCorner, two.lowCorner);
-        sets.join(one.highCorner, two.highCorner);
-    });
+    for (std::size_t edge = 0; edge < edges.size(); ++edge) {
+        const EdgeTable::Span both = edges[edge];
+        if (both.size() != 2) continue;
+        const std::size_t one = both[0], two = both[1];
+        if (normals[halfEdges.face(one)].dot(normals[halfEdges.face(two)]) <= smooth) continue;
+        const bool opposed = halfEdges.from(one) == halfEdges.to(two);
+        sets.join(one, opposed ? halfEdges.next(two) : two);
+        sets.join(halfEdges.next(one), opposed ? two : halfEdges.next(two));
+    }
     return sets;
 }
 
 } // namespace
 
 Geometry::Geometry(const Mesh& mesh, const Frame& frame, double creaseDegrees)
-    : frame_(frame), pointCount_(mesh.points.size()), triangleCount_(mesh.triangles.size()),
-      quadCount_(mesh.quads.size())
+    : frame_(frame), pointCount_(mesh.points.size())
 {
-    const std::vector<Index> corners = weldedCorners(mesh);
-    const Faces faces{corners, triangleCount_, quadCount_};
-    std::vector<Vec3d> points(mesh.points.size());
-    for (const Index corner : corners) points[corner] = frame.toDrawing(mesh.points[corner]);
-    const std::vector<Side> sides = makeSides(faces);
-    CornerSets sets = joinSmooth(faces, sides, points, creaseDegrees);
+    const Mesh welded = weldedMesh(mesh, frame);
+    const HalfEdges halfEdges(welded);
+    const EdgeTable edges(halfEdges, welded.points.size());
+    CornerSets sets = joinSmooth(welded, halfEdges, edges, creaseDegrees);
 
     // A set's first corner stands for it, so it comes before the others.
-    corners_.resize(corners.size());
-    for (std::size_t corner = 0; corner < corners.size(); ++corner) {
+    std::vector<Index> vertices(halfEdges.size());
+    for (std::size_t corner = 0; corner < vertices.size(); ++corner) {
         const std::size_t first = sets.find(corner);
         if (first == corner) {
-            corners_[corner] = static_cast<Index>(pointOfVertex_.size());
-            pointOfVertex_.push_back(corners[corner]);
+            vertices[corner] = static_cast<Index>(pointOfVertex_.size());
+            pointOfVertex_.push_back(halfEdges.from(corner));
         } else {
-            corners_[corner] = corners_[first];
+            vertices[corner] = vertices[first];
         }
     }
-    triangles_.reserve(triangleCount_ + 2 * quadCount_);
-    for (std::size_t face = 0; face < faces.count(); ++face) {
-        const Index* corner = &corners_[faces.first(face)];
-        for (std::size_t second = 1; second + 1 < faces.size(face); ++second) {
-            triangles_.push_back({corner[0], corner[second], corner[second + 1]});
+    const Index* corner = vertices.data();
+    meshTriangles_.reserve(mesh.triangles.size());
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i, corner += 3) {
+        meshTriangles_.emplace_back(corner[0], corner[1], corner[2]);
+        triangles_.push_back({corner[0], corner[1], corner[2]});
+    }
+    meshQuads_.reserve(mesh.quads.size());
+    for (std::size_t i = 0; i < mesh.quads.size(); ++i, corner += 4) {
+        meshQuads_.emplace_back(corner[0], corner[1], corner[2], corner[3]);
+        triangles_.push_back({corner[0], corner[1], corner[2]});
+        triangles_.push_back({corner[0], corner[2], corner[3]});
+    }
+    edges_.reserve(edges.size());
+    for (std::size_t edge = 0; edge < edges.size(); ++edge) {
+        const std::size_t h = edges[edge][0];
+        const Index from = vertices[h], to = vertices[halfEdges.next(h)];
+        if (halfEdges.from(h) < halfEdges.to(h)) {
+            edges_.push_back({from, to});
+        } else {
+            edges_.push_back({to, from});
         }
     }
-    forEachEdge(sides, [&](std::size_t begin, std::size_t) {
-        edges_.push_back({corners_[sides[begin].lowCorner], corners_[sides[begin].highCorner]});
-    });
     setPoints(mesh.points);
 }
 
@@ -240,13 +210,14 @@ void Geometry::setPoints(const std::vector<Vec3d>& points)
         places[vertex] = frame_.toDrawing(point);
     }
     std::vector<Vec3d> sums(places.size(), Vec3d(0));
-    const Faces faces{corners_, triangleCount_, quadCount_};
-    for (std::size_t face = 0; face < faces.count(); ++face) {
-        const Vec3d normal = faceNormal(places, faces, face);
-        for (std::size_t i = 0; i < faces.size(face); ++i) {
-            sums[corners_[faces.first(face) + i]] += angleAt(places, faces, face, i) * normal;
+    const auto add = [&](const auto& faces, int size) {
+        for (const auto& face : faces) {
+            const Vec3d normal = faceNormal(places, face);
+            for (int i = 0; i < size; ++i) sums[face[i]] += angleAt(places, face, i) * normal;
         }
-    }
+    };
+    add(meshTriangles_, 3);
+    add(meshQuads_, 4);
     positions_.resize(places.size());
     normals_.resize(places.size());
     for (std::size_t vertex = 0; vertex < places.size(); ++vertex) {

@@ -32,9 +32,9 @@ public:
     void setPoints(const std::vector<openvdb::Vec3d>& points);
 
     const Frame& frame() const { return frame_; }
-    std::size_t pointCount() const { return pointCount_; }       ///< of the mesh
-    std::size_t triangleCount() const { return triangleCount_; } ///< faces of the mesh that are triangles
-    std::size_t quadCount() const { return quadCount_; }         ///< faces of the mesh that are quads
+    std::size_t pointCount() const { return pointCount_; }              ///< of the mesh
+    std::size_t triangleCount() const { return meshTriangles_.size(); } ///< faces of the mesh that are triangles
+    std::size_t quadCount() const { return meshQuads_.size(); }         ///< faces of the mesh that are quads
 
     const std::vector<Vec3f>& positions() const { return positions_; } ///< one a vertex
     /// One a vertex: the mean of its faces' normals, weighted by angle; of length 1, or 0 where no face has an area.
@@ -48,8 +48,9 @@ public:
 
 private:
     Frame frame_;
-    std::size_t pointCount_ = 0, triangleCount_ = 0, quadCount_ = 0;
-    std::vector<Index> corners_; ///< a vertex for each corner, three a triangle, then four a quad
+    std::size_t pointCount_ = 0;
+    std::vector<openvdb::Vec3I> meshTriangles_; ///< the mesh's faces, of vertices
+    std::vector<openvdb::Vec4I> meshQuads_;
     std::vector<Index> pointOfVertex_;
     std::vector<std::array<Index, 3>> triangles_;
     std::vector<std::array<Index, 2>> edges_;
