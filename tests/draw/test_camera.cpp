@@ -102,6 +102,16 @@ BOOST_AUTO_TEST_CASE(without_points_the_default_camera_fits)
     BOOST_TEST(eye.nearest < eye.farthest);
 }
 
+BOOST_AUTO_TEST_CASE(the_eye_keeps_twice_the_radius_before_the_points)
+{
+    // A rod along the line of sight: its end would fill the view from near by.
+    const std::vector<Vec3f> rod{{0, 0, -0.1F}, {0, 0, 0.1F}};
+    for (const double radius : {0.1, 1.0}) {
+        const Camera close = fit({0, 0, UpAxis::y}, Projection::perspective, {&rod}, 1, radius);
+        BOOST_TEST(std::abs(close.distance - (0.1 + 2 * radius)) < 1e-6);
+    }
+}
+
 BOOST_AUTO_TEST_CASE(the_angles_are_those_of_the_front)
 {
     const auto from = [&](double azimuth, double elevation, UpAxis up) {

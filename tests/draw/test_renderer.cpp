@@ -64,6 +64,15 @@ Layer plain(const Shape& shape, const Colour& colour, float opacity = 1)
     return layer;
 }
 
+/// Under lamps with edges; and a tint over it.
+std::vector<Layer> allKindsOf(const Shape& shape)
+{
+    Layer shaded;
+    shaded.shape = &shape;
+    shaded.edges.emplace();
+    return {shaded, plain(shape, red, 0.4F)};
+}
+
 /// Columns count from the left, rows from below.
 std::array<int, 4> at(const Pixels& pixels, int x, int y)
 {
@@ -127,23 +136,17 @@ BOOST_AUTO_TEST_CASE(replaced_points_and_colours_give_the_bytes_of_a_new_shape)
     for (const Vec3d& point : ball.points) colours.push_back({float(0.5 + 0.5 * point.x()), 1, 0.5F});
 
     Shape changed = studio.shapeOf(ball, 80);
-    const auto layerOf = [](const Shape& shape) {
-        Layer layer;
-        layer.shape = &shape;
-        layer.edges.emplace();
-        return layer;
-    };
-    const Pixels before = studio.picture({layerOf(changed)});
+    const Pixels before = studio.picture(allKindsOf(changed));
     changed.setPoints(other.points);
     changed.setPointColours(colours);
     Shape fresh = studio.shapeOf(other, 80);
     fresh.setPointColours(colours);
-    const Pixels after = studio.picture({layerOf(changed)});
-    BOOST_TEST((after == studio.picture({layerOf(fresh)})));
+    const Pixels after = studio.picture(allKindsOf(changed));
+    BOOST_TEST((after == studio.picture(allKindsOf(fresh))));
     BOOST_TEST(differing(after, before) > 100U);
     changed.setPoints(ball.points);
     changed.setPointColours({});
-    BOOST_TEST((studio.picture({layerOf(changed)}) == before));
+    BOOST_TEST((studio.picture(allKindsOf(changed)) == before));
     colours.pop_back();
     BOOST_CHECK_THROW(changed.setPointColours(colours), InputError);
     BOOST_CHECK_THROW(changed.setFaceLooks(std::vector<FaceLook>(3)), InputError);
@@ -257,11 +260,9 @@ BOOST_AUTO_TEST_CASE(a_part_of_a_framebuffer_is_drawn_and_no_more)
     Studio studio;
     const gl::Api& api = studio.context.api();
     const Shape ball = studio.shapeOf(test::sphere(8), 80);
-    Layer solid;
-    solid.shape = &ball;
-    Layer cage = plain(ball, blue, 0.2F);
-    cage.edges.emplace();
-    const std::vector<Layer> layers{solid, cage, plain(ball, red, 0.1F)};
+    std::vector<Layer> layers = allKindsOf(ball);
+    layers.push_back(plain(ball, blue, 0.2F));
+    layers.back().edges.emplace();
 
     constexpr int half = side / 2;
     const Canvas small(api, half, half, 1);
@@ -269,9 +270,9 @@ BOOST_AUTO_TEST_CASE(a_part_of_a_framebuffer_is_drawn_and_no_more)
     const Pixels expected = small.pixels();
 
     const Canvas canvas(api, side, side, 1);
-    Look green_ = studio.look;
-    green_.background = green;
-    studio.renderer.draw(canvas.target(), green_, {});
+    Look onGreen = studio.look;
+    onGreen.background = green;
+    studio.renderer.draw(canvas.target(), onGreen, {});
     Target part = canvas.target();
     part.left = 20;
     part.bottom = 9;
@@ -293,10 +294,7 @@ BOOST_AUTO_TEST_CASE(what_others_left_in_the_context_does_not_matter)
     Studio studio;
     const gl::Api& api = studio.context.api();
     const Shape ball = studio.shapeOf(test::sphere(8), 80);
-    Layer layer;
-    layer.shape = &ball;
-    layer.edges.emplace();
-    const std::vector<Layer> layers{layer, plain(ball, red, 0.4F)};
+    const std::vector<Layer> layers = allKindsOf(ball);
     const Pixels expected = studio.picture(layers);
     const std::vector<std::function<void()>> disturbances{
         [&] { api.Enable(GL_CULL_FACE); },
@@ -326,10 +324,7 @@ BOOST_AUTO_TEST_CASE(software_draws_the_same_bytes_by_every_way)
         Studio studio(source);
         software = studio.context.isSoftware();
         const Shape ball = studio.shapeOf(test::sphere(8), 80);
-        Layer layer;
-        layer.shape = &ball;
-        layer.edges.emplace();
-        return studio.picture({layer, plain(ball, red, 0.4F)});
+        return studio.picture(allKindsOf(ball));
     };
     bool software = false;
     const Pixels any = draw(gl::OffscreenContext::Source::any, software);

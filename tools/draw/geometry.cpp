@@ -10,6 +10,7 @@
 #include <tuple>
 
 #include <vdbcage/core/error.h>
+#include <vdbcage/geometry/union_find.h>
 #include <vdbcage/mesh/detail/half_edges.h>
 
 namespace vdbcage::draw {
@@ -19,6 +20,7 @@ namespace {
 using Index = Geometry::Index;
 using detail::EdgeTable;
 using detail::HalfEdges;
+using detail::UnionFind;
 using openvdb::Vec3d;
 
 Vec3f toFloat(const Vec3d& v)
@@ -95,26 +97,10 @@ double angleAt(const std::vector<Vec3d>& points, const Face& face, int corner)
     return std::atan2(a.cross(b).length(), a.dot(b));
 }
 
-/// Disjoint sets of corners.
-class CornerSets {
-public:
-    explicit CornerSets(std::size_t count) : parents_(count) { std::iota(parents_.begin(), parents_.end(), 0U); }
-
-    std::size_t find(std::size_t corner)
-    {
-        while (parents_[corner] != corner) corner = parents_[corner] = parents_[parents_[corner]];
-        return corner;
-    }
-    void join(std::size_t a, std::size_t b) { parents_[std::max(find(a), find(b))] = std::min(find(a), find(b)); }
-
-private:
-    std::vector<std::size_t> parents_;
-};
-
 /// Joins the corners at both ends of each smooth edge.
-CornerSets joinSmooth(const Mesh& mesh, const HalfEdges& halfEdges, const EdgeTable& edges, double creaseDegrees)
+UnionFind joinSmooth(const Mesh& mesh, const HalfEdges& halfEdges, const EdgeTable& edges, double creaseDegrees)
 {
-    CornerSets sets(halfEdges.size());
+    UnionFind sets(halfEdges.size());
     if (creaseDegrees <= 0) return sets;
     std::vector<Vec3d> normals;
     normals.reserve(faceCount(mesh));
@@ -127,8 +113,11 @@ CornerSets joinSmooth(const Mesh& mesh, const HalfEdges& halfEdges, const EdgeTa
         const std::size_t one = both[0], two = both[1];
         if (normals[halfEdges.face(one)].dot(normals[halfEdges.face(two)]) <= smooth) continue;
         const bool opposed = halfEdges.from(one) == halfEdges.to(two);
-        sets.join(one, opposed ? halfEdges.next(two) : two);
-        sets.join(halfEdges.next(one), opposed ? two : halfEdges.next(two));
+        const auto join = [&](std::size_t a, std::size_t b) {
+            sets.unite(static_cast<Index>(a), static_cast<Index>(b));
+        };
+        join(one, opposed ? halfEdges.next(two) : two);
+        join(halfEdges.next(one), opposed ? two : halfEdges.next(two));
     }
     return sets;
 }
@@ -141,12 +130,12 @@ Geometry::Geometry(const Mesh& mesh, const Frame& frame, double creaseDegrees)
     const Mesh welded = weldedMesh(mesh, frame);
     const HalfEdges halfEdges(welded);
     const EdgeTable edges(halfEdges, welded.points.size());
-    CornerSets sets = joinSmooth(welded, halfEdges, edges, creaseDegrees);
+    UnionFind sets = joinSmooth(welded, halfEdges, edges, creaseDegrees);
 
     // A set's first corner stands for it, so it comes before the others.
     std::vector<Index> vertices(halfEdges.size());
-    for (std::size_t corner = 0; corner < vertices.size(); ++corner) {
-        const std::size_t first = sets.find(corner);
+    for (Index corner = 0; corner < vertices.size(); ++corner) {
+        const Index first = sets.find(corner);
         if (first == corner) {
             vertices[corner] = static_cast<Index>(pointOfVertex_.size());
             pointOfVertex_.push_back(halfEdges.from(corner));

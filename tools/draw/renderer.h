@@ -54,8 +54,8 @@ struct Target {
 /// What is seen where.
 struct Look {
     Eye eye;
-    Crop crop =
-        {}; ///< the part of the panel that fills the target; shifted by parts of a pixel, frames can be averaged
+    /// The part of the panel that fills the target. Shifted by parts of a pixel, frames can be averaged.
+    Crop crop = {};
     Colour background{1, 1, 1};
     float backgroundOpacity = 1; ///< in [0, 1]; colours in the framebuffer are times their alpha
     std::optional<Section> section = std::nullopt;

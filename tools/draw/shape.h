@@ -12,11 +12,8 @@ namespace vdbcage::draw {
 
 /// What one face looks like, beside what its layer says.
 struct FaceLook {
-    enum Flag : std::uint8_t {
-        plain = 0,
-        marked = 1,
-        selected = 2
-    }; ///< can be added up; selected is seen before marked
+    /// They can be added up; selected is seen before marked.
+    enum Flag : std::uint8_t { plain = 0, marked = 1, selected = 2 };
 
     std::array<std::uint8_t, 3> colour{255, 255, 255}; ///< sRGB, by which the layer's colour is multiplied
     std::uint8_t flags = plain;

@@ -4,8 +4,7 @@
 
 #include <GL/glcorearb.h>
 
-/// Every OpenGL entry point that the project calls, also from its window: its type in GL/glcorearb.h and its name
-/// without "gl".
+/// Every OpenGL entry point that the project calls: its type in GL/glcorearb.h and its name without "gl".
 #define VDBCAGE_GL_ENTRY_POINTS(X)                                                                                     \
     X(PFNGLATTACHSHADERPROC, AttachShader)                                                                             \
     X(PFNGLBINDBUFFERBASEPROC, BindBufferBase)                                                                         \
@@ -28,7 +27,6 @@
     X(PFNGLCREATESHADERPROC, CreateShader)                                                                             \
     X(PFNGLCREATETEXTURESPROC, CreateTextures)                                                                         \
     X(PFNGLCREATEVERTEXARRAYSPROC, CreateVertexArrays)                                                                 \
-    X(PFNGLCULLFACEPROC, CullFace)                                                                                     \
     X(PFNGLDEBUGMESSAGECONTROLPROC, DebugMessageControl)                                                               \
     X(PFNGLDELETEBUFFERSPROC, DeleteBuffers)                                                                           \
     X(PFNGLDELETEFRAMEBUFFERSPROC, DeleteFramebuffers)                                                                 \
@@ -43,7 +41,6 @@
     X(PFNGLDRAWARRAYSPROC, DrawArrays)                                                                                 \
     X(PFNGLDRAWARRAYSINSTANCEDPROC, DrawArraysInstanced)                                                               \
     X(PFNGLDRAWELEMENTSPROC, DrawElements)                                                                             \
-    X(PFNGLDRAWELEMENTSBASEVERTEXPROC, DrawElementsBaseVertex)                                                         \
     X(PFNGLENABLEPROC, Enable)                                                                                         \
     X(PFNGLENABLEVERTEXARRAYATTRIBPROC, EnableVertexArrayAttrib)                                                       \
     X(PFNGLFINISHPROC, Finish)                                                                                         \
@@ -77,10 +74,8 @@
     X(PFNGLSTENCILFUNCPROC, StencilFunc)                                                                               \
     X(PFNGLSTENCILOPPROC, StencilOp)                                                                                   \
     X(PFNGLTEXTUREBUFFERPROC, TextureBuffer)                                                                           \
-    X(PFNGLTEXTUREPARAMETERIPROC, TextureParameteri)                                                                   \
     X(PFNGLTEXTURESTORAGE2DPROC, TextureStorage2D)                                                                     \
     X(PFNGLTEXTURESTORAGE2DMULTISAMPLEPROC, TextureStorage2DMultisample)                                               \
-    X(PFNGLTEXTURESUBIMAGE2DPROC, TextureSubImage2D)                                                                   \
     X(PFNGLUSEPROGRAMPROC, UseProgram)                                                                                 \
     X(PFNGLVERTEXARRAYATTRIBBINDINGPROC, VertexArrayAttribBinding)                                                     \
     X(PFNGLVERTEXARRAYATTRIBFORMATPROC, VertexArrayAttribFormat)                                                       \

@@ -1,12 +1,12 @@
 #include <vdbcage/bounding/detail/merge_triangles.h>
 
-#include <vdbcage/bounding/detail/admissible.h>
-#include <vdbcage/bounding/detail/face_queries.h>
-
 #include <algorithm>
 #include <cmath>
 #include <set>
 #include <vector>
+
+#include <vdbcage/bounding/detail/admissible.h>
+#include <vdbcage/bounding/detail/face_queries.h>
 
 namespace vdbcage::detail {
 

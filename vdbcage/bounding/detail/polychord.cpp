@@ -3,11 +3,10 @@
 
 #include <vdbcage/bounding/detail/polychord.h>
 
-#include <vdbcage/bounding/detail/admissible.h>
-#include <vdbcage/bounding/detail/face_queries.h>
-
 #include <set>
 
+#include <vdbcage/bounding/detail/admissible.h>
+#include <vdbcage/bounding/detail/face_queries.h>
 #include <vdbcage/bounding/detail/limited_growth.h>
 #include <vdbcage/bounding/detail/merge_triangles.h>
 

@@ -234,11 +234,11 @@ void inflate(GuardedMesh& surface, double by, Interrupter* interrupter)
 
 void inflateTriangles(GuardedMesh& surface, double by, Interrupter* interrupter)
 {
-    const auto isTriangle = [&](std::uint32_t f) { return !surface.isInQuad(f); };
     std::vector<std::uint32_t> vertices;
     for (const std::uint32_t v : allVertices(surface)) {
         const auto& faces = surface.facesOf(v);
-        if (std::any_of(faces.begin(), faces.end(), isTriangle)) vertices.push_back(v);
+        if (std::any_of(faces.begin(), faces.end(), [&](std::uint32_t f) { return isTriangle(surface, f); }))
+            vertices.push_back(v);
     }
     pushOut(surface, vertices, by, interrupter);
 }
