@@ -286,8 +286,8 @@ BOOST_AUTO_TEST_CASE(a_polychord_to_the_plane_is_split)
     detail::PairingOptions options{};
     options.mergeAngleDegrees = 90;
     options.share = 1;
-    options.reach = 1;
-    options.mostLoss = 1;
+    options.maxPathPairs = 1;
+    options.maxLoss = 1;
     detail::pairUp(surface, options, nullptr);
     BOOST_TEST(surface.quads() == 6U);
     options.splits = true;

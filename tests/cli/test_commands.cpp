@@ -187,19 +187,19 @@ BOOST_AUTO_TEST_CASE(render_makes_a_contact_sheet)
     }
     const auto result = runCommand(words);
     BOOST_TEST(result.status == 0, result.err);
-    const Picture all = test::readPng(sheet);
+    const draw::Picture all = test::readPng(sheet);
     BOOST_REQUIRE(all.width == 240);
     BOOST_REQUIRE(all.height == 120);
     // Every cell, row by row, is the picture of its panel alone; the one that is left over is white.
     for (std::size_t i = 0; i <= panels.size(); ++i) {
-        Picture one{80, 60, std::vector<std::uint8_t>(80 * 60 * 3, 255)};
+        draw::Picture one{80, 60, std::vector<std::uint8_t>(80 * 60 * 3, 255)};
         if (i < panels.size()) {
             std::vector<std::string> alone{command, "render", "--size", "80x60", "-o", single};
             alone.insert(alone.end(), panels[i].begin(), panels[i].end());
             BOOST_TEST(runCommand(alone).status == 0);
             one = test::readPng(single);
         }
-        Picture cell{80, 60, {}};
+        draw::Picture cell{80, 60, {}};
         for (std::size_t y = 0; y < 60; ++y) {
             const auto row = all.rgb.begin() + static_cast<std::ptrdiff_t>(3 * ((i / 3 * 60 + y) * 240 + i % 3 * 80));
             cell.rgb.insert(cell.rgb.end(), row, row + 3 * 80);

@@ -198,7 +198,7 @@ BOOST_AUTO_TEST_CASE(influence_pictures)
             runCommand({command, "render", scene.at("ball.obj"), scene.at("cage.obj"), "-o", picture, "--size",
                         "200x200", "--influence", vertex, "--azimuth", "0", "--elevation", "0"});
         BOOST_TEST(result.status == 0, result.err);
-        const Picture read = test::readPng(picture);
+        const draw::Picture read = test::readPng(picture);
         int redness = -255; // of the reddest pixel near the middle
         for (std::size_t y = 80; y < 120; ++y) {
             for (std::size_t x = 80; x < 120; ++x) {

@@ -6,7 +6,7 @@
 #include <string>
 #include <thread>
 
-#include <render/meshes.h>
+#include <draw/meshes.h>
 #include <tools/vdbcage/render.h>
 #include <vdbcage/core/error.h>
 

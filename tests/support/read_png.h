@@ -4,16 +4,16 @@
 #include <stdexcept>
 
 #include <png.h>
-#include <tools/vdbcage/picture.h>
+#include <tools/draw/picture.h>
 
 namespace vdbcage::test {
 
-/// Reads a PNG file that holds what a Picture holds.
-inline Picture readPng(const std::filesystem::path& path)
+/// Reads a PNG file that holds what a draw::Picture holds.
+inline draw::Picture readPng(const std::filesystem::path& path)
 {
     png_image image{};
     image.version = PNG_IMAGE_VERSION;
-    Picture picture;
+    draw::Picture picture;
     if (png_image_begin_read_from_file(&image, path.c_str()) != 0 && image.format == PNG_FORMAT_RGB) {
         picture = {static_cast<int>(image.width), static_cast<int>(image.height),
                    std::vector<std::uint8_t>(PNG_IMAGE_SIZE(image))};

@@ -1,15 +1,18 @@
 #pragma once
 
-#include <array>
 #include <vector>
 
-#include <tools/vdbcage/picture.h>
+#include <tools/draw/camera.h>
+#include <tools/draw/colour.h>
+#include <tools/draw/picture.h>
 #include <vdbcage/mesh/mesh.h>
 
 namespace vdbcage {
 
-/// Red, green and blue in sRGB, each in [0, 1].
-using Colour = std::array<float, 3>;
+using draw::Colour;
+using draw::Picture;
+using draw::UpAxis;
+using draw::View;
 
 enum class LayerStyle {
     shaded,    ///< a solid surface, smooth across edges of less than 40 degrees
@@ -40,15 +43,6 @@ inline Layer voxelsLayer(const Mesh& mesh)
 {
     return {&mesh, LayerStyle::voxels, {0.96F, 0.80F, 0.56F}, 0};
 }
-
-enum class UpAxis { y, z };
-
-/// Where the eye is; how far away follows from what there is to see.
-struct View {
-    double azimuthDegrees = 35;   ///< to the right of the front, which is +z (with z up: -y); any
-    double elevationDegrees = 18; ///< above the horizon, in [-90, 90]
-    UpAxis up = UpAxis::y;
-};
 
 /// What is seen in one picture: panels, each with its layers drawn over each other, filled row by row.
 struct Scene {

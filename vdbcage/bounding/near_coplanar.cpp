@@ -11,6 +11,7 @@
 #include <vector>
 
 #include <vdbcage/bounding/detail/admissible.h>
+#include <vdbcage/bounding/detail/face_queries.h>
 #include <vdbcage/core/error.h>
 
 namespace vdbcage {
@@ -109,16 +110,9 @@ private:
 
     std::optional<Vec3d> normalAcross(const std::array<std::uint32_t, 2>& edge) const
     {
-        const auto [a, b] = edge;
-        for (const std::uint32_t f : surface_.facesOf(a)) {
-            const auto& t = surface_.face(f);
-            for (int k = 0; k < 3; ++k) {
-                if (t[k] != b || t[(k + 1) % 3] != a) continue;
-                const detail::Corners c = surface_.corners(f);
-                return (c[1] - c[0]).cross(c[2] - c[0]);
-            }
-        }
-        return std::nullopt;
+        const std::uint32_t f = detail::faceAt(surface_, edge[1], edge[0]);
+        if (f == GuardedMesh::none) return std::nullopt;
+        return detail::areaNormal(surface_, f);
     }
 
     Vec3d mirrored(Vec3d normal) const

@@ -32,8 +32,8 @@ void makeQuads(detail::GuardedMesh& surface, const BoundingTriquadOptions& optio
         detail::PairingOptions pairing{};
         pairing.mergeAngleDegrees = options.mergeAngleDegrees;
         pairing.share = options.quads;
-        pairing.reach = static_cast<std::size_t>(round) + 2;
-        pairing.mostLoss = loss;
+        pairing.maxPathPairs = static_cast<std::size_t>(round) + 2;
+        pairing.maxLoss = loss;
         pairing.collapses = round > 0;
         pairing.splits = round > 0;
         detail::pairUp(surface, pairing, interrupter);

@@ -10,8 +10,9 @@
     X(PFNGLBINDBUFFERBASEPROC, BindBufferBase)                                                                         \
     X(PFNGLBINDFRAMEBUFFERPROC, BindFramebuffer)                                                                       \
     X(PFNGLBINDIMAGETEXTUREPROC, BindImageTexture)                                                                     \
+    X(PFNGLBINDTEXTUREUNITPROC, BindTextureUnit)                                                                       \
     X(PFNGLBINDVERTEXARRAYPROC, BindVertexArray)                                                                       \
-    X(PFNGLBLENDFUNCPROC, BlendFunc)                                                                                   \
+    X(PFNGLBLENDFUNCSEPARATEPROC, BlendFuncSeparate)                                                                   \
     X(PFNGLBLITNAMEDFRAMEBUFFERPROC, BlitNamedFramebuffer)                                                             \
     X(PFNGLCHECKNAMEDFRAMEBUFFERSTATUSPROC, CheckNamedFramebufferStatus)                                               \
     X(PFNGLCLEARNAMEDBUFFERDATAPROC, ClearNamedBufferData)                                                             \
@@ -26,7 +27,6 @@
     X(PFNGLCREATESHADERPROC, CreateShader)                                                                             \
     X(PFNGLCREATETEXTURESPROC, CreateTextures)                                                                         \
     X(PFNGLCREATEVERTEXARRAYSPROC, CreateVertexArrays)                                                                 \
-    X(PFNGLCULLFACEPROC, CullFace)                                                                                     \
     X(PFNGLDEBUGMESSAGECONTROLPROC, DebugMessageControl)                                                               \
     X(PFNGLDELETEBUFFERSPROC, DeleteBuffers)                                                                           \
     X(PFNGLDELETEFRAMEBUFFERSPROC, DeleteFramebuffers)                                                                 \
@@ -40,6 +40,7 @@
     X(PFNGLDISPATCHCOMPUTEPROC, DispatchCompute)                                                                       \
     X(PFNGLDRAWARRAYSPROC, DrawArrays)                                                                                 \
     X(PFNGLDRAWARRAYSINSTANCEDPROC, DrawArraysInstanced)                                                               \
+    X(PFNGLDRAWELEMENTSPROC, DrawElements)                                                                             \
     X(PFNGLENABLEPROC, Enable)                                                                                         \
     X(PFNGLENABLEVERTEXARRAYATTRIBPROC, EnableVertexArrayAttrib)                                                       \
     X(PFNGLFINISHPROC, Finish)                                                                                         \
@@ -68,6 +69,7 @@
     X(PFNGLPROGRAMUNIFORM4FPROC, ProgramUniform4f)                                                                     \
     X(PFNGLPROGRAMUNIFORMMATRIX4FVPROC, ProgramUniformMatrix4fv)                                                       \
     X(PFNGLREADPIXELSPROC, ReadPixels)                                                                                 \
+    X(PFNGLSCISSORPROC, Scissor)                                                                                       \
     X(PFNGLSHADERSOURCEPROC, ShaderSource)                                                                             \
     X(PFNGLSTENCILFUNCPROC, StencilFunc)                                                                               \
     X(PFNGLSTENCILOPPROC, StencilOp)                                                                                   \
@@ -78,6 +80,7 @@
     X(PFNGLVERTEXARRAYATTRIBBINDINGPROC, VertexArrayAttribBinding)                                                     \
     X(PFNGLVERTEXARRAYATTRIBFORMATPROC, VertexArrayAttribFormat)                                                       \
     X(PFNGLVERTEXARRAYBINDINGDIVISORPROC, VertexArrayBindingDivisor)                                                   \
+    X(PFNGLVERTEXARRAYELEMENTBUFFERPROC, VertexArrayElementBuffer)                                                     \
     X(PFNGLVERTEXARRAYVERTEXBUFFERPROC, VertexArrayVertexBuffer)                                                       \
     X(PFNGLVIEWPORTPROC, Viewport)
 

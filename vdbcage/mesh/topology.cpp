@@ -7,47 +7,24 @@
 #include <tbb/blocked_range.h>
 #include <vdbcage/core/detail/parallel.h>
 #include <vdbcage/geometry/union_find.h>
+#include <vdbcage/mesh/detail/half_edges.h>
 
 namespace vdbcage {
 
 namespace {
 
-using Index = std::uint32_t;
+using detail::HalfEdges;
+using Index = HalfEdges::Index;
 
-// Corners numbered in the order of the faces: 3 for each triangle, then 4 for each quad.
-class Corners {
-public:
-    explicit Corners(const Mesh& mesh) : mesh_(mesh), triangleCorners_(3 * mesh.triangles.size()) {}
-
-    std::size_t size() const { return triangleCorners_ + 4 * mesh_.quads.size(); }
-    Index face(std::size_t corner) const
-    {
-        return static_cast<Index>(corner < triangleCorners_ ? corner / 3
-                                                            : mesh_.triangles.size() + (corner - triangleCorners_) / 4);
-    }
-    // The point at the corner, or `step` corners further around its face.
-    Index point(std::size_t corner, std::size_t step = 0) const
-    {
-        if (corner < triangleCorners_) return mesh_.triangles[corner / 3][static_cast<int>((corner + step) % 3)];
-        corner -= triangleCorners_;
-        return mesh_.quads[corner / 4][static_cast<int>((corner + step) % 4)];
-    }
-    Index next(std::size_t corner) const { return point(corner, 1); }
-    Index previous(std::size_t corner) const { return point(corner, corner < triangleCorners_ ? 2 : 3); }
-
-private:
-    const Mesh& mesh_;
-    std::size_t triangleCorners_;
-};
-
-// For each point the corners at it: those of point p are corners[first[p]] ... corners[first[p + 1] - 1], ascending.
+// For each point the half-edges that leave it, one a corner: those of point p are corners[first[p]] ...
+// corners[first[p + 1] - 1], ascending.
 struct CornersOfPoints {
-    explicit CornersOfPoints(const Corners& all, std::size_t points) : first(points + 1, 0), corners(all.size())
+    CornersOfPoints(const HalfEdges& all, std::size_t points) : first(points + 1, 0), corners(all.size())
     {
-        for (std::size_t c = 0; c < all.size(); ++c) ++first[all.point(c) + 1];
+        for (std::size_t c = 0; c < all.size(); ++c) ++first[all.from(c) + 1];
         for (std::size_t p = 0; p < points; ++p) first[p + 1] += first[p];
         std::vector<std::size_t> next(first.begin(), first.end() - 1);
-        for (std::size_t c = 0; c < all.size(); ++c) corners[next[all.point(c)]++] = c;
+        for (std::size_t c = 0; c < all.size(); ++c) corners[next[all.from(c)]++] = c;
     }
 
     std::vector<std::size_t> first;
@@ -82,7 +59,7 @@ struct FaceFacts {
 
 class VertexExaminer {
 public:
-    VertexExaminer(const Corners& corners, const CornersOfPoints& ofPoints, FaceFacts& faces)
+    VertexExaminer(const HalfEdges& corners, const CornersOfPoints& ofPoints, FaceFacts& faces)
         : corners_(corners), ofPoints_(ofPoints), faces_(faces)
     {
     }
@@ -98,7 +75,7 @@ public:
         for (Index i = 0; i < count; ++i) {
             umbrellas_[i] = i;
             const std::size_t corner = ofPoints_.corners[begin + i];
-            const Index next = corners_.next(corner), previous = corners_.previous(corner);
+            const Index next = corners_.to(corner), previous = corners_.before(corner);
             if (next != vertex) incidentEdges_.push_back({next, i, true});
             if (previous != vertex) incidentEdges_.push_back({previous, i, false});
         }
@@ -138,7 +115,7 @@ private:
         if (2 * out != uses) faces_.unbalanced[face].store(true, std::memory_order_relaxed);
     }
 
-    const Corners& corners_;
+    const HalfEdges& corners_;
     const CornersOfPoints& ofPoints_;
     FaceFacts& faces_;
     std::vector<IncidentEdge> incidentEdges_;
@@ -159,7 +136,7 @@ long MeshTopology::eulerCharacteristic() const
 
 MeshTopology analyzeTopology(const Mesh& mesh, Interrupter* interrupter)
 {
-    const Corners corners(mesh);
+    const HalfEdges corners(mesh);
     const CornersOfPoints ofPoints(corners, mesh.points.size());
     FaceFacts faces(faceCount(mesh));
     throwIfInterrupted(interrupter);

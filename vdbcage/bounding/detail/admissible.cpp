@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include <vdbcage/bounding/detail/face_queries.h>
 #include <vdbcage/geometry/quad_shape.h>
 #include <vdbcage/geometry/triangle_pair.h>
 
@@ -237,8 +238,7 @@ bool makeQuad(GuardedMesh& mesh, std::uint32_t f, std::uint32_t g)
     // Two corners joined by an edge elsewhere would share two once the quad is split between them.
     const auto joined = mesh.neighbours(ids[1]);
     if (std::binary_search(joined.begin(), joined.end(), ids[3])) return false;
-    std::array<Vec3d, 4> places;
-    for (int k = 0; k < 4; ++k) places[static_cast<std::size_t>(k)] = mesh.point(ids[k]);
+    const std::array<Vec3d, 4> places = pointsOf(mesh, ids);
     double deviation;
     if (!isConvexQuad(places, mesh.leastQuadCosine(), deviation)) return false;
     const std::array<SurfaceTriangle, 2> triangles{

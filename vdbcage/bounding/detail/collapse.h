@@ -6,15 +6,22 @@
 #include <vdbcage/bounding/detail/guarded_mesh.h>
 #include <vdbcage/core/interrupter.h>
 
-/// Edge collapses under the guard. Costs are found side by side; the result is the same for any number of threads.
+/// Edge collapses under the guard, by quadric error. The result is the same for any number of threads.
 namespace vdbcage::detail {
 
-/// Collapses edges by their quadric error, as it is where the guard allows the vertex, until `faces` are left or
-/// nothing more is allowed. O(n log n) and fast.
+/// Collapses the edges that cost least, until `faces` are left or nothing more is allowed.
+///
+/// The cost is that of the place where the guard allows the vertex.
+/// \throw Cancelled
+/// Cost: O(n log n log m) for n faces and m of the model.
+/// Based on: Garland and Heckbert, Surface Simplification Using Quadric Error Metrics, 1997.
 void collapseByQuadrics(GuardedMesh& surface, std::size_t faces, Interrupter* interrupter);
 
-/// Collapses by quadric error that are recorded: each surface on the way can be had again. They are made in batches
-/// that do not depend on what is asked for, so neither does the answer depend on what was asked for before.
+/// Collapses that are recorded: each surface on the way can be had again.
+///
+/// The batches of collapses do not depend on what is asked for. So the answer does not depend on what was asked for
+/// before.
+/// Based on: Hoppe, Progressive Meshes, 1996.
 class CollapseSequence {
 public:
     explicit CollapseSequence(GuardedMesh start);
@@ -22,8 +29,10 @@ public:
     CollapseSequence(CollapseSequence&&) noexcept;
     CollapseSequence& operator=(CollapseSequence&&) noexcept;
 
-    /// The surface after the first batch that leaves at most `faces` (a few less, then), or where no collapse is
-    /// allowed any more. Collapses that were recorded take some microseconds each. After Cancelled it can go on.
+    /// The surface after the first batch that leaves at most `faces`, or where no collapse is allowed any more. A batch
+    /// may leave a few faces less.
+    /// \throw Cancelled; it can go on then
+    /// Cost: as collapseByQuadrics(), but some microseconds for each collapse that was recorded.
     GuardedMesh at(std::size_t faces, Interrupter* interrupter);
 
 private:

@@ -4,8 +4,8 @@
 
 #include <vdbcage/bounding/detail/guard_model.h>
 
-/// Half-spaces that a vertex must stay in, to first order, so that its triangles keep clear of what they meet on its
-/// way.
+/// Half-spaces that a vertex must stay in so that its triangles keep clear of what they meet on its way; to first
+/// order.
 namespace vdbcage::detail {
 
 /// The points with normal . point >= offset.
@@ -14,13 +14,15 @@ struct HalfSpace {
     double offset;
 };
 
-/// Adds the half-spaces of the first contacts with the model, one of each kind (vertex with face, edge with edge, and
-/// if `corner`, face with vertex), when corner 0 of `now` moves straight to `to`. Returns whether there are any.
+/// Adds the half-spaces of the first contacts with the model when corner 0 of `now` moves straight to `to`. Returns
+/// whether there are any.
+///
+/// There is one of each kind: vertex with face, edge with edge and, if `corner`, face with vertex.
 bool addImpacts(const GuardModel& guard, const Corners& now, const Vec3d& to, bool corner, double clearance,
                 std::vector<HalfSpace>& halfSpaces);
 
-/// Adds the half-space that keeps corner 0 of `star`, now at `at`, where `star` is at least `clearance` from `other`;
-/// none if they cross.
+/// Adds the half-space that keeps corner 0 of `star`, now at `at`, where `star` is at least `clearance` from `other`.
+/// It adds none if they cross.
 void addApproach(const Corners& star, const Corners& other, const Vec3d& at, double clearance,
                  std::vector<HalfSpace>& halfSpaces);
 

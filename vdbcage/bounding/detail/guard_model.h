@@ -13,36 +13,44 @@
 namespace vdbcage::detail {
 
 /// What a guard knows of the model.
+///
+/// It works in units in which the model's longest side is 1 to 2, so that no product of lengths leaves the range of
+/// double. They are a power of two apart from the world's. With a plane of symmetry, what is said of the model is said
+/// of its mirror image, too.
 class GuardModel {
 public:
+    /// \throw InputError an unusable model; options out of range
+    /// \throw Cancelled
     GuardModel(const Mesh& model, const GuardOptions& options, Interrupter* interrupter);
 
-    /// All other functions work in units in which the model's longest side is 1 to 2, a power of two apart from the
-    /// world's, so that no product of lengths leaves the range of double. Exact both ways.
+    /// From the world's units to these; exact, as is the way back.
     Vec3d scaled(const Vec3d& p) const;
     Vec3d unscaled(const Vec3d& p) const;
     /// `p` as it will be written.
     Vec3d rounded(const Vec3d& p) const;
-    /// In these units too. What is said of the model below is said of the model and its mirror image, where both are
-    /// on the side of the plane where coordinates are larger (or across it): no nearer part is on the other side.
+    /// In these units. Only the side of the plane where coordinates are larger is kept, with what lies across it: no
+    /// nearer part is on the other side.
     const std::optional<SymmetryPlane>& symmetry() const { return symmetry_; }
-    /// The mirror image of a point that is rounded: exact. \pre there is a plane of symmetry
+    /// The mirror image; exact if `p` is rounded.
+    /// \pre there is a plane of symmetry
     Vec3d mirrored(Vec3d p) const;
-    /// Whether `triangle` keeps the clearance; if not and `blocker` is set, the item of a face it comes too near to.
-    /// `hint` is an item to try first (TriangleBvh::none: nothing to try).
+    /// Whether `triangle` keeps the clearance. If not, and `blocker` is set, that is the item of a face it comes too
+    /// near to. `hint` is an item to try first, or TriangleBvh::none.
     bool clear(const Corners& triangle, std::uint32_t hint, std::uint32_t* blocker) const;
     /// Calls visit(corners) for every model triangle that `triangle` comes too near to, until it answers false.
     void forEachBlocker(const Corners& triangle, const std::function<bool(const Corners&)>& visit) const;
-    /// Whether a part of the model may lie in `box`, so that swept() has to be asked.
+    /// Whether a part of the model may lie in `box`; only then swept() has to be asked.
     bool mayHoldPart(const Box& box) const;
-    /// Whether a closed surface sweeps over a part of the model: `surface` is the new star and the reversed old one.
+    /// Whether a change sweeps over a part of the model: `surface` is the new star and the reversed old one.
     bool swept(const std::vector<Corners>& surface, const Box& box) const;
 
     const TriangleBvh& tree() const { return tree_; }
     double clearance() const { return clearance_; }
     double minSine() const { return minSine_; }
-    /// What triangles of a surface keep between each other. TetGen, for one, merges triangles that meet under more than
-    /// 179.9 degrees and triangulates them anew, up to some thousandths of their size away from where they were.
+    /// What triangles of a surface keep between each other.
+    ///
+    /// TetGen, for one, merges triangles that meet under more than 179.9 degrees and triangulates them anew. It puts
+    /// them up to some thousandths of their size away from where they were.
     const Spacing& spacing() const { return spacing_; }
     bool roundsToFloat() const { return roundsToFloat_; }
 
@@ -56,7 +64,6 @@ private:
     Spacing spacing_;
 };
 
-/// For the operators of this library.
 const GuardModel& modelOf(const BoundingGuard& guard);
 
 } // namespace vdbcage::detail

@@ -18,14 +18,14 @@ struct StarChange;
 
 /// A closed surface that bounds a model and is only changed in ways that keep it so. A value; copies share the guard.
 ///
-/// It is made of triangles, called faces below; two that share an edge can be a quad. A quad bounds under both
-/// diagonals: for that the two triangles of its alternate diagonal, its alternates, go through the same tests as live
+/// It is made of triangles, called faces below. Two that share an edge can be a quad, which bounds under both
+/// diagonals. The two triangles of its alternate diagonal are its alternates. They go through the same tests as live
 /// faces, against all but its own two. Alternates have numbers among the faces, but are in no list unless it says so.
 ///
 /// Where the guard has a plane of symmetry, this is the half of the surface beyond it, and all counts are of the half.
-/// The other half is its mirror image and not stored: vertices on the plane, where the half ends, stay on it, all
-/// other ones stay beyond it, and no edge but those where the half ends has both its ends on the plane; so the two can
-/// meet in nothing but vertices and edges on the plane, and what is allowed here is allowed there.
+/// The other half is its mirror image and not stored. Vertices on the plane stay on it, and all other ones beyond it.
+/// Only edges where the half ends have both ends on the plane. So the halves meet in nothing but vertices and edges on
+/// the plane, and what is allowed here is allowed there.
 class GuardedMesh {
 public:
     static constexpr std::uint32_t none = ~std::uint32_t(0);
@@ -33,24 +33,24 @@ public:
         split,
         keep ///< where both diagonals are allowed; else they are split
     };
-    /// Points are rounded as the guard asks. \throw InputError the surface is not a closed 2-manifold, or not
-    /// symmetric where the guard has a plane
+    /// Points are rounded as the guard asks.
+    /// \throw InputError not a closed 2-manifold, or not symmetric where the guard has a plane
     GuardedMesh(const Mesh& surface, const GuardModel& guard, Quads quads = Quads::split);
 
-    /// How many times this the surface is: 2 where the guard has a plane of symmetry, else 1.
+    /// 2 where the guard has a plane of symmetry, so that the surface is twice this, else 1.
     std::size_t copies() const { return guard().symmetry() ? 2 : 1; }
     std::size_t liveFaces() const { return liveFaces_; }
     std::uint32_t faces() const { return static_cast<std::uint32_t>(faces_.size()); } ///< ever, numbers below
     std::uint32_t vertices() const { return static_cast<std::uint32_t>(points_.size()); }
     bool isVertex(std::uint32_t v) const { return !facesOf_[v].empty(); }
     const Vec3d& point(std::uint32_t v) const { return points_[v]; }
-    /// Whether a vertex is on the plane of symmetry.
     bool isOnPlane(std::uint32_t v) const
     {
         const auto& plane = guard().symmetry();
         return plane && points_[v][plane->axis] == plane->offset;
     }
-    /// The nearest point on the plane of symmetry. \pre there is one
+    /// The nearest point on the plane of symmetry.
+    /// \pre there is one
     Vec3d ontoPlane(Vec3d p) const;
     using FaceList = boost::container::small_vector<std::uint32_t, 8>;
     const FaceList& facesOf(std::uint32_t v) const { return facesOf_[v]; }
@@ -61,12 +61,12 @@ public:
         return {points_[t[0]], points_[t[1]], points_[t[2]]};
     }
     using Vertices = boost::container::small_vector<std::uint32_t, 16>;
-    /// The vertices joined to v by an edge, or by the other diagonal of a quad, or opposite to it in one; ascending.
+    /// The vertices joined to v by an edge or by an alternate diagonal, ascending.
     Vertices neighbours(std::uint32_t v) const;
 
-    /// Makes the change; it must have been allowed.
+    /// \pre allows() this change
     void apply(const StarChange& star, const Vec3d& p);
-    /// The same for one of several changes: tree() does not see it before refit().
+    /// apply() for one of several changes: tree() does not see it before refit().
     void change(const StarChange& star, const Vec3d& p);
     void refit() { tree_.refit(); }
     /// The boxes of all faces and alternates, by number.
@@ -75,22 +75,22 @@ public:
     std::size_t quads() const { return quads_.size() - freeQuads_.size(); }
     /// The other triangle of the quad that a face belongs to, or `none`; of an alternate the other alternate.
     std::uint32_t partnerOf(std::uint32_t f) const;
-    /// The corners of a quad of two faces that share an edge, which runs from corner 0 to corner 2.
+    /// The corners of a quad of two faces that share an edge. The edge goes from corner 0 to corner 2.
     Vec4I quadOf(std::uint32_t f, std::uint32_t g) const;
     /// The corners of the quad that a face or an alternate belongs to; corners 0 and 2 are on its diagonal.
     Vec4I quadOf(std::uint32_t f) const;
-    /// No quad is made, and no vertex moved, so that the triangles of a quad meet at a larger angle, under either
-    /// diagonal; up to 90 degrees, and that unless it was set.
+    /// Sets the largest angle at which the triangles of a quad may meet, under either diagonal. It is 90 degrees unless
+    /// set, and at most.
     void limitQuadFold(double degrees);
     double leastQuadCosine() const { return leastQuadCosine_; }
-    /// Makes a quad of two faces that share an edge; it must be allowed (see makeQuad). `alternates` are the corners of
-    /// the two triangles of its alternate diagonal.
+    /// Makes a quad of two faces that share an edge. `alternates` are the corners of its alternates.
+    /// \pre it is allowed (see makeQuad)
     void pair(std::uint32_t f, std::uint32_t g, const std::array<Vec3I, 2>& alternates);
     /// The two faces of a quad are triangles again.
     void splitQuad(std::uint32_t face);
-    /// The alternates of a quad become its faces, and its faces its alternates: the same quad, split otherwise.
+    /// The alternates of a quad become its faces, and its faces its alternates.
     void flipQuad(std::uint32_t face);
-    /// Whether a number is a face's: not an alternate's, and not of one that is gone.
+    /// Whether a number is a live face's: not an alternate's, and not of one that is gone.
     bool isFace(std::uint32_t f) const { return life_[f] == live; }
     bool isInQuad(std::uint32_t f) const { return f != none && quadAt_[f] != none; }
     /// Whether one is a face and the other an alternate of the same quad.
@@ -105,10 +105,9 @@ public:
     }
     /// The weight of a face or an alternate in a sum over the surface: a half if it shows under one diagonal only.
     double weight(std::uint32_t f) const { return isInQuad(f) ? 0.5 : 1; }
-    /// The alternates at a vertex.
     const FaceList& alternatesOf(std::uint32_t v) const { return alternatesOf_[v]; }
 
-    /// The live triangles and quads, points that no face uses left out, order kept; then the mirror image of them all.
+    /// The live triangles and quads, in order, without points that no face uses. Then the mirror image of them all.
     Mesh mesh() const;
     const GuardModel& guard() const { return guard_; }
 

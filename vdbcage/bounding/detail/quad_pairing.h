@@ -10,25 +10,25 @@ namespace vdbcage::detail {
 struct PairingOptions {
     double mergeAngleDegrees; ///< no quad's triangles meet at more (as GuardedMesh::limitQuadFold, which is set)
     double share;             ///< of the faces that are to be quads
-    std::size_t reach;        ///< so many pairs are made anew to bring two triangles together, at most
-    double mostLoss;          ///< of distance to the model that a change may cost, in parts of what a face less costs
-    bool collapses;           ///< whether edges may be collapsed for it
-    bool splits;              ///< whether polychords may be split for it, of twice `reach` at most
+    std::size_t maxPathPairs; ///< pairs of faces on an alternating path; polychords have at most twice as many quads
+    double maxLoss;           ///< of distance to the model that a change may cost, in parts of a mean face's
+    bool collapses;           ///< whether edges may be collapsed at the end of a path
+    bool splits;              ///< whether polychords may be split
 };
 
 /// The part of the faces that are quads, 0 to 1.
 double quadShare(const GuardedMesh& surface);
 
-/// Makes pairs of faces quads, under the guard: first, flat and square ones along the directions of curvature before
-/// others, all that cost no more distance to the model than a face less brings. Then, until the share is reached, the
-/// other pairs; then triangles are brought together through the quads between them, each of which is split along
-/// either diagonal and paired anew; then two that are so brought together, but are no quad, vanish by collapsing the
-/// edge between them; and last the polychord between two triangles is split in two lengthwise, which makes them
-/// quads and needs nothing of how vertices are joined, but brings more faces. Where a pair is too folded, or its other
-/// diagonal in the model's way, the lower diagonal's ends are pushed outward. What moves the surface farther away than
-/// `mostLoss` is undone, but for the pairs of the beginning. Serial; O(n log n log m) for n faces and
-/// m of the model, and O(n) for each way that is tried to bring two triangles together, which keeps a copy to go back
-/// to.
+/// Pairs triangles to quads, under the guard.
+///
+/// The best candidates come first, all that cost no more distance to the model than a face less brings. The other
+/// stages go on until the share is reached:
+/// - the other candidates,
+/// - triangles that alternating paths bring together become quads, then others vanish by a collapse,
+/// - polychords between two triangles are split, which brings more faces.
+/// What costs more than `maxLoss` is undone, but for the candidates. Serial.
+/// \throw Cancelled
+/// Cost: O(n log n log m) for n faces and m of the model, and O(n) for each path or polychord that is tried.
 void pairUp(GuardedMesh& surface, const PairingOptions& options, Interrupter* interrupter);
 
 } // namespace vdbcage::detail

@@ -7,15 +7,20 @@
 
 namespace vdbcage::detail {
 
-/// Decimations of one surface under a guard, to any number of face counts. What these share, which is the way from the
-/// surface to a few times the faces, is done once: a third to a half of the time (fair, fast).
+/// Decimations of one surface under a guard, to any number of face counts.
+///
+/// What they share, the way from the surface to a few times the faces, is done once. That is a third of the time (fair)
+/// to a half (fast).
 class RecordedDecimation {
 public:
-    /// `guard` must live as long as this. \throw InputError (not closed and 2-manifold), Cancelled
+    /// \pre `guard` outlives this
+    /// \throw InputError not closed and 2-manifold
+    /// \throw Cancelled
     RecordedDecimation(const Mesh& surface, const BoundingGuard& guard, Interrupter* interrupter);
 
-    /// The same as decimate(), whatever was asked for before. \throw InputError (fewer than 4 faces asked for),
-    /// Cancelled; it can be asked again then
+    /// The same as decimate(), whatever was asked for before.
+    /// \throw InputError fewer than 4 faces asked for
+    /// \throw Cancelled; it can be asked again then
     Mesh to(const BoundingDecimateOptions& options, Interrupter* interrupter);
 
 private:

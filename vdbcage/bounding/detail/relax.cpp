@@ -12,6 +12,7 @@
 #include <optional>
 #include <vector>
 
+#include <vdbcage/bounding/detail/face_queries.h>
 #include <vdbcage/bounding/detail/vertex_placement.h>
 #include <vdbcage/core/detail/parallel.h>
 
@@ -204,8 +205,7 @@ double area(const GuardedMesh& surface)
     for (std::uint32_t v = 0; v < surface.vertices(); ++v) {
         for (const std::uint32_t f : surface.facesOf(v)) {
             if (surface.face(f)[0] != v) continue; // each face once
-            const Corners t = surface.corners(f);
-            sum += 0.5 * (t[1] - t[0]).cross(t[2] - t[0]).length();
+            sum += 0.5 * areaNormal(surface, f).length();
         }
     }
     return sum;
@@ -234,11 +234,11 @@ void inflate(GuardedMesh& surface, double by, Interrupter* interrupter)
 
 void inflateTriangles(GuardedMesh& surface, double by, Interrupter* interrupter)
 {
-    const auto isTriangle = [&](std::uint32_t f) { return surface.partnerOf(f) == StarChange::none; };
     std::vector<std::uint32_t> vertices;
     for (const std::uint32_t v : allVertices(surface)) {
         const auto& faces = surface.facesOf(v);
-        if (std::any_of(faces.begin(), faces.end(), isTriangle)) vertices.push_back(v);
+        if (std::any_of(faces.begin(), faces.end(), [&](std::uint32_t f) { return isTriangle(surface, f); }))
+            vertices.push_back(v);
     }
     pushOut(surface, vertices, by, interrupter);
 }

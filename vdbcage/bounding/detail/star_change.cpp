@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include <vdbcage/bounding/detail/face_queries.h>
+
 namespace vdbcage::detail {
 
 StarChange starOf(const GuardedMesh& mesh, std::uint32_t v)
@@ -88,20 +90,16 @@ bool starOfFlip(const GuardedMesh& mesh, std::uint32_t c, std::uint32_t a, std::
     star = starOf(mesh, c);
     const auto edge = std::find(star.link.begin(), star.link.end(), std::array<std::uint32_t, 2>{a, b});
     if (edge == star.link.end()) return false;
-    for (const std::uint32_t f : mesh.facesOf(b)) {
-        const Vec3I& t = mesh.face(f);
-        const int i = t[0] == b ? 0 : t[1] == b ? 1 : 2;
-        if (t[(i + 1) % 3] != a) continue;
-        const std::uint32_t d = t[(i + 2) % 3];
-        const auto joined = mesh.neighbours(c);
-        if (std::binary_search(joined.begin(), joined.end(), d) || (star.onPlane && mesh.isOnPlane(d))) return false;
-        *edge = {a, d};
-        star.link.push_back({d, b});
-        star.oldFaces.push_back(f);
-        star.keptFaces.push_back(f);
-        return true;
-    }
-    return false;
+    const std::uint32_t f = faceAt(mesh, b, a);
+    if (f == StarChange::none) return false;
+    const std::uint32_t d = cornerOpposite(mesh, f, b, a);
+    const auto joined = mesh.neighbours(c);
+    if (std::binary_search(joined.begin(), joined.end(), d) || (star.onPlane && mesh.isOnPlane(d))) return false;
+    *edge = {a, d};
+    star.link.push_back({d, b});
+    star.oldFaces.push_back(f);
+    star.keptFaces.push_back(f);
+    return true;
 }
 
 bool starOfFaces(const GuardedMesh& mesh, const StarChange::Faces& faces, bool onPlane, StarChange& star)
@@ -110,17 +108,14 @@ bool starOfFaces(const GuardedMesh& mesh, const StarChange::Faces& faces, bool o
     star.centre = mesh.vertices();
     star.onPlane = onPlane;
     star.oldFaces = faces;
-    const auto isSide = [&](std::uint32_t f, std::uint32_t a, std::uint32_t b) {
-        const Vec3I& t = mesh.face(f);
-        return (t[0] == a && t[1] == b) || (t[1] == a && t[2] == b) || (t[2] == a && t[0] == b);
-    };
     StarChange::Faces begins, ends;
     std::size_t ofPlane = 0;
     for (const std::uint32_t f : faces) {
         for (int i = 0; i < 3; ++i) {
             const std::uint32_t a = mesh.face(f)[i], b = mesh.face(f)[(i + 1) % 3];
             if (onPlane && mesh.isOnPlane(a) && mesh.isOnPlane(b)) continue;
-            if (std::any_of(faces.begin(), faces.end(), [&](std::uint32_t g) { return isSide(g, b, a); })) continue;
+            const auto isAcross = [&](std::uint32_t g) { return sideOf(mesh, g, b, a) >= 0; };
+            if (std::any_of(faces.begin(), faces.end(), isAcross)) continue;
             star.keptFaces.push_back(star.link.size() < faces.size() ? faces[star.link.size()] : StarChange::none);
             star.link.push_back({a, b});
             begins.push_back(a);
@@ -140,10 +135,7 @@ bool starOfFaces(const GuardedMesh& mesh, const StarChange::Faces& faces, bool o
 Vec3d outward(const GuardedMesh& mesh, const StarChange& star)
 {
     Vec3d normal(0.0);
-    for (const std::uint32_t f : star.oldFaces) {
-        const Corners t = mesh.corners(f);
-        normal += (t[1] - t[0]).cross(t[2] - t[0]);
-    }
+    for (const std::uint32_t f : star.oldFaces) normal += areaNormal(mesh, f);
     if (star.onPlane) normal[mesh.guard().symmetry()->axis] = 0;
     const double length = normal.length();
     return length > 0 ? normal / length : Vec3d(0.0);

@@ -10,10 +10,11 @@ namespace vdbcage::detail {
 
 /// \throw InputError fewer than 4
 void requireFaces(std::size_t faces);
-/// \throw InputError
+/// \throw InputError an option out of range
 void requireValid(const TightenOptions& options);
 
-/// What tighten() does. \throw Cancelled
+/// What vdbcage::tighten() does.
+/// \throw Cancelled
 void tightenAndPerturb(GuardedMesh& surface, const TightenOptions& options, Interrupter* interrupter);
 
 } // namespace vdbcage::detail

@@ -2,13 +2,13 @@
 
 #include <array>
 #include <cstddef>
-#include <limits>
 #include <string>
 #include <vector>
 
 #include <OpenMesh/Core/Mesh/Traits.hh>
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 #include <vdbcage/core/error.h>
+#include <vdbcage/mesh/detail/half_edges.h>
 #include <vdbcage/mesh/mesh.h>
 
 /// The one place where Mesh becomes OpenMesh's half-edge structure and back.
@@ -32,45 +32,21 @@ inline OpenMesh::Vec3d fromVec3d(const openvdb::Vec3d& p)
     return {p.x(), p.y(), p.z()};
 }
 
-/// Pairs up the half-edges of `triangles`: 3 t + i runs from corner i of triangle t to the next. Gives each its
-/// opposite, or `none` at a boundary.
 /// \throw InputError an edge that is not between one or two faces in opposite directions; a triangle that repeats a
 /// corner
-class HalfEdgePairs {
-public:
-    static constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
-
-    HalfEdgePairs(const std::vector<openvdb::Vec3I>& triangles, std::size_t points)
-        : opposite(3 * triangles.size(), none)
-    {
-        const auto from = [&](std::size_t h) { return triangles[h / 3][int(h % 3)]; };
-        const auto to = [&](std::size_t h) { return triangles[h / 3][int((h + 1) % 3)]; };
-        const auto low = [&](std::size_t h) { return std::size_t(std::min(from(h), to(h))); };
-        // Bucket by the lower end: few half-edges share one.
-        std::vector<std::size_t> first(points + 1, 0), bucket(opposite.size());
-        for (std::size_t h = 0; h < opposite.size(); ++h) ++first[low(h) + 1];
-        for (std::size_t p = 0; p < points; ++p) first[p + 1] += first[p];
-        std::vector<std::size_t> end(first.begin(), first.end() - 1);
-        for (std::size_t h = 0; h < opposite.size(); ++h) {
-            const auto fail = [&](const char* problem) {
-                throw InputError("the surface is not an oriented 2-manifold: the edge between points " +
-                                 std::to_string(from(h)) + " and " + std::to_string(to(h)) + problem);
-            };
-            if (from(h) == to(h)) fail(" has no length");
-            const std::size_t p = low(h);
-            for (std::size_t i = first[p]; i < end[p]; ++i) {
-                const std::size_t other = bucket[i];
-                if (from(other) == from(h) && to(other) == to(h)) fail(" has two faces on the same side");
-                if (from(other) != to(h) || to(other) != from(h)) continue;
-                opposite[h] = other;
-                opposite[other] = h;
-            }
-            bucket[end[p]++] = h;
+inline void requireOriented(const HalfEdges& halfEdges, const EdgeTable& edges)
+{
+    for (std::size_t h = 0; h < halfEdges.size(); ++h) {
+        const auto fail = [&](const char* problem) {
+            throw InputError("the surface is not an oriented 2-manifold: the edge between points " +
+                             std::to_string(halfEdges.from(h)) + " and " + std::to_string(halfEdges.to(h)) + problem);
+        };
+        if (edges.edgeOf(h) == EdgeTable::none) fail(" has no length");
+        for (const std::size_t other : edges[edges.edgeOf(h)]) {
+            if (other < h && halfEdges.from(other) == halfEdges.from(h)) fail(" has two faces on the same side");
         }
     }
-
-    std::vector<std::size_t> opposite;
-};
+}
 
 /// `mesh`, its quads split, as an OpenMesh. Points and, after the split, faces keep their numbers. Boundaries are
 /// allowed.
@@ -79,26 +55,28 @@ public:
 inline OpenTriMesh toOpenMesh(const Mesh& mesh)
 {
     using Handle = OpenTriMesh::HalfedgeHandle;
-    const std::vector<openvdb::Vec3I> triangles = triangulate(mesh);
-    const HalfEdgePairs pairs(triangles, mesh.points.size());
+    Mesh split;
+    split.triangles = triangulate(mesh);
+    const std::vector<openvdb::Vec3I>& triangles = split.triangles;
+    const HalfEdges halfEdges(split);
+    const EdgeTable table(halfEdges, mesh.points.size());
+    requireOriented(halfEdges, table);
 
     // Built directly: add_face() searches, and prints what it does not like.
     OpenTriMesh result;
-    std::size_t edges = 0;
-    for (std::size_t h = 0; h < pairs.opposite.size(); ++h) edges += pairs.opposite[h] > h; // `none` is above all
-    result.resize(mesh.points.size(), edges, triangles.size());
+    result.resize(mesh.points.size(), table.size(), triangles.size());
     for (std::size_t p = 0; p < mesh.points.size(); ++p) {
         result.set_point(OpenTriMesh::VertexHandle(int(p)), fromVec3d(mesh.points[p]));
     }
-    std::vector<Handle> handles(pairs.opposite.size());
+    std::vector<Handle> handles(halfEdges.size());
     int edge = 0;
     for (std::size_t h = 0; h < handles.size(); ++h) {
-        if (pairs.opposite[h] < h) {
-            handles[h] = result.opposite_halfedge_handle(handles[pairs.opposite[h]]);
+        if (table.opposite(h) < h) {
+            handles[h] = result.opposite_halfedge_handle(handles[table.opposite(h)]);
         } else {
             handles[h] = result.halfedge_handle(OpenTriMesh::EdgeHandle(edge++), 0);
         }
-        result.set_vertex_handle(handles[h], OpenTriMesh::VertexHandle(int(triangles[h / 3][int((h + 1) % 3)])));
+        result.set_vertex_handle(handles[h], OpenTriMesh::VertexHandle(int(halfEdges.to(h))));
     }
     for (std::size_t t = 0; t < triangles.size(); ++t) {
         const OpenTriMesh::FaceHandle face{int(t)};
@@ -117,9 +95,9 @@ inline OpenTriMesh toOpenMesh(const Mesh& mesh)
     };
     std::vector<Handle> leaving(mesh.points.size());
     for (std::size_t h = 0; h < handles.size(); ++h) {
-        if (pairs.opposite[h] != HalfEdgePairs::none) continue;
+        if (table.opposite(h) != EdgeTable::none) continue;
         const Handle boundary = result.opposite_halfedge_handle(handles[h]);
-        const std::size_t to = triangles[h / 3][int(h % 3)], from = triangles[h / 3][int((h + 1) % 3)];
+        const std::size_t to = halfEdges.from(h), from = halfEdges.to(h);
         result.set_vertex_handle(boundary, OpenTriMesh::VertexHandle(int(to)));
         result.set_boundary(boundary);
         if (leaving[from].is_valid()) failAt(from);

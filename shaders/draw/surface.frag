@@ -5,9 +5,9 @@ in vec3 viewPosition;
 in vec3 viewNormal;
 in vec3 ownColour;
 
-uniform vec4 colour; // sRGB
-
 layout(location = 0) out vec4 result;
+
+#include "face.glsl"
 
 const vec3 keyLamp = normalize(vec3(-0.45, 0.65, 0.75));
 const vec3 fillLamp = normalize(vec3(0.85, 0.05, 0.45));
@@ -20,6 +20,7 @@ float soft(vec3 normal, vec3 lamp, float wrap)
 
 void main()
 {
+    const vec4 face = faceColour();
     vec3 normal = normalize(viewNormal);
     if (!gl_FrontFacing) normal = -normal;
     const vec3 toEye = normalize(-viewPosition);
@@ -32,8 +33,8 @@ void main()
 
     // Darker where the surface turns away, so that a light model stands out from a white background.
     const float turn = mix(0.70, 1.0, smoothstep(0.0, 0.65, dot(normal, toEye)));
-    const vec3 albedo = turn * pow(colour.rgb * ownColour, vec3(2.2));
+    const vec3 albedo = turn * pow(face.rgb * ownColour, vec3(2.2));
     const float inside = gl_FrontFacing ? 1.0 : 0.55; // one sees where a surface is open or turned inside out
     const vec3 light = inside * (albedo * (key + fill + back + sky) + gloss);
-    result = vec4(pow(clamp(light, 0.0, 1.0), vec3(1.0 / 2.2)), 1.0);
+    result = vec4(pow(clamp(light, 0.0, 1.0), vec3(1.0 / 2.2)), face.a);
 }

@@ -5,17 +5,24 @@
 #include <string>
 #include <vector>
 
-namespace vdbcage {
+namespace vdbcage::draw {
 
 /// An sRGB picture of 8 bits a channel.
 struct Picture {
     int width = 0;                 ///< pixels
     int height = 0;                ///< pixels
     std::vector<std::uint8_t> rgb; ///< width * height * 3 bytes, row by row from the top left
+    /// width * height bytes in the same order, 255 where the colour covers all; empty: everywhere.
+    std::vector<std::uint8_t> alpha = {};
 };
+
+/// What OpenGL reads as a picture: `rgba` has width * height * 4 bytes, row by row from the bottom left, its colours
+/// times their alpha. `transparent` keeps alpha; else it counts as 255.
+/// \pre rgba has that size
+Picture fromPixels(const std::vector<std::uint8_t>& rgba, int width, int height, bool transparent);
 
 /// `picture` as the bytes of a PNG file; the same picture gives the same bytes.
 /// \throw InputError if the picture's size is not positive or not that of its bytes
 std::string encodePng(const Picture& picture);
 
-} // namespace vdbcage
+} // namespace vdbcage::draw
