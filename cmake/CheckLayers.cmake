@@ -26,7 +26,8 @@ set(confined
     "tbb/task_group|^(vdbcage/core/detail/parallel\\.h|tools/.*|tests/.*)$"
     "png\\.h|^(tools/draw/picture\\.cpp|tests/.*)$"
     "tools/vdbcage/|^(tools/vdbcage/.*|tests/.*)$"
-    "tools/draw/|^(tools/(draw|vdbcage)/.*|tests/.*)$"
+    "tools/draw/|^(tools/(draw|vdbcage|view)/.*|tests/.*)$"
+    "tools/view/|^(tools/view/.*|tests/.*)$"
     "CGAL/|^(vdbcage/.*\\.cpp|tests/.*)$")
 
 set(problems "")

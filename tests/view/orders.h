@@ -1,0 +1,24 @@
+#pragma once
+
+#include <memory>
+
+#include <tools/view/state/cage_result.h>
+#include <tools/view/state/opened_mesh.h>
+#include <vdbcage/mesh/mesh.h>
+
+namespace vdbcage::test {
+
+inline view::OpenedMeshPtr opened(Mesh mesh, const std::string& name = "/no/model.obj")
+{
+    view::OpenedMesh file;
+    file.path = name;
+    file.mesh = std::move(mesh);
+    return std::make_shared<const view::OpenedMesh>(std::move(file));
+}
+
+inline bool sameMesh(const Mesh& a, const Mesh& b)
+{
+    return a.points == b.points && a.triangles == b.triangles && a.quads == b.quads;
+}
+
+} // namespace vdbcage::test

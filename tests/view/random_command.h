@@ -1,0 +1,87 @@
+#pragma once
+
+#include <random>
+#include <string>
+#include <vector>
+
+#include <tools/view/state/command.h>
+#include <tools/view/state/preset.h>
+
+namespace vdbcage::test {
+
+/// Any command that is allowed in any state that has a model; files are taken from `files`.
+inline view::Command randomCommand(std::mt19937& random, const std::vector<std::string>& files)
+{
+    using namespace view;
+    const auto below = [&](int n) { return static_cast<int>(random() % static_cast<unsigned>(n)); };
+    const auto real = [&](double least, double most) {
+        return std::uniform_real_distribution<double>(least, most)(random);
+    };
+    const auto fraction = [&] { return static_cast<float>(real(0, 1)); };
+    const auto layer = static_cast<LayerId>(below(static_cast<int>(layerCount)));
+    switch (below(16)) {
+    case 0:
+        return OpenModel{files[random() % files.size()]};
+    case 1:
+        return OpenCage{files[random() % files.size()]};
+    case 2:
+        return CloseCage{};
+    case 3:
+    case 4: {
+        const std::vector<std::pair<std::string, std::string>> values{
+            {"faces", std::to_string(12 + below(1000))},
+            {"resolution", below(4) == 0 ? "auto" : std::to_string(8 + below(120))},
+            {"close-radius", below(4) == 0 ? "auto" : std::to_string(real(0, 0.25))},
+            {"element", below(2) == 0 ? "sphere" : "cube"},
+            {"smooth", std::to_string(below(101))},
+            {"parts", below(2) == 0 ? "keep" : "merge"},
+            {"mesh", below(3) == 0   ? "triangles"
+                     : below(2) == 0 ? "triquad"
+                                     : "quads"},
+            {"symmetry", below(2) == 0 ? "auto" : "off"},
+            {"bounding", below(2) == 0 ? "on" : "off"},
+            {"scale-field", below(2) == 0 ? "none" : "sphere:0,0,0,1,0.5"},
+            {"effort", below(3) == 0   ? "fast"
+                       : below(2) == 0 ? "fair"
+                                       : "best"}};
+        const auto& [name, value] = values[random() % values.size()];
+        return SetOption{name, value};
+    }
+    case 5:
+        return below(4) == 0 ? ResetOptions{} : ResetOptions{{"faces", "mesh"}};
+    case 6:
+        return ApplyPreset{presets()[random() % presets().size()].name};
+    case 7: {
+        draw::Camera camera;
+        camera.projection = below(2) == 0 ? draw::Projection::perspective : draw::Projection::orthographic;
+        camera.view = {real(-360, 360), real(-90, 90), below(2) == 0 ? draw::UpAxis::y : draw::UpAxis::z};
+        camera.target = {real(-1, 1), real(-1, 1), real(-1, 1)};
+        camera.distance = real(0.5, 20);
+        return SetCamera{camera};
+    }
+    case 8:
+        return ShowLayer{layer, below(2) == 0};
+    case 9:
+        return FadeLayer{layer, real(0, 1)};
+    case 10:
+        return ColourLayer{layer, {fraction(), fraction(), fraction()}};
+    case 11:
+        return SetCageColours{static_cast<CageColours>(below(3))};
+    case 12:
+        if (below(2) == 0) return SetSection{};
+        return SetSection{SectionPlane{{real(-1, 1), real(-1, 1), 1}, real(-1, 1)}};
+    case 13:
+        return ShowGround{below(2) == 0};
+    case 14:
+        return below(2) == 0 ? Command(ShowAxes{below(2) == 0}) : Command(SetTurntable{below(2) == 0});
+    default: {
+        Select select;
+        for (int face = below(3); face < 40; face += 1 + below(30)) {
+            select.faces.push_back(static_cast<openvdb::Index32>(face));
+        }
+        return select;
+    }
+    }
+}
+
+} // namespace vdbcage::test

@@ -1,0 +1,234 @@
+#include <boost/test/unit_test.hpp>
+
+#include <atomic>
+#include <condition_variable>
+#include <mutex>
+#include <new>
+#include <random>
+
+#include "orders.h"
+#include <support/shapes.h>
+#include <support/stop_at.h>
+#include <tools/view/state/runner.h>
+#include <vdbcage/core/error.h>
+
+using namespace vdbcage;
+using namespace vdbcage::view;
+
+namespace {
+
+Order orderOf(const OpenedMeshPtr& model, int faces, Effort effort = Effort::fair)
+{
+    Order order;
+    order.model = model;
+    order.options.faces = faces;
+    order.options.effort = effort;
+    order.options.resolution = 24;
+    return order;
+}
+
+/// Makes boxes at once, or when it is told to; fails where it is told to.
+class FakeMaker : public CageMaker {
+public:
+    explicit FakeMaker(std::atomic<bool>& mayEnd, std::atomic<int>& made) : mayEnd_(mayEnd), made_(made) {}
+
+    CageResultPtr make(const Job& job, Interrupter& interrupter) override
+    {
+        const Stage stage(&interrupter, "fake");
+        while (!mayEnd_) {
+            throwIfInterrupted(&interrupter, 50);
+            std::this_thread::yield();
+        }
+        if (job.order.options.faces == 66) throw Error("66 faces");
+        if (job.order.options.faces == 67) throw std::bad_alloc();
+        CageResult result;
+        result.order = job.order;
+        ++made_;
+        return std::make_shared<const CageResult>(std::move(result));
+    }
+
+private:
+    std::atomic<bool>& mayEnd_;
+    std::atomic<int>& made_;
+};
+
+void settle(Runner& runner)
+{
+    for (;;) {
+        runner.update();
+        if (runner.planner().isSettled()) return;
+        runner.waitForNews(60);
+    }
+}
+
+struct Fixture {
+    std::atomic<bool> mayEnd{true};
+    std::atomic<int> made{0}, woken{0};
+    const OpenedMeshPtr model = test::opened(test::sphere({0, 0, 0}, 1, 8));
+    Runner runner{std::make_unique<FakeMaker>(mayEnd, made), [this] { ++woken; }};
+};
+
+/// The cage of a pipeline that has done nothing else.
+Mesh freshCage(const Order& order)
+{
+    return makeCage(order.model->mesh, order.options);
+}
+
+} // namespace
+
+BOOST_FIXTURE_TEST_SUITE(runner_with_fakes, Fixture)
+
+BOOST_AUTO_TEST_CASE(what_is_wanted_is_made_and_the_owner_woken)
+{
+    BOOST_TEST(!runner.update());
+    runner.waitForNews(60); // nothing is under way
+    runner.want(orderOf(model, 100), false);
+    settle(runner);
+    BOOST_CHECK(runner.planner().standing() == Planner::Standing::current);
+    BOOST_TEST(woken > 0);
+    while (!runner.planner().isIdle()) {
+        runner.waitForNews(60);
+        runner.update();
+    }
+    BOOST_TEST(made == 4);
+    BOOST_TEST(!runner.progress());
+}
+
+BOOST_AUTO_TEST_CASE(a_run_that_never_ends_is_cancelled)
+{
+    mayEnd = false;
+    runner.want(orderOf(model, 100), false);
+    for (std::string stage; stage != "fake";) stage = runner.progress()->stage;
+    runner.cancel();
+    settle(runner);
+    BOOST_TEST(made == 0);
+    BOOST_TEST(runner.planner().isHalted());
+    runner.want(orderOf(model, 200), false); // and the end of the test ends it
+}
+
+BOOST_AUTO_TEST_CASE(errors_of_any_kind_arrive_and_the_next_run_works)
+{
+    for (const int faces : {66, 67}) {
+        runner.want(orderOf(model, faces), false);
+        settle(runner);
+        BOOST_TEST(!runner.planner().error().empty());
+        runner.want(orderOf(model, 100 + faces), false);
+        settle(runner);
+        BOOST_TEST(runner.planner().error().empty());
+        BOOST_CHECK(runner.planner().standing() == Planner::Standing::current);
+    }
+}
+
+BOOST_AUTO_TEST_SUITE_END()
+
+BOOST_AUTO_TEST_SUITE(runner_with_pipelines)
+
+BOOST_AUTO_TEST_CASE(changes_cancels_and_late_results_give_the_cage_of_the_last_change)
+{
+    std::mt19937 random(5);
+    const auto below = [&](int n) { return static_cast<int>(random() % static_cast<unsigned>(n)); };
+    const OpenedMeshPtr models[2] = {test::opened(test::sphere({0, 0, 0}, 1, 8)),
+                                     test::opened(test::torus(1, 0.3, 16, 8))};
+    Runner runner(makePipelineMaker(), [] {});
+    for (int sequence = 0; sequence < 12; ++sequence) {
+        Order wanted = orderOf(models[0], 40);
+        bool isDragging = false;
+        for (int i = 0; i < 8; ++i) {
+            switch (below(6)) {
+            case 0:
+                wanted.options.effort = below(2) == 0 ? Effort::fast : Effort::fair;
+                break;
+            case 1:
+                wanted.options.resolution = 16 + 4 * below(3);
+                break;
+            case 2:
+                wanted.model = models[random() % 2];
+                break;
+            case 3:
+                runner.cancel();
+                break;
+            case 4:
+                isDragging = !isDragging;
+                break;
+            default:
+                wanted.options.faces = 40 + 8 * below(6);
+            }
+            runner.want(wanted, isDragging, below(2) == 0);
+            for (int n = below(40); n > 0; --n) std::this_thread::yield();
+            if (below(3) == 0) runner.waitForNews(60);
+            runner.update();
+            if (const CageResultPtr& shown = runner.planner().shown()) {
+                BOOST_REQUIRE(shown->order.model == wanted.model);
+                BOOST_REQUIRE((runner.planner().standing() == Planner::Standing::current) == (shown->order == wanted));
+            }
+        }
+        wanted.options.faces = 41 + 8 * below(6);
+        runner.want(wanted, false, true);
+        settle(runner);
+        BOOST_CHECK(runner.planner().standing() == Planner::Standing::current);
+        const CageResult& shown = *runner.planner().shown();
+        BOOST_TEST(test::sameMesh(shown.cage, freshCage(wanted)));
+        BOOST_TEST(shown.report.check.bounding());
+        BOOST_TEST_REQUIRE(shown.intermediates.get());
+        BOOST_TEST(shown.intermediates->solid->activeVoxelCount() == shown.report.solidVoxels);
+    }
+}
+
+BOOST_AUTO_TEST_CASE(after_a_cancel_at_any_ask_the_next_run_gives_a_fresh_pipelines_bytes)
+{
+    std::mt19937 random(7);
+    const OpenedMeshPtr model = test::opened(test::torus(1, 0.3, 12, 6));
+    for (const Effort effort : {Effort::fast, Effort::fair, Effort::best}) {
+        const Job job{Job::Kind::full, orderOf(model, 60, effort), false};
+        const Mesh fresh = freshCage(job.order);
+        constexpr int never = 1 << 30;
+        test::StopAt counter(never);
+        makePipelineMaker()->make(job, counter);
+        const int asked = test::questions(counter, never);
+        const std::unique_ptr<CageMaker> maker = makePipelineMaker();
+        int cancelled = 0;
+        for (int run = 0; run < 20; ++run) {
+            test::StopAt stop(static_cast<int>(random() % static_cast<unsigned>(asked)));
+            // Other voxels, so that every stage has something to do.
+            Job first = job;
+            first.order.options.resolution = run % 2 == 0 ? 22 : 26;
+            try {
+                maker->make(first, stop);
+            } catch (const Cancelled&) {
+                ++cancelled;
+            }
+            Interrupter none;
+            BOOST_TEST(test::sameMesh(maker->make(job, none)->cage, fresh));
+        }
+        BOOST_TEST(cancelled >= 15);
+    }
+}
+
+BOOST_AUTO_TEST_CASE(an_opened_cage_is_checked_as_the_command_does)
+{
+    const OpenedMeshPtr model = test::opened(test::sphere({0, 0, 0}, 1, 8));
+    Runner runner(makePipelineMaker(), [] {});
+    for (const double size : {2.0, 0.5}) {
+        Order order = orderOf(model, 100);
+        order.cage = test::opened(test::box(openvdb::Vec3d(-size), openvdb::Vec3d(size)));
+        runner.want(order, false, true);
+        settle(runner);
+        const CageResultPtr& shown = runner.planner().shown();
+        BOOST_TEST_REQUIRE(shown.get());
+        BOOST_TEST(test::sameMesh(shown->cage, order.cage->mesh));
+        BOOST_TEST(shown->report.check.bounding() == (size > 1));
+    }
+}
+
+BOOST_AUTO_TEST_CASE(an_objection_to_the_model_names_its_file)
+{
+    Mesh flat;
+    flat.points = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}};
+    flat.triangles = {{0, 1, 2}};
+    Runner runner(makePipelineMaker(), [] {});
+    runner.want(orderOf(test::opened(flat, "/some/flat.obj"), 100), false);
+    settle(runner);
+    BOOST_TEST(runner.planner().error().rfind("/some/flat.obj: ", 0) == 0u);
+}
+
+BOOST_AUTO_TEST_SUITE_END()

@@ -1,0 +1,210 @@
+#include <boost/test/unit_test.hpp>
+
+#include <functional>
+#include <limits>
+#include <random>
+
+#include "random_command.h"
+#include <support/shapes.h>
+#include <support/temporary_folder.h>
+#include <tools/view/state/session.h>
+#include <tools/view/state/words.h>
+#include <vdbcage/core/error.h>
+#include <vdbcage/mesh/mesh_io.h>
+
+using namespace vdbcage;
+using namespace vdbcage::view;
+
+namespace {
+
+struct Files {
+    test::TemporaryFolder folder;
+    std::vector<std::string> list;
+
+    Files()
+    {
+        for (int i = 1; i <= 3; ++i) {
+            const auto path = folder.path() / ("box " + std::to_string(i) + ".obj");
+            writeMesh(test::box({0, 0, 0}, openvdb::Vec3d(i)), path);
+            list.push_back(path.string());
+        }
+    }
+};
+
+} // namespace
+
+BOOST_AUTO_TEST_SUITE(session)
+
+BOOST_AUTO_TEST_CASE(every_command_reads_back_from_its_text)
+{
+    const Files files;
+    std::mt19937 random(1);
+    State state = applied({}, OpenModel{files.list[0]});
+    std::vector<int> seen(std::variant_size_v<Command>);
+    for (int i = 0; i < 10000; ++i) {
+        const Command command = test::randomCommand(random, files.list);
+        ++seen[command.index()];
+        const std::string text = toText(command);
+        const Command read = commandOf(wordsOf(text));
+        BOOST_TEST_REQUIRE(read.index() == command.index());
+        BOOST_TEST_REQUIRE(toText(read) == text);
+        // Files are read anew, so they are other objects.
+        if (command.index() <= Command(OpenCage{}).index()) continue;
+        BOOST_REQUIRE(applied(state, read) == applied(state, command));
+        state = applied(state, command);
+    }
+    for (const int count : seen) BOOST_TEST(count > 0);
+}
+
+BOOST_AUTO_TEST_CASE(undoing_all_gives_the_first_state_and_redoing_all_the_last)
+{
+    const Files files;
+    std::mt19937 random(2);
+    Session session;
+    session.execute(OpenModel{files.list[0]});
+    const State opened = session.state();
+    session = Session();
+    session.restart(opened);
+    for (int i = 0; i < 10000; ++i) {
+        if (random() % 50 == 0) session.beginDrag();
+        if (random() % 40 == 0) session.endDrag();
+        session.execute(test::randomCommand(random, files.list));
+        if (random() % 20 == 0) session.undo();
+        if (random() % 20 == 0) session.undoView();
+        if (random() % 40 == 0) session.redo();
+        if (random() % 40 == 0) session.redoView();
+    }
+    session.endDrag();
+    session.execute(SetOption{"faces", "12345"}); // what was undone cannot be redone any more
+    session.execute(SetSection{SectionPlane{{1, 2, 3}, 4}});
+    const State last = session.state();
+    BOOST_TEST(session.documents().depth() > 100);
+    BOOST_TEST(session.views().depth() > 100);
+    while (session.documents().canUndo()) session.undo();
+    BOOST_CHECK(session.state().view == last.view);
+    while (session.views().canUndo()) session.undoView();
+    BOOST_CHECK(session.state() == opened);
+    while (session.documents().canRedo()) session.redo();
+    while (session.views().canRedo()) session.redoView();
+    BOOST_CHECK(session.state() == last);
+}
+
+BOOST_AUTO_TEST_CASE(a_drag_is_one_step)
+{
+    Session session;
+    session.execute(SetOption{"faces", "100"});
+    const State before = session.state();
+    session.beginDrag();
+    for (int faces = 101; faces < 200; ++faces) session.execute(SetOption{"faces", std::to_string(faces)});
+    session.endDrag();
+    BOOST_TEST(session.documents().depth() == 2);
+    BOOST_TEST(session.documents().undone() == "set faces 199");
+    session.execute(SetOption{"faces", "200"});
+    BOOST_TEST(session.documents().depth() == 3);
+    session.undo();
+    session.undo();
+    BOOST_CHECK(session.state() == before);
+}
+
+BOOST_AUTO_TEST_CASE(what_changes_nothing_leaves_no_step_and_what_fails_changes_nothing)
+{
+    const Files files;
+    Session session;
+    session.execute(OpenModel{files.list[0]});
+    const State state = session.state();
+    session.execute(SetOption{"faces", "400"});
+    BOOST_TEST(session.documents().depth() == 1);
+    const std::vector<std::string> bad{"open " + quotedWord(files.folder.path().string()),
+                                       "open none.obj",
+                                       "open-cage none.obj",
+                                       "set faces 11",
+                                       "set faces many",
+                                       "set colour 3",
+                                       "reset colour",
+                                       "preset tidy",
+                                       "preset ./none.options"};
+    for (const std::string& line : bad) {
+        BOOST_CHECK_THROW(session.execute(commandOf(wordsOf(line))), Error);
+        BOOST_CHECK(session.state() == state);
+    }
+    BOOST_TEST(session.documents().depth() == 1);
+}
+
+BOOST_AUTO_TEST_CASE(a_line_that_is_no_command_is_refused)
+{
+    for (const char* line : {"",
+                             "fly",
+                             "open",
+                             "open a b",
+                             "layer cage",
+                             "layer hat on",
+                             "layer cage yes",
+                             "opacity cage 2",
+                             "opacity cage nan",
+                             "colour cage 1 1",
+                             "cage-colours red",
+                             "section 0 0 0 1",
+                             "section 1",
+                             "section on",
+                             "camera perspective y 0 0 0 0 0 0",
+                             "camera perspective x 0 0 0 0 0 6",
+                             "camera fish y 0 0 0 0 0 6",
+                             "camera perspective y 0 91 0 0 0 6",
+                             "ground",
+                             "axes 1",
+                             "select -1",
+                             "select 1.5",
+                             "select 4294967296"}) {
+        BOOST_TEST_CONTEXT(line) BOOST_CHECK_THROW(commandOf(wordsOf(line)), InputError);
+    }
+}
+
+BOOST_AUTO_TEST_CASE(options_that_change_put_an_opened_cage_away_and_undo_brings_it_back)
+{
+    const Files files;
+    Session session;
+    BOOST_CHECK_THROW(session.execute(OpenCage{files.list[1]}), InputError);
+    session.execute(OpenModel{files.list[0]});
+    session.execute(OpenCage{files.list[1]});
+    session.execute(SetOption{"faces", "50"});
+    BOOST_TEST(!session.state().document.cage);
+    session.undo();
+    BOOST_TEST_REQUIRE(session.state().document.cage.get());
+    BOOST_TEST(session.state().document.cage->path.filename() == "box 2.obj");
+}
+
+BOOST_AUTO_TEST_CASE(a_view_is_made_by_its_commands)
+{
+    std::mt19937 random(3);
+    for (int run = 0; run < 100; ++run) {
+        State state;
+        for (int i = 0; i < 30; ++i) {
+            const Command command = test::randomCommand(random, {"none"});
+            if (!changesDocument(command)) state = applied(state, command);
+        }
+        State made;
+        for (const Command& command : commandsFor(state.view)) made = applied(made, command);
+        BOOST_CHECK(made == state);
+    }
+}
+
+BOOST_AUTO_TEST_CASE(presets_are_files_of_options)
+{
+    for (const Preset& preset : presets()) {
+        const CageOptions options = presetOptions(preset.name);
+        BOOST_CHECK(areEqual(optionsOf(presetText(options), "text"), options));
+    }
+    BOOST_CHECK(areEqual(presetOptions("balanced"), CageOptions{}));
+    const test::TemporaryFolder folder;
+    const auto path = folder.path() / "my.options";
+    test::writeText(path, "faces 77 # few\n\nsmooth 3\n");
+    BOOST_TEST(presetOptions(path.string()).faces == 77);
+    test::writeText(path, "faces 77\nfaces\n");
+    BOOST_CHECK_EXCEPTION(presetOptions(path.string()), InputError, [&](const InputError& error) {
+        return std::string(error.what()).rfind(path.string() + ":2: ", 0) == 0;
+    });
+    test::writeText(path, "close-radius 0.1\nerode-radius 0.2\n");
+    BOOST_CHECK_THROW(presetOptions(path.string()), InputError);
+}
+
+BOOST_AUTO_TEST_SUITE_END()

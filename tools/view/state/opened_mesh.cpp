@@ -1,0 +1,42 @@
+#include <tools/view/state/opened_mesh.h>
+
+#include <system_error>
+#include <utility>
+
+#include <vdbcage/core/detail/read_file.h>
+
+namespace vdbcage::view {
+
+namespace fs = std::filesystem;
+
+FileStamp stampOf(const fs::path& path)
+{
+    std::error_code error;
+    FileStamp stamp;
+    stamp.bytes = fs::file_size(path, error);
+    if (error) return {};
+    stamp.changed = fs::last_write_time(path, error);
+    return error ? FileStamp{} : stamp;
+}
+
+std::uint64_t digestOf(const fs::path& path)
+{
+    std::uint64_t digest = 0xcbf29ce484222325U;
+    for (const char byte : detail::readFile(path)) {
+        digest ^= static_cast<unsigned char>(byte);
+        digest *= 0x100000001b3U;
+    }
+    return digest;
+}
+
+OpenedMeshPtr openMesh(const fs::path& given)
+{
+    std::error_code error;
+    fs::path path = fs::absolute(given, error).lexically_normal();
+    if (error) path = given;
+    const FileStamp stamp = stampOf(path);
+    MeshFile file = readMeshFile(path);
+    return std::make_shared<const OpenedMesh>(OpenedMesh{std::move(path), stamp, std::move(file.mesh), file.summary});
+}
+
+} // namespace vdbcage::view

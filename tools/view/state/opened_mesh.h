@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+
+#include <vdbcage/mesh/mesh_io.h>
+
+namespace vdbcage::view {
+
+/// By what one sees that a file is another one than it was.
+struct FileStamp {
+    std::uintmax_t bytes = 0;
+    std::filesystem::file_time_type changed{};
+
+    friend bool operator==(const FileStamp& a, const FileStamp& b)
+    {
+        return a.bytes == b.bytes && a.changed == b.changed;
+    }
+    friend bool operator!=(const FileStamp& a, const FileStamp& b) { return !(a == b); }
+};
+
+/// Of the file at `path`; all zero if there is none.
+FileStamp stampOf(const std::filesystem::path& path);
+
+/// A digest of the bytes of the file at `path` (FNV-1a, 64 bits): for files that changed by chance, not by intent.
+/// \throw IoError Cost: one pass.
+std::uint64_t digestOf(const std::filesystem::path& path);
+
+/// A model or cage as it was read from a file. It never changes, so everything that needs it shares it.
+struct OpenedMesh {
+    std::filesystem::path path; ///< absolute
+    FileStamp stamp;            ///< of the file, before it was read
+    Mesh mesh;
+    ReadSummary summary;
+};
+using OpenedMeshPtr = std::shared_ptr<const OpenedMesh>;
+
+/// \throw IoError as readMeshFile
+OpenedMeshPtr openMesh(const std::filesystem::path& path);
+
+} // namespace vdbcage::view

@@ -1,0 +1,67 @@
+#include <tools/view/state/session.h>
+
+#include <utility>
+
+namespace vdbcage::view {
+
+template <class Value>
+void Session::note(History<Value>& history, bool& hasDragged, const Value& before, const Value& after,
+                   const Command& command)
+{
+    if (before == after) return;
+    if (isDragging_ && hasDragged) {
+        history.rename(toText(command));
+    } else {
+        history.changed(before, toText(command));
+        hasDragged = isDragging_;
+    }
+}
+
+void Session::execute(const Command& command)
+{
+    State changed = applied(state_, command);
+    if (changesDocument(command)) {
+        note(documents_, hasDraggedDocument_, state_.document, changed.document, command);
+    } else {
+        note(views_, hasDraggedView_, state_.view, changed.view, command);
+    }
+    state_ = std::move(changed);
+}
+
+void Session::beginDrag()
+{
+    isDragging_ = true;
+    hasDraggedDocument_ = hasDraggedView_ = false;
+}
+
+void Session::undo()
+{
+    hasDraggedDocument_ = false; // what a drag goes on with is another step
+    if (documents_.canUndo()) state_.document = documents_.undo(state_.document);
+}
+
+void Session::redo()
+{
+    hasDraggedDocument_ = false; // what a drag goes on with is another step
+    if (documents_.canRedo()) state_.document = documents_.redo(state_.document);
+}
+
+void Session::undoView()
+{
+    hasDraggedView_ = false; // what a drag goes on with is another step
+    if (views_.canUndo()) state_.view = views_.undo(state_.view);
+}
+
+void Session::redoView()
+{
+    hasDraggedView_ = false; // what a drag goes on with is another step
+    if (views_.canRedo()) state_.view = views_.redo(state_.view);
+}
+
+void Session::restart(State state)
+{
+    *this = Session();
+    state_ = std::move(state);
+}
+
+} // namespace vdbcage::view

@@ -1,0 +1,87 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <tools/view/state/command.h>
+
+namespace vdbcage::view {
+
+/// A value with its past and future, without limit.
+template <class Value>
+class History {
+public:
+    bool canUndo() const { return !past_.empty(); }
+    bool canRedo() const { return !future_.empty(); }
+    /// What the change is called that would be undone, or redone. \pre canUndo(), canRedo()
+    const std::string& undone() const { return past_.back().change; }
+    const std::string& redone() const { return future_.back().change; }
+    /// Steps that can be undone.
+    std::size_t depth() const { return past_.size(); }
+
+    /// Notes that `before` was changed. What was undone can no longer be redone.
+    void changed(const Value& before, const std::string& change)
+    {
+        past_.push_back({before, change});
+        future_.clear();
+    }
+    /// Gives the last step another name. \pre canUndo()
+    void rename(const std::string& change) { past_.back().change = change; }
+
+    /// The value before the last change. \pre canUndo()
+    Value undo(const Value& now) { return step(past_, future_, now); }
+    Value redo(const Value& now) { return step(future_, past_, now); }
+
+private:
+    struct Step {
+        Value value;
+        std::string change;
+    };
+    static Value step(std::vector<Step>& from, std::vector<Step>& to, const Value& now)
+    {
+        Step step = std::move(from.back());
+        from.pop_back();
+        to.push_back({now, std::move(step.change)});
+        return std::move(step.value);
+    }
+
+    std::vector<Step> past_, future_;
+};
+
+/// The state with two histories: of the document, which undo and redo are about, and of the view.
+class Session {
+public:
+    const State& state() const { return state_; }
+
+    /// Applies the command. One that changes nothing leaves no step.
+    /// \throw InputError, IoError; all is as it was
+    void execute(const Command& command);
+
+    /// Between these the commands of each part make one step, as a drag of the mouse does.
+    void beginDrag();
+    void endDrag() { isDragging_ = false; }
+    bool isDragging() const { return isDragging_; }
+
+    const History<Document>& documents() const { return documents_; }
+    const History<ViewState>& views() const { return views_; }
+    /// Nothing happens where there is nothing to undo, or redo.
+    void undo();
+    void redo();
+    void undoView();
+    void redoView();
+
+    /// Takes another state, such as a scene's, and forgets the past.
+    void restart(State state);
+
+private:
+    template <class Value>
+    void note(History<Value>& history, bool& hasDragged, const Value& before, const Value& after,
+              const Command& command);
+
+    State state_;
+    History<Document> documents_;
+    History<ViewState> views_;
+    bool isDragging_ = false, hasDraggedDocument_ = false, hasDraggedView_ = false;
+};
+
+} // namespace vdbcage::view

@@ -1,0 +1,104 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include <tools/draw/camera.h>
+#include <tools/draw/colour.h>
+#include <tools/view/state/opened_mesh.h>
+#include <vdbcage/pipeline/options.h>
+
+/// Everything that a user of the window can change. Values: a copy is a snapshot, and costs a few hundred bytes, since
+/// what is large never changes and is shared.
+namespace vdbcage::view {
+
+/// What one works on: undo and redo are about this.
+struct Document {
+    OpenedMeshPtr model; ///< null: none
+    CageOptions options;
+    OpenedMeshPtr cage; ///< a cage that was opened; null: it is made, by the options
+};
+
+/// What can be seen, each in a layer of its own.
+enum class LayerId : std::uint8_t {
+    model,
+    solid,       ///< the exposed faces of the model's voxels
+    solidNodes,  ///< boxes of the nodes of their tree
+    closed,      ///< the exposed faces of the closing's voxels
+    closedNodes, ///< boxes of the nodes of its tree
+    surface,     ///< what the cage was made from
+    smoothed,    ///< the surface smoothed, where bounding is off
+    decimated,   ///< the cage before its triangles were merged and the last touches
+    cage
+};
+constexpr std::size_t layerCount = 9;
+
+/// Its name in commands, such as "solid-nodes".
+const char* nameOf(LayerId layer);
+
+struct LayerLook {
+    bool shown = false;
+    double opacity = 1;    ///< of faces, in [0, 1]
+    draw::Colour colour{}; ///< of faces; of the cage, of lines
+};
+
+/// By what the cage's faces are coloured. Faces that are in contact with the model or bad otherwise are red in each.
+enum class CageColours : std::uint8_t {
+    plain,
+    kinds,   ///< quads and triangles are told apart
+    distance ///< from the cage to the model
+};
+
+/// A plane that cuts off where normal . p > offset, in world space.
+struct SectionPlane {
+    openvdb::Vec3d normal{1, 0, 0}; ///< not zero
+    double offset = 0;
+};
+
+/// How one looks at it. Undo is not about this; a history of its own is.
+struct ViewState {
+    draw::Camera camera; ///< in drawing coordinates of the model's frame
+    std::array<LayerLook, layerCount> layers = defaultLayers();
+    CageColours cageColours = CageColours::kinds;
+    std::optional<SectionPlane> section;
+    bool ground = true;                      ///< a grid below the model
+    bool axes = true;                        ///< small ones in a corner
+    bool turntable = false;                  ///< it turns by itself
+    std::vector<openvdb::Index32> selection; ///< faces of the cage, sorted, triangles first
+
+    const LayerLook& layer(LayerId id) const { return layers[static_cast<std::size_t>(id)]; }
+    LayerLook& layer(LayerId id) { return layers[static_cast<std::size_t>(id)]; }
+
+    static std::array<LayerLook, layerCount> defaultLayers();
+};
+
+struct State {
+    Document document;
+    ViewState view;
+};
+
+/// Values are compared as their text is; models by being the same object, since one that was read anew may differ.
+bool areEqual(const CageOptions& a, const CageOptions& b);
+bool operator==(const Document& a, const Document& b);
+bool operator==(const ViewState& a, const ViewState& b);
+inline bool operator!=(const Document& a, const Document& b)
+{
+    return !(a == b);
+}
+inline bool operator!=(const ViewState& a, const ViewState& b)
+{
+    return !(a == b);
+}
+inline bool operator==(const State& a, const State& b)
+{
+    return a.document == b.document && a.view == b.view;
+}
+inline bool operator!=(const State& a, const State& b)
+{
+    return !(a == b);
+}
+
+} // namespace vdbcage::view
