@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include <tools/view/state/intermediates.h>
 #include <tools/view/state/state.h>
 #include <vdbcage/core/interrupter.h>
 #include <vdbcage/pipeline/pipeline.h>
@@ -25,20 +26,15 @@ inline bool operator!=(const Order& a, const Order& b)
 /// The same with least effort: what is shown until the cage itself is there. Of an opened cage: itself.
 Order previewOf(Order order);
 
-/// What a cage was made through.
-struct Intermediates {
-    openvdb::MaskGrid::ConstPtr solid, closed;
-    Mesh surface, smoothed, decimated;
-};
-
 /// A cage with what it was made by. It never changes.
 struct CageResult {
     Order order;
     Mesh cage;
     CageReport report; ///< of an opened cage only its `check`
     std::vector<StageTime> stages;
-    double seconds = 0;                                 ///< wall clock
-    std::shared_ptr<const Intermediates> intermediates; ///< null if they were not asked for, or there are none
+    double seconds = 0; ///< wall clock
+    /// Null if they were not asked for. An opened cage has only the distances.
+    std::shared_ptr<const Intermediates> intermediates;
 };
 using CageResultPtr = std::shared_ptr<const CageResult>;
 

@@ -17,10 +17,27 @@ double secondsSince(Clock::time_point began)
     return std::chrono::duration<double>(Clock::now() - began).count();
 }
 
+/// The tree of the model's triangles, for distances.
+class ModelTree {
+public:
+    const detail::TriangleBvh& of(const OpenedMeshPtr& model, Interrupter& interrupter)
+    {
+        if (model != model_) {
+            tree_ = detail::TriangleBvh(model->mesh.points, triangulate(model->mesh), &interrupter);
+            model_ = model;
+        }
+        return tree_;
+    }
+
+private:
+    OpenedMeshPtr model_;
+    detail::TriangleBvh tree_;
+};
+
 /// A pipeline with the order that it has carried out last.
 class OrderedPipeline {
 public:
-    CageResultPtr make(const Job& job, Interrupter& interrupter)
+    CageResultPtr make(const Job& job, ModelTree& trees, Interrupter& interrupter)
     {
         const auto began = Clock::now();
         const Order& order = job.order;
@@ -31,7 +48,6 @@ public:
             pipeline_.emplace(order.model->mesh);
             model_ = order.model;
         }
-        // Intermediates may be asked for when the cage is made already.
         if (!done_ || done_->order != order) {
             pipeline_->run(order.options, &clock);
             CageResult result;
@@ -42,11 +58,12 @@ public:
             result.seconds = secondsSince(began);
             done_ = std::make_shared<const CageResult>(std::move(result));
         }
+        // They may be asked for when the cage is made already.
         if (job.intermediates && !done_->intermediates) {
+            const Stage stage(&interrupter, "layers");
             CageResult result = *done_;
             result.intermediates = std::make_shared<const Intermediates>(
-                Intermediates{pipeline_->solid(), pipeline_->closed(), pipeline_->surface(), pipeline_->smoothed(),
-                              pipeline_->decimated()});
+                intermediatesOf(*pipeline_, trees.of(order.model, interrupter), &interrupter));
             done_ = std::make_shared<const CageResult>(std::move(result));
         }
         return done_;
@@ -62,10 +79,10 @@ class PipelineMaker : public CageMaker {
 public:
     CageResultPtr make(const Job& job, Interrupter& interrupter) override
     {
-        if (job.order.cage) return check(job.order, interrupter);
+        if (job.order.cage) return check(job, interrupter);
         OrderedPipeline& pipeline = job.order == previewOf(job.order) ? preview_ : full_;
         try {
-            return pipeline.make(job, interrupter);
+            return pipeline.make(job, tree_, interrupter);
         } catch (const InputError& error) { // of the pipeline, which does not know the file
             const std::string text = error.what(), prefix = "model: ";
             if (text.compare(0, prefix.size(), prefix) != 0) throw;
@@ -74,8 +91,9 @@ public:
     }
 
 private:
-    CageResultPtr check(const Order& order, Interrupter& interrupter)
+    CageResultPtr check(const Job& job, Interrupter& interrupter)
     {
+        const Order& order = job.order;
         const auto began = Clock::now();
         StageClock clock(&interrupter);
         CageResult result;
@@ -91,12 +109,18 @@ private:
             const Stage stage(&clock, "certify");
             result.report.check = checker_->check(result.cage, {}, &clock);
         }
+        if (job.intermediates) {
+            Intermediates made;
+            made.distance = measureDistances(result.cage, tree_.of(order.model, interrupter));
+            result.intermediates = std::make_shared<const Intermediates>(std::move(made));
+        }
         result.stages = clock.stages();
         result.seconds = secondsSince(began);
         return std::make_shared<const CageResult>(std::move(result));
     }
 
     OrderedPipeline preview_, full_;
+    ModelTree tree_;
     OpenedMeshPtr checked_;
     std::optional<CageChecker> checker_;
 };

@@ -29,7 +29,10 @@ std::size_t bytesOf(const CageResult& result)
 {
     std::size_t bytes = bytesOf(result.cage) + 10000; // the rest of it, about
     if (const Intermediates* const inner = result.intermediates.get()) {
-        bytes += bytesOf(inner->surface) + bytesOf(inner->smoothed) + bytesOf(inner->decimated);
+        for (const Mesh* mesh : {&inner->solidFaces, &inner->closedFaces, &inner->solidNodes, &inner->closedNodes,
+                                 &inner->surface, &inner->smoothed, &inner->decimated, &inner->distance.mesh}) {
+            bytes += bytesOf(*mesh);
+        }
     }
     return bytes;
 }
@@ -145,7 +148,7 @@ std::optional<Job> Planner::nextJob() const
     if (!wanted_ || !wanted_->model || isHalted_) return std::nullopt;
     const Order preview = previewOf(*wanted_);
     const CageResultPtr full = kept(*wanted_);
-    const bool hasFull = full && (full->intermediates || !intermediates_ || wanted_->cage);
+    const bool hasFull = full && (full->intermediates || !intermediates_);
     if (!full && (isDragging_ || !skipsPreview_) && preview != *wanted_ && !kept(preview)) {
         return Job{Job::Kind::preview, preview, false};
     }
