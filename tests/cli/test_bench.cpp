@@ -132,8 +132,13 @@ BOOST_AUTO_TEST_CASE(closings_beside_alternatives)
 
 BOOST_AUTO_TEST_CASE(voxelizers_side_by_side)
 {
-    const auto lines = linesOf({"voxelize", bishop, "--resolutions", "9,16", "--repeat", "2", "--threads", "1",
-                                "--voxelizers", "gl,gl-raster,cgal,meshToVolume"});
+    std::vector<std::string> names{"gl", "gl-raster", "meshToVolume"};
+    if (VDBCAGE_HAS_GPL_PART) names.emplace_back("cgal");
+    std::string list;
+    for (const std::string& name : names) list += (list.empty() ? "" : ",") + name;
+    const auto lines =
+        linesOf({"voxelize", bishop, "--resolutions", "9,16", "--repeat", "2", "--threads", "1", "--voxelizers", list});
+    names.emplace_back("cpu");
     BOOST_REQUIRE(lines.size() == 3U);
     BOOST_TEST(lines[0]["device"].get<std::string>().find("OpenGL 4.") != std::string::npos);
     BOOST_TEST(lines[0]["context_seconds"] > 0);
@@ -142,11 +147,11 @@ BOOST_AUTO_TEST_CASE(voxelizers_side_by_side)
         BOOST_TEST(lines[i]["resolution"] == (i == 1 ? 9 : 16));
         BOOST_TEST(lines[i]["threads"] == 1);
         BOOST_TEST(lines[i]["cpu"]["wall_ratio"] == 1);
-        for (const char* name : {"cpu", "gl", "gl-raster", "cgal", "meshToVolume"}) {
+        for (const std::string& name : names) {
             BOOST_TEST(lines[i][name]["wall_ratio"] > 0);
             BOOST_TEST(lines[i][name]["cpu_ratio"] >= 0);
+            if (name != "meshToVolume") BOOST_TEST(lines[i][name]["different_voxels"] == 0);
         }
-        for (const char* name : {"cpu", "gl", "gl-raster", "cgal"}) BOOST_TEST(lines[i][name]["different_voxels"] == 0);
         BOOST_TEST(!lines[i]["meshToVolume"].contains("different_voxels"));
     }
 }
