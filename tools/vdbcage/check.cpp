@@ -1,6 +1,7 @@
 #include <iostream>
 #include <optional>
 
+#include <tools/report/report.h>
 #include <vdbcage/check/check.h>
 #include <vdbcage/core/version.h>
 #include <vdbcage/mesh/mesh_io.h>
@@ -8,7 +9,6 @@
 #include "commands.h"
 #include "interrupt.h"
 #include "outputs.h"
-#include "report.h"
 
 namespace vdbcage::tool {
 

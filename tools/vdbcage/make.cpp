@@ -1,25 +1,20 @@
-#include <algorithm>
-#include <array>
 #include <chrono>
 #include <iomanip>
 #include <iostream>
-#include <map>
 #include <optional>
 
+#include <tools/report/report.h>
+#include <tools/report/stages.h>
 #include <vdbcage/core/error.h>
 #include <vdbcage/core/version.h>
 #include <vdbcage/mesh/io/formats.h>
 #include <vdbcage/mesh/mesh_io.h>
 #include <vdbcage/pipeline/pipeline.h>
-#include <vdbcage/volume/boundary_voxels.h>
-#include <vdbcage/volume/morphology.h>
-#include <vdbcage/volume/vdb_io.h>
 
 #include "commands.h"
 #include "drawing.h"
 #include "interrupt.h"
 #include "outputs.h"
-#include "report.h"
 
 namespace vdbcage::tool {
 
@@ -32,10 +27,6 @@ struct MakeArguments {
     CageOptions options;
     bool quiet = false, verbose = false;
 };
-
-/// The names of the files that --stages leaves, without their extensions.
-constexpr std::array<const char*, 4> volumeStages{"solid", "dilated", "closed", "contour"};
-constexpr std::array<const char*, 3> surfaceStages{"surface", "smoothed", "decimated"};
 
 /// Refuses what cannot work before any work is done: formats, folders, permissions, one file under two names.
 void announce(const MakeArguments& arguments, Outputs& outputs)
@@ -50,8 +41,7 @@ void announce(const MakeArguments& arguments, Outputs& outputs)
     if (!arguments.report.empty()) outputs.writes(arguments.report);
     if (!arguments.picture.empty()) outputs.writes(arguments.picture);
     if (arguments.stages.empty()) return;
-    for (const char* stage : volumeStages) outputs.writes(arguments.stages / (std::string(stage) + ".vdb"));
-    for (const char* stage : surfaceStages) outputs.writes(arguments.stages / (std::string(stage) + ".obj"));
+    for (const fs::path& file : stageFiles(arguments.stages)) outputs.writes(file);
 }
 
 /// Runs the pipeline; an objection to the model names its file.
@@ -70,30 +60,11 @@ Pipeline makePipeline(Mesh model, const MakeArguments& arguments, Interrupter& i
 
 void addStages(const Pipeline& pipeline, const MakeArguments& arguments, Interrupter* interrupter, Outputs& outputs)
 {
-    std::map<std::string, std::string> metadata{{"source", arguments.model.filename().string()}};
-    for (const auto& option : optionValues(arguments.options)) {
-        std::string key = option.first;
-        std::replace(key.begin(), key.end(), '-', '_');
-        metadata["option_" + key] = option.second;
-    }
-    const double radius = pipeline.report().closeRadius * pipeline.report().resolution;
-    const auto dilated = arguments.options.element == StructuringElement::cube
-                             ? dilate(*pipeline.solid(), radius, StructuringElement::cube, interrupter)
-                             : dilate(*pipeline.solid(), radius, arguments.options.scale, interrupter);
-    const auto border = contour(*pipeline.closed(), interrupter);
-    const std::array<const openvdb::MaskGrid*, volumeStages.size()> volumes{pipeline.solid().get(), dilated.get(),
-                                                                            pipeline.closed().get(), border.get()};
-    const std::array<const Mesh*, surfaceStages.size()> surfaces{&pipeline.surface(), &pipeline.smoothed(),
-                                                                 &pipeline.decimated()};
-    for (std::size_t i = 0; i < volumes.size(); ++i) {
-        metadata["stage"] = volumeStages[i];
-        const fs::path path = arguments.stages / (std::string(volumeStages[i]) + ".vdb");
-        outputs.add(path, [&](std::ostream& out) { writeVdb(*volumes[i], out, path, metadata); });
-    }
-    for (std::size_t i = 0; i < surfaces.size(); ++i) {
-        const fs::path path = arguments.stages / (std::string(surfaceStages[i]) + ".obj");
-        outputs.add(path, [&](std::ostream& out) { writeMesh(*surfaces[i], out, path); });
-    }
+    writeStages(
+        {arguments.model.filename().string(), arguments.options, pipeline.report(), *pipeline.solid(),
+         *pipeline.closed(), pipeline.surface(), pipeline.smoothed(), pipeline.decimated()},
+        arguments.stages, [&](const fs::path& path, const FileWriter& write) { outputs.add(path, write); },
+        interrupter);
 }
 
 std::string summaryOf(const MakeArguments& arguments, const ReadSummary& summary, const Pipeline& pipeline,
@@ -109,35 +80,7 @@ std::string summaryOf(const MakeArguments& arguments, const ReadSummary& summary
             : check.valid()  ? ", NOT bounding"
                              : ", NOT a valid cage")
         << ", mean distance " << 100 * check.meanDistance << " % of the longest side, " << seconds << " s\n";
-    if (report.start == CageStart::hull) {
-        out << "  shrunk from the convex hull: the closing has too many parts or handles for so few faces\n";
-    } else if (report.start == CageStart::box) {
-        out << "  this is the model's bounding box: nothing tighter with so few faces was certified\n";
-    }
-    if (report.symmetry) {
-        const SymmetryPlane& plane = report.symmetry->plane;
-        const bool isFound = arguments.options.symmetry == CageSymmetry::automatic;
-        std::ostringstream offset; // with as many digits as it needs
-        offset << plane.offset;
-        out << "  symmetric in the plane "
-            << "xyz"[plane.axis] << " = " << offset.str() << (isFound ? ", found" : ", asked for")
-            << "; the model is, within " << 100 * report.symmetry->deviation << " % of its longest side\n";
-    } else if (!report.noSymmetry.empty()) {
-        out << "  not symmetric: " << report.noSymmetry << '\n';
-    }
-    if (!report.voxels.fallback.empty()) {
-        out << "  voxels by the CPU: " << printable(report.voxels.fallback) << '\n';
-    }
-    if (report.cavitiesFilled > 0) {
-        out << "  " << report.cavitiesFilled << " hollows inside the closing were filled\n";
-    }
-    const bool isSameThroughout = report.solidParts == report.parts && report.parts == check.components &&
-                                  report.solidHandles == report.handles && report.handles == check.genus;
-    if (report.start == CageStart::closing && !isSameThroughout) {
-        out << "  parts and handles: " << report.solidParts << " and " << report.solidHandles << " of the solid, "
-            << report.parts << " and " << report.handles << " of the closing, " << check.components << " and "
-            << check.genus << " of the cage\n";
-    }
+    for (const std::string& remark : remarks(report, arguments.options)) out << "  " << remark << '\n';
     out << describe(summary);
     if (!arguments.verbose) return out.str();
     for (const StageTime& stage : stages) {
@@ -174,15 +117,8 @@ std::string makeFiles(const MakeArguments& arguments, Outputs& outputs, Interrup
     writing.reset();
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
     if (!arguments.report.empty()) {
-        Json report{{"vdbcage", VDBCAGE_VERSION},
-                    {"model", modelReport},
-                    {"cage", arguments.cage.string()},
-                    {"options", toJson(arguments.options)},
-                    {"seconds", seconds},
-                    {"stages", toJson(clock.stages())},
-                    {"memory_peak_mib", peakMemory()},
-                    {"result", toJson(pipeline.report())},
-                    {"check", toJson(pipeline.report().check)}};
+        const Json report = toJson(
+            CageMade{modelReport, arguments.cage, arguments.options, seconds, clock.stages(), pipeline.report()});
         outputs.add(arguments.report, [&](std::ostream& out) { out << toText(report); });
     }
     return summaryOf(arguments, file.summary, pipeline, clock.stages(), seconds);

@@ -2,6 +2,7 @@
 #include <optional>
 #include <sstream>
 
+#include <tools/report/report.h>
 #include <vdbcage/check/check.h>
 #include <vdbcage/core/error.h>
 #include <vdbcage/core/version.h>
@@ -12,7 +13,6 @@
 #include "commands.h"
 #include "interrupt.h"
 #include "outputs.h"
-#include "report.h"
 
 namespace vdbcage::tool {
 

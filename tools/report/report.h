@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 #include <vdbcage/check/check.h>
@@ -13,12 +14,23 @@ namespace vdbcage::tool {
 
 using Json = nlohmann::ordered_json;
 
-/// JSON forms of what the commands report; lengths are fractions of the model's longest side.
+/// JSON forms of what is reported; lengths are fractions of the model's longest side.
 Json toJson(const CageCheck& check);
 Json toJson(const CageReport& report);
 Json toJson(const MeshFile& file, const std::filesystem::path& path);
 Json toJson(const std::vector<StageTime>& stages);
 Json toJson(const CageOptions& options);
+
+/// A cage that was made, with all that `make --report` tells.
+struct CageMade {
+    Json model;                 ///< toJson of its file
+    std::filesystem::path cage; ///< where it is, or will be, written
+    const CageOptions& options;
+    double seconds = 0; ///< wall clock
+    const std::vector<StageTime>& stages;
+    const CageReport& report;
+};
+Json toJson(const CageMade& made);
 
 /// Largest amount of memory this process has held, in MiB.
 double peakMemory();
@@ -28,6 +40,9 @@ std::string toText(const Json& report);
 
 /// The verdict in words, one line a finding, for a person.
 std::string describe(const CageCheck& check);
+/// How the cage came about, where that is worth telling: what it was shrunk from and why, its symmetry, what made its
+/// voxels, parts and handles. One line each, without a line break.
+std::vector<std::string> remarks(const CageReport& report, const CageOptions& options);
 /// A line that says which faces of the model are only certified as they are split here; empty if none.
 std::string describe(const ReadSummary& summary);
 

@@ -1,8 +1,13 @@
-#include "report.h"
+#include <tools/report/report.h>
 
 #include <cstdio>
+#include <iomanip>
+#include <sstream>
 
 #include <sys/resource.h>
+
+#include <vdbcage/core/detail/printable.h>
+#include <vdbcage/core/version.h>
 
 namespace vdbcage::tool {
 
@@ -108,6 +113,13 @@ Json toJson(const CageOptions& options)
     return object;
 }
 
+Json toJson(const CageMade& made)
+{
+    return {{"vdbcage", VDBCAGE_VERSION},      {"model", made.model},           {"cage", made.cage.string()},
+            {"options", toJson(made.options)}, {"seconds", made.seconds},       {"stages", toJson(made.stages)},
+            {"memory_peak_mib", peakMemory()}, {"result", toJson(made.report)}, {"check", toJson(made.report.check)}};
+}
+
 double peakMemory()
 {
     rusage usage{};
@@ -119,6 +131,45 @@ std::string toText(const Json& report)
 {
     // A path is any bytes; JSON is UTF-8: what is not gets the replacement character.
     return report.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
+}
+
+std::vector<std::string> remarks(const CageReport& report, const CageOptions& options)
+{
+    std::vector<std::string> lines;
+    if (report.start == CageStart::hull) {
+        lines.emplace_back("shrunk from the convex hull: the closing has too many parts or handles for so few faces");
+    } else if (report.start == CageStart::box) {
+        lines.emplace_back("this is the model's bounding box: nothing tighter with so few faces was certified");
+    }
+    if (report.symmetry) {
+        const SymmetryPlane& plane = report.symmetry->plane;
+        const bool isFound = options.symmetry == CageSymmetry::automatic;
+        std::ostringstream out; // the offset with as many digits as it needs
+        out << "symmetric in the plane "
+            << "xyz"[plane.axis] << " = " << plane.offset << (isFound ? ", found" : ", asked for")
+            << "; the model is, within " << std::fixed << std::setprecision(2) << 100 * report.symmetry->deviation
+            << " % of its longest side";
+        lines.push_back(out.str());
+    } else if (!report.noSymmetry.empty()) {
+        lines.push_back("not symmetric: " + report.noSymmetry);
+    }
+    if (!report.voxels.fallback.empty()) {
+        lines.push_back("voxels by the CPU: " + detail::printable(report.voxels.fallback));
+    }
+    if (report.cavitiesFilled > 0) {
+        lines.push_back(std::to_string(report.cavitiesFilled) + " hollows inside the closing were filled");
+    }
+    const CageCheck& check = report.check;
+    const bool isSameThroughout = report.solidParts == report.parts && report.parts == check.components &&
+                                  report.solidHandles == report.handles && report.handles == check.genus;
+    if (report.start == CageStart::closing && !isSameThroughout) {
+        std::ostringstream out;
+        out << "parts and handles: " << report.solidParts << " and " << report.solidHandles << " of the solid, "
+            << report.parts << " and " << report.handles << " of the closing, " << check.components << " and "
+            << check.genus << " of the cage";
+        lines.push_back(out.str());
+    }
+    return lines;
 }
 
 std::string describe(const ReadSummary& summary)

@@ -1,0 +1,96 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include <tools/draw/canvas.h>
+#include <tools/draw/pick.h>
+#include <tools/draw/renderer.h>
+#include <tools/view/state/cage_result.h>
+
+namespace vdbcage::view {
+
+/// The picture of model, cage and what is between them. While something moves a frame has one sample a pixel and, where
+/// a program on the CPU draws, a stand-in for a large model. When nothing moves, frames shifted by parts of a pixel are
+/// averaged, one a call. What is seen in the end does not depend on how it came about.
+///
+/// Its context must be current whenever it is used, and must outlive it.
+class Viewport {
+public:
+    /// `isSoftware`: a program on the CPU draws. \throw DeviceError
+    Viewport(const gl::Api& api, bool isSoftware);
+
+    /// \pre width > 0, height > 0 \throw DeviceError
+    void resize(int width, int height);
+
+    /// Takes over what is to be seen. Only what is new is made and uploaded. `cage` may be null; `isStale` fades it.
+    /// Returns whether anything changed. \throw DeviceError
+    bool show(const OpenedMeshPtr& model, const CageResultPtr& cage, bool isStale, const ViewState& view);
+
+    /// Draws a frame, if there is any left to draw. \throw DeviceError
+    void draw(bool isMoving);
+    /// Nothing is left to draw until something changes.
+    bool isRefined() const { return frames_ == shifts; }
+
+    /// Copies what was drawn to `target`, its lower left corner to (left, bottom).
+    void copyTo(GLuint framebuffer, int left, int bottom) const;
+
+    /// In which it all is drawn: that of the model.
+    const draw::Frame& frame() const { return frame_; }
+    /// As of the last draw().
+    const draw::Eye& eye() const { return eye_; }
+    /// Distance between two lines of the ground grid, in world space: 1, 2 or 5 times a power of ten.
+    double gridStep() const { return gridStep_; }
+    /// Of the distances that colours show now, world units; 0 if they show none.
+    double largestDistance() const { return largestDistance_; }
+
+    /// The camera of `view` moved to see all that is shown, or the selected faces.
+    draw::Camera fitted(const ViewState& view, bool selection) const;
+    /// What is seen at (x, y) of the panel, [-1, 1] both ways, y up.
+    std::optional<openvdb::Vec3d> pointAt(double x, double y) const;
+    /// The face of the cage there, unless the model hides it.
+    std::optional<openvdb::Index32> cageFaceAt(double x, double y) const;
+    /// The middle of the selected faces; none if nothing is selected.
+    std::optional<openvdb::Vec3d> selectionCentre(const ViewState& view) const;
+
+private:
+    /// A shape and what it was made of.
+    struct Slot {
+        std::shared_ptr<const void> source; ///< kept, so that no other thing has its address
+        std::optional<draw::Shape> shape;
+    };
+
+    void setFrame(const OpenedMeshPtr& model);
+    void fill(Slot& slot, const std::shared_ptr<const void>& source, const Mesh* mesh, double creaseDegrees);
+    void fillDistances(const CageResultPtr& cage, bool isWanted);
+    void fillGround(const OpenedMeshPtr& model, draw::UpAxis up);
+    void markFaces(const CageResult& cage, const ViewState& view);
+    std::vector<draw::Layer> layers(const ViewState& view, bool standIn) const;
+    draw::PointSets seen(const ViewState& view) const;
+    std::optional<draw::Section> section() const;
+    draw::Ray rayAt(double x, double y) const;
+
+    static constexpr int shifts = 16; ///< frames that are averaged
+
+    const gl::Api* api_;
+    bool isSoftware_;
+    draw::Renderer renderer_;
+    int width_ = 0, height_ = 0;
+    std::optional<draw::Canvas> canvas_;
+    gl::Texture average_;
+    gl::Framebuffer averageFramebuffer_;
+    std::vector<std::uint16_t> sums_; ///< of each channel of the frames so far
+    int frames_ = 0;
+
+    draw::Frame frame_;
+    draw::Eye eye_;
+    double gridStep_ = 0, largestDistance_ = 0;
+    ViewState view_; ///< what is shown now
+    bool isStale_ = false;
+    std::array<Slot, layerCount> slots_;
+    Slot standIn_, distances_, ground_;
+};
+
+} // namespace vdbcage::view
