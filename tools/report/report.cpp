@@ -83,9 +83,8 @@ Json toJson(const CageReport& report)
             {"closed_voxels", report.closedVoxels}};
 }
 
-Json toJson(const MeshFile& file, const std::filesystem::path& path)
+Json toJson(const Mesh& mesh, const ReadSummary& summary, const std::filesystem::path& path)
 {
-    const auto& [mesh, summary] = file;
     return {{"file", path.string()},
             {"points", mesh.points.size()},
             {"triangles", mesh.triangles.size()},

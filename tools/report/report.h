@@ -17,7 +17,7 @@ using Json = nlohmann::ordered_json;
 /// JSON forms of what is reported; lengths are fractions of the model's longest side.
 Json toJson(const CageCheck& check);
 Json toJson(const CageReport& report);
-Json toJson(const MeshFile& file, const std::filesystem::path& path);
+Json toJson(const Mesh& mesh, const ReadSummary& summary, const std::filesystem::path& path);
 Json toJson(const std::vector<StageTime>& stages);
 Json toJson(const CageOptions& options);
 

@@ -37,7 +37,7 @@ int runCheck(std::vector<std::string> words)
     if (!reportPath.empty()) {
         const Json report{{"vdbcage", VDBCAGE_VERSION},
                           {"cage", cagePath.string()},
-                          {"model", toJson(file, modelPath)},
+                          {"model", toJson(file.mesh, file.summary, modelPath)},
                           {"check", toJson(check)}};
         outputs.add(reportPath, [&](std::ostream& out) { out << toText(report); });
     }

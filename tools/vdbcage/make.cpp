@@ -102,7 +102,7 @@ std::string makeFiles(const MakeArguments& arguments, Outputs& outputs, Interrup
 
     std::optional<Stage> reading(std::in_place, &clock, "read");
     MeshFile file = readMeshFile(arguments.model);
-    const Json modelReport = toJson(file, arguments.model);
+    const Json modelReport = toJson(file.mesh, file.summary, arguments.model);
     reading.reset();
 
     Pipeline pipeline = makePipeline(std::move(file.mesh), arguments, clock);

@@ -90,15 +90,23 @@ const Mesh* meshOf(LayerId id, const OpenedMeshPtr& model, const CageResultPtr& 
     const Intermediates* const inner = cage->intermediates.get();
     if (!inner) return nullptr;
     switch (id) {
-    case LayerId::solid: return &inner->solidFaces;
-    case LayerId::solidNodes: return &inner->solidNodes;
-    case LayerId::closed: return &inner->closedFaces;
-    case LayerId::closedNodes: return &inner->closedNodes;
-    case LayerId::surface: return &inner->surface;
-    case LayerId::smoothed: return &inner->smoothed;
-    case LayerId::decimated: return &inner->decimated;
+    case LayerId::solid:
+        return &inner->solidFaces;
+    case LayerId::solidNodes:
+        return &inner->solidNodes;
+    case LayerId::closed:
+        return &inner->closedFaces;
+    case LayerId::closedNodes:
+        return &inner->closedNodes;
+    case LayerId::surface:
+        return &inner->surface;
+    case LayerId::smoothed:
+        return &inner->smoothed;
+    case LayerId::decimated:
+        return &inner->decimated;
     case LayerId::model:
-    case LayerId::cage: break;
+    case LayerId::cage:
+        break;
     }
     return nullptr;
 }
@@ -323,12 +331,24 @@ void Viewport::draw(bool isMoving)
     if (frames_ == 0) std::fill(sums_.begin(), sums_.end(), std::uint16_t(0));
     for (std::size_t i = 0; i < pixels.size(); ++i) sums_[i] = static_cast<std::uint16_t>(sums_[i] + pixels[i]);
     ++frames_;
-    std::vector<std::uint8_t> means(pixels.size());
-    for (std::size_t i = 0; i < means.size(); ++i) {
-        means[i] = static_cast<std::uint8_t>((sums_[i] + frames_ / 2) / frames_);
+    means_.resize(pixels.size());
+    for (std::size_t i = 0; i < means_.size(); ++i) {
+        means_[i] = static_cast<std::uint8_t>((sums_[i] + frames_ / 2) / frames_);
     }
     api_->PixelStorei(GL_UNPACK_ALIGNMENT, 1);
-    api_->TextureSubImage2D(average_.name(), 0, 0, 0, width_, height_, GL_RGBA, GL_UNSIGNED_BYTE, means.data());
+    api_->TextureSubImage2D(average_.name(), 0, 0, 0, width_, height_, GL_RGBA, GL_UNSIGNED_BYTE, means_.data());
+}
+
+draw::Picture Viewport::picture()
+{
+    while (!isRefined()) draw(false);
+    return draw::fromPixels(means_, width_, height_, false);
+}
+
+std::size_t Viewport::edgeCount(LayerId layer) const
+{
+    const Slot& slot = slots_[static_cast<std::size_t>(layer)];
+    return slot.shape ? slot.shape->geometry().edges().size() : 0;
 }
 
 void Viewport::copyTo(GLuint framebuffer, int left, int bottom) const
@@ -349,7 +369,8 @@ draw::Camera Viewport::fitted(const ViewState& view, bool selection) const
         const draw::Geometry& geometry = cage.shape->geometry();
         const std::size_t plain = geometry.triangleCount();
         for (const openvdb::Index32 face : view.selection) {
-            for (const std::size_t i : {std::size_t{face}, plain + 2 * (face - plain), plain + 2 * (face - plain) + 1}) {
+            for (const std::size_t i :
+                 {std::size_t{face}, plain + 2 * (face - plain), plain + 2 * (face - plain) + 1}) {
                 if ((i < plain) != (face < plain) || i >= geometry.triangles().size()) continue;
                 for (const auto vertex : geometry.triangles()[i]) selected.push_back(geometry.positions()[vertex]);
             }

@@ -7,6 +7,7 @@
 
 #include <tools/draw/canvas.h>
 #include <tools/draw/pick.h>
+#include <tools/draw/picture.h>
 #include <tools/draw/renderer.h>
 #include <tools/view/state/cage_result.h>
 
@@ -34,6 +35,9 @@ public:
     /// Nothing is left to draw until something changes.
     bool isRefined() const { return frames_ == shifts; }
 
+    /// What is seen when nothing moves, without what others draw over it. \throw DeviceError
+    draw::Picture picture();
+
     /// Copies what was drawn to `target`, its lower left corner to (left, bottom).
     void copyTo(GLuint framebuffer, int left, int bottom) const;
 
@@ -45,6 +49,9 @@ public:
     double gridStep() const { return gridStep_; }
     /// Of the distances that colours show now, world units; 0 if they show none.
     double largestDistance() const { return largestDistance_; }
+
+    /// Edges of what a layer shows, 0 if it shows nothing.
+    std::size_t edgeCount(LayerId layer) const;
 
     /// The camera of `view` moved to see all that is shown, or the selected faces.
     draw::Camera fitted(const ViewState& view, bool selection) const;
@@ -82,6 +89,7 @@ private:
     gl::Texture average_;
     gl::Framebuffer averageFramebuffer_;
     std::vector<std::uint16_t> sums_; ///< of each channel of the frames so far
+    std::vector<std::uint8_t> means_;
     int frames_ = 0;
 
     draw::Frame frame_;

@@ -70,6 +70,9 @@ public:
     void undoView();
     void redoView();
 
+    /// Another view without a step, as when it turns by itself.
+    void replaceView(const ViewState& view) { state_.view = view; }
+
     /// Takes another state, such as a scene's, and forgets the past.
     void restart(State state);
 

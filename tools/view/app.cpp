@@ -1,0 +1,956 @@
+#include <tools/view/app.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <functional>
+#include <map>
+#include <system_error>
+
+#include <tools/report/report.h>
+#include <tools/report/stages.h>
+#include <tools/view/state/folder.h>
+#include <tools/view/state/preset.h>
+#include <tools/view/state/scene.h>
+#include <tools/view/state/words.h>
+#include <tools/view/viewport.h>
+#include <tools/view/widget_renderer.h>
+#include <vdbcage/core/detail/atomic_file.h>
+#include <vdbcage/core/detail/number_text.h>
+#include <vdbcage/core/error.h>
+
+namespace vdbcage::view {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+using Words = std::vector<std::string>;
+using openvdb::Vec3d;
+
+constexpr double degreesPerPixel = 0.4, factorPerNotch = 1.15, turntableDegreesPerSecond = 24;
+/// A press that moves less is a click; pixels on an ordinary screen.
+constexpr double clickRadius = 3;
+
+struct Verb {
+    const char* name;
+    const char* arguments;
+    std::size_t least, most;
+    const char* help;
+    /// The line is not recorded: it only opens something, or other lines follow from it.
+    bool isOfWindow;
+};
+
+constexpr std::array<Verb, 28> verbs{{
+    {"undo", "", 0, 0, "takes back the last change of options or files", false},
+    {"redo", "", 0, 0, "does again what was taken back", false},
+    {"undo-view", "", 0, 0, "takes back the last change of the view", false},
+    {"redo-view", "", 0, 0, "does it again", false},
+    {"make", "", 0, 0, "makes the cage that was cancelled or failed", false},
+    {"cancel", "", 0, 0, "closes what is open, or stops the making of a cage", false},
+    {"more", "", 0, 0, "a twentieth more faces", true},
+    {"fewer", "", 0, 0, "a twentieth fewer faces", true},
+    {"toggle", "LAYER|ground|axes|turntable", 1, 1, "shows what is hidden and hides what is shown", true},
+    {"frame", "all|selected", 1, 1, "moves the view so that all is seen", true},
+    {"look", "front|back|left|right|top|bottom", 1, 1, "looks from there", true},
+    {"projection", "perspective|orthographic|toggle", 1, 1, "how what is far away looks", true},
+    {"up", "y|z|toggle", 1, 1, "which axis points up", true},
+    {"save-cage", "FILE", 1, 1, "writes the cage (.obj .off .ply .stl)", false},
+    {"save-stages", "FOLDER", 1, 1, "writes every stage (.vdb, .obj)", false},
+    {"save-report", "FILE.json", 1, 1, "writes options, times, memory and verdict", false},
+    {"save-options", "FILE", 1, 1, "writes the options, for `preset FILE`", false},
+    {"save-scene", "FILE.json", 1, 1, "writes options, view and names of files, and the cage beside it", false},
+    {"save-picture", "FILE.png", 1, 1, "writes what is seen, without the panels", false},
+    {"open-scene", "FILE.json", 1, 1, "opens what save-scene wrote", false},
+    {"drop", "FILE", 1, 1, "as if FILE was dropped on the window", true},
+    {"reload", "", 0, 0, "reads the model's file anew", false},
+    {"browse", "LINE", 1, 1, "asks for a file, and then does LINE with it", true},
+    {"help", "", 0, 0, "shows keys, mouse and commands", true},
+    {"dismiss", "", 0, 0, "closes a message or a question", true},
+    {"quit", "", 0, 0, "ends; asks if there is unsaved work", true},
+    {"quit!", "", 0, 0, "ends", true},
+    {"tick", "SECONDS", 1, 1, "lets time pass for what moves by itself", true},
+}};
+
+const Verb* verbNamed(const std::string& name)
+{
+    const auto found = std::find_if(verbs.begin(), verbs.end(), [&](const Verb& verb) { return name == verb.name; });
+    return found == verbs.end() ? nullptr : &*found;
+}
+
+std::string yesNo(bool yes)
+{
+    return yes ? "yes" : "no";
+}
+
+[[noreturn]] void refuse(const std::string& what, const std::string& value, const std::string& allowed)
+{
+    throw InputError(what + ": '" + value + "' is not allowed; it must be " + allowed);
+}
+
+Counts countsOf(const Mesh& mesh, std::size_t edges)
+{
+    return {mesh.points.size(), edges, faceCount(mesh)};
+}
+
+bool isScene(const fs::path& path)
+{
+    return path.extension() == ".json";
+}
+
+} // namespace
+
+std::vector<std::pair<std::string, std::string>> describeVerbs()
+{
+    std::vector<std::pair<std::string, std::string>> list;
+    for (const Verb& verb : verbs) {
+        list.emplace_back(verb.name + std::string(*verb.arguments ? " " : "") + verb.arguments, verb.help);
+    }
+    return list;
+}
+
+class App::Impl {
+public:
+    Impl(const gl::Api& api, AppSetup setup)
+        : api_(api), setup_(std::move(setup)), widgets_(setup_.scale, setup_.clipboard),
+          viewport_(api, setup_.isSoftware), widgetRenderer_(api, widgets_.glyphs()),
+          runner_(setup_.maker ? std::move(setup_.maker) : makePipelineMaker(), setup_.wake)
+    {
+        recent_ = recentFiles(setup_.recentFiles);
+        resize(setup_.width, setup_.height);
+    }
+
+    void perform(const Words& words)
+    {
+        if (words.empty()) return;
+        if (isCommand(words[0])) {
+            execute(commandOf(words));
+        } else {
+            const Verb* const verb = verbNamed(words[0]);
+            if (!verb) throw InputError("'" + words[0] + "' is no command");
+            if (words.size() - 1 < verb->least || words.size() - 1 > verb->most) {
+                throw InputError(words[0] + ": it is written " + verb->name + ' ' + verb->arguments);
+            }
+            doVerb(words);
+        }
+        refresh();
+    }
+
+    void attempt(const std::string& line)
+    {
+        try {
+            const Words words = wordsOf(line);
+            perform(words);
+            const Verb* const verb = words.empty() ? nullptr : verbNamed(words[0]);
+            if (!verb || !verb->isOfWindow) record(line);
+        } catch (const std::exception& error) {
+            complain(error.what());
+        }
+    }
+
+    void handle(const InputEvent& event)
+    {
+        PanelAnswer answer;
+        const bool isTaken = layOut(&event, answer);
+        take(answer);
+        if (!isTaken || isPointerHeld_) control(event);
+        if (const auto* const down = std::get_if<KeyDown>(&event.what)) press(*down, event.modifiers);
+        refresh();
+    }
+
+    void drop(const fs::path& path) { attempt((isScene(path) ? "open-scene " : "open ") + quotedWord(path.string())); }
+
+    void resize(int width, int height)
+    {
+        width = std::max(width, 1);
+        height = std::max(height, 1);
+        if (canvas_ && width == width_ && height == height_) return;
+        canvas_.reset();
+        canvas_.emplace(api_, width, height, 1);
+        width_ = width;
+        height_ = height;
+        const Rectangle middle = viewport();
+        viewport_.resize(middle.width, middle.height);
+        needsFrame_ = true;
+        refresh();
+    }
+
+    void update()
+    {
+        runner_.update();
+        refresh();
+    }
+
+    void checkFiles()
+    {
+        const OpenedMeshPtr& model = session_.state().document.model;
+        if (!model) return;
+        const FileStamp stamp = stampOf(model->path);
+        // A file that is gone may come back in a moment, as when a program saves.
+        if (stamp == FileStamp{} || stamp == model->stamp || stamp == ignoredStamp_ || hasModelChanged_) return;
+        hasModelChanged_ = true;
+        changedStamp_ = stamp;
+        refresh();
+    }
+
+    void pass(double seconds)
+    {
+        if (!isAnimated()) return;
+        const draw::Camera& camera = session_.state().view.camera;
+        draw::Camera turned = draw::orbited(camera, turntableDegreesPerSecond * seconds, 0, camera.target);
+        // It is no step that could be undone.
+        State state = session_.state();
+        state.view.camera = turned;
+        session_.replaceView(state.view);
+        refresh();
+    }
+
+    bool isAnimated() const { return session_.state().view.turntable && session_.state().document.model; }
+    bool isMoving() const { return isCameraDragged_ || isAnimated(); }
+    bool needsFrame() const { return needsFrame_ || !viewport_.isRefined(); }
+
+    void drawFrame()
+    {
+        viewport_.draw(isMoving());
+        const Rectangle middle = viewport();
+        draw::Target target = canvas_->target();
+        viewport_.copyTo(target.framebuffer, middle.left, height_ - middle.top - middle.height);
+        widgetRenderer_.draw(target, widgets_.drawing());
+        gl::throwIfFailed(api_, "drawing the window");
+        needsFrame_ = isMoving();
+        ++frames_;
+    }
+
+    draw::Picture picture()
+    {
+        refresh();
+        do drawFrame();
+        while (!viewport_.isRefined() && !isMoving());
+        return draw::fromPixels(canvas_->pixels(), width_, height_, false);
+    }
+
+    void waitUntilSettled()
+    {
+        while (!runner_.planner().isSettled()) {
+            runner_.waitForNews(1);
+            runner_.update();
+        }
+        refresh();
+    }
+
+    std::map<std::string, std::function<std::string()>> values() const;
+
+    const gl::Api& api_;
+    AppSetup setup_;
+    Session session_;
+    Widgets widgets_;
+    Panels panels_;
+    Viewport viewport_;
+    WidgetRenderer widgetRenderer_;
+    Runner runner_;
+    std::optional<draw::Canvas> canvas_;
+    int width_ = 0, height_ = 0;
+    std::vector<std::string> messages_, notes_;
+    std::vector<fs::path> recent_;
+    bool needsFrame_ = true;
+    std::uint64_t frames_ = 0;
+
+    Rectangle viewport() const { return Panels::viewport(width_, height_, setup_.scale); }
+    bool isValueDragged_ = false;
+    bool isEnded_ = false;
+
+private:
+    // ---- lines
+
+    void execute(const Command& command)
+    {
+        const bool hadModel = session_.state().document.model != nullptr;
+        const bool wasSaved = isSaved();
+        session_.execute(command);
+        if (std::holds_alternative<OpenModel>(command)) {
+            const fs::path& path = session_.state().document.model->path;
+            addRecentFile(setup_.recentFiles, path);
+            recent_ = recentFiles(setup_.recentFiles);
+            hasModelChanged_ = false;
+            ignoredStamp_ = {};
+            show();
+            frame(false);
+            // To have opened a model is no work that could be lost.
+            if (!hadModel || wasSaved) saved_ = session_.state().document;
+        }
+        needsFrame_ = true;
+    }
+
+    void doVerb(const Words& words)
+    {
+        const std::string& verb = words[0];
+        const std::string argument = words.size() > 1 ? words[1] : std::string();
+        if (verb == "undo") {
+            session_.undo();
+        } else if (verb == "redo") {
+            session_.redo();
+        } else if (verb == "undo-view") {
+            session_.undoView();
+        } else if (verb == "redo-view") {
+            session_.redoView();
+        } else if (verb == "make") {
+            runner_.again();
+        } else if (verb == "cancel") {
+            if (!dismiss()) runner_.cancel();
+        } else if (verb == "more" || verb == "fewer") {
+            const int faces = steppedFaces(session_.state().document.options.faces, verb == "more" ? 1 : -1);
+            attempt("set faces " + std::to_string(faces));
+        } else if (verb == "toggle") {
+            toggle(argument);
+        } else if (verb == "frame") {
+            if (argument != "all" && argument != "selected") refuse("frame", argument, "all or selected");
+            frame(argument == "selected");
+        } else if (verb == "look") {
+            look(argument);
+        } else if (verb == "projection" || verb == "up") {
+            change(verb, argument);
+        } else if (verb.rfind("save-", 0) == 0) {
+            save(verb, argument);
+        } else if (verb == "open-scene") {
+            session_.restart(openScene(argument));
+            saved_ = session_.state().document;
+            hasModelChanged_ = false;
+        } else if (verb == "drop") {
+            drop(argument);
+        } else if (verb == "reload") {
+            reload();
+        } else if (verb == "browse") {
+            panels_.browse(argument);
+        } else if (verb == "help") {
+            panels_.showHelp();
+        } else if (verb == "dismiss") {
+            dismiss();
+        } else if (verb == "tick") {
+            pass(numberOf(argument, "tick"));
+        } else if (verb == "quit") {
+            asksToQuit_ = !isSaved();
+            isEnded_ = !asksToQuit_;
+        } else if (verb == "quit!") {
+            isEnded_ = true;
+        }
+        needsFrame_ = true;
+    }
+
+    bool isSaved() const { return session_.state().document == saved_; }
+
+    bool dismiss()
+    {
+        if (!messages_.empty()) {
+            messages_.erase(messages_.begin());
+            return true;
+        }
+        if (panels_.dismiss()) return true;
+        if (asksToQuit_) {
+            asksToQuit_ = false;
+            return true;
+        }
+        if (hasModelChanged_) {
+            hasModelChanged_ = false;
+            ignoredStamp_ = changedStamp_;
+            return true;
+        }
+        return false;
+    }
+
+    void reload()
+    {
+        const OpenedMeshPtr model = session_.state().document.model;
+        if (!model) throw InputError("reload: there is no model yet");
+        hasModelChanged_ = false;
+        ignoredStamp_ = changedStamp_; // what cannot be read is not offered again
+        session_.execute(OpenModel{model->path.string()});
+    }
+
+    void toggle(const std::string& what)
+    {
+        const ViewState& view = session_.state().view;
+        const auto ask = [&](const std::string& name, bool on) { attempt(name + (on ? " off" : " on")); };
+        if (what == "ground") return ask(what, view.ground);
+        if (what == "axes") return ask(what, view.axes);
+        if (what == "turntable") return ask(what, view.turntable);
+        for (std::size_t i = 0; i < layerCount; ++i) {
+            if (what == nameOf(static_cast<LayerId>(i))) return ask("layer " + what, view.layers[i].shown);
+        }
+        refuse("toggle", what, "a layer, ground, axes or turntable");
+    }
+
+    void setCamera(const draw::Camera& camera) { attempt(toText(SetCamera{camera})); }
+
+    void frame(bool selected) { setCamera(viewport_.fitted(session_.state().view, selected)); }
+
+    void look(const std::string& side)
+    {
+        draw::Camera camera = session_.state().view.camera;
+        const std::map<std::string, std::pair<double, double>> sides{{"front", {0, 0}},  {"back", {180, 0}},
+                                                                     {"right", {90, 0}}, {"left", {-90, 0}},
+                                                                     {"top", {0, 90}},   {"bottom", {0, -90}}};
+        const auto found = sides.find(side);
+        if (found == sides.end()) refuse("look", side, "front, back, left, right, top or bottom");
+        camera.view.azimuthDegrees = found->second.first;
+        camera.view.elevationDegrees = found->second.second;
+        setCamera(camera);
+    }
+
+    void change(const std::string& what, const std::string& value)
+    {
+        draw::Camera camera = session_.state().view.camera;
+        if (what == "up") {
+            const bool isY = camera.view.up == draw::UpAxis::y;
+            if (value != "y" && value != "z" && value != "toggle") refuse(what, value, "y, z or toggle");
+            camera.view.up = value == "z" || (value == "toggle" && isY) ? draw::UpAxis::z : draw::UpAxis::y;
+        } else {
+            const bool isFar = camera.projection == draw::Projection::orthographic;
+            if (value != "perspective" && value != "orthographic" && value != "toggle") {
+                refuse(what, value, "perspective, orthographic or toggle");
+            }
+            camera.projection = value == "orthographic" || (value == "toggle" && !isFar)
+                                    ? draw::Projection::orthographic
+                                    : draw::Projection::perspective;
+        }
+        setCamera(camera);
+    }
+
+    // ---- files
+
+    /// The cage of the state, made and current.
+    const CageResult& currentCage(const std::string& verb) const
+    {
+        const Planner& planner = runner_.planner();
+        if (planner.standing() != Planner::Standing::current) {
+            throw InputError(verb + ": the cage of these options is not made yet");
+        }
+        return *planner.shown();
+    }
+
+    void save(const std::string& verb, const fs::path& path)
+    {
+        if (verb == "save-cage") {
+            writeMesh(currentCage(verb).cage, path);
+        } else if (verb == "save-options") {
+            const std::string text = presetText(session_.state().document.options);
+            writeFileAtomically(path, [&](std::ostream& out) { out << text; });
+        } else if (verb == "save-scene") {
+            const Planner& planner = runner_.planner();
+            const bool isCurrent = planner.standing() == Planner::Standing::current;
+            saveScene(session_.state(), isCurrent ? planner.shown().get() : nullptr, path);
+            saved_ = session_.state().document;
+            asksToQuit_ = false;
+        } else if (verb == "save-picture") {
+            if (path.extension() != ".png") throw InputError(path.string() + ": pictures are written as .png");
+            show();
+            const std::string bytes = draw::encodePng(viewport_.picture());
+            writeFileAtomically(path, [&](std::ostream& out) { out << bytes; });
+        } else if (verb == "save-report") {
+            saveReport(currentCage(verb), path);
+        } else {
+            saveStages(path);
+        }
+        note("saved " + path.filename().string());
+    }
+
+    void saveReport(const CageResult& result, const fs::path& path) const
+    {
+        const OpenedMesh& model = *result.order.model;
+        const std::string text =
+            tool::toText(tool::toJson(tool::CageMade{tool::toJson(model.mesh, model.summary, model.path),
+                                                     {},
+                                                     result.order.options,
+                                                     result.seconds,
+                                                     result.stages,
+                                                     result.report}));
+        writeFileAtomically(path, [&](std::ostream& out) { out << text; });
+    }
+
+    void saveStages(const fs::path& folder)
+    {
+        if (currentCage("save-stages").order.cage) {
+            throw InputError("save-stages: the cage was opened, not made, so it has no stages");
+        }
+        keepsIntermediates_ = true;
+        want();
+        waitUntilSettled();
+        keepsIntermediates_ = false;
+        const CageResult& result = currentCage("save-stages");
+        if (!result.intermediates) throw InputError("save-stages: " + runner_.planner().error());
+        const Intermediates& inner = *result.intermediates;
+        std::error_code error;
+        const bool isNew = fs::create_directory(folder, error);
+        if (error) throw IoError(folder.string() + ": the folder cannot be made: " + error.message());
+        try {
+            PendingFiles files;
+            tool::writeStages(
+                {result.order.model->path.filename().string(), result.order.options, result.report, *inner.solid,
+                 *inner.closed, inner.surface, inner.smoothed, inner.decimated},
+                folder, [&](const fs::path& file, const FileWriter& write) { files.add(file, write); }, nullptr);
+            files.commit();
+        } catch (...) {
+            if (isNew) fs::remove(folder, error);
+            throw;
+        }
+    }
+
+    void note(const std::string& text)
+    {
+        notes_.assign(1, text);
+        needsFrame_ = true;
+    }
+
+    void complain(const std::string& text)
+    {
+        messages_.push_back(text);
+        needsFrame_ = true;
+        refresh();
+    }
+
+    void record(const std::string& line) const
+    {
+        // A drag is recorded when it ends.
+        if (setup_.record && !session_.isDragging()) setup_.record(line);
+    }
+
+    // ---- widgets
+
+    PanelContent content() const
+    {
+        const ViewState& view = session_.state().view;
+        PanelContent content{session_, runner_.planner(), runner_.progress(), messages_, notes_, shortcuts(), recent_};
+        const draw::Eye eye = draw::eyeOf(view.camera, 1, {});
+        for (int k = 0; k < 3; ++k) {
+            Vec3d axis(0);
+            axis[k] = 1;
+            content.axes[static_cast<std::size_t>(k)] = {axis.dot(eye.right), axis.dot(eye.up), axis.dot(eye.back)};
+        }
+        content.gridStep = viewport_.gridStep();
+        if (const OpenedMeshPtr& model = session_.state().document.model) {
+            const openvdb::BBoxd box = boundingBox(model->mesh);
+            const Vec3d extents = box.extents();
+            const double longest = std::max({extents.x(), extents.y(), extents.z()});
+            content.largestDistance = longest > 0 ? viewport_.largestDistance() / longest : 0;
+            content.box = box;
+            content.model = countsOf(model->mesh, viewport_.edgeCount(LayerId::model));
+        }
+        if (const CageResultPtr& cage = runner_.planner().shown()) {
+            content.cage = countsOf(cage->cage, viewport_.edgeCount(LayerId::cage));
+        }
+        content.hasModelChanged = hasModelChanged_;
+        content.asksToQuit = asksToQuit_;
+        return content;
+    }
+
+    bool layOut(const InputEvent* event, PanelAnswer& answer)
+    {
+        const PanelContent shown = content();
+        return widgets_.layOut(event, width_, height_, [&] { panels_.build(shown, answer); });
+    }
+
+    void take(const PanelAnswer& answer)
+    {
+        if (answer.beginsDrag) {
+            session_.beginDrag();
+            isValueDragged_ = true;
+            dragged_ = session_.state();
+        }
+        for (const std::string& line : answer.lines) attempt(line);
+        if (answer.endsDrag) endDrag();
+    }
+
+    /// The drag becomes the line that its end amounts to.
+    void endDrag()
+    {
+        session_.endDrag();
+        isValueDragged_ = false;
+        if (!setup_.record) return;
+        if (session_.state().document != dragged_.document && session_.documents().canUndo()) {
+            setup_.record(session_.documents().undone());
+        }
+        if (session_.state().view != dragged_.view && session_.views().canUndo()) {
+            setup_.record(session_.views().undone());
+        }
+    }
+
+    /// Brings what is made and what is seen in line with the state.
+    void refresh()
+    {
+        if (isRefreshing_) return;
+        isRefreshing_ = true;
+        want();
+        show();
+        // What a layout answers may change the state, and with it the layout; an event is answered at once.
+        for (int i = 0; i < 3; ++i) {
+            PanelAnswer answer;
+            const std::uint64_t before = widgets_.version();
+            layOut(nullptr, answer);
+            if (widgets_.version() != before) needsFrame_ = true;
+            if (answer.lines.empty() && !answer.beginsDrag && !answer.endsDrag) break;
+            take(answer);
+            want();
+            show();
+        }
+        isRefreshing_ = false;
+    }
+
+    void want()
+    {
+        const Document& document = session_.state().document;
+        std::optional<Order> order;
+        if (document.model) order = Order{document.model, document.options, document.cage};
+        const ViewState& view = session_.state().view;
+        bool intermediates = keepsIntermediates_ || view.cageColours == CageColours::distance;
+        for (std::size_t i = 0; i < layerCount; ++i) {
+            const auto id = static_cast<LayerId>(i);
+            intermediates |= view.layers[i].shown && id != LayerId::model && id != LayerId::cage;
+        }
+        runner_.want(order, isValueDragged_, intermediates);
+    }
+
+    void show()
+    {
+        const Planner& planner = runner_.planner();
+        const bool isStale = planner.standing() == Planner::Standing::stale;
+        if (viewport_.show(session_.state().document.model, planner.shown(), isStale, session_.state().view)) {
+            needsFrame_ = true;
+        }
+    }
+
+    // ---- the picture under the pointer
+
+    /// A place of the window in the picture: [-1, 1] both ways, y up.
+    std::array<double, 2> inPicture(double x, double y) const
+    {
+        const Rectangle middle = viewport();
+        return {2 * (x - middle.left) / middle.width - 1, 1 - 2 * (y - middle.top) / middle.height};
+    }
+
+    double aspect() const { return 1.0 * viewport().width / viewport().height; }
+
+    void control(const InputEvent& event)
+    {
+        if (const auto* const moved = std::get_if<PointerMoved>(&event.what)) {
+            movePointer(moved->x, moved->y);
+        } else if (const auto* const down = std::get_if<ButtonDown>(&event.what)) {
+            if (isPointerHeld_) return;
+            isPointerHeld_ = true;
+            held_ = *down;
+            heldWith_ = event.modifiers;
+            pressedX_ = pointerX_;
+            pressedY_ = pointerY_;
+            if (!session_.state().document.model) return;
+            viewport_.draw(isMoving()); // picks through the eye of the last frame
+            const auto [x, y] = inPicture(pointerX_, pointerY_);
+            pivot_ = viewport_.pointAt(x, y).value_or(
+                viewport_.selectionCentre(session_.state().view).value_or(session_.state().view.camera.target));
+        } else if (std::holds_alternative<ButtonUp>(event.what)) {
+            releasePointer();
+        } else if (const auto* const wheel = std::get_if<WheelTurned>(&event.what)) {
+            const auto [x, y] = inPicture(pointerX_, pointerY_);
+            const draw::Camera& camera = session_.state().view.camera;
+            setCamera(draw::zoomed(camera, aspect(), std::pow(factorPerNotch, wheel->y), x, y));
+        }
+    }
+
+    void movePointer(double x, double y)
+    {
+        const double dx = x - pointerX_, dy = y - pointerY_;
+        pointerX_ = x;
+        pointerY_ = y;
+        if (!isPointerHeld_ || !session_.state().document.model) return;
+        if (!isCameraDragged_) {
+            if (std::hypot(x - pressedX_, y - pressedY_) < clickRadius * double{setup_.scale}) return;
+            isCameraDragged_ = true;
+            dragged_ = session_.state();
+            session_.beginDrag();
+        }
+        const draw::Camera& camera = session_.state().view.camera;
+        const bool pans = held_.button == Button::middle || (held_.button == Button::left && heldWith_.shift);
+        if (pans) {
+            const Rectangle middle = viewport();
+            setCamera(draw::panned(camera, aspect(), 2 * dx / middle.width, -2 * dy / middle.height));
+        } else if (held_.button == Button::left) {
+            const double degrees = degreesPerPixel / double{setup_.scale};
+            setCamera(draw::orbited(camera, -degrees * dx, degrees * dy, pivot_));
+        } else {
+            const auto [px, py] = inPicture(pressedX_, pressedY_);
+            setCamera(draw::zoomed(camera, aspect(), std::pow(1.01, -dy / double{setup_.scale}), px, py));
+        }
+    }
+
+    void releasePointer()
+    {
+        if (!isPointerHeld_) return;
+        isPointerHeld_ = false;
+        if (isCameraDragged_) {
+            isCameraDragged_ = false;
+            endDrag();
+            needsFrame_ = true;
+            return;
+        }
+        if (held_.button == Button::left && session_.state().document.model) selectAt(heldWith_.shift);
+    }
+
+    void selectAt(bool adds)
+    {
+        const auto [x, y] = inPicture(pointerX_, pointerY_);
+        const auto face = viewport_.cageFaceAt(x, y);
+        std::vector<openvdb::Index32> faces;
+        if (adds) faces = session_.state().view.selection;
+        if (face) {
+            const auto place = std::lower_bound(faces.begin(), faces.end(), *face);
+            if (place != faces.end() && *place == *face) {
+                faces.erase(place);
+            } else {
+                faces.insert(place, *face);
+            }
+        }
+        if (faces != session_.state().view.selection) attempt(toText(Select{faces}));
+    }
+
+    void press(const KeyDown& down, const Modifiers& modifiers)
+    {
+        const bool isMessage = !messages_.empty();
+        if (isMessage && (down.key == Key::escape || down.key == Key::enter || down.key == Key::space)) {
+            dismiss();
+            return;
+        }
+        if (down.key == Key::escape) return attempt("cancel");
+        if (isMessage || widgets_.wantsText() || widgets_.wantsKeyboard()) return;
+        const std::string chord = nameOf(KeyChord{down.key, modifiers});
+        for (const Shortcut& shortcut : shortcuts()) {
+            if (shortcut.chord == chord) return attempt(shortcut.line);
+        }
+    }
+
+    Document saved_; ///< as it was last saved, or opened
+    State dragged_;  ///< before the drag
+    bool isRefreshing_ = false;
+    bool keepsIntermediates_ = false;
+    bool asksToQuit_ = false, hasModelChanged_ = false;
+    FileStamp changedStamp_, ignoredStamp_;
+
+    double pointerX_ = 0, pointerY_ = 0, pressedX_ = 0, pressedY_ = 0; ///< pixels from the top left
+    bool isPointerHeld_ = false, isCameraDragged_ = false;
+    ButtonDown held_;
+    Modifiers heldWith_;
+    Vec3d pivot_{0};
+};
+
+std::map<std::string, std::function<std::string()>> App::Impl::values() const
+{
+    std::map<std::string, std::function<std::string()>> list;
+    const Planner& planner = runner_.planner();
+    const State& state = session_.state();
+    const auto number = [](double value) { return detail::numberText(value); };
+    const auto check = [&](auto&& get) -> std::function<std::string()> {
+        return [&planner, get] { return planner.shown() ? get(planner.shown()->report.check) : std::string("none"); };
+    };
+    list["standing"] = [&] {
+        switch (planner.standing()) {
+        case Planner::Standing::current:
+            return "current";
+        case Planner::Standing::preview:
+            return "preview";
+        case Planner::Standing::stale:
+            return "stale";
+        case Planner::Standing::none:
+            break;
+        }
+        return "none";
+    };
+    list["faces"] = check([](const CageCheck& c) { return std::to_string(c.triangles + c.quads); });
+    list["triangles"] = check([](const CageCheck& c) { return std::to_string(c.triangles); });
+    list["quads"] = check([](const CageCheck& c) { return std::to_string(c.quads); });
+    list["points"] = check([](const CageCheck& c) { return std::to_string(c.points); });
+    list["bounding"] = check([](const CageCheck& c) { return yesNo(c.bounding()); });
+    list["valid"] = check([](const CageCheck& c) { return yesNo(c.valid()); });
+    list["volume-ratio"] = check([=](const CageCheck& c) { return number(c.volumeRatio); });
+    list["mean-distance"] = check([=](const CageCheck& c) { return number(c.meanDistance); });
+    list["model"] = [&] { return state.document.model ? state.document.model->path.filename().string() : "none"; };
+    list["model-points"] = [&] {
+        return std::to_string(state.document.model ? state.document.model->mesh.points.size() : 0);
+    };
+    list["model-faces"] = [&] {
+        return std::to_string(state.document.model ? faceCount(state.document.model->mesh) : 0);
+    };
+    list["opened-cage"] = [&] {
+        return state.document.cage ? state.document.cage->path.filename().string() : std::string("none");
+    };
+    list["undo"] = [&] { return session_.documents().canUndo() ? session_.documents().undone() : "none"; };
+    list["redo"] = [&] { return session_.documents().canRedo() ? session_.documents().redone() : "none"; };
+    list["undo-view"] = [&] { return session_.views().canUndo() ? session_.views().undone() : "none"; };
+    list["messages"] = [&] { return std::to_string(messages_.size()); };
+    list["message"] = [&] { return messages_.empty() ? "none" : messages_.front(); };
+    list["note"] = [&] { return notes_.empty() ? "none" : notes_.back(); };
+    list["error"] = [&] { return planner.error().empty() ? "none" : planner.error(); };
+    list["making"] = [&] { return yesNo(!planner.isSettled()); };
+    list["halted"] = [&] { return yesNo(planner.isHalted()); };
+    list["selected"] = [&] { return std::to_string(state.view.selection.size()); };
+    list["projection"] = [&] {
+        return state.view.camera.projection == draw::Projection::perspective ? "perspective" : "orthographic";
+    };
+    list["azimuth"] = [&, number] { return number(state.view.camera.view.azimuthDegrees); };
+    list["elevation"] = [&, number] { return number(state.view.camera.view.elevationDegrees); };
+    list["frames"] = [&] { return std::to_string(frames_); };
+    list["ended"] = [&] { return yesNo(isEnded_); };
+    for (const auto& option : optionValues(state.document.options)) {
+        list["option." + option.first] = [value = option.second] { return value; };
+    }
+    for (std::size_t i = 0; i < layerCount; ++i) {
+        list[std::string("layer.") + nameOf(static_cast<LayerId>(i))] = [&, i] {
+            return state.view.layers[i].shown ? "on" : "off";
+        };
+    }
+    return list;
+}
+
+App::App(const gl::Api& api, AppSetup setup) : impl_(std::make_unique<Impl>(api, std::move(setup)))
+{
+}
+App::~App() = default;
+
+void App::perform(const std::vector<std::string>& words)
+{
+    impl_->perform(words);
+}
+
+void App::attempt(const std::string& line)
+{
+    impl_->attempt(line);
+}
+
+void App::handle(const InputEvent& event)
+{
+    impl_->handle(event);
+}
+
+void App::drop(const std::filesystem::path& path)
+{
+    impl_->drop(path);
+}
+
+void App::resize(int width, int height)
+{
+    impl_->resize(width, height);
+}
+
+void App::update()
+{
+    impl_->update();
+}
+
+void App::checkFiles()
+{
+    impl_->checkFiles();
+}
+
+void App::pass(double seconds)
+{
+    impl_->pass(seconds);
+}
+
+bool App::isAnimated() const
+{
+    return impl_->isAnimated();
+}
+
+bool App::needsFrame() const
+{
+    return impl_->needsFrame();
+}
+
+void App::drawFrame()
+{
+    impl_->drawFrame();
+}
+
+const draw::Canvas& App::canvas() const
+{
+    return *impl_->canvas_;
+}
+
+draw::Picture App::picture()
+{
+    return impl_->picture();
+}
+
+void App::waitUntilSettled()
+{
+    impl_->waitUntilSettled();
+}
+
+std::string App::value(const std::string& name) const
+{
+    const auto values = impl_->values();
+    const auto found = values.find(name);
+    if (found != values.end()) return found->second();
+    std::string known;
+    for (const auto& value : values) known += (known.empty() ? "" : ", ") + value.first;
+    throw InputError("'" + name + "' is not known; there are " + known);
+}
+
+std::vector<std::string> App::valueNames() const
+{
+    std::vector<std::string> names;
+    for (const auto& value : impl_->values()) names.push_back(value.first);
+    return names;
+}
+
+std::optional<Rectangle> App::widget(const std::string& name) const
+{
+    const auto& places = impl_->panels_.places();
+    const auto found = places.find(name);
+    if (found == places.end()) return std::nullopt;
+    return found->second;
+}
+
+void App::reveal(const std::string& name)
+{
+    impl_->panels_.reveal(name);
+    impl_->update();
+}
+
+Rectangle App::viewport() const
+{
+    return impl_->viewport();
+}
+
+const Session& App::session() const
+{
+    return impl_->session_;
+}
+
+const Planner& App::planner() const
+{
+    return impl_->runner_.planner();
+}
+
+const std::vector<std::string>& App::messages() const
+{
+    return impl_->messages_;
+}
+
+bool App::isDragging() const
+{
+    return impl_->session_.isDragging();
+}
+
+bool App::isEnded() const
+{
+    return impl_->isEnded_;
+}
+
+std::string App::title() const
+{
+    const OpenedMeshPtr& model = impl_->session_.state().document.model;
+    return (model ? model->path.filename().string() + " - " : std::string()) + "vdbcage";
+}
+
+PointerShape App::pointerShape() const
+{
+    return impl_->widgets_.pointerShape();
+}
+
+} // namespace vdbcage::view

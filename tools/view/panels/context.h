@@ -1,0 +1,96 @@
+#pragma once
+
+#include <cmath>
+#include <string>
+
+#include <imgui.h>
+#include <tools/view/panels/panels.h>
+#include <tools/view/theme.h>
+#include <tools/view/widgets.h>
+
+/// What the parts of the panels share.
+namespace vdbcage::view {
+
+inline ImVec4 toImGui(const draw::Colour& colour, float opacity = 1)
+{
+    return {colour[0], colour[1], colour[2], opacity};
+}
+
+inline ImU32 packed(const draw::Colour& colour, float opacity = 1)
+{
+    return ImGui::ColorConvertFloat4ToU32(toImGui(colour, opacity));
+}
+
+/// `pixels` on an ordinary screen.
+inline float length(float pixels)
+{
+    return std::floor(pixels * scale());
+}
+
+inline void muted(const std::string& text)
+{
+    ImGui::PushStyleColor(ImGuiCol_Text, toImGui(theme::mutedText));
+    ImGui::TextUnformatted(text.c_str());
+    ImGui::PopStyleColor();
+}
+
+inline void coloured(const draw::Colour& colour, const std::string& text)
+{
+    ImGui::PushStyleColor(ImGuiCol_Text, toImGui(colour));
+    ImGui::TextUnformatted(text.c_str());
+    ImGui::PopStyleColor();
+}
+
+/// Help for the last item.
+inline void help(const std::string& text)
+{
+    if (!ImGui::IsItemHovered()) return;
+    ImGui::BeginTooltip();
+    ImGui::PushTextWrapPos(length(320));
+    ImGui::TextUnformatted(text.c_str());
+    ImGui::PopTextWrapPos();
+    ImGui::EndTooltip();
+}
+
+/// One layout.
+class PanelContext {
+public:
+    PanelContext(const PanelContent& shown, PanelAnswer& answer, std::map<std::string, Rectangle>& places,
+                 std::string& revealed)
+        : content(shown), answer_(answer), places_(places), revealed_(revealed)
+    {
+    }
+
+    const PanelContent& content;
+
+    void ask(const std::string& line) const { answer_.lines.push_back(line); }
+
+    /// Notes the last item as the widget `name`.
+    void name(const std::string& widget) const
+    {
+        const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
+        if (revealed_ == widget) {
+            ImGui::SetScrollHereY(0.5F);
+            revealed_.clear();
+        }
+        places_[widget] = {static_cast<int>(std::lround(low.x)), static_cast<int>(std::lround(low.y)),
+                           static_cast<int>(std::lround(high.x - low.x)),
+                           static_cast<int>(std::lround(high.y - low.y))};
+    }
+    /// Whether a widget whose name begins so is to be seen.
+    bool isRevealed(const std::string& beginning) const { return revealed_.rfind(beginning, 0) == 0; }
+
+    /// Of the last item, a slider: where its drag begins and ends.
+    void followDrag() const
+    {
+        if (ImGui::IsItemActivated()) answer_.beginsDrag = true;
+        if (ImGui::IsItemDeactivated()) answer_.endsDrag = true;
+    }
+
+private:
+    PanelAnswer& answer_;
+    std::map<std::string, Rectangle>& places_;
+    std::string& revealed_;
+};
+
+} // namespace vdbcage::view

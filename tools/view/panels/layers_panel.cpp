@@ -1,0 +1,198 @@
+#include <algorithm>
+#include <cstdio>
+
+#include <tools/view/panels/parts.h>
+#include <vdbcage/core/detail/number_text.h>
+
+namespace vdbcage::view {
+
+namespace {
+
+struct LayerText {
+    LayerId id;
+    const char* label;
+    const char* help;
+};
+
+constexpr std::array<LayerText, layerCount> texts{
+    {{LayerId::model, "Model", "what the cage is made for"},
+     {LayerId::cage, "Cage", "the outcome; hidden edges are faint"},
+     {LayerId::decimated, "Decimated", "the cage before its triangles were merged to quads and tightened"},
+     {LayerId::smoothed, "Smoothed", "the surface smoothed, where bounding is off; else the surface"},
+     {LayerId::surface, "Surface", "what the cage was made from"},
+     {LayerId::closed, "Closing", "exposed faces of the closing's voxels"},
+     {LayerId::closedNodes, "Closing: nodes", "a box for each node of the closing's tree"},
+     {LayerId::solid, "Voxels", "exposed faces of the model's voxels"},
+     {LayerId::solidNodes, "Voxels: nodes", "a box for each node of the voxels' tree"}}};
+
+void buildLayer(const PanelContext& context, const LayerText& text)
+{
+    const LayerLook& look = context.content.session.state().view.layer(text.id);
+    const std::string name = nameOf(text.id);
+    ImGui::PushID(name.c_str());
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
+    bool shown = look.shown;
+    if (ImGui::Checkbox("##shown", &shown)) context.ask("layer " + name + (shown ? " on" : " off"));
+    context.name("layer." + name);
+    ImGui::TableNextColumn();
+    draw::Colour colour = look.colour;
+    if (ImGui::ColorEdit3("##colour", colour.data(), ImGuiColorEditFlags_NoInputs | ImGuiColorEditFlags_NoTooltip)) {
+        std::string line = "colour " + name;
+        for (const float channel : colour) line += ' ' + detail::numberText(double{channel});
+        context.ask(line);
+    }
+    context.name("colour." + name);
+    ImGui::TableNextColumn();
+    ImGui::AlignTextToFramePadding();
+    if (shown) {
+        ImGui::TextUnformatted(text.label);
+    } else {
+        muted(text.label);
+    }
+    help(text.help);
+    ImGui::TableNextColumn();
+    float opacity = static_cast<float>(look.opacity);
+    ImGui::SetNextItemWidth(-1);
+    if (ImGui::SliderFloat("##opacity", &opacity, 0, 1, "", ImGuiSliderFlags_AlwaysClamp)) {
+        const double hundredths = std::round(100 * double{opacity}) / 100;
+        context.ask("opacity " + name + ' ' + detail::numberText(hundredths));
+    }
+    context.followDrag();
+    context.name("opacity." + name);
+    char buffer[64];
+    std::snprintf(buffer, sizeof buffer, "opacity of its faces: %.0f %%", 100 * look.opacity);
+    help(buffer);
+    ImGui::PopID();
+}
+
+void buildCageColours(const PanelContext& context)
+{
+    const CageColours now = context.content.session.state().view.cageColours;
+    struct Choice {
+        CageColours colours;
+        const char* label;
+        const char* name;
+        const char* text;
+    };
+    for (const Choice& choice :
+         {Choice{CageColours::plain, "Plain", "plain", "one colour"},
+          Choice{CageColours::kinds, "Quads", "kinds", "quads have another colour than triangles"},
+          Choice{CageColours::distance, "Distance", "distance", "how far the cage is from the model"}}) {
+        if (choice.colours != CageColours::plain) ImGui::SameLine();
+        if (ImGui::RadioButton(choice.label, now == choice.colours)) {
+            context.ask(std::string("cage-colours ") + choice.name);
+        }
+        context.name(std::string("cage-colours.") + choice.name);
+        help(choice.text);
+    }
+}
+
+void buildSection(const PanelContext& context)
+{
+    const auto& section = context.content.session.state().view.section;
+    const auto& box = context.content.box;
+    bool on = section.has_value();
+    ImGui::BeginDisabled(!box && !on);
+    if (ImGui::Checkbox("Section", &on)) {
+        const double middle = box ? 0.5 * (box->min().z() + box->max().z()) : 0;
+        context.ask(on ? "section 0 0 1 " + detail::numberText(middle) : "section off");
+    }
+    context.name("section");
+    help("cuts off all layers on one side of a plane");
+    ImGui::EndDisabled();
+    if (!section || !box) return;
+    const auto ask = [&](const openvdb::Vec3d& normal, double offset) {
+        std::string line = "section";
+        for (const double value : {normal.x(), normal.y(), normal.z(), offset}) line += ' ' + detail::numberText(value);
+        context.ask(line);
+    };
+    int axis = 0;
+    for (int k = 1; k < 3; ++k) {
+        if (std::abs(section->normal[k]) > std::abs(section->normal[axis])) axis = k;
+    }
+    const double sign = section->normal[axis] < 0 ? -1 : 1;
+    for (int k = 0; k < 3; ++k) {
+        ImGui::SameLine();
+        const std::string label(1, "XYZ"[k]);
+        openvdb::Vec3d normal(0);
+        normal[k] = 1;
+        if (ImGui::RadioButton(label.c_str(), k == axis)) ask(normal, 0.5 * (box->min()[k] + box->max()[k]));
+        context.name(std::string("section.") + "xyz"[k]);
+    }
+    openvdb::Vec3d normal(0);
+    normal[axis] = sign;
+    const double low = box->min()[axis], high = box->max()[axis];
+    float share =
+        high > low ? static_cast<float>((sign * section->offset / section->normal.length() - low) / (high - low)) : 0;
+    ImGui::SetNextItemWidth(-length(56));
+    if (ImGui::SliderFloat("##offset", &share, 0, 1, "", ImGuiSliderFlags_AlwaysClamp)) {
+        ask(normal, sign * (low + (high - low) * double{share}));
+    }
+    context.followDrag();
+    context.name("section.offset");
+    ImGui::SameLine();
+    if (ImGui::Button("Flip", {-1, 0})) ask(-section->normal, -section->offset);
+    context.name("section.flip");
+}
+
+void buildCounts(const PanelContext& context)
+{
+    if (!context.content.model) return;
+    ImGui::Dummy({0, length(4)});
+    if (!ImGui::BeginTable("counts", 3, ImGuiTableFlags_SizingStretchProp)) return;
+    ImGui::TableNextColumn();
+    ImGui::TableNextColumn();
+    muted("Model");
+    ImGui::TableNextColumn();
+    muted("Cage");
+    const auto row = [&](const char* label, std::size_t Counts::*count) {
+        ImGui::TableNextRow();
+        ImGui::TableNextColumn();
+        muted(label);
+        for (const auto& counts : {context.content.model, context.content.cage}) {
+            ImGui::TableNextColumn();
+            ImGui::TextUnformatted(counts ? std::to_string((*counts).*count).c_str() : "-");
+        }
+    };
+    row("points", &Counts::points);
+    row("edges", &Counts::edges);
+    row("faces", &Counts::faces);
+    ImGui::EndTable();
+}
+
+} // namespace
+
+void buildLayers(const PanelContext& context)
+{
+    const ViewState& view = context.content.session.state().view;
+    heading("Layers");
+    ImGui::PushStyleVar(ImGuiStyleVar_CellPadding, {length(3), length(2)});
+    if (ImGui::BeginTable("layers", 4)) {
+        const float frame = ImGui::GetFrameHeight();
+        ImGui::TableSetupColumn("shown", ImGuiTableColumnFlags_WidthFixed, frame);
+        ImGui::TableSetupColumn("colour", ImGuiTableColumnFlags_WidthFixed, frame);
+        ImGui::TableSetupColumn("name", ImGuiTableColumnFlags_WidthStretch);
+        ImGui::TableSetupColumn("opacity", ImGuiTableColumnFlags_WidthFixed, length(44));
+        for (const LayerText& text : texts) buildLayer(context, text);
+        ImGui::EndTable();
+    }
+    ImGui::PopStyleVar();
+    ImGui::Dummy({0, length(4)});
+    heading("Colours of the cage");
+    buildCageColours(context);
+    ImGui::Dummy({0, length(4)});
+    heading("View");
+    buildSection(context);
+    const auto check = [&](const char* label, const std::string& name, bool on, const char* text) {
+        if (ImGui::Checkbox(label, &on)) context.ask(name + (on ? " on" : " off"));
+        context.name(name);
+        help(text);
+    };
+    check("Ground grid", "ground", view.ground, "a grid below the model; the label says how far its lines are apart");
+    check("Axes", "axes", view.axes, "x, y and z in the corner of the picture");
+    check("Turntable", "turntable", view.turntable, "turns the view by itself");
+    buildCounts(context);
+}
+
+} // namespace vdbcage::view

@@ -1,0 +1,110 @@
+#include <tools/view/panels/parts.h>
+#include <tools/view/state/preset.h>
+#include <tools/view/state/words.h>
+
+namespace vdbcage::view {
+
+namespace {
+
+std::string shortcutOf(const PanelContext& context, const std::string& line)
+{
+    for (const Shortcut& shortcut : context.content.shortcuts) {
+        if (shortcut.line == line) return shortcut.chord;
+    }
+    return {};
+}
+
+void item(const PanelContext& context, const std::string& label, const std::string& line, bool enabled = true,
+          bool isChecked = false)
+{
+    const std::string chord = shortcutOf(context, line);
+    if (ImGui::MenuItem(label.c_str(), chord.empty() ? nullptr : chord.c_str(), isChecked, enabled)) context.ask(line);
+    context.name("menu." + line);
+}
+
+template <class Build>
+void menu(const PanelContext& context, const char* label, const Build& build)
+{
+    const bool isOpen = ImGui::BeginMenu(label);
+    context.name(std::string("menu.") + label);
+    if (!isOpen) return;
+    build();
+    ImGui::EndMenu();
+}
+
+std::string onOff(bool on)
+{
+    return on ? "on" : "off";
+}
+
+} // namespace
+
+void buildMenu(const PanelContext& context)
+{
+    const Session& session = context.content.session;
+    const Document& document = session.state().document;
+    const ViewState& view = session.state().view;
+    const bool hasModel = document.model != nullptr, hasCage = context.content.planner.shown() != nullptr;
+    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {length(8), length(5)});
+    if (!ImGui::BeginMainMenuBar()) {
+        ImGui::PopStyleVar();
+        return;
+    }
+    ImGui::PopStyleVar();
+    menu(context, "File", [&] {
+        item(context, "Open model...", "browse open");
+        menu(context, "Open recent", [&] {
+            for (const auto& file : context.content.recentFiles) {
+                item(context, file.filename().string() + "##" + file.string(), "open " + quotedWord(file.string()));
+            }
+            if (context.content.recentFiles.empty()) ImGui::MenuItem("(none yet)", nullptr, false, false);
+        });
+        item(context, "Open cage...", "browse open-cage", hasModel);
+        item(context, "Make the cage again", "close-cage", document.cage != nullptr);
+        item(context, "Open scene...", "browse open-scene");
+        ImGui::Separator();
+        item(context, "Save cage...", "browse save-cage", hasCage);
+        item(context, "Save scene...", "browse save-scene", hasModel);
+        item(context, "Save stages...", "browse save-stages", hasCage);
+        item(context, "Save report...", "browse save-report", hasCage);
+        item(context, "Save options...", "browse save-options");
+        item(context, "Save picture...", "browse save-picture");
+        ImGui::Separator();
+        item(context, "Quit", "quit");
+    });
+    menu(context, "Edit", [&] {
+        const auto& documents = session.documents();
+        const auto& views = session.views();
+        item(context, documents.canUndo() ? "Undo " + documents.undone() : "Undo", "undo", documents.canUndo());
+        item(context, documents.canRedo() ? "Redo " + documents.redone() : "Redo", "redo", documents.canRedo());
+        ImGui::Separator();
+        item(context, "Undo view", "undo-view", views.canUndo());
+        item(context, "Redo view", "redo-view", views.canRedo());
+        ImGui::Separator();
+        item(context, "All options to their defaults", "reset");
+        item(context, "Options from a file...", "browse preset");
+        item(context, "Select nothing", "select", !view.selection.empty());
+    });
+    menu(context, "View", [&] {
+        item(context, "Frame all", "frame all");
+        item(context, "Frame what is selected", "frame selected", !view.selection.empty());
+        ImGui::Separator();
+        for (const char* side : {"front", "back", "right", "left", "top", "bottom"}) {
+            std::string label = side;
+            label[0] = static_cast<char>(label[0] - 'a' + 'A');
+            item(context, label, std::string("look ") + side);
+        }
+        ImGui::Separator();
+        item(context, "Orthographic", "projection toggle", true,
+             view.camera.projection == draw::Projection::orthographic);
+        item(context, "Z is up", "up toggle", true, view.camera.view.up == draw::UpAxis::z);
+        item(context, "Turntable", "turntable " + onOff(!view.turntable), true, view.turntable);
+        ImGui::Separator();
+        item(context, "Ground grid", "ground " + onOff(!view.ground), true, view.ground);
+        item(context, "Axes", "axes " + onOff(!view.axes), true, view.axes);
+    });
+    menu(context, "Help", [&] { item(context, "Keys, mouse and commands", "help"); });
+    ImGui::EndMainMenuBar();
+}
+
+} // namespace vdbcage::view

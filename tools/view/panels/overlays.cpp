@@ -1,0 +1,141 @@
+// What lies over the picture. None of it takes the pointer.
+#include <algorithm>
+#include <cstdio>
+#include <numeric>
+
+#include <tools/view/distance_colours.h>
+#include <tools/view/panels/parts.h>
+#include <vdbcage/core/detail/number_text.h>
+
+namespace vdbcage::view {
+
+namespace {
+
+constexpr draw::Colour inkColour{0.20F, 0.21F, 0.23F};
+
+/// Options by which two cages differ, in words: "faces 300, not 400".
+std::string differences(const CageOptions& shown, const CageOptions& wanted)
+{
+    const auto have = optionValues(shown), want = optionValues(wanted);
+    std::string text;
+    for (std::size_t i = 0; i < have.size(); ++i) {
+        if (have[i].second == want[i].second) continue;
+        text += (text.empty() ? "" : ", ") + have[i].first + ' ' + have[i].second + " (now " + want[i].second + ')';
+    }
+    return text;
+}
+
+/// What has to be known of the cage that is seen; empty if it is the one that is wanted.
+std::string standingText(const PanelContent& content)
+{
+    const Planner& planner = content.planner;
+    const CageResultPtr& shown = planner.shown();
+    if (!shown) return {};
+    switch (planner.standing()) {
+    case Planner::Standing::preview:
+        return "Preview, made with least effort";
+    case Planner::Standing::stale:
+        if (shown->order.cage) return "Shown is the cage that was opened before";
+        return "Shown is the last good cage: " +
+               differences(shown->order.options, content.session.state().document.options);
+    case Planner::Standing::current:
+    case Planner::Standing::none:
+        break;
+    }
+    return {};
+}
+
+void drawPill(ImDrawList& list, const Rectangle& viewport, const std::string& text, const draw::Colour& colour)
+{
+    const float wrap = static_cast<float>(viewport.width) - length(60);
+    const ImVec2 size = ImGui::CalcTextSize(text.c_str(), nullptr, false, wrap);
+    const ImVec2 pad{length(12), length(5)};
+    const ImVec2 low{
+        std::round(static_cast<float>(viewport.left) + (static_cast<float>(viewport.width) - size.x) / 2 - pad.x),
+        static_cast<float>(viewport.top) + length(12)};
+    const ImVec2 high{low.x + size.x + 2 * pad.x, low.y + size.y + 2 * pad.y};
+    list.AddRectFilled(low, high, packed(theme::panel, 0.92F), length(6));
+    list.AddRect(low, high, packed(colour), length(6), 0, std::max(1.0F, length(1)));
+    list.AddText(ImGui::GetFont(), ImGui::GetFontSize(), {low.x + pad.x, low.y + pad.y}, packed(theme::text),
+                 text.c_str(), nullptr, wrap);
+}
+
+void drawAxes(ImDrawList& list, const Rectangle& viewport, const std::array<openvdb::Vec3d, 3>& axes)
+{
+    constexpr std::array<draw::Colour, 3> colours{
+        {{0.80F, 0.22F, 0.20F}, {0.25F, 0.58F, 0.20F}, {0.18F, 0.38F, 0.80F}}};
+    const ImVec2 centre{static_cast<float>(viewport.left) + length(46),
+                        static_cast<float>(viewport.top + viewport.height) - length(50)};
+    std::array<std::size_t, 3> order{0, 1, 2};
+    // The nearest last.
+    std::sort(order.begin(), order.end(), [&](auto a, auto b) { return axes[a].z() < axes[b].z(); });
+    for (const std::size_t i : order) {
+        const ImVec2 tip{centre.x + length(28) * static_cast<float>(axes[i].x()),
+                         centre.y - length(28) * static_cast<float>(axes[i].y())};
+        list.AddLine(centre, tip, packed(colours[i]), length(2));
+        list.AddCircleFilled(tip, length(8), packed(colours[i]), 24);
+        const std::string label(1, static_cast<char>('X' + i));
+        const ImVec2 size = ImGui::CalcTextSize(label.c_str());
+        list.AddText({std::round(tip.x - size.x / 2), std::round(tip.y - size.y / 2)}, packed({1, 1, 1}),
+                     label.c_str());
+    }
+}
+
+void drawLegend(ImDrawList& list, const Rectangle& viewport, double largest)
+{
+    const float width = length(14), height = length(120);
+    const ImVec2 low{static_cast<float>(viewport.left + viewport.width) - length(86),
+                     static_cast<float>(viewport.top + viewport.height) - height - length(34)};
+    constexpr int steps = 24;
+    for (int i = 0; i < steps; ++i) {
+        const float top = low.y + height * static_cast<float>(i) / steps;
+        list.AddRectFilled({low.x, top}, {low.x + width, low.y + height * static_cast<float>(i + 1) / steps},
+                           packed(distanceColour(1 - (i + 0.5) / steps)));
+    }
+    list.AddRect(low, {low.x + width, low.y + height}, packed(inkColour));
+    const auto label = [&](double share, const char* format) {
+        char text[32];
+        std::snprintf(text, sizeof text, format, 100 * share * largest);
+        const float y = low.y + height * static_cast<float>(1 - share) - ImGui::GetFontSize() / 2;
+        list.AddText({low.x + width + length(6), std::round(y)}, packed(inkColour), text);
+    };
+    label(1, "%.2f %%");
+    label(0.5, "%.2f %%");
+    label(0, "%.0f");
+}
+
+} // namespace
+
+void buildOverlays(const PanelContext& context, const Rectangle& viewport)
+{
+    const PanelContent& content = context.content;
+    const ViewState& view = content.session.state().view;
+    ImDrawList& list = *ImGui::GetBackgroundDrawList();
+    list.PushClipRect(
+        {static_cast<float>(viewport.left), static_cast<float>(viewport.top)},
+        {static_cast<float>(viewport.left + viewport.width), static_cast<float>(viewport.top + viewport.height)});
+    if (content.session.state().document.model) {
+        if (view.axes) drawAxes(list, viewport, content.axes);
+        if (view.ground) {
+            const std::string text = "grid " + detail::numberText(content.gridStep);
+            list.AddText({static_cast<float>(viewport.left) + length(92),
+                          static_cast<float>(viewport.top + viewport.height) - length(30)},
+                         packed(inkColour), text.c_str());
+        }
+        if (content.largestDistance > 0) drawLegend(list, viewport, content.largestDistance);
+    } else {
+        const char* const text = "Drop a model here";
+        const ImVec2 size = ImGui::CalcTextSize(text);
+        list.AddText({std::round(static_cast<float>(viewport.left) + (static_cast<float>(viewport.width) - size.x) / 2),
+                      std::round(static_cast<float>(viewport.top) + static_cast<float>(viewport.height) / 2)},
+                     packed(inkColour), text);
+    }
+    const std::string standing = standingText(content);
+    if (!standing.empty()) {
+        const bool isPreview = content.planner.standing() == Planner::Standing::preview;
+        drawPill(list, viewport, standing, isPreview ? theme::accent : theme::warning);
+    }
+    list.PopClipRect();
+}
+
+} // namespace vdbcage::view

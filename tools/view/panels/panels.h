@@ -1,0 +1,89 @@
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <openvdb/math/Vec3.h>
+#include <tools/view/state/planner.h>
+#include <tools/view/state/runner.h>
+#include <tools/view/state/session.h>
+
+namespace vdbcage::view {
+
+/// A rectangle of the window, in pixels from its top left.
+struct Rectangle {
+    int left = 0, top = 0, width = 0, height = 0;
+};
+
+/// How many of each a mesh has.
+struct Counts {
+    std::size_t points = 0, edges = 0, faces = 0;
+};
+
+/// A key and the line that it stands for.
+struct Shortcut {
+    std::string chord; ///< as nameOf(KeyChord)
+    std::string line;
+    std::string help;
+};
+
+/// What the panels show. They own nothing of it.
+struct PanelContent {
+    const Session& session;
+    const Planner& planner;
+    std::optional<Progress> progress;
+    const std::vector<std::string>& messages; ///< the first is shown
+    const std::vector<std::string>& notes;    ///< what was done last, the newest at the end
+    const std::vector<Shortcut>& shortcuts;
+    const std::vector<std::filesystem::path>& recentFiles;
+    std::array<openvdb::Vec3d, 3> axes{}; ///< x, y and z as seen: to the right, up, to the viewer
+    double gridStep = 0;                  ///< world units
+    double largestDistance = 0;           ///< of the colours, a fraction of the model's longest side; 0: none
+    std::optional<Counts> model, cage;
+    std::optional<openvdb::math::BBox<openvdb::Vec3d>> box; ///< of the model
+    bool hasModelChanged = false;                           ///< on disk
+    bool asksToQuit = false;                                ///< there is unsaved work
+};
+
+/// What the user asked for: lines as in a script, and where a drag of a value begins and ends.
+struct PanelAnswer {
+    std::vector<std::string> lines;
+    bool beginsDrag = false, endsDrag = false;
+};
+
+/// All panels of the window. Every widget that can be used has a name, by which scripts and tests find it.
+class Panels {
+public:
+    Panels();
+    ~Panels();
+    Panels(const Panels&) = delete;
+    Panels& operator=(const Panels&) = delete;
+
+    /// For Widgets::Build. What is asked for is added to `answer`.
+    void build(const PanelContent& content, PanelAnswer& answer);
+
+    /// What is left for the picture, in a window of that size.
+    static Rectangle viewport(int width, int height, float scale);
+
+    /// Where the widgets of the last layout are, by their names.
+    const std::map<std::string, Rectangle>& places() const;
+    /// Scrolls to the widget, and opens what it is in, by the next layout.
+    void reveal(const std::string& name);
+
+    /// Asks for a file and then for the line VERB FILE. \throw InputError no verb that takes a file of a known kind
+    void browse(const std::string& verb);
+    void showHelp();
+    /// Closes what is open on top. Returns whether there was anything.
+    bool dismiss();
+
+private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+} // namespace vdbcage::view

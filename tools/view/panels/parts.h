@@ -1,0 +1,26 @@
+#pragma once
+
+#include <map>
+#include <string>
+
+#include <tools/view/panels/context.h>
+#include <tools/view/panels/file_browser.h>
+
+/// The parts of the window; each is built once a layout. Those that remember something take it.
+namespace vdbcage::view {
+
+void buildMenu(const PanelContext& context);
+void buildLayers(const PanelContext& context);
+/// `typed`: by the name of a field, what was typed and is not taken over yet.
+void buildOptions(const PanelContext& context, std::map<std::string, std::string>& typed);
+void buildResult(const PanelContext& context);
+void buildStatusLine(const PanelContext& context);
+/// What lies over the picture: what is shown and what is being made, axes, scale of the grid, legend.
+void buildOverlays(const PanelContext& context, const Rectangle& viewport);
+/// Messages, the question before the end, the file browser, help; one at a time. `isHelpOpen` is set back when it is
+/// closed.
+void buildDialogs(const PanelContext& context, bool& isHelpOpen, FileBrowser& browser);
+/// The inside of the file browser.
+void buildBrowser(const PanelContext& context, FileBrowser& browser);
+
+} // namespace vdbcage::view

@@ -1,0 +1,141 @@
+#include <cstdio>
+
+#include <tools/report/report.h>
+#include <tools/view/panels/parts.h>
+
+namespace vdbcage::view {
+
+namespace {
+
+std::string number(const char* format, double value)
+{
+    char text[64];
+    std::snprintf(text, sizeof text, format, value);
+    return text;
+}
+
+std::string facesOf(const CageCheck& check)
+{
+    const std::size_t faces = check.triangles + check.quads;
+    std::string text = std::to_string(faces) + (faces == 1 ? " face" : " faces");
+    if (check.quads > 0) {
+        text += " (" + std::to_string(check.quads) + " quads, " +
+                number("%.0f", 100.0 * static_cast<double>(check.quads) / static_cast<double>(faces)) + " %)";
+    }
+    return text;
+}
+
+const char* verdictOf(const CageCheck& check)
+{
+    return check.bounding() ? "bounding, certified" : check.valid() ? "NOT bounding" : "NOT a valid cage";
+}
+
+template <class Build>
+void row(const char* label, const Build& build)
+{
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
+    muted(label);
+    ImGui::TableNextColumn();
+    build();
+}
+
+void row(const char* label, const std::string& value)
+{
+    row(label, [&] { ImGui::TextUnformatted(value.c_str()); });
+}
+
+void buildStages(const CageResult& shown)
+{
+    double all = 0;
+    for (const StageTime& stage : shown.stages) all += stage.seconds;
+    for (const StageTime& stage : shown.stages) {
+        row(stage.name.c_str(), [&] {
+            const float share = all > 0 ? static_cast<float>(stage.seconds / all) : 0;
+            ImGui::ProgressBar(share, {-1, ImGui::GetTextLineHeight()}, number("%.2f s", stage.seconds).c_str());
+        });
+    }
+}
+
+} // namespace
+
+void buildResult(const PanelContext& context)
+{
+    const CageResultPtr& shown = context.content.planner.shown();
+    if (!shown) return;
+    const CageCheck& check = shown->report.check;
+    ImGui::Dummy({0, length(4)});
+    heading("Cage");
+    ImGui::PushStyleVar(ImGuiStyleVar_CellPadding, {length(2), length(2)});
+    if (ImGui::BeginTable("result", 2)) {
+        ImGui::TableSetupColumn("name", ImGuiTableColumnFlags_WidthFixed, length(92));
+        ImGui::TableSetupColumn("value", ImGuiTableColumnFlags_WidthStretch);
+        row("Verdict", [&] { coloured(check.bounding() ? theme::good : theme::bad, verdictOf(check)); });
+        row("Faces", facesOf(check));
+        row("Volume", check.volumeRatio > 0 ? number("%.3f times the model's", check.volumeRatio)
+                                            : std::string("the model is not closed"));
+        row("Distance", number("%.2f %% in the mean, ", 100 * check.meanDistance) +
+                            number("%.2f %% at most", 100 * check.maxDistance));
+        ImGui::TableSetColumnIndex(1);
+        help("from the cage to the model; parts of the model's longest side");
+        row("Angles", number("%.1f degrees at least", check.minAngleDegrees));
+        if (!check.valid() || !check.bounding()) {
+            row("Bad faces", std::to_string(check.badFaces.size()) + ", in red");
+            row("Contacts", std::to_string(check.contactFaces) + " faces touch the model");
+            row("Outside", std::to_string(check.modelVerticesOutside) + " points of the model");
+        }
+        if (!shown->order.cage) {
+            row("Voxels", std::to_string(shown->report.resolution) + " along the longest side");
+        }
+        ImGui::EndTable();
+    }
+    if (!shown->order.cage) {
+        ImGui::PushTextWrapPos(0);
+        for (const std::string& remark : tool::remarks(shown->report, shown->order.options)) muted(remark);
+        ImGui::PopTextWrapPos();
+    }
+    if (ImGui::CollapsingHeader("Times of the stages")) {
+        if (ImGui::BeginTable("stages", 2)) {
+            ImGui::TableSetupColumn("name", ImGuiTableColumnFlags_WidthFixed, length(92));
+            ImGui::TableSetupColumn("value", ImGuiTableColumnFlags_WidthStretch);
+            buildStages(*shown);
+            ImGui::EndTable();
+        }
+    }
+    context.name("stages");
+    ImGui::PopStyleVar();
+}
+
+void buildStatusLine(const PanelContext& context)
+{
+    const Planner& planner = context.content.planner;
+    const Document& document = context.content.session.state().document;
+    const auto part = [](const std::string& text, const draw::Colour& colour = theme::text) {
+        coloured(colour, text);
+        ImGui::SameLine(0, length(18));
+    };
+    if (!document.model) {
+        muted("No model. Drop a file here (.obj .off .ply .stl, or a scene .json), or use File > Open model.");
+        return;
+    }
+    part(document.model->path.filename().string());
+    if (const CageResultPtr& shown = planner.shown()) {
+        const CageCheck& check = shown->report.check;
+        part(facesOf(check));
+        if (check.volumeRatio > 0) part(number("volume x %.2f", check.volumeRatio));
+        part(number("distance %.2f %%", 100 * check.meanDistance));
+        part(verdictOf(check), check.bounding() ? theme::good : theme::bad);
+        part(number("%.2f s", shown->seconds), theme::mutedText);
+    }
+    if (!context.content.notes.empty()) {
+        const std::string& note = context.content.notes.back();
+        const float width = ImGui::CalcTextSize(note.c_str()).x;
+        const float right = ImGui::GetWindowContentRegionMax().x - width;
+        if (right > ImGui::GetCursorPosX()) ImGui::SetCursorPosX(right);
+        muted(note);
+    } else {
+        ImGui::NewLine();
+    }
+}
+
+} // namespace vdbcage::view
