@@ -1,0 +1,81 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+
+#include <tools/view/drawing.h>
+#include <tools/view/input.h>
+
+namespace vdbcage::view {
+
+/// Where text goes that is cut or copied in a text field.
+struct Clipboard {
+    std::function<std::string()> get;
+    std::function<void(const std::string&)> set;
+};
+
+/// What the pointer should look like.
+enum class PointerShape { arrow, text, hand, resizeHorizontally, resizeVertically };
+
+/// The panels of one window: Dear ImGui with the font, the style and the events of this program. It needs no OpenGL.
+/// Its outcome depends on the events and on what is built only: no clock is asked, no file is read or written.
+/// Several may exist; each is used by one thread at a time, and only one on a thread lays out at a moment.
+class Widgets {
+public:
+    /// Calls ImGui to say what there is. Between its calls of `Begin` and `End` it also learns what the user did.
+    using Build = std::function<void()>;
+
+    /// `scale`: pixels that a length of 1 has, 1 on an ordinary screen. Without a clipboard there is a private one.
+    /// \throw InputError the scale is not in [0.5, 8]
+    /// Cost: some 50 ms, for the glyphs.
+    explicit Widgets(float scale, Clipboard clipboard = {});
+    ~Widgets();
+    Widgets(const Widgets&) = delete;
+    Widgets& operator=(const Widgets&) = delete;
+
+    /// Lays the panels out in `width` x `height` pixels. Call it once an event, and with null where something else
+    /// changed that `build` shows.
+    /// It calls `build` first with the event and then without, until two drawings in a row are the same, at most
+    /// `mostLayouts` times: ImGui hides a window while it learns its size, and answers some events one layout later.
+    /// So one event finds on the screen what a user would see who waited before it, and no event is lost.
+    /// An exception of `build` ends the layout and comes out; the widgets can still be used.
+    /// Returns whether the event is for the widgets, rather than for what is behind them.
+    bool layOut(const InputEvent* event, int width, int height, const Build& build);
+
+    static constexpr int mostLayouts = 5;
+
+    /// What the last layout looks like.
+    const Drawing& drawing() const;
+
+    /// Another number after each `layOut` that changed the drawing.
+    std::uint64_t version() const;
+
+    const Glyphs& glyphs() const;
+
+    /// Whether the pointer is over a panel, or drags something of one.
+    bool wantsPointer() const;
+    /// Whether keys go to a text field, an open popup or what is being dragged.
+    bool wantsKeyboard() const;
+    /// Whether a text field takes what is typed.
+    bool wantsText() const;
+    PointerShape pointerShape() const;
+
+private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+/// The next three are for `Widgets::Build`.
+/// A line of text in the semibold.
+void heading(const std::string& text);
+
+/// The one button of a panel that does what the panel is for. `width` in pixels; 0: as the text needs, -1: all there
+/// is. Whether it was pressed.
+bool mainButton(const std::string& label, float width = 0);
+
+/// Pixels that a length of 1 has.
+float scale();
+
+} // namespace vdbcage::view
