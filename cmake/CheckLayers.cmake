@@ -27,7 +27,9 @@ set(confined
     "png\\.h|^(tools/draw/picture\\.cpp|tests/.*)$"
     "tools/vdbcage/|^(tools/vdbcage/.*|tests/.*)$"
     "tools/draw/|^(tools/(draw|vdbcage|view)/.*|tests/.*)$"
-    "tools/view/|^(tools/view/.*|tests/.*)$"
+    "tools/view/|^(tools/(view|bench)/.*|tests/.*)$"
+    "imgui|^(tools/view/widgets\\.cpp|tools/view/panels/[a-z_]+\\.cpp|tests/view/.*)$"
+    "GLFW/|^tools/view/window\\.cpp$"
     "CGAL/|^(vdbcage/.*\\.cpp|tests/.*)$")
 
 set(problems "")

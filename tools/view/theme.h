@@ -19,19 +19,19 @@ constexpr draw::Colour colour(std::uint32_t code)
 constexpr draw::Colour title = colour(0x202022);
 constexpr draw::Colour panel = colour(0x2A2A2C);
 constexpr draw::Colour popup = colour(0x303033);
-constexpr draw::Colour field = colour(0x1D1D1F), fieldHovered = colour(0x232326), fieldActive = colour(0x272A30);
+constexpr draw::Colour field = colour(0x1B1B1D), fieldHovered = colour(0x232326), fieldActive = colour(0x272A30);
 constexpr draw::Colour button = colour(0x3C3C40), buttonHovered = colour(0x48484D), buttonActive = colour(0x343438);
 constexpr draw::Colour line = colour(0x434347); ///< borders and separators
 constexpr draw::Colour grip = colour(0x5A5A60); ///< of scroll bars and corners
 constexpr draw::Colour gripHovered = colour(0x75757C);
 
-constexpr draw::Colour text = colour(0xE8E8EA);
+constexpr draw::Colour text = colour(0xECECEE);
 constexpr draw::Colour mutedText = colour(0xA8A8AE); ///< labels, units, what cannot be used now
 
 constexpr draw::Colour accent = colour(0x6BA6F7);     ///< marks, handles, what is active
-constexpr draw::Colour accentFill = colour(0x2E69C2); ///< under `text`
-constexpr draw::Colour accentFillHovered = colour(0x3671CA), accentFillActive = colour(0x275CAE);
-constexpr draw::Colour selected = colour(0x35486A); ///< under `text`: a row or some letters
+constexpr draw::Colour accentFill = colour(0x2A60B4); ///< under `text`
+constexpr draw::Colour accentFillHovered = colour(0x3068BE), accentFillActive = colour(0x2657A6);
+constexpr draw::Colour selected = colour(0x34476B); ///< under `text`: a row or some letters
 
 constexpr draw::Colour good = colour(0x6CC58B), warning = colour(0xE3B15A), bad = colour(0xF28B82);
 

@@ -74,7 +74,7 @@ void WidgetRenderer::draw(const draw::Target& target, const Drawing& drawing)
 {
     if (!drawing.batches.empty()) upload(drawing);
     for (const GLenum state : {GL_CULL_FACE, GL_DEPTH_TEST, GL_STENCIL_TEST, GL_CLIP_DISTANCE0}) api_.Disable(state);
-    for (const GLenum state : {GL_BLEND, GL_SCISSOR_TEST, GL_MULTISAMPLE}) api_.Enable(state);
+    for (const GLenum state : {GL_BLEND, GL_SCISSOR_TEST}) api_.Enable(state);
     api_.BlendFuncSeparate(GL_ONE, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
     api_.ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
     api_.BindFramebuffer(GL_FRAMEBUFFER, target.framebuffer);

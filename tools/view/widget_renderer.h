@@ -12,11 +12,12 @@ public:
     /// \throw DeviceError
     WidgetRenderer(const gl::Api& api, const Glyphs& glyphs);
 
-    /// Draws over what the target has, one sample a pixel or several. Colours in it are times their alpha, and so are
-    /// those of textures that the drawing names.
+    /// Draws over what the target has. Colours in it are times their alpha, and so are those of textures that the
+    /// drawing names.
     /// It takes no state of the context for granted. After it, blending and all tests are off; bound are the target's
     /// framebuffer, its own program and arrays, and at texture unit 0 any texture.
     /// \pre the drawing has the size of the target, in pixels of the framebuffer
+    /// \pre one sample a pixel: of several, Mesa's software cuts rectangles off in the middle of pixels
     /// \throw DeviceError out of memory. Other failures are for the caller to ask for (gl::throwIfFailed).
     void draw(const draw::Target& target, const Drawing& drawing);
 

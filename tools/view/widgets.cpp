@@ -4,6 +4,7 @@
 #include <array>
 #include <cfloat>
 #include <cmath>
+#include <initializer_list>
 #include <utility>
 
 #include <imgui.h>
@@ -122,8 +123,8 @@ void setColours(ImGuiStyle& style)
     set(ImGuiCol_ScrollbarGrabHovered, theme::gripHovered);
     set(ImGuiCol_ScrollbarGrabActive, theme::gripHovered);
     set(ImGuiCol_CheckMark, theme::accent);
-    set(ImGuiCol_SliderGrab, theme::accent);
-    set(ImGuiCol_SliderGrabActive, theme::text);
+    set(ImGuiCol_SliderGrab, theme::accentFillHovered); // the value may stand on it
+    set(ImGuiCol_SliderGrabActive, theme::accentFillHovered);
     set(ImGuiCol_Button, theme::button);
     set(ImGuiCol_ButtonHovered, theme::buttonHovered);
     set(ImGuiCol_ButtonActive, theme::buttonActive);
@@ -291,14 +292,22 @@ struct Feed {
     void operator()(const Typed& typed) const { io.AddInputCharacter(typed.character); }
 };
 
-/// Whether ImGui, which has begun to lay out with `event`, takes it.
-bool takes(const ImGuiIO& io, const InputEvent& event)
+/// Whether ImGui, which has begun to lay out with `event`, takes it. `tookPointer`: what it wanted before.
+bool takes(const ImGuiIO& io, const InputEvent& event, bool tookPointer)
 {
+    // Who had the press gets the release, wherever the pointer is by then.
+    if (std::holds_alternative<ButtonUp>(event.what)) return tookPointer;
     if (std::holds_alternative<Typed>(event.what)) return io.WantTextInput;
     if (std::holds_alternative<KeyDown>(event.what) || std::holds_alternative<KeyUp>(event.what)) {
         return io.WantCaptureKeyboard;
     }
     return io.WantCaptureMouse;
+}
+
+bool isEnterDown(const InputEvent& event)
+{
+    const auto* down = std::get_if<KeyDown>(&event.what);
+    return down != nullptr && (down->key == Key::enter || down->key == Key::keypadEnter);
 }
 
 bool popupIsOpen()
@@ -307,27 +316,6 @@ bool popupIsOpen()
 }
 
 } // namespace
-
-bool operator==(const Drawing& a, const Drawing& b)
-{
-    const auto sameVertices = [](const Drawing::Vertex& first, const Drawing::Vertex& second) {
-        return first.x == second.x && first.y == second.y && first.u == second.u && first.v == second.v &&
-               first.rgba == second.rgba;
-    };
-    const auto sameBatches = [](const Drawing::Batch& first, const Drawing::Batch& second) {
-        return first.left == second.left && first.top == second.top && first.right == second.right &&
-               first.bottom == second.bottom && first.texture == second.texture &&
-               first.firstIndex == second.firstIndex && first.indexCount == second.indexCount;
-    };
-    return a.width == b.width && a.height == b.height && a.indices == b.indices &&
-           std::equal(a.vertices.begin(), a.vertices.end(), b.vertices.begin(), b.vertices.end(), sameVertices) &&
-           std::equal(a.batches.begin(), a.batches.end(), b.batches.begin(), b.batches.end(), sameBatches);
-}
-
-bool operator!=(const Drawing& a, const Drawing& b)
-{
-    return !(a == b);
-}
 
 struct Widgets::State {
     State(float scaleIn, Clipboard clipboardIn);
@@ -381,8 +369,12 @@ Drawing Widgets::State::layOutOnce(int width, int height, const Build& build, co
     io.DisplaySize = ImVec2(static_cast<float>(width), static_cast<float>(height));
     // An open popup is chosen from by arrows, enter and escape. Without one, ImGui would take keys that are for others.
     io.ConfigFlags = popupIsOpen() ? ImGuiConfigFlags_NavEnableKeyboard : ImGuiConfigFlags_None;
+    if (event != nullptr && popupIsOpen() && isEnterDown(*event)) {
+        io.NavInputs[ImGuiNavInput_Activate] = 1; // ImGui itself chooses by the space bar only
+    }
+    const bool tookPointer = io.WantCaptureMouse;
     ImGui::NewFrame();
-    if (event != nullptr) eventIsTaken = takes(io, *event);
+    if (event != nullptr) eventIsTaken = takes(io, *event, tookPointer);
     try {
         build();
     } catch (...) {
@@ -487,6 +479,27 @@ PointerShape Widgets::pointerShape() const
     }
 }
 
+namespace {
+
+/// Colours of a widget, until this ends.
+class Colours {
+public:
+    Colours(std::initializer_list<std::pair<ImGuiCol, draw::Colour>> colours) : count_(static_cast<int>(colours.size()))
+    {
+        for (const auto& [what, colour] : colours) {
+            ImGui::PushStyleColor(what, ImVec4(colour[0], colour[1], colour[2], 1));
+        }
+    }
+    ~Colours() { ImGui::PopStyleColor(count_); }
+    Colours(const Colours&) = delete;
+    Colours& operator=(const Colours&) = delete;
+
+private:
+    int count_;
+};
+
+} // namespace
+
 void heading(const std::string& text)
 {
     ImGui::PushFont(ImGui::GetIO().Fonts->Fonts[headingFont]);
@@ -494,18 +507,27 @@ void heading(const std::string& text)
     ImGui::PopFont();
 }
 
+bool section(const std::string& title, bool open)
+{
+    const Colours colours{{ImGuiCol_Header, theme::title},
+                          {ImGuiCol_HeaderHovered, theme::button},
+                          {ImGuiCol_HeaderActive, theme::buttonActive}};
+    ImGui::PushStyleVar(ImGuiStyleVar_FrameBorderSize, 0.0F);
+    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(5 * scale(), 4 * scale())); // the title nearer to its arrow
+    ImGui::PushFont(ImGui::GetIO().Fonts->Fonts[headingFont]);
+    const bool shown = ImGui::CollapsingHeader(title.c_str(), open ? ImGuiTreeNodeFlags_DefaultOpen : 0);
+    ImGui::PopFont();
+    ImGui::PopStyleVar(2);
+    return shown;
+}
+
 bool mainButton(const std::string& label, float width)
 {
-    const auto push = [](ImGuiCol what, const draw::Colour& colour) {
-        ImGui::PushStyleColor(what, ImVec4(colour[0], colour[1], colour[2], 1));
-    };
-    push(ImGuiCol_Button, theme::accentFill);
-    push(ImGuiCol_ButtonHovered, theme::accentFillHovered);
-    push(ImGuiCol_ButtonActive, theme::accentFillActive);
-    push(ImGuiCol_Border, theme::accentFillHovered);
-    const bool pressed = ImGui::Button(label.c_str(), ImVec2(width < 0 ? -FLT_MIN : width, 0));
-    ImGui::PopStyleColor(4);
-    return pressed;
+    const Colours colours{{ImGuiCol_Button, theme::accentFill},
+                          {ImGuiCol_ButtonHovered, theme::accentFillHovered},
+                          {ImGuiCol_ButtonActive, theme::accentFillActive},
+                          {ImGuiCol_Border, theme::accentFillHovered}};
+    return ImGui::Button(label.c_str(), ImVec2(width < 0 ? -FLT_MIN : width, 0));
 }
 
 float scale()

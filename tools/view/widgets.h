@@ -67,9 +67,13 @@ private:
     std::unique_ptr<State> state_;
 };
 
-/// The next three are for `Widgets::Build`.
+// The rest is for use within `Widgets::Build`.
+
 /// A line of text in the semibold.
 void heading(const std::string& text);
+
+/// The heading of a part of a panel that the user can fold up; `open` at first. Whether the part is to be built.
+bool section(const std::string& title, bool open = true);
 
 /// The one button of a panel that does what the panel is for. `width` in pixels; 0: as the text needs, -1: all there
 /// is. Whether it was pressed.
