@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
+#include <initializer_list>
 #include <vector>
 
 #include <tools/draw/canvas.h>
@@ -21,6 +22,7 @@ using test::Panel;
 namespace {
 
 using Pixels = std::vector<std::uint8_t>;
+using GLenums = std::initializer_list<GLenum>; // the constants are signed
 using Rgba = std::array<int, 4>;
 using Source = gl::OffscreenContext::Source;
 
@@ -199,7 +201,7 @@ BOOST_AUTO_TEST_CASE(pictures_in_panels_are_textures_of_opengl)
     // Its first row is drawn at the top.
     const std::array<std::uint8_t, 8> rows{0, 200, 0, 255, 0, 0, 100, 100};
     studio.api.TextureSubImage2D(texture.name(), 0, 0, 0, 1, 2, GL_RGBA, GL_UNSIGNED_BYTE, rows.data());
-    for (const GLenum filter : {GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER}) {
+    for (const GLenum filter : GLenums{GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER}) {
         studio.api.TextureParameteri(texture.name(), filter, GL_NEAREST);
     }
     widgets.layOut(nullptr, side, side, [&texture] {
@@ -222,7 +224,8 @@ BOOST_AUTO_TEST_CASE(no_state_of_the_context_is_taken_for_granted)
     Studio studio(desk.widgets.glyphs());
     const Pixels expected = studio.picture(desk.widgets.drawing());
     const gl::Api& api = studio.api;
-    for (const GLenum state : {GL_CULL_FACE, GL_DEPTH_TEST, GL_STENCIL_TEST, GL_CLIP_DISTANCE0}) api.Enable(state);
+    for (const GLenum state : GLenums{GL_CULL_FACE, GL_DEPTH_TEST, GL_STENCIL_TEST, GL_CLIP_DISTANCE0})
+        api.Enable(state);
     api.DepthFunc(GL_NEVER);
     api.StencilFunc(GL_NEVER, 0, 0xFF);
     api.ColorMask(GL_FALSE, GL_FALSE, GL_TRUE, GL_TRUE);

@@ -1,6 +1,7 @@
 #include <tools/view/widget_renderer.h>
 
 #include <cstddef>
+#include <initializer_list>
 
 #include <shaders/view.h>
 #include <vdbcage/gl/program.h>
@@ -9,15 +10,17 @@ namespace vdbcage::view {
 
 namespace {
 
+using GLenums = std::initializer_list<GLenum>; // the constants are signed
+
 /// Glyphs are white; what OpenGL reads is their coverage in every channel, as colours times alpha are.
 gl::Texture makeGlyphTexture(const gl::Api& api, const Glyphs& glyphs)
 {
     gl::Texture texture = gl::makeTexture2D(api, GL_R8, glyphs.width, glyphs.height);
     for (const GLenum channel :
-         {GL_TEXTURE_SWIZZLE_R, GL_TEXTURE_SWIZZLE_G, GL_TEXTURE_SWIZZLE_B, GL_TEXTURE_SWIZZLE_A}) {
+         GLenums{GL_TEXTURE_SWIZZLE_R, GL_TEXTURE_SWIZZLE_G, GL_TEXTURE_SWIZZLE_B, GL_TEXTURE_SWIZZLE_A}) {
         api.TextureParameteri(texture.name(), channel, GL_RED);
     }
-    for (const GLenum filter : {GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER}) {
+    for (const GLenum filter : GLenums{GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER}) {
         api.TextureParameteri(texture.name(), filter, GL_LINEAR);
     }
     api.PixelStorei(GL_UNPACK_ALIGNMENT, 1);
@@ -73,8 +76,9 @@ void WidgetRenderer::upload(const Drawing& drawing)
 void WidgetRenderer::draw(const draw::Target& target, const Drawing& drawing)
 {
     if (!drawing.batches.empty()) upload(drawing);
-    for (const GLenum state : {GL_CULL_FACE, GL_DEPTH_TEST, GL_STENCIL_TEST, GL_CLIP_DISTANCE0}) api_.Disable(state);
-    for (const GLenum state : {GL_BLEND, GL_SCISSOR_TEST}) api_.Enable(state);
+    for (const GLenum state : GLenums{GL_CULL_FACE, GL_DEPTH_TEST, GL_STENCIL_TEST, GL_CLIP_DISTANCE0})
+        api_.Disable(state);
+    for (const GLenum state : GLenums{GL_BLEND, GL_SCISSOR_TEST}) api_.Enable(state);
     api_.BlendFuncSeparate(GL_ONE, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
     api_.ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
     api_.BindFramebuffer(GL_FRAMEBUFFER, target.framebuffer);
@@ -90,7 +94,7 @@ void WidgetRenderer::draw(const draw::Target& target, const Drawing& drawing)
         api_.DrawElements(GL_TRIANGLES, static_cast<GLsizei>(batch.indexCount), GL_UNSIGNED_INT,
                           reinterpret_cast<const void*>(batch.firstIndex * sizeof(std::uint32_t)));
     }
-    for (const GLenum state : {GL_BLEND, GL_SCISSOR_TEST}) api_.Disable(state);
+    for (const GLenum state : GLenums{GL_BLEND, GL_SCISSOR_TEST}) api_.Disable(state);
 }
 
 } // namespace vdbcage::view
