@@ -123,31 +123,58 @@ BOOST_AUTO_TEST_CASE(text_and_its_ground_are_drawn_where_they_were_laid_out)
     BOOST_TEST(countOf(typed, opaque(theme::text), field) > 5);
 }
 
-BOOST_AUTO_TEST_CASE(every_letter_of_the_font_has_pixels)
+BOOST_AUTO_TEST_CASE(every_window_is_drawn_where_it_is)
 {
     Widgets widgets(1);
-    for (const char* letter : {"A", "g", "ä", "ß", "Ω", "ж", "→", "✓", "≤", "…", "×"}) {
-        widgets.layOut(nullptr, 100, 100, [letter] {
-            ImGui::SetNextWindowPos({0, 0});
-            ImGui::Begin("w", nullptr, ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoBackground);
-            ImGui::TextUnformatted(letter);
-            ImGui::End();
-        });
-        const Drawing& drawing = widgets.drawing();
-        BOOST_REQUIRE(drawing.vertices.size() == 4U);
-        const Glyphs& glyphs = widgets.glyphs();
-        int inked = 0;
-        const auto row = [&](float v) { return static_cast<int>(std::lround(v * static_cast<float>(glyphs.height))); };
+    Studio studio(widgets.glyphs());
+    const draw::Colour red{1, 0, 0};
+    const draw::Colour green{0, 1, 0};
+    const auto window = [](const char* name, float left, const draw::Colour& colour) {
+        ImGui::PushStyleColor(ImGuiCol_WindowBg, ImVec4(colour[0], colour[1], colour[2], 1));
+        ImGui::SetNextWindowPos({left, 0});
+        ImGui::SetNextWindowSize({60, 60});
+        ImGui::Begin(name, nullptr, ImGuiWindowFlags_NoDecoration);
+        ImGui::End();
+        ImGui::PopStyleColor();
+    };
+    widgets.layOut(nullptr, 160, 60, [&] {
+        window("first", 0, red);
+        window("second", 100, green);
+    });
+    const Pixels pixels = studio.picture(widgets.drawing());
+    BOOST_TEST((at(pixels, 160, 60, 30, 30) == opaque(red)));
+    BOOST_TEST((at(pixels, 160, 60, 80, 30) == nothing));
+    BOOST_TEST((at(pixels, 160, 60, 130, 30) == opaque(green)));
+}
+
+BOOST_AUTO_TEST_CASE(the_font_has_the_letters_of_names_and_figures)
+{
+    Widgets widgets(1);
+    const Glyphs& glyphs = widgets.glyphs();
+    const auto inkOf = [&glyphs](const ImFontGlyph& glyph) {
         const auto column = [&](float u) {
-            return static_cast<int>(std::lround(u * static_cast<float>(glyphs.width)));
+            return static_cast<std::size_t>(std::lround(u * static_cast<float>(glyphs.width)));
         };
-        for (int y = row(drawing.vertices[0].v); y < row(drawing.vertices[2].v); ++y) {
-            for (int x = column(drawing.vertices[0].u); x < column(drawing.vertices[2].u); ++x) {
-                inked += glyphs.coverage[static_cast<std::size_t>(y * glyphs.width + x)] > 200 ? 1 : 0;
+        const auto row = [&](float v) {
+            return static_cast<std::size_t>(std::lround(v * static_cast<float>(glyphs.height)));
+        };
+        int ink = 0;
+        for (std::size_t y = row(glyph.V0); y < row(glyph.V1); ++y) {
+            for (std::size_t x = column(glyph.U0); x < column(glyph.U1); ++x) {
+                ink += glyphs.coverage[y * static_cast<std::size_t>(glyphs.width) + x] > 80 ? 1 : 0;
             }
         }
-        BOOST_TEST(inked > 3, letter);
-    }
+        return ink;
+    };
+    widgets.layOut(nullptr, 100, 100, [&inkOf] {
+        const std::u16string letters = u"Ag\u00e4\u00df\u0141\u03a9\u0436\u2192\u2713\u2264\u2026\u00d7\u2013\u201c";
+        for (const char16_t letter : letters) {
+            const ImFontGlyph* glyph = ImGui::GetFont()->FindGlyphNoFallback(letter);
+            const int code = letter;
+            BOOST_REQUIRE_MESSAGE(glyph != nullptr, "no glyph of " << code);
+            BOOST_TEST(inkOf(*glyph) > 3, code);
+        }
+    });
 }
 
 BOOST_AUTO_TEST_CASE(software_draws_the_same_bytes_by_every_way)
