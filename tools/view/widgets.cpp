@@ -347,7 +347,7 @@ Widgets::State::State(float scaleIn, Clipboard clipboardIn) : scale(scaleIn), cl
     io.ConfigWindowsMoveFromTitleBarOnly = true;
     io.ConfigMemoryCompactTimer = -1; // seconds of a clock that tells nothing
     io.MousePos = ImVec2(-FLT_MAX, -FLT_MAX);
-    io.UserData = this;
+    io.UserData = &scale; // for view::scale
     if (clipboard.get && clipboard.set) {
         io.ClipboardUserData = this;
         io.GetClipboardTextFn = [](void* state) {
@@ -368,8 +368,9 @@ Drawing Widgets::State::layOutOnce(int width, int height, const Build& build, co
     ImGuiIO& io = ImGui::GetIO();
     io.DisplaySize = ImVec2(static_cast<float>(width), static_cast<float>(height));
     // An open popup is chosen from by arrows, enter and escape. Without one, ImGui would take keys that are for others.
-    io.ConfigFlags = popupIsOpen() ? ImGuiConfigFlags_NavEnableKeyboard : ImGuiConfigFlags_None;
-    if (event != nullptr && popupIsOpen() && isEnterDown(*event)) {
+    const bool choosing = popupIsOpen();
+    io.ConfigFlags = choosing ? ImGuiConfigFlags_NavEnableKeyboard : ImGuiConfigFlags_None;
+    if (choosing && event != nullptr && isEnterDown(*event)) {
         io.NavInputs[ImGuiNavInput_Activate] = 1; // ImGui itself chooses by the space bar only
     }
     const bool tookPointer = io.WantCaptureMouse;
@@ -532,7 +533,7 @@ bool mainButton(const std::string& label, float width)
 
 float scale()
 {
-    return ImGui::GetFontSize() / textHeight;
+    return *static_cast<const float*>(ImGui::GetIO().UserData);
 }
 
 } // namespace vdbcage::view

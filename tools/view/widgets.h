@@ -10,7 +10,7 @@
 
 namespace vdbcage::view {
 
-/// Where text goes that is cut or copied in a text field.
+/// Where text goes that is cut or copied in a text field, and where pasted text comes from.
 struct Clipboard {
     std::function<std::string()> get;
     std::function<void(const std::string&)> set;
@@ -24,24 +24,28 @@ enum class PointerShape { arrow, text, hand, resizeHorizontally, resizeVerticall
 /// Several may exist; each is used by one thread at a time, and only one on a thread lays out at a moment.
 class Widgets {
 public:
-    /// Calls ImGui to say what there is. Between its calls of `Begin` and `End` it also learns what the user did.
+    /// Calls ImGui to say what there is, and learns from it what the user did. It is called more than once an event,
+    /// but each thing that the user does is told to it once.
     using Build = std::function<void()>;
 
-    /// `scale`: pixels that a length of 1 has, 1 on an ordinary screen. Without a clipboard there is a private one.
+    /// `scale`: pixels that a length of 1 has, 1 on an ordinary screen. A clipboard without both functions is not
+    /// used; there is a private one then.
     /// \throw InputError the scale is not in [0.5, 8]
-    /// Cost: some 50 ms, for the glyphs.
+    /// Cost: 15 to 40 ms, for the glyphs.
     explicit Widgets(float scale, Clipboard clipboard = {});
     ~Widgets();
     Widgets(const Widgets&) = delete;
     Widgets& operator=(const Widgets&) = delete;
 
-    /// Lays the panels out in `width` x `height` pixels. Call it once an event, and with null where something else
-    /// changed that `build` shows.
-    /// It calls `build` first with the event and then without, until two drawings in a row are the same, at most
-    /// `mostLayouts` times: ImGui hides a window while it learns its size, and answers some events one layout later.
-    /// So one event finds on the screen what a user would see who waited before it, and no event is lost.
+    /// Lays the panels out in `width` x `height` pixels. To be called for each event, and with null where something
+    /// else changed that `build` shows.
+    /// `build` is called with the event, and then without until two drawings in a row are the same: ImGui hides a
+    /// window while it learns its size, and answers some events one layout later. So each event meets what a user sees
+    /// who waits between events, and none is lost. After `mostLayouts` calls the last drawing is taken as it is.
     /// An exception of `build` ends the layout and comes out; the widgets can still be used.
-    /// Returns whether the event is for the widgets, rather than for what is behind them.
+    /// Returns whether the event is for the widgets, rather than for what is behind them. A release is for whom the
+    /// press was.
+    /// Cost: for two panels and 2,700 vertices 0.08 ms an event.
     bool layOut(const InputEvent* event, int width, int height, const Build& build);
 
     static constexpr int mostLayouts = 5;
@@ -56,7 +60,8 @@ public:
 
     /// Whether the pointer is over a panel, or drags something of one.
     bool wantsPointer() const;
-    /// Whether keys go to a text field, an open popup or what is being dragged.
+    /// Whether keys go to a text field, an open popup or what is being dragged. Of a popup arrows, enter and escape
+    /// choose.
     bool wantsKeyboard() const;
     /// Whether a text field takes what is typed.
     bool wantsText() const;
