@@ -28,7 +28,9 @@ set(confined
     "tools/report/|^(tools/(report|vdbcage|view)/.*|tests/.*)$"
     "tools/vdbcage/|^(tools/vdbcage/.*|tests/.*)$"
     "tools/draw/|^(tools/(draw|vdbcage|view)/.*|tests/.*)$"
-    "tools/view/|^(tools/view/.*|tests/.*)$"
+    "tools/view/|^(tools/(view|bench)/.*|tests/.*)$"
+    "imgui|^(tools/view/widgets\\.cpp|tools/view/panels/[a-z_]+\\.cpp|tests/view/.*)$"
+    "GLFW/|^tools/view/window\\.cpp$"
     "CGAL/|^(vdbcage/.*\\.cpp|tests/.*)$")
 
 set(problems "")

@@ -74,8 +74,10 @@
     X(PFNGLSTENCILFUNCPROC, StencilFunc)                                                                               \
     X(PFNGLSTENCILOPPROC, StencilOp)                                                                                   \
     X(PFNGLTEXTUREBUFFERPROC, TextureBuffer)                                                                           \
+    X(PFNGLTEXTUREPARAMETERIPROC, TextureParameteri)                                                                   \
     X(PFNGLTEXTURESTORAGE2DPROC, TextureStorage2D)                                                                     \
     X(PFNGLTEXTURESTORAGE2DMULTISAMPLEPROC, TextureStorage2DMultisample)                                               \
+    X(PFNGLTEXTURESUBIMAGE2DPROC, TextureSubImage2D)                                                                   \
     X(PFNGLUSEPROGRAMPROC, UseProgram)                                                                                 \
     X(PFNGLVERTEXARRAYATTRIBBINDINGPROC, VertexArrayAttribBinding)                                                     \
     X(PFNGLVERTEXARRAYATTRIBFORMATPROC, VertexArrayAttribFormat)                                                       \
