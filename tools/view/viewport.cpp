@@ -171,8 +171,8 @@ bool Viewport::show(const OpenedMeshPtr& model, const CageResultPtr& cage, bool 
 void Viewport::setFrame(const OpenedMeshPtr& model)
 {
     frame_ = draw::Frame(boxOf(model));
-    for (Slot& slot : slots_) slot = {};
-    standIn_ = distances_ = ground_ = {};
+    for (Slot& slot : slots_) slot = Slot();
+    for (Slot* const slot : {&standIn_, &distances_, &ground_}) *slot = Slot();
 }
 
 void Viewport::fill(Slot& slot, const std::shared_ptr<const void>& source, const Mesh* mesh, double crease)

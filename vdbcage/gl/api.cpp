@@ -55,6 +55,20 @@ Api::Api(GetProc getProc)
     }
 }
 
+Driver driverOf(const Api& api)
+{
+    const auto text = [&](GLenum name) {
+        const GLubyte* const string = api.GetString(name);
+        return std::string(string ? reinterpret_cast<const char*>(string) : "?");
+    };
+    const std::string renderer = text(GL_RENDERER);
+    Driver driver{renderer + ", OpenGL " + text(GL_VERSION)};
+    for (const char* name : {"llvmpipe", "softpipe", "swrast", "Software Rasterizer"}) {
+        driver.isSoftware = driver.isSoftware || renderer.find(name) != std::string::npos;
+    }
+    return driver;
+}
+
 void enableDebugMessages(const Api& api)
 {
     api.Enable(GL_DEBUG_OUTPUT);

@@ -105,6 +105,13 @@ struct Api {
 #undef VDBCAGE_GL_DECLARE
 };
 
+/// What draws in a context.
+struct Driver {
+    std::string description; ///< its name and version
+    bool isSoftware = false; ///< a program on the CPU, rather than a device
+};
+Driver driverOf(const Api& api);
+
 /// Makes the context record in full what it calls an error or undefined, for `throwIfFailed` to report.
 void enableDebugMessages(const Api& api);
 

@@ -18,20 +18,6 @@ namespace {
 /// OpenGL itself keeps this for each thread, but drivers do not see contexts of each other.
 thread_local bool threadHasContext = false;
 
-std::string text(const Api& api, GLenum name)
-{
-    const GLubyte* string = api.GetString(name);
-    return string ? reinterpret_cast<const char*>(string) : "?";
-}
-
-bool namesSoftware(const std::string& renderer)
-{
-    for (const char* name : {"llvmpipe", "softpipe", "swrast", "Software Rasterizer"}) {
-        if (renderer.find(name) != std::string::npos) return true;
-    }
-    return false;
-}
-
 /// Threads that do nothing until all of them are there.
 class IdleThreads {
 public:
@@ -76,9 +62,9 @@ struct OffscreenContext::State {
         const Current current(*this);
         const Api& table = api.emplace(platform->getProc());
         if (debug == Debug::on) enableDebugMessages(table);
-        const std::string renderer = text(table, GL_RENDERER);
-        software = namesSoftware(renderer);
-        description = std::string(platform->name()) + ": " + renderer + ", OpenGL " + text(table, GL_VERSION);
+        const Driver driver = driverOf(table);
+        software = driver.isSoftware;
+        description = std::string(platform->name()) + ": " + driver.description;
         throwIfFailed(table, "making a context");
     }
 

@@ -4,6 +4,9 @@
 #include <string>
 
 #include <imgui.h>
+
+#include <imgui_stdlib.h> // needs the one above
+
 #include <tools/view/panels/panels.h>
 #include <tools/view/theme.h>
 #include <tools/view/widgets.h>

@@ -5,7 +5,6 @@
 #include <cstdio>
 #include <system_error>
 
-#include <imgui_stdlib.h>
 #include <tools/view/panels/parts.h>
 #include <tools/view/state/words.h>
 #include <vdbcage/core/error.h>

@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cstdio>
 
-#include <imgui_stdlib.h>
 #include <tools/view/panels/parts.h>
 #include <tools/view/state/preset.h>
 #include <tools/view/state/words.h>

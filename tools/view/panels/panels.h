@@ -44,10 +44,10 @@ struct PanelContent {
     std::array<openvdb::Vec3d, 3> axes{}; ///< x, y and z as seen: to the right, up, to the viewer
     double gridStep = 0;                  ///< world units
     double largestDistance = 0;           ///< of the colours, a fraction of the model's longest side; 0: none
-    std::optional<Counts> model, cage;
-    std::optional<openvdb::math::BBox<openvdb::Vec3d>> box; ///< of the model
-    bool hasModelChanged = false;                           ///< on disk
-    bool asksToQuit = false;                                ///< there is unsaved work
+    std::optional<Counts> model = {}, cage = {};
+    std::optional<openvdb::math::BBox<openvdb::Vec3d>> box = {}; ///< of the model
+    bool hasModelChanged = false;                                ///< on disk
+    bool asksToQuit = false;                                     ///< there is unsaved work
 };
 
 /// What the user asked for: lines as in a script, and where a drag of a value begins and ends.

@@ -1,0 +1,158 @@
+// The program `vdbcage-view`.
+
+#include <cstdlib>
+#include <exception>
+#include <filesystem>
+#include <iostream>
+#include <optional>
+
+#include <CLI/CLI.hpp>
+
+#include <tools/view/script.h>
+#include <tools/view/state/command.h>
+#include <tools/view/state/folder.h>
+#include <tools/view/state/words.h>
+#include <tools/view/window.h>
+#include <vdbcage/core/detail/atomic_file.h>
+#include <vdbcage/core/detail/printable.h>
+#include <vdbcage/core/error.h>
+#include <vdbcage/core/version.h>
+#include <vdbcage/gl/offscreen.h>
+
+namespace vdbcage::view {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Arguments {
+    std::vector<std::string> files;
+    fs::path script, recording;
+    std::string context;
+};
+
+void printTable(const std::string& title, const std::vector<std::pair<std::string, std::string>>& rows)
+{
+    std::cout << '\n' << title << ":\n";
+    for (const auto& [usage, help] : rows) {
+        std::cout << "  " << usage << std::string(usage.size() < 34 ? 34 - usage.size() : 1, ' ') << help << '\n';
+    }
+}
+
+void printHelp()
+{
+    std::cout << "vdbcage-view [MODEL|SCENE.json] [CAGE] [OPTIONS]: a window in which a cage is made\n\n"
+                 "  --script FILE           does the lines of FILE; without a display too\n"
+                 "  --record FILE           writes what the user does as such a script\n"
+                 "  --without-window HOW    for scripts: any, egl or osmesa\n"
+                 "  --version               prints the version\n";
+    printTable("Lines of a script: commands", describeCommands());
+    printTable("Lines of a script: what menus and keys do", describeVerbs());
+    printTable("Lines of a script: what hands and eyes do", describeScript());
+    std::vector<std::pair<std::string, std::string>> keys;
+    for (const Shortcut& shortcut : shortcuts()) keys.emplace_back(shortcut.chord, shortcut.help);
+    printTable("Keys", keys);
+}
+
+Arguments parse(int count, char** words)
+{
+    Arguments arguments;
+    CLI::App app("", "vdbcage-view");
+    app.set_help_flag();
+    app.add_option("files", arguments.files)->expected(0, 2);
+    app.add_option("--script", arguments.script);
+    app.add_option("--record", arguments.recording);
+    app.add_option("--without-window", arguments.context)->check(CLI::IsMember({"any", "egl", "osmesa"}));
+    app.parse(count, words);
+    return arguments;
+}
+
+void openFiles(App& app, const Arguments& arguments)
+{
+    if (arguments.files.empty()) return;
+    const fs::path first = arguments.files[0];
+    app.perform({first.extension() == ".json" ? "open-scene" : "open", first.string()});
+    if (arguments.files.size() > 1) app.perform({"open-cage", arguments.files[1]});
+}
+
+/// Opens the files, does the script and, with a window, what the user wants.
+void run(const gl::Api& api, AppSetup setup, const Arguments& arguments, Window* window)
+{
+    std::string recorded = "# recorded by vdbcage-view " VDBCAGE_VERSION "\n";
+    for (std::size_t i = 0; i < arguments.files.size(); ++i) {
+        recorded += (i == 0 ? "open " : "open-cage ") + quotedWord(fs::absolute(arguments.files[i]).string()) + '\n';
+    }
+    if (!arguments.recording.empty()) {
+        requireWritable(arguments.recording);
+        setup.record = [&](const std::string& line) { recorded += line + '\n'; };
+    }
+    App app(api, std::move(setup));
+    openFiles(app, arguments);
+    if (!arguments.script.empty()) {
+        runScript(app, arguments.script);
+        if (window) window->show(app);
+    } else {
+        window->run(app);
+    }
+    if (!arguments.recording.empty()) {
+        writeFileAtomically(arguments.recording, [&](std::ostream& out) { out << recorded; });
+    }
+}
+
+void runWithoutWindow(const Arguments& arguments)
+{
+    using Source = gl::OffscreenContext::Source;
+    const Source source = arguments.context == "egl"      ? Source::egl
+                          : arguments.context == "osmesa" ? Source::osmesa
+                                                          : Source::any;
+    const gl::OffscreenContext context(gl::OffscreenContext::Debug::off, source);
+    const auto current = context.makeCurrent();
+    AppSetup setup;
+    setup.isSoftware = context.isSoftware();
+    run(context.api(), std::move(setup), arguments, nullptr);
+}
+
+bool hasDisplay()
+{
+    const char* const display = std::getenv("DISPLAY");
+    return display && *display;
+}
+
+int runProgram(int count, char** words)
+{
+    for (int i = 1; i < count; ++i) {
+        const std::string word = words[i];
+        if (word == "--help" || word == "-h") return printHelp(), EXIT_SUCCESS;
+        if (word == "--version") return std::cout << "vdbcage-view " VDBCAGE_VERSION "\n", EXIT_SUCCESS;
+    }
+    const Arguments arguments = parse(count, words);
+    if (!arguments.context.empty() && arguments.script.empty()) {
+        throw InputError("--without-window: it needs a --script to do");
+    }
+    if (!arguments.context.empty() || (!arguments.script.empty() && !hasDisplay())) {
+        runWithoutWindow(arguments);
+        return EXIT_SUCCESS;
+    }
+    Window window(1280, 800);
+    AppSetup setup = window.setup();
+    // What scripts do is no use of files by a user.
+    if (arguments.script.empty()) setup.recentFiles = recentFilesPath();
+    run(window.api(), std::move(setup), arguments, &window);
+    return EXIT_SUCCESS;
+}
+
+} // namespace
+
+} // namespace vdbcage::view
+
+int main(int count, char** words)
+{
+    try {
+        return vdbcage::view::runProgram(count, words);
+    } catch (const CLI::ParseError& error) {
+        std::cerr << "vdbcage-view: error: " << vdbcage::detail::printable(error.what()) << '\n';
+    } catch (const std::exception& error) {
+        std::cerr << "vdbcage-view: error: " << vdbcage::detail::printable(error.what()) << '\n';
+    }
+    return EXIT_FAILURE;
+}

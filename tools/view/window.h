@@ -1,0 +1,36 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+
+#include <tools/view/app.h>
+#include <vdbcage/gl/api.h>
+
+namespace vdbcage::view {
+
+/// A window of the desktop with an OpenGL 4.5 core context, which is current on this thread as long as it lives. One at
+/// a time, on the main thread.
+class Window {
+public:
+    /// \throw DeviceError no display, or no OpenGL 4.5, and what there is
+    Window(int width, int height);
+    ~Window();
+    Window(const Window&) = delete;
+    Window& operator=(const Window&) = delete;
+
+    const gl::Api& api() const;
+    /// Its size, scale, clipboard and driver for the App, and how to wake run().
+    AppSetup setup() const;
+    /// Shows what the app shows, and hands it what the user does, until it has ended. Nothing is drawn while nothing
+    /// changes.
+    void run(App& app);
+    /// Shows the app's picture once, for scripts.
+    void show(App& app);
+
+    struct State;
+
+private:
+    std::unique_ptr<State> state_;
+};
+
+} // namespace vdbcage::view
