@@ -19,7 +19,7 @@ inline view::Command randomCommand(std::mt19937& random, const std::vector<std::
     };
     const auto fraction = [&] { return static_cast<float>(real(0, 1)); };
     const auto layer = static_cast<LayerId>(below(static_cast<int>(layerCount)));
-    switch (below(16)) {
+    switch (below(17)) {
     case 0:
         return OpenModel{files[random() % files.size()]};
     case 1:
@@ -74,6 +74,8 @@ inline view::Command randomCommand(std::mt19937& random, const std::vector<std::
         return ShowGround{below(2) == 0};
     case 14:
         return below(2) == 0 ? Command(ShowAxes{below(2) == 0}) : Command(SetTurntable{below(2) == 0});
+    case 15:
+        return ShowTimes{below(2) == 0};
     default: {
         Select select;
         for (int face = below(3); face < 40; face += 1 + below(30)) {

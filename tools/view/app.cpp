@@ -793,6 +793,10 @@ std::map<std::string, std::function<std::string()>> App::Impl::values() const
     };
     list["azimuth"] = [&, number] { return number(state.view.camera.view.azimuthDegrees); };
     list["elevation"] = [&, number] { return number(state.view.camera.view.elevationDegrees); };
+    list["ground"] = [&] { return state.view.ground ? "on" : "off"; };
+    list["axes"] = [&] { return state.view.axes ? "on" : "off"; };
+    list["turntable"] = [&] { return state.view.turntable ? "on" : "off"; };
+    list["section"] = [&] { return state.view.section ? "on" : "off"; };
     list["frames"] = [&] { return std::to_string(frames_); };
     list["ended"] = [&] { return yesNo(isEnded_); };
     for (const auto& option : optionValues(state.document.options)) {

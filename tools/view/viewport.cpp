@@ -246,7 +246,7 @@ void Viewport::markFaces(const CageResult& cage, const ViewState& view)
 std::vector<draw::Layer> Viewport::layers(const ViewState& view, bool standIn) const
 {
     std::vector<draw::Layer> list;
-    if (view.ground && ground_.shape) {
+    if (view.ground && ground_.shape && slots_[0].source) {
         draw::Layer layer;
         layer.shape = &*ground_.shape;
         layer.shaded = false;

@@ -28,9 +28,9 @@ constexpr float secondsOfLayout = 1;
 
 // What names of files and figures need: Latin, Greek and Cyrillic letters, punctuation, arrows, mathematical signs and
 // marks.
-constexpr std::array<ImWchar, 19> textRanges{0x0020, 0x017F, 0x0370, 0x03FF, 0x0400, 0x045F, 0x2010,
-                                             0x2027, 0x2030, 0x203A, 0x2190, 0x2199, 0x2200, 0x2265,
-                                             0x25A0, 0x25CF, 0x2713, 0x2717, 0};
+constexpr std::array<ImWchar, 21> textRanges{0x0020, 0x017F, 0x0370, 0x03FF, 0x0400, 0x045F, 0x2010,
+                                             0x2027, 0x2030, 0x203A, 0x2190, 0x2199, 0x21BA, 0x21BB,
+                                             0x2200, 0x2265, 0x25A0, 0x25CF, 0x2713, 0x2717, 0};
 constexpr std::array<ImWchar, 3> headingRanges{0x0020, 0x017F, 0};
 
 enum Font { textFont, headingFont };

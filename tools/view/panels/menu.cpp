@@ -101,6 +101,7 @@ void buildMenu(const PanelContext& context)
         item(context, "Turntable", "turntable " + onOff(!view.turntable), true, view.turntable);
         ImGui::Separator();
         item(context, "Ground grid", "ground " + onOff(!view.ground), true, view.ground);
+        item(context, "Times", "times " + onOff(!view.times), true, view.times);
         item(context, "Axes", "axes " + onOff(!view.axes), true, view.axes);
     });
     menu(context, "Help", [&] { item(context, "Keys, mouse and commands", "help"); });

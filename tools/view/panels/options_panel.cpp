@@ -1,6 +1,7 @@
 // A row for every option, made from visitOptions: what it can be follows from its type and its entry there.
 #include <algorithm>
 #include <cstdio>
+#include <cstdlib>
 
 #include <tools/view/panels/parts.h>
 #include <tools/view/state/preset.h>
@@ -12,7 +13,7 @@ namespace vdbcage::view {
 namespace {
 
 // Widths on an ordinary screen.
-constexpr float labelWidth = 92, fieldWidth = 70, autoWidth = 26, resetWidth = 24;
+constexpr float labelWidth = 92, fieldWidth = 70, autoWidth = 44, resetWidth = 24;
 
 /// A number between its ends as a place of a slider, 0 to 1. Ranges of more than a factor of 100 are by their
 /// logarithm, those from 0 are finer near 0.
@@ -41,9 +42,9 @@ double valueAt(double place, const Range& range)
 /// With three digits: what a hand can set.
 double rounded(double value)
 {
-    if (value == 0 || !std::isfinite(value)) return value;
-    const double unit = std::pow(10.0, std::floor(std::log10(std::abs(value))) - 2);
-    return std::stod(detail::numberText(std::round(value / unit) * unit).substr(0, 24));
+    char text[32];
+    std::snprintf(text, sizeof text, "%.3g", value);
+    return std::strtod(text, nullptr);
 }
 
 std::string unitOf(const OptionInfo& info)
@@ -151,14 +152,17 @@ private:
         if (isAuto) ImGui::PopStyleColor();
         ImGui::SameLine(0, length(4));
         if (automatic) {
-            bool on = isAuto;
-            if (ImGui::Checkbox("##auto", &on)) {
-                ask(on ? "auto" : isWhole ? std::to_string(std::lround(number)) : detail::numberText(rounded(number)));
+            if (isAuto) ImGui::PushStyleColor(ImGuiCol_Button, toImGui(theme::selected));
+            if (ImGui::Button("auto", {length(autoWidth), 0})) {
+                const std::string fixed =
+                    isWhole ? std::to_string(std::lround(number)) : detail::numberText(rounded(number));
+                ask(isAuto ? fixed : "auto");
             }
+            if (isAuto) ImGui::PopStyleColor();
             context_.name(name_ + ".auto");
-            help("auto: chosen for you");
+            help(isAuto ? "chosen for you; press to keep what it came to" : "press to have it chosen for you");
         } else {
-            ImGui::Dummy({length(autoWidth - 4), 1});
+            ImGui::Dummy({length(autoWidth), 1});
         }
         ImGui::SameLine(0, length(4));
     }
@@ -253,7 +257,12 @@ void buildProgress(const PanelContext& context)
         text = "done";
         share = 1;
     }
-    ImGui::ProgressBar(share, {-width - length(6), 0}, text.c_str());
+    ImGui::ProgressBar(share, {-width - length(6), 0}, "");
+    const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax(),
+                 size = ImGui::CalcTextSize(text.c_str());
+    ImGui::GetWindowDrawList()->AddText(
+        {std::round((low.x + high.x - size.x) / 2), std::round((low.y + high.y - size.y) / 2)}, packed(theme::text),
+        text.c_str());
     ImGui::SameLine(0, length(6));
     if (isMaking) {
         if (ImGui::Button("Cancel", {width, 0})) context.ask("cancel");

@@ -7,7 +7,7 @@ namespace vdbcage::view {
 namespace {
 
 // Lengths on an ordinary screen.
-constexpr float menuHeight = 26, statusHeight = 28, layersWidth = 236, optionsWidth = 372;
+constexpr float menuHeight = 26, statusHeight = 28, layersWidth = 256, optionsWidth = 392;
 
 constexpr ImGuiWindowFlags fixed = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
                                    ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoBringToFrontOnFocus |
@@ -67,7 +67,8 @@ void Panels::build(const PanelContent& content, PanelAnswer& answer)
     buildOverlays(context, middle);
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {length(10), length(10)});
     pane("layers", {0, middle.top, middle.left, middle.height}, 0, [&] { buildLayers(context); });
-    pane("options", {right, middle.top, width - right, middle.height}, 0, [&] {
+    // The bar is always there: a slider whose width changes while it is dragged changes its value.
+    pane("options", {right, middle.top, width - right, middle.height}, ImGuiWindowFlags_AlwaysVerticalScrollbar, [&] {
         buildOptions(context, state_->typed);
         buildResult(context);
     });

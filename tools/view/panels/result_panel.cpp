@@ -94,7 +94,8 @@ void buildResult(const PanelContext& context)
         for (const std::string& remark : tool::remarks(shown->report, shown->order.options)) muted(remark);
         ImGui::PopTextWrapPos();
     }
-    if (ImGui::CollapsingHeader("Times of the stages")) {
+    const bool showsTimes = context.content.session.state().view.times;
+    if (showsTimes && ImGui::CollapsingHeader("Times of the stages")) {
         if (ImGui::BeginTable("stages", 2)) {
             ImGui::TableSetupColumn("name", ImGuiTableColumnFlags_WidthFixed, length(92));
             ImGui::TableSetupColumn("value", ImGuiTableColumnFlags_WidthStretch);
@@ -102,7 +103,7 @@ void buildResult(const PanelContext& context)
             ImGui::EndTable();
         }
     }
-    context.name("stages");
+    if (showsTimes) context.name("stages");
     ImGui::PopStyleVar();
 }
 
@@ -125,7 +126,7 @@ void buildStatusLine(const PanelContext& context)
         if (check.volumeRatio > 0) part(number("volume x %.2f", check.volumeRatio));
         part(number("distance %.2f %%", 100 * check.meanDistance));
         part(verdictOf(check), check.bounding() ? theme::good : theme::bad);
-        part(number("%.2f s", shown->seconds), theme::mutedText);
+        if (context.content.session.state().view.times) part(number("%.2f s", shown->seconds), theme::mutedText);
     }
     if (!context.content.notes.empty()) {
         const std::string& note = context.content.notes.back();

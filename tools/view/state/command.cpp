@@ -177,6 +177,8 @@ const std::array<Syntax, std::variant_size_v<Command>>& syntaxes()
          [](const Words& w) -> Command { return ShowAxes{switchOf(w[0], "axes")}; }},
         {"turntable", "on|off", 1, 1, "turns the view by itself",
          [](const Words& w) -> Command { return SetTurntable{switchOf(w[0], "turntable")}; }},
+        {"times", "on|off", 1, 1, "shows how long making a cage took",
+         [](const Words& w) -> Command { return ShowTimes{switchOf(w[0], "times")}; }},
         {"select", "[FACE...]", 0, anyNumber, "selects faces of the cage by number, triangles first; or nothing",
          [](const Words& w) -> Command { return Select{facesOf(w)}; }},
     }};
@@ -228,6 +230,7 @@ struct ArgumentsOf {
     std::string operator()(const ShowGround& c) const { return onOff(c.shown); }
     std::string operator()(const ShowAxes& c) const { return onOff(c.shown); }
     std::string operator()(const SetTurntable& c) const { return onOff(c.on); }
+    std::string operator()(const ShowTimes& c) const { return onOff(c.shown); }
     std::string operator()(const Select& c) const
     {
         std::string text;
@@ -262,6 +265,7 @@ struct Apply {
     void operator()(const ShowGround& c) const { state.view.ground = c.shown; }
     void operator()(const ShowAxes& c) const { state.view.axes = c.shown; }
     void operator()(const SetTurntable& c) const { state.view.turntable = c.on; }
+    void operator()(const ShowTimes& c) const { state.view.times = c.shown; }
     void operator()(const Select& c) const { state.view.selection = c.faces; }
 
 private:
@@ -328,7 +332,7 @@ std::vector<Command> commandsFor(const ViewState& view)
     }
     commands.insert(commands.end(),
                     {SetCageColours{view.cageColours}, SetSection{view.section}, ShowGround{view.ground},
-                     ShowAxes{view.axes}, SetTurntable{view.turntable}, Select{view.selection}});
+                     ShowAxes{view.axes}, SetTurntable{view.turntable}, ShowTimes{view.times}, Select{view.selection}});
     return commands;
 }
 

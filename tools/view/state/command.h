@@ -72,6 +72,10 @@ struct ShowAxes {
 struct SetTurntable {
     bool on = true;
 };
+/// times on|off
+struct ShowTimes {
+    bool shown = true;
+};
 /// select [FACE...]: faces of the cage, triangles first; nothing if none is named.
 struct Select {
     std::vector<openvdb::Index32> faces;
@@ -79,7 +83,7 @@ struct Select {
 
 using Command =
     std::variant<OpenModel, OpenCage, CloseCage, SetOption, ResetOptions, ApplyPreset, SetCamera, ShowLayer, FadeLayer,
-                 ColourLayer, SetCageColours, SetSection, ShowGround, ShowAxes, SetTurntable, Select>;
+                 ColourLayer, SetCageColours, SetSection, ShowGround, ShowAxes, SetTurntable, ShowTimes, Select>;
 
 /// Whether it changes the document; else it changes the view.
 bool changesDocument(const Command& command);

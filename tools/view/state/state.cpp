@@ -67,7 +67,7 @@ bool operator==(const ViewState& a, const ViewState& b)
            std::equal(a.layers.begin(), a.layers.end(), b.layers.begin(),
                       [](const LayerLook& x, const LayerLook& y) { return areEqual(x, y); }) &&
            a.cageColours == b.cageColours && areEqual(a.section, b.section) && a.ground == b.ground &&
-           a.axes == b.axes && a.turntable == b.turntable && a.selection == b.selection;
+           a.axes == b.axes && a.turntable == b.turntable && a.times == b.times && a.selection == b.selection;
 }
 
 } // namespace vdbcage::view

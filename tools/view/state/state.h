@@ -67,6 +67,7 @@ struct ViewState {
     bool ground = true;                      ///< a grid below the model
     bool axes = true;                        ///< small ones in a corner
     bool turntable = false;                  ///< it turns by itself
+    bool times = true;                       ///< how long what took, which is never the same twice
     std::vector<openvdb::Index32> selection; ///< faces of the cage, sorted, triangles first
 
     const LayerLook& layer(LayerId id) const { return layers[static_cast<std::size_t>(id)]; }
