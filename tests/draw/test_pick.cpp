@@ -47,6 +47,29 @@ BOOST_AUTO_TEST_CASE(what_is_projected_to_a_place_is_picked_there)
     }
 }
 
+BOOST_AUTO_TEST_CASE(no_ray_passes_between_two_faces)
+{
+    const Mesh mesh = test::sphere(4);
+    const Frame frame(boundingBox(mesh));
+    const Geometry geometry(mesh, frame, 0);
+    const auto check = [&](const Vec3d& place, const Vec3d& from) {
+        BOOST_TEST(nearestHit({from, (place - from).unit()}, geometry).has_value());
+    };
+    std::mt19937 random(2);
+    std::uniform_real_distribution<double> real(-1, 1);
+    for (const auto& edge : geometry.edges()) {
+        const auto at = [&](Geometry::Index i) {
+            const auto& p = geometry.positions()[i];
+            return Vec3d(double{p[0]}, double{p[1]}, double{p[2]});
+        };
+        const Vec3d a = at(edge[0]), b = at(edge[1]);
+        check(a, {0, 0, 0});
+        check(0.5 * (a + b), {0, 0, 0});
+        check(a, 5 * a);
+        check(0.3 * a + 0.7 * b, {0.1 * real(random), 0.1 * real(random), 0.1 * real(random)});
+    }
+}
+
 BOOST_AUTO_TEST_CASE(what_a_section_cuts_off_is_not_picked)
 {
     const Mesh mesh = test::cube();

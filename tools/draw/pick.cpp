@@ -9,6 +9,9 @@ namespace {
 
 using openvdb::Vec3d;
 
+/// So far outside, as a part of its size, a triangle is met too: no ray passes between two.
+constexpr double slack = 1e-9;
+
 Vec3d toDouble(const Vec3f& v)
 {
     return {double{v[0]}, double{v[1]}, double{v[2]}};
@@ -31,10 +34,10 @@ std::optional<Hit> nearestHit(const Ray& ray, const Geometry& geometry, const st
         if (determinant == 0) continue;
         const Vec3d from = ray.from - a;
         const double u = from.dot(across) / determinant;
-        if (!(u >= 0 && u <= 1)) continue;
+        if (!(u >= -slack && u <= 1 + slack)) continue;
         const Vec3d normal = from.cross(ab);
         const double v = ray.direction.dot(normal) / determinant;
-        if (!(v >= 0 && u + v <= 1)) continue;
+        if (!(v >= -slack && u + v <= 1 + slack)) continue;
         const double distance = ac.dot(normal) / determinant;
         if (!(distance > 0 && distance < best)) continue;
         const Vec3d point = ray.from + distance * ray.direction;

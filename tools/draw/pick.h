@@ -17,7 +17,7 @@ struct Hit {
 };
 
 /// The first face that the ray meets, from either side, and that the section does not cut off. O(faces): some 10 ns
-/// each. Rounded: an edge between two faces may be missed by less than a millionth of their size.
+/// each. Rounded: what passes a face by less than 1e-9 of its size meets it, so that no edge is missed.
 std::optional<Hit> nearestHit(const Ray& ray, const Geometry& geometry, const std::optional<Section>& section = {});
 
 } // namespace vdbcage::draw

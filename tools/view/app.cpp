@@ -150,11 +150,12 @@ public:
 
     void handle(const InputEvent& event)
     {
+        const bool hadMessage = !messages_.empty(); // one that the event brings is not dismissed by it
         PanelAnswer answer;
         const bool isTaken = layOut(&event, answer);
         take(answer);
         if (!isTaken || isPointerHeld_) control(event);
-        if (const auto* const down = std::get_if<KeyDown>(&event.what)) press(*down, event.modifiers);
+        if (const auto* const down = std::get_if<KeyDown>(&event.what)) press(*down, event.modifiers, hadMessage);
         refresh();
     }
 
@@ -709,9 +710,8 @@ private:
         if (faces != session_.state().view.selection) attempt(toText(Select{faces}));
     }
 
-    void press(const KeyDown& down, const Modifiers& modifiers)
+    void press(const KeyDown& down, const Modifiers& modifiers, bool isMessage)
     {
-        const bool isMessage = !messages_.empty();
         if (isMessage && (down.key == Key::escape || down.key == Key::enter || down.key == Key::space)) {
             dismiss();
             return;

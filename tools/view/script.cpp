@@ -135,7 +135,7 @@ void setWidget(App& app, const std::string& name, const std::string& value)
         click(app);
     };
     if (value == "press") return clickOn(name);
-    if ((value == "on" || value == "off") && isKnown(app, name)) {
+    if ((value == "on" || value == "off") && isKnown(app, name) && !isKnown(app, "option." + name)) {
         if (app.value(name) != value) clickOn(name);
         return;
     }

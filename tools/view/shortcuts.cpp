@@ -13,7 +13,7 @@ const std::vector<Shortcut>& shortcuts()
         {"control+shift+z", "redo", "does it again"},
         {"control+y", "redo", "does it again"},
         {"alt+z", "undo-view", "takes back the last change of the view"},
-        {"alt+shift+z", "redo-view", "does it again"},
+        {"shift+alt+z", "redo-view", "does it again"},
         {"escape", "cancel", "closes a message, or stops the making of a cage"},
         {"control+enter", "make", "makes the cage that was cancelled"},
         {"page-up", "more", "a twentieth more faces"},

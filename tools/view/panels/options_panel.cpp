@@ -47,6 +47,12 @@ double rounded(double value)
     return std::strtod(text, nullptr);
 }
 
+/// As setOption takes it.
+std::string textOf(double value, bool isWhole)
+{
+    return isWhole ? std::to_string(std::lround(value)) : detail::numberText(rounded(value));
+}
+
 std::string unitOf(const OptionInfo& info)
 {
     const std::string symbol = info.symbol;
@@ -138,8 +144,7 @@ private:
         if (isAuto) ImGui::PushStyleVar(ImGuiStyleVar_Alpha, 0.5F);
         if (ImGui::SliderFloat("##slider", &place, 0, 1, "", ImGuiSliderFlags_AlwaysClamp)) {
             const double value = valueAt(double{place}, info_.range);
-            const double fine = isWhole ? std::round(value) : rounded(value);
-            ask(detail::numberText(std::clamp(fine, info_.range.least, info_.range.most)));
+            ask(textOf(std::clamp(rounded(value), info_.range.least, info_.range.most), isWhole));
         }
         context_.followDrag();
         context_.name(name_ + ".slider");
@@ -154,9 +159,7 @@ private:
         if (automatic) {
             if (isAuto) ImGui::PushStyleColor(ImGuiCol_Button, toImGui(theme::selected));
             if (ImGui::Button("auto", {length(autoWidth), 0})) {
-                const std::string fixed =
-                    isWhole ? std::to_string(std::lround(number)) : detail::numberText(rounded(number));
-                ask(isAuto ? fixed : "auto");
+                ask(isAuto ? textOf(number, isWhole) : "auto");
             }
             if (isAuto) ImGui::PopStyleColor();
             context_.name(name_ + ".auto");

@@ -1,0 +1,414 @@
+// The program behind the window, without one: events and lines in, state and pictures out.
+#include <boost/test/unit_test.hpp>
+
+#include <filesystem>
+#include <random>
+
+#include "orders.h"
+#include "random_command.h"
+#include <support/shapes.h>
+#include <support/temporary_folder.h>
+#include <tools/view/app.h>
+#include <tools/view/script.h>
+#include <tools/view/state/words.h>
+#include <vdbcage/core/error.h>
+#include <vdbcage/gl/offscreen.h>
+#include <vdbcage/mesh/mesh_io.h>
+
+using namespace vdbcage;
+using namespace vdbcage::view;
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// Makes a ball, at once.
+class BallMaker : public CageMaker {
+public:
+    CageResultPtr make(const Job& job, Interrupter&) override
+    {
+        CageResult result;
+        result.order = job.order;
+        const openvdb::BBoxd box = boundingBox(job.order.model->mesh);
+        result.cage = test::sphere({0, 0, 0}, 1.1 * box.max().y(), 5);
+        result.report.check.triangles = result.cage.triangles.size();
+        result.report.check.quads = result.cage.quads.size();
+        if (job.intermediates) result.intermediates = std::make_shared<const Intermediates>();
+        return std::make_shared<const CageResult>(std::move(result));
+    }
+};
+
+struct Fixture {
+    test::TemporaryFolder folder;
+    gl::OffscreenContext context;
+    gl::OffscreenContext::Current current = context.makeCurrent();
+    std::vector<std::string> recorded;
+    std::vector<std::string> files;
+
+    Fixture()
+    {
+        for (int i = 1; i <= 3; ++i) {
+            files.push_back((folder / ("model " + std::to_string(i) + ".obj")).string());
+            writeMesh(test::sphere({0, 0, 0}, i, 6), files.back());
+        }
+    }
+
+    AppSetup setup(bool fake = true)
+    {
+        AppSetup setup;
+        setup.width = 1100;
+        setup.height = 760;
+        setup.isSoftware = true;
+        if (fake) setup.maker = std::make_unique<BallMaker>();
+        setup.record = [this](const std::string& line) { recorded.push_back(line); };
+        return setup;
+    }
+
+    void run(App& app, const std::vector<std::string>& lines) const
+    {
+        for (const std::string& line : lines) {
+            BOOST_TEST_CONTEXT(line) runLine(app, line);
+        }
+    }
+};
+
+std::string valueOf(const CageOptions& options, const std::string& name)
+{
+    for (const auto& option : optionValues(options)) {
+        if (option.first == name) return option.second;
+    }
+    return "?";
+}
+
+bool samePicture(const draw::Picture& a, const draw::Picture& b)
+{
+    return a.width == b.width && a.height == b.height && a.rgb == b.rgb;
+}
+
+} // namespace
+
+BOOST_FIXTURE_TEST_SUITE(app, Fixture)
+
+BOOST_AUTO_TEST_CASE(each_option_goes_through_its_widget_to_its_ends_and_back)
+{
+    App app(context.api(), setup());
+    run(app, {"open " + quotedWord(files[0]), "wait"});
+    CageOptions defaults;
+    const auto texts = describeOptions();
+    std::size_t i = 0;
+    visitOptions(defaults, [&](const OptionInfo& info, const auto& field) {
+        const OptionText& text = texts[i++];
+        const std::string name = info.name;
+        std::vector<std::string> values;
+        using Field = std::decay_t<decltype(field)>;
+        if constexpr (std::is_same_v<Field, ScaleField>) {
+            values = {"sphere:0,0,0,1,0.5", "box:0,0,0,1,1,1,2"};
+        } else if (!text.range.empty()) {
+            const auto word = [&](double value) {
+                std::string digits = std::to_string(static_cast<long>(value));
+                return value == std::floor(value) ? digits : "0.1";
+            };
+            values = {word(info.range.most)};
+            if (info.range.least == std::floor(info.range.least)) values.push_back(word(info.range.least));
+        } else {
+            for (std::size_t begin = 0; begin <= text.value.size();) {
+                const std::size_t end = std::min(text.value.find('|', begin), text.value.size());
+                values.push_back(text.value.substr(begin, end - begin));
+                begin = end + 1;
+            }
+        }
+        values.push_back(text.defaultValue);
+        for (const std::string& value : values) {
+            BOOST_TEST_CONTEXT(name << ' ' << value)
+            {
+                runLine(app, "widget " + name + ' ' + quotedWord(value));
+                BOOST_TEST(valueOf(app.session().state().document.options, name) == value);
+                BOOST_TEST(app.messages().empty());
+            }
+        }
+        // Sliders too, whose ends are exact; and back by the button beside them.
+        if (app.widget(name + ".slider")) {
+            for (const double end : {0.0, 1.0}) {
+                run(app, {"mouse move " + name + ".slider 0.4", "mouse down",
+                          "mouse move " + name + ".slider " + (end > 0 ? "1.2" : "-0.2"), "mouse up"});
+                const std::string have = valueOf(app.session().state().document.options, name);
+                BOOST_TEST_CONTEXT(name) BOOST_TEST(std::stod(have) == (end > 0 ? info.range.most : info.range.least));
+            }
+            BOOST_TEST_CONTEXT(name) runLine(app, "widget " + name + ".reset press");
+            BOOST_TEST(valueOf(app.session().state().document.options, name) == text.defaultValue);
+            BOOST_TEST(!app.widget(name + ".reset"));
+        }
+    });
+    BOOST_TEST(i == texts.size());
+    BOOST_CHECK(areEqual(app.session().state().document.options, CageOptions{}));
+}
+
+BOOST_AUTO_TEST_CASE(what_is_out_of_range_is_a_message_and_changes_nothing)
+{
+    App app(context.api(), setup());
+    run(app, {"open " + quotedWord(files[0]), "wait", "widget faces 5"});
+    BOOST_TEST(app.messages().size() == 1u);
+    BOOST_TEST(app.value("message").find("12 to 1000000") != std::string::npos);
+    run(app, {"key enter", "expect messages 0", "expect option.faces 400", "widget faces abc", "expect messages 1",
+              "key escape", "expect messages 0", "expect standing current"});
+}
+
+BOOST_AUTO_TEST_CASE(undoing_ten_thousand_commands_gives_the_first_picture)
+{
+    App app(context.api(), setup());
+    run(app, {"open " + quotedWord(files[0]), "times off", "wait"});
+    while (app.session().documents().canUndo()) app.perform({"undo"});
+    run(app, {"redo", "wait"});
+    const draw::Picture first = app.picture();
+    const std::size_t documents = app.session().documents().depth(), views = app.session().views().depth();
+    std::mt19937 random(11);
+    for (int i = 0; i < 10000; ++i) {
+        const Command command = test::randomCommand(random, files);
+        if (std::holds_alternative<SetTurntable>(command)) continue; // would never stand still
+        app.perform(wordsOf(toText(command)));
+    }
+    run(app, {"wait"});
+    const State last = app.session().state();
+    BOOST_TEST(app.session().documents().depth() > 1000);
+    BOOST_TEST(app.session().views().depth() > 1000);
+    while (app.session().documents().depth() > documents) app.perform({"undo"});
+    while (app.session().views().depth() > views) app.perform({"undo-view"});
+    run(app, {"wait"});
+    BOOST_TEST(samePicture(app.picture(), first));
+    while (app.session().documents().canRedo()) app.perform({"redo"});
+    while (app.session().views().canRedo()) app.perform({"redo-view"});
+    BOOST_CHECK(app.session().state() == last);
+}
+
+BOOST_AUTO_TEST_CASE(ten_bad_files_are_ten_messages)
+{
+    App app(context.api(), setup());
+    run(app, {"open " + quotedWord(files[0]), "set faces 77", "wait"});
+    const draw::Picture before = app.picture();
+    const State state = app.session().state();
+    const std::vector<std::pair<std::string, std::string>> bad{{"empty.obj", ""},
+                                                               {"text.obj", "hello\n"},
+                                                               {"cut.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2"},
+                                                               {"index.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n"},
+                                                               {"nan.obj", "v 0 0 nan\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"},
+                                                               {"flat.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n"},
+                                                               {"head.ply", "ply\nformat ascii 2.0\n"},
+                                                               {"a.png", "not a mesh"},
+                                                               {"no.json", "{}"}};
+    std::vector<std::string> paths{(folder / "none.obj").string()};
+    for (const auto& [name, text] : bad) {
+        test::writeText(folder / name, text);
+        paths.push_back((folder / name).string());
+    }
+    BOOST_TEST(paths.size() == 10u);
+    for (std::size_t i = 0; i < paths.size(); ++i) {
+        run(app, {"drop " + quotedWord(paths[i]), "expect messages " + std::to_string(i + 1)});
+        BOOST_TEST(app.messages().back().rfind(paths[i], 0) == 0u, app.messages().back());
+    }
+    BOOST_CHECK(app.session().state() == state);
+    for (std::size_t i = 10; i > 0; --i) {
+        run(app, {"expect messages " + std::to_string(i), i % 2 == 0 ? "key escape" : "widget message.dismiss press"});
+    }
+    run(app, {"expect messages 0", "expect standing current", "mouse at 1 1", "wait"});
+    BOOST_TEST(app.value("option.faces") == "77");
+    const draw::Picture after = app.picture();
+    BOOST_TEST(after.width == before.width);
+    BOOST_CHECK(app.session().state() == state);
+}
+
+BOOST_AUTO_TEST_CASE(a_scene_saved_opened_and_saved_again_is_the_same)
+{
+    const std::string scene = (folder / "scene.json").string();
+    App app(context.api(), setup(false));
+    run(app, {"open " + quotedWord(files[1]), "set faces 40", "set resolution 20", "set effort fast", "look right",
+              "layer surface on", "section 0 1 0 0.25", "select 1 5", "wait", "save-scene " + quotedWord(scene)});
+    const std::string text = test::readText(scene), cage = test::readText(folder / "scene.cage.obj");
+    const draw::Picture picture = [&] {
+        runLine(app, "times off");
+        return app.picture();
+    }();
+    App again(context.api(), setup(false));
+    run(again, {"open-scene " + quotedWord(scene), "wait", "save-scene " + quotedWord(scene)});
+    BOOST_TEST(test::readText(scene) == text);
+    BOOST_TEST(test::readText(folder / "scene.cage.obj") == cage);
+    BOOST_CHECK(again.session().state().view == [&] {
+        ViewState view = app.session().state().view;
+        view.times = true;
+        return view;
+    }());
+}
+
+BOOST_AUTO_TEST_CASE(nothing_is_drawn_while_nothing_changes)
+{
+    App app(context.api(), setup());
+    run(app, {"open " + quotedWord(files[0]), "wait"});
+    while (app.needsFrame()) app.drawFrame();
+    const std::string frames = app.value("frames");
+    for (int i = 0; i < 10; ++i) {
+        app.update();
+        app.checkFiles();
+        app.pass(1);
+        BOOST_TEST(!app.needsFrame());
+    }
+    runLine(app, "mouse at 640 300"); // over the picture: nothing changes its look
+    BOOST_TEST(!app.needsFrame());
+    runLine(app, "expect frames " + frames);
+    runLine(app, "layer model off");
+    BOOST_TEST(app.needsFrame());
+}
+
+BOOST_AUTO_TEST_CASE(the_pointer_turns_moves_and_zooms_the_view)
+{
+    App app(context.api(), setup());
+    run(app, {"open " + quotedWord(files[0]), "wait"});
+    const draw::Camera camera = app.session().state().view.camera;
+    run(app, {"mouse move picture 0.5 0.5", "mouse down", "mouse move picture 0.6 0.5", "mouse move picture 0.7 0.5",
+              "mouse up"});
+    const draw::Camera turned = app.session().state().view.camera;
+    BOOST_TEST(turned.view.azimuthDegrees < camera.view.azimuthDegrees);
+    BOOST_TEST(turned.view.elevationDegrees == camera.view.elevationDegrees);
+    run(app, {"undo-view"});
+    BOOST_TEST(app.session().state().view.camera.view.azimuthDegrees == camera.view.azimuthDegrees);
+    run(app, {"mouse wheel 2"});
+    BOOST_TEST(app.session().state().view.camera.distance < camera.distance);
+    run(app, {"undo-view", "mouse down middle", "mouse move picture 0.5 0.4", "mouse up middle"});
+    BOOST_TEST(app.session().state().view.camera.target.y() < camera.target.y());
+    // What is recorded gives the same view.
+    App other(context.api(), setup());
+    std::vector<std::string> lines{"open " + quotedWord(files[0]), "wait"};
+    for (const std::string& line : recorded) {
+        if (line.rfind("camera", 0) == 0) lines.push_back(line);
+    }
+    run(other, lines);
+    BOOST_CHECK(other.session().state().view == app.session().state().view);
+}
+
+BOOST_AUTO_TEST_CASE(a_click_selects_a_face_and_f_frames_it)
+{
+    App app(context.api(), setup());
+    run(app, {"open " + quotedWord(files[0]), "wait", "look front", "layer model off", "mouse move picture",
+              "mouse click", "expect selected 1"});
+    const double distance = app.session().state().view.camera.distance;
+    run(app, {"key f"});
+    BOOST_TEST(app.session().state().view.camera.distance < distance);
+    runLine(app, "key home");
+    BOOST_TEST(app.session().state().view.camera.distance > 0.9 * distance);
+    run(app, {"mouse move picture 0.02 0.05", "mouse click", "expect selected 0"});
+}
+
+BOOST_AUTO_TEST_CASE(every_shortcut_stands_for_a_line_that_is_known)
+{
+    App app(context.api(), setup());
+    run(app, {"open " + quotedWord(files[0]), "wait"});
+    for (const Shortcut& shortcut : shortcuts()) {
+        if (shortcut.line == "quit") continue;
+        BOOST_TEST_CONTEXT(shortcut.chord)
+        {
+            BOOST_TEST(nameOf(chordNamed(shortcut.chord)) == shortcut.chord);
+            runLine(app, "key " + shortcut.chord);
+            BOOST_TEST(app.messages().empty());
+            run(app, {"key escape", "key escape"});
+        }
+    }
+}
+
+BOOST_AUTO_TEST_CASE(unsaved_work_is_asked_about)
+{
+    App app(context.api(), setup());
+    run(app, {"open " + quotedWord(files[0]), "wait", "set faces 50", "quit", "expect ended no",
+              "widget quit.dismiss press", "expect ended no", "quit", "key escape", "expect ended no",
+              "save-scene " + quotedWord((folder / "s.json").string()), "quit", "expect ended yes"});
+    App other(context.api(), setup());
+    run(other, {"open " + quotedWord(files[0]), "wait", "quit", "expect ended yes"});
+    App third(context.api(), setup());
+    run(third, {"open " + quotedWord(files[0]), "set faces 50", "quit", "widget quit.quit! press", "expect ended yes"});
+}
+
+BOOST_AUTO_TEST_CASE(a_model_that_changed_on_disk_is_offered_anew)
+{
+    App app(context.api(), setup());
+    run(app, {"open " + quotedWord(files[0]), "wait"});
+    const std::string points = app.value("model-points");
+    writeMesh(test::sphere({0, 0, 0}, 1, 9), files[0]);
+    app.checkFiles();
+    BOOST_TEST(app.value("model-points") == points);
+    runLine(app, "widget changed.reload press");
+    BOOST_TEST(app.value("model-points") != points);
+    run(app, {"undo", "wait"});
+    BOOST_TEST(app.value("model-points") == points);
+    writeMesh(test::sphere({0, 0, 0}, 1, 10), files[0]);
+    app.checkFiles();
+    run(app, {"widget changed.keep press"});
+    app.checkFiles();
+    BOOST_TEST(!app.widget("changed.keep"));
+}
+
+BOOST_AUTO_TEST_CASE(files_are_browsed_and_not_written_over_without_a_question)
+{
+    const std::string cage = (folder / "cage.obj").string();
+    App app(context.api(), setup());
+    run(app, {"key control+o", "widget browser.name " + quotedWord(files[1]), "wait", "expect model \"model 2.obj\"",
+              "key control+s", "widget browser.name " + quotedWord(cage), "expect messages 0"});
+    BOOST_TEST(fs::exists(cage));
+    test::writeText(cage, "old");
+    run(app, {"key control+s", "widget browser.name " + quotedWord(cage)});
+    BOOST_TEST(test::readText(cage) == "old");
+    run(app, {"widget browser.no press"});
+    BOOST_TEST(test::readText(cage) == "old");
+    run(app, {"widget browser.ok press", "widget browser.yes press"});
+    BOOST_TEST(test::readText(cage) != "old");
+    run(app, {"key control+o", "widget \"browser.entry.model 3.obj\" press", "widget browser.ok press", "wait",
+              "expect model \"model 3.obj\""});
+}
+
+BOOST_AUTO_TEST_CASE(stages_report_options_and_pictures_are_saved)
+{
+    App app(context.api(), setup(false));
+    const auto path = [&](const char* name) { return quotedWord((folder / name).string()); };
+    run(app, {"open " + quotedWord(files[1]), "set faces 40", "set resolution 20", "set effort fast", "wait",
+              "save-stages " + path("stages"), "save-report " + path("r.json"), "save-options " + path("o.options"),
+              "save-picture " + path("p.png"), "reset", "preset " + path("o.options"), "expect option.faces 40"});
+    for (const char* name :
+         {"solid.vdb", "dilated.vdb", "closed.vdb", "contour.vdb", "surface.obj", "smoothed.obj", "decimated.obj"}) {
+        BOOST_TEST(fs::file_size(folder / "stages" / name) > 0u);
+    }
+    BOOST_TEST(test::readText(folder / "r.json").find("\"bounding\": true") != std::string::npos);
+    BOOST_CHECK_THROW(runLine(app, "save-picture " + path("p.txt")), InputError);
+    BOOST_CHECK_THROW(runLine(app, "save-cage " + path("cage.xyz")), Error);
+}
+
+BOOST_AUTO_TEST_CASE(errors_of_scripts_name_file_and_line)
+{
+    App app(context.api(), setup());
+    const fs::path script = folder / "s.view";
+    for (const char* line : {"fly",
+                             "expect faces",
+                             "expect colour red",
+                             "expect faces 12",
+                             "mouse fly",
+                             "key hat",
+                             "widget hat 3",
+                             "open none.obj",
+                             "screenshot a.txt",
+                             "screenshot a.png 0x5",
+                             "type",
+                             "tick x",
+                             "mouse move hat",
+                             "look up",
+                             "frame me",
+                             "projection fish",
+                             "toggle hat",
+                             "browse hat",
+                             "save-scene s.json",
+                             "save-cage c.obj",
+                             "open \"a"}) {
+        test::writeText(script, std::string("# a comment\n\n") + line + "\n");
+        BOOST_TEST_CONTEXT(line)
+        BOOST_CHECK_EXCEPTION(runScript(app, script), InputError, [&](const InputError& error) {
+            return std::string(error.what()).rfind(script.string() + ":3: ", 0) == 0;
+        });
+    }
+    BOOST_CHECK_THROW(runScript(app, folder / "none.view"), IoError);
+}
+
+BOOST_AUTO_TEST_SUITE_END()
