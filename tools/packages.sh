@@ -1,4 +1,4 @@
-# Sourced by tools/demo and tools/test: installs the Debian packages that the build, the command and the tests need.
+# Sourced by tools/demo and tools/test: installs the Debian packages that the build, the programs and the tests need.
 
 packages=(
     g++ cmake ninja-build ccache # the library is compiled once, also for the tests that build it otherwise
@@ -7,11 +7,13 @@ packages=(
     libopenmesh-dev libcgal-dev libgmp-dev libmpfr-dev libqhull-dev            # surfaces
     libgl-dev libegl-dev libosmesa6-dev libgl1-mesa-dri libpng-dev             # pictures, voxels by OpenGL
     libcli11-dev nlohmann-json3-dev                                            # the command
+    libimgui-dev libglfw3-dev fonts-inter pkg-config                           # the window
 )
 test_packages=(
     libboost-test-dev
     clang-format   # formatting is a test
     tetgen # fills cages, to see that others can use them
+    xvfb xauth # a display for the window
 )
 
 # install_packages NAME...: by apt-get, as root or through sudo; silent and quick when nothing is missing.

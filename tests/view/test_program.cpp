@@ -1,0 +1,115 @@
+// The program vdbcage-view itself: without a display by EGL and by OSMesa, and in a window under Xvfb.
+#include <boost/test/unit_test.hpp>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <support/run_command.h>
+
+using namespace vdbcage;
+using test::runCommand;
+
+namespace fs = std::filesystem;
+
+namespace {
+
+const std::string program = VDBCAGE_VIEW;
+const std::string source = VDBCAGE_SOURCE_DIR;
+
+/// One line on standard error that has `mention`, and exit status 1.
+void expectError(const std::vector<std::string>& words, const std::string& mention)
+{
+    const auto result = runCommand(words);
+    BOOST_TEST_CONTEXT(words.back())
+    {
+        BOOST_TEST(result.status == 1);
+        BOOST_TEST(result.err.rfind("vdbcage-view: error: ", 0) == 0u, result.err);
+        BOOST_TEST(std::count(result.err.begin(), result.err.end(), '\n') == 1, result.err);
+        BOOST_TEST(result.err.find(mention) != std::string::npos, result.err);
+    }
+}
+
+} // namespace
+
+BOOST_AUTO_TEST_SUITE(program_of_the_window)
+
+BOOST_AUTO_TEST_CASE(help_names_every_line_and_key)
+{
+    const auto result = runCommand({program, "--help"});
+    BOOST_TEST(result.status == 0);
+    for (const char* word : {"--script", "--record", "screenshot", "open-cage", "save-scene", "control+z", "expect"}) {
+        BOOST_TEST(result.out.find(word) != std::string::npos, word);
+    }
+    BOOST_TEST(runCommand({program, "--version"}).out.rfind("vdbcage-view ", 0) == 0u);
+}
+
+BOOST_AUTO_TEST_CASE(what_cannot_be_done_is_one_line)
+{
+    const test::TemporaryFolder folder;
+    const std::string script = (folder / "s.view").string();
+    test::writeText(script, "open none.obj\n");
+    expectError({program}, "display");
+    expectError({program, "--hat"}, "--hat");
+    expectError({program, "--without-window", "egl"}, "--script");
+    expectError({program, "--script", script, "--without-window", "glx"}, "glx");
+    expectError({program, "--script", script}, script + ":1: ");
+    expectError({program, "--script", (folder / "none").string()}, "none");
+    expectError({program, "none.obj", "--script", script}, "none.obj");
+    expectError({program, "--script", script, "--record", (folder / "no" / "r").string()}, "no/r");
+    // A display that has no OpenGL 4.5.
+    expectError({"xvfb-run", "-a", "env", "MESA_GL_VERSION_OVERRIDE=3.3", program, "--script", script}, "OpenGL");
+}
+
+BOOST_AUTO_TEST_CASE(the_first_walk_looks_the_same_everywhere)
+{
+    const std::vector<std::string> names{"first_1_empty.png",   "first_2_cage.png",     "first_3_drag.png",
+                                         "first_4_triquad.png", "first_5_distance.png", "first_6_voxels.png",
+                                         "first_cage.obj",      "first_scene.cage.obj", "first_scene.json"};
+    std::vector<std::string> first;
+    for (const std::vector<std::string>& how :
+         std::vector<std::vector<std::string>>{{"--without-window", "egl"}, {"--without-window", "osmesa"}, {}}) {
+        const test::TemporaryFolder folder;
+        fs::create_directory(folder / "build");
+        fs::create_directory_symlink(source + "/data", folder / "data");
+        std::vector<std::string> words{"env", "-C", folder.path().string()};
+        if (how.empty()) words.insert(words.end(), {"xvfb-run", "-a", "-s", "-screen 0 1600x1000x24"});
+        words.insert(words.end(), {program, "--script", source + "/docs/first.view"});
+        words.insert(words.end(), how.begin(), how.end());
+        const auto result = runCommand(words);
+        BOOST_TEST_REQUIRE(result.status == 0, result.err);
+        for (std::size_t i = 0; i < names.size(); ++i) {
+            std::string bytes = test::readText(folder / "build" / names[i]);
+            // The scene names files by their places.
+            if (names[i] == "first_scene.json") bytes = bytes.substr(bytes.find("\"digest\""));
+            BOOST_TEST(bytes.size() > 100u);
+            if (first.size() <= i) first.push_back(bytes);
+            BOOST_TEST_CONTEXT(names[i]) BOOST_TEST((first[i] == bytes));
+        }
+    }
+}
+
+BOOST_AUTO_TEST_CASE(what_is_recorded_does_the_same_again)
+{
+    const test::TemporaryFolder folder;
+    const std::string script = (folder / "s.view").string(), recording = (folder / "r.view").string();
+    const std::string save = "wait\nsave-cage \"" + (folder / "cage.obj").string() + "\"\n";
+    test::writeText(script,
+                    "set effort fast\nset resolution 24\nwidget faces 60\nmouse move smooth.slider 0\nmouse down\n"
+                    "mouse move smooth.slider 0.5\nmouse up\nkey 3\n" +
+                        save);
+    const std::string model = source + "/data/bishop.obj";
+    BOOST_TEST(runCommand({program, model, "--script", script, "--record", recording}).status == 0);
+    const std::string cage = test::readText(folder / "cage.obj");
+    fs::remove(folder / "cage.obj");
+    std::string recorded = test::readText(recording);
+    BOOST_TEST(recorded.find("set faces 60") != std::string::npos, recorded);
+    BOOST_TEST(recorded.find("set smooth ") != std::string::npos);
+    BOOST_TEST(recorded.find("camera ") != std::string::npos);
+    // Lines of the script itself are not what a user does.
+    test::writeText(script, "set effort fast\nset resolution 24\n" + recorded + save);
+    BOOST_TEST(runCommand({program, "--script", script}).status == 0);
+    BOOST_TEST(test::readText(folder / "cage.obj") == cage);
+}
+
+BOOST_AUTO_TEST_SUITE_END()
