@@ -1,4 +1,4 @@
-# `cmake --install` of the library, its public headers and the command; found again by find_package(vdbcage CONFIG).
+# `cmake --install` of the library, its public headers and the programs; found again by find_package(vdbcage CONFIG).
 include(CMakePackageConfigHelpers)
 
 set(packageDir ${CMAKE_INSTALL_LIBDIR}/cmake/vdbcage)
@@ -18,4 +18,7 @@ install(FILES ${PROJECT_BINARY_DIR}/vdbcageConfig.cmake ${PROJECT_BINARY_DIR}/vd
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/vdbcage)
 if(VDBCAGE_BUILD_TOOLS)
     install(TARGETS vdbcage_cli RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+    if(TARGET vdbcage_view)
+        install(TARGETS vdbcage_view RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+    endif()
 endif()

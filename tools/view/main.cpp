@@ -34,18 +34,23 @@ struct Arguments {
 void printTable(const std::string& title, const std::vector<std::pair<std::string, std::string>>& rows)
 {
     std::cout << '\n' << title << ":\n";
+    constexpr std::size_t column = 36;
     for (const auto& [usage, help] : rows) {
-        std::cout << "  " << usage << std::string(usage.size() < 34 ? 34 - usage.size() : 1, ' ') << help << '\n';
+        // What is too long for its column has a line of its own.
+        const bool fits = usage.size() < column;
+        std::cout << "  " << usage
+                  << (fits ? std::string(column - usage.size(), ' ') : '\n' + std::string(column + 2, ' ')) << help
+                  << '\n';
     }
 }
 
 void printHelp()
 {
     std::cout << "vdbcage-view [MODEL|SCENE.json] [CAGE] [OPTIONS]: a window in which a cage is made\n\n"
-                 "  --script FILE           does the lines of FILE; without a display too\n"
-                 "  --record FILE           writes what the user does as such a script\n"
-                 "  --without-window HOW    for scripts: any, egl or osmesa\n"
-                 "  --version               prints the version\n";
+                 "  --script FILE                       does the lines of FILE; without a display too\n"
+                 "  --record FILE                       writes what the user does as such a script\n"
+                 "  --without-window any|egl|osmesa     for scripts: draws, but opens no window\n"
+                 "  --version                           prints the version\n";
     printTable("Lines of a script: commands", describeCommands());
     printTable("Lines of a script: what menus and keys do", describeVerbs());
     printTable("Lines of a script: what hands and eyes do", describeScript());
