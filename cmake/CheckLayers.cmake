@@ -29,7 +29,7 @@ set(confined
     "tools/vdbcage/|^(tools/vdbcage/.*|tests/.*)$"
     "tools/draw/|^(tools/(draw|vdbcage|view)/.*|tests/.*)$"
     "tools/view/|^(tools/(view|bench)/.*|tests/.*)$"
-    "imgui|^(tools/view/widgets\\.cpp|tools/view/panels/[a-z_]+\\.cpp|tests/view/.*)$"
+    "imgui|^(tools/view/widgets\\.cpp|tools/view/panels/.*|tests/view/.*)$"
     "GLFW/|^tools/view/window\\.cpp$"
     "CGAL/|^(vdbcage/.*\\.cpp|tests/.*)$")
 

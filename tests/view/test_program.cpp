@@ -1,6 +1,7 @@
 // The program vdbcage-view itself: without a display by EGL and by OSMesa, and in a window under Xvfb.
 #include <boost/test/unit_test.hpp>
 
+#include <algorithm>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -66,6 +67,11 @@ BOOST_AUTO_TEST_CASE(the_first_walk_looks_the_same_everywhere)
     const std::vector<std::string> names{"first_1_empty.png",   "first_2_cage.png",     "first_3_drag.png",
                                          "first_4_triquad.png", "first_5_distance.png", "first_6_voxels.png",
                                          "first_cage.obj",      "first_scene.cage.obj", "first_scene.json"};
+    // What the window saves is what the command makes.
+    const test::TemporaryFolder made;
+    BOOST_TEST(runCommand({VDBCAGE_COMMAND, "make", source + "/data/creature.obj", "-o", (made / "cage.obj").string()})
+                   .status == 0);
+    const std::string cage = test::readText(made / "cage.obj");
     std::vector<std::string> first;
     for (const std::vector<std::string>& how :
          std::vector<std::vector<std::string>>{{"--without-window", "egl"}, {"--without-window", "osmesa"}, {}}) {
@@ -83,6 +89,7 @@ BOOST_AUTO_TEST_CASE(the_first_walk_looks_the_same_everywhere)
             // The scene names files by their places.
             if (names[i] == "first_scene.json") bytes = bytes.substr(bytes.find("\"digest\""));
             BOOST_TEST(bytes.size() > 100u);
+            if (names[i].find("cage.obj") != std::string::npos) BOOST_TEST((bytes == cage));
             if (first.size() <= i) first.push_back(bytes);
             BOOST_TEST_CONTEXT(names[i]) BOOST_TEST((first[i] == bytes));
         }
