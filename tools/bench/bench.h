@@ -20,6 +20,7 @@ int runCage(int argc, char** argv);
 int runClosing(int argc, char** argv);
 int runDeform(int argc, char** argv);
 int runVoxelize(int argc, char** argv);
+int runView(int argc, char** argv); ///< in builds with the window
 
 /// Gives `app` a flag for every option of a cage but those in `except`; it sets `options`. The flags in use and their
 /// values, as given, are added to `words`, for another process that is to have the same.

@@ -1,9 +1,11 @@
 // vdbcage-bench: what cages cost and how good they are, as JSON lines on standard output. Each whole run (`cage`, or no
-// subcommand) is a process of its own; closing, voxelize and deform run in this process.
+// subcommand) is a process of its own; closing, voxelize, deform and view run in this process.
 
 #include <cstdio>
 #include <exception>
 #include <string>
+
+#include <vdbcage/core/error.h>
 
 #include "bench.h"
 
@@ -15,6 +17,13 @@ int main(int argc, char** argv)
         if (argc > 1 && std::string(argv[1]) == "closing") return bench::runClosing(argc, argv);
         if (argc > 1 && std::string(argv[1]) == "voxelize") return bench::runVoxelize(argc, argv);
         if (argc > 1 && std::string(argv[1]) == "deform") return bench::runDeform(argc, argv);
+        if (argc > 1 && std::string(argv[1]) == "view") {
+#ifdef VDBCAGE_HAS_VIEW
+            return bench::runView(argc, argv);
+#else
+            throw InputError("view: this build was made without the window (VDBCAGE_BUILD_VIEW)");
+#endif
+        }
         return bench::runStages(argc, argv);
     } catch (const std::exception& error) {
         std::fprintf(stderr, "vdbcage-bench: error: %s\n", error.what());
