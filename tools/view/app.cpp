@@ -208,11 +208,13 @@ public:
 
     bool isAnimated() const { return session_.state().view.turntable && session_.state().document.model; }
     bool isMoving() const { return isCameraDragged_ || isAnimated(); }
-    bool needsFrame() const { return needsFrame_ || !viewport_.isRefined(); }
+    /// While a value is dragged the processor is for the cages that follow it, not for finer pictures.
+    bool leavesItRough() const { return isValueDragged_ && viewport_.isDrawn() && !runner_.planner().isSettled(); }
+    bool needsFrame() const { return needsFrame_ || (!viewport_.isRefined() && !leavesItRough()); }
 
     void drawFrame()
     {
-        viewport_.draw(isMoving());
+        if (!leavesItRough()) viewport_.draw(isMoving());
         const Rectangle middle = viewport();
         draw::Target target = canvas_->target();
         viewport_.copyTo(target.framebuffer, middle.left, height_ - middle.top - middle.height);
@@ -225,8 +227,8 @@ public:
     draw::Picture picture()
     {
         refresh();
-        do drawFrame();
-        while (!viewport_.isRefined() && !isMoving());
+        while (!viewport_.isRefined() && !isMoving()) viewport_.draw(false);
+        drawFrame();
         return draw::fromPixels(canvas_->pixels(), width_, height_, false);
     }
 

@@ -34,6 +34,8 @@ public:
     void draw(bool isMoving);
     /// Nothing is left to draw until something changes.
     bool isRefined() const { return frames_ == shifts; }
+    /// What is to be seen was drawn once at least.
+    bool isDrawn() const { return frames_ > 0; }
 
     /// What is seen when nothing moves, without what others draw over it. \throw DeviceError
     draw::Picture picture();
