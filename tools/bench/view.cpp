@@ -89,26 +89,27 @@ Json measureFrames(App& app)
             {"widgets_over_still_pass", widgets / still}};
 }
 
-/// The time that a run takes in a pipeline that has made another face count before: the median of three.
-double rerunSeconds(const Mesh& model, Effort effort, int faces)
+/// The time that a run for another face count takes in a pipeline that has made 400 before, and then each of `faces`:
+/// the median.
+double rerunSeconds(const Mesh& model, Effort effort, const std::vector<int>& faces)
 {
     Pipeline pipeline(model);
     CageOptions options;
     options.effort = effort;
     pipeline.run(options);
     std::vector<double> times;
-    for (const int step : {0, 7, 13}) {
-        options.faces = faces + step;
+    for (const int count : faces) {
+        options.faces = count;
         times.push_back(secondsOf([&] { pipeline.run(options); }));
     }
     std::sort(times.begin(), times.end());
-    return times[1];
+    return times[times.size() / 2];
 }
 
 /// Drags the slider of the faces to and fro, and lets it go.
 Json measureDrag(App& app, const Mesh& model, double seconds)
 {
-    const double fast = rerunSeconds(model, Effort::fast, 300);
+    const double fast = rerunSeconds(model, Effort::fast, {200, 450, 260, 380, 320}); // as a drag meets them
     runLine(app, "mouse move faces.slider 0.30");
     runLine(app, "mouse down");
     CageResultPtr shown = app.planner().shown();
@@ -134,7 +135,7 @@ Json measureDrag(App& app, const Mesh& model, double seconds)
         app.waitUntilSettled();
     });
     const int faces = app.session().state().document.options.faces;
-    const double full = rerunSeconds(model, Effort::fair, faces);
+    const double full = rerunSeconds(model, Effort::fair, {faces});
     return {{"seconds", dragged},
             {"cages_shown", cages},
             {"frames", frames},

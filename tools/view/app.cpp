@@ -277,7 +277,8 @@ private:
             hasModelChanged_ = false;
             ignoredStamp_ = {};
             show();
-            frame(false);
+            // Not a line of its own: it follows from this one.
+            session_.execute(SetCamera{viewport_.fitted(session_.state().view, false)});
             // To have opened a model is no work that could be lost.
             if (!hadModel || wasSaved) saved_ = session_.state().document;
         }
@@ -530,7 +531,7 @@ private:
         }
         content.gridStep = viewport_.gridStep();
         if (const OpenedMeshPtr& model = session_.state().document.model) {
-            const openvdb::BBoxd box = boundingBox(model->mesh);
+            const openvdb::BBoxd& box = viewport_.box();
             const Vec3d extents = box.extents();
             const double longest = std::max({extents.x(), extents.y(), extents.z()});
             content.largestDistance = longest > 0 ? viewport_.largestDistance() / longest : 0;

@@ -114,7 +114,7 @@ const Mesh* meshOf(LayerId id, const OpenedMeshPtr& model, const CageResultPtr& 
 } // namespace
 
 Viewport::Viewport(const gl::Api& api, bool isSoftware)
-    : api_(&api), isSoftware_(isSoftware), renderer_(api), frame_(boxOf(nullptr))
+    : api_(&api), isSoftware_(isSoftware), renderer_(api), box_(boxOf(nullptr)), frame_(box_)
 {
     resize(1, 1);
 }
@@ -160,7 +160,7 @@ bool Viewport::show(const OpenedMeshPtr& model, const CageResultPtr& cage, bool 
     if (cage && areOtherMarks) markFaces(*cage, view);
     fillDistances(cage, view.cageColours == CageColours::distance && view.layer(LayerId::cage).shown);
     if (isOtherModel || !ground_.shape || view.camera.view.up != view_.camera.view.up) {
-        fillGround(model, view.camera.view.up);
+        fillGround(view.camera.view.up);
     }
     if (changed) frames_ = 0;
     view_ = view;
@@ -170,7 +170,8 @@ bool Viewport::show(const OpenedMeshPtr& model, const CageResultPtr& cage, bool 
 
 void Viewport::setFrame(const OpenedMeshPtr& model)
 {
-    frame_ = draw::Frame(boxOf(model));
+    box_ = boxOf(model);
+    frame_ = draw::Frame(box_);
     for (Slot& slot : slots_) slot = Slot();
     for (Slot* const slot : {&standIn_, &distances_, &ground_}) *slot = Slot();
 }
@@ -200,9 +201,9 @@ void Viewport::fillDistances(const CageResultPtr& cage, bool isWanted)
     distances_.shape->setPointColours(colours);
 }
 
-void Viewport::fillGround(const OpenedMeshPtr& model, draw::UpAxis up)
+void Viewport::fillGround(draw::UpAxis up)
 {
-    const openvdb::BBoxd box = boxOf(model);
+    const openvdb::BBoxd& box = box_;
     const int height = up == draw::UpAxis::y ? 1 : 2;
     const int first = up == draw::UpAxis::y ? 2 : 0, second = up == draw::UpAxis::y ? 0 : 1;
     double radius = 0.5 * box.extents().length();

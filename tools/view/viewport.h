@@ -45,6 +45,8 @@ public:
 
     /// In which it all is drawn: that of the model.
     const draw::Frame& frame() const { return frame_; }
+    /// Of the model, world space; without a model [-1, 1].
+    const openvdb::BBoxd& box() const { return box_; }
     /// As of the last draw().
     const draw::Eye& eye() const { return eye_; }
     /// Distance between two lines of the ground grid, in world space: 1, 2 or 5 times a power of ten.
@@ -74,7 +76,7 @@ private:
     void setFrame(const OpenedMeshPtr& model);
     void fill(Slot& slot, const std::shared_ptr<const void>& source, const Mesh* mesh, double creaseDegrees);
     void fillDistances(const CageResultPtr& cage, bool isWanted);
-    void fillGround(const OpenedMeshPtr& model, draw::UpAxis up);
+    void fillGround(draw::UpAxis up);
     void markFaces(const CageResult& cage, const ViewState& view);
     std::vector<draw::Layer> layers(const ViewState& view, bool standIn) const;
     draw::PointSets seen(const ViewState& view) const;
@@ -94,6 +96,7 @@ private:
     std::vector<std::uint8_t> means_;
     int frames_ = 0;
 
+    openvdb::BBoxd box_;
     draw::Frame frame_;
     draw::Eye eye_;
     double gridStep_ = 0, largestDistance_ = 0;
