@@ -16,6 +16,15 @@ inline view::OpenedMeshPtr opened(Mesh mesh, const std::string& name = "/no/mode
     return std::make_shared<const view::OpenedMesh>(std::move(file));
 }
 
+inline view::Order orderOf(const view::OpenedMeshPtr& model, int faces, Effort effort = Effort::fair)
+{
+    view::Order order;
+    order.model = model;
+    order.options.faces = faces;
+    order.options.effort = effort;
+    return order;
+}
+
 inline bool sameMesh(const Mesh& a, const Mesh& b)
 {
     return a.points == b.points && a.triangles == b.triangles && a.quads == b.quads;

@@ -11,17 +11,9 @@
 
 using namespace vdbcage;
 using namespace vdbcage::view;
+using test::orderOf;
 
 namespace {
-
-Order orderOf(const OpenedMeshPtr& model, int faces, Effort effort = Effort::fair)
-{
-    Order order;
-    order.model = model;
-    order.options.faces = faces;
-    order.options.effort = effort;
-    return order;
-}
 
 /// A result that tells by its cage what it was made by.
 CageResultPtr resultOf(const Job& job)

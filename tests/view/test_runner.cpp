@@ -19,10 +19,7 @@ namespace {
 
 Order orderOf(const OpenedMeshPtr& model, int faces, Effort effort = Effort::fair)
 {
-    Order order;
-    order.model = model;
-    order.options.faces = faces;
-    order.options.effort = effort;
+    Order order = test::orderOf(model, faces, effort);
     order.options.resolution = 24;
     return order;
 }

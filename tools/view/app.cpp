@@ -7,15 +7,13 @@
 #include <map>
 #include <system_error>
 
-#include <tools/report/report.h>
-#include <tools/report/stages.h>
+#include <tools/view/saving.h>
 #include <tools/view/state/folder.h>
-#include <tools/view/state/preset.h>
 #include <tools/view/state/scene.h>
 #include <tools/view/state/words.h>
+#include <tools/view/verbs.h>
 #include <tools/view/viewport.h>
 #include <tools/view/widget_renderer.h>
-#include <vdbcage/core/detail/atomic_file.h>
 #include <vdbcage/core/detail/number_text.h>
 #include <vdbcage/core/error.h>
 
@@ -31,52 +29,6 @@ using openvdb::Vec3d;
 constexpr double degreesPerPixel = 0.4, factorPerNotch = 1.15, turntableDegreesPerSecond = 24;
 /// A press that moves less is a click; pixels on an ordinary screen.
 constexpr double clickRadius = 3;
-
-struct Verb {
-    const char* name;
-    const char* arguments;
-    std::size_t least, most;
-    const char* help;
-    /// The line is not recorded: it only opens something, or other lines follow from it.
-    bool isOfWindow;
-};
-
-constexpr std::array<Verb, 28> verbs{{
-    {"undo", "", 0, 0, "takes back the last change of options or files", false},
-    {"redo", "", 0, 0, "does again what was taken back", false},
-    {"undo-view", "", 0, 0, "takes back the last change of the view", false},
-    {"redo-view", "", 0, 0, "does it again", false},
-    {"make", "", 0, 0, "makes the cage that was cancelled or failed", false},
-    {"cancel", "", 0, 0, "closes what is open, or stops the making of a cage", false},
-    {"more", "", 0, 0, "a twentieth more faces", true},
-    {"fewer", "", 0, 0, "a twentieth fewer faces", true},
-    {"toggle", "LAYER|ground|axes|turntable", 1, 1, "shows what is hidden and hides what is shown", true},
-    {"frame", "all|selected", 1, 1, "moves the view so that all is seen", true},
-    {"look", "front|back|left|right|top|bottom", 1, 1, "looks from there", true},
-    {"projection", "perspective|orthographic|toggle", 1, 1, "how what is far away looks", true},
-    {"up", "y|z|toggle", 1, 1, "which axis points up", true},
-    {"save-cage", "FILE", 1, 1, "writes the cage (.obj .off .ply .stl)", false},
-    {"save-stages", "FOLDER", 1, 1, "writes every stage (.vdb, .obj)", false},
-    {"save-report", "FILE.json", 1, 1, "writes options, times, memory and verdict", false},
-    {"save-options", "FILE", 1, 1, "writes the options, for `preset FILE`", false},
-    {"save-scene", "FILE.json", 1, 1, "writes options, view and names of files, and the cage beside it", false},
-    {"save-picture", "FILE.png", 1, 1, "writes what is seen, without the panels", false},
-    {"open-scene", "FILE.json", 1, 1, "opens what save-scene wrote", false},
-    {"drop", "FILE", 1, 1, "as if FILE was dropped on the window", true},
-    {"reload", "", 0, 0, "reads the model's file anew", false},
-    {"browse", "LINE", 1, 1, "asks for a file, and then does LINE with it", true},
-    {"help", "", 0, 0, "shows keys, mouse and commands", true},
-    {"dismiss", "", 0, 0, "closes a message or a question", true},
-    {"quit", "", 0, 0, "ends; asks if there is unsaved work", true},
-    {"quit!", "", 0, 0, "ends", true},
-    {"tick", "SECONDS", 1, 1, "lets time pass for what moves by itself", true},
-}};
-
-const Verb* verbNamed(const std::string& name)
-{
-    const auto found = std::find_if(verbs.begin(), verbs.end(), [&](const Verb& verb) { return name == verb.name; });
-    return found == verbs.end() ? nullptr : &*found;
-}
 
 std::string yesNo(bool yes)
 {
@@ -99,15 +51,6 @@ bool isScene(const fs::path& path)
 }
 
 } // namespace
-
-std::vector<std::pair<std::string, std::string>> describeVerbs()
-{
-    std::vector<std::pair<std::string, std::string>> list;
-    for (const Verb& verb : verbs) {
-        list.emplace_back(verb.name + std::string(*verb.arguments ? " " : "") + verb.arguments, verb.help);
-    }
-    return list;
-}
 
 class App::Impl {
 public:
@@ -436,8 +379,7 @@ private:
         if (verb == "save-cage") {
             writeMesh(currentCage(verb).cage, path);
         } else if (verb == "save-options") {
-            const std::string text = presetText(session_.state().document.options);
-            writeFileAtomically(path, [&](std::ostream& out) { out << text; });
+            saveOptions(session_.state().document.options, path);
         } else if (verb == "save-scene") {
             const Planner& planner = runner_.planner();
             const bool isCurrent = planner.standing() == Planner::Standing::current;
@@ -445,29 +387,14 @@ private:
             saved_ = session_.state().document;
             asksToQuit_ = false;
         } else if (verb == "save-picture") {
-            if (path.extension() != ".png") throw InputError(path.string() + ": pictures are written as .png");
             show();
-            const std::string bytes = draw::encodePng(viewport_.picture());
-            writeFileAtomically(path, [&](std::ostream& out) { out << bytes; });
+            savePicture(viewport_.picture(), path);
         } else if (verb == "save-report") {
             saveReport(currentCage(verb), path);
         } else {
             saveStages(path);
         }
         note("saved " + path.filename().string());
-    }
-
-    void saveReport(const CageResult& result, const fs::path& path) const
-    {
-        const OpenedMesh& model = *result.order.model;
-        const std::string text =
-            tool::toText(tool::toJson(tool::CageMade{tool::toJson(model.mesh, model.summary, model.path),
-                                                     {},
-                                                     result.order.options,
-                                                     result.seconds,
-                                                     result.stages,
-                                                     result.report}));
-        writeFileAtomically(path, [&](std::ostream& out) { out << text; });
     }
 
     void saveStages(const fs::path& folder)
@@ -481,21 +408,7 @@ private:
         keepsIntermediates_ = false;
         const CageResult& result = currentCage("save-stages");
         if (!result.intermediates) throw InputError("save-stages: " + runner_.planner().error());
-        const Intermediates& inner = *result.intermediates;
-        std::error_code error;
-        const bool isNew = fs::create_directory(folder, error);
-        if (error) throw IoError(folder.string() + ": the folder cannot be made: " + error.message());
-        try {
-            PendingFiles files;
-            tool::writeStages(
-                {result.order.model->path.filename().string(), result.order.options, result.report, *inner.solid,
-                 *inner.closed, inner.surface, inner.smoothed, inner.decimated},
-                folder, [&](const fs::path& file, const FileWriter& write) { files.add(file, write); }, nullptr);
-            files.commit();
-        } catch (...) {
-            if (isNew) fs::remove(folder, error);
-            throw;
-        }
+        view::saveStages(result, folder);
     }
 
     void note(const std::string& text)
@@ -937,11 +850,6 @@ const Planner& App::planner() const
 const std::vector<std::string>& App::messages() const
 {
     return impl_->messages_;
-}
-
-bool App::isDragging() const
-{
-    return impl_->session_.isDragging();
 }
 
 bool App::isEnded() const

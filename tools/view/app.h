@@ -32,7 +32,7 @@ struct AppSetup {
 /// The program behind a window: state, making of cages, panels and picture. It knows neither GLFW nor scripts: events,
 /// lines and files come in, a picture goes out.
 ///
-/// A line is what a script has: a command (see command.h) or one of describeVerbs(). Its context must be current
+/// A line is what a script has: a command (see command.h) or a verb (see verbs.h). Its context must be current
 /// whenever it is used, and must outlive it. All of it is for one thread.
 class App {
 public:
@@ -84,7 +84,6 @@ public:
     const Session& session() const;
     const Planner& planner() const;
     const std::vector<std::string>& messages() const;
-    bool isDragging() const;
     /// The user wants to go, and has been asked about unsaved work.
     bool isEnded() const;
     /// The name of what is worked on, for the window's title.
@@ -95,9 +94,6 @@ private:
     class Impl;
     std::unique_ptr<Impl> impl_;
 };
-
-/// Lines beside commands: (usage, help).
-std::vector<std::pair<std::string, std::string>> describeVerbs();
 
 /// Keys and their lines.
 const std::vector<Shortcut>& shortcuts();

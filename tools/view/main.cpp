@@ -12,6 +12,7 @@
 #include <tools/view/state/command.h>
 #include <tools/view/state/folder.h>
 #include <tools/view/state/words.h>
+#include <tools/view/verbs.h>
 #include <tools/view/window.h>
 #include <vdbcage/core/detail/atomic_file.h>
 #include <vdbcage/core/detail/printable.h>

@@ -6,8 +6,8 @@
 #include <functional>
 #include <sstream>
 
+#include <tools/view/saving.h>
 #include <tools/view/state/words.h>
-#include <vdbcage/core/detail/atomic_file.h>
 #include <vdbcage/core/detail/read_file.h>
 #include <vdbcage/core/error.h>
 
@@ -175,14 +175,11 @@ void doExpect(App& app, const Words& words)
 void doScreenshot(App& app, const Words& words)
 {
     if (words.size() != 2 && words.size() != 3) throw InputError("screenshot: it is written screenshot FILE [SIZE]");
-    const std::filesystem::path path = words[1];
-    if (path.extension() != ".png") throw InputError(path.string() + ": pictures are written as .png");
     if (words.size() == 3) {
         const auto [width, height] = sizeOf(words[2]);
         app.resize(width, height);
     }
-    const std::string bytes = draw::encodePng(app.picture());
-    writeFileAtomically(path, [&](std::ostream& out) { out << bytes; });
+    savePicture(app.picture(), words[1]);
 }
 
 } // namespace

@@ -80,8 +80,6 @@ public:
                            static_cast<int>(std::lround(high.x - low.x)),
                            static_cast<int>(std::lround(high.y - low.y))};
     }
-    /// Whether a widget whose name begins so is to be seen.
-    bool isRevealed(const std::string& beginning) const { return revealed_.rfind(beginning, 0) == 0; }
 
     /// Of the last item, a slider: where its drag begins and ends.
     void followDrag() const

@@ -72,7 +72,7 @@ public:
 
     /// Where the widgets of the last layout are, by their names.
     const std::map<std::string, Rectangle>& places() const;
-    /// Scrolls to the widget, and opens what it is in, by the next layout.
+    /// Scrolls to the widget, by the next layout.
     void reveal(const std::string& name);
 
     /// Asks for a file and then for the line VERB FILE. \throw InputError no verb that takes a file of a known kind

@@ -95,7 +95,7 @@ void buildResult(const PanelContext& context)
         ImGui::PopTextWrapPos();
     }
     const bool showsTimes = context.content.session.state().view.times;
-    if (showsTimes && ImGui::CollapsingHeader("Times of the stages")) {
+    if (showsTimes && section("Times of the stages", false)) {
         if (ImGui::BeginTable("stages", 2)) {
             ImGui::TableSetupColumn("name", ImGuiTableColumnFlags_WidthFixed, length(92));
             ImGui::TableSetupColumn("value", ImGuiTableColumnFlags_WidthStretch);

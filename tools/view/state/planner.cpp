@@ -52,9 +52,13 @@ Order previewOf(Order order)
 
 int steppedFaces(int faces, int direction)
 {
-    constexpr int least = 12, most = 1000000;
-    const int step = std::max(1, faces / 20);
-    return std::clamp(direction > 0 ? faces + std::min(step, most - faces) : faces - step, least, most);
+    Range range;
+    CageOptions options;
+    visitOptions(options, [&](const OptionInfo& info, const auto& field) {
+        if (static_cast<const void*>(&field) == &options.faces) range = info.range;
+    });
+    const double step = std::max(1, faces / 20);
+    return static_cast<int>(std::clamp(faces + (direction > 0 ? step : -step), range.least, range.most));
 }
 
 void Planner::want(const std::optional<Order>& order, bool isDragging, bool intermediates)

@@ -36,26 +36,26 @@ void Session::beginDrag()
 
 void Session::undo()
 {
-    hasDraggedDocument_ = false; // what a drag goes on with is another step
-    if (documents_.canUndo()) state_.document = documents_.undo(state_.document);
+    hasDraggedDocument_ = false;
+    documents_.undo(state_.document);
 }
 
 void Session::redo()
 {
-    hasDraggedDocument_ = false; // what a drag goes on with is another step
-    if (documents_.canRedo()) state_.document = documents_.redo(state_.document);
+    hasDraggedDocument_ = false;
+    documents_.redo(state_.document);
 }
 
 void Session::undoView()
 {
-    hasDraggedView_ = false; // what a drag goes on with is another step
-    if (views_.canUndo()) state_.view = views_.undo(state_.view);
+    hasDraggedView_ = false;
+    views_.undo(state_.view);
 }
 
 void Session::redoView()
 {
-    hasDraggedView_ = false; // what a drag goes on with is another step
-    if (views_.canRedo()) state_.view = views_.redo(state_.view);
+    hasDraggedView_ = false;
+    views_.redo(state_.view);
 }
 
 void Session::restart(State state)

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <tools/view/state/command.h>
@@ -28,21 +29,23 @@ public:
     /// Gives the last step another name. \pre canUndo()
     void rename(const std::string& change) { past_.back().change = change; }
 
-    /// The value before the last change. \pre canUndo()
-    Value undo(const Value& now) { return step(past_, future_, now); }
-    Value redo(const Value& now) { return step(future_, past_, now); }
+    /// Makes `value` what it was before the last change, or after it again. Nothing happens where there is no such
+    /// step.
+    void undo(Value& value) { step(past_, future_, value); }
+    void redo(Value& value) { step(future_, past_, value); }
 
 private:
     struct Step {
         Value value;
         std::string change;
     };
-    static Value step(std::vector<Step>& from, std::vector<Step>& to, const Value& now)
+    static void step(std::vector<Step>& from, std::vector<Step>& to, Value& value)
     {
+        if (from.empty()) return;
         Step step = std::move(from.back());
         from.pop_back();
-        to.push_back({now, std::move(step.change)});
-        return std::move(step.value);
+        std::swap(value, step.value);
+        to.push_back(std::move(step));
     }
 
     std::vector<Step> past_, future_;
@@ -64,7 +67,7 @@ public:
 
     const History<Document>& documents() const { return documents_; }
     const History<ViewState>& views() const { return views_; }
-    /// Nothing happens where there is nothing to undo, or redo.
+    /// What a drag goes on with after one of these is another step.
     void undo();
     void redo();
     void undoView();

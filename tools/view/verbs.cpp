@@ -1,0 +1,58 @@
+#include <tools/view/verbs.h>
+
+#include <algorithm>
+#include <array>
+
+namespace vdbcage::view {
+
+namespace {
+
+constexpr std::array<Verb, 28> verbs{{
+    {"undo", "", 0, 0, "takes back the last change of options or files", false},
+    {"redo", "", 0, 0, "does again what was taken back", false},
+    {"undo-view", "", 0, 0, "takes back the last change of the view", false},
+    {"redo-view", "", 0, 0, "does it again", false},
+    {"make", "", 0, 0, "makes the cage that was cancelled or failed", false},
+    {"cancel", "", 0, 0, "closes what is open, or stops the making of a cage", false},
+    {"more", "", 0, 0, "a twentieth more faces", true},
+    {"fewer", "", 0, 0, "a twentieth fewer faces", true},
+    {"toggle", "LAYER|ground|axes|turntable", 1, 1, "shows what is hidden and hides what is shown", true},
+    {"frame", "all|selected", 1, 1, "moves the view so that all is seen", true},
+    {"look", "front|back|left|right|top|bottom", 1, 1, "looks from there", true},
+    {"projection", "perspective|orthographic|toggle", 1, 1, "how what is far away looks", true},
+    {"up", "y|z|toggle", 1, 1, "which axis points up", true},
+    {"save-cage", "FILE", 1, 1, "writes the cage (.obj .off .ply .stl)", false},
+    {"save-stages", "FOLDER", 1, 1, "writes every stage (.vdb, .obj)", false},
+    {"save-report", "FILE.json", 1, 1, "writes options, times, memory and verdict", false},
+    {"save-options", "FILE", 1, 1, "writes the options, for `preset FILE`", false},
+    {"save-scene", "FILE.json", 1, 1, "writes options, view and names of files, and the cage beside it", false},
+    {"save-picture", "FILE.png", 1, 1, "writes what is seen, without the panels", false},
+    {"open-scene", "FILE.json", 1, 1, "opens what save-scene wrote", false},
+    {"drop", "FILE", 1, 1, "as if FILE was dropped on the window", true},
+    {"reload", "", 0, 0, "reads the model's file anew", false},
+    {"browse", "LINE", 1, 1, "asks for a file, and then does LINE with it", true},
+    {"help", "", 0, 0, "shows keys, mouse and commands", true},
+    {"dismiss", "", 0, 0, "closes a message or a question", true},
+    {"quit", "", 0, 0, "ends; asks if there is unsaved work", true},
+    {"quit!", "", 0, 0, "ends", true},
+    {"tick", "SECONDS", 1, 1, "lets time pass for what moves by itself", true},
+}};
+
+} // namespace
+
+const Verb* verbNamed(const std::string& name)
+{
+    const auto found = std::find_if(verbs.begin(), verbs.end(), [&](const Verb& verb) { return name == verb.name; });
+    return found == verbs.end() ? nullptr : &*found;
+}
+
+std::vector<std::pair<std::string, std::string>> describeVerbs()
+{
+    std::vector<std::pair<std::string, std::string>> list;
+    for (const Verb& verb : verbs) {
+        list.emplace_back(verb.name + std::string(*verb.arguments ? " " : "") + verb.arguments, verb.help);
+    }
+    return list;
+}
+
+} // namespace vdbcage::view
