@@ -106,28 +106,32 @@ double rerunSeconds(const Mesh& model, Effort effort, const std::vector<int>& fa
     return times[times.size() / 2];
 }
 
-/// Drags the slider of the faces to and fro, and lets it go.
+/// Drags the slider of the faces from 98 to 546, as Window::run lets it be dragged, and lets it go.
 Json measureDrag(App& app, const Mesh& model, double seconds)
 {
-    const double fast = rerunSeconds(model, Effort::fast, {200, 450, 260, 380, 320}); // as a drag meets them
+    const double fast = rerunSeconds(model, Effort::fast, {98, 151, 244, 351, 484}); // as the drag meets them
     runLine(app, "mouse move faces.slider 0.30");
     runLine(app, "mouse down");
     CageResultPtr shown = app.planner().shown();
     int cages = 0, frames = 0;
+    double drawn = 0;
     const auto began = Clock::now();
-    for (int step = 0; secondsSince(began) < seconds; ++step) {
-        const double place = 0.28 + 0.04 * std::sin(0.01 * step);
-        runLine(app, "mouse move faces.slider " + std::to_string(place));
+    for (double now = 0; now < seconds; now = secondsSince(began)) {
+        if (now >= drawn + app.secondsBetweenFrames()) {
+            // One way only, so that no cage is one that was made before.
+            runLine(app, "mouse move faces.slider " + std::to_string(0.22 + 0.16 * now / seconds));
+            if (app.needsFrame()) {
+                app.drawFrame();
+                drawn = secondsSince(began);
+                ++frames;
+            }
+        }
         app.update();
         if (app.planner().shown() != shown) {
             shown = app.planner().shown();
             ++cages;
         }
-        if (app.needsFrame()) {
-            app.drawFrame();
-            ++frames;
-        }
-        std::this_thread::sleep_for(std::chrono::milliseconds(5)); // as a mouse that tells where it is
+        std::this_thread::sleep_for(std::chrono::milliseconds(5)); // a window sleeps until something comes
     }
     const double dragged = secondsSince(began);
     const double settled = secondsOf([&] {

@@ -95,7 +95,8 @@ public:
     {
         const bool hadMessage = !messages_.empty(); // one that the event brings is not dismissed by it
         PanelAnswer answer;
-        const bool isTaken = layOut(&event, answer);
+        layOut(); // it is meant for what is to be seen
+        const bool isTaken = layOutOnce(&event, answer);
         take(answer);
         if (!isTaken || isPointerHeld_) control(event);
         if (const auto* const down = std::get_if<KeyDown>(&event.what)) press(*down, event.modifiers, hadMessage);
@@ -150,26 +151,49 @@ public:
     }
 
     bool isAnimated() const { return session_.state().view.turntable && session_.state().document.model; }
-    bool isMoving() const { return isCameraDragged_ || isAnimated(); }
-    /// While a value is dragged the processor is for the cages that follow it, not for finer pictures.
-    bool leavesItRough() const { return isValueDragged_ && viewport_.isDrawn() && !runner_.planner().isSettled(); }
-    bool needsFrame() const { return needsFrame_ || (!viewport_.isRefined() && !leavesItRough()); }
+    /// While a value is dragged the processor is for the cages that follow it, not for fine pictures or many.
+    bool awaitsCage() const { return isValueDragged_ && !runner_.planner().isSettled(); }
+    double secondsBetweenFrames() const { return setup_.isSoftware && awaitsCage() ? 0.05 : 0; }
+    bool isMoving() const { return isCameraDragged_ || isAnimated() || awaitsCage(); }
+    bool leavesItRough() const { return isMoving() && viewport_.isDrawn(); }
+
+    /// Brings the panels in line with the state.
+    void layOut()
+    {
+        // What a layout answers may change the state, and with it the layout.
+        for (int i = 0; i < 3 && !isLaidOut_; ++i) {
+            isLaidOut_ = true;
+            PanelAnswer answer;
+            const std::uint64_t before = widgets_.version();
+            layOutOnce(nullptr, answer);
+            if (widgets_.version() != before) needsFrame_ = true;
+            take(answer);
+        }
+        isLaidOut_ = true;
+    }
+
+    bool needsFrame()
+    {
+        layOut();
+        return needsFrame_ || (!viewport_.isRefined() && !leavesItRough());
+    }
 
     void drawFrame()
     {
+        layOut();
         if (!leavesItRough()) viewport_.draw(isMoving());
         const Rectangle middle = viewport();
         draw::Target target = canvas_->target();
         viewport_.copyTo(target.framebuffer, middle.left, height_ - middle.top - middle.height);
         widgetRenderer_.draw(target, widgets_.drawing());
         gl::throwIfFailed(api_, "drawing the window");
-        needsFrame_ = isMoving();
+        needsFrame_ = false;
         ++frames_;
     }
 
     draw::Picture picture()
     {
-        refresh();
+        layOut();
         while (!viewport_.isRefined() && !isMoving()) viewport_.draw(false);
         drawFrame();
         return draw::fromPixels(canvas_->pixels(), width_, height_, false);
@@ -459,7 +483,8 @@ private:
         return content;
     }
 
-    bool layOut(const InputEvent* event, PanelAnswer& answer)
+    /// Builds the panels, with an event or without. Returns whether they took it.
+    bool layOutOnce(const InputEvent* event, PanelAnswer& answer)
     {
         const PanelContent shown = content();
         return widgets_.layOut(event, width_, height_, [&] { panels_.build(shown, answer); });
@@ -474,6 +499,7 @@ private:
         }
         for (const std::string& line : answer.lines) attempt(line);
         if (answer.endsDrag) endDrag();
+        if (answer.beginsDrag || answer.endsDrag) refresh();
     }
 
     /// The drag becomes the line that its end amounts to.
@@ -490,25 +516,12 @@ private:
         }
     }
 
-    /// Brings what is made and what is seen in line with the state.
+    /// Brings what is made and what is seen in line with the state; the panels follow when they are needed.
     void refresh()
     {
-        if (isRefreshing_) return;
-        isRefreshing_ = true;
         want();
         show();
-        // What a layout answers may change the state, and with it the layout; an event is answered at once.
-        for (int i = 0; i < 3; ++i) {
-            PanelAnswer answer;
-            const std::uint64_t before = widgets_.version();
-            layOut(nullptr, answer);
-            if (widgets_.version() != before) needsFrame_ = true;
-            if (answer.lines.empty() && !answer.beginsDrag && !answer.endsDrag) break;
-            take(answer);
-            want();
-            show();
-        }
-        isRefreshing_ = false;
+        isLaidOut_ = false;
     }
 
     void want()
@@ -642,7 +655,7 @@ private:
 
     Document saved_; ///< as it was last saved, or opened
     State dragged_;  ///< before the drag
-    bool isRefreshing_ = false;
+    bool isLaidOut_ = false;
     bool keepsIntermediates_ = false;
     bool asksToQuit_ = false, hasModelChanged_ = false;
     FileStamp changedStamp_, ignoredStamp_;
@@ -776,9 +789,14 @@ bool App::isAnimated() const
     return impl_->isAnimated();
 }
 
-bool App::needsFrame() const
+bool App::needsFrame()
 {
     return impl_->needsFrame();
+}
+
+double App::secondsBetweenFrames() const
+{
+    return impl_->secondsBetweenFrames();
 }
 
 void App::drawFrame()
@@ -803,6 +821,7 @@ void App::waitUntilSettled()
 
 std::string App::value(const std::string& name) const
 {
+    impl_->layOut();
     const auto values = impl_->values();
     const auto found = values.find(name);
     if (found != values.end()) return found->second();
@@ -820,6 +839,7 @@ std::vector<std::string> App::valueNames() const
 
 std::optional<Rectangle> App::widget(const std::string& name) const
 {
+    impl_->layOut();
     const auto& places = impl_->panels_.places();
     const auto found = places.find(name);
     if (found == places.end()) return std::nullopt;

@@ -62,7 +62,9 @@ public:
     bool isAnimated() const;
 
     /// There is something to draw.
-    bool needsFrame() const;
+    bool needsFrame();
+    /// Seconds that should be between two frames at least; until then only update() is called.
+    double secondsBetweenFrames() const;
     /// Draws the next frame into canvas(). \throw DeviceError
     void drawFrame();
     const draw::Canvas& canvas() const;

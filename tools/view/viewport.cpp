@@ -129,7 +129,7 @@ void Viewport::resize(int width, int height)
     averageFramebuffer_ = gl::makeFramebuffer(*api_, average_, gl::Texture());
     width_ = width;
     height_ = height;
-    frames_ = 0;
+    restart();
 }
 
 bool Viewport::show(const OpenedMeshPtr& model, const CageResultPtr& cage, bool isStale, const ViewState& view)
@@ -162,10 +162,16 @@ bool Viewport::show(const OpenedMeshPtr& model, const CageResultPtr& cage, bool 
     if (isOtherModel || !ground_.shape || view.camera.view.up != view_.camera.view.up) {
         fillGround(view.camera.view.up);
     }
-    if (changed) frames_ = 0;
+    if (changed) restart();
     view_ = view;
     isStale_ = isStale;
     return changed;
+}
+
+void Viewport::restart()
+{
+    frames_ = 0;
+    isDrawn_ = false;
 }
 
 void Viewport::setFrame(const OpenedMeshPtr& model)
@@ -188,7 +194,7 @@ void Viewport::fillDistances(const CageResultPtr& cage, bool isWanted)
     const bool isThere = isWanted && cage && cage->intermediates;
     const std::shared_ptr<const void> source = isThere ? std::shared_ptr<const void>(cage) : nullptr;
     if (distances_.source == source) return;
-    frames_ = 0;
+    restart();
     largestDistance_ = 0;
     fill(distances_, source, isThere ? &cage->intermediates->distance.mesh : nullptr, 0);
     if (!distances_.shape) return;
@@ -227,7 +233,7 @@ void Viewport::fillGround(draw::UpAxis up)
     }
     ground_.shape.reset();
     ground_.shape.emplace(*api_, draw::Geometry(lines, frame_));
-    frames_ = 0;
+    restart();
 }
 
 void Viewport::markFaces(const CageResult& cage, const ViewState& view)
@@ -241,7 +247,7 @@ void Viewport::markFaces(const CageResult& cage, const ViewState& view)
         if (face < looks.size()) looks[face].flags |= draw::FaceLook::selected;
     }
     shape->setFaceLooks(looks);
-    frames_ = 0;
+    restart();
 }
 
 std::vector<draw::Layer> Viewport::layers(const ViewState& view, bool standIn) const
@@ -326,6 +332,7 @@ void Viewport::draw(bool isMoving)
         look.crop.y = 2 * y / height_;
     }
     renderer_.draw(target, look, layers(view_, isMoving && isSoftware_));
+    isDrawn_ = true;
     if (isMoving) return;
     const std::vector<std::uint8_t> pixels = canvas_->pixels();
     sums_.resize(pixels.size());

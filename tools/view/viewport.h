@@ -34,8 +34,8 @@ public:
     void draw(bool isMoving);
     /// Nothing is left to draw until something changes.
     bool isRefined() const { return frames_ == shifts; }
-    /// What is to be seen was drawn once at least.
-    bool isDrawn() const { return frames_ > 0; }
+    /// What is to be seen was drawn once at least, if only as it is while something moves.
+    bool isDrawn() const { return isDrawn_; }
 
     /// What is seen when nothing moves, without what others draw over it. \throw DeviceError
     draw::Picture picture();
@@ -73,6 +73,8 @@ private:
         std::optional<draw::Shape> shape;
     };
 
+    /// Something changed: what was drawn is no longer what is to be seen.
+    void restart();
     void setFrame(const OpenedMeshPtr& model);
     void fill(Slot& slot, const std::shared_ptr<const void>& source, const Mesh* mesh, double creaseDegrees);
     void fillDistances(const CageResultPtr& cage, bool isWanted);
@@ -95,6 +97,7 @@ private:
     std::vector<std::uint16_t> sums_; ///< of each channel of the frames so far
     std::vector<std::uint8_t> means_;
     int frames_ = 0;
+    bool isDrawn_ = false;
 
     openvdb::BBoxd box_;
     draw::Frame frame_;

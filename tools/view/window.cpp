@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <utility>
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
@@ -97,7 +98,8 @@ struct Window::State {
     GLFWwindow* window = nullptr;
     std::optional<gl::Api> api;
     std::array<GLFWcursor*, 5> cursors{};
-    App* app = nullptr; ///< while it runs
+    App* app = nullptr;               ///< while it runs
+    std::optional<PointerMoved> move; ///< not passed on yet: a mouse moves more often than frames are drawn
     Modifiers modifiers;
     double pressedAt = -1, pressedX = 0, pressedY = 0, pointerX = 0, pointerY = 0;
     int clicks = 0;
@@ -121,11 +123,21 @@ struct Window::State {
     template <class What>
     void send(What what)
     {
+        sendMove();
         if (app) app->handle({std::move(what), modifiers});
+    }
+
+    /// What is done next is done where the pointer is by then.
+    void sendMove()
+    {
+        if (!move) return;
+        const PointerMoved where = *std::exchange(move, std::nullopt);
+        if (app) app->handle({where, modifiers});
     }
 
     void setModifiers(int bits)
     {
+        sendMove(); // it was made with those before
         modifiers.shift = (bits & GLFW_MOD_SHIFT) != 0;
         modifiers.control = (bits & GLFW_MOD_CONTROL) != 0;
         modifiers.alt = (bits & GLFW_MOD_ALT) != 0;
@@ -170,7 +182,7 @@ void Window::State::setCallbacks()
         const double pixels = state.pixelsPerUnit();
         state.pointerX = x * pixels;
         state.pointerY = y * pixels;
-        state.send(PointerMoved{state.pointerX, state.pointerY});
+        state.move = PointerMoved{state.pointerX, state.pointerY};
     });
     glfwSetCursorEnterCallback(window, [](GLFWwindow* w, int entered) {
         if (!entered) stateOf(w).send(PointerLeft{});
@@ -272,6 +284,7 @@ void Window::show(App& app)
 {
     state_->app = &app;
     glfwPollEvents();
+    state_->sendMove();
     state_->present();
     state_->app = nullptr;
 }
@@ -281,19 +294,26 @@ void Window::run(App& app)
     State& state = *state_;
     state.app = &app;
     std::string title;
-    double last = glfwGetTime(), looked = last;
+    double last = glfwGetTime(), looked = last, drawn = 0;
     while (!app.isEnded()) {
         if (const std::string now = app.title(); now != title) {
             title = now;
             glfwSetWindowTitle(state.window, title.c_str());
         }
         glfwSetCursor(state.window, state.cursors[static_cast<std::size_t>(app.pointerShape())]);
-        if (app.needsFrame() || app.isAnimated()) {
-            app.drawFrame();
-            state.present();
-            glfwPollEvents();
+        const double rest = drawn + app.secondsBetweenFrames() - glfwGetTime();
+        if (rest > 0) {
+            glfwWaitEventsTimeout(rest);
         } else {
-            glfwWaitEventsTimeout(secondsBetweenLooks);
+            state.sendMove();
+            if (app.needsFrame() || app.isAnimated()) {
+                app.drawFrame();
+                state.present();
+                drawn = glfwGetTime();
+                glfwPollEvents();
+            } else {
+                glfwWaitEventsTimeout(secondsBetweenLooks);
+            }
         }
         app.update();
         const double now = glfwGetTime();
