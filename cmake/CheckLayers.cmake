@@ -1,7 +1,8 @@
 # cmake -P cmake/CheckLayers.cmake: fails, naming every offender, unless the floors of the house hold:
 #   core < geometry < mesh < gl < voxelize | volume | surface | check | deform < bounding < pipeline < tools, tests
 # A room includes only itself and rooms of lower floors; those of one floor do not know each other. Public headers
-# include no private ones. tools/draw and tools/report are for the command and the window, which do not know each other.
+# include no private ones. tools/draw and tools/report are for the command and the window, which do not know each other;
+# tools/edit is for the window.
 # Third-party libraries stay in their files.
 cmake_minimum_required(VERSION 3.25)
 get_filename_component(root ${CMAKE_CURRENT_LIST_DIR}/.. ABSOLUTE)
@@ -27,7 +28,8 @@ set(confined
     "png\\.h|^(tools/draw/picture\\.cpp|tests/.*)$"
     "tools/report/|^(tools/(report|vdbcage|view)/.*|tests/.*)$"
     "tools/vdbcage/|^(tools/vdbcage/.*|tests/.*)$"
-    "tools/draw/|^(tools/(draw|vdbcage|view)/.*|tests/.*)$"
+    "tools/draw/|^(tools/(draw|edit|vdbcage|view)/.*|tests/.*)$"
+    "tools/edit/|^(tools/(edit|view|bench)/.*|tests/.*)$"
     "tools/view/|^(tools/(view|bench)/.*|tests/.*)$"
     "imgui|^(tools/view/widgets\\.cpp|tools/view/panels/.*|tests/view/.*)$"
     "GLFW/|^tools/view/window\\.cpp$"
