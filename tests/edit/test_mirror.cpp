@@ -68,13 +68,16 @@ BOOST_AUTO_TEST_CASE(partners_are_those_that_a_search_finds)
     }
 }
 
-BOOST_AUTO_TEST_CASE(several_points_at_one_place_are_paired_in_their_order)
+BOOST_AUTO_TEST_CASE(partners_are_mutual_and_in_order_where_several_are_at_one_place)
 {
     const double nan = std::numeric_limits<double>::quiet_NaN();
     const std::vector<Vec3d> points{{1, 5, 0}, {3, 5, 0}, {2, 5, 0},   {1, 5, 0}, {2, 5, 0},
                                     {3, 5, 0}, {1, 5, 0}, {nan, 5, 0}, {1, 6, 0}, {2, -0.0, 0}};
     const std::vector<Index> expected{1, 0, 2, 5, 4, 3, none, none, none, 9};
     BOOST_TEST(mirrorPartners(points, 0, 2) == expected, boost::test_tools::per_element());
+    // Rounding takes the first one to the second one's place, but that one to 0.
+    BOOST_TEST(mirrorPartners({{1e-17, 0, 0}, {2, 0, 0}}, 0, 1) == (std::vector<Index>{none, none}),
+               boost::test_tools::per_element());
 }
 
 BOOST_AUTO_TEST_CASE(touched_pairs_become_exactly_symmetric_and_nothing_else_moves)

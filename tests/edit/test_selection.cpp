@@ -210,6 +210,20 @@ BOOST_AUTO_TEST_CASE(loops_of_edges_end_at_other_points)
     BOOST_TEST(loop(sphere, {Element::edge, {sphere.edgeBetween(1, 2)}}).ids.size() == 8U);
     const Elements finer(test::sphere({0, 0, 0}, 1, 5));
     BOOST_TEST(loop(finer, {Element::edge, {finer.edgeBetween(1, 11)}}).ids.size() == 10U);
+    // Five edges at each pole of a bipyramid have no opposite ones, nor have the three at a tetrahedron's points.
+    Mesh bipyramid;
+    bipyramid.points.resize(7);
+    for (Index i = 0; i < 5; ++i) {
+        bipyramid.triangles.emplace_back(i, (i + 1) % 5, 5U);
+        bipyramid.triangles.emplace_back((i + 1) % 5, i, 6U);
+    }
+    const Elements five(bipyramid);
+    BOOST_TEST(loop(five, {Element::edge, {five.edgeBetween(0, 5)}}).ids.size() == 2U);
+    BOOST_TEST(loop(five, {Element::edge, {five.edgeBetween(0, 1)}}).ids.size() == 5U);
+    Mesh tetrahedron;
+    tetrahedron.points.resize(4);
+    tetrahedron.triangles = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}};
+    BOOST_TEST(loop(Elements(tetrahedron), {Element::edge, {0}}).ids.size() == 1U);
     // Without its cap the pole is gone: both ends of a meridian are at the boundary.
     Mesh open = test::sphere({0, 0, 0}, 1, 4);
     open.triangles.clear();

@@ -15,7 +15,7 @@ namespace vdbcage::edit {
 /// What hides parts of a cage: a model that is shown solid. Made once for each model and pose of it.
 class Occluder {
 public:
-    /// Cost: O(n log n), in parallel: some 0.2 us a triangle.
+    /// Cost: O(n log n), in parallel: some 0.3 us a triangle.
     explicit Occluder(const draw::Geometry& geometry);
 
 private:
