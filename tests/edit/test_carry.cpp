@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <vector>
 
@@ -105,8 +106,10 @@ BOOST_AUTO_TEST_CASE(where_nothing_moved_all_stays_bit_for_bit)
     rest.points.push_back({5, 5, 5}); // used by no face
     std::vector<Vec3d> posed = rest.points;
     posed.back() = {7, 7, 7};
-    const Mesh other = test::box({-0.3, -1.0 / 3, -0.1}, {0.7, 0.2, 1e-300});
-    BOOST_CHECK(carriedPose(rest, posed, other) == other.points);
+    const Mesh other = test::box({-0.3, -1.0 / 3, -0.0}, {0.7, 0.2, 1e-300});
+    const auto carried = carriedPose(rest, posed, other);
+    BOOST_REQUIRE(carried.size() == other.points.size());
+    BOOST_TEST(std::memcmp(carried.data(), other.points.data(), carried.size() * sizeof(Vec3d)) == 0);
 }
 
 BOOST_AUTO_TEST_CASE(the_number_of_threads_does_not_matter)

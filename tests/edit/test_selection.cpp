@@ -210,6 +210,15 @@ BOOST_AUTO_TEST_CASE(loops_of_edges_end_at_other_points)
     BOOST_TEST(loop(sphere, {Element::edge, {sphere.edgeBetween(1, 2)}}).ids.size() == 8U);
     const Elements finer(test::sphere({0, 0, 0}, 1, 5));
     BOOST_TEST(loop(finer, {Element::edge, {finer.edgeBetween(1, 11)}}).ids.size() == 10U);
+    // Six edges, but a quad among the faces: there is no telling what goes straight on.
+    Mesh mixed = test::torus(2, 0.5, 9, 5);
+    mixed.triangles = triangulate(mixed);
+    mixed.triangles.erase(mixed.triangles.begin(), mixed.triangles.begin() + 2);
+    mixed.quads.resize(1); // of the points 0, 5, 6, 1
+    const Elements oneQuad(mixed);
+    BOOST_TEST(oneQuad.edgesOfPoint(5).size() == 6U);
+    BOOST_TEST(loop(oneQuad, {Element::edge, {oneQuad.edgeBetween(0, 5)}}).ids.size() == 1U);
+    BOOST_TEST(loop(oneQuad, {Element::edge, {oneQuad.edgeBetween(2, 7)}}).ids.size() == 9U);
     // Five edges at each pole of a bipyramid have no opposite ones, nor have the three at a tetrahedron's points.
     Mesh bipyramid;
     bipyramid.points.resize(7);
