@@ -44,7 +44,8 @@ bool isClosedManifold(const MeshTopology& topology)
 /// One edit of a mesh: what is at an edge or face, and the result.
 class Edit {
 public:
-    /// `what` and `id` are for messages.
+    /// Of the edge or face `id`.
+    /// \throw InputError it is none; the mesh cannot be edited
     Edit(const Mesh& mesh, Element kind, Index id)
         : kind_(kind), id_(id), elements_(checked(mesh)), topology_(analyzeTopology(mesh))
     {
