@@ -94,7 +94,13 @@ BOOST_AUTO_TEST_CASE(it_is_small_and_near_to_the_mesh)
         Mesh mesh = test::sphere(60); // 43,200 triangles
         for (Vec3d& point : mesh.points) point *= scale;
         for (const std::size_t most : {100, 1000, 12000}) {
-            const Mesh coarse = standIn(mesh, most);
+            const StandIn made = standIn(mesh, most);
+            const Mesh& coarse = made.mesh;
+            BOOST_REQUIRE(made.points.size() == coarse.points.size());
+            for (std::size_t i = 0; i < coarse.points.size(); ++i) {
+                const double distance = (mesh.points[made.points[i]] / scale - coarse.points[i] / scale).length();
+                BOOST_TEST(distance < (most == 100 ? 0.5 : 0.15));
+            }
             BOOST_TEST(coarse.triangles.size() <= most);
             BOOST_TEST(coarse.triangles.size() > most / 8);
             BOOST_TEST(coarse.quads.empty());
@@ -108,7 +114,9 @@ BOOST_AUTO_TEST_CASE(it_is_small_and_near_to_the_mesh)
             }
             BOOST_TEST(volume > (most == 100 ? 2.0 : 3.6)); // faces outward
         }
-        BOOST_TEST(standIn(mesh, 43200).quads == mesh.quads, boost::test_tools::per_element());
+        const StandIn itself = standIn(mesh, 43200);
+        BOOST_TEST(itself.mesh.quads == mesh.quads, boost::test_tools::per_element());
+        for (std::size_t i = 0; i < itself.points.size(); ++i) BOOST_REQUIRE(itself.points[i] == i);
     }
 }
 
@@ -121,7 +129,7 @@ BOOST_AUTO_TEST_CASE(any_soup_has_one)
         const auto first = static_cast<openvdb::Index32>(3 * i);
         needle.triangles.emplace_back(first, first + 1, first + 2);
     }
-    BOOST_TEST(!standIn(needle, 100).triangles.empty());
+    BOOST_TEST(!standIn(needle, 100).mesh.triangles.empty());
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -308,7 +308,7 @@ BOOST_AUTO_TEST_CASE(picks_are_those_of_looking_at_everything)
     for (const Case& c : {Case{"creature", 200, CageFaces::triangles}, Case{"botijo", 200, CageFaces::triquad},
                           Case{"bishop", 100, CageFaces::triangles}}) {
         auto& source = test::caged(c.model);
-        const Mesh coarse = draw::standIn(source.model(), 1500);
+        const Mesh coarse = draw::standIn(source.model(), 1500).mesh;
         const Scene scene(source.cage(c.faces, c.kind), &coarse), alone(source.cage(c.faces, c.kind), nullptr);
         for (int run = 0; run < 334; ++run) {
             Random random(++seed);

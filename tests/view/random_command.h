@@ -9,6 +9,34 @@
 
 namespace vdbcage::test {
 
+/// Any command that moves what is selected, or changes it otherwise. It may be refused where nothing is.
+inline view::Command randomMove(std::mt19937& random)
+{
+    using namespace view;
+    const auto below = [&](int n) { return static_cast<int>(random() % static_cast<unsigned>(n)); };
+    const auto real = [&] { return std::uniform_real_distribution<double>(-1, 1)(random); };
+    const auto vector = [&] { return openvdb::Vec3d(real(), real(), real()); };
+    switch (below(8)) {
+    case 0:
+    case 1:
+        return MoveSelected{vector()};
+    case 2:
+    case 3:
+        return RotateSelected{vector(), 180 * real(), vector()};
+    case 4: {
+        ScaleSelected scale{vector(), vector()};
+        if (below(2) == 0) scale.axes = {openvdb::Vec3d(0, 1, 1), openvdb::Vec3d(3, 0, 0)};
+        return scale;
+    }
+    case 5:
+        return ResetPose{below(3) != 0};
+    case 6:
+        return SetCoordinates{static_cast<Coordinates>(below(3))};
+    default:
+        return EditCage{static_cast<CageEdit>(below(5))};
+    }
+}
+
 /// Any command that is allowed in any state that has a model; files are taken from `files`.
 inline view::Command randomCommand(std::mt19937& random, const std::vector<std::string>& files)
 {
@@ -19,7 +47,7 @@ inline view::Command randomCommand(std::mt19937& random, const std::vector<std::
     };
     const auto fraction = [&] { return static_cast<float>(real(0, 1)); };
     const auto layer = static_cast<LayerId>(below(static_cast<int>(layerCount)));
-    switch (below(17)) {
+    switch (below(21)) {
     case 0:
         return OpenModel{files[random() % files.size()]};
     case 1:
@@ -76,10 +104,21 @@ inline view::Command randomCommand(std::mt19937& random, const std::vector<std::
         return below(2) == 0 ? Command(ShowAxes{below(2) == 0}) : Command(SetTurntable{below(2) == 0});
     case 15:
         return ShowTimes{below(2) == 0};
+    case 16:
+        return below(2) == 0 ? Command(SetMode{static_cast<Mode>(below(2))})
+                             : Command(SetTool{static_cast<Tool>(below(4))});
+    case 17:
+        return below(2) == 0 ? Command(SetOrientation{static_cast<Orientation>(below(4))})
+                             : Command(SetSeeThrough{below(2) == 0});
+    case 18:
+        return SetSoft{below(2) == 0 ? 0 : real(0, 1)};
+    case 19:
+        return below(2) == 0 ? SetMirror{} : SetMirror{SymmetryPlane{below(3), real(-1, 1)}};
     default: {
         Select select;
-        for (int face = below(3); face < 40; face += 1 + below(30)) {
-            select.faces.push_back(static_cast<openvdb::Index32>(face));
+        select.selection.kind = static_cast<edit::Element>(below(3));
+        for (int id = below(3); id < 40; id += 1 + below(30)) {
+            select.selection.ids.push_back(static_cast<openvdb::Index32>(id));
         }
         return select;
     }

@@ -4,73 +4,19 @@
 #include <filesystem>
 #include <random>
 
-#include "orders.h"
+#include "app_fixture.h"
 #include "random_command.h"
-#include <support/shapes.h>
-#include <support/temporary_folder.h>
-#include <tools/view/app.h>
-#include <tools/view/script.h>
 #include <tools/view/state/words.h>
 #include <vdbcage/core/error.h>
-#include <vdbcage/gl/offscreen.h>
 #include <vdbcage/mesh/mesh_io.h>
 
 using namespace vdbcage;
+using namespace vdbcage::test;
 using namespace vdbcage::view;
 
 namespace fs = std::filesystem;
 
 namespace {
-
-/// Makes a ball, at once.
-class BallMaker : public CageMaker {
-public:
-    CageResultPtr make(const Job& job, Interrupter&) override
-    {
-        CageResult result;
-        result.order = job.order;
-        const openvdb::BBoxd box = boundingBox(job.order.model->mesh);
-        result.cage = test::sphere({0, 0, 0}, 1.1 * box.max().y(), 5);
-        result.report.check.triangles = result.cage.triangles.size();
-        result.report.check.quads = result.cage.quads.size();
-        if (job.intermediates) result.intermediates = std::make_shared<const Intermediates>();
-        return std::make_shared<const CageResult>(std::move(result));
-    }
-};
-
-struct Fixture {
-    test::TemporaryFolder folder;
-    gl::OffscreenContext context;
-    gl::OffscreenContext::Current current = context.makeCurrent();
-    std::vector<std::string> recorded;
-    std::vector<std::string> files;
-
-    Fixture()
-    {
-        for (int i = 1; i <= 3; ++i) {
-            files.push_back((folder / ("model " + std::to_string(i) + ".obj")).string());
-            writeMesh(test::sphere({0, 0, 0}, i, 6), files.back());
-        }
-    }
-
-    AppSetup setup(bool fake = true)
-    {
-        AppSetup setup;
-        setup.width = 1100;
-        setup.height = 760;
-        setup.isSoftware = true;
-        if (fake) setup.maker = std::make_unique<BallMaker>();
-        setup.record = [this](const std::string& line) { recorded.push_back(line); };
-        return setup;
-    }
-
-    void run(App& app, const std::vector<std::string>& lines) const
-    {
-        for (const std::string& line : lines) {
-            BOOST_TEST_CONTEXT(line) runLine(app, line);
-        }
-    }
-};
 
 std::string valueOf(const CageOptions& options, const std::string& name)
 {
@@ -80,14 +26,9 @@ std::string valueOf(const CageOptions& options, const std::string& name)
     return "?";
 }
 
-bool samePicture(const draw::Picture& a, const draw::Picture& b)
-{
-    return a.width == b.width && a.height == b.height && a.rgb == b.rgb;
-}
-
 } // namespace
 
-BOOST_FIXTURE_TEST_SUITE(app, Fixture)
+BOOST_FIXTURE_TEST_SUITE(app, AppFixture)
 
 BOOST_AUTO_TEST_CASE(each_option_goes_through_its_widget_to_its_ends_and_back)
 {
@@ -220,7 +161,7 @@ BOOST_AUTO_TEST_CASE(a_scene_saved_opened_and_saved_again_is_the_same)
     const std::string scene = (folder / "scene.json").string();
     App app(context.api(), setup(false));
     run(app, {"open " + quotedWord(files[1]), "set faces 40", "set resolution 20", "set effort fast", "look right",
-              "layer surface on", "section 0 1 0 0.25", "select 1 5", "wait", "save-scene " + quotedWord(scene)});
+              "layer surface on", "section 0 1 0 0.25", "select faces 1 5", "wait", "save-scene " + quotedWord(scene)});
     const std::string text = test::readText(scene), cage = test::readText(folder / "scene.cage.obj");
     App again(context.api(), setup(false));
     run(again, {"open-scene " + quotedWord(scene), "wait", "save-scene " + quotedWord(scene)});

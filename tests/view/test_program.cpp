@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -29,6 +30,33 @@ void expectError(const std::vector<std::string>& words, const std::string& menti
         BOOST_TEST(std::count(result.err.begin(), result.err.end(), '\n') == 1, result.err);
         BOOST_TEST(result.err.find(mention) != std::string::npos, result.err);
     }
+}
+
+/// The files that a script of docs writes, the same by EGL, by OSMesa and in a window under Xvfb.
+std::map<std::string, std::string> walkEverywhere(const std::string& script, const std::vector<std::string>& names)
+{
+    std::map<std::string, std::string> first;
+    for (const std::vector<std::string>& how :
+         std::vector<std::vector<std::string>>{{"--without-window", "egl"}, {"--without-window", "osmesa"}, {}}) {
+        const test::TemporaryFolder folder;
+        fs::create_directory(folder / "build");
+        fs::create_directory_symlink(source + "/data", folder / "data");
+        std::vector<std::string> words{"env", "-C", folder.path().string()};
+        if (how.empty()) words.insert(words.end(), {"xvfb-run", "-a", "-s", "-screen 0 1600x1000x24"});
+        words.insert(words.end(), {program, "--script", source + "/docs/" + script});
+        words.insert(words.end(), how.begin(), how.end());
+        const auto result = runCommand(words);
+        BOOST_TEST_REQUIRE(result.status == 0, result.err);
+        for (const std::string& name : names) {
+            std::string bytes = test::readText(folder / "build" / name);
+            // The scene names files by their places.
+            if (fs::path(name).extension() == ".json") bytes = bytes.substr(bytes.find("\"digest\""));
+            BOOST_TEST(bytes.size() > 100u);
+            const auto place = first.emplace(name, bytes).first;
+            BOOST_TEST_CONTEXT(name) BOOST_TEST((place->second == bytes));
+        }
+    }
+    return first;
 }
 
 } // namespace
@@ -64,36 +92,44 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_done_is_one_line)
 
 BOOST_AUTO_TEST_CASE(the_first_walk_looks_the_same_everywhere)
 {
-    const std::vector<std::string> names{"first_1_empty.png",   "first_2_cage.png",     "first_3_drag.png",
-                                         "first_4_triquad.png", "first_5_distance.png", "first_6_voxels.png",
-                                         "first_cage.obj",      "first_scene.cage.obj", "first_scene.json"};
     // What the window saves is what the command makes.
     const test::TemporaryFolder made;
     BOOST_TEST(runCommand({VDBCAGE_COMMAND, "make", source + "/data/creature.obj", "-o", (made / "cage.obj").string()})
                    .status == 0);
+    const auto files =
+        walkEverywhere("first.view", {"first_1_empty.png", "first_2_cage.png", "first_3_drag.png",
+                                      "first_4_triquad.png", "first_5_distance.png", "first_6_voxels.png",
+                                      "first_cage.obj", "first_scene.cage.obj", "first_scene.json"});
     const std::string cage = test::readText(made / "cage.obj");
-    std::vector<std::string> first;
-    for (const std::vector<std::string>& how :
-         std::vector<std::vector<std::string>>{{"--without-window", "egl"}, {"--without-window", "osmesa"}, {}}) {
-        const test::TemporaryFolder folder;
-        fs::create_directory(folder / "build");
-        fs::create_directory_symlink(source + "/data", folder / "data");
-        std::vector<std::string> words{"env", "-C", folder.path().string()};
-        if (how.empty()) words.insert(words.end(), {"xvfb-run", "-a", "-s", "-screen 0 1600x1000x24"});
-        words.insert(words.end(), {program, "--script", source + "/docs/first.view"});
-        words.insert(words.end(), how.begin(), how.end());
-        const auto result = runCommand(words);
-        BOOST_TEST_REQUIRE(result.status == 0, result.err);
-        for (std::size_t i = 0; i < names.size(); ++i) {
-            std::string bytes = test::readText(folder / "build" / names[i]);
-            // The scene names files by their places.
-            if (names[i] == "first_scene.json") bytes = bytes.substr(bytes.find("\"digest\""));
-            BOOST_TEST(bytes.size() > 100u);
-            if (names[i].find("cage.obj") != std::string::npos) BOOST_TEST((bytes == cage));
-            if (first.size() <= i) first.push_back(bytes);
-            BOOST_TEST_CONTEXT(names[i]) BOOST_TEST((first[i] == bytes));
-        }
+    BOOST_TEST((files.at("first_cage.obj") == cage));
+    BOOST_TEST((files.at("first_scene.cage.obj") == cage));
+}
+
+BOOST_AUTO_TEST_CASE(the_pose_looks_the_same_everywhere_and_is_what_the_command_makes)
+{
+    const auto files = walkEverywhere("pose.view", {"pose_1_box.png", "pose_2_turned.png", "pose_3_typed.png",
+                                                    "pose_4_other_cage.png", "pose_5_split.png", "pose_cage.obj",
+                                                    "pose_posed_cage.obj", "pose_posed_model.obj", "pose_weights.npy"});
+    const test::TemporaryFolder made;
+    for (const char* name : {"pose_cage.obj", "pose_posed_cage.obj"}) {
+        test::writeText(made / name, files.at(name));
     }
+    const std::string model = source + "/data/creature.obj", out = (made / "out.obj").string(),
+                      weights = (made / "out.npy").string(), cage = (made / "pose_cage.obj").string();
+    BOOST_TEST(runCommand({VDBCAGE_COMMAND, "make", model, "-o", out, "--faces", "300"}).status == 0);
+    BOOST_TEST((test::readText(out) == files.at("pose_cage.obj")));
+    BOOST_TEST(runCommand({VDBCAGE_COMMAND, "deform", cage, (made / "pose_posed_cage.obj").string(), model, "-o", out,
+                           "--coordinates", "green"})
+                   .status == 0);
+    BOOST_TEST((test::readText(out) == files.at("pose_posed_model.obj")));
+    BOOST_TEST(runCommand({VDBCAGE_COMMAND, "bind", cage, model, "-o", weights, "--coordinates", "green"}).status == 0);
+    BOOST_TEST((test::readText(weights) == files.at("pose_weights.npy")));
+    // The files that were saved are opened as they are named.
+    const std::string script = (made / "s.view").string();
+    test::writeText(script, "wait\nexpect posed yes\nexpect mode pose\nsave-posed-cage " + out + "\n");
+    BOOST_TEST(runCommand({program, model, cage, (made / "pose_posed_cage.obj").string(), "--script", script}).status ==
+               0);
+    BOOST_TEST((test::readText(out) == files.at("pose_posed_cage.obj")));
 }
 
 BOOST_AUTO_TEST_CASE(what_is_recorded_does_the_same_again)
@@ -103,7 +139,7 @@ BOOST_AUTO_TEST_CASE(what_is_recorded_does_the_same_again)
     const std::string save = "wait\nsave-cage \"" + (folder / "cage.obj").string() + "\"\n";
     test::writeText(script,
                     "set effort fast\nset resolution 24\nwidget faces 60\nmouse move smooth.slider 0\nmouse down\n"
-                    "mouse move smooth.slider 0.5\nmouse up\nkey 3\n" +
+                    "mouse move smooth.slider 0.5\nmouse up\nkey keypad-3\n" +
                         save);
     const std::string model = source + "/data/bishop.obj";
     BOOST_TEST(runCommand({program, model, "--script", script, "--record", recording}).status == 0);

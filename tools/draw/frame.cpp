@@ -34,6 +34,11 @@ Vec3d Frame::toDrawing(const Vec3d& worldPoint) const
     return (timesPowerOfTwo(worldPoint, -exponent_) - centre_) / radius_;
 }
 
+double Frame::unit() const
+{
+    return std::ldexp(radius_, exponent_);
+}
+
 Vec3d Frame::toWorld(const Vec3d& drawnPoint) const
 {
     return timesPowerOfTwo(drawnPoint * radius_ + centre_, exponent_);

@@ -19,6 +19,8 @@ public:
 
     openvdb::Vec3d toDrawing(const openvdb::Vec3d& worldPoint) const;
     openvdb::Vec3d toWorld(const openvdb::Vec3d& drawnPoint) const;
+    /// The length in world space of a length of 1.
+    double unit() const;
 
 private:
     int exponent_ = 0; ///< of the power of two that divides world coordinates first

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
+#include <numeric>
 #include <unordered_map>
 #include <vector>
 
@@ -31,7 +33,7 @@ struct Cluster {
 };
 
 /// The mesh with the points of each cell of a grid made one. Cells are `size` wide, counted from `origin`.
-Mesh clustered(const Mesh& mesh, const std::vector<Vec3I>& triangles, const Vec3d& origin, double scale, double size)
+StandIn clustered(const Mesh& mesh, const std::vector<Vec3I>& triangles, const Vec3d& origin, double scale, double size)
 {
     std::unordered_map<std::uint64_t, openvdb::Index32> cells;
     std::vector<Cluster> clusters;
@@ -57,18 +59,36 @@ Mesh clustered(const Mesh& mesh, const std::vector<Vec3I>& triangles, const Vec3
     }
     std::sort(faces.begin(), faces.end());
     faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
-    Mesh result;
-    for (const Cluster& cluster : clusters) result.points.push_back(cluster.sum / (cluster.count * scale) + origin);
-    for (const auto& face : faces) result.triangles.emplace_back(face[0], face[1], face[2]);
+    StandIn result;
+    for (const Cluster& cluster : clusters) {
+        result.mesh.points.push_back(cluster.sum / (cluster.count * scale) + origin);
+    }
+    for (const auto& face : faces) result.mesh.triangles.emplace_back(face[0], face[1], face[2]);
+    std::vector<double> least(clusters.size(), std::numeric_limits<double>::infinity());
+    result.points.assign(clusters.size(), 0);
+    for (openvdb::Index32 i = 0; i < mesh.points.size(); ++i) {
+        const openvdb::Index32 cluster = clusterOf[i];
+        if (cluster == none) continue;
+        const double distance = ((mesh.points[i] - result.mesh.points[cluster]) * scale).lengthSqr();
+        if (distance < least[cluster]) {
+            least[cluster] = distance;
+            result.points[cluster] = i;
+        }
+    }
     return result;
 }
 
 } // namespace
 
-Mesh standIn(const Mesh& mesh, std::size_t mostTriangles)
+StandIn standIn(const Mesh& mesh, std::size_t mostTriangles)
 {
+    const auto itself = [&] {
+        StandIn result{mesh, std::vector<openvdb::Index32>(mesh.points.size())};
+        std::iota(result.points.begin(), result.points.end(), openvdb::Index32(0));
+        return result;
+    };
     const std::vector<Vec3I> triangles = triangulate(mesh);
-    if (triangles.size() <= mostTriangles) return mesh;
+    if (triangles.size() <= mostTriangles) return itself();
     const openvdb::BBoxd box = boundingBox(mesh);
     const Vec3d extents = box.extents();
     const double longest = std::max({extents.x(), extents.y(), extents.z()});
@@ -78,10 +98,10 @@ Mesh standIn(const Mesh& mesh, std::size_t mostTriangles)
     double size = std::sqrt(2 * areaOf(mesh, triangles, scale) / static_cast<double>(mostTriangles));
     size = std::clamp(size, 1e-6, 1.0);
     for (;; size *= 1.3) {
-        Mesh result = clustered(mesh, triangles, box.min(), scale, size);
+        StandIn result = clustered(mesh, triangles, box.min(), scale, size);
         // Without a triangle there is nothing to see, which is worse than too many.
-        if (result.triangles.empty()) return mesh;
-        if (result.triangles.size() <= mostTriangles) return result;
+        if (result.mesh.triangles.empty()) return itself();
+        if (result.mesh.triangles.size() <= mostTriangles) return result;
     }
 }
 

@@ -7,8 +7,12 @@
 #include <map>
 #include <system_error>
 
+#include <tools/edit/selection.h>
+#include <tools/view/picture_control.h>
 #include <tools/view/saving.h>
+#include <tools/view/state/binder.h>
 #include <tools/view/state/folder.h>
+#include <tools/view/state/move.h>
 #include <tools/view/state/scene.h>
 #include <tools/view/state/words.h>
 #include <tools/view/verbs.h>
@@ -16,6 +20,8 @@
 #include <tools/view/widget_renderer.h>
 #include <vdbcage/core/detail/number_text.h>
 #include <vdbcage/core/error.h>
+#include <vdbcage/deform/weights_io.h>
+#include <vdbcage/mesh/mesh_io.h>
 
 namespace vdbcage::view {
 
@@ -26,9 +32,7 @@ namespace {
 using Words = std::vector<std::string>;
 using openvdb::Vec3d;
 
-constexpr double degreesPerPixel = 0.4, factorPerNotch = 1.15, turntableDegreesPerSecond = 24;
-/// A press that moves less is a click; pixels on an ordinary screen.
-constexpr double clickRadius = 3;
+constexpr double turntableDegreesPerSecond = 24;
 
 std::string yesNo(bool yes)
 {
@@ -57,7 +61,10 @@ public:
     Impl(const gl::Api& api, AppSetup setup)
         : api_(api), setup_(std::move(setup)), widgets_(setup_.scale, setup_.clipboard),
           viewport_(api, setup_.isSoftware), widgetRenderer_(api, widgets_.glyphs()),
-          runner_(setup_.maker ? std::move(setup_.maker) : makePipelineMaker(), setup_.wake)
+          runner_(setup_.maker ? std::move(setup_.maker) : makePipelineMaker(), setup_.wake),
+          binder_(setup_.binding ? std::move(setup_.binding) : bindingWork(), setup_.wake),
+          control_({session_, viewport_, [this](const std::string& line) { attempt(line); }, [this] { endDrag(); },
+                    [this] { return viewport(); }, double{setup_.scale}})
     {
         recent_ = recentFiles(setup_.recentFiles);
         resize(setup_.width, setup_.height);
@@ -98,7 +105,8 @@ public:
         layOut(); // it is meant for what is to be seen
         const bool isTaken = layOutOnce(&event, answer);
         take(answer);
-        if (!isTaken || isPointerHeld_) control(event);
+        // Where the pointer is must be known when a key begins something.
+        if (!isTaken || control_.isHeld() || std::holds_alternative<PointerMoved>(event.what)) control_.handle(event);
         if (const auto* const down = std::get_if<KeyDown>(&event.what)) press(*down, event.modifiers, hadMessage);
         refresh();
     }
@@ -123,6 +131,7 @@ public:
     void update()
     {
         runner_.update();
+        binder_.update();
         refresh();
     }
 
@@ -154,7 +163,7 @@ public:
     /// While a value is dragged the processor is for the cages that follow it, not for fine pictures or many.
     bool awaitsCage() const { return isValueDragged_ && !runner_.planner().isSettled(); }
     double secondsBetweenFrames() const { return setup_.isSoftware && awaitsCage() ? 0.05 : 0; }
-    bool isMoving() const { return isCameraDragged_ || isAnimated() || awaitsCage(); }
+    bool isMoving() const { return control_.isCameraDragged() || control_.isBusy() || isAnimated() || awaitsCage(); }
     bool leavesItRough() const { return isMoving() && viewport_.isDrawn(); }
 
     /// Brings the panels in line with the state.
@@ -201,11 +210,15 @@ public:
 
     void waitUntilSettled()
     {
-        while (!runner_.planner().isSettled()) {
-            runner_.waitForNews(1);
-            runner_.update();
-        }
         refresh();
+        while (!runner_.planner().isSettled() || !binder_.isSettled()) {
+            if (!runner_.planner().isSettled()) {
+                runner_.waitForNews(1);
+            } else {
+                binder_.waitForNews(1);
+            }
+            update();
+        }
     }
 
     std::map<std::string, std::function<std::string()>> values() const;
@@ -218,12 +231,24 @@ public:
     Viewport viewport_;
     WidgetRenderer widgetRenderer_;
     Runner runner_;
+    Binder binder_;
+    PosedModel posed_;
+    PictureControl control_;
     std::optional<draw::Canvas> canvas_;
     int width_ = 0, height_ = 0;
     std::vector<std::string> messages_, notes_;
     std::vector<fs::path> recent_;
     bool needsFrame_ = true;
     std::uint64_t frames_ = 0;
+
+    std::optional<Rectangle> handlePlace(const std::string& name) const
+    {
+        const auto at = placeOf(control_.overlay().gizmo, name, double{setup_.scale});
+        if (!at) return std::nullopt;
+        const Rectangle picture = viewport();
+        const auto round = [](double x) { return static_cast<int>(std::lround(x)); };
+        return Rectangle{picture.left + round((*at)[0]), picture.top + round((*at)[1]), 0, 0};
+    }
 
     Rectangle viewport() const { return Panels::viewport(width_, height_, setup_.scale); }
     bool isValueDragged_ = false;
@@ -266,8 +291,12 @@ private:
             session_.redoView();
         } else if (verb == "make") {
             runner_.again();
+            binder_.again();
         } else if (verb == "cancel") {
-            if (!dismiss()) runner_.cancel();
+            if (!dismiss()) {
+                runner_.cancel();
+                binder_.cancel();
+            }
         } else if (verb == "more" || verb == "fewer") {
             const int faces = steppedFaces(session_.state().document.options.faces, verb == "more" ? 1 : -1);
             attempt("set faces " + std::to_string(faces));
@@ -278,6 +307,14 @@ private:
             frame(argument == "selected");
         } else if (verb == "look") {
             look(argument);
+        } else if (verb.rfind("select-", 0) == 0) {
+            select(verb, argument);
+        } else if (verb == "box") {
+            control_.startBox();
+        } else if (verb == "grab") {
+            const auto* const name = std::find(toolNames.begin() + 1, toolNames.end(), argument);
+            if (name == toolNames.end()) refuse("grab", argument, "move, rotate or scale");
+            control_.grab(static_cast<Tool>(name - toolNames.begin()));
         } else if (verb == "projection" || verb == "up") {
             change(verb, argument);
         } else if (verb.rfind("save-", 0) == 0) {
@@ -344,10 +381,59 @@ private:
         if (what == "ground") return ask(what, view.ground);
         if (what == "axes") return ask(what, view.axes);
         if (what == "turntable") return ask(what, view.turntable);
+        if (what == "see-through") return ask(what, view.seeThrough);
+        if (what == "mode") return attempt(view.mode == Mode::pose ? "mode shape" : "mode pose");
+        for (int axis = 0; axis < 3; ++axis) {
+            if (what == std::string("mirror-") + "xyz"[axis]) return toggleMirror(axis);
+        }
         for (std::size_t i = 0; i < layerCount; ++i) {
             if (what == nameOf(static_cast<LayerId>(i))) return ask("layer " + what, view.layers[i].shown);
         }
-        refuse("toggle", what, "a layer, ground, axes or turntable");
+        refuse("toggle", what, "a layer, ground, axes, turntable, mode, see-through, mirror-x, mirror-y or mirror-z");
+    }
+
+    /// The plane is that in which the cage was made symmetric, or else the middle of the cage.
+    void toggleMirror(int axis)
+    {
+        const State& state = session_.state();
+        if (state.view.mirror && state.view.mirror->axis == axis) return attempt("mirror off");
+        if (!state.cage) throw InputError("toggle: there is no cage yet to be mirrored");
+        const auto& made = visible_->report.symmetry;
+        const openvdb::BBoxd box = boundingBox(*state.cage);
+        SymmetryPlane plane{axis, 0.5 * (box.min()[axis] + box.max()[axis])};
+        if (made && made->plane.axis == axis) plane = made->plane;
+        attempt(toText(SetMirror{plane}));
+    }
+
+    void select(const std::string& verb, const std::string& argument)
+    {
+        const State& state = session_.state();
+        if (!state.cage) throw InputError(verb + ": there is no cage yet");
+        const edit::Elements elements(*state.cage);
+        edit::Selection selection = state.view.selection;
+        selection.ids.erase(
+            std::lower_bound(selection.ids.begin(), selection.ids.end(), elements.count(selection.kind)),
+            selection.ids.end());
+        if (verb == "select-kind") {
+            const auto* const name = std::find(elementNames.begin(), elementNames.end(), argument);
+            if (name == elementNames.end()) refuse(verb, argument, "points, edges or faces");
+            selection = edit::converted(elements, selection, static_cast<edit::Element>(name - elementNames.begin()));
+        } else if (verb == "select-all") {
+            selection = edit::all(elements, selection.kind);
+        } else if (verb == "select-none") {
+            selection.ids.clear();
+        } else if (verb == "select-invert") {
+            selection = edit::inverted(elements, selection);
+        } else if (verb == "select-linked") {
+            selection = edit::linked(elements, selection);
+        } else if (verb == "select-grow") {
+            selection = edit::grown(elements, selection);
+        } else if (verb == "select-shrink") {
+            selection = edit::shrunk(elements, selection);
+        } else {
+            selection = edit::loop(elements, selection);
+        }
+        attempt(toText(Select{std::move(selection)}));
     }
 
     void setCamera(const draw::Camera& camera) { attempt(toText(SetCamera{camera})); }
@@ -400,7 +486,9 @@ private:
 
     void save(const std::string& verb, const fs::path& path)
     {
-        if (verb == "save-cage") {
+        if (verb == "save-posed-cage" || verb == "save-posed-model" || verb == "save-weights") {
+            savePosed(verb, path);
+        } else if (verb == "save-cage") {
             writeMesh(currentCage(verb).cage, path);
         } else if (verb == "save-options") {
             saveOptions(session_.state().document.options, path);
@@ -419,6 +507,22 @@ private:
             saveStages(path);
         }
         note("saved " + path.filename().string());
+    }
+
+    void savePosed(const std::string& verb, const fs::path& path)
+    {
+        const State& state = session_.state();
+        Mesh posed = currentCage(verb).cage;
+        posed.points = posedPoints(state.document.pose, state.cage);
+        if (verb == "save-posed-cage") return writeMesh(posed, path);
+        const BindOrder order{state.document.model, state.cage, state.document.coordinates};
+        for (binder_.want(order); !binder_.isSettled(); binder_.update()) binder_.waitForNews(1);
+        const BoundModelPtr bound = binder_.bound();
+        if (!bound || !bound->whole) throw InputError(verb + ": " + binder_.error());
+        if (verb == "save-posed-model") return writeMoved(order.model->path, bound->whole->pose(posed.points), path);
+        if (path.extension() != ".npy") throw InputError(path.string() + ": weights are written as .npy");
+        writeWeights(*order.cage, order.model->mesh.points, order.family,
+                     computeWeights(*order.cage, order.model->mesh.points, order.family), path);
     }
 
     void saveStages(const fs::path& folder)
@@ -478,6 +582,10 @@ private:
         if (const CageResultPtr& cage = runner_.planner().shown()) {
             content.cage = countsOf(cage->cage, viewport_.edgeCount(LayerId::cage));
         }
+        content.overlay = control_.overlay();
+        content.binding = binder_.progress();
+        content.isPosedCoarsely = posed_.bound() && !posed_.isWhole();
+        content.bindingError = binder_.error();
         content.hasModelChanged = hasModelChanged_;
         content.asksToQuit = asksToQuit_;
         return content;
@@ -495,7 +603,6 @@ private:
         if (answer.beginsDrag) {
             session_.beginDrag();
             isValueDragged_ = true;
-            dragged_ = session_.state();
         }
         for (const std::string& line : answer.lines) attempt(line);
         if (answer.endsDrag) endDrag();
@@ -507,11 +614,13 @@ private:
     {
         session_.endDrag();
         isValueDragged_ = false;
+        needsFrame_ = true;
         if (!setup_.record) return;
-        if (session_.state().document != dragged_.document && session_.documents().canUndo()) {
+        const State& before = session_.dragged();
+        if (session_.state().document != before.document && session_.documents().canUndo()) {
             setup_.record(session_.documents().undone());
         }
-        if (session_.state().view != dragged_.view && session_.views().canUndo()) {
+        if (session_.state().view != before.view && session_.views().canUndo()) {
             setup_.record(session_.views().undone());
         }
     }
@@ -535,108 +644,63 @@ private:
             const auto id = static_cast<LayerId>(i);
             intermediates |= view.layers[i].shown && id != LayerId::model && id != LayerId::cage;
         }
-        runner_.want(order, isValueDragged_, intermediates);
+        runner_.want(order, isValueDragged_ || control_.isMoving(), intermediates);
     }
 
     void show()
     {
         const Planner& planner = runner_.planner();
-        const bool isStale = planner.standing() == Planner::Standing::stale;
-        if (viewport_.show(session_.state().document.model, planner.shown(), isStale, session_.state().view)) {
-            needsFrame_ = true;
+        const CageResultPtr cage = visibleCage();
+        if (cage != visible_) {
+            visible_ = cage;
+            session_.setCage(cage ? MeshPtr(cage, &cage->cage) : nullptr);
         }
+        followPose();
+        Shown shown;
+        shown.model = session_.state().document.model;
+        shown.cage = cage;
+        shown.isStale = cage == planner.shown() && planner.standing() == Planner::Standing::stale;
+        shown.cagePoints = cagePoints_;
+        shown.posed = &posed_;
+        if (viewport_.show(shown, session_.state().view)) needsFrame_ = true;
     }
 
-    // ---- the picture under the pointer
-
-    /// A place of the window in the picture: [-1, 1] both ways, y up.
-    std::array<double, 2> inPicture(double x, double y) const
+    /// A cage that was opened or moved by hand is seen at once, without a verdict until it is checked.
+    CageResultPtr visibleCage()
     {
-        const Rectangle middle = viewport();
-        return {2 * (x - middle.left) / middle.width - 1, 1 - 2 * (y - middle.top) / middle.height};
+        const CageResultPtr& made = runner_.planner().shown();
+        const OpenedMeshPtr& opened = session_.state().document.cage;
+        if (!opened || (made && made->order.cage == opened)) return made;
+        if (!unchecked_ || unchecked_->order.cage != opened) {
+            CageResult result;
+            result.order = {session_.state().document.model, session_.state().document.options, opened};
+            result.cage = opened->mesh;
+            unchecked_ = std::make_shared<const CageResult>(std::move(result));
+        }
+        return unchecked_;
     }
 
-    double aspect() const { return 1.0 * viewport().width / viewport().height; }
-
-    void control(const InputEvent& event)
+    /// Binds what is to be posed, and poses it.
+    void followPose()
     {
-        if (const auto* const moved = std::get_if<PointerMoved>(&event.what)) {
-            movePointer(moved->x, moved->y);
-        } else if (const auto* const down = std::get_if<ButtonDown>(&event.what)) {
-            if (isPointerHeld_) return;
-            isPointerHeld_ = true;
-            held_ = *down;
-            heldWith_ = event.modifiers;
-            pressedX_ = pointerX_;
-            pressedY_ = pointerY_;
-            if (!session_.state().document.model) return;
-            viewport_.draw(isMoving()); // picks through the eye of the last frame
-            const auto [x, y] = inPicture(pointerX_, pointerY_);
-            pivot_ = viewport_.pointAt(x, y).value_or(
-                viewport_.selectionCentre(session_.state().view).value_or(session_.state().view.camera.target));
-        } else if (std::holds_alternative<ButtonUp>(event.what)) {
-            releasePointer();
-        } else if (const auto* const wheel = std::get_if<WheelTurned>(&event.what)) {
-            const auto [x, y] = inPicture(pointerX_, pointerY_);
-            const draw::Camera& camera = session_.state().view.camera;
-            setCamera(draw::zoomed(camera, aspect(), std::pow(factorPerNotch, wheel->y), x, y));
+        const State& state = session_.state();
+        const Planner& planner = runner_.planner();
+        const bool isPosing = state.view.mode == Mode::pose;
+        // A preview's cage is gone in a moment: it is not worth the binding.
+        const bool isBindable = state.cage && (planner.standing() == Planner::Standing::current || planner.isHalted());
+        if (!isPosing || !state.document.model) {
+            binder_.want(std::nullopt);
+        } else if (isBindable) {
+            binder_.want(BindOrder{state.document.model, state.cage, state.document.coordinates});
         }
-    }
-
-    void movePointer(double x, double y)
-    {
-        const double dx = x - pointerX_, dy = y - pointerY_;
-        pointerX_ = x;
-        pointerY_ = y;
-        if (!isPointerHeld_ || !session_.state().document.model) return;
-        if (!isCameraDragged_) {
-            if (std::hypot(x - pressedX_, y - pressedY_) < clickRadius * double{setup_.scale}) return;
-            isCameraDragged_ = true;
-            dragged_ = session_.state();
-            session_.beginDrag();
+        if (state.document.pose != cagePose_ || state.cage != posedCage_ || state.view.mode != cageMode_) {
+            cagePose_ = state.document.pose;
+            posedCage_ = state.cage;
+            cageMode_ = state.view.mode;
+            cagePoints_ = cagePoints(state);
         }
-        const draw::Camera& camera = session_.state().view.camera;
-        const bool pans = held_.button == Button::middle || (held_.button == Button::left && heldWith_.shift);
-        if (pans) {
-            const Rectangle middle = viewport();
-            setCamera(draw::panned(camera, aspect(), 2 * dx / middle.width, -2 * dy / middle.height));
-        } else if (held_.button == Button::left) {
-            const double degrees = degreesPerPixel / double{setup_.scale};
-            setCamera(draw::orbited(camera, -degrees * dx, degrees * dy, pivot_));
-        } else {
-            const auto [px, py] = inPicture(pressedX_, pressedY_);
-            setCamera(draw::zoomed(camera, aspect(), std::pow(1.01, -dy / double{setup_.scale}), px, py));
-        }
-    }
-
-    void releasePointer()
-    {
-        if (!isPointerHeld_) return;
-        isPointerHeld_ = false;
-        if (isCameraDragged_) {
-            isCameraDragged_ = false;
-            endDrag();
-            needsFrame_ = true;
-            return;
-        }
-        if (held_.button == Button::left && session_.state().document.model) selectAt(heldWith_.shift);
-    }
-
-    void selectAt(bool adds)
-    {
-        const auto [x, y] = inPicture(pointerX_, pointerY_);
-        const auto face = viewport_.cageFaceAt(x, y);
-        std::vector<openvdb::Index32> faces;
-        if (adds) faces = session_.state().view.selection;
-        if (face) {
-            const auto place = std::lower_bound(faces.begin(), faces.end(), *face);
-            if (place != faces.end() && *place == *face) {
-                faces.erase(place);
-            } else {
-                faces.insert(place, *face);
-            }
-        }
-        if (faces != session_.state().view.selection) attempt(toText(Select{faces}));
+        const BoundModelPtr bound = isPosing && state.document.pose ? binder_.bound() : nullptr;
+        if (!bound || bound->order.cage->points.size() == cagePoints_.size()) posed_.update(bound, cagePoints_);
     }
 
     void press(const KeyDown& down, const Modifiers& modifiers, bool isMessage)
@@ -645,6 +709,7 @@ private:
             dismiss();
             return;
         }
+        if (control_.press(down, modifiers)) return;
         if (down.key == Key::escape) return attempt("cancel");
         if (isMessage || widgets_.wantsText() || widgets_.wantsKeyboard()) return;
         const std::string chord = nameOf(KeyChord{down.key, modifiers});
@@ -654,17 +719,15 @@ private:
     }
 
     Document saved_; ///< as it was last saved, or opened
-    State dragged_;  ///< before the drag
+    CageResultPtr visible_, unchecked_;
+    std::vector<Vec3d> cagePoints_; ///< of the cage that is shown, where they are seen; by the following
+    PosePtr cagePose_;
+    MeshPtr posedCage_;
+    Mode cageMode_ = Mode::shape;
     bool isLaidOut_ = false;
     bool keepsIntermediates_ = false;
     bool asksToQuit_ = false, hasModelChanged_ = false;
     FileStamp changedStamp_, ignoredStamp_;
-
-    double pointerX_ = 0, pointerY_ = 0, pressedX_ = 0, pressedY_ = 0; ///< pixels from the top left
-    bool isPointerHeld_ = false, isCameraDragged_ = false;
-    ButtonDown held_;
-    Modifiers heldWith_;
-    Vec3d pivot_{0};
 };
 
 std::map<std::string, std::function<std::string()>> App::Impl::values() const
@@ -705,7 +768,8 @@ std::map<std::string, std::function<std::string()>> App::Impl::values() const
         return std::to_string(state.document.model ? faceCount(state.document.model->mesh) : 0);
     };
     list["opened-cage"] = [&] {
-        return state.document.cage ? state.document.cage->path.filename().string() : std::string("none");
+        const OpenedMeshPtr& cage = state.document.cage;
+        return !cage ? "none" : cage->path.empty() ? "edited" : cage->path.filename().string();
     };
     list["undo"] = [&] { return session_.documents().canUndo() ? session_.documents().undone() : "none"; };
     list["redo"] = [&] { return session_.documents().canRedo() ? session_.documents().redone() : "none"; };
@@ -716,12 +780,23 @@ std::map<std::string, std::function<std::string()>> App::Impl::values() const
     list["error"] = [&] { return planner.error().empty() ? "none" : planner.error(); };
     list["making"] = [&] { return yesNo(!planner.isSettled()); };
     list["halted"] = [&] { return yesNo(planner.isHalted()); };
-    list["selected"] = [&] { return std::to_string(state.view.selection.size()); };
+    list["selected"] = [&] { return std::to_string(state.view.selection.ids.size()); };
     list["projection"] = [&] {
         return state.view.camera.projection == draw::Projection::perspective ? "perspective" : "orthographic";
     };
     list["azimuth"] = [&, number] { return number(state.view.camera.view.azimuthDegrees); };
     list["elevation"] = [&, number] { return number(state.view.camera.view.elevationDegrees); };
+    list["mode"] = [&] { return modeNames[static_cast<std::size_t>(state.view.mode)]; };
+    list["tool"] = [&] { return toolNames[static_cast<std::size_t>(state.view.tool)]; };
+    list["select-kind"] = [&] { return elementNames[static_cast<std::size_t>(state.view.selection.kind)]; };
+    list["see-through"] = [&] { return state.view.seeThrough ? "on" : "off"; };
+    list["mirror"] = [&] { return state.view.mirror ? std::string(1, "xyz"[state.view.mirror->axis]) : "off"; };
+    list["coordinates"] = [&] { return coordinatesName(state.document.coordinates); };
+    list["posed"] = [&] { return yesNo(state.document.pose != nullptr); };
+    list["bound"] = [&] {
+        const BoundModelPtr& bound = binder_.bound();
+        return !bound ? "no" : bound->whole ? "yes" : "coarsely";
+    };
     list["ground"] = [&] { return state.view.ground ? "on" : "off"; };
     list["axes"] = [&] { return state.view.axes ? "on" : "off"; };
     list["turntable"] = [&] { return state.view.turntable ? "on" : "off"; };
@@ -840,6 +915,7 @@ std::vector<std::string> App::valueNames() const
 std::optional<Rectangle> App::widget(const std::string& name) const
 {
     impl_->layOut();
+    if (name.rfind("handle.", 0) == 0) return impl_->handlePlace(name.substr(7));
     const auto& places = impl_->panels_.places();
     const auto found = places.find(name);
     if (found == places.end()) return std::nullopt;
@@ -855,6 +931,11 @@ void App::reveal(const std::string& name)
 Rectangle App::viewport() const
 {
     return impl_->viewport();
+}
+
+std::array<double, 2> App::pointer() const
+{
+    return impl_->control_.pointer();
 }
 
 const Session& App::session() const

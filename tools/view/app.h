@@ -11,6 +11,7 @@
 #include <tools/draw/picture.h>
 #include <tools/view/input.h>
 #include <tools/view/panels/panels.h>
+#include <tools/view/state/binder.h>
 #include <tools/view/state/runner.h>
 #include <tools/view/state/session.h>
 #include <tools/view/widgets.h>
@@ -26,6 +27,7 @@ struct AppSetup {
     std::function<void()> wake = [] {};                  ///< called from any thread when update() has something to do
     std::filesystem::path recentFiles = {};              ///< the list of them; empty: none is kept
     std::unique_ptr<CageMaker> maker = {};               ///< null: pipelines
+    Binder::Work binding = {};                           ///< empty: by the library
     std::function<void(const std::string&)> record = {}; ///< gets each line that the user's doing amounts to
 };
 
@@ -77,11 +79,13 @@ public:
     std::string value(const std::string& name) const;
     /// All these names.
     std::vector<std::string> valueNames() const;
-    /// Where a widget is; none: it is not to be seen.
+    /// Where a widget is, or a handle in the picture such as "handle.x"; none: it is not to be seen.
     std::optional<Rectangle> widget(const std::string& name) const;
     /// Scrolls to a widget.
     void reveal(const std::string& name);
     Rectangle viewport() const;
+    /// Where the pointer is, pixels from the top left.
+    std::array<double, 2> pointer() const;
 
     const Session& session() const;
     const Planner& planner() const;

@@ -47,7 +47,8 @@ void printTable(const std::string& title, const std::vector<std::pair<std::strin
 
 void printHelp()
 {
-    std::cout << "vdbcage-view [MODEL|SCENE.json] [CAGE] [OPTIONS]: a window in which a cage is made\n\n"
+    std::cout << "vdbcage-view [MODEL|SCENE.json] [CAGE] [POSED] [OPTIONS]: a window in which a cage is\n"
+                 "made, and the model is posed by it\n\n"
                  "  --script FILE                       does the lines of FILE; without a display too\n"
                  "  --record FILE                       writes what the user does as such a script\n"
                  "  --without-window any|egl|osmesa     for scripts: draws, but opens no window\n"
@@ -65,7 +66,7 @@ Arguments parse(int count, char** words)
     Arguments arguments;
     CLI::App app("", "vdbcage-view");
     app.set_help_flag();
-    app.add_option("files", arguments.files)->expected(0, 2);
+    app.add_option("files", arguments.files)->expected(0, 3);
     app.add_option("--script", arguments.script);
     app.add_option("--record", arguments.recording);
     app.add_option("--without-window", arguments.context)->check(CLI::IsMember({"any", "egl", "osmesa"}));
@@ -79,6 +80,10 @@ void openFiles(App& app, const Arguments& arguments)
     const fs::path first = arguments.files[0];
     app.perform({first.extension() == ".json" ? "open-scene" : "open", first.string()});
     if (arguments.files.size() > 1) app.perform({"open-cage", arguments.files[1]});
+    if (arguments.files.size() > 2) {
+        app.perform({"mode", "pose"});
+        app.perform({"open-pose", arguments.files[2]});
+    }
 }
 
 /// Opens the files, does the script and, with a window, what the user wants.
@@ -86,7 +91,8 @@ void run(const gl::Api& api, AppSetup setup, const Arguments& arguments, Window*
 {
     std::string recorded = "# recorded by vdbcage-view " VDBCAGE_VERSION "\n";
     for (std::size_t i = 0; i < arguments.files.size(); ++i) {
-        recorded += (i == 0 ? "open " : "open-cage ") + quotedWord(fs::absolute(arguments.files[i]).string()) + '\n';
+        static constexpr std::array<const char*, 3> verbs{"open ", "open-cage ", "mode pose\nopen-pose "};
+        recorded += verbs[i] + quotedWord(fs::absolute(arguments.files[i]).string()) + '\n';
     }
     if (!arguments.recording.empty()) {
         requireWritable(arguments.recording);

@@ -104,6 +104,9 @@ void doMouse(App& app, const Words& words)
         moveTo(app, words[2], share(3), share(4));
     } else if (action == "at" && words.size() == 4) {
         send(app, PointerMoved{numberOf(words[2], "mouse"), numberOf(words[3], "mouse")});
+    } else if (action == "by" && words.size() == 4) {
+        const auto [x, y] = app.pointer();
+        send(app, PointerMoved{x + numberOf(words[2], "mouse"), y + numberOf(words[3], "mouse")});
     } else if (action == "down" && words.size() <= 3) {
         send(app, ButtonDown{buttonOf(words, 2)});
     } else if (action == "up" && words.size() <= 3) {
@@ -115,9 +118,9 @@ void doMouse(App& app, const Words& words)
     } else if (action == "wheel" && words.size() == 3) {
         send(app, WheelTurned{0, numberOf(words[2], "mouse")});
     } else {
-        throw InputError(
-            "mouse: it is written mouse move WIDGET|picture [X [Y]] (shares of it), mouse at X Y (pixels), "
-            "mouse down|up|click [BUTTON], mouse double-click, or mouse wheel NOTCHES");
+        throw InputError("mouse: it is written mouse move WIDGET|picture [X [Y]] (shares of it), mouse at X Y "
+                         "(pixels), mouse by X Y, "
+                         "mouse down|up|click [BUTTON], mouse double-click, or mouse wheel NOTCHES");
     }
 }
 
@@ -191,6 +194,8 @@ std::vector<std::pair<std::string, std::string>> describeScript()
         {"screenshot FILE.png [WIDTHxHEIGHT]", "writes what the window shows, in that size from now on"},
         {"expect NAME VALUE", "ends with an error unless NAME is VALUE, or with <, <=, >, >= before a number is so"},
         {"mouse move WIDGET|picture [X [Y]]", "moves the pointer to a share of the widget, from its left and top"},
+        {"mouse move handle.NAME", "to a handle in the picture: x, y, z, plane-x, plane-y, plane-z or screen"},
+        {"mouse by X Y", "moves the pointer by pixels, right and down"},
         {"mouse at X Y", "moves the pointer to a pixel"},
         {"mouse down|up|click [BUTTON]", "left, right or middle"},
         {"mouse double-click", "with the left button"},

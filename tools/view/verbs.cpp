@@ -7,7 +7,7 @@ namespace vdbcage::view {
 
 namespace {
 
-constexpr std::array<Verb, 28> verbs{{
+constexpr std::array<Verb, 41> verbs{{
     {"undo", "", 0, 0, "takes back the last change of options or files", false},
     {"redo", "", 0, 0, "does again what was taken back", false},
     {"undo-view", "", 0, 0, "takes back the last change of the view", false},
@@ -16,11 +16,25 @@ constexpr std::array<Verb, 28> verbs{{
     {"cancel", "", 0, 0, "closes what is open, or stops the making of a cage", false},
     {"more", "", 0, 0, "a twentieth more faces", true},
     {"fewer", "", 0, 0, "a twentieth fewer faces", true},
-    {"toggle", "LAYER|ground|axes|turntable", 1, 1, "shows what is hidden and hides what is shown", true},
+    {"toggle", "LAYER|ground|axes|turntable|mode|see-through|mirror-x|mirror-y|mirror-z", 1, 1,
+     "shows what is hidden and hides what is shown", true},
     {"frame", "all|selected", 1, 1, "moves the view so that all is seen", true},
     {"look", "front|back|left|right|top|bottom", 1, 1, "looks from there", true},
     {"projection", "perspective|orthographic|toggle", 1, 1, "how what is far away looks", true},
     {"up", "y|z|toggle", 1, 1, "which axis points up", true},
+    {"select-kind", "points|edges|faces", 1, 1, "selects these from now on; what is selected becomes such", true},
+    {"select-all", "", 0, 0, "selects all of the cage", true},
+    {"select-none", "", 0, 0, "selects nothing", true},
+    {"select-invert", "", 0, 0, "selects what is not selected", true},
+    {"select-linked", "", 0, 0, "selects all that hangs together with what is selected", true},
+    {"select-grow", "", 0, 0, "selects the neighbours too", true},
+    {"select-shrink", "", 0, 0, "selects what has no neighbour that is not selected", true},
+    {"select-loop", "", 0, 0, "selects the loops through what is selected", true},
+    {"box", "", 0, 0, "selects what is in the box that is dragged next", true},
+    {"grab", "move|rotate|scale", 1, 1, "moves what is selected with the pointer", true},
+    {"save-posed-cage", "FILE", 1, 1, "writes the posed cage (.obj .off .ply .stl)", false},
+    {"save-posed-model", "FILE", 1, 1, "writes the model, posed by the cage; all else of an OBJ file stays", false},
+    {"save-weights", "FILE.npy", 1, 1, "writes by what weights the cage moves the model", false},
     {"save-cage", "FILE", 1, 1, "writes the cage (.obj .off .ply .stl)", false},
     {"save-stages", "FOLDER", 1, 1, "writes every stage (.vdb, .obj)", false},
     {"save-report", "FILE.json", 1, 1, "writes options, times, memory and verdict", false},

@@ -5,6 +5,7 @@
 
 #include <tools/draw/stand_in.h>
 #include <tools/view/distance_colours.h>
+#include <tools/view/state/move.h>
 
 namespace vdbcage::view {
 
@@ -132,12 +133,14 @@ void Viewport::resize(int width, int height)
     restart();
 }
 
-bool Viewport::show(const OpenedMeshPtr& model, const CageResultPtr& cage, bool isStale, const ViewState& view)
+bool Viewport::show(const Shown& shown, const ViewState& view)
 {
+    const OpenedMeshPtr& model = shown.model;
+    const CageResultPtr& cage = shown.cage;
     Slot& modelSlot = slots_[static_cast<std::size_t>(LayerId::model)];
     Slot& cageSlot = slots_[static_cast<std::size_t>(LayerId::cage)];
     const bool isOtherModel = modelSlot.source != model;
-    bool changed = isOtherModel || cageSlot.source != cage || isStale != isStale_ || view != view_;
+    bool changed = isOtherModel || cageSlot.source != cage || shown.isStale != isStale_ || view != view_;
     if (isOtherModel) setFrame(model);
     const bool areOtherMarks = cageSlot.source != cage || view.selection != view_.selection;
     for (std::size_t i = 0; i < layerCount; ++i) {
@@ -151,27 +154,78 @@ bool Viewport::show(const OpenedMeshPtr& model, const CageResultPtr& cage, bool 
         if (slots_[i].source == source) continue;
         changed = true;
         fill(slots_[i], source, source ? mesh : nullptr, isOfModel ? creaseDegrees : 0);
+        if (id == LayerId::cage) cagePoints_ = mesh ? mesh->points : std::vector<Vec3d>();
     }
     if (isSoftware_ && standIn_.source != model) {
         const bool isLarge = model && triangulate(model->mesh).size() > 2 * standInTriangles;
-        const Mesh coarse = isLarge ? draw::standIn(model->mesh, standInTriangles) : Mesh();
-        fill(standIn_, model, isLarge ? &coarse : nullptr, creaseDegrees);
+        movingModel_ = isLarge ? draw::standIn(model->mesh, standInTriangles) : draw::StandIn();
+        fill(standIn_, model, &movingModel_.mesh, creaseDegrees);
     }
+    changed |= poseCage(cage, shown.cagePoints);
+    changed |= poseModel(model, shown.posed);
     if (cage && areOtherMarks) markFaces(*cage, view);
     fillDistances(cage, view.cageColours == CageColours::distance && view.layer(LayerId::cage).shown);
     if (isOtherModel || !ground_.shape || view.camera.view.up != view_.camera.view.up) {
         fillGround(view.camera.view.up);
     }
-    if (changed) restart();
     view_ = view;
-    isStale_ = isStale;
+    isStale_ = shown.isStale;
+    if (cage_ != cage) elements_.reset();
+    cage_ = cage;
+    if (changed) restart();
     return changed;
+}
+
+bool Viewport::poseCage(const CageResultPtr& cage, const std::vector<Vec3d>& points)
+{
+    std::optional<draw::Shape>& shape = slots_[static_cast<std::size_t>(LayerId::cage)].shape;
+    if (!shape || points.size() != cagePoints_.size() || points == cagePoints_) return false;
+    shape->setPoints(points);
+    cagePoints_ = points;
+    // Distances are those of the cage at rest.
+    if (distances_.shape && cage) distances_ = Slot();
+    return true;
+}
+
+bool Viewport::poseModel(const OpenedMeshPtr& model, const PosedModel* posed)
+{
+    const std::uint64_t version = posed ? posed->version() : 0;
+    if (version == posedVersion_) return false;
+    posedVersion_ = version;
+    occluder_.reset();
+    std::optional<draw::Shape>& shape = slots_[static_cast<std::size_t>(LayerId::model)].shape;
+    const BoundModelPtr bound = posed && shape ? posed->bound() : nullptr;
+    const bool isAtRest = !bound || bound->order.model != model;
+    hasOnlyStandIn_ = !isAtRest && !posed->isWhole();
+    if (hasOnlyStandIn_) {
+        if (boundStandIn_.source != bound->standIn) {
+            fill(boundStandIn_, bound->standIn, &bound->standIn->mesh, creaseDegrees);
+        }
+        if (boundStandIn_.shape) boundStandIn_.shape->setPoints(posed->points());
+        return true;
+    }
+    boundStandIn_ = Slot();
+    if (!shape || (isAtRest && !isPosed_)) return true;
+    isPosed_ = !isAtRest;
+    const std::vector<Vec3d>& points = isAtRest ? model->mesh.points : posed->points();
+    shape->setPoints(points);
+    if (standIn_.shape) {
+        std::vector<Vec3d> some;
+        some.reserve(movingModel_.points.size());
+        for (const openvdb::Index32 i : movingModel_.points) some.push_back(points[i]);
+        standIn_.shape->setPoints(posedStandIn(movingModel_, model->mesh, some));
+    }
+    return true;
 }
 
 void Viewport::restart()
 {
     frames_ = 0;
     isDrawn_ = false;
+    visiblePoints_.reset();
+    draw::PointSets points = seen(view_);
+    if (view_.ground && ground_.shape) points.push_back(&ground_.shape->geometry().positions());
+    eye_ = draw::eyeOf(view_.camera, 1.0 * width_ / height_, points);
 }
 
 void Viewport::setFrame(const OpenedMeshPtr& model)
@@ -179,7 +233,11 @@ void Viewport::setFrame(const OpenedMeshPtr& model)
     box_ = boxOf(model);
     frame_ = draw::Frame(box_);
     for (Slot& slot : slots_) slot = Slot();
-    for (Slot* const slot : {&standIn_, &distances_, &ground_}) *slot = Slot();
+    for (Slot* const slot : {&standIn_, &boundStandIn_, &distances_, &ground_}) *slot = Slot();
+    cagePoints_.clear();
+    occluder_.reset();
+    isPosed_ = hasOnlyStandIn_ = false;
+    posedVersion_ = 0;
 }
 
 void Viewport::fill(Slot& slot, const std::shared_ptr<const void>& source, const Mesh* mesh, double crease)
@@ -241,10 +299,11 @@ void Viewport::markFaces(const CageResult& cage, const ViewState& view)
     std::optional<draw::Shape>& shape = slots_[static_cast<std::size_t>(LayerId::cage)].shape;
     if (!shape) return;
     std::vector<draw::FaceLook> looks;
-    if (!cage.report.check.badFaces.empty() || !view.selection.empty()) looks.resize(faceCount(cage.cage));
+    const bool areSelected = view.selection.kind == edit::Element::face && !view.selection.ids.empty();
+    if (!cage.report.check.badFaces.empty() || areSelected) looks.resize(faceCount(cage.cage));
     for (const std::uint32_t face : cage.report.check.badFaces) looks[face].flags |= draw::FaceLook::marked;
-    for (const openvdb::Index32 face : view.selection) {
-        if (face < looks.size()) looks[face].flags |= draw::FaceLook::selected;
+    for (const openvdb::Index32 face : view.selection.ids) {
+        if (areSelected && face < looks.size()) looks[face].flags |= draw::FaceLook::selected;
     }
     shape->setFaceLooks(looks);
     restart();
@@ -266,8 +325,11 @@ std::vector<draw::Layer> Viewport::layers(const ViewState& view, bool standIn) c
         const LayerLook& look = view.layers[i];
         if (!look.shown || !slots_[i].shape) continue;
         draw::Layer layer;
-        const bool isStandIn = id == LayerId::model && standIn && standIn_.shape;
-        layer.shape = isStandIn ? &*standIn_.shape : &*slots_[i].shape;
+        layer.shape = &*slots_[i].shape;
+        if (id == LayerId::model) {
+            if (standIn && standIn_.shape) layer.shape = &*standIn_.shape;
+            if (hasOnlyStandIn_ && boundStandIn_.shape) layer.shape = &*boundStandIn_.shape;
+        }
         layer.colour = look.colour;
         layer.opacity = static_cast<float>(look.opacity);
         if (id != LayerId::model) layer.edges = edgesOf(id, look);
@@ -317,10 +379,6 @@ void Viewport::draw(bool isMoving)
 {
     if (isMoving) frames_ = 0;
     if (frames_ == shifts) return;
-    const double aspect = 1.0 * width_ / height_;
-    draw::PointSets points = seen(view_);
-    if (view_.ground && ground_.shape) points.push_back(&ground_.shape->geometry().positions());
-    eye_ = draw::eyeOf(view_.camera, aspect, points);
     draw::Look look{eye_};
     look.background = background;
     look.section = section();
@@ -371,17 +429,11 @@ draw::Camera Viewport::fitted(const ViewState& view, bool selection) const
 {
     const double aspect = 1.0 * width_ / height_;
     const draw::Camera& camera = view.camera;
-    const Slot& cage = slots_[static_cast<std::size_t>(LayerId::cage)];
     std::vector<draw::Vec3f> selected;
-    if (selection && cage.shape) {
-        const draw::Geometry& geometry = cage.shape->geometry();
-        const std::size_t plain = geometry.triangleCount();
-        for (const openvdb::Index32 face : view.selection) {
-            for (const std::size_t i :
-                 {std::size_t{face}, plain + 2 * (face - plain), plain + 2 * (face - plain) + 1}) {
-                if ((i < plain) != (face < plain) || i >= geometry.triangles().size()) continue;
-                for (const auto vertex : geometry.triangles()[i]) selected.push_back(geometry.positions()[vertex]);
-            }
+    if (selection) {
+        for (const openvdb::Index32 i : selectedPoints(view)) {
+            const Vec3d p = frame_.toDrawing(cagePoints_[i]);
+            selected.push_back({static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(p.z())});
         }
     }
     if (!selected.empty()) return draw::fit(camera.view, camera.projection, {&selected}, aspect, 0.05);
@@ -405,24 +457,84 @@ std::optional<Vec3d> Viewport::pointAt(double x, double y) const
     return nearest->point;
 }
 
-std::optional<openvdb::Index32> Viewport::cageFaceAt(double x, double y) const
+std::vector<openvdb::Index32> Viewport::selectedPoints(const ViewState& view) const
 {
-    const Slot& cage = slots_[static_cast<std::size_t>(LayerId::cage)];
-    const Slot& model = slots_[static_cast<std::size_t>(LayerId::model)];
-    if (!cage.shape || !view_.layer(LayerId::cage).shown) return std::nullopt;
-    const auto hit = draw::nearestHit(rayAt(x, y), cage.shape->geometry(), section());
-    if (!hit) return std::nullopt;
-    if (model.shape && view_.layer(LayerId::model).shown && view_.layer(LayerId::model).opacity >= 1) {
-        const auto hidden = draw::nearestHit(rayAt(x, y), model.shape->geometry(), section());
-        if (hidden && hidden->distance < hit->distance) return std::nullopt;
-    }
-    return static_cast<openvdb::Index32>(hit->face);
+    State state;
+    state.view = view;
+    if (cage_) state.cage = MeshPtr(cage_, &cage_->cage);
+    return view::selectedPoints(state);
 }
 
 std::optional<Vec3d> Viewport::selectionCentre(const ViewState& view) const
 {
-    if (view.selection.empty()) return std::nullopt;
-    return fitted(view, true).target;
+    const std::vector<openvdb::Index32> selected = selectedPoints(view);
+    if (selected.empty()) return std::nullopt;
+    Vec3d sum(0);
+    for (const openvdb::Index32 i : selected) sum += frame_.toDrawing(cagePoints_[i]);
+    return sum / static_cast<double>(selected.size());
+}
+
+std::optional<edit::Picking> Viewport::picking(const ViewState& view)
+{
+    if (!cage_ || !view.layer(LayerId::cage).shown) return std::nullopt;
+    if (!elements_) elements_.emplace(cage_->cage);
+    edit::PickView seen{eye_, 1.0 * width_, 1.0 * height_, section(), view.seeThrough};
+    const std::optional<draw::Shape>& model = hasOnlyStandIn_ && boundStandIn_.shape
+                                                  ? boundStandIn_.shape
+                                                  : slots_[static_cast<std::size_t>(LayerId::model)].shape;
+    const LayerLook& look = view.layer(LayerId::model);
+    const bool hides = model && look.shown && look.opacity >= 1;
+    if (hides && !occluder_) occluder_.emplace(model->geometry());
+    std::vector<Vec3d> points;
+    points.reserve(cagePoints_.size());
+    for (const Vec3d& p : cagePoints_) points.push_back(frame_.toDrawing(p));
+    return std::make_optional<edit::Picking>(*elements_, std::move(points), seen, hides ? &*occluder_ : nullptr);
+}
+
+std::optional<openvdb::Index32> Viewport::elementAt(const ViewState& view, const Pixel& at, double pixels)
+{
+    const auto made = picking(view);
+    return made ? made->at(view.selection.kind, at[0], at[1], pixels) : std::nullopt;
+}
+
+std::vector<openvdb::Index32> Viewport::elementsWithin(const ViewState& view, const std::vector<Pixel>& border)
+{
+    const auto made = picking(view);
+    if (!made) return {};
+    std::vector<openvdb::Vec2d> polygon;
+    for (const Pixel& corner : border) polygon.emplace_back(corner[0], corner[1]);
+    return made->within(view.selection.kind, polygon);
+}
+
+void Viewport::addElements(const ViewState& view, bool isMoved, PictureOverlay& overlay)
+{
+    if (!cage_ || !view.layer(LayerId::cage).shown) return;
+    const edit::Selection& selection = view.selection;
+    const auto pixelAt = [&](openvdb::Index32 point) {
+        const Vec3d seen = draw::project(eye_, frame_.toDrawing(cagePoints_[point]));
+        return Pixel{(seen.x() + 1) / 2 * width_, (1 - seen.y()) / 2 * height_};
+    };
+    if (selection.kind == edit::Element::point) {
+        if (!isMoved || !lastPoints_) {
+            if (!visiblePoints_) {
+                const double w = width_, h = height_;
+                visiblePoints_ = picking(view)->within(edit::Element::point, {{0, 0}, {w, 0}, {w, h}, {0, h}});
+            }
+            lastPoints_ = visiblePoints_;
+        }
+        for (const openvdb::Index32 i : *lastPoints_) {
+            if (i >= cagePoints_.size()) break;
+            const bool isSelected = std::binary_search(selection.ids.begin(), selection.ids.end(), i);
+            overlay.points.push_back({pixelAt(i), isSelected});
+        }
+    } else if (selection.kind == edit::Element::edge && !selection.ids.empty()) {
+        if (!elements_) elements_.emplace(cage_->cage);
+        for (const openvdb::Index32 edge : selection.ids) {
+            if (edge >= elements_->edges().size()) break;
+            const auto [a, b] = elements_->edges()[edge];
+            overlay.edges.push_back({pixelAt(a), pixelAt(b)});
+        }
+    }
 }
 
 } // namespace vdbcage::view

@@ -9,9 +9,22 @@
 #include <tools/draw/pick.h>
 #include <tools/draw/picture.h>
 #include <tools/draw/renderer.h>
+#include <tools/draw/stand_in.h>
+#include <tools/edit/picking.h>
+#include <tools/view/picture_overlay.h>
 #include <tools/view/state/cage_result.h>
+#include <tools/view/state/posed_model.h>
 
 namespace vdbcage::view {
+
+/// What a Viewport shows.
+struct Shown {
+    OpenedMeshPtr model;
+    CageResultPtr cage;                     ///< null: none
+    bool isStale = false;                   ///< it fades the cage
+    std::vector<openvdb::Vec3d> cagePoints; ///< where the cage's points are; of another number: at rest
+    const PosedModel* posed = nullptr;      ///< where the model is
+};
 
 /// The picture of model, cage and what is between them. While something moves a frame has one sample a pixel and, where
 /// a program on the CPU draws, a stand-in for a large model. When nothing moves, frames shifted by parts of a pixel are
@@ -26,9 +39,9 @@ public:
     /// \pre width > 0, height > 0 \throw DeviceError
     void resize(int width, int height);
 
-    /// Takes over what is to be seen. Only what is new is made and uploaded. `cage` may be null; `isStale` fades it.
-    /// Returns whether anything changed. \throw DeviceError
-    bool show(const OpenedMeshPtr& model, const CageResultPtr& cage, bool isStale, const ViewState& view);
+    /// Takes over what is to be seen. Only what is new is made and uploaded. Returns whether anything changed.
+    /// \throw DeviceError
+    bool show(const Shown& shown, const ViewState& view);
 
     /// Draws a frame, if there is any left to draw. \throw DeviceError
     void draw(bool isMoving);
@@ -47,7 +60,7 @@ public:
     const draw::Frame& frame() const { return frame_; }
     /// Of the model, world space; without a model [-1, 1].
     const openvdb::BBoxd& box() const { return box_; }
-    /// As of the last draw().
+    /// Of what is shown.
     const draw::Eye& eye() const { return eye_; }
     /// Distance between two lines of the ground grid, in world space: 1, 2 or 5 times a power of ten.
     double gridStep() const { return gridStep_; }
@@ -61,9 +74,14 @@ public:
     draw::Camera fitted(const ViewState& view, bool selection) const;
     /// What is seen at (x, y) of the panel, [-1, 1] both ways, y up.
     std::optional<openvdb::Vec3d> pointAt(double x, double y) const;
-    /// The face of the cage there, unless the model hides it.
-    std::optional<openvdb::Index32> cageFaceAt(double x, double y) const;
-    /// The middle of the selected faces; none if nothing is selected.
+    /// The part of the cage, of the kind that is selected, that is within some pixels of `at` and not hidden.
+    std::optional<openvdb::Index32> elementAt(const ViewState& view, const Pixel& at, double pixels);
+    /// Those that are in a polygon: points, edges with both ends, faces with their middle.
+    std::vector<openvdb::Index32> elementsWithin(const ViewState& view, const std::vector<Pixel>& border);
+    /// The points or selected edges of the cage, for who selects them. While something `isMoved` the points are those
+    /// that were seen before.
+    void addElements(const ViewState& view, bool isMoved, PictureOverlay& overlay);
+    /// The middle of what is selected, in drawing coordinates; none if nothing is selected.
     std::optional<openvdb::Vec3d> selectionCentre(const ViewState& view) const;
 
 private:
@@ -84,6 +102,11 @@ private:
     draw::PointSets seen(const ViewState& view) const;
     std::optional<draw::Section> section() const;
     draw::Ray rayAt(double x, double y) const;
+    bool poseCage(const CageResultPtr& cage, const std::vector<openvdb::Vec3d>& points);
+    bool poseModel(const OpenedMeshPtr& model, const PosedModel* posed);
+    std::vector<openvdb::Index32> selectedPoints(const ViewState& view) const;
+    /// None: there is no cage to be seen.
+    std::optional<edit::Picking> picking(const ViewState& view);
 
     static constexpr int shifts = 16; ///< frames that are averaged
 
@@ -105,8 +128,21 @@ private:
     double gridStep_ = 0, largestDistance_ = 0;
     ViewState view_; ///< what is shown now
     bool isStale_ = false;
+    std::vector<openvdb::Vec3d> cagePoints_; ///< as shown, world space
+    CageResultPtr cage_;
+    std::uint64_t posedVersion_ = 0;
+    bool isPosed_ = false;        ///< the model's shape is not at rest
+    bool hasOnlyStandIn_ = false; ///< the model's own points are not bound yet
+    // Made when they are asked for.
+    std::optional<edit::Elements> elements_;                     ///< of the cage
+    std::optional<edit::Occluder> occluder_;                     ///< the model as it is seen
+    std::optional<std::vector<openvdb::Index32>> visiblePoints_; ///< of the cage
+    std::optional<std::vector<openvdb::Index32>> lastPoints_;    ///< the visible ones when nothing was moved
     std::array<Slot, layerCount> slots_;
-    Slot standIn_, distances_, ground_;
+    draw::StandIn movingModel_; ///< what is drawn while something moves; empty: the model itself
+    Slot standIn_;              ///< its shape
+    Slot boundStandIn_;         ///< the part of the model that is bound, as long as not all of it is
+    Slot distances_, ground_;
 };
 
 } // namespace vdbcage::view

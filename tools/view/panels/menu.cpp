@@ -45,6 +45,7 @@ void buildMenu(const PanelContext& context)
     const Document& document = session.state().document;
     const ViewState& view = session.state().view;
     const bool hasModel = document.model != nullptr, hasCage = context.content.planner.shown() != nullptr;
+    const bool hasSelected = hasCage && !view.selection.ids.empty();
     ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {length(8), length(5)});
     if (!ImGui::BeginMainMenuBar()) {
         ImGui::PopStyleVar();
@@ -61,9 +62,13 @@ void buildMenu(const PanelContext& context)
         });
         item(context, "Open cage...", "browse open-cage", hasModel);
         item(context, "Make the cage again", "close-cage", document.cage != nullptr);
+        item(context, "Open posed cage...", "browse open-pose", hasCage);
         item(context, "Open scene...", "browse open-scene");
         ImGui::Separator();
         item(context, "Save cage...", "browse save-cage", hasCage);
+        item(context, "Save posed cage...", "browse save-posed-cage", hasCage);
+        item(context, "Save posed model...", "browse save-posed-model", hasCage);
+        item(context, "Save weights...", "browse save-weights", hasCage);
         item(context, "Save scene...", "browse save-scene", hasModel);
         item(context, "Save stages...", "browse save-stages", hasCage);
         item(context, "Save report...", "browse save-report", hasCage);
@@ -83,11 +88,33 @@ void buildMenu(const PanelContext& context)
         ImGui::Separator();
         item(context, "All options to their defaults", "reset");
         item(context, "Options from a file...", "browse preset");
-        item(context, "Select nothing", "select", !view.selection.empty());
+        ImGui::Separator();
+        item(context, "Select all", "select-all", hasCage);
+        item(context, "Select nothing", "select-none", hasSelected);
+        item(context, "Invert the selection", "select-invert", hasCage);
+        item(context, "Select what hangs together", "select-linked", hasSelected);
+        item(context, "Select loops", "select-loop", hasSelected);
+        item(context, "Select more", "select-grow", hasSelected);
+        item(context, "Select less", "select-shrink", hasSelected);
+        item(context, "Select by a box", "box", hasCage);
+        ImGui::Separator();
+        item(context, "Move", "grab move", hasSelected);
+        item(context, "Rotate", "grab rotate", hasSelected);
+        item(context, "Scale", "grab scale", hasSelected);
+        menu(context, "Cage at rest", [&] {
+            const bool isShape = view.mode == Mode::shape && hasSelected;
+            item(context, "Split edges", "edit-cage split", isShape);
+            item(context, "Collapse edges", "edit-cage collapse", isShape);
+            item(context, "Flip edges", "edit-cage flip", isShape);
+            item(context, "Merge triangles to quads", "edit-cage merge", isShape);
+            item(context, "Cut quads to triangles", "edit-cage cut", isShape);
+        });
+        item(context, "Reset the pose", "reset-pose all", document.pose != nullptr);
+        item(context, "Reset the pose of what is selected", "reset-pose selected", document.pose && hasSelected);
     });
     menu(context, "View", [&] {
         item(context, "Frame all", "frame all");
-        item(context, "Frame what is selected", "frame selected", !view.selection.empty());
+        item(context, "Frame what is selected", "frame selected", hasSelected);
         ImGui::Separator();
         for (const char* side : {"front", "back", "right", "left", "top", "bottom"}) {
             std::string label = side;

@@ -104,6 +104,61 @@ void drawLegend(ImDrawList& list, const Rectangle& viewport, double largest)
     label(0, "%.0f");
 }
 
+constexpr draw::Colour pointColour{0.10F, 0.22F, 0.48F}, selectedColour{0.95F, 0.50F, 0.05F},
+    hotColour{1.0F, 0.80F, 0.10F}, white{1, 1, 1};
+
+ImVec2 inWindow(const Rectangle& viewport, const Pixel& at)
+{
+    return {static_cast<float>(viewport.left + at[0]), static_cast<float>(viewport.top + at[1])};
+}
+
+std::vector<ImVec2> inWindow(const Rectangle& viewport, const std::vector<Pixel>& line)
+{
+    std::vector<ImVec2> points;
+    for (const Pixel& at : line) points.push_back(inWindow(viewport, at));
+    return points;
+}
+
+void drawGizmo(ImDrawList& list, const Rectangle& viewport, const PictureOverlay& overlay)
+{
+    for (const GizmoPart& part : overlay.gizmo) {
+        const bool isHot = overlay.hot && *overlay.hot == part.handle;
+        const draw::Colour& colour = isHot ? hotColour : part.colour;
+        const std::vector<ImVec2> line = inWindow(viewport, part.line);
+        const int count = static_cast<int>(line.size());
+        if (!part.isFilled) {
+            // A pale rim, so that it is seen on any ground.
+            list.AddPolyline(line.data(), count, packed(white, 0.6F), 0, length(5));
+            list.AddPolyline(line.data(), count, packed(colour), 0, length(3));
+            continue;
+        }
+        const float opacity = part.handle.kind == Handle::Kind::axis ? 1 : isHot ? 0.7F : 0.4F;
+        list.AddConvexPolyFilled(line.data(), count, packed(colour, opacity));
+        list.AddPolyline(line.data(), count, packed(colour), ImDrawFlags_Closed, length(1));
+    }
+}
+
+void drawEditing(ImDrawList& list, const Rectangle& viewport, const PictureOverlay& overlay)
+{
+    for (const auto& edge : overlay.edges) {
+        list.AddLine(inWindow(viewport, edge[0]), inWindow(viewport, edge[1]), packed(selectedColour), length(3));
+    }
+    for (const PictureOverlay::Point& point : overlay.points) {
+        const ImVec2 at = inWindow(viewport, point.at);
+        const float radius = length(point.isSelected ? 5 : 4);
+        list.AddCircleFilled(at, radius, packed(white), 16);
+        list.AddCircleFilled(at, radius - length(1), packed(point.isSelected ? selectedColour : pointColour), 16);
+    }
+    drawGizmo(list, viewport, overlay);
+    if (overlay.band.size() > 1) {
+        const std::vector<ImVec2> line = inWindow(viewport, overlay.band);
+        list.AddPolyline(line.data(), static_cast<int>(line.size()), packed(white, 0.8F), ImDrawFlags_Closed,
+                         length(3));
+        list.AddPolyline(line.data(), static_cast<int>(line.size()), packed(pointColour), ImDrawFlags_Closed,
+                         length(1));
+    }
+}
+
 } // namespace
 
 void buildOverlays(const PanelContext& context, const Rectangle& viewport)
@@ -115,6 +170,7 @@ void buildOverlays(const PanelContext& context, const Rectangle& viewport)
         {static_cast<float>(viewport.left), static_cast<float>(viewport.top)},
         {static_cast<float>(viewport.left + viewport.width), static_cast<float>(viewport.top + viewport.height)});
     if (content.session.state().document.model) {
+        drawEditing(list, viewport, content.overlay);
         if (view.axes) drawAxes(list, viewport, content.axes);
         if (view.ground) {
             const std::string text = "grid " + detail::numberText(content.gridStep);
@@ -131,7 +187,11 @@ void buildOverlays(const PanelContext& context, const Rectangle& viewport)
                      packed(inkColour), text);
     }
     const std::string standing = standingText(content);
-    if (!standing.empty()) {
+    if (!content.overlay.hint.empty()) {
+        drawPill(list, viewport, content.overlay.hint, theme::accent);
+    } else if (content.isPosedCoarsely) {
+        drawPill(list, viewport, "Preview: a coarse model follows the cage until the model is bound", theme::accent);
+    } else if (!standing.empty()) {
         const bool isPreview = content.planner.standing() == Planner::Standing::preview;
         drawPill(list, viewport, standing, isPreview ? theme::accent : theme::warning);
     }

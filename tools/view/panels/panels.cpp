@@ -7,7 +7,7 @@ namespace vdbcage::view {
 namespace {
 
 // Lengths on an ordinary screen.
-constexpr float menuHeight = 26, statusHeight = 28, layersWidth = 256, optionsWidth = 392;
+constexpr float menuHeight = 26, toolbarHeight = 38, statusHeight = 28, layersWidth = 256, optionsWidth = 392;
 
 constexpr ImGuiWindowFlags fixed = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
                                    ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoBringToFrontOnFocus |
@@ -50,7 +50,7 @@ Panels::~Panels() = default;
 
 Rectangle Panels::viewport(int width, int height, float by)
 {
-    const int left = scaled(layersWidth, by), top = scaled(menuHeight, by);
+    const int left = scaled(layersWidth, by), top = scaled(menuHeight, by) + scaled(toolbarHeight, by);
     return {left, top, std::max(1, width - left - scaled(optionsWidth, by)),
             std::max(1, height - top - scaled(statusHeight, by))};
 }
@@ -74,6 +74,9 @@ void Panels::build(const PanelContent& content, PanelAnswer& answer)
     });
     ImGui::PopStyleVar();
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {length(10), length(6)});
+    const int barTop = scaled(menuHeight, scale());
+    pane("toolbar", {0, barTop, width, middle.top - barTop},
+         ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse, [&] { buildToolbar(context); });
     ImGui::PushStyleColor(ImGuiCol_WindowBg, toImGui(theme::title));
     pane("status", {0, bottom, width, height - bottom},
          ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse, [&] { buildStatusLine(context); });

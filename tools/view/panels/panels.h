@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <openvdb/math/Vec3.h>
+#include <tools/view/picture_overlay.h>
 #include <tools/view/state/planner.h>
 #include <tools/view/state/runner.h>
 #include <tools/view/state/session.h>
@@ -46,8 +47,12 @@ struct PanelContent {
     double largestDistance = 0;           ///< of the colours, a fraction of the model's longest side; 0: none
     std::optional<Counts> model = {}, cage = {};
     std::optional<openvdb::math::BBox<openvdb::Vec3d>> box = {}; ///< of the model
-    bool hasModelChanged = false;                                ///< on disk
-    bool asksToQuit = false;                                     ///< there is unsaved work
+    PictureOverlay overlay = {};
+    std::optional<WorkProgress> binding = {}; ///< none: nothing is being bound
+    bool isPosedCoarsely = false;             ///< what is seen of the model is a stand-in, as not all is bound yet
+    std::string bindingError = {};            ///< empty: none
+    bool hasModelChanged = false;             ///< on disk
+    bool asksToQuit = false;                  ///< there is unsaved work
 };
 
 /// What the user asked for: lines as in a script, and where a drag of a value begins and ends.

@@ -9,6 +9,8 @@
 /// The parts of the window; each is built once a layout. Those that remember something take it.
 namespace vdbcage::view {
 
+/// Below the menu: what is done in the picture.
+void buildToolbar(const PanelContext& context);
 void buildMenu(const PanelContext& context);
 void buildLayers(const PanelContext& context);
 /// `typed`: by the name of a field, what was typed and is not taken over yet.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <set>
 
+#include <tools/view/state/move.h>
 #include <tools/view/state/preset.h>
 #include <tools/view/state/words.h>
 #include <vdbcage/core/detail/number_text.h>
@@ -13,6 +14,7 @@ namespace vdbcage::view {
 namespace {
 
 using Words = std::vector<std::string>;
+using openvdb::Vec3d;
 
 // One struct a command: how it is written, how it is read, what it does. Arguments are without the command's word.
 
@@ -21,6 +23,11 @@ std::string numbers(std::initializer_list<double> values)
     std::string text;
     for (const double value : values) text += ' ' + detail::numberText(value);
     return text;
+}
+
+std::string numbers(const Vec3d& v)
+{
+    return numbers({v[0], v[1], v[2]});
 }
 
 LayerId layerNamed(const std::string& name)
@@ -42,14 +49,6 @@ double fractionOf(const std::string& word, const std::string& what)
 }
 
 constexpr std::array<const char*, 3> cageColourNames{"plain", "kinds", "distance"};
-
-CageColours cageColoursNamed(const std::string& name)
-{
-    for (std::size_t i = 0; i < cageColourNames.size(); ++i) {
-        if (name == cageColourNames[i]) return static_cast<CageColours>(i);
-    }
-    throw InputError("cage-colours: '" + name + "' is not allowed; it must be plain, kinds or distance");
-}
 
 const char* onOff(bool on)
 {
@@ -89,13 +88,76 @@ std::optional<SectionPlane> sectionOf(const Words& words)
     return plane;
 }
 
-std::vector<openvdb::Index32> facesOf(const Words& words)
+std::size_t placeOf(const std::string& word, const char* const* names, std::size_t count, const char* what)
 {
-    std::set<openvdb::Index32> faces;
-    for (const std::string& word : words) {
-        faces.insert(static_cast<openvdb::Index32>(wholeNumberOf(word, "select", 0, 2147483647)));
+    std::string known;
+    for (std::size_t i = 0; i < count; ++i) {
+        if (word == names[i]) return i;
+        known += (i == 0 ? "" : i + 1 < count ? ", " : " or ") + std::string(names[i]);
     }
-    return {faces.begin(), faces.end()};
+    throw InputError(what + (": '" + word) + "' is not allowed; it must be " + known);
+}
+
+/// The value that is called `word` in a list of names, the first being value 0.
+template <class Enum, std::size_t count>
+Enum named(const std::array<const char*, count>& names, const std::string& word, const char* what)
+{
+    return static_cast<Enum>(placeOf(word, names.data(), count, what));
+}
+
+edit::Selection selectionOf(const Words& words)
+{
+    std::set<openvdb::Index32> ids;
+    for (std::size_t i = 1; i < words.size(); ++i) {
+        ids.insert(static_cast<openvdb::Index32>(wholeNumberOf(words[i], "select", 0, 2147483647)));
+    }
+    return {named<edit::Element>(elementNames, words[0], "select"), {ids.begin(), ids.end()}};
+}
+
+Vec3d vectorOf(const Words& words, std::size_t first, const char* what)
+{
+    return {numberOf(words[first], what), numberOf(words[first + 1], what), numberOf(words[first + 2], what)};
+}
+
+constexpr std::array<const char*, 3> axisNames{"x", "y", "z"};
+
+Command rotationOf(const Words& words)
+{
+    const RotateSelected command{vectorOf(words, 0, "rotate"), numberOf(words[3], "rotate"),
+                                 vectorOf(words, 4, "rotate")};
+    if (command.axis == Vec3d(0)) throw InputError("rotate: the axis 0 0 0 is not allowed");
+    return command;
+}
+
+Command scalingOf(const Words& words)
+{
+    if (words.size() != 6 && words.size() != 12) {
+        throw InputError("scale: it takes three factors, a point, and no axes or two");
+    }
+    ScaleSelected command{vectorOf(words, 0, "scale"), vectorOf(words, 3, "scale")};
+    if (words.size() == 12) {
+        command.axes = {vectorOf(words, 6, "scale"), vectorOf(words, 9, "scale")};
+        const double cosine = command.axes[0].dot(command.axes[1]);
+        if (!(command.axes[0].length() > 0 && command.axes[1].length() > 0 &&
+              std::abs(cosine) <= 1e-6 * command.axes[0].length() * command.axes[1].length())) {
+            throw InputError("scale: the two axes must be at right angles, and not 0 0 0");
+        }
+    }
+    return command;
+}
+
+std::optional<SymmetryPlane> mirrorOf(const Words& words)
+{
+    if (words.size() == 1 && words[0] == "off") return std::nullopt;
+    if (words.size() != 2) throw InputError("mirror: it must be off, or an axis x, y or z and an OFFSET");
+    return SymmetryPlane{named<int>(axisNames, words[0], "mirror"), numberOf(words[1], "mirror")};
+}
+
+double softRadiusOf(const std::string& word)
+{
+    const double radius = numberOf(word, "soft");
+    requireWithin({0, 10}, radius, "soft");
+    return radius;
 }
 
 /// The options' values must be allowed together only when a cage is made of them: one by one they may pass through
@@ -148,6 +210,27 @@ const std::array<Syntax, std::variant_size_v<Command>>& syntaxes()
          [](const Words& w) -> Command { return ResetOptions{w}; }},
         {"preset", "NAME|FILE", 1, 1, "sets all options to those of a preset or of a file",
          [](const Words& w) -> Command { return ApplyPreset{w[0]}; }},
+        {"coordinates", "mvc|green|mlc", 1, 1, "chooses how the model follows the cage",
+         [](const Words& w) -> Command { return SetCoordinates{coordinatesNamed(w[0])}; }},
+        {"move", "X Y Z", 3, 3, "moves what is selected, in world units",
+         [](const Words& w) -> Command { return MoveSelected{vectorOf(w, 0, "move")}; }},
+        {"rotate", "X Y Z DEGREES PX PY PZ", 7, 7, "turns what is selected around X Y Z through PX PY PZ",
+         [](const Words& w) { return rotationOf(w); }},
+        {"scale", "FX FY FZ PX PY PZ [X Y Z X Y Z]", 6, 12,
+         "scales what is selected from PX PY PZ, along the world's axes or along two others and their normal",
+         [](const Words& w) { return scalingOf(w); }},
+        {"edit-cage", "split|collapse|flip|merge|cut", 1, 1,
+         "changes selected edges (merge: of two triangles) or cuts selected quads, in mode shape",
+         [](const Words& w) -> Command { return EditCage{named<CageEdit>(cageEditNames, w[0], "edit-cage")}; }},
+        {"reset-pose", "all|selected", 1, 1, "moves all or what is selected back to where it is at rest",
+         [](const Words& w) -> Command {
+             if (w[0] != "all" && w[0] != "selected") {
+                 throw InputError("reset-pose: '" + w[0] + "' is not allowed; it must be all or selected");
+             }
+             return ResetPose{w[0] == "selected"};
+         }},
+        {"open-pose", "FILE", 1, 1, "poses the cage as another file has it",
+         [](const Words& w) -> Command { return OpenPose{w[0]}; }},
         {"camera", "perspective|orthographic y|z AZIMUTH ELEVATION X Y Z DISTANCE", 8, 8,
          "looks at X Y Z from DISTANCE; the model fills a ball of radius 1 around 0 0 0",
          [](const Words& w) -> Command { return SetCamera{cameraOf(w)}; }},
@@ -168,7 +251,9 @@ const std::array<Syntax, std::variant_size_v<Command>>& syntaxes()
          }},
         {"cage-colours", "plain|kinds|distance", 1, 1,
          "colours the cage's faces: quads apart, or distance to the model",
-         [](const Words& w) -> Command { return SetCageColours{cageColoursNamed(w[0])}; }},
+         [](const Words& w) -> Command {
+             return SetCageColours{named<CageColours>(cageColourNames, w[0], "cage-colours")};
+         }},
         {"section", "off|X Y Z OFFSET", 1, 4, "cuts off what has (X Y Z) . point > OFFSET",
          [](const Words& w) -> Command { return SetSection{sectionOf(w)}; }},
         {"ground", "on|off", 1, 1, "shows a grid below the model",
@@ -179,8 +264,23 @@ const std::array<Syntax, std::variant_size_v<Command>>& syntaxes()
          [](const Words& w) -> Command { return SetTurntable{switchOf(w[0], "turntable")}; }},
         {"times", "on|off", 1, 1, "shows how long making a cage took",
          [](const Words& w) -> Command { return ShowTimes{switchOf(w[0], "times")}; }},
-        {"select", "[FACE...]", 0, anyNumber, "selects faces of the cage by number, triangles first; or nothing",
-         [](const Words& w) -> Command { return Select{facesOf(w)}; }},
+        {"select", "points|edges|faces [NUMBER...]", 1, anyNumber,
+         "selects parts of the cage by number, or none; faces count triangles first",
+         [](const Words& w) -> Command { return Select{selectionOf(w)}; }},
+        {"mode", "shape|pose", 1, 1, "moves the cage at rest, or the cage and with it the model",
+         [](const Words& w) -> Command { return SetMode{named<Mode>(modeNames, w[0], "mode")}; }},
+        {"tool", "select|move|rotate|scale", 1, 1, "what the picture has handles for",
+         [](const Words& w) -> Command { return SetTool{named<Tool>(toolNames, w[0], "tool")}; }},
+        {"orientation", "world|local|normal|view", 1, 1, "along which axes things are moved",
+         [](const Words& w) -> Command {
+             return SetOrientation{named<Orientation>(orientationNames, w[0], "orientation")};
+         }},
+        {"see-through", "on|off", 1, 1, "selects what is hidden too",
+         [](const Words& w) -> Command { return SetSeeThrough{switchOf(w[0], "see-through")}; }},
+        {"soft", "RADIUS", 1, 1, "moves what is near, less and less; a part of the model's longest side, 0: off",
+         [](const Words& w) -> Command { return SetSoft{softRadiusOf(w[0])}; }},
+        {"mirror", "off|x|y|z [OFFSET]", 1, 2, "does the same on the other side of a plane across an axis",
+         [](const Words& w) -> Command { return SetMirror{mirrorOf(w)}; }},
     }};
     return list;
 }
@@ -197,6 +297,20 @@ struct ArgumentsOf {
         return text;
     }
     std::string operator()(const ApplyPreset& c) const { return ' ' + quotedWord(c.name); }
+    std::string operator()(const SetCoordinates& c) const { return ' ' + std::string(coordinatesName(c.family)); }
+    std::string operator()(const MoveSelected& c) const { return numbers(c.by); }
+    std::string operator()(const RotateSelected& c) const
+    {
+        return numbers(c.axis) + numbers({c.degrees}) + numbers(c.pivot);
+    }
+    std::string operator()(const ScaleSelected& c) const
+    {
+        const std::string text = numbers(c.factors) + numbers(c.pivot);
+        return c.axes == ScaleSelected().axes ? text : text + numbers(c.axes[0]) + numbers(c.axes[1]);
+    }
+    std::string operator()(const EditCage& c) const { return named(cageEditNames, c.edit); }
+    std::string operator()(const ResetPose& c) const { return c.onlySelected ? " selected" : " all"; }
+    std::string operator()(const OpenPose& c) const { return ' ' + quotedWord(c.path); }
     std::string operator()(const SetCamera& c) const
     {
         const draw::Camera& camera = c.camera;
@@ -217,15 +331,11 @@ struct ArgumentsOf {
         return ' ' + std::string(nameOf(c.layer)) +
                numbers({double{c.colour[0]}, double{c.colour[1]}, double{c.colour[2]}});
     }
-    std::string operator()(const SetCageColours& c) const
-    {
-        return ' ' + std::string(cageColourNames[static_cast<std::size_t>(c.colours)]);
-    }
+    std::string operator()(const SetCageColours& c) const { return named(cageColourNames, c.colours); }
     std::string operator()(const SetSection& c) const
     {
         if (!c.section) return " off";
-        const openvdb::Vec3d& normal = c.section->normal;
-        return numbers({normal[0], normal[1], normal[2], c.section->offset});
+        return numbers(c.section->normal) + numbers({c.section->offset});
     }
     std::string operator()(const ShowGround& c) const { return onOff(c.shown); }
     std::string operator()(const ShowAxes& c) const { return onOff(c.shown); }
@@ -233,9 +343,27 @@ struct ArgumentsOf {
     std::string operator()(const ShowTimes& c) const { return onOff(c.shown); }
     std::string operator()(const Select& c) const
     {
-        std::string text;
-        for (const openvdb::Index32 face : c.faces) text += ' ' + std::to_string(face);
+        std::string text = named(elementNames, c.selection.kind);
+        for (const openvdb::Index32 id : c.selection.ids) text += ' ' + std::to_string(id);
         return text;
+    }
+    std::string operator()(const SetMode& c) const { return named(modeNames, c.mode); }
+    std::string operator()(const SetTool& c) const { return named(toolNames, c.tool); }
+    std::string operator()(const SetOrientation& c) const { return named(orientationNames, c.orientation); }
+    std::string operator()(const SetSeeThrough& c) const { return onOff(c.on); }
+    std::string operator()(const SetSoft& c) const { return numbers({c.radius}); }
+    std::string operator()(const SetMirror& c) const
+    {
+        if (!c.plane) return " off";
+        return ' ' + std::string(axisNames[static_cast<std::size_t>(c.plane->axis)]) + numbers({c.plane->offset});
+    }
+
+private:
+    template <class Enum, std::size_t count>
+    static std::string named(const std::array<const char*, count>& names, Enum value)
+    {
+        const char* const* const first = names.data(); // GCC 12 mixes up the sizes of lists that it inlines
+        return ' ' + std::string(first[static_cast<std::size_t>(value)]);
     }
 };
 
@@ -246,6 +374,7 @@ struct Apply {
     {
         state.document.model = openMesh(c.path);
         state.document.cage.reset();
+        state.document.pose.reset();
     }
     void operator()(const OpenCage& c) const
     {
@@ -256,6 +385,20 @@ struct Apply {
     void operator()(const SetOption& c) const { setOptions(withOption(state.document.options, c)); }
     void operator()(const ResetOptions& c) const { setOptions(withReset(state.document.options, c)); }
     void operator()(const ApplyPreset& c) const { setOptions(presetOptions(c.name)); }
+    void operator()(const SetCoordinates& c) const { state.document.coordinates = c.family; }
+    void operator()(const MoveSelected& c) const { state.document = withMotion(state, edit::Move{c.by}); }
+    void operator()(const RotateSelected& c) const
+    {
+        state.document = withMotion(state, edit::Rotate{c.axis.unit(), c.degrees, c.pivot});
+    }
+    void operator()(const ScaleSelected& c) const
+    {
+        const Vec3d x = c.axes[0].unit(), y = (c.axes[1] - x * x.dot(c.axes[1])).unit();
+        state.document = withMotion(state, edit::Scale{c.factors, {x, y, x.cross(y)}, c.pivot});
+    }
+    void operator()(const EditCage& c) const { state.document = withEdit(state, c.edit); }
+    void operator()(const ResetPose& c) const { state.document = withResetPose(state, c.onlySelected); }
+    void operator()(const OpenPose& c) const { state.document = withPose(state, openPose(state, c.path)); }
     void operator()(const SetCamera& c) const { state.view.camera = c.camera; }
     void operator()(const ShowLayer& c) const { state.view.layer(c.layer).shown = c.shown; }
     void operator()(const FadeLayer& c) const { state.view.layer(c.layer).opacity = c.opacity; }
@@ -266,7 +409,13 @@ struct Apply {
     void operator()(const ShowAxes& c) const { state.view.axes = c.shown; }
     void operator()(const SetTurntable& c) const { state.view.turntable = c.on; }
     void operator()(const ShowTimes& c) const { state.view.times = c.shown; }
-    void operator()(const Select& c) const { state.view.selection = c.faces; }
+    void operator()(const Select& c) const { state.view.selection = c.selection; }
+    void operator()(const SetMode& c) const { state.view.mode = c.mode; }
+    void operator()(const SetTool& c) const { state.view.tool = c.tool; }
+    void operator()(const SetOrientation& c) const { state.view.orientation = c.orientation; }
+    void operator()(const SetSeeThrough& c) const { state.view.seeThrough = c.on; }
+    void operator()(const SetSoft& c) const { state.view.softRadius = c.radius; }
+    void operator()(const SetMirror& c) const { state.view.mirror = c.plane; }
 
 private:
     void setOptions(CageOptions options) const
@@ -332,7 +481,9 @@ std::vector<Command> commandsFor(const ViewState& view)
     }
     commands.insert(commands.end(),
                     {SetCageColours{view.cageColours}, SetSection{view.section}, ShowGround{view.ground},
-                     ShowAxes{view.axes}, SetTurntable{view.turntable}, ShowTimes{view.times}, Select{view.selection}});
+                     ShowAxes{view.axes}, SetTurntable{view.turntable}, ShowTimes{view.times}, SetMode{view.mode},
+                     SetTool{view.tool}, SetOrientation{view.orientation}, SetSeeThrough{view.seeThrough},
+                     SetSoft{view.softRadius}, SetMirror{view.mirror}, Select{view.selection}});
     return commands;
 }
 

@@ -33,6 +33,40 @@ struct ApplyPreset {
     std::string name; ///< of a preset of ours, or a file's path
 };
 
+/// coordinates mvc|green|mlc: by which the model follows the cage.
+struct SetCoordinates {
+    Coordinates family{};
+};
+/// move X Y Z: what is selected, in world units.
+struct MoveSelected {
+    openvdb::Vec3d by{0};
+};
+/// rotate X Y Z DEGREES PX PY PZ: what is selected, around the axis X Y Z through the point PX PY PZ.
+struct RotateSelected {
+    openvdb::Vec3d axis{0, 0, 1}; ///< not zero
+    double degrees = 0;
+    openvdb::Vec3d pivot{0};
+};
+/// scale FX FY FZ PX PY PZ [X Y Z X Y Z]: what is selected, from the point PX PY PZ, along the axes of the world or
+/// along two others that are at right angles, and the one at right angles to both.
+struct ScaleSelected {
+    openvdb::Vec3d factors{1};
+    openvdb::Vec3d pivot{0};
+    std::array<openvdb::Vec3d, 2> axes{openvdb::Vec3d(1, 0, 0), openvdb::Vec3d(0, 1, 0)};
+};
+/// edit-cage split|collapse|flip|merge|cut: what is selected of the cage at rest, in mode shape.
+struct EditCage {
+    CageEdit edit{};
+};
+/// reset-pose all|selected: back to where it is at rest.
+struct ResetPose {
+    bool onlySelected = false;
+};
+/// open-pose FILE: the cage that is shown, posed.
+struct OpenPose {
+    std::string path;
+};
+
 /// camera PROJECTION UP AZIMUTH ELEVATION X Y Z DISTANCE (see draw::Camera).
 struct SetCamera {
     draw::Camera camera;
@@ -76,14 +110,42 @@ struct SetTurntable {
 struct ShowTimes {
     bool shown = true;
 };
-/// select [FACE...]: faces of the cage, triangles first; nothing if none is named.
+/// select points|edges|faces [NUMBER...]: parts of the cage, or none of them. Faces count triangles first; edges are in
+/// the order of their two points.
 struct Select {
-    std::vector<openvdb::Index32> faces;
+    edit::Selection selection;
+};
+/// mode shape|pose
+struct SetMode {
+    Mode mode{};
+};
+/// tool select|move|rotate|scale
+struct SetTool {
+    Tool tool{};
+};
+/// orientation world|local|normal|view
+struct SetOrientation {
+    Orientation orientation{};
+};
+/// see-through on|off
+struct SetSeeThrough {
+    bool on = true;
+};
+/// soft RADIUS: what is near to what is selected, along the cage's surface, moves too, less and less; 0: off.
+struct SetSoft {
+    double radius = 0; ///< a part of the model's longest side
+};
+/// mirror off | mirror x|y|z OFFSET: what is done on one side of a plane across an axis is done on the other too, to
+/// points that have a partner there, exactly.
+struct SetMirror {
+    std::optional<SymmetryPlane> plane;
 };
 
 using Command =
-    std::variant<OpenModel, OpenCage, CloseCage, SetOption, ResetOptions, ApplyPreset, SetCamera, ShowLayer, FadeLayer,
-                 ColourLayer, SetCageColours, SetSection, ShowGround, ShowAxes, SetTurntable, ShowTimes, Select>;
+    std::variant<OpenModel, OpenCage, CloseCage, SetOption, ResetOptions, ApplyPreset, SetCoordinates, MoveSelected,
+                 RotateSelected, ScaleSelected, EditCage, ResetPose, OpenPose, SetCamera, ShowLayer, FadeLayer,
+                 ColourLayer, SetCageColours, SetSection, ShowGround, ShowAxes, SetTurntable, ShowTimes, Select,
+                 SetMode, SetTool, SetOrientation, SetSeeThrough, SetSoft, SetMirror>;
 
 /// Whether it changes the document; else it changes the view.
 bool changesDocument(const Command& command);
@@ -103,7 +165,8 @@ std::vector<std::pair<std::string, std::string>> describeCommands();
 /// The commands that make this view of the default one, each layer and all.
 std::vector<Command> commandsFor(const ViewState& view);
 
-/// The state after the command. OpenModel and OpenCage read their file.
+/// The state after the command. OpenModel, OpenCage and OpenPose read their file. What moves or resets points needs a
+/// cage that is shown.
 /// \throw InputError, IoError; the state is as it was
 State applied(const State& state, const Command& command);
 

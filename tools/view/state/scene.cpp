@@ -51,11 +51,40 @@ OpenedMeshPtr openFile(const Json& file, const fs::path& scene)
     return openMesh(path);
 }
 
+/// A cage that was edited has no file of its own.
+OpenedMeshPtr editedCage(const fs::path& file)
+{
+    OpenedMesh edited;
+    edited.mesh = readMesh(file);
+    return std::make_shared<const OpenedMesh>(std::move(edited));
+}
+
+PosePtr poseOf(const fs::path& rest, const fs::path& posed)
+{
+    Pose pose{std::make_shared<const Mesh>(readMesh(rest)), readMesh(posed).points};
+    if (pose.points.size() != pose.rest->points.size()) {
+        throw InputError(posed.string() + ": it has " + std::to_string(pose.points.size()) +
+                         " points; the cage at rest " + rest.string() + " has " +
+                         std::to_string(pose.rest->points.size()));
+    }
+    return std::make_shared<const Pose>(std::move(pose));
+}
+
 } // namespace
 
 fs::path cageBeside(const fs::path& scene)
 {
     return fs::path(scene).replace_extension(".cage.obj");
+}
+
+fs::path restBeside(const fs::path& scene)
+{
+    return fs::path(scene).replace_extension(".rest.obj");
+}
+
+fs::path poseBeside(const fs::path& scene)
+{
+    return fs::path(scene).replace_extension(".pose.obj");
 }
 
 void saveScene(const State& state, const CageResult* current, const fs::path& path)
@@ -67,12 +96,19 @@ void saveScene(const State& state, const CageResult* current, const fs::path& pa
     for (const auto& [name, value] : optionValues(document.options)) options[name] = value;
     for (const Command& command : commandsFor(state.view)) view.push_back(toText(command));
     const bool hasMade = current && !document.cage;
+    const bool isEdited = document.cage && document.cage->path.empty();
+    const auto nameOf = [](const fs::path& file) { return file.filename().string(); };
     const Json scene{{"vdbcage_scene", formatVersion},
                      {"version", VDBCAGE_VERSION},
                      {"model", fileOf(*document.model, path)},
                      {"options", options},
-                     {"opened_cage", document.cage ? fileOf(*document.cage, path) : Json()},
-                     {"made_cage", hasMade ? Json(cageBeside(path).filename().string()) : Json()},
+                     {"opened_cage", document.cage && !isEdited ? fileOf(*document.cage, path) : Json()},
+                     {"made_cage", hasMade ? Json(nameOf(cageBeside(path))) : Json()},
+                     {"edited_cage", isEdited ? Json(nameOf(cageBeside(path))) : Json()},
+                     {"pose", document.pose
+                                  ? Json{{"rest", nameOf(restBeside(path))}, {"posed", nameOf(poseBeside(path))}}
+                                  : Json()},
+                     {"coordinates", coordinatesName(document.coordinates)},
                      {"view", view}};
     std::string text;
     try {
@@ -81,8 +117,17 @@ void saveScene(const State& state, const CageResult* current, const fs::path& pa
         throw InputError(path.string() + ": a name of a file is not UTF-8, as JSON must be");
     }
     PendingFiles files;
-    if (hasMade) {
-        files.add(cageBeside(path), [&](std::ostream& out) { writeMesh(current->cage, out, cageBeside(path)); });
+    const auto add = [&](const Mesh& mesh, const fs::path& file) {
+        files.add(file, [&mesh, file](std::ostream& out) { writeMesh(mesh, out, file); });
+    };
+    Mesh posed;
+    if (hasMade) add(current->cage, cageBeside(path));
+    if (isEdited) add(document.cage->mesh, cageBeside(path));
+    if (document.pose) {
+        posed = *document.pose->rest;
+        posed.points = document.pose->points;
+        add(*document.pose->rest, restBeside(path));
+        add(posed, poseBeside(path));
     }
     files.add(path, [&](std::ostream& out) { out << text; });
     files.commit();
@@ -110,6 +155,17 @@ State openScene(const fs::path& given)
         }
         state.document.model = openFile(scene.at("model"), path);
         if (!scene.at("opened_cage").is_null()) state.document.cage = openFile(scene.at("opened_cage"), path);
+        // Scenes of before there were poses have none of these.
+        if (scene.contains("edited_cage") && !scene["edited_cage"].is_null()) {
+            state.document.cage = editedCage(path.parent_path() / scene["edited_cage"].get<std::string>());
+        }
+        if (scene.contains("pose") && !scene["pose"].is_null()) {
+            state.document.pose = poseOf(path.parent_path() / scene["pose"].at("rest").get<std::string>(),
+                                         path.parent_path() / scene["pose"].at("posed").get<std::string>());
+        }
+        if (scene.contains("coordinates")) {
+            state.document.coordinates = coordinatesNamed(scene["coordinates"].get<std::string>());
+        }
     } catch (const Json::exception& error) {
         throw InputError(path.string() + ": it is no scene: " + error.what());
     } catch (const InputError& error) {

@@ -32,6 +32,30 @@ void Session::beginDrag()
 {
     isDragging_ = true;
     hasDraggedDocument_ = hasDraggedView_ = false;
+    dragged_ = state_;
+}
+
+void Session::replaceDragged(const Command& command)
+{
+    State changed = applied(dragged_, command);
+    note(documents_, hasDraggedDocument_, state_.document, changed.document, command);
+    state_.document = std::move(changed.document);
+}
+
+void Session::cancelDrag()
+{
+    isDragging_ = false;
+    if (hasDraggedDocument_) documents_.forget(state_.document);
+    hasDraggedDocument_ = false;
+}
+
+void Session::setCage(MeshPtr cage)
+{
+    const Mesh* const before = state_.cage.get();
+    const bool hasOtherFaces =
+        before && (!cage || cage->triangles != before->triangles || cage->quads != before->quads);
+    if (hasOtherFaces) state_.view.selection.ids.clear();
+    state_.cage = std::move(cage);
 }
 
 void Session::undo()

@@ -26,6 +26,12 @@ public:
         past_.push_back({before, change});
         future_.clear();
     }
+    /// Makes `value` what it was before the last change, which then never was. \pre canUndo()
+    void forget(Value& value)
+    {
+        value = std::move(past_.back().value);
+        past_.pop_back();
+    }
     /// Gives the last step another name. \pre canUndo()
     void rename(const std::string& change) { past_.back().change = change; }
 
@@ -63,7 +69,14 @@ public:
     /// Between these the commands of each part make one step, as a drag of the mouse does.
     void beginDrag();
     void endDrag() { isDragging_ = false; }
+    /// Does the command to the document as it was at beginDrag(), in place of what the drag did so far.
+    /// \pre isDragging(), changesDocument(command) \throw as execute
+    void replaceDragged(const Command& command);
+    /// Ends the drag; the document is as if it had not been.
+    void cancelDrag();
     bool isDragging() const { return isDragging_; }
+    /// The state at the last beginDrag().
+    const State& dragged() const { return dragged_; }
 
     const History<Document>& documents() const { return documents_; }
     const History<ViewState>& views() const { return views_; }
@@ -76,6 +89,10 @@ public:
     /// Another view without a step, as when it turns by itself.
     void replaceView(const ViewState& view) { state_.view = view; }
 
+    /// The cage at rest that is shown from now on; null: none. What is selected of it stays selected if its faces are
+    /// the same.
+    void setCage(MeshPtr cage);
+
     /// Takes another state, such as a scene's, and forgets the past.
     void restart(State state);
 
@@ -87,6 +104,7 @@ private:
     State state_;
     History<Document> documents_;
     History<ViewState> views_;
+    State dragged_; ///< before the drag
     bool isDragging_ = false, hasDraggedDocument_ = false, hasDraggedView_ = false;
 };
 

@@ -58,7 +58,8 @@ bool areEqual(const CageOptions& a, const CageOptions& b)
 
 bool operator==(const Document& a, const Document& b)
 {
-    return a.model == b.model && a.cage == b.cage && areEqual(a.options, b.options);
+    return a.model == b.model && a.cage == b.cage && areEqual(a.options, b.options) && areEqual(a.pose, b.pose) &&
+           a.coordinates == b.coordinates;
 }
 
 bool operator==(const ViewState& a, const ViewState& b)
@@ -67,7 +68,9 @@ bool operator==(const ViewState& a, const ViewState& b)
            std::equal(a.layers.begin(), a.layers.end(), b.layers.begin(),
                       [](const LayerLook& x, const LayerLook& y) { return areEqual(x, y); }) &&
            a.cageColours == b.cageColours && areEqual(a.section, b.section) && a.ground == b.ground &&
-           a.axes == b.axes && a.turntable == b.turntable && a.times == b.times && a.selection == b.selection;
+           a.axes == b.axes && a.turntable == b.turntable && a.times == b.times && a.mode == b.mode &&
+           a.tool == b.tool && a.orientation == b.orientation && a.seeThrough == b.seeThrough &&
+           a.softRadius == b.softRadius && a.mirror == b.mirror && a.selection == b.selection;
 }
 
 } // namespace vdbcage::view

@@ -8,7 +8,10 @@
 
 #include <tools/draw/camera.h>
 #include <tools/draw/colour.h>
+#include <tools/edit/elements.h>
 #include <tools/view/state/opened_mesh.h>
+#include <tools/view/state/pose.h>
+#include <vdbcage/mesh/symmetry.h>
 #include <vdbcage/pipeline/options.h>
 
 /// Everything that a user of the window can change. Values: a copy is a snapshot, and costs a few hundred bytes, since
@@ -19,7 +22,9 @@ namespace vdbcage::view {
 struct Document {
     OpenedMeshPtr model; ///< null: none
     CageOptions options;
-    OpenedMeshPtr cage; ///< a cage that was opened; null: it is made, by the options
+    OpenedMeshPtr cage; ///< a cage that was opened or edited; null: it is made, by the options
+    PosePtr pose;       ///< null: at rest
+    Coordinates coordinates = Coordinates::meanValue; ///< by which the model follows the pose
 };
 
 /// What can be seen, each in a layer of its own.
@@ -52,6 +57,34 @@ enum class CageColours : std::uint8_t {
     distance ///< from the cage to the model
 };
 
+/// What is moved.
+enum class Mode : std::uint8_t {
+    shape, ///< the cage at rest, without the model
+    pose   ///< the cage with the model
+};
+/// What the left button does in the picture, beside selecting.
+enum class Tool : std::uint8_t { select, move, rotate, scale };
+/// Along which axes things are moved, turned and scaled.
+enum class Orientation : std::uint8_t {
+    world,
+    local,  ///< the principal axes of what is selected
+    normal, ///< z is the mean normal of what is selected
+    view    ///< right, up and to the viewer
+};
+/// Changes of the cage's faces.
+enum class CageEdit : std::uint8_t {
+    split,    ///< edges in the middle
+    collapse, ///< edges to their middle
+    flip,     ///< edges of two triangles
+    merge,    ///< two triangles beside an edge to a quad
+    cut       ///< quads to triangles
+};
+constexpr std::array<const char*, 5> cageEditNames{"split", "collapse", "flip", "merge", "cut"};
+constexpr std::array<const char*, 3> elementNames{"points", "edges", "faces"};
+constexpr std::array<const char*, 2> modeNames{"shape", "pose"};
+constexpr std::array<const char*, 4> toolNames{"select", "move", "rotate", "scale"};
+constexpr std::array<const char*, 4> orientationNames{"world", "local", "normal", "view"};
+
 /// A plane that cuts off where normal . p > offset, in world space.
 struct SectionPlane {
     openvdb::Vec3d normal{1, 0, 0}; ///< not zero
@@ -64,11 +97,17 @@ struct ViewState {
     std::array<LayerLook, layerCount> layers = defaultLayers();
     CageColours cageColours = CageColours::kinds;
     std::optional<SectionPlane> section;
-    bool ground = true;                      ///< a grid below the model
-    bool axes = true;                        ///< small ones in a corner
-    bool turntable = false;                  ///< it turns by itself
-    bool times = true;                       ///< how long what took, which is never the same twice
-    std::vector<openvdb::Index32> selection; ///< faces of the cage, sorted, triangles first
+    bool ground = true;     ///< a grid below the model
+    bool axes = true;       ///< small ones in a corner
+    bool turntable = false; ///< it turns by itself
+    bool times = true;      ///< how long what took, which is never the same twice
+    Mode mode = Mode::shape;
+    Tool tool = Tool::select;
+    Orientation orientation = Orientation::world;
+    bool seeThrough = false;             ///< what is hidden is selected too
+    double softRadius = 0;               ///< of soft selection, a part of the model's longest side; 0: off
+    std::optional<SymmetryPlane> mirror; ///< what is done on one side of it is done on the other too
+    edit::Selection selection;           ///< of the cage
 
     const LayerLook& layer(LayerId id) const { return layers[static_cast<std::size_t>(id)]; }
     LayerLook& layer(LayerId id) { return layers[static_cast<std::size_t>(id)]; }
@@ -79,6 +118,9 @@ struct ViewState {
 struct State {
     Document document;
     ViewState view;
+    /// The cage at rest that is shown; null: none. It follows from the document after a while, so it has no history.
+    /// What is selected and moved are parts of it.
+    MeshPtr cage;
 };
 
 /// Values are compared as their text is; models by being the same object, since one that was read anew may differ.
@@ -93,6 +135,7 @@ inline bool operator!=(const ViewState& a, const ViewState& b)
 {
     return !(a == b);
 }
+/// By what a user can change.
 inline bool operator==(const State& a, const State& b)
 {
     return a.document == b.document && a.view == b.view;

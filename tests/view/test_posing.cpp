@@ -1,0 +1,192 @@
+// Posing and editing in the window, without one.
+#include <boost/test/unit_test.hpp>
+
+#include <atomic>
+#include <random>
+#include <thread>
+
+#include "app_fixture.h"
+#include <tools/view/state/move.h>
+#include <tools/view/state/words.h>
+#include <vdbcage/core/error.h>
+
+using namespace vdbcage;
+using namespace vdbcage::test;
+using namespace vdbcage::view;
+using openvdb::Vec3d;
+
+namespace fs = std::filesystem;
+
+namespace {
+
+struct Fixture : AppFixture {
+    App app{context.api(), setup()};
+
+    Fixture() { run(app, {"open " + quotedWord(files[0]), "wait", "mode pose", "wait", "key 1"}); }
+    std::vector<Vec3d> points() const { return cagePoints(app.session().state()); }
+    /// The last line does what was done, which is undone.
+    void checkLine(const std::string& tool, const std::vector<Vec3d>& before)
+    {
+        const std::vector<Vec3d> dragged = points();
+        BOOST_TEST_CONTEXT(recorded.back())
+        {
+            BOOST_TEST(dragged != before);
+            BOOST_TEST((recorded.back().rfind(tool, 0) == 0));
+            runLine(app, "undo");
+            BOOST_TEST(points() == before, boost::test_tools::per_element());
+            runLine(app, recorded.back());
+            BOOST_TEST(points() == dragged, boost::test_tools::per_element());
+            runLine(app, "undo");
+        }
+    }
+    /// Selects the points in a part of the picture, by a box.
+    void selectBox(double x0, double y0, double x1, double y1)
+    {
+        const auto at = [](double x, double y) {
+            return "mouse move picture " + std::to_string(x) + ' ' + std::to_string(y);
+        };
+        run(app, {"key b", at(x0, y0), "mouse down", at(x1, y1), "mouse up"});
+    }
+};
+
+} // namespace
+
+BOOST_FIXTURE_TEST_SUITE(posing, Fixture)
+
+BOOST_AUTO_TEST_CASE(typed_numbers_are_those_of_the_command)
+{
+    struct Case {
+        std::vector<std::string> keys;
+        std::string line;
+    };
+    selectBox(0, 0, 1, 0.4);
+    BOOST_TEST(std::stoi(app.value("selected")) > 3);
+    const auto frame = selectionFrame(app.session().state(), {});
+    BOOST_TEST_REQUIRE(frame.has_value());
+    const std::string pivot = toText(RotateSelected{{0, 0, 1}, 30, frame->origin}).substr(16);
+    for (const Case& c :
+         {Case{{"key g", "key x", "key 0", "key period", "key 2", "key 5", "key enter"}, "move 0.25 0 0"},
+          Case{{"key g", "key shift+z", "key 1", "key tab", "key minus", "key 2", "key enter"}, "move 1 -2 0"},
+          Case{{"key r", "key z", "key 3", "key 0", "key enter"}, "rotate 0 0 1 30 " + pivot},
+          Case{{"key s", "key 2", "key enter"}, "scale 2 2 2 " + pivot},
+          Case{{"key s", "key y", "key period", "key 5", "key enter"}, "scale 1 0.5 1 " + pivot}}) {
+        const std::vector<Vec3d> before = points();
+        run(app, c.keys);
+        BOOST_TEST(app.value("messages") == "0");
+        BOOST_TEST(recorded.back() == c.line);
+        const std::vector<Vec3d> typed = points();
+        BOOST_TEST(typed != before);
+        run(app, {"undo", c.line});
+        BOOST_TEST(points() == typed, boost::test_tools::per_element());
+        runLine(app, "undo");
+        BOOST_TEST(points() == before, boost::test_tools::per_element());
+    }
+}
+
+BOOST_AUTO_TEST_CASE(what_a_drag_does_is_what_its_line_does)
+{
+    for (const char* tool : {"move", "rotate", "scale"}) {
+        for (const char* orientation : {"world", "local", "normal", "view"}) {
+            run(app, {std::string("tool ") + tool, std::string("orientation ") + orientation});
+            selectBox(0.3, 0, 1, 0.6);
+            const std::vector<Vec3d> before = points();
+            for (const char* handle : {"x", "y", "z", "plane-x", "screen"}) {
+                if (!app.widget(std::string("handle.") + handle)) continue; // it is seen from its end
+                run(app, {std::string("mouse move handle.") + handle, "mouse down", "mouse by 20 -9", "mouse by 11 5",
+                          "mouse up"});
+                checkLine(tool, before);
+            }
+        }
+    }
+}
+
+BOOST_AUTO_TEST_CASE(escape_gives_up_and_undo_gives_the_first_picture)
+{
+    selectBox(0, 0, 1, 0.4);
+    runLine(app, "mouse move picture 0.01 0.99");
+    const draw::Picture first = app.picture();
+    const std::string undo = app.value("undo");
+    run(app, {"key g", "mouse move picture 0.2 0.2", "key escape", "mouse move picture 0.01 0.99"});
+    BOOST_TEST(app.value("undo") == undo);
+    BOOST_TEST(samePicture(app.picture(), first));
+    run(app, {"key g", "mouse move picture 0.2 0.2", "mouse click", "wait", "mouse move picture 0.01 0.99"});
+    BOOST_TEST(!samePicture(app.picture(), first));
+    run(app, {"undo", "wait"});
+    BOOST_TEST(samePicture(app.picture(), first));
+}
+
+BOOST_AUTO_TEST_CASE(keys_select)
+{
+    const int count = static_cast<int>(app.session().state().cage->points.size());
+    run(app, {"key a", "expect selected " + std::to_string(count), "key control+i", "expect selected 0", "key a",
+              "key alt+a", "expect selected 0", "see-through on"});
+    selectBox(0, 0, 1, 0.3);
+    const int few = std::stoi(app.value("selected"));
+    BOOST_TEST((few > 0 && few < count));
+    run(app, {"key control+up", "expect selected >" + std::to_string(few), "key control+down",
+              "expect selected " + std::to_string(few), "key l", "expect selected " + std::to_string(count), "key 3",
+              "expect select-kind faces", "expect selected >1", "key 2", "expect select-kind edges", "key alt+a",
+              "key tab", "expect mode shape", "key tab", "expect mode pose"});
+}
+
+BOOST_AUTO_TEST_CASE(without_a_selection_a_grab_says_so)
+{
+    run(app, {"key g", "expect messages 1", "key escape", "expect messages 0"});
+}
+
+BOOST_AUTO_TEST_CASE(a_pose_stays_with_another_cage_and_a_scene_keeps_it)
+{
+    selectBox(0, 0, 1, 0.4);
+    run(app, {"move 0.5 0 0", "coordinates green", "wait", "expect bound yes"});
+    const fs::path scene = folder / "posed.json", again = folder / "again.json";
+    run(app, {"save-scene " + quotedWord(scene.string()), "mouse move picture 0.01 0.99"});
+    const draw::Picture posed = app.picture();
+    App other(context.api(), setup());
+    run(other, {"open-scene " + quotedWord(scene.string()), "wait", "mouse move picture 0.01 0.99"});
+    BOOST_TEST(cagePoints(other.session().state()) == points(), boost::test_tools::per_element());
+    other.attempt("save-scene " + quotedWord(again.string()));
+    for (const char* ending : {".cage.obj", ".rest.obj", ".pose.obj"}) {
+        const Mesh a = readMesh(fs::path(scene).replace_extension(ending));
+        BOOST_TEST(sameMesh(a, readMesh(fs::path(again).replace_extension(ending))));
+    }
+    run(other, {"set faces 500", "wait", "expect posed yes"}); // the ball is the same
+    BOOST_TEST(cagePoints(other.session().state()) == points(), boost::test_tools::per_element());
+}
+
+BOOST_AUTO_TEST_CASE(a_cage_that_is_edited_is_seen_and_moved_at_once)
+{
+    run(app, {"mode shape", "key 2"});
+    selectBox(0, 0, 1, 0.3);
+    run(app, {"move 0 0.01 0", "move 0 0.01 0"});
+    BOOST_TEST(app.session().state().document.cage->path.empty());
+    const Mesh& edited = app.session().state().document.cage->mesh;
+    BOOST_TEST(app.session().state().cage->points == edited.points, boost::test_tools::per_element());
+    run(app, {"wait", "expect standing current", "undo", "undo", "wait", "expect opened-cage none"});
+}
+
+BOOST_AUTO_TEST_SUITE_END()
+
+BOOST_FIXTURE_TEST_SUITE(endless_binding, AppFixture)
+
+BOOST_AUTO_TEST_CASE(everything_else_answers)
+{
+    AppSetup with = setup();
+    with.binding = [](const BindOrder& order, Interrupter& interrupter, const auto& publish) -> BoundModelPtr {
+        publish(boundCoarsely(order, &interrupter));
+        for (;;) {
+            throwIfInterrupted(&interrupter, 1);
+            std::this_thread::yield();
+        }
+    };
+    App app(context.api(), std::move(with));
+    run(app, {"open " + quotedWord(files[0]), "wait", "mode pose", "key 1", "key a", "key 1"});
+    while (app.value("bound") != "coarsely") app.update();
+    const draw::Picture rest = app.picture();
+    run(app, {"move 0.1 0 0", "layer cage off", "undo-view", "set faces 300", "undo", "key 3", "key 1", "look top",
+              "undo-view", "expect posed yes", "expect messages 0"});
+    BOOST_TEST(!samePicture(app.picture(), rest)); // the stand-in has moved
+    run(app, {"undo", "expect posed no", "key escape"});
+    app.waitUntilSettled(); // it was cancelled
+}
+
+BOOST_AUTO_TEST_SUITE_END()

@@ -1,0 +1,150 @@
+// What is done in the picture: mode, what is selected, tool, and how what is selected moves.
+#include <cstdio>
+
+#include <tools/view/panels/parts.h>
+#include <vdbcage/core/detail/number_text.h>
+
+namespace vdbcage::view {
+
+namespace {
+
+struct Choice {
+    const char* label;
+    std::string line;
+    bool isOn;
+    const char* text;
+};
+
+/// Buttons side by side, of which one is down.
+void choices(const PanelContext& context, const char* group, const std::vector<Choice>& list)
+{
+    for (const Choice& choice : list) {
+        if (&choice != &list.front()) ImGui::SameLine(0, length(1));
+        if (choice.isOn) ImGui::PushStyleColor(ImGuiCol_Button, toImGui(theme::selected));
+        if (ImGui::Button(choice.label)) context.ask(choice.line);
+        if (choice.isOn) ImGui::PopStyleColor();
+        const std::string name = choice.line.substr(choice.line.rfind(' ') + 1);
+        context.name(std::string(group) + '.' + name);
+        help(choice.text);
+    }
+}
+
+void gap()
+{
+    ImGui::SameLine(0, length(14));
+}
+
+/// A list of which one is chosen; its lines are VERB CHOICE.
+void list(const PanelContext& context, const std::string& verb, const std::vector<std::array<const char*, 3>>& entries,
+          std::size_t chosen, float width)
+{
+    ImGui::SetNextItemWidth(width);
+    const bool isOpen = ImGui::BeginCombo(("##" + verb).c_str(), entries[chosen][1]);
+    context.name(verb);
+    if (!isOpen) return help(entries[chosen][2]);
+    for (std::size_t i = 0; i < entries.size(); ++i) {
+        if (ImGui::Selectable(entries[i][1], i == chosen)) context.ask(verb + ' ' + entries[i][0]);
+        context.name(verb + '.' + entries[i][0]);
+        help(entries[i][2]);
+    }
+    ImGui::EndCombo();
+}
+
+void buildMirror(const PanelContext& context, const ViewState& view)
+{
+    muted("Mirror");
+    for (int axis = 0; axis < 3; ++axis) {
+        ImGui::SameLine(0, axis == 0 ? length(6) : length(1));
+        const bool isOn = view.mirror && view.mirror->axis == axis;
+        if (isOn) ImGui::PushStyleColor(ImGuiCol_Button, toImGui(theme::selected));
+        const std::string name(1, "xyz"[axis]), label(1, "XYZ"[axis]);
+        if (ImGui::Button((label + "##mirror").c_str())) context.ask("toggle mirror-" + name);
+        if (isOn) ImGui::PopStyleColor();
+        context.name("mirror." + name);
+        help("what is done on one side of the cage is done on the other too, to points that have a partner there");
+    }
+}
+
+void buildSoft(const PanelContext& context, const ViewState& view)
+{
+    muted("Soft");
+    ImGui::SameLine(0, length(6));
+    float radius = static_cast<float>(view.softRadius);
+    ImGui::SetNextItemWidth(length(70));
+    if (ImGui::SliderFloat("##soft", &radius, 0, 0.5F, radius > 0 ? "%.2f" : "off", ImGuiSliderFlags_AlwaysClamp)) {
+        context.ask("soft " + detail::numberText(std::round(100 * double{radius}) / 100));
+    }
+    context.followDrag();
+    context.name("soft");
+    help("what is nearer than this along the cage moves too, less and less; a part of the model's longest side");
+}
+
+void buildBinding(const PanelContext& context)
+{
+    const PanelContent& content = context.content;
+    if (!content.bindingError.empty()) {
+        coloured(theme::bad, "not bound");
+        return help(content.bindingError);
+    }
+    if (!content.binding) return;
+    std::string text = content.binding->stage.empty() ? "bind" : content.binding->stage;
+    if (content.binding->percent >= 0) text += ' ' + std::to_string(content.binding->percent) + " %";
+    coloured(theme::accent, text);
+    help("the model's points are being bound to the cage; until then a coarse stand-in follows. Escape stops it");
+}
+
+} // namespace
+
+void buildToolbar(const PanelContext& context)
+{
+    const State& state = context.content.session.state();
+    const ViewState& view = state.view;
+    const bool isPose = view.mode == Mode::pose;
+    ImGui::BeginDisabled(!state.document.model);
+    choices(context, "mode",
+            {{"Shape", "mode shape", !isPose, "moves the cage at rest; the model stays (Tab)"},
+             {"Pose", "mode pose", isPose, "moves the cage, and the model with it (Tab)"}});
+    gap();
+    const edit::Element kind = view.selection.kind;
+    choices(context, "select-kind",
+            {{"Points", "select-kind points", kind == edit::Element::point, "selects points of the cage (1)"},
+             {"Edges", "select-kind edges", kind == edit::Element::edge, "selects edges of the cage (2)"},
+             {"Faces", "select-kind faces", kind == edit::Element::face, "selects faces of the cage (3)"}});
+    gap();
+    choices(context, "tool",
+            {{"Select", "tool select", view.tool == Tool::select, "no handles (W)"},
+             {"Move", "tool move", view.tool == Tool::move, "handles that move what is selected (G moves it freely)"},
+             {"Rotate", "tool rotate", view.tool == Tool::rotate, "handles that turn it (R turns it freely)"},
+             {"Scale", "tool scale", view.tool == Tool::scale, "handles that scale it (S scales it freely)"}});
+    gap();
+    list(context, "orientation",
+         {{"world", "World", "handles along the axes of the world"},
+          {"local", "Local", "handles along the principal axes of what is selected"},
+          {"normal", "Normal", "handles along the mean normal of what is selected"},
+          {"view", "View", "handles to the right, up and to the viewer"}},
+         static_cast<std::size_t>(view.orientation), length(82));
+    gap();
+    bool seeThrough = view.seeThrough;
+    if (ImGui::Checkbox("See through", &seeThrough)) context.ask(seeThrough ? "see-through on" : "see-through off");
+    context.name("see-through");
+    help("selects what is hidden too (Shift+Z)");
+    gap();
+    buildMirror(context, view);
+    gap();
+    buildSoft(context, view);
+    gap();
+    if (isPose) {
+        list(context, "coordinates",
+             {{"mvc", "Mean value", "mean value coordinates: smooth, defined everywhere, can be negative"},
+              {"green", "Green", "Green coordinates: they keep shapes and follow the faces' normals"},
+              {"mlc", "Maximum likelihood", "maximum likelihood coordinates: local, never negative"}},
+             static_cast<std::size_t>(state.document.coordinates), length(150));
+        gap();
+        buildBinding(context);
+    } else {
+        ImGui::NewLine();
+    }
+    ImGui::EndDisabled();
+}
+
+} // namespace vdbcage::view

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include <tools/draw/stand_in.h>
+#include <tools/view/state/opened_mesh.h>
+#include <vdbcage/core/interrupter.h>
+#include <vdbcage/deform/binding.h>
+
+namespace vdbcage::view {
+
+using MeshPtr = std::shared_ptr<const Mesh>;
+
+/// Everything that a binding depends on. Cages are compared by what they are: one that was made anew and came out the
+/// same is the same.
+struct BindOrder {
+    OpenedMeshPtr model;
+    MeshPtr cage; ///< at rest; not null
+    Coordinates family = Coordinates::meanValue;
+};
+bool operator==(const BindOrder& a, const BindOrder& b);
+inline bool operator!=(const BindOrder& a, const BindOrder& b)
+{
+    return !(a == b);
+}
+
+/// A model bound to a cage: coarsely at first, then whole. It never changes.
+struct BoundModel {
+    BindOrder order;
+    std::shared_ptr<const draw::StandIn> standIn; ///< of the model
+    std::shared_ptr<const Binding> coarse;        ///< of the points that the stand-in's go with
+    std::shared_ptr<const Binding> whole;         ///< of the model's points; null: not yet
+};
+using BoundModelPtr = std::shared_ptr<const BoundModel>;
+
+/// At most so many triangles a stand-in of a model has: a tenth of the model's, and so many as are drawn at once.
+std::size_t coarseTriangles(const Mesh& model);
+
+/// Binds the stand-in. Its points are some of the model's, at most about a tenth, so it costs about as much of the
+/// whole.
+/// \throw InputError as Binding, naming the file; Cancelled
+BoundModelPtr boundCoarsely(const BindOrder& order, Interrupter* interrupter);
+/// Binds the rest. \throw as boundCoarsely
+BoundModelPtr boundWhole(const BoundModel& coarse, Interrupter* interrupter);
+
+/// Where the stand-in's points are when the model's points that they go with are at `posed` (one each): they keep their
+/// distance from these.
+std::vector<openvdb::Vec3d> posedStandIn(const draw::StandIn& standIn, const Mesh& model,
+                                         const std::vector<openvdb::Vec3d>& posed);
+
+} // namespace vdbcage::view

@@ -1,0 +1,294 @@
+#include <tools/view/state/move.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <openvdb/math/Mat3.h>
+#include <tools/edit/mirror.h>
+#include <tools/edit/selection.h>
+#include <tools/edit/soft.h>
+#include <tools/edit/topology.h>
+#include <vdbcage/core/error.h>
+
+namespace vdbcage::view {
+
+namespace {
+
+using openvdb::Index32;
+using openvdb::Vec3d;
+
+const MeshPtr& cageOf(const State& state)
+{
+    if (!state.cage) throw InputError("there is no cage yet");
+    return state.cage;
+}
+
+std::vector<Index32> requiredPoints(const State& state)
+{
+    std::vector<Index32> points = selectedPoints(state);
+    if (points.empty()) throw InputError("nothing of the cage is selected");
+    return points;
+}
+
+/// How far each point goes with what is selected.
+std::vector<double> weightsOf(const State& state, const std::vector<Index32>& points)
+{
+    const Mesh& cage = *state.cage;
+    if (state.view.softRadius > 0) {
+        const Vec3d extents = boundingBox(state.document.model ? state.document.model->mesh : cage).extents();
+        const double longest = std::max({extents.x(), extents.y(), extents.z()});
+        return edit::softWeights(edit::Elements(cage), cage.points, points, state.view.softRadius * longest);
+    }
+    std::vector<double> weights(cage.points.size(), 0);
+    for (const Index32 i : points) weights[i] = 1;
+    return weights;
+}
+
+/// Axes of which the last is along `normal`, or those of the world if it is 0.
+std::array<Vec3d, 3> axesWithZ(const Vec3d& normal)
+{
+    const double length = normal.length();
+    if (!(length > 0)) return {Vec3d(1, 0, 0), Vec3d(0, 1, 0), Vec3d(0, 0, 1)};
+    const Vec3d z = normal / length;
+    // The axis of the world that is least along it.
+    int least = 0;
+    for (int k = 1; k < 3; ++k) {
+        if (std::abs(z[k]) < std::abs(z[least])) least = k;
+    }
+    Vec3d side(0);
+    side[least] = 1;
+    const Vec3d x = (side - z * z[least]).unit();
+    return {x, z.cross(x), z};
+}
+
+/// The sum of the area vectors of the faces that touch what is selected.
+Vec3d meanNormal(const Mesh& cage, const std::vector<Vec3d>& points, const std::vector<Index32>& selected)
+{
+    Vec3d sum(0);
+    for (const openvdb::Vec3I& t : triangulate(cage)) {
+        const bool touches = std::binary_search(selected.begin(), selected.end(), t[0]) ||
+                             std::binary_search(selected.begin(), selected.end(), t[1]) ||
+                             std::binary_search(selected.begin(), selected.end(), t[2]);
+        if (touches) sum += (points[t[1]] - points[t[0]]).cross(points[t[2]] - points[t[0]]);
+    }
+    return sum;
+}
+
+/// The axes of the least and largest extents: x along the longest.
+std::array<Vec3d, 3> principalAxes(const std::vector<Vec3d>& points, const std::vector<Index32>& selected,
+                                   const Vec3d& mean)
+{
+    openvdb::Mat3d covariance = openvdb::Mat3d::zero(), vectors;
+    for (const Index32 i : selected) {
+        const Vec3d d = points[i] - mean;
+        for (int r = 0; r < 3; ++r) {
+            for (int c = 0; c < 3; ++c) covariance[r][c] += d[r] * d[c];
+        }
+    }
+    Vec3d values;
+    if (!openvdb::math::diagonalizeSymmetricMatrix(covariance, vectors, values)) return axesWithZ(Vec3d(0));
+    std::array<int, 3> order{0, 1, 2};
+    std::sort(order.begin(), order.end(), [&](int a, int b) { return values[a] > values[b]; });
+    const Vec3d x = vectors.col(order[0]).unit(), y = vectors.col(order[1]).unit();
+    return {x, y, x.cross(y)};
+}
+
+Document withCage(const State& state, Mesh cage)
+{
+    OpenedMesh edited;
+    edited.mesh = std::move(cage);
+    Document document = state.document;
+    document.cage = std::make_shared<const OpenedMesh>(std::move(edited));
+    return document;
+}
+
+Document withCagePoints(const State& state, std::vector<Vec3d> points)
+{
+    if (state.view.mode == Mode::pose) return withPose(state, std::move(points));
+    Mesh cage = *state.cage;
+    cage.points = std::move(points);
+    return withCage(state, std::move(cage));
+}
+
+using Edge = std::pair<Index32, Index32>;
+
+/// The selected edges by their points; of points and faces the edges between them.
+std::vector<Edge> selectedEdges(const edit::Elements& elements, const edit::Selection& selection)
+{
+    std::vector<Edge> edges;
+    if (selection.kind == edit::Element::face) {
+        // An edge between two of them.
+        for (Index32 e = 0; e < elements.edges().size(); ++e) {
+            const edit::Ids faces = elements.facesOfEdge(e);
+            const auto isSelected = [&](Index32 face) {
+                return std::binary_search(selection.ids.begin(), selection.ids.end(), face);
+            };
+            if (faces.size() == 2 && isSelected(faces[0]) && isSelected(faces[1])) edges.push_back(elements.edges()[e]);
+        }
+        return edges;
+    }
+    for (const Index32 e : edit::converted(elements, selection, edit::Element::edge).ids) {
+        edges.push_back(elements.edges()[e]);
+    }
+    return edges;
+}
+
+Mesh withEditedEdges(Mesh cage, std::vector<Edge> edges, CageEdit edit)
+{
+    for (std::size_t i = 0; i < edges.size(); ++i) {
+        const auto [a, b] = edges[i];
+        const Index32 edge = edit::Elements(cage).edgeBetween(a, b);
+        if (edge == edit::none) continue; // one before it took it away
+        if (edit == CageEdit::split) cage = edit::splitEdge(cage, edge);
+        if (edit == CageEdit::flip) cage = edit::flipEdge(cage, edge);
+        if (edit == CageEdit::merge) cage = edit::mergeFaces(cage, edge);
+        if (edit != CageEdit::collapse) continue;
+        cage = edit::collapseEdge(cage, edge);
+        // The larger index is gone.
+        for (Edge& other : edges) {
+            for (Index32* const end : {&other.first, &other.second}) {
+                if (*end == b) {
+                    *end = a;
+                } else if (*end > b) {
+                    --*end;
+                }
+            }
+        }
+    }
+    return cage;
+}
+
+/// From the last quad on: those before it keep their places among quads.
+Mesh withCutQuads(Mesh cage, const std::vector<Index32>& faces)
+{
+    const std::size_t triangles = cage.triangles.size();
+    for (auto i = faces.rbegin(); i != faces.rend() && *i >= triangles; ++i) {
+        cage = edit::cutQuad(cage, static_cast<Index32>(cage.triangles.size() + (*i - triangles)));
+    }
+    return cage;
+}
+
+} // namespace
+
+std::vector<Index32> selectedPoints(const State& state)
+{
+    if (!state.cage) return {};
+    const edit::Elements elements(*state.cage);
+    edit::Selection selection = state.view.selection;
+    // A script may name what this cage does not have.
+    const auto end = std::lower_bound(selection.ids.begin(), selection.ids.end(), elements.count(selection.kind));
+    selection.ids.erase(end, selection.ids.end());
+    return edit::pointsOf(elements, selection);
+}
+
+std::vector<Vec3d> cagePoints(const State& state)
+{
+    if (!state.cage) return {};
+    return state.view.mode == Mode::pose ? posedPoints(state.document.pose, state.cage) : state.cage->points;
+}
+
+std::optional<SelectionFrame> selectionFrame(const State& state, const std::array<Vec3d, 3>& view)
+{
+    const std::vector<Index32> selected = selectedPoints(state);
+    if (selected.empty()) return std::nullopt;
+    const std::vector<Vec3d> points = cagePoints(state);
+    SelectionFrame frame;
+    for (const Index32 i : selected) frame.origin += points[i] / static_cast<double>(selected.size());
+    switch (state.view.orientation) {
+    case Orientation::world:
+        frame.axes = axesWithZ(Vec3d(0));
+        break;
+    case Orientation::local:
+        frame.axes = principalAxes(points, selected, frame.origin);
+        break;
+    case Orientation::normal:
+        frame.axes = axesWithZ(meanNormal(*state.cage, points, selected));
+        break;
+    case Orientation::view:
+        frame.axes = view;
+        break;
+    }
+    return frame;
+}
+
+Document withMotion(const State& state, const edit::Motion& motion)
+{
+    const Mesh& cage = *cageOf(state);
+    const std::vector<double> weights = weightsOf(state, requiredPoints(state));
+    const std::vector<Vec3d> before = cagePoints(state);
+    std::vector<Vec3d> after = edit::moved(before, weights, motion);
+    if (const auto& plane = state.view.mirror) {
+        std::vector<Index32> ids;
+        for (Index32 i = 0; i < weights.size(); ++i) {
+            if (weights[i] > 0) ids.push_back(i);
+        }
+        const auto partners = edit::mirrorPartners(cage.points, plane->axis, plane->offset);
+        after = edit::mirrored(before, after, ids, partners, plane->axis, plane->offset);
+    }
+    for (const Vec3d& p : after) {
+        if (!p.isFinite()) throw InputError("a point would be moved out of all numbers");
+    }
+    return withCagePoints(state, std::move(after));
+}
+
+Document withEdit(const State& state, CageEdit edit)
+{
+    const Mesh& cage = *cageOf(state);
+    if (state.view.mode != Mode::shape) throw InputError("the faces of the cage are changed in mode shape");
+    requiredPoints(state);
+    const edit::Elements elements(cage);
+    if (edit == CageEdit::cut) {
+        return withCage(state,
+                        withCutQuads(cage, edit::converted(elements, state.view.selection, edit::Element::face).ids));
+    }
+    std::vector<Edge> edges = selectedEdges(elements, state.view.selection);
+    if (edges.empty()) throw InputError("no edge of the cage is selected, nor one between what is");
+    return withCage(state, withEditedEdges(cage, std::move(edges), edit));
+}
+
+Document withResetPose(const State& state, bool onlySelected)
+{
+    Document document = state.document;
+    if (!onlySelected) {
+        document.pose.reset();
+        return document;
+    }
+    const MeshPtr& cage = cageOf(state);
+    std::vector<Vec3d> points = posedPoints(document.pose, cage);
+    for (const Index32 i : requiredPoints(state)) points[i] = cage->points[i];
+    return withPose(state, std::move(points));
+}
+
+std::vector<Vec3d> openPose(const State& state, const std::string& path)
+{
+    const Mesh& cage = *cageOf(state);
+    const OpenedMeshPtr posed = openMesh(path);
+    // Readers split quads that are concave, which a pose may make of any: only the sum tells.
+    const auto triangles = [](const Mesh& mesh) { return mesh.triangles.size() + 2 * mesh.quads.size(); };
+    if (posed->mesh.points.size() != cage.points.size() || triangles(posed->mesh) != triangles(cage)) {
+        throw InputError(posed->path.string() + ": it has " + std::to_string(posed->mesh.points.size()) +
+                         " points and " + std::to_string(triangles(posed->mesh)) +
+                         " triangles, quads as two; the cage that is shown has " + std::to_string(cage.points.size()) +
+                         " and " + std::to_string(triangles(cage)));
+    }
+    return posed->mesh.points;
+}
+
+Document withPose(const State& state, std::vector<Vec3d> points)
+{
+    const MeshPtr& cage = cageOf(state);
+    if (points.size() != cage->points.size()) {
+        throw InputError("the pose has " + std::to_string(points.size()) + " points; the cage has " +
+                         std::to_string(cage->points.size()));
+    }
+    for (const Vec3d& p : points) {
+        if (!p.isFinite()) throw InputError("the pose has a point that is not finite");
+    }
+    Document document = state.document;
+    // At rest there is no pose, whatever way led there.
+    document.pose = points == cage->points ? nullptr : std::make_shared<const Pose>(Pose{cage, std::move(points)});
+    return document;
+}
+
+} // namespace vdbcage::view

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <tools/edit/motion.h>
+#include <tools/view/state/state.h>
+
+/// What is done with the selected points of the cage that is shown. Each function returns the document after it and
+/// throws InputError where there is no cage, or nothing of it is selected.
+namespace vdbcage::view {
+
+/// The points that are selected, or belong to what is. They are numbers of points that the cage has.
+std::vector<openvdb::Index32> selectedPoints(const State& state);
+
+/// Where the cage's points are now: posed in mode pose, else at rest. Empty without a cage.
+std::vector<openvdb::Vec3d> cagePoints(const State& state);
+
+/// Where what is selected is moved, turned and scaled from, and along which axes.
+struct SelectionFrame {
+    openvdb::Vec3d origin{0};             ///< the mean of the selected points, world space
+    std::array<openvdb::Vec3d, 3> axes{}; ///< orthonormal, right-handed
+};
+/// By the view's orientation; `view`: right, up and to the viewer. None: there is nothing to move.
+std::optional<SelectionFrame> selectionFrame(const State& state, const std::array<openvdb::Vec3d, 3>& view);
+
+/// Moves what is selected, and with it what soft selection and the mirror add. In mode pose the pose changes, else the
+/// cage at rest.
+/// \throw InputError also where a point would be no finite number
+Document withMotion(const State& state, const edit::Motion& motion);
+
+/// Changes the faces of the cage at rest: of what is selected, one after the other, as edit::splitEdge and the others.
+/// Edges are those that are selected, or else those between selected points or faces.
+/// \throw InputError also: the mode is not shape, or one of them cannot be changed so
+Document withEdit(const State& state, CageEdit edit);
+
+/// The pose undone: that of all points, or of those that are selected.
+Document withResetPose(const State& state, bool onlySelected);
+
+/// The points of the posed cage in the file at `path`.
+/// \throw InputError, IoError naming the file: it has other faces than the cage
+std::vector<openvdb::Vec3d> openPose(const State& state, const std::string& path);
+
+/// The pose in which the cage's points are at `points`.
+/// \throw InputError not as many as the cage has, or one not finite
+Document withPose(const State& state, std::vector<openvdb::Vec3d> points);
+
+} // namespace vdbcage::view
