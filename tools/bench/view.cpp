@@ -150,6 +150,47 @@ Json measureDrag(App& app, const Mesh& model, double seconds)
             {"let_go_over_full_run", settled / full}};
 }
 
+/// Binding the model to its cage, coarsely and whole, CPU seconds; and what following a pose costs in one frame, by
+/// each family, against drawing the model once.
+Json measurePosing(App& app)
+{
+    constexpr int runs = 5;
+    runLine(app, "set faces 400");
+    runLine(app, "mode pose");
+    runLine(app, "select-kind points");
+    runLine(app, "select-all");
+    app.waitUntilSettled();
+    Json list = Json::object();
+    for (const Coordinates family : {Coordinates::meanValue, Coordinates::green, Coordinates::maximumLikelihood}) {
+        const State& state = app.session().state();
+        const BindOrder order{state.document.model, state.cage, family};
+        BoundModelPtr coarse;
+        const double first = costOf([&] { coarse = boundCoarsely(order, nullptr); }).cpuSeconds;
+        const double whole = costOf([&] { boundWhole(*coarse, nullptr); }).cpuSeconds;
+        runLine(app, std::string("coordinates ") + coordinatesName(family));
+        app.waitUntilSettled();
+        double follow = 1e9, draw = 1e9, frame = 1e9;
+        for (int run = 0; run < runs; ++run) {
+            // Each point moves: none of the weights can be left out.
+            const std::string line = "rotate 0 1 0 0.1 0 0 0";
+            follow = std::min(follow, costOf([&] { runLine(app, line); }).cpuSeconds);
+            app.picture();
+            app.attempt("opacity model " + std::to_string(run % 2 == 0 ? 1 : 0.999)); // something to draw anew
+            draw = std::min(draw, costOf([&] { app.drawFrame(); }).cpuSeconds);
+            frame = std::min(frame, secondsOf([&] {
+                                 runLine(app, line);
+                                 app.drawFrame();
+                             }));
+        }
+        list[coordinatesName(family)] = {
+            {"first_bound_cpu_seconds", first}, {"bound_cpu_seconds", whole}, {"first_bound_over_bound", first / whole},
+            {"follow_cpu_seconds", follow},     {"draw_cpu_seconds", draw},   {"follow_over_draw", follow / draw},
+            {"frames_per_second", 1 / frame}};
+    }
+    runLine(app, "mode shape");
+    return list;
+}
+
 /// Says stop from some moment on.
 struct Stopper : Interrupter {
     std::atomic<bool> stop{false};
@@ -242,6 +283,7 @@ int runView(int argc, char** argv)
                     {"first_frame_over_reading_and_context", reading.first / reading.base},
                     {"frames", measureFrames(*app)},
                     {"drag", measureDrag(*app, opened->mesh, seconds)},
+                    {"posing", measurePosing(*app)},
                     {"idle_frames", idleFrames(*app)},
                     {"cancels", measureCancels(opened, cancels)}};
     std::cout << line.dump() << std::endl;

@@ -7,20 +7,19 @@
 #include <map>
 #include <system_error>
 
-#include <tools/edit/selection.h>
 #include <tools/view/picture_control.h>
 #include <tools/view/saving.h>
-#include <tools/view/state/binder.h>
+#include <tools/view/selecting.h>
 #include <tools/view/state/folder.h>
-#include <tools/view/state/move.h>
+#include <tools/view/state/posing.h>
 #include <tools/view/state/scene.h>
 #include <tools/view/state/words.h>
+#include <tools/view/values.h>
 #include <tools/view/verbs.h>
 #include <tools/view/viewport.h>
 #include <tools/view/widget_renderer.h>
 #include <vdbcage/core/detail/number_text.h>
 #include <vdbcage/core/error.h>
-#include <vdbcage/deform/weights_io.h>
 #include <vdbcage/mesh/mesh_io.h>
 
 namespace vdbcage::view {
@@ -33,11 +32,6 @@ using Words = std::vector<std::string>;
 using openvdb::Vec3d;
 
 constexpr double turntableDegreesPerSecond = 24;
-
-std::string yesNo(bool yes)
-{
-    return yes ? "yes" : "no";
-}
 
 [[noreturn]] void refuse(const std::string& what, const std::string& value, const std::string& allowed)
 {
@@ -62,7 +56,7 @@ public:
         : api_(api), setup_(std::move(setup)), widgets_(setup_.scale, setup_.clipboard),
           viewport_(api, setup_.isSoftware), widgetRenderer_(api, widgets_.glyphs()),
           runner_(setup_.maker ? std::move(setup_.maker) : makePipelineMaker(), setup_.wake),
-          binder_(setup_.binding ? std::move(setup_.binding) : bindingWork(), setup_.wake),
+          posing_(setup_.binding ? std::move(setup_.binding) : bindingWork(), setup_.wake),
           control_({session_, viewport_, [this](const std::string& line) { attempt(line); }, [this] { endDrag(); },
                     [this] { return viewport(); }, double{setup_.scale}})
     {
@@ -131,7 +125,7 @@ public:
     void update()
     {
         runner_.update();
-        binder_.update();
+        posing_.binder().update();
         refresh();
     }
 
@@ -211,17 +205,20 @@ public:
     void waitUntilSettled()
     {
         refresh();
-        while (!runner_.planner().isSettled() || !binder_.isSettled()) {
+        while (!runner_.planner().isSettled() || !posing_.binder().isSettled()) {
             if (!runner_.planner().isSettled()) {
                 runner_.waitForNews(1);
             } else {
-                binder_.waitForNews(1);
+                posing_.binder().waitForNews(1);
             }
             update();
         }
     }
 
-    std::map<std::string, std::function<std::string()>> values() const;
+    std::map<std::string, std::function<std::string()>> values() const
+    {
+        return valuesOf({session_, runner_.planner(), posing_.binder(), messages_, notes_, frames_, isEnded_});
+    }
 
     const gl::Api& api_;
     AppSetup setup_;
@@ -231,8 +228,7 @@ public:
     Viewport viewport_;
     WidgetRenderer widgetRenderer_;
     Runner runner_;
-    Binder binder_;
-    PosedModel posed_;
+    Posing posing_;
     PictureControl control_;
     std::optional<draw::Canvas> canvas_;
     int width_ = 0, height_ = 0;
@@ -291,11 +287,11 @@ private:
             session_.redoView();
         } else if (verb == "make") {
             runner_.again();
-            binder_.again();
+            posing_.binder().again();
         } else if (verb == "cancel") {
             if (!dismiss()) {
                 runner_.cancel();
-                binder_.cancel();
+                posing_.binder().cancel();
             }
         } else if (verb == "more" || verb == "fewer") {
             const int faces = steppedFaces(session_.state().document.options.faces, verb == "more" ? 1 : -1);
@@ -308,7 +304,7 @@ private:
         } else if (verb == "look") {
             look(argument);
         } else if (verb.rfind("select-", 0) == 0) {
-            select(verb, argument);
+            attempt(toText(Select{selectionAfter(session_.state(), verb, argument)}));
         } else if (verb == "box") {
             control_.startBox();
         } else if (verb == "grab") {
@@ -405,37 +401,6 @@ private:
         attempt(toText(SetMirror{plane}));
     }
 
-    void select(const std::string& verb, const std::string& argument)
-    {
-        const State& state = session_.state();
-        if (!state.cage) throw InputError(verb + ": there is no cage yet");
-        const edit::Elements elements(*state.cage);
-        edit::Selection selection = state.view.selection;
-        selection.ids.erase(
-            std::lower_bound(selection.ids.begin(), selection.ids.end(), elements.count(selection.kind)),
-            selection.ids.end());
-        if (verb == "select-kind") {
-            const auto* const name = std::find(elementNames.begin(), elementNames.end(), argument);
-            if (name == elementNames.end()) refuse(verb, argument, "points, edges or faces");
-            selection = edit::converted(elements, selection, static_cast<edit::Element>(name - elementNames.begin()));
-        } else if (verb == "select-all") {
-            selection = edit::all(elements, selection.kind);
-        } else if (verb == "select-none") {
-            selection.ids.clear();
-        } else if (verb == "select-invert") {
-            selection = edit::inverted(elements, selection);
-        } else if (verb == "select-linked") {
-            selection = edit::linked(elements, selection);
-        } else if (verb == "select-grow") {
-            selection = edit::grown(elements, selection);
-        } else if (verb == "select-shrink") {
-            selection = edit::shrunk(elements, selection);
-        } else {
-            selection = edit::loop(elements, selection);
-        }
-        attempt(toText(Select{std::move(selection)}));
-    }
-
     void setCamera(const draw::Camera& camera) { attempt(toText(SetCamera{camera})); }
 
     void frame(bool selected) { setCamera(viewport_.fitted(session_.state().view, selected)); }
@@ -515,14 +480,11 @@ private:
         Mesh posed = currentCage(verb).cage;
         posed.points = posedPoints(state.document.pose, state.cage);
         if (verb == "save-posed-cage") return writeMesh(posed, path);
-        const BindOrder order{state.document.model, state.cage, state.document.coordinates};
-        for (binder_.want(order); !binder_.isSettled(); binder_.update()) binder_.waitForNews(1);
-        const BoundModelPtr bound = binder_.bound();
-        if (!bound || !bound->whole) throw InputError(verb + ": " + binder_.error());
-        if (verb == "save-posed-model") return writeMoved(order.model->path, bound->whole->pose(posed.points), path);
-        if (path.extension() != ".npy") throw InputError(path.string() + ": weights are written as .npy");
-        writeWeights(*order.cage, order.model->mesh.points, order.family,
-                     computeWeights(*order.cage, order.model->mesh.points, order.family), path);
+        const OpenedMesh& model = *state.document.model;
+        if (verb == "save-posed-model") {
+            return writeMoved(model.path, posing_.bindingOf(state)->pose(posed.points), path);
+        }
+        saveWeights(*state.cage, model, state.document.coordinates, path);
     }
 
     void saveStages(const fs::path& folder)
@@ -583,9 +545,9 @@ private:
             content.cage = countsOf(cage->cage, viewport_.edgeCount(LayerId::cage));
         }
         content.overlay = control_.overlay();
-        content.binding = binder_.progress();
-        content.isPosedCoarsely = posed_.bound() && !posed_.isWhole();
-        content.bindingError = binder_.error();
+        content.binding = posing_.binder().progress();
+        content.isPosedCoarsely = posing_.model().bound() && !posing_.model().isWhole();
+        content.bindingError = posing_.binder().error();
         content.hasModelChanged = hasModelChanged_;
         content.asksToQuit = asksToQuit_;
         return content;
@@ -650,57 +612,19 @@ private:
     void show()
     {
         const Planner& planner = runner_.planner();
-        const CageResultPtr cage = visibleCage();
+        const CageResultPtr cage = posing_.cageOf(session_.state().document, planner);
         if (cage != visible_) {
             visible_ = cage;
             session_.setCage(cage ? MeshPtr(cage, &cage->cage) : nullptr);
         }
-        followPose();
+        posing_.follow(session_.state(), planner);
         Shown shown;
         shown.model = session_.state().document.model;
         shown.cage = cage;
         shown.isStale = cage == planner.shown() && planner.standing() == Planner::Standing::stale;
-        shown.cagePoints = cagePoints_;
-        shown.posed = &posed_;
+        shown.cagePoints = posing_.cagePoints();
+        shown.posed = &posing_.model();
         if (viewport_.show(shown, session_.state().view)) needsFrame_ = true;
-    }
-
-    /// A cage that was opened or moved by hand is seen at once, without a verdict until it is checked.
-    CageResultPtr visibleCage()
-    {
-        const CageResultPtr& made = runner_.planner().shown();
-        const OpenedMeshPtr& opened = session_.state().document.cage;
-        if (!opened || (made && made->order.cage == opened)) return made;
-        if (!unchecked_ || unchecked_->order.cage != opened) {
-            CageResult result;
-            result.order = {session_.state().document.model, session_.state().document.options, opened};
-            result.cage = opened->mesh;
-            unchecked_ = std::make_shared<const CageResult>(std::move(result));
-        }
-        return unchecked_;
-    }
-
-    /// Binds what is to be posed, and poses it.
-    void followPose()
-    {
-        const State& state = session_.state();
-        const Planner& planner = runner_.planner();
-        const bool isPosing = state.view.mode == Mode::pose;
-        // A preview's cage is gone in a moment: it is not worth the binding.
-        const bool isBindable = state.cage && (planner.standing() == Planner::Standing::current || planner.isHalted());
-        if (!isPosing || !state.document.model) {
-            binder_.want(std::nullopt);
-        } else if (isBindable) {
-            binder_.want(BindOrder{state.document.model, state.cage, state.document.coordinates});
-        }
-        if (state.document.pose != cagePose_ || state.cage != posedCage_ || state.view.mode != cageMode_) {
-            cagePose_ = state.document.pose;
-            posedCage_ = state.cage;
-            cageMode_ = state.view.mode;
-            cagePoints_ = cagePoints(state);
-        }
-        const BoundModelPtr bound = isPosing && state.document.pose ? binder_.bound() : nullptr;
-        if (!bound || bound->order.cage->points.size() == cagePoints_.size()) posed_.update(bound, cagePoints_);
     }
 
     void press(const KeyDown& down, const Modifiers& modifiers, bool isMessage)
@@ -719,100 +643,12 @@ private:
     }
 
     Document saved_; ///< as it was last saved, or opened
-    CageResultPtr visible_, unchecked_;
-    std::vector<Vec3d> cagePoints_; ///< of the cage that is shown, where they are seen; by the following
-    PosePtr cagePose_;
-    MeshPtr posedCage_;
-    Mode cageMode_ = Mode::shape;
+    CageResultPtr visible_;
     bool isLaidOut_ = false;
     bool keepsIntermediates_ = false;
     bool asksToQuit_ = false, hasModelChanged_ = false;
     FileStamp changedStamp_, ignoredStamp_;
 };
-
-std::map<std::string, std::function<std::string()>> App::Impl::values() const
-{
-    std::map<std::string, std::function<std::string()>> list;
-    const Planner& planner = runner_.planner();
-    const State& state = session_.state();
-    const auto number = [](double value) { return detail::numberText(value); };
-    const auto check = [&](auto&& get) -> std::function<std::string()> {
-        return [&planner, get] { return planner.shown() ? get(planner.shown()->report.check) : std::string("none"); };
-    };
-    list["standing"] = [&] {
-        switch (planner.standing()) {
-        case Planner::Standing::current:
-            return "current";
-        case Planner::Standing::preview:
-            return "preview";
-        case Planner::Standing::stale:
-            return "stale";
-        case Planner::Standing::none:
-            break;
-        }
-        return "none";
-    };
-    list["faces"] = check([](const CageCheck& c) { return std::to_string(c.triangles + c.quads); });
-    list["triangles"] = check([](const CageCheck& c) { return std::to_string(c.triangles); });
-    list["quads"] = check([](const CageCheck& c) { return std::to_string(c.quads); });
-    list["points"] = check([](const CageCheck& c) { return std::to_string(c.points); });
-    list["bounding"] = check([](const CageCheck& c) { return yesNo(c.bounding()); });
-    list["valid"] = check([](const CageCheck& c) { return yesNo(c.valid()); });
-    list["volume-ratio"] = check([=](const CageCheck& c) { return number(c.volumeRatio); });
-    list["mean-distance"] = check([=](const CageCheck& c) { return number(c.meanDistance); });
-    list["model"] = [&] { return state.document.model ? state.document.model->path.filename().string() : "none"; };
-    list["model-points"] = [&] {
-        return std::to_string(state.document.model ? state.document.model->mesh.points.size() : 0);
-    };
-    list["model-faces"] = [&] {
-        return std::to_string(state.document.model ? faceCount(state.document.model->mesh) : 0);
-    };
-    list["opened-cage"] = [&] {
-        const OpenedMeshPtr& cage = state.document.cage;
-        return !cage ? "none" : cage->path.empty() ? "edited" : cage->path.filename().string();
-    };
-    list["undo"] = [&] { return session_.documents().canUndo() ? session_.documents().undone() : "none"; };
-    list["redo"] = [&] { return session_.documents().canRedo() ? session_.documents().redone() : "none"; };
-    list["undo-view"] = [&] { return session_.views().canUndo() ? session_.views().undone() : "none"; };
-    list["messages"] = [&] { return std::to_string(messages_.size()); };
-    list["message"] = [&] { return messages_.empty() ? "none" : messages_.front(); };
-    list["note"] = [&] { return notes_.empty() ? "none" : notes_.back(); };
-    list["error"] = [&] { return planner.error().empty() ? "none" : planner.error(); };
-    list["making"] = [&] { return yesNo(!planner.isSettled()); };
-    list["halted"] = [&] { return yesNo(planner.isHalted()); };
-    list["selected"] = [&] { return std::to_string(state.view.selection.ids.size()); };
-    list["projection"] = [&] {
-        return state.view.camera.projection == draw::Projection::perspective ? "perspective" : "orthographic";
-    };
-    list["azimuth"] = [&, number] { return number(state.view.camera.view.azimuthDegrees); };
-    list["elevation"] = [&, number] { return number(state.view.camera.view.elevationDegrees); };
-    list["mode"] = [&] { return modeNames[static_cast<std::size_t>(state.view.mode)]; };
-    list["tool"] = [&] { return toolNames[static_cast<std::size_t>(state.view.tool)]; };
-    list["select-kind"] = [&] { return elementNames[static_cast<std::size_t>(state.view.selection.kind)]; };
-    list["see-through"] = [&] { return state.view.seeThrough ? "on" : "off"; };
-    list["mirror"] = [&] { return state.view.mirror ? std::string(1, "xyz"[state.view.mirror->axis]) : "off"; };
-    list["coordinates"] = [&] { return coordinatesName(state.document.coordinates); };
-    list["posed"] = [&] { return yesNo(state.document.pose != nullptr); };
-    list["bound"] = [&] {
-        const BoundModelPtr& bound = binder_.bound();
-        return !bound ? "no" : bound->whole ? "yes" : "coarsely";
-    };
-    list["ground"] = [&] { return state.view.ground ? "on" : "off"; };
-    list["axes"] = [&] { return state.view.axes ? "on" : "off"; };
-    list["turntable"] = [&] { return state.view.turntable ? "on" : "off"; };
-    list["section"] = [&] { return state.view.section ? "on" : "off"; };
-    list["frames"] = [&] { return std::to_string(frames_); };
-    list["ended"] = [&] { return yesNo(isEnded_); };
-    for (const auto& option : optionValues(state.document.options)) {
-        list["option." + option.first] = [value = option.second] { return value; };
-    }
-    for (std::size_t i = 0; i < layerCount; ++i) {
-        list[std::string("layer.") + nameOf(static_cast<LayerId>(i))] = [&, i] {
-            return state.view.layers[i].shown ? "on" : "off";
-        };
-    }
-    return list;
-}
 
 App::App(const gl::Api& api, AppSetup setup) : impl_(std::make_unique<Impl>(api, std::move(setup)))
 {

@@ -8,6 +8,7 @@
 #include <tools/view/state/preset.h>
 #include <vdbcage/core/detail/atomic_file.h>
 #include <vdbcage/core/error.h>
+#include <vdbcage/deform/weights_io.h>
 
 namespace vdbcage::view {
 
@@ -56,6 +57,13 @@ void saveStages(const CageResult& result, const fs::path& folder)
         if (isNew) fs::remove(folder, error);
         throw;
     }
+}
+
+void saveWeights(const Mesh& cage, const OpenedMesh& model, Coordinates family, const std::filesystem::path& path)
+{
+    if (path.extension() != ".npy") throw InputError(path.string() + ": weights are written as .npy");
+    const std::vector<openvdb::Vec3d>& points = model.mesh.points;
+    writeWeights(cage, points, family, computeWeights(cage, points, family), path);
 }
 
 void savePicture(const draw::Picture& picture, const fs::path& path)

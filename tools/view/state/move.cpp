@@ -171,15 +171,18 @@ Mesh withCutQuads(Mesh cage, const std::vector<Index32>& faces)
 
 } // namespace
 
+edit::Selection withinCage(edit::Selection selection, const edit::Elements& elements)
+{
+    std::vector<Index32>& ids = selection.ids;
+    ids.erase(std::lower_bound(ids.begin(), ids.end(), elements.count(selection.kind)), ids.end());
+    return selection;
+}
+
 std::vector<Index32> selectedPoints(const State& state)
 {
     if (!state.cage) return {};
     const edit::Elements elements(*state.cage);
-    edit::Selection selection = state.view.selection;
-    // A script may name what this cage does not have.
-    const auto end = std::lower_bound(selection.ids.begin(), selection.ids.end(), elements.count(selection.kind));
-    selection.ids.erase(end, selection.ids.end());
-    return edit::pointsOf(elements, selection);
+    return edit::pointsOf(elements, withinCage(state.view.selection, elements));
 }
 
 std::vector<Vec3d> cagePoints(const State& state)
@@ -238,11 +241,11 @@ Document withEdit(const State& state, CageEdit edit)
     if (state.view.mode != Mode::shape) throw InputError("the faces of the cage are changed in mode shape");
     requiredPoints(state);
     const edit::Elements elements(cage);
+    const edit::Selection selection = withinCage(state.view.selection, elements);
     if (edit == CageEdit::cut) {
-        return withCage(state,
-                        withCutQuads(cage, edit::converted(elements, state.view.selection, edit::Element::face).ids));
+        return withCage(state, withCutQuads(cage, edit::converted(elements, selection, edit::Element::face).ids));
     }
-    std::vector<Edge> edges = selectedEdges(elements, state.view.selection);
+    std::vector<Edge> edges = selectedEdges(elements, selection);
     if (edges.empty()) throw InputError("no edge of the cage is selected, nor one between what is");
     return withCage(state, withEditedEdges(cage, std::move(edges), edit));
 }

@@ -7,6 +7,9 @@
 /// throws InputError where there is no cage, or nothing of it is selected.
 namespace vdbcage::view {
 
+/// A selection without what the cage does not have, as a script may name it.
+edit::Selection withinCage(edit::Selection selection, const edit::Elements& elements);
+
 /// The points that are selected, or belong to what is. They are numbers of points that the cage has.
 std::vector<openvdb::Index32> selectedPoints(const State& state);
 
