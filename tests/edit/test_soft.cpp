@@ -7,6 +7,7 @@
 #include <random>
 #include <vector>
 
+#include "cages.h"
 #include "meshes.h"
 #include <support/topology_count.h>
 #include <tools/edit/soft.h>
@@ -84,6 +85,51 @@ BOOST_AUTO_TEST_CASE(nothing_jumps_to_another_part_nearby)
     BOOST_TEST(weights[0] > 0.5);
     BOOST_TEST(weights[3] > 0.5);
     for (std::size_t i = 8; i < 16; ++i) BOOST_TEST(weights[i] == 0);
+}
+
+BOOST_AUTO_TEST_CASE(one_leg_of_the_creature_moves_no_other)
+{
+    const Mesh& cage = test::caged("creature").cage(400);
+    const Elements elements(cage);
+    const openvdb::BBoxd box = boundingBox(cage);
+    const double height = box.extents().y(), knee = box.min().y() + 0.18 * height;
+    // The legs: what hangs together below the knees.
+    std::vector<Index> leg(cage.points.size(), none);
+    Index legs = 0;
+    for (Index start = 0; start < leg.size(); ++start) {
+        if (leg[start] != none || cage.points[start].y() >= knee || !elements.isUsed(start)) continue;
+        std::vector<Index> open{start};
+        leg[start] = legs;
+        while (!open.empty()) {
+            const Index point = open.back();
+            open.pop_back();
+            for (const Index edge : elements.edgesOfPoint(point)) {
+                const auto [a, b] = elements.edges()[edge];
+                const Index other = a == point ? b : a;
+                if (leg[other] != none || cage.points[other].y() >= knee) continue;
+                leg[other] = legs;
+                open.push_back(other);
+            }
+        }
+        ++legs;
+    }
+    BOOST_TEST(legs == 4u);
+    const double radius = 0.2 * height;
+    std::size_t near = 0; // in space
+    for (Index i = 0; i < leg.size(); ++i) {
+        // From the feet; from the hip the way to the other leg is as short.
+        if (leg[i] == none || cage.points[i].y() >= box.min().y() + 0.1 * height) continue;
+        const auto weights = softWeights(elements, cage.points, {i}, radius);
+        std::size_t moved = 0;
+        for (Index k = 0; k < leg.size(); ++k) {
+            if (weights[k] > 0) ++moved;
+            if (leg[k] == none || leg[k] == leg[i]) continue;
+            BOOST_TEST(weights[k] == 0);
+            if ((cage.points[k] - cage.points[i]).length() < radius) ++near;
+        }
+        BOOST_TEST(moved > 1u);
+    }
+    BOOST_TEST(near > 0u);
 }
 
 BOOST_AUTO_TEST_CASE(bad_numbers_are_refused)
