@@ -94,7 +94,8 @@ inline view::Command randomCommand(std::mt19937& random, const std::vector<std::
     case 10:
         return ColourLayer{layer, {fraction(), fraction(), fraction()}};
     case 11:
-        return SetCageColours{static_cast<CageColours>(below(3))};
+        return below(2) == 0 ? Command(SetCageColours{static_cast<CageColours>(below(3))})
+                             : Command(SetModelColours{static_cast<ModelColours>(below(3))});
     case 12:
         if (below(2) == 0) return SetSection{};
         return SetSection{SectionPlane{{real(-1, 1), real(-1, 1), 1}, real(-1, 1)}};

@@ -6,6 +6,7 @@
 #include "orders.h"
 #include <support/shapes.h>
 #include <tools/edit/mirror.h>
+#include <tools/view/state/model_values.h>
 #include <tools/view/state/move.h>
 #include <tools/view/state/posed_model.h>
 #include <tools/view/state/session.h>
@@ -267,6 +268,41 @@ BOOST_AUTO_TEST_CASE(the_model_follows_as_the_binding_poses_it)
     BOOST_TEST(!posed.update(whole, points()));
     BOOST_TEST(posed.update(nullptr, points()));
     BOOST_TEST(posed.points().empty());
+}
+
+BOOST_AUTO_TEST_CASE(influence_is_the_sum_of_weights)
+{
+    const std::vector<openvdb::Index32> some{3, 4, 50, 100};
+    for (const Coordinates family : {Coordinates::meanValue, Coordinates::maximumLikelihood}) {
+        const Binding binding(*cage, model->mesh.points, family);
+        const std::vector<double> weights = computeCoordinates(*cage, model->mesh.points, family);
+        const std::vector<double> values = influence(binding, some);
+        for (std::size_t i = 0; i < values.size(); ++i) {
+            double sum = 0;
+            for (const openvdb::Index32 k : some) sum += weights[i * cage->points.size() + k];
+            BOOST_TEST(std::abs(values[i] - sum) < 2e-3);
+        }
+    }
+    std::vector<openvdb::Index32> all(cage->points.size());
+    for (openvdb::Index32 i = 0; i < all.size(); ++i) all[i] = i;
+    // What moves with everything has all of it, by Green coordinates too.
+    for (const double value : influence(Binding(*cage, model->mesh.points, Coordinates::green), all)) {
+        BOOST_TEST(std::abs(value - 1) < 2e-3);
+    }
+    for (const double value : influence(Binding(*cage, model->mesh.points, Coordinates::meanValue), {})) {
+        BOOST_TEST(value == 0);
+    }
+}
+
+BOOST_AUTO_TEST_CASE(stretch_tells_how_lengths_changed)
+{
+    std::vector<Vec3d> posed = model->mesh.points;
+    for (Vec3d& p : posed) p *= 2;
+    for (const double value : stretch(model->mesh, posed)) BOOST_TEST(std::abs(value - 1) < 1e-9);
+    for (Vec3d& p : posed) p *= 0.125;
+    for (const double value : stretch(model->mesh, posed)) BOOST_TEST(std::abs(value + 2) < 1e-9);
+    for (Vec3d& p : posed) p = Vec3d(0);
+    for (const double value : stretch(model->mesh, posed)) BOOST_TEST(value == -4);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

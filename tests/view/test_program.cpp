@@ -107,9 +107,10 @@ BOOST_AUTO_TEST_CASE(the_first_walk_looks_the_same_everywhere)
 
 BOOST_AUTO_TEST_CASE(the_pose_looks_the_same_everywhere_and_is_what_the_command_makes)
 {
-    const auto files = walkEverywhere("pose.view", {"pose_1_box.png", "pose_2_turned.png", "pose_3_typed.png",
-                                                    "pose_4_other_cage.png", "pose_5_split.png", "pose_cage.obj",
-                                                    "pose_posed_cage.obj", "pose_posed_model.obj", "pose_weights.npy"});
+    const auto files =
+        walkEverywhere("pose.view", {"pose_1_box.png", "pose_2_turned.png", "pose_3_influence.png", "pose_4_typed.png",
+                                     "pose_5_other_cage.png", "pose_6_split.png", "pose_cage.obj",
+                                     "pose_posed_cage.obj", "pose_posed_model.obj", "pose_weights.npy"});
     const test::TemporaryFolder made;
     for (const char* name : {"pose_cage.obj", "pose_posed_cage.obj"}) {
         test::writeText(made / name, files.at(name));

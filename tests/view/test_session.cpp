@@ -186,6 +186,7 @@ BOOST_AUTO_TEST_CASE(a_line_that_is_no_command_is_refused)
                              "select faces -1",
                              "select edges 1.5",
                              "select points 4294967296",
+                             "model-colours red",
                              "mode up",
                              "tool hammer",
                              "orientation up",

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <map>
 
+#include <tools/draw/diverging_colours.h>
 #include <vdbcage/core/error.h>
 #include <vdbcage/deform/binding.h>
 #include <vdbcage/mesh/mesh_io.h>
@@ -38,24 +39,6 @@ Size parseSize(const std::string& text)
     return size;
 }
 
-/// A colour for each weight: from blue, negative, over light grey to red. The largest size of a weight has the full
-/// colour; the square root between makes small weights visible too.
-std::vector<Colour> divergingColours(const std::vector<double>& weights)
-{
-    constexpr Colour negative{0.17F, 0.32F, 0.80F}, zero{0.90F, 0.90F, 0.88F}, positive{0.76F, 0.10F, 0.12F};
-    double most = 0;
-    for (const double weight : weights) most = std::max(most, std::abs(weight));
-    std::vector<Colour> colours;
-    for (const double weight : weights) {
-        const auto share = static_cast<float>(most > 0 ? std::sqrt(std::abs(weight) / most) : 0);
-        const Colour& end = weight < 0 ? negative : positive;
-        Colour colour{};
-        for (std::size_t k = 0; k < 3; ++k) colour[k] = zero[k] + share * (end[k] - zero[k]);
-        colours.push_back(colour);
-    }
-    return colours;
-}
-
 /// Colours the first layer of a panel by the weights of point `vertex` of the second, a cage.
 void colourByInfluence(std::vector<Layer>& panel, int vertex, Coordinates family)
 {
@@ -72,7 +55,7 @@ void colourByInfluence(std::vector<Layer>& panel, int vertex, Coordinates family
         weights.push_back(coordinates[i * handles + static_cast<std::size_t>(vertex)]);
     }
     panel[0].colour = {1, 1, 1};
-    panel[0].pointColours = divergingColours(weights);
+    panel[0].pointColours = draw::divergingColours(weights);
 }
 
 /// The option's text names the range itself.

@@ -623,6 +623,7 @@ private:
         shown.cage = cage;
         shown.isStale = cage == planner.shown() && planner.standing() == Planner::Standing::stale;
         shown.cagePoints = posing_.cagePoints();
+        shown.modelValues = posing_.modelValues();
         shown.posed = &posing_.model();
         if (viewport_.show(shown, session_.state().view)) needsFrame_ = true;
     }

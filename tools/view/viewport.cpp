@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <tools/draw/diverging_colours.h>
 #include <tools/draw/stand_in.h>
 #include <tools/view/distance_colours.h>
 #include <tools/view/state/move.h>
@@ -163,6 +164,7 @@ bool Viewport::show(const Shown& shown, const ViewState& view)
     }
     changed |= poseCage(cage, shown.cagePoints);
     changed |= poseModel(model, shown.posed);
+    changed |= colourModel(model, shown.modelValues);
     if (cage && areOtherMarks) markFaces(*cage, view);
     fillDistances(cage, view.cageColours == CageColours::distance && view.layer(LayerId::cage).shown);
     if (isOtherModel || !ground_.shape || view.camera.view.up != view_.camera.view.up) {
@@ -218,6 +220,25 @@ bool Viewport::poseModel(const OpenedMeshPtr& model, const PosedModel* posed)
     return true;
 }
 
+bool Viewport::colourModel(const OpenedMeshPtr& model, const std::shared_ptr<const std::vector<double>>& values)
+{
+    std::optional<draw::Shape>& shape = slots_[static_cast<std::size_t>(LayerId::model)].shape;
+    const bool fits = shape && values && values->size() == model->mesh.points.size();
+    const std::shared_ptr<const std::vector<double>> shown = fits ? values : nullptr;
+    if (shown == modelValues_) return false;
+    modelValues_ = shown;
+    const std::vector<draw::Colour> colours = shown ? draw::divergingColours(*shown) : std::vector<draw::Colour>();
+    if (shape) shape->setPointColours(colours);
+    if (standIn_.shape) {
+        std::vector<draw::Colour> some;
+        for (const openvdb::Index32 i : movingModel_.points) {
+            if (shown) some.push_back(colours[i]);
+        }
+        standIn_.shape->setPointColours(some);
+    }
+    return true;
+}
+
 void Viewport::restart()
 {
     frames_ = 0;
@@ -235,6 +256,7 @@ void Viewport::setFrame(const OpenedMeshPtr& model)
     for (Slot& slot : slots_) slot = Slot();
     for (Slot* const slot : {&standIn_, &boundStandIn_, &distances_, &ground_}) *slot = Slot();
     cagePoints_.clear();
+    modelValues_.reset();
     occluder_.reset();
     isPosed_ = hasOnlyStandIn_ = false;
     posedVersion_ = 0;
@@ -327,6 +349,7 @@ std::vector<draw::Layer> Viewport::layers(const ViewState& view, bool standIn) c
         draw::Layer layer;
         layer.shape = &*slots_[i].shape;
         if (id == LayerId::model) {
+            if (modelValues_ && !hasOnlyStandIn_) layer.colour = {1, 1, 1};
             if (standIn && standIn_.shape) layer.shape = &*standIn_.shape;
             if (hasOnlyStandIn_ && boundStandIn_.shape) layer.shape = &*boundStandIn_.shape;
         }

@@ -20,10 +20,11 @@ namespace vdbcage::view {
 /// What a Viewport shows.
 struct Shown {
     OpenedMeshPtr model;
-    CageResultPtr cage;                     ///< null: none
-    bool isStale = false;                   ///< it fades the cage
-    std::vector<openvdb::Vec3d> cagePoints; ///< where the cage's points are; of another number: at rest
-    const PosedModel* posed = nullptr;      ///< where the model is
+    CageResultPtr cage;                                     ///< null: none
+    bool isStale = false;                                   ///< it fades the cage
+    std::vector<openvdb::Vec3d> cagePoints;                 ///< where the cage's points are; of another number: at rest
+    std::shared_ptr<const std::vector<double>> modelValues; ///< that colours show, one a point; null: none
+    const PosedModel* posed = nullptr;                      ///< where the model is
 };
 
 /// The picture of model, cage and what is between them. While something moves a frame has one sample a pixel and, where
@@ -104,6 +105,7 @@ private:
     draw::Ray rayAt(double x, double y) const;
     bool poseCage(const CageResultPtr& cage, const std::vector<openvdb::Vec3d>& points);
     bool poseModel(const OpenedMeshPtr& model, const PosedModel* posed);
+    bool colourModel(const OpenedMeshPtr& model, const std::shared_ptr<const std::vector<double>>& values);
     std::vector<openvdb::Index32> selectedPoints(const ViewState& view) const;
     /// None: there is no cage to be seen.
     std::optional<edit::Picking> picking(const ViewState& view);
@@ -130,6 +132,7 @@ private:
     bool isStale_ = false;
     std::vector<openvdb::Vec3d> cagePoints_; ///< as shown, world space
     CageResultPtr cage_;
+    std::shared_ptr<const std::vector<double>> modelValues_;
     std::uint64_t posedVersion_ = 0;
     bool isPosed_ = false;        ///< the model's shape is not at rest
     bool hasOnlyStandIn_ = false; ///< the model's own points are not bound yet

@@ -88,6 +88,23 @@ void buildCageColours(const PanelContext& context)
     }
 }
 
+void buildModelColours(const PanelContext& context)
+{
+    const ModelColours now = context.content.session.state().view.modelColours;
+    constexpr std::array<const char*, 3> labels{"Plain", "Influence", "Stretch"},
+        helps{"one colour", "how far the posed model follows what is selected: red with it, blue against it",
+              "where lengths are longer (red) or shorter (blue) than at rest"};
+    for (std::size_t i = 0; i < labels.size(); ++i) {
+        if (i > 0) ImGui::SameLine();
+        const std::string label = std::string(labels[i]) + "##model";
+        if (ImGui::RadioButton(label.c_str(), now == static_cast<ModelColours>(i))) {
+            context.ask(std::string("model-colours ") + modelColourNames[i]);
+        }
+        context.name(std::string("model-colours.") + modelColourNames[i]);
+        help(helps[i]);
+    }
+}
+
 void buildSection(const PanelContext& context)
 {
     const auto& section = context.content.session.state().view.section;
@@ -182,6 +199,11 @@ void buildLayers(const PanelContext& context)
     heading("Colours of the cage");
     buildCageColours(context);
     ImGui::Dummy({0, length(4)});
+    if (view.mode == Mode::pose) {
+        heading("Colours of the model");
+        buildModelColours(context);
+        ImGui::Dummy({0, length(4)});
+    }
     heading("View");
     buildSection(context);
     const auto check = [&](const char* label, const std::string& name, bool on, const char* text) {

@@ -254,6 +254,11 @@ const std::array<Syntax, std::variant_size_v<Command>>& syntaxes()
          [](const Words& w) -> Command {
              return SetCageColours{named<CageColours>(cageColourNames, w[0], "cage-colours")};
          }},
+        {"model-colours", "plain|influence|stretch", 1, 1,
+         "colours the posed model: how far it follows what is selected, or how lengths changed",
+         [](const Words& w) -> Command {
+             return SetModelColours{named<ModelColours>(modelColourNames, w[0], "model-colours")};
+         }},
         {"section", "off|X Y Z OFFSET", 1, 4, "cuts off what has (X Y Z) . point > OFFSET",
          [](const Words& w) -> Command { return SetSection{sectionOf(w)}; }},
         {"ground", "on|off", 1, 1, "shows a grid below the model",
@@ -332,6 +337,7 @@ struct ArgumentsOf {
                numbers({double{c.colour[0]}, double{c.colour[1]}, double{c.colour[2]}});
     }
     std::string operator()(const SetCageColours& c) const { return named(cageColourNames, c.colours); }
+    std::string operator()(const SetModelColours& c) const { return named(modelColourNames, c.colours); }
     std::string operator()(const SetSection& c) const
     {
         if (!c.section) return " off";
@@ -404,6 +410,7 @@ struct Apply {
     void operator()(const FadeLayer& c) const { state.view.layer(c.layer).opacity = c.opacity; }
     void operator()(const ColourLayer& c) const { state.view.layer(c.layer).colour = c.colour; }
     void operator()(const SetCageColours& c) const { state.view.cageColours = c.colours; }
+    void operator()(const SetModelColours& c) const { state.view.modelColours = c.colours; }
     void operator()(const SetSection& c) const { state.view.section = c.section; }
     void operator()(const ShowGround& c) const { state.view.ground = c.shown; }
     void operator()(const ShowAxes& c) const { state.view.axes = c.shown; }
@@ -480,10 +487,11 @@ std::vector<Command> commandsFor(const ViewState& view)
                                          ColourLayer{layer, look.colour}});
     }
     commands.insert(commands.end(),
-                    {SetCageColours{view.cageColours}, SetSection{view.section}, ShowGround{view.ground},
-                     ShowAxes{view.axes}, SetTurntable{view.turntable}, ShowTimes{view.times}, SetMode{view.mode},
-                     SetTool{view.tool}, SetOrientation{view.orientation}, SetSeeThrough{view.seeThrough},
-                     SetSoft{view.softRadius}, SetMirror{view.mirror}, Select{view.selection}});
+                    {SetCageColours{view.cageColours}, SetModelColours{view.modelColours}, SetSection{view.section},
+                     ShowGround{view.ground}, ShowAxes{view.axes}, SetTurntable{view.turntable}, ShowTimes{view.times},
+                     SetMode{view.mode}, SetTool{view.tool}, SetOrientation{view.orientation},
+                     SetSeeThrough{view.seeThrough}, SetSoft{view.softRadius}, SetMirror{view.mirror},
+                     Select{view.selection}});
     return commands;
 }
 

@@ -90,6 +90,10 @@ struct ColourLayer {
 struct SetCageColours {
     CageColours colours{};
 };
+/// model-colours plain|influence|stretch
+struct SetModelColours {
+    ModelColours colours{};
+};
 /// section off | section X Y Z OFFSET (see SectionPlane)
 struct SetSection {
     std::optional<SectionPlane> section;
@@ -144,8 +148,8 @@ struct SetMirror {
 using Command =
     std::variant<OpenModel, OpenCage, CloseCage, SetOption, ResetOptions, ApplyPreset, SetCoordinates, MoveSelected,
                  RotateSelected, ScaleSelected, EditCage, ResetPose, OpenPose, SetCamera, ShowLayer, FadeLayer,
-                 ColourLayer, SetCageColours, SetSection, ShowGround, ShowAxes, SetTurntable, ShowTimes, Select,
-                 SetMode, SetTool, SetOrientation, SetSeeThrough, SetSoft, SetMirror>;
+                 ColourLayer, SetCageColours, SetModelColours, SetSection, ShowGround, ShowAxes, SetTurntable,
+                 ShowTimes, Select, SetMode, SetTool, SetOrientation, SetSeeThrough, SetSoft, SetMirror>;
 
 /// Whether it changes the document; else it changes the view.
 bool changesDocument(const Command& command);

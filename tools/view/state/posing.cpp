@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include <tools/view/state/model_values.h>
 #include <tools/view/state/move.h>
 #include <vdbcage/core/error.h>
 
@@ -51,6 +52,29 @@ void Posing::follow(const State& state, const Planner& planner)
         model_.update(nullptr, {});
     } else if (bound && bound->order == orderOf(state)) {
         model_.update(bound, cagePoints_);
+    }
+    followValues(state);
+}
+
+void Posing::followValues(const State& state)
+{
+    const BoundModelPtr& bound = binder_.bound();
+    const bool isBound = bound && bound->whole && bound->order == orderOf(state);
+    ModelColours colours = isBound && state.view.mode == Mode::pose ? state.view.modelColours : ModelColours::plain;
+    if (colours == ModelColours::stretch && !model_.isWhole()) colours = ModelColours::plain; // it is at rest
+    std::vector<openvdb::Index32> points;
+    if (colours == ModelColours::influence) points = selectedPoints(state);
+    const std::uint64_t version = colours == ModelColours::stretch ? model_.version() : 0;
+    if (colours == valuesOf_ && bound == valuesBound_ && points == valuesPoints_ && version == valuesVersion_) return;
+    valuesOf_ = colours;
+    valuesBound_ = bound;
+    valuesPoints_ = points;
+    valuesVersion_ = version;
+    values_.reset();
+    if (colours == ModelColours::influence) {
+        values_ = std::make_shared<const std::vector<double>>(influence(*bound->whole, points));
+    } else if (colours == ModelColours::stretch) {
+        values_ = std::make_shared<const std::vector<double>>(stretch(bound->order.model->mesh, model_.points()));
     }
 }
 

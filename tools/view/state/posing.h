@@ -30,6 +30,8 @@ public:
     /// As of the last follow(): where the cage's points are, and the model.
     const std::vector<openvdb::Vec3d>& cagePoints() const { return cagePoints_; }
     const PosedModel& model() const { return model_; }
+    /// What the model's colours tell, a value for each of its points; null: nothing. Another one is another object.
+    const std::shared_ptr<const std::vector<double>>& modelValues() const { return values_; }
 
     /// The whole binding of a state's model to its cage: waits until it is there.
     /// \pre the state has both \throw InputError it cannot be bound
@@ -39,6 +41,8 @@ public:
     const Binder& binder() const { return binder_; }
 
 private:
+    void followValues(const State& state);
+
     Binder binder_;
     CageResultPtr unchecked_;
     std::vector<openvdb::Vec3d> cagePoints_;
@@ -47,6 +51,12 @@ private:
     MeshPtr cage_;
     Mode mode_ = Mode::shape;
     PosedModel model_;
+    std::shared_ptr<const std::vector<double>> values_;
+    // What they were made of.
+    ModelColours valuesOf_ = ModelColours::plain;
+    BoundModelPtr valuesBound_;
+    std::vector<openvdb::Index32> valuesPoints_;
+    std::uint64_t valuesVersion_ = 0;
 };
 
 } // namespace vdbcage::view

@@ -85,6 +85,14 @@ constexpr std::array<const char*, 2> modeNames{"shape", "pose"};
 constexpr std::array<const char*, 4> toolNames{"select", "move", "rotate", "scale"};
 constexpr std::array<const char*, 4> orientationNames{"world", "local", "normal", "view"};
 
+/// By what the model is coloured in mode pose, once it is bound.
+enum class ModelColours : std::uint8_t {
+    plain,
+    influence, ///< how far it follows what is selected
+    stretch    ///< how much longer or shorter lengths are than at rest
+};
+constexpr std::array<const char*, 3> modelColourNames{"plain", "influence", "stretch"};
+
 /// A plane that cuts off where normal . p > offset, in world space.
 struct SectionPlane {
     openvdb::Vec3d normal{1, 0, 0}; ///< not zero
@@ -96,6 +104,7 @@ struct ViewState {
     draw::Camera camera; ///< in drawing coordinates of the model's frame
     std::array<LayerLook, layerCount> layers = defaultLayers();
     CageColours cageColours = CageColours::kinds;
+    ModelColours modelColours = ModelColours::plain;
     std::optional<SectionPlane> section;
     bool ground = true;     ///< a grid below the model
     bool axes = true;       ///< small ones in a corner

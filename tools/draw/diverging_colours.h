@@ -1,0 +1,13 @@
+#pragma once
+
+#include <vector>
+
+#include <tools/draw/colour.h>
+
+namespace vdbcage::draw {
+
+/// A colour for each value: from blue, negative, over light grey to red. The largest size of a value has the full
+/// colour; the square root between makes small values visible too.
+std::vector<Colour> divergingColours(const std::vector<double>& values);
+
+} // namespace vdbcage::draw
