@@ -151,8 +151,8 @@ Json measureDrag(App& app, const Mesh& model, double seconds)
 }
 
 /// Binding the model to its cage, coarsely and whole, CPU seconds; and what following a pose costs in one frame, by
-/// each family, against drawing the model once.
-Json measurePosing(App& app)
+/// each family, against drawing the model once, in `pass`.
+Json measurePosing(App& app, double pass)
 {
     constexpr int runs = 5;
     runLine(app, "set faces 400");
