@@ -1,11 +1,14 @@
 #include <boost/test/unit_test.hpp>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <random>
 
 #include "orders.h"
 #include <support/shapes.h>
 #include <tools/edit/mirror.h>
+#include <tools/edit/topology.h>
 #include <tools/view/state/model_values.h>
 #include <tools/view/state/move.h>
 #include <tools/view/state/posed_model.h>
@@ -207,6 +210,69 @@ BOOST_AUTO_TEST_CASE(edges_are_split_collapsed_flipped_merged_and_cut)
     BOOST_TEST(split.points.size() == cage->points.size() + 1);
     run("select points 0");
     BOOST_CHECK_THROW(run("edit-cage split"), InputError);
+}
+
+BOOST_AUTO_TEST_CASE(edges_that_are_collapsed_together_are_those_that_were_selected)
+{
+    std::mt19937 random(11);
+    run("mode shape");
+    Mesh plain = *cage;
+    plain.triangles = triangulate(plain);
+    plain.quads.clear();
+    const edit::Elements first(plain);
+    int collapsed = 0;
+    for (int i = 0; i < 200; ++i) {
+        // Edges at one point and the points around it, so that they have ends in common.
+        std::vector<openvdb::Index32> ids;
+        const auto point = static_cast<openvdb::Index32>(random() % plain.points.size());
+        for (const auto edge : first.edgesOfPoint(point)) {
+            const auto [a, b] = first.edges()[edge];
+            for (const auto next : first.edgesOfPoint(a == point ? b : a)) {
+                if (random() % 8 == 0) ids.push_back(next);
+            }
+        }
+        std::sort(ids.begin(), ids.end());
+        ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+        if (ids.empty()) continue;
+        // The same by places instead of numbers.
+        Mesh expected = plain;
+        std::vector<std::array<Vec3d, 2>> places;
+        for (const auto id : ids) {
+            places.push_back({plain.points[first.edges()[id].first], plain.points[first.edges()[id].second]});
+        }
+        bool isRefused = false;
+        for (std::size_t k = 0; k < places.size() && !isRefused; ++k) {
+            const auto [p, q] = places[k];
+            const auto at = [&](const Vec3d& place) {
+                const auto found = std::find(expected.points.begin(), expected.points.end(), place);
+                return static_cast<openvdb::Index32>(found - expected.points.begin());
+            };
+            if (p == q) continue;
+            const auto edge = edit::Elements(expected).edgeBetween(at(p), at(q));
+            if (edge == edit::none) continue;
+            try {
+                expected = edit::collapseEdge(expected, edge);
+            } catch (const InputError&) {
+                isRefused = true;
+                continue;
+            }
+            for (auto& other : places) {
+                for (Vec3d& end : other) {
+                    if (end == p || end == q) end = 0.5 * (p + q);
+                }
+            }
+        }
+        session.setCage(std::make_shared<const Mesh>(plain));
+        session.execute(Select{{edit::Element::edge, ids}});
+        if (isRefused) {
+            BOOST_CHECK_THROW(run("edit-cage collapse"), InputError);
+            continue;
+        }
+        run("edit-cage collapse");
+        BOOST_TEST_REQUIRE(test::sameMesh(session.state().document.cage->mesh, expected));
+        if (ids.size() > 1) ++collapsed;
+    }
+    BOOST_TEST(collapsed > 20);
 }
 
 BOOST_AUTO_TEST_CASE(where_nothing_is_selected_nothing_moves)

@@ -6,19 +6,6 @@
 
 namespace vdbcage::edit {
 
-const char* elementsName(Element kind)
-{
-    switch (kind) {
-    case Element::point:
-        return "points";
-    case Element::edge:
-        return "edges";
-    case Element::face:
-        break;
-    }
-    return "faces";
-}
-
 void Elements::Lists::add(const std::vector<Index>& ids)
 {
     ids_.insert(ids_.end(), ids.begin(), ids.end());

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -19,8 +20,12 @@ constexpr Index none = std::numeric_limits<Index>::max();
 /// What a mesh is made of.
 enum class Element : std::uint8_t { point, edge, face };
 
-/// "points", "edges" or "faces".
-const char* elementsName(Element kind);
+/// What they are called, in the order of Element.
+constexpr std::array<const char*, 3> elementNames{"points", "edges", "faces"};
+inline const char* elementsName(Element kind)
+{
+    return elementNames[static_cast<std::size_t>(kind)];
+}
 
 /// Some elements of one kind.
 struct Selection {

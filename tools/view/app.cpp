@@ -157,7 +157,7 @@ public:
     /// While a value is dragged the processor is for the cages that follow it, not for fine pictures or many.
     bool awaitsCage() const { return isValueDragged_ && !runner_.planner().isSettled(); }
     double secondsBetweenFrames() const { return setup_.isSoftware && awaitsCage() ? 0.05 : 0; }
-    bool isMoving() const { return control_.isCameraDragged() || control_.isBusy() || isAnimated() || awaitsCage(); }
+    bool isMoving() const { return control_.isCameraDragged() || control_.isMoving() || isAnimated() || awaitsCage(); }
     bool leavesItRough() const { return isMoving() && viewport_.isDrawn(); }
 
     /// Brings the panels in line with the state.

@@ -36,16 +36,6 @@ std::vector<double> numbersIn(const std::string& text)
     return numbers;
 }
 
-/// 1, 2 or 5 times a power of ten, at most `most`.
-double roundStep(double most)
-{
-    const double power = std::pow(10.0, std::floor(std::log10(most)));
-    for (const double step : {5.0, 2.0}) {
-        if (step * power <= most) return step * power;
-    }
-    return power;
-}
-
 } // namespace
 
 Pixel PictureControl::inPicture() const
@@ -310,7 +300,7 @@ Amount PictureControl::amount() const
     if (grip.isSnapping) {
         const double step = grip.tool == Tool::rotate  ? snappedDegrees
                             : grip.tool == Tool::scale ? snappedFactor
-                                                       : roundStep(host_.viewport.gridStep() / 10);
+                                                       : host_.viewport.gridStep() / 10;
         for (int k = 0; k < 3; ++k) amount.values[k] = std::round(amount.values[k] / step) * step;
     }
     const std::vector<double> typed = numbersIn(grip.typed);

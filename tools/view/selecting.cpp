@@ -12,11 +12,11 @@ namespace {
 
 edit::Element kindNamed(const std::string& name)
 {
-    const auto* const found = std::find(elementNames.begin(), elementNames.end(), name);
-    if (found == elementNames.end()) {
+    const auto* const found = std::find(edit::elementNames.begin(), edit::elementNames.end(), name);
+    if (found == edit::elementNames.end()) {
         throw InputError("select-kind: '" + name + "' is not allowed; it must be points, edges or faces");
     }
-    return static_cast<edit::Element>(found - elementNames.begin());
+    return static_cast<edit::Element>(found - edit::elementNames.begin());
 }
 
 } // namespace

@@ -76,7 +76,7 @@ std::map<std::string, std::function<std::string()>> valuesOf(const ValueSource& 
     list["elevation"] = [&, number] { return number(state.view.camera.view.elevationDegrees); };
     list["mode"] = [&] { return modeNames[static_cast<std::size_t>(state.view.mode)]; };
     list["tool"] = [&] { return toolNames[static_cast<std::size_t>(state.view.tool)]; };
-    list["select-kind"] = [&] { return elementNames[static_cast<std::size_t>(state.view.selection.kind)]; };
+    list["select-kind"] = [&] { return edit::elementNames[static_cast<std::size_t>(state.view.selection.kind)]; };
     list["see-through"] = [&] { return state.view.seeThrough ? "on" : "off"; };
     list["mirror"] = [&] { return state.view.mirror ? std::string(1, "xyz"[state.view.mirror->axis]) : "off"; };
     list["coordinates"] = [&] { return coordinatesName(state.document.coordinates); };

@@ -111,7 +111,7 @@ edit::Selection selectionOf(const Words& words)
     for (std::size_t i = 1; i < words.size(); ++i) {
         ids.insert(static_cast<openvdb::Index32>(wholeNumberOf(words[i], "select", 0, 2147483647)));
     }
-    return {named<edit::Element>(elementNames, words[0], "select"), {ids.begin(), ids.end()}};
+    return {named<edit::Element>(edit::elementNames, words[0], "select"), {ids.begin(), ids.end()}};
 }
 
 Vec3d vectorOf(const Words& words, std::size_t first, const char* what)
@@ -349,7 +349,7 @@ struct ArgumentsOf {
     std::string operator()(const ShowTimes& c) const { return onOff(c.shown); }
     std::string operator()(const Select& c) const
     {
-        std::string text = named(elementNames, c.selection.kind);
+        std::string text = named(edit::elementNames, c.selection.kind);
         for (const openvdb::Index32 id : c.selection.ids) text += ' ' + std::to_string(id);
         return text;
     }

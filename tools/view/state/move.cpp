@@ -137,7 +137,9 @@ std::vector<Edge> selectedEdges(const edit::Elements& elements, const edit::Sele
 Mesh withEditedEdges(Mesh cage, std::vector<Edge> edges, CageEdit edit)
 {
     for (std::size_t i = 0; i < edges.size(); ++i) {
-        const auto [a, b] = edges[i];
+        // Collapses before it may have turned it around.
+        const Index32 a = std::min(edges[i].first, edges[i].second), b = std::max(edges[i].first, edges[i].second);
+        if (a == b) continue;
         const Index32 edge = edit::Elements(cage).edgeBetween(a, b);
         if (edge == edit::none) continue; // one before it took it away
         if (edit == CageEdit::split) cage = edit::splitEdge(cage, edge);

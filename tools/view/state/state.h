@@ -80,7 +80,6 @@ enum class CageEdit : std::uint8_t {
     cut       ///< quads to triangles
 };
 constexpr std::array<const char*, 5> cageEditNames{"split", "collapse", "flip", "merge", "cut"};
-constexpr std::array<const char*, 3> elementNames{"points", "edges", "faces"};
 constexpr std::array<const char*, 2> modeNames{"shape", "pose"};
 constexpr std::array<const char*, 4> toolNames{"select", "move", "rotate", "scale"};
 constexpr std::array<const char*, 4> orientationNames{"world", "local", "normal", "view"};
