@@ -129,6 +129,38 @@ BOOST_AUTO_TEST_CASE(keys_select)
               "key tab", "expect mode shape", "key tab", "expect mode pose"});
 }
 
+BOOST_AUTO_TEST_CASE(boxes_and_lassos_add_and_take_out)
+{
+    const Modifiers control{false, true, false}, withShift{true, true, false}, withAlt{false, true, true};
+    const auto band = [&](Button button, const std::vector<Pixel>& places, const Modifiers& how) {
+        const Rectangle picture = app.viewport();
+        const auto moveTo = [&](const Pixel& at) {
+            app.handle({PointerMoved{picture.left + at[0] * picture.width, picture.top + at[1] * picture.height}, how});
+        };
+        moveTo(places[0]);
+        app.handle({ButtonDown{button}, how});
+        for (const Pixel& place : places) moveTo(place);
+        app.handle({ButtonUp{button}, how});
+        return std::stoi(app.value("selected"));
+    };
+    run(app, {"see-through on", "frame all"});
+    const int all = static_cast<int>(app.session().state().cage->points.size());
+    // They overlap in the middle, where there are points too.
+    const std::vector<Pixel> leftBox{{0, 0}, {0.53, 1}}, rightBox{{0.47, 0}, {1, 1}};
+    const std::vector<Pixel> leftLasso{{0, 0}, {0.53, 0}, {0.53, 1}, {0, 1}},
+        rightLasso{{0.47, 0}, {1, 0}, {1, 1}, {0.47, 1}};
+    for (const bool isLasso : {false, true}) {
+        const Button button = isLasso ? Button::right : Button::left;
+        const auto& left = isLasso ? leftLasso : leftBox;
+        const auto& right = isLasso ? rightLasso : rightBox;
+        const int few = band(button, left, control);
+        BOOST_TEST((few > 0 && few < all));
+        BOOST_TEST(band(button, right, withShift) == all);
+        BOOST_TEST(band(button, left, withAlt) == all - few);
+        BOOST_TEST(band(button, left, control) == few);
+    }
+}
+
 BOOST_AUTO_TEST_CASE(without_a_selection_a_grab_says_so)
 {
     run(app, {"key g", "expect messages 1", "key escape", "expect messages 0"});

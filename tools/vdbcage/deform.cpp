@@ -1,6 +1,7 @@
 #include <iostream>
 #include <optional>
 
+#include <tools/report/posed_cage.h>
 #include <vdbcage/check/check.h>
 #include <vdbcage/core/error.h>
 #include <vdbcage/deform/inversions.h>
@@ -35,21 +36,6 @@ auto bindFiles(const fs::path& cagePath, const fs::path& modelPath, const Bind& 
             }
         }
         throw;
-    }
-}
-
-/// \throw InputError unless the posed cage has the faces of the cage at rest
-void requireSameFaces(const fs::path& posedPath, const Mesh& posed, const fs::path& cagePath, const Mesh& cage)
-{
-    // Readers split quads that are concave, which a pose may make of any: only the sum tells.
-    const auto triangles = [](const Mesh& mesh) { return mesh.triangles.size() + 2 * mesh.quads.size(); };
-    const auto counts = [](const Mesh& mesh) {
-        return std::to_string(mesh.points.size()) + " points, " + std::to_string(mesh.triangles.size()) +
-               " triangles and " + std::to_string(mesh.quads.size()) + " quads";
-    };
-    if (posed.points.size() != cage.points.size() || triangles(posed) != triangles(cage)) {
-        throw InputError(posedPath.string() + ": has " + counts(posed) + "; the cage " + cagePath.string() + " has " +
-                         counts(cage));
     }
 }
 
@@ -161,7 +147,7 @@ int runDeform(std::vector<std::string> words)
     std::vector<Mesh> posedCages; // kept for what is printed
     for (const Frame& frame : frames) {
         const Mesh posed = readMesh(frame.path);
-        requireSameFaces(frame.path, posed, cagePath, cage);
+        requireSameFaces(frame.path, posed, "the cage " + cagePath.string(), cage);
         const std::vector<openvdb::Vec3d> points = binding.pose(posed.points);
         const fs::path path = framePath(output, frame.number);
         outputs.add(path, [&](std::ostream& out) { writeMoved(modelPath, points, out, path); });

@@ -168,7 +168,7 @@ void PictureControl::release(const Modifiers& modifiers)
         std::vector<Pixel> border = band;
         if (!isLasso_) border = {band[0], {band[1][0], band[0][1]}, band[1], {band[0][0], band[1][1]}};
         Modifiers how = modifiers;
-        how.control = !isLasso_ && modifiers.alt; // control began it
+        how.control = modifiers.alt; // control may have begun it
         return select(host_.viewport.elementsWithin(state.view, border), how);
     }
     if (button.button != Button::left || !state.document.model) return;

@@ -9,6 +9,7 @@
 #include <tools/edit/selection.h>
 #include <tools/edit/soft.h>
 #include <tools/edit/topology.h>
+#include <tools/report/posed_cage.h>
 #include <vdbcage/core/error.h>
 
 namespace vdbcage::view {
@@ -269,14 +270,7 @@ std::vector<Vec3d> openPose(const State& state, const std::string& path)
 {
     const Mesh& cage = *cageOf(state);
     const OpenedMeshPtr posed = openMesh(path);
-    // Readers split quads that are concave, which a pose may make of any: only the sum tells.
-    const auto triangles = [](const Mesh& mesh) { return mesh.triangles.size() + 2 * mesh.quads.size(); };
-    if (posed->mesh.points.size() != cage.points.size() || triangles(posed->mesh) != triangles(cage)) {
-        throw InputError(posed->path.string() + ": it has " + std::to_string(posed->mesh.points.size()) +
-                         " points and " + std::to_string(triangles(posed->mesh)) +
-                         " triangles, quads as two; the cage that is shown has " + std::to_string(cage.points.size()) +
-                         " and " + std::to_string(triangles(cage)));
-    }
+    tool::requireSameFaces(posed->path, posed->mesh, "the cage that is shown", cage);
     return posed->mesh.points;
 }
 
