@@ -284,7 +284,7 @@ const std::array<Syntax, std::variant_size_v<Command>>& syntaxes()
          [](const Words& w) -> Command { return SetSeeThrough{switchOf(w[0], "see-through")}; }},
         {"soft", "RADIUS", 1, 1, "moves what is near, less and less; a part of the model's longest side, 0: off",
          [](const Words& w) -> Command { return SetSoft{softRadiusOf(w[0])}; }},
-        {"mirror", "off|x|y|z [OFFSET]", 1, 2, "does the same on the other side of a plane across an axis",
+        {"mirror", "off|x|y|z OFFSET", 1, 2, "does the same on the other side of a plane across an axis",
          [](const Words& w) -> Command { return SetMirror{mirrorOf(w)}; }},
     }};
     return list;
