@@ -1,6 +1,7 @@
 #include <iostream>
 #include <optional>
 
+#include <tools/report/frames.h>
 #include <tools/report/posed_cage.h>
 #include <vdbcage/check/check.h>
 #include <vdbcage/core/error.h>
@@ -10,7 +11,6 @@
 #include <vdbcage/mesh/mesh_io.h>
 
 #include "commands.h"
-#include "frames.h"
 #include "interrupt.h"
 #include "outputs.h"
 

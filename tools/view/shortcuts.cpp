@@ -60,6 +60,13 @@ const std::vector<Shortcut>& shortcuts()
         {"shift+e", "tool rotate", "handles that turn"},
         {"shift+r", "tool scale", "handles that scale"},
         {"alt+g", "reset-pose selected", "moves what is selected back to where it is at rest"},
+        {"i", "insert-key", "keeps the pose on the time line"},
+        {"shift+i", "remove-key", "takes the key at this frame off the time line"},
+        {"right", "next-frame", "the next frame"},
+        {"left", "previous-frame", "the frame before"},
+        {"up", "next-key", "the next key of the time line"},
+        {"down", "previous-key", "the key before"},
+        {"space", "toggle play", "plays the time line, or stops it"},
         {"f1", "help", "shows keys, mouse and commands"},
     };
     return list;

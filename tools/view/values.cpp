@@ -19,7 +19,7 @@ std::map<std::string, std::function<std::string()>> valuesOf(const ValueSource& 
     const Planner& planner = source.planner;
     const Session& session = source.session;
     const State& state = session.state();
-    const Binder& binder = source.binder;
+    const Posing& posing = source.posing;
     const auto &messages = source.messages, &notes = source.notes;
     const std::uint64_t& frames = source.frames;
     const bool& isEnded = source.isEnded;
@@ -80,9 +80,22 @@ std::map<std::string, std::function<std::string()>> valuesOf(const ValueSource& 
     list["see-through"] = [&] { return state.view.seeThrough ? "on" : "off"; };
     list["mirror"] = [&] { return state.view.mirror ? std::string(1, "xyz"[state.view.mirror->axis]) : "off"; };
     list["coordinates"] = [&] { return coordinatesName(state.document.coordinates); };
-    list["posed"] = [&] { return yesNo(state.document.pose != nullptr); };
+    list["posed"] = [&] { return yesNo(!state.document.poses.isEmpty()); };
+    list["time"] = [&] { return std::to_string(state.view.frame); };
+    list["keys"] = [&] { return std::to_string(state.document.poses.keys().size()); };
+    list["key"] = [&] {
+        const PoseKey* const key = state.document.poses.keyAt(state.view.frame);
+        return !key ? "none" : key->name.empty() ? "unnamed" : key->name;
+    };
+    list["last-frame"] = [&] { return std::to_string(state.document.poses.finalFrame()); };
+    list["play"] = [&] { return state.view.isPlaying ? "on" : "off"; };
+    list["pose-valid"] = [&] { return posing.check() ? yesNo(posing.check()->isValid) : "none"; };
+    list["inverted"] = [&] {
+        const PoseCheckPtr& check = posing.check();
+        return check && check->inverted ? std::to_string(check->inverted->size()) : "none";
+    };
     list["bound"] = [&] {
-        const BoundModelPtr& bound = binder.bound();
+        const BoundModelPtr& bound = posing.binder().bound();
         return !bound ? "no" : bound->whole ? "yes" : "coarsely";
     };
     list["ground"] = [&] { return state.view.ground ? "on" : "off"; };
