@@ -80,6 +80,9 @@ std::map<std::string, std::function<std::string()>> valuesOf(const ValueSource& 
     list["see-through"] = [&] { return state.view.seeThrough ? "on" : "off"; };
     list["mirror"] = [&] { return state.view.mirror ? std::string(1, "xyz"[state.view.mirror->axis]) : "off"; };
     list["coordinates"] = [&] { return coordinatesName(state.document.coordinates); };
+    list["weights"] = [&] {
+        return state.document.weights ? state.document.weights->path.filename().string() : "none";
+    };
     list["posed"] = [&] { return yesNo(!state.document.poses.isEmpty()); };
     list["time"] = [&] { return std::to_string(state.view.frame); };
     list["keys"] = [&] { return std::to_string(state.document.poses.keys().size()); };
@@ -91,8 +94,8 @@ std::map<std::string, std::function<std::string()>> valuesOf(const ValueSource& 
     list["play"] = [&] { return state.view.isPlaying ? "on" : "off"; };
     list["pose-valid"] = [&] { return posing.check() ? yesNo(posing.check()->isValid) : "none"; };
     list["inverted"] = [&] {
-        const PoseCheckPtr& check = posing.check();
-        return check && check->inverted ? std::to_string(check->inverted->size()) : "none";
+        const PoseCheckPtr& verdict = posing.check();
+        return verdict && verdict->inverted ? std::to_string(verdict->inverted->size()) : "none";
     };
     list["bound"] = [&] {
         const BoundModelPtr& bound = posing.binder().bound();

@@ -41,6 +41,7 @@ const std::vector<Verb>& verbs()
          {".obj", ".off", ".ply", ".stl", ".param"},
          false,
          ""},
+        {"open-weights", "Open weights: points of the model x points of the cage", "Open", {".npy", ".dmat"}, false, ""},
         {"save-posed-cages", "Save the posed cage of every frame", "Save", meshes, true, "_posed_cage.%04d.obj"},
         {"save-posed-models", "Save the posed model of every frame", "Save", meshes, true, "_posed.%04d.obj"},
         {"save-colours", "Save the colours of the model", "Save", {".ply"}, true, "_colours.ply"},

@@ -65,6 +65,7 @@ void buildMenu(const PanelContext& context)
         item(context, "Make the cage again", "close-cage", document.cage != nullptr);
         item(context, "Open posed cage...", "browse open-pose", hasCage);
         item(context, "Open sequence of posed cages...", "browse open-poses", hasCage);
+        item(context, "Open weights...", "browse open-weights", hasCage);
         item(context, "Open scene...", "browse open-scene");
         ImGui::Separator();
         item(context, "Save cage...", "browse save-cage", hasCage);

@@ -94,7 +94,7 @@ Binder::Work bindingWork()
 {
     return [](const BindOrder& order, Interrupter& interrupter, const auto& publish) {
         const BoundModelPtr coarse = boundCoarsely(order, &interrupter);
-        publish(coarse);
+        if (coarse->coarse) publish(coarse);
         return boundWhole(*coarse, &interrupter);
     };
 }

@@ -1,9 +1,11 @@
 #include <tools/view/state/bound_model.h>
 
 #include <algorithm>
+#include <system_error>
 #include <utility>
 
 #include <vdbcage/core/error.h>
+#include <vdbcage/deform/weights_io.h>
 
 namespace vdbcage::view {
 
@@ -25,9 +27,16 @@ std::shared_ptr<const Binding> bound(const BindOrder& order, std::vector<openvdb
 
 } // namespace
 
+WeightsPtr openWeights(const std::filesystem::path& path)
+{
+    std::error_code error;
+    if (!std::filesystem::is_regular_file(path, error)) throw IoError(path.string() + ": there is no such file");
+    return std::make_shared<const OpenedWeights>(OpenedWeights{std::filesystem::absolute(path).lexically_normal()});
+}
+
 bool operator==(const BindOrder& a, const BindOrder& b)
 {
-    if (a.model != b.model || a.family != b.family) return false;
+    if (a.model != b.model || a.family != b.family || a.weights != b.weights) return false;
     return a.cage == b.cage || (a.cage->points == b.cage->points && a.cage->triangles == b.cage->triangles &&
                                 a.cage->quads == b.cage->quads);
 }
@@ -40,7 +49,9 @@ std::size_t coarseTriangles(const Mesh& model)
 
 std::shared_ptr<const Binding> bindingOf(const BindOrder& order, Interrupter* interrupter)
 {
-    return bound(order, order.model->mesh.points, interrupter);
+    const std::vector<openvdb::Vec3d>& points = order.model->mesh.points;
+    if (order.weights) return std::make_shared<const Binding>(readWeights(order.weights->path, *order.cage, points));
+    return bound(order, points, interrupter);
 }
 
 BoundModelPtr boundCoarsely(const BindOrder& order, Interrupter* interrupter)
@@ -50,6 +61,7 @@ BoundModelPtr boundCoarsely(const BindOrder& order, Interrupter* interrupter)
     BoundModel bound;
     bound.order = order;
     bound.standIn = std::make_shared<const draw::StandIn>(draw::standIn(model, coarseTriangles(model)));
+    if (order.weights) return std::make_shared<const BoundModel>(std::move(bound));
     std::vector<openvdb::Vec3d> points;
     points.reserve(bound.standIn->points.size());
     for (const openvdb::Index32 i : bound.standIn->points) points.push_back(model.points[i]);

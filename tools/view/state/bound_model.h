@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -14,12 +15,21 @@ namespace vdbcage::view {
 
 using MeshPtr = std::shared_ptr<const Mesh>;
 
+/// Weights from a file (see readWeights). They are read when something is bound.
+struct OpenedWeights {
+    std::filesystem::path path; ///< absolute
+};
+using WeightsPtr = std::shared_ptr<const OpenedWeights>;
+/// \throw IoError there is no such file
+WeightsPtr openWeights(const std::filesystem::path& path);
+
 /// Everything that a binding depends on. Cages are compared by what they are: one that was made anew and came out the
 /// same is the same.
 struct BindOrder {
     OpenedMeshPtr model;
     MeshPtr cage; ///< at rest; not null
     Coordinates family = Coordinates::meanValue;
+    WeightsPtr weights = {}; ///< of the family given; null: of any other
 };
 bool operator==(const BindOrder& a, const BindOrder& b);
 inline bool operator!=(const BindOrder& a, const BindOrder& b)
@@ -31,7 +41,7 @@ inline bool operator!=(const BindOrder& a, const BindOrder& b)
 struct BoundModel {
     BindOrder order;
     std::shared_ptr<const draw::StandIn> standIn; ///< of the model
-    std::shared_ptr<const Binding> coarse;        ///< of the points that the stand-in's go with
+    std::shared_ptr<const Binding> coarse;        ///< of the points that the stand-in's go with; null for weights
     std::shared_ptr<const Binding> whole;         ///< of the model's points; null: not yet
 };
 using BoundModelPtr = std::shared_ptr<const BoundModel>;
@@ -39,7 +49,8 @@ using BoundModelPtr = std::shared_ptr<const BoundModel>;
 /// At most so many triangles a stand-in of a model has: a tenth of the model's, and so many as are drawn at once.
 std::size_t coarseTriangles(const Mesh& model);
 
-/// Binds all of the model's points. \throw InputError as Binding, naming the file; Cancelled
+/// Binds all of the model's points, or reads their weights. \throw InputError as Binding, naming the file; IoError as
+/// readWeights; Cancelled
 std::shared_ptr<const Binding> bindingOf(const BindOrder& order, Interrupter* interrupter);
 
 /// Binds the stand-in. Its points are some of the model's, at most about a tenth, so it costs about as much of the

@@ -225,6 +225,10 @@ const std::array<Syntax, std::variant_size_v<Command>>& syntaxes()
          [](const Words& w) -> Command { return ApplyPreset{w[0]}; }},
         {"coordinates", "mvc|green|mlc", 1, 1, "chooses how the model follows the cage",
          [](const Words& w) -> Command { return SetCoordinates{coordinatesNamed(w[0])}; }},
+        {"open-weights", "FILE", 1, 1,
+         "the model follows the cage by weights of vdbcage bind or of others (.npy, .dmat: points x points of the "
+         "cage)",
+         [](const Words& w) -> Command { return OpenWeights{w[0]}; }},
         {"move", "X Y Z", 3, 3, "moves what is selected, in world units",
          [](const Words& w) -> Command { return MoveSelected{vectorOf(w, 0, "move")}; }},
         {"rotate", "X Y Z DEGREES PX PY PZ", 7, 7, "turns what is selected around X Y Z through PX PY PZ",
@@ -344,6 +348,7 @@ struct ArgumentsOf {
     }
     std::string operator()(const ApplyPreset& c) const { return ' ' + quotedWord(c.name); }
     std::string operator()(const SetCoordinates& c) const { return ' ' + std::string(coordinatesName(c.family)); }
+    std::string operator()(const OpenWeights& c) const { return ' ' + quotedWord(c.path); }
     std::string operator()(const MoveSelected& c) const { return numbers(c.by); }
     std::string operator()(const RotateSelected& c) const
     {
@@ -437,6 +442,8 @@ struct Apply {
         state.document.model = openMesh(c.path);
         state.document.cage.reset();
         state.document.poses = {};
+        if (state.document.weights) state.document.coordinates = Coordinates::meanValue;
+        state.document.weights.reset();
     }
     void operator()(const OpenCage& c) const
     {
@@ -447,7 +454,16 @@ struct Apply {
     void operator()(const SetOption& c) const { setOptions(withOption(state.document.options, c)); }
     void operator()(const ResetOptions& c) const { setOptions(withReset(state.document.options, c)); }
     void operator()(const ApplyPreset& c) const { setOptions(presetOptions(c.name)); }
-    void operator()(const SetCoordinates& c) const { state.document.coordinates = c.family; }
+    void operator()(const SetCoordinates& c) const
+    {
+        state.document.coordinates = c.family;
+        state.document.weights.reset();
+    }
+    void operator()(const OpenWeights& c) const
+    {
+        state.document.weights = openWeights(c.path);
+        state.document.coordinates = Coordinates::given;
+    }
     void operator()(const MoveSelected& c) const { state.document = withMotion(state, edit::Move{c.by}); }
     void operator()(const RotateSelected& c) const
     {

@@ -38,6 +38,10 @@ struct ApplyPreset {
 struct SetCoordinates {
     Coordinates family{};
 };
+/// open-weights FILE: the model follows the cage by weights from a file.
+struct OpenWeights {
+    std::string path;
+};
 /// move X Y Z: what is selected, in world units.
 struct MoveSelected {
     openvdb::Vec3d by{0};
@@ -183,11 +187,11 @@ struct SetMirror {
 };
 
 using Command =
-    std::variant<OpenModel, OpenCage, CloseCage, SetOption, ResetOptions, ApplyPreset, SetCoordinates, MoveSelected,
-                 RotateSelected, ScaleSelected, EditCage, ResetPose, OpenPose, OpenPoses, SetKey, DeleteKey, MoveKey,
-                 MakeInBetweens, ClearPoses, SetCamera, ShowLayer, FadeLayer, ColourLayer, SetCageColours,
-                 SetModelColours, SetSection, ShowGround, ShowAxes, SetTurntable, ShowTimes, Select, SetMode, SetTool,
-                 SetOrientation, SetSeeThrough, SetSoft, SetMirror, SetFrame, Play, SetRate>;
+    std::variant<OpenModel, OpenCage, CloseCage, SetOption, ResetOptions, ApplyPreset, SetCoordinates, OpenWeights,
+                 MoveSelected, RotateSelected, ScaleSelected, EditCage, ResetPose, OpenPose, OpenPoses, SetKey,
+                 DeleteKey, MoveKey, MakeInBetweens, ClearPoses, SetCamera, ShowLayer, FadeLayer, ColourLayer,
+                 SetCageColours, SetModelColours, SetSection, ShowGround, ShowAxes, SetTurntable, ShowTimes, Select,
+                 SetMode, SetTool, SetOrientation, SetSeeThrough, SetSoft, SetMirror, SetFrame, Play, SetRate>;
 
 /// Whether it changes the document; else it changes the view.
 bool changesDocument(const Command& command);

@@ -189,7 +189,7 @@ std::vector<Index32> selectedPoints(const State& state)
 
 BindOrder bindOrder(const State& state)
 {
-    return {state.document.model, state.cage, state.document.coordinates};
+    return {state.document.model, state.cage, state.document.coordinates, state.document.weights};
 }
 
 std::vector<Vec3d> posedPoints(const State& state, int frame)

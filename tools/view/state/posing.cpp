@@ -79,7 +79,9 @@ void Posing::followCheck(const State& state, bool standsStill)
     std::optional<PoseCheckOrder> order;
     if (standsStill && cagePoints_ != state.cage->points) {
         order = PoseCheckOrder{bindOrder(state), cagePoints_, nullptr};
-        const bool areCounted = state.view.modelColours == ModelColours::inverted;
+        // Given weights are not known at the points that are looked at to count them.
+        const bool areCounted =
+            state.view.modelColours == ModelColours::inverted && state.document.coordinates != Coordinates::given;
         if (areCounted) order->binding = bindingOf(state);
         // It is counted once it is bound.
         if (areCounted && !order->binding && !binder_.isHalted()) order.reset();

@@ -36,15 +36,16 @@ std::string hexadecimal(std::uint64_t value)
 
 /// A file as it is named in a scene: from the scene's folder where both have a common one, so that a folder with a
 /// scene can be moved.
-Json fileOf(const OpenedMesh& mesh, const fs::path& scene)
+Json fileOf(const fs::path& path, const fs::path& scene)
 {
     const fs::path folder = fs::absolute(scene).lexically_normal().parent_path();
-    const fs::path relative = mesh.path.lexically_relative(folder);
+    const fs::path relative = path.lexically_relative(folder);
     const bool isBelow = !relative.empty() && *relative.begin() != "..";
-    return {{"file", (isBelow ? relative : mesh.path).string()}, {"digest", hexadecimal(digestOf(mesh.path))}};
+    return {{"file", (isBelow ? relative : path).string()}, {"digest", hexadecimal(digestOf(path))}};
 }
 
-OpenedMeshPtr openFile(const Json& file, const fs::path& scene)
+/// Where it is. \throw InputError it is another one now
+fs::path sameFile(const Json& file, const fs::path& scene)
 {
     const fs::path path = scene.parent_path() / file.at("file").get<std::string>();
     const std::string digest = hexadecimal(digestOf(path));
@@ -53,7 +54,7 @@ OpenedMeshPtr openFile(const Json& file, const fs::path& scene)
         throw InputError(path.string() + ": it is not the file that the scene " + scene.string() +
                          " was saved with (its digest is " + digest + ", not " + saved + ")");
     }
-    return openMesh(path);
+    return path;
 }
 
 /// A cage that was edited has no file of its own.
@@ -152,13 +153,14 @@ void saveScene(const State& state, const CageResult* current, const fs::path& pa
     }
     const Json scene{{"vdbcage_scene", formatVersion},
                      {"version", VDBCAGE_VERSION},
-                     {"model", fileOf(*document.model, path)},
+                     {"model", fileOf(document.model->path, path)},
                      {"options", options},
-                     {"opened_cage", document.cage && !isEdited ? fileOf(*document.cage, path) : Json()},
+                     {"opened_cage", document.cage && !isEdited ? fileOf(document.cage->path, path) : Json()},
                      {"made_cage", hasMade ? Json(nameOf(cageBeside(path))) : Json()},
                      {"edited_cage", isEdited ? Json(nameOf(cageBeside(path))) : Json()},
                      {"poses", poses},
                      {"coordinates", coordinatesName(document.coordinates)},
+                     {"weights", document.weights ? fileOf(document.weights->path, path) : Json()},
                      {"view", view}};
     std::string text;
     try {
@@ -201,14 +203,17 @@ State openScene(const fs::path& given)
             if (changesDocument(command)) throw InputError("view: '" + line.get<std::string>() + "' is not of a view");
             state = applied(state, command);
         }
-        state.document.model = openFile(scene.at("model"), path);
-        if (!scene.at("opened_cage").is_null()) state.document.cage = openFile(scene.at("opened_cage"), path);
+        state.document.model = openMesh(sameFile(scene.at("model"), path));
+        if (!scene.at("opened_cage").is_null()) state.document.cage = openMesh(sameFile(scene.at("opened_cage"), path));
         // Scenes of before there were poses have none of these.
         if (scene.contains("edited_cage") && !scene["edited_cage"].is_null()) {
             state.document.cage = editedCage(path.parent_path() / scene["edited_cage"].get<std::string>());
         }
         if (scene.contains("poses")) state.document.poses = PoseReader(path.parent_path()).read(scene["poses"]);
-        if (scene.contains("coordinates")) {
+        if (scene.contains("weights") && !scene["weights"].is_null()) {
+            state.document.weights = openWeights(sameFile(scene["weights"], path));
+            state.document.coordinates = Coordinates::given;
+        } else if (scene.contains("coordinates")) {
             state.document.coordinates = coordinatesNamed(scene["coordinates"].get<std::string>());
         }
     } catch (const Json::exception& error) {

@@ -59,7 +59,7 @@ bool areEqual(const CageOptions& a, const CageOptions& b)
 bool operator==(const Document& a, const Document& b)
 {
     return a.model == b.model && a.cage == b.cage && areEqual(a.options, b.options) && a.poses == b.poses &&
-           a.coordinates == b.coordinates;
+           a.coordinates == b.coordinates && a.weights == b.weights;
 }
 
 bool operator==(const ViewState& a, const ViewState& b)

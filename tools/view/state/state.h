@@ -25,6 +25,7 @@ struct Document {
     OpenedMeshPtr cage; ///< a cage that was opened or edited; null: it is made, by the options
     TimeLine poses;
     Coordinates coordinates = Coordinates::meanValue; ///< by which the model follows the pose
+    WeightsPtr weights;                               ///< where the coordinates are given; else null
 };
 
 /// What can be seen, each in a layer of its own.
