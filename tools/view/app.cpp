@@ -12,6 +12,7 @@
 #include <tools/view/selecting.h>
 #include <tools/view/state/folder.h>
 #include <tools/view/state/posing.h>
+#include <tools/view/state/preferences.h>
 #include <tools/view/state/scene.h>
 #include <tools/view/state/words.h>
 #include <tools/view/values.h>
@@ -61,6 +62,7 @@ public:
                     [this] { return viewport(); }, double{setup_.scale}})
     {
         recent_ = recentFiles(setup_.recentFiles);
+        setKeys(readPreferences(setup_.preferences).keys);
         resize(setup_.width, setup_.height);
     }
 
@@ -217,7 +219,7 @@ public:
 
     std::map<std::string, std::function<std::string()>> values() const
     {
-        return valuesOf({session_, runner_.planner(), posing_.binder(), messages_, notes_, frames_, isEnded_});
+        return valuesOf({session_, runner_.planner(), posing_.binder(), messages_, notes_, frames_, isEnded_, keys_});
     }
 
     const gl::Api& api_;
@@ -234,6 +236,7 @@ public:
     int width_ = 0, height_ = 0;
     std::vector<std::string> messages_, notes_;
     std::vector<fs::path> recent_;
+    KeyMap keys_{};
     bool needsFrame_ = true;
     std::uint64_t frames_ = 0;
 
@@ -325,6 +328,11 @@ private:
             reload();
         } else if (verb == "browse") {
             panels_.browse(argument);
+        } else if (verb == "keys") {
+            const auto* const name = std::find(keyMapNames.begin(), keyMapNames.end(), argument);
+            if (name == keyMapNames.end()) refuse("keys", argument, "blender or maya");
+            setKeys(static_cast<KeyMap>(name - keyMapNames.begin()));
+            writePreferences(setup_.preferences, {keys_});
         } else if (verb == "help") {
             panels_.showHelp();
         } else if (verb == "dismiss") {
@@ -338,6 +346,12 @@ private:
             isEnded_ = true;
         }
         needsFrame_ = true;
+    }
+
+    void setKeys(KeyMap keys)
+    {
+        keys_ = keys;
+        control_.setMouse(mouseMap(keys));
     }
 
     bool isSaved() const { return session_.state().document == saved_; }
@@ -525,7 +539,8 @@ private:
     PanelContent content() const
     {
         const ViewState& view = session_.state().view;
-        PanelContent content{session_, runner_.planner(), runner_.progress(), messages_, notes_, shortcuts(), recent_};
+        PanelContent content{session_, runner_.planner(), runner_.progress(), messages_, notes_, shortcuts(keys_),
+                             recent_};
         const draw::Eye eye = draw::eyeOf(view.camera, 1, {});
         for (int k = 0; k < 3; ++k) {
             Vec3d axis(0);
@@ -548,6 +563,8 @@ private:
         content.binding = posing_.binder().progress();
         content.isPosedCoarsely = posing_.model().bound() && !posing_.model().isWhole();
         content.bindingError = posing_.binder().error();
+        content.keys = keys_;
+        content.selected = selectionFrame(session_.state(), {});
         content.hasModelChanged = hasModelChanged_;
         content.asksToQuit = asksToQuit_;
         return content;
@@ -638,7 +655,7 @@ private:
         if (down.key == Key::escape) return attempt("cancel");
         if (isMessage || widgets_.wantsText() || widgets_.wantsKeyboard()) return;
         const std::string chord = nameOf(KeyChord{down.key, modifiers});
-        for (const Shortcut& shortcut : shortcuts()) {
+        for (const Shortcut& shortcut : shortcuts(keys_)) {
             if (shortcut.chord == chord) return attempt(shortcut.line);
         }
     }

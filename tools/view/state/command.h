@@ -131,6 +131,10 @@ struct SetTool {
 struct SetOrientation {
     Orientation orientation{};
 };
+/// pivot mean|box|origin | pivot X Y Z: what is turned and scaled by hand turns about it (see Pivot).
+struct SetPivot {
+    Pivot pivot;
+};
 /// see-through on|off
 struct SetSeeThrough {
     bool on = true;
@@ -149,7 +153,7 @@ using Command =
     std::variant<OpenModel, OpenCage, CloseCage, SetOption, ResetOptions, ApplyPreset, SetCoordinates, MoveSelected,
                  RotateSelected, ScaleSelected, EditCage, ResetPose, OpenPose, SetCamera, ShowLayer, FadeLayer,
                  ColourLayer, SetCageColours, SetModelColours, SetSection, ShowGround, ShowAxes, SetTurntable,
-                 ShowTimes, Select, SetMode, SetTool, SetOrientation, SetSeeThrough, SetSoft, SetMirror>;
+                 ShowTimes, Select, SetMode, SetTool, SetOrientation, SetPivot, SetSeeThrough, SetSoft, SetMirror>;
 
 /// Whether it changes the document; else it changes the view.
 bool changesDocument(const Command& command);

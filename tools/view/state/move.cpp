@@ -95,6 +95,17 @@ std::array<Vec3d, 3> principalAxes(const std::vector<Vec3d>& points, const std::
     return {x, y, x.cross(y)};
 }
 
+/// \pre something is selected, with the mean `mean`
+Vec3d pivotPoint(const Pivot& pivot, const std::vector<Vec3d>& points, const std::vector<Index32>& selected,
+                 const Vec3d& mean)
+{
+    if (pivot.kind == Pivot::Kind::mean) return mean;
+    if (pivot.kind != Pivot::Kind::box) return pivot.point;
+    openvdb::BBoxd box(points[selected.front()], points[selected.front()]);
+    for (const Index32 i : selected) box.expand(points[i]);
+    return 0.5 * (box.min() + box.max());
+}
+
 Document withCage(const State& state, Mesh cage)
 {
     OpenedMesh edited;
@@ -200,13 +211,15 @@ std::optional<SelectionFrame> selectionFrame(const State& state, const std::arra
     if (selected.empty()) return std::nullopt;
     const std::vector<Vec3d> points = cagePoints(state);
     SelectionFrame frame;
-    for (const Index32 i : selected) frame.origin += points[i] / static_cast<double>(selected.size());
+    for (const Index32 i : selected) frame.mean += points[i] / static_cast<double>(selected.size());
+    frame.count = selected.size();
+    frame.origin = pivotPoint(state.view.pivot, points, selected, frame.mean);
     switch (state.view.orientation) {
     case Orientation::world:
         frame.axes = axesWithZ(Vec3d(0));
         break;
     case Orientation::local:
-        frame.axes = principalAxes(points, selected, frame.origin);
+        frame.axes = principalAxes(points, selected, frame.mean);
         break;
     case Orientation::normal:
         frame.axes = axesWithZ(meanNormal(*state.cage, points, selected));
