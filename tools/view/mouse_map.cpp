@@ -75,7 +75,7 @@ const char* textOf(PickAction action)
     case PickAction::none:
         return "does nothing";
     case PickAction::replace:
-        return "selects it alone";
+        return "selects what is under the pointer, and nothing else";
     case PickAction::toggle:
         return "selects one more, or one less";
     case PickAction::add:

@@ -68,6 +68,16 @@ void buildLayer(const PanelContext& context, const LayerText& text)
     ImGui::PopID();
 }
 
+/// Whether the choice was made. Three of them have room in a row beside a scroll bar.
+bool choice(const char* label, bool isChosen, bool isFirst)
+{
+    if (!isFirst) ImGui::SameLine(0, length(4));
+    ImGui::PushStyleVar(ImGuiStyleVar_ItemInnerSpacing, {length(3), length(4)});
+    const bool isMade = ImGui::RadioButton(label, isChosen);
+    ImGui::PopStyleVar();
+    return isMade;
+}
+
 void buildCageColours(const PanelContext& context)
 {
     const CageColours now = context.content.session.state().view.cageColours;
@@ -77,16 +87,15 @@ void buildCageColours(const PanelContext& context)
         const char* name;
         const char* text;
     };
-    for (const Choice& choice :
+    for (const Choice& c :
          {Choice{CageColours::plain, "Plain", "plain", "one colour"},
           Choice{CageColours::kinds, "Quads", "kinds", "quads have another colour than triangles"},
           Choice{CageColours::distance, "Distance", "distance", "how far the cage is from the model"}}) {
-        if (choice.colours != CageColours::plain) ImGui::SameLine();
-        if (ImGui::RadioButton(choice.label, now == choice.colours)) {
-            context.ask(std::string("cage-colours ") + choice.name);
+        if (choice(c.label, now == c.colours, c.colours == CageColours::plain)) {
+            context.ask(std::string("cage-colours ") + c.name);
         }
-        context.name(std::string("cage-colours.") + choice.name);
-        help(choice.text);
+        context.name(std::string("cage-colours.") + c.name);
+        help(c.text);
     }
 }
 
@@ -97,9 +106,8 @@ void buildModelColours(const PanelContext& context)
         helps{"one colour", "how far the posed model follows what is selected: red with it, blue against it",
               "where lengths are longer (red) or shorter (blue) than at rest"};
     for (std::size_t i = 0; i < labels.size(); ++i) {
-        if (i > 0) ImGui::SameLine();
         const std::string label = std::string(labels[i]) + "##model";
-        if (ImGui::RadioButton(label.c_str(), now == static_cast<ModelColours>(i))) {
+        if (choice(label.c_str(), now == static_cast<ModelColours>(i), i == 0)) {
             context.ask(std::string("model-colours ") + modelColourNames[i]);
         }
         context.name(std::string("model-colours.") + modelColourNames[i]);
@@ -169,7 +177,6 @@ void buildSelected(const PanelContext& context, std::map<std::string, std::strin
     const auto& selected = context.content.selected;
     if (!selected) return;
     const ViewState& view = context.content.session.state().view;
-    ImGui::Dummy({0, length(4)});
     heading("Selected");
     const std::string points = std::to_string(selected->count) + (selected->count == 1 ? " point" : " points");
     const std::size_t count = view.selection.ids.size();
@@ -181,6 +188,7 @@ void buildSelected(const PanelContext& context, std::map<std::string, std::strin
     }
     const auto& box = context.content.box;
     const double longest = box ? box->extents()[box->maxExtent()] : 0;
+    ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {length(8), length(4)});
     for (int k = 0; k < 3; ++k) {
         const std::string name = std::string("selected.") + "xyz"[k];
         ImGui::AlignTextToFramePadding();
@@ -197,6 +205,8 @@ void buildSelected(const PanelContext& context, std::map<std::string, std::strin
         }
         context.ask("move " + by[0] + ' ' + by[1] + ' ' + by[2]);
     }
+    ImGui::PopStyleVar();
+    ImGui::Dummy({0, length(4)});
 }
 
 void buildCounts(const PanelContext& context)
@@ -250,6 +260,7 @@ void buildLayers(const PanelContext& context, std::map<std::string, std::string>
         buildModelColours(context);
         ImGui::Dummy({0, length(4)});
     }
+    buildSelected(context, typed);
     heading("View");
     buildSection(context);
     const auto check = [&](const char* label, const std::string& name, bool on, const char* text) {
@@ -260,7 +271,6 @@ void buildLayers(const PanelContext& context, std::map<std::string, std::string>
     check("Ground grid", "ground", view.ground, "a grid below the model; the label says how far its lines are apart");
     check("Axes", "axes", view.axes, "x, y and z in the corner of the picture");
     check("Turntable", "turntable", view.turntable, "turns the view by itself");
-    buildSelected(context, typed);
     buildCounts(context);
 }
 

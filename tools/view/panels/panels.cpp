@@ -66,8 +66,9 @@ void Panels::build(const PanelContent& content, PanelAnswer& answer)
 
     buildOverlays(context, middle);
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {length(10), length(10)});
-    pane("layers", {0, middle.top, middle.left, middle.height}, 0, [&] { buildLayers(context, state_->typed); });
-    // The bar is always there: a slider whose width changes while it is dragged changes its value.
+    // The bars are always there: a slider whose width changes while it is dragged changes its value.
+    pane("layers", {0, middle.top, middle.left, middle.height}, ImGuiWindowFlags_AlwaysVerticalScrollbar,
+         [&] { buildLayers(context, state_->typed); });
     pane("options", {right, middle.top, width - right, middle.height}, ImGuiWindowFlags_AlwaysVerticalScrollbar, [&] {
         buildOptions(context, state_->typed);
         buildResult(context);

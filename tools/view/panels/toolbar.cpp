@@ -32,7 +32,7 @@ void choices(const PanelContext& context, const char* group, const std::vector<C
 
 void gap()
 {
-    ImGui::SameLine(0, length(14));
+    ImGui::SameLine(0, length(10));
 }
 
 struct Entry {
@@ -71,7 +71,7 @@ void buildPivot(const PanelContext& context, const ViewState& view)
           {"origin", "Origin", "turns and scales about the world's origin"},
           {"point", "Point", "turns and scales about one point: where the pivot was when this was chosen",
            toText(SetPivot{{Pivot::Kind::point, now}}).substr(6)}},
-         static_cast<std::size_t>(view.pivot.kind), length(82));
+         static_cast<std::size_t>(view.pivot.kind), length(72));
 }
 
 void buildMirror(const PanelContext& context, const ViewState& view)
@@ -91,30 +91,15 @@ void buildMirror(const PanelContext& context, const ViewState& view)
 
 void buildSoft(const PanelContext& context, const ViewState& view)
 {
-    muted("Soft");
-    ImGui::SameLine(0, length(6));
     float radius = static_cast<float>(view.softRadius);
-    ImGui::SetNextItemWidth(length(70));
-    if (ImGui::SliderFloat("##soft", &radius, 0, 0.5F, radius > 0 ? "%.2f" : "off", ImGuiSliderFlags_AlwaysClamp)) {
+    ImGui::SetNextItemWidth(length(84));
+    const char* const format = radius > 0 ? "Soft %.2f" : "Soft off";
+    if (ImGui::SliderFloat("##soft", &radius, 0, 0.5F, format, ImGuiSliderFlags_AlwaysClamp)) {
         context.ask("soft " + detail::numberText(std::round(100 * double{radius}) / 100));
     }
     context.followDrag();
     context.name("soft");
     help("what is nearer than this along the cage moves too, less and less; a part of the model's longest side");
-}
-
-void buildBinding(const PanelContext& context)
-{
-    const PanelContent& content = context.content;
-    if (!content.bindingError.empty()) {
-        coloured(theme::bad, "not bound");
-        return help(content.bindingError);
-    }
-    if (!content.binding) return;
-    std::string text = content.binding->stage.empty() ? "bind" : content.binding->stage;
-    if (content.binding->percent >= 0) text += ' ' + std::to_string(content.binding->percent) + " %";
-    coloured(theme::accent, text);
-    help("the model's points are being bound to the cage; until then a coarse stand-in follows. Escape stops it");
 }
 
 } // namespace
@@ -124,6 +109,8 @@ void buildToolbar(const PanelContext& context)
     const State& state = context.content.session.state();
     const ViewState& view = state.view;
     const bool isPose = view.mode == Mode::pose;
+    // Narrower than elsewhere: all of it has room in a window of 1100 pixels.
+    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {length(6), length(4)});
     ImGui::BeginDisabled(!state.document.model);
     choices(
         context, "mode",
@@ -152,12 +139,13 @@ void buildToolbar(const PanelContext& context)
           {"local", "Local", "handles along the principal axes of what is selected"},
           {"normal", "Normal", "handles along the mean normal of what is selected"},
           {"view", "View", "handles to the right, up and to the viewer"}},
-         static_cast<std::size_t>(view.orientation), length(82));
+         static_cast<std::size_t>(view.orientation), length(78));
     ImGui::SameLine(0, length(4));
     buildPivot(context, view);
     gap();
-    bool seeThrough = view.seeThrough;
-    if (ImGui::Checkbox("See through", &seeThrough)) context.ask(seeThrough ? "see-through on" : "see-through off");
+    if (view.seeThrough) ImGui::PushStyleColor(ImGuiCol_Button, toImGui(theme::selected));
+    if (ImGui::Button("See through")) context.ask(view.seeThrough ? "see-through off" : "see-through on");
+    if (view.seeThrough) ImGui::PopStyleColor();
     context.name("see-through");
     help(context.withKey("selects what is hidden too", "toggle see-through"));
     gap();
@@ -169,14 +157,13 @@ void buildToolbar(const PanelContext& context)
         list(context, "coordinates",
              {{"mvc", "Mean value", "mean value coordinates: smooth, defined everywhere, can be negative"},
               {"green", "Green", "Green coordinates: they keep shapes and follow the faces' normals"},
-              {"mlc", "Maximum likelihood", "maximum likelihood coordinates: local, never negative"}},
-             static_cast<std::size_t>(state.document.coordinates), length(150));
-        gap();
-        buildBinding(context);
+              {"mlc", "Likelihood", "maximum likelihood coordinates: local, never negative"}},
+             static_cast<std::size_t>(state.document.coordinates), length(112));
     } else {
         ImGui::NewLine();
     }
     ImGui::EndDisabled();
+    ImGui::PopStyleVar();
 }
 
 } // namespace vdbcage::view
