@@ -275,6 +275,17 @@ BOOST_AUTO_TEST_CASE(edges_that_are_collapsed_together_are_those_that_were_selec
     BOOST_TEST(collapsed > 20);
 }
 
+BOOST_AUTO_TEST_CASE(nothing_is_moved_out_of_sight_for_ever)
+{
+    for (const char* line : {"move 1e300 0 0", "move 0 1e12 0", "scale 1e300 1 1 0 0 0", "scale 2 2 2 1e300 0 0",
+                             "rotate 0 0 1 90 1e300 0 0"}) {
+        BOOST_TEST_CONTEXT(line) BOOST_CHECK_THROW(run(line), InputError);
+    }
+    BOOST_TEST(!session.state().document.pose);
+    run("move 1e6 0 0");
+    BOOST_TEST(points()[0].x() == cage->points[0].x() + 1e6);
+}
+
 BOOST_AUTO_TEST_CASE(where_nothing_is_selected_nothing_moves)
 {
     run("select points");

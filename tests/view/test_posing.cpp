@@ -160,6 +160,28 @@ BOOST_AUTO_TEST_CASE(handles_stand_at_the_pivot_and_what_is_moved_freely_stays_u
     BOOST_TEST(moves[0] == moves[1]);
 }
 
+BOOST_AUTO_TEST_CASE(a_pivot_can_be_anywhere)
+{
+    selectBox(0, 0, 1, 0.4);
+    const std::vector<Vec3d> before = points();
+    for (const char* projection : {"perspective", "orthographic"}) {
+        runLine(app, std::string("projection ") + projection);
+        for (const char* pivot : {"1e300 0 0", "0 -1e154 1e154", "1e20 1e20 1e20", "0 0 1e9", "0 0 -1e9"}) {
+            run(app,
+                {std::string("pivot ") + pivot, "tool move", "tool rotate", "tool scale", "look front", "look top"});
+            for (const char* key : {"g", "r", "s"}) {
+                run(app, {"mouse move picture 0.4 0.4", std::string("key ") + key, "mouse by 30 20", "mouse by -7 5",
+                          "key escape", "expect messages 0"});
+            }
+            BOOST_TEST(points() == before, boost::test_tools::per_element());
+            // It is drawn, and then nothing changes any more.
+            while (app.needsFrame()) app.drawFrame();
+            app.update();
+            BOOST_TEST(!app.needsFrame());
+        }
+    }
+}
+
 BOOST_AUTO_TEST_CASE(a_coordinate_that_is_typed_is_where_what_is_selected_goes)
 {
     BOOST_TEST(!app.widget("selected.x"));

@@ -356,7 +356,7 @@ void PictureControl::follow()
         } else {
             host_.session.replaceDragged(ScaleSelected{by, grip.pivot, {axes[0], axes[1]}});
         }
-    } catch (const InputError&) { // out of all numbers: it stays where it was
+    } catch (const InputError&) { // too far away: it stays where it was
     }
 }
 

@@ -106,6 +106,19 @@ Vec3d pivotPoint(const Pivot& pivot, const std::vector<Vec3d>& points, const std
     return 0.5 * (box.min() + box.max());
 }
 
+/// What is farther away than this many longest sides of the cage is not to be seen, and cannot be drawn in the end.
+constexpr double farthest = 1e9;
+
+void requireNear(const std::vector<Vec3d>& points, const openvdb::BBoxd& cage)
+{
+    const Vec3d middle = 0.5 * (cage.min() + cage.max());
+    const double longest = cage.extents()[cage.maxExtent()];
+    for (const Vec3d& p : points) {
+        const bool isNear = (p - middle).length() <= farthest * longest;
+        if (!p.isFinite() || (longest > 0 && !isNear)) throw InputError("a point would be moved too far away");
+    }
+}
+
 Document withCage(const State& state, Mesh cage)
 {
     OpenedMesh edited;
@@ -245,9 +258,7 @@ Document withMotion(const State& state, const edit::Motion& motion)
         const auto partners = edit::mirrorPartners(cage.points, plane->axis, plane->offset);
         after = edit::mirrored(before, after, ids, partners, plane->axis, plane->offset);
     }
-    for (const Vec3d& p : after) {
-        if (!p.isFinite()) throw InputError("a point would be moved out of all numbers");
-    }
+    requireNear(after, boundingBox(cage));
     return withCagePoints(state, std::move(after));
 }
 

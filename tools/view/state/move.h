@@ -28,7 +28,7 @@ std::optional<SelectionFrame> selectionFrame(const State& state, const std::arra
 
 /// Moves what is selected, and with it what soft selection and the mirror add. In mode pose the pose changes, else the
 /// cage at rest.
-/// \throw InputError also where a point would be no finite number
+/// \throw InputError also where a point would be no finite number, or farther away than 1e9 sizes of the cage
 Document withMotion(const State& state, const edit::Motion& motion);
 
 /// Changes the faces of the cage at rest: of what is selected, one after the other, as edit::splitEdge and the others.
