@@ -99,6 +99,54 @@ BOOST_AUTO_TEST_CASE(bind_and_deform)
     BOOST_TEST((readMesh(scene.at("rest.obj")).points == scene.model.points));
 }
 
+BOOST_AUTO_TEST_CASE(weights_that_were_made_elsewhere)
+{
+    const Scene scene;
+    const std::string cage = scene.at("cage.obj"), model = scene.at("model.obj"), posed = scene.at("posed.0010.obj"),
+                      out = scene.at("out.obj"), given = scene.at("given.npy"), text = scene.at("given.dmat");
+    const std::size_t rows = scene.model.points.size(), columns = scene.cage.points.size();
+    const std::vector<float> weights = computeWeights(scene.cage, scene.model.points, Coordinates::maximumLikelihood);
+    std::string header = "{'descr': '<f4', 'fortran_order': False, 'shape': (" + std::to_string(rows) + ", " +
+                         std::to_string(columns) + "), }\n";
+    std::string npy("\x93NUMPY\x01\x00", 8), dmat = std::to_string(columns) + ' ' + std::to_string(rows) + '\n';
+    npy += char(header.size());
+    npy += '\0';
+    npy += header;
+    npy.append(reinterpret_cast<const char*>(weights.data()), weights.size() * sizeof(float));
+    for (std::size_t i = 0; i < weights.size(); ++i) {
+        char digits[32];
+        std::snprintf(digits, sizeof digits, "%.9g\n", double(weights[i % rows * columns + i / rows]));
+        dmat += digits;
+    }
+    test::writeText(given, npy);
+    test::writeText(text, dmat);
+    const std::vector<Vec3d> expected =
+        Binding(scene.cage, scene.model.points, Coordinates::maximumLikelihood).pose(readMesh(posed).points);
+    for (const std::string& file : {given, text}) {
+        const auto result = runCommand({command, "deform", cage, posed, model, "-o", out, "--weights", file});
+        BOOST_TEST(result.status == 0, result.err);
+        BOOST_TEST(result.err.find("1 pose of 4 points") != std::string::npos, result.err);
+        BOOST_TEST(difference(readMesh(out).points, expected) == 0);
+        std::filesystem::remove(out);
+        for (const char* family : {"mvc", "mlc"}) {
+            expectRefusal(scene, {"deform", cage, posed, model, "-o", out, "--weights", file, "--coordinates", family},
+                          file + ": its weights were made elsewhere; they do not go with --coordinates " + family);
+        }
+        expectRefusal(scene, {"deform", cage, posed, model, "-o", out, "--weights", file, "--inversions"},
+                      file + ": its weights were made elsewhere; --inversions needs coordinates that can be computed "
+                             "at other points");
+        BOOST_TEST(!std::filesystem::exists(out));
+        expectRefusal(scene, {"deform", cage, posed, cage, "-o", out, "--weights", file},
+                      file + ": it has 4 rows; rows: the model has 42 points");
+    }
+    test::writeText(given, npy.substr(0, npy.size() - 1));
+    expectRefusal(scene, {"deform", cage, posed, model, "-o", out, "--weights", given}, given + ": it is truncated");
+    expectRefusal(scene, {"deform", cage, posed, model, "-o", out, "--coordinates", "given"},
+                  "there are mvc, green, mlc");
+    expectRefusal(scene, {"bind", cage, model, "-o", scene.at("w.npy"), "--coordinates", "given"},
+                  "there are mvc, green, mlc");
+}
+
 BOOST_AUTO_TEST_CASE(sequences)
 {
     const Scene scene;

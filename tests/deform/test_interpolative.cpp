@@ -121,6 +121,29 @@ BOOST_AUTO_TEST_CASE(keeps_all_rows_where_that_is_no_more)
     BOOST_TEST(keepsAll(interpolativeRows(narrow, ones, tolerance, unit), 50));
 }
 
+/// Each row but the last is orthogonal to those before once they are projected on. The last is a combination of them
+/// whose factors grow by half from one to the next.
+BOOST_AUTO_TEST_CASE(keeps_rows_that_only_large_factors_combine)
+{
+    constexpr std::size_t steps = 40, count = 2 * steps + 3;
+    const std::vector<float> ones(columns, 1.0F);
+    std::vector<float> rows(columns, 0.0F);
+    for (std::size_t i = 1; i < count; ++i) {
+        const std::size_t step = (i - 1) % (steps + 1);
+        for (std::size_t k = 0; k < columns; ++k) {
+            const double entry = k > step || k == steps ? 0 : k == step ? 1 : -0.475;
+            rows.push_back(static_cast<float>(entry * std::pow(0.5, double(k))));
+        }
+    }
+    for (std::size_t i = 0; i < count; ++i) rows[i * columns + columns - 1] = 1; // so the rows have a size
+    const InterpolativeRows few = interpolativeRows(rows, ones, tolerance, unit);
+    BOOST_TEST(isPermutation(few.order, count));
+    BOOST_REQUIRE(few.kept < count);
+    BOOST_TEST(few.kept % unit == 0U);
+    BOOST_REQUIRE(few.factors.size() == (count - few.kept) * (few.kept - 1));
+    BOOST_TEST(offBy(few, rows, ones) <= 4 * double(tolerance));
+}
+
 BOOST_AUTO_TEST_CASE(takes_rows_that_are_zero_equal_or_no_numbers)
 {
     Random random(4);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include <deform/cages.h>
 #include <tbb/global_control.h>
@@ -127,6 +128,39 @@ BOOST_AUTO_TEST_CASE(every_pose_by_itself_for_any_number_of_threads)
     BOOST_TEST(invertedTriangles(binding, model, {}).empty());
 }
 
+BOOST_AUTO_TEST_CASE(the_test_that_is_kept_finds_the_same)
+{
+    const auto crumpled = [](const Vec3d& p) { return p - Vec3d(2.4 * std::max(0.0, p.x()), 0, 0); };
+    const auto mirrored = [](const Vec3d& p) { return Vec3d(p.x(), p.y(), -p.z()); };
+    for (const Coordinates family : families) {
+        std::optional<InversionTest> kept;
+        std::vector<std::vector<Vec3d>> poses;
+        std::vector<std::vector<std::uint32_t>> expected;
+        {
+            const Mesh cage = randomCage(Kind::both, 43), mesh = test::sphere(Vec3d(0.1, 0, 0), 0.5, 12);
+            const Binding binding(cage, mesh.points, family);
+            poses = {cage.points, mapped(cage.points, crumpled), mapped(cage.points, mirrored), cage.points};
+            Random random(44);
+            for (Vec3d& p : poses.back()) p += random(0, 1.5) * random.direction();
+            expected = invertedTriangles(binding, mesh, poses);
+            kept.emplace(binding, mesh);
+        } // it outlives what it was made from
+        const InversionTest copy = *kept;
+        for (std::size_t i = 0; i < poses.size(); ++i) {
+            BOOST_TEST((kept->inverted(poses[i]) == expected[i]));
+            BOOST_TEST((copy.inverted(poses[i]) == expected[i]));
+        }
+        BOOST_TEST(expected[0].empty());
+        BOOST_TEST(!expected[1].empty());
+        BOOST_TEST(expected[1] != expected[2]);
+        const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
+        BOOST_TEST((kept->inverted(poses[3]) == expected[3]));
+        BOOST_CHECK_THROW(kept->inverted({Vec3d(0)}), InputError);
+        poses[1][0].x() = std::nan("");
+        BOOST_CHECK_THROW(kept->inverted(poses[1]), InputError);
+    }
+}
+
 BOOST_AUTO_TEST_CASE(more_triangles_than_a_piece_and_ones_without_a_side)
 {
     const Mesh box = test::box(Vec3d(-1), Vec3d(1)), cage{box.points, triangulate(box), {}};
@@ -135,6 +169,7 @@ BOOST_AUTO_TEST_CASE(more_triangles_than_a_piece_and_ones_without_a_side)
     const auto all = inverted(cage, many, Coordinates::meanValue, mirrored);
     BOOST_REQUIRE(all.size() == triangulate(many).size());
     BOOST_TEST(all.back() == all.size() - 1);
+    BOOST_TEST((InversionTest(Binding(cage, many.points, Coordinates::meanValue), many).inverted(mirrored) == all));
     Mesh odd{
         {Vec3d(0), Vec3d(0.5, 0, 0), Vec3d(0, 0.5, 0), Vec3d(0.5, 1e-8, 0)}, {{0, 1, 2}, {0, 0, 1}, {0, 1, 3}}, {}};
     BOOST_TEST((inverted(cage, odd, Coordinates::meanValue, mirrored) == std::vector<std::uint32_t>{0}));
@@ -149,6 +184,16 @@ BOOST_AUTO_TEST_CASE(wrong_pairs)
                "model: it has 8 points; the binding has " + std::to_string(model.points.size());
     });
     BOOST_CHECK_THROW(invertedTriangles(binding, model, {{Vec3d(0)}}), InputError);
+    BOOST_CHECK_THROW(InversionTest(binding, cage), InputError);
+    const std::vector<float> weights = computeWeights(cage, model.points, Coordinates::meanValue);
+    const Binding given(cage, model.points, Coordinates::given, weights);
+    const auto isClear = [](const InputError& error) {
+        return std::string(error.what()) ==
+               "inversions: the binding's weights were made elsewhere; two points are looked at for each triangle, "
+               "which needs coordinates that can be computed at other points";
+    };
+    BOOST_CHECK_EXCEPTION(invertedTriangles(given, model, {}), InputError, isClear);
+    BOOST_CHECK_EXCEPTION(InversionTest(given, model), InputError, isClear);
     // A triangle across the notch of a cage: its corners are inside, its middle is not.
     Mesh notched = cage;
     for (Vec3d& p : notched.points) {

@@ -96,7 +96,8 @@ BOOST_AUTO_TEST_CASE(refuses_what_does_not_fit)
         BOOST_TEST(messageOf(path, cage, points).find(path + ": it is ") == 0U);
     }
     test::writeText(path, "solid\n");
-    BOOST_TEST(messageOf(path, cage, points) == path + ": it is not a weights file of vdbcage");
+    BOOST_TEST(messageOf(path, cage, points) ==
+               path + ": it is not a weights file: neither NumPy's (.npy) nor named .dmat");
     BOOST_TEST(!messageOf(folder / "none.npy", cage, points).empty());
     BOOST_TEST(!messageOf(folder.path(), cage, points).empty());
 }

@@ -43,9 +43,27 @@ Vec3d affine(const Vec3d& p)
     return {1.5 * p.x() - 0.3 * p.y() + 2, 0.2 * p.x() + 0.8 * p.y() - 1, p.z() + 0.1 * p.x() + 3};
 }
 
+std::vector<Vec3d> carriedPose(const Mesh& rest, const std::vector<Vec3d>& posed, const Mesh& other)
+{
+    return carriedPoses(rest, {posed}, other).front();
+}
+
 } // namespace
 
 BOOST_AUTO_TEST_SUITE(carry)
+
+BOOST_AUTO_TEST_CASE(poses_that_are_carried_together_come_out_as_alone)
+{
+    const Mesh rest = test::sphere({0, 0, 0}, 1, 6), other = test::torus(0.5, 0.1, 40, 15); // more than a block
+    const openvdb::BBoxd box = boundingBox(rest);
+    const std::vector<std::vector<Vec3d>> poses{bent(rest.points, box, 1), rest.points, bent(rest.points, box, -0.5)};
+    const auto together = carriedPoses(rest, poses, other);
+    BOOST_TEST_REQUIRE(together.size() == 3u);
+    for (std::size_t i = 0; i < 3; ++i) BOOST_CHECK(together[i] == carriedPose(rest, poses[i], other));
+    BOOST_CHECK(together[1] == other.points);
+    BOOST_CHECK(together[0] != together[2]);
+    BOOST_TEST(carriedPoses(rest, {}, other).empty());
+}
 
 BOOST_AUTO_TEST_CASE(another_cage_poses_the_model_alike)
 {

@@ -4,8 +4,10 @@
 
 #include <cmath>
 #include <limits>
+#include <sstream>
 
 #include <mesh/mesh_samples.h>
+#include <support/shapes.h>
 #include <vdbcage/core/error.h>
 #include <vdbcage/mesh/io/polygon_soup.h>
 
@@ -410,6 +412,28 @@ BOOST_AUTO_TEST_CASE(stl_binary_files_that_begin_like_ascii)
         BOOST_TEST(mesh.triangles.size() == 1U);
         BOOST_CHECK_NO_THROW(stl(binaryStl(header, 1, {0, 0, 0, 1, 0, 0, 0, 1, 0}) + std::string(10, '\0')));
     }
+}
+
+BOOST_AUTO_TEST_CASE(ply_with_colours_is_read_back_and_has_them_behind_each_point)
+{
+    const Mesh mesh = test::box({0.1, 0, -1}, {1, 2, 3});
+    std::vector<PointColour> colours;
+    for (std::size_t i = 0; i < mesh.points.size(); ++i) {
+        colours.push_back({static_cast<std::uint8_t>(i), static_cast<std::uint8_t>(255 - i), 7});
+    }
+    std::ostringstream out;
+    writeColouredPly(mesh, colours, out, "a.ply");
+    const std::string bytes = out.str();
+    const Mesh back = ply(bytes);
+    BOOST_CHECK(back.points == mesh.points);
+    BOOST_CHECK(back.quads == mesh.quads);
+    const std::size_t body = bytes.find("end_header\n") + 11;
+    for (std::size_t i = 0; i < colours.size(); ++i) {
+        const std::string colour = bytes.substr(body + 27 * i + 24, 3);
+        BOOST_TEST((colour == std::string(colours[i].begin(), colours[i].end())));
+    }
+    colours.pop_back();
+    BOOST_CHECK_THROW(writeColouredPly(mesh, colours, out, "a.ply"), InputError);
 }
 
 BOOST_AUTO_TEST_CASE(stl_ascii_in_capitals_in_several_solids_and_on_one_line)

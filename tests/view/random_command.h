@@ -47,7 +47,7 @@ inline view::Command randomCommand(std::mt19937& random, const std::vector<std::
     };
     const auto fraction = [&] { return static_cast<float>(real(0, 1)); };
     const auto layer = static_cast<LayerId>(below(static_cast<int>(layerCount)));
-    switch (below(21)) {
+    switch (below(22)) {
     case 0:
         return OpenModel{files[random() % files.size()]};
     case 1:
@@ -111,6 +111,10 @@ inline view::Command randomCommand(std::mt19937& random, const std::vector<std::
     case 17:
         return below(2) == 0 ? Command(SetOrientation{static_cast<Orientation>(below(4))})
                              : Command(SetSeeThrough{below(2) == 0});
+    case 20:
+        return below(3) == 0   ? Command(SetFrame{below(200)})
+               : below(2) == 0 ? Command(Play{below(2) == 0})
+                               : Command(SetRate{real(1, 240)});
     case 18:
         if (below(2) == 0) return SetSoft{below(2) == 0 ? 0 : real(0, 1)};
         if (below(2) == 0) return SetPivot{{Pivot::Kind::point, {real(-1, 1), real(-1, 1), real(-1, 1)}}};

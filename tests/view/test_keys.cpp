@@ -108,7 +108,7 @@ BOOST_AUTO_TEST_CASE(buttons_turn_move_and_zoom_the_view_by_the_map)
     const auto check = [&](const std::vector<std::pair<std::string, std::string>>& drags) {
         for (const auto& [button, change] : drags) BOOST_TEST_CONTEXT(button) BOOST_TEST(viewChange(button) == change);
     };
-    run(app, {"expect keys blender"});
+    run(app, {"expect key-map blender"});
     check({{"left", "turn"},
            {"shift+left", "pan"},
            {"middle", "pan"},
@@ -116,7 +116,7 @@ BOOST_AUTO_TEST_CASE(buttons_turn_move_and_zoom_the_view_by_the_map)
            {"alt+left", "turn"},
            {"control+left", "nothing"},
            {"control+right", "nothing"}});
-    run(app, {"keys maya", "expect keys maya"});
+    run(app, {"keys maya", "expect key-map maya"});
     check({{"alt+left", "turn"},
            {"alt+middle", "pan"},
            {"alt+right", "zoom"},
@@ -247,8 +247,8 @@ BOOST_AUTO_TEST_CASE(keys_are_mayas)
 BOOST_AUTO_TEST_CASE(a_menu_chooses_the_map)
 {
     run(app, {"widget menu.Help press", "mouse move menu.Keys", "mouse click", "widget \"menu.keys maya\" press",
-              "expect keys maya", "key r", "expect tool scale", "widget menu.Help press", "mouse move menu.Keys",
-              "mouse click", "widget \"menu.keys blender\" press", "expect keys blender"});
+              "expect key-map maya", "key r", "expect tool scale", "widget menu.Help press", "mouse move menu.Keys",
+              "mouse click", "widget \"menu.keys blender\" press", "expect key-map blender"});
     // It is no line of a script: those are the same for every user.
     BOOST_TEST(recorded.back() == "tool scale");
 }
@@ -282,7 +282,7 @@ BOOST_AUTO_TEST_CASE(the_map_is_kept_for_the_next_window)
     const auto mapOfNext = [&](const fs::path& path) {
         AppSetup with = setup();
         with.preferences = path;
-        return App(context.api(), std::move(with)).value("keys");
+        return App(context.api(), std::move(with)).value("key-map");
     };
     BOOST_TEST(mapOfNext(file) == "blender");
     BOOST_TEST(!fs::exists(file)); // who chooses nothing has none
@@ -309,7 +309,7 @@ BOOST_AUTO_TEST_CASE(the_map_is_kept_for_the_next_window)
     AppSetup with = setup();
     with.preferences = folder / "folder";
     App other(context.api(), std::move(with));
-    run(other, {"keys maya", "expect keys maya", "expect messages 0", "expect standing none"});
+    run(other, {"keys maya", "expect key-map maya", "expect messages 0", "expect standing none"});
 }
 
 BOOST_AUTO_TEST_SUITE_END()

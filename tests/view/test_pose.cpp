@@ -75,7 +75,7 @@ BOOST_AUTO_TEST_CASE(what_is_selected_moves_and_nothing_else_and_undo_is_exact)
     session.undo();
     BOOST_TEST(points() == moved, boost::test_tools::per_element());
     session.undo();
-    BOOST_TEST(!session.state().document.pose);
+    BOOST_TEST(session.state().document.poses.isEmpty());
 }
 
 BOOST_AUTO_TEST_CASE(four_quarter_turns_return)
@@ -88,10 +88,10 @@ BOOST_AUTO_TEST_CASE(a_pose_of_nothing_moved_is_none)
 {
     run("move 1 0 0");
     run("reset-pose selected");
-    BOOST_TEST(!session.state().document.pose);
+    BOOST_TEST(session.state().document.poses.isEmpty());
     run("move 1 0 0");
     run("reset-pose all");
-    BOOST_TEST(!session.state().document.pose);
+    BOOST_TEST(session.state().document.poses.isEmpty());
 }
 
 BOOST_AUTO_TEST_CASE(a_drag_is_done_from_its_start_and_can_be_given_up)
@@ -281,7 +281,7 @@ BOOST_AUTO_TEST_CASE(nothing_is_moved_out_of_sight_for_ever)
                              "rotate 0 0 1 90 1e300 0 0"}) {
         BOOST_TEST_CONTEXT(line) BOOST_CHECK_THROW(run(line), InputError);
     }
-    BOOST_TEST(!session.state().document.pose);
+    BOOST_TEST(session.state().document.poses.isEmpty());
     run("move 1e6 0 0");
     BOOST_TEST(points()[0].x() == cage->points[0].x() + 1e6);
 }
@@ -296,7 +296,7 @@ BOOST_AUTO_TEST_CASE(where_nothing_is_selected_nothing_moves)
     BOOST_CHECK_THROW(run("move 1 0 0"), InputError);
     session.setCage(nullptr);
     BOOST_CHECK_THROW(run("move 1 0 0"), InputError);
-    BOOST_TEST(!session.state().document.pose);
+    BOOST_TEST(session.state().document.poses.isEmpty());
 }
 
 BOOST_AUTO_TEST_CASE(what_is_selected_is_forgotten_with_its_faces)

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <support/run_command.h>
+#include <vdbcage/mesh/mesh_io.h>
 
 using namespace vdbcage;
 using test::runCommand;
@@ -131,6 +132,68 @@ BOOST_AUTO_TEST_CASE(the_pose_looks_the_same_everywhere_and_is_what_the_command_
     BOOST_TEST(runCommand({program, model, cage, (made / "pose_posed_cage.obj").string(), "--script", script}).status ==
                0);
     BOOST_TEST((test::readText(out) == files.at("pose_posed_cage.obj")));
+}
+
+/// Runs a command that must do.
+void must(const std::vector<std::string>& words)
+{
+    const auto result = runCommand(words);
+    BOOST_TEST_REQUIRE(result.status == 0, result.err);
+}
+
+BOOST_AUTO_TEST_CASE(what_the_reference_does_is_done_here_and_as_the_command_does_it)
+{
+    std::vector<std::string> names{"reference_frame.obj", "reference_weights.npy", "reference_cage.obj",
+                                   "reference_influence.ply", "reference_6_sample.png"};
+    const auto numbered = [](const std::string& before, int frame) {
+        return before + (frame < 10 ? "0" : "") + std::to_string(frame) + ".obj";
+    };
+    for (int frame = 0; frame < 12; ++frame) {
+        names.push_back(numbered("reference_cage.", frame));
+        names.push_back(numbered("reference_model.", frame));
+    }
+    const test::TemporaryFolder folder;
+    fs::create_directory(folder / "build");
+    fs::create_directory_symlink(source + "/data", folder / "data");
+    fs::create_directory_symlink(source + "/docs", folder / "docs");
+    must({"env", "-C", folder.path().string(), program, "--script", "docs/reference.view", "--without-window", "any"});
+    const auto file = [&](const std::string& name) { return (folder / "build" / name).string(); };
+    for (const std::string& name : names) BOOST_TEST(fs::exists(file(name)), name);
+    const std::string model = source + "/data/creature.obj", cage = file("reference_cage.obj");
+    must({VDBCAGE_COMMAND, "make", model, "-o", file("made.obj"), "--resolution", "128", "--mesh", "triquad", "--faces",
+          "150"});
+    BOOST_TEST((test::readText(file("made.obj")) == test::readText(cage)));
+    must({VDBCAGE_COMMAND, "deform", cage, file("reference_cage.%02d.obj"), model, "-o", file("deformed.%02d.obj")});
+    for (int frame = 0; frame < 12; ++frame) {
+        BOOST_TEST((test::readText(file(numbered("deformed.", frame))) ==
+                    test::readText(file(numbered("reference_model.", frame)))));
+    }
+    BOOST_TEST((test::readText(file("reference_frame.obj")) == test::readText(file("reference_model.11.obj"))));
+    must({VDBCAGE_COMMAND, "bind", cage, model, "-o", file("bound.npy")});
+    BOOST_TEST((test::readText(file("bound.npy")) == test::readText(file("reference_weights.npy"))));
+}
+
+BOOST_AUTO_TEST_CASE(a_walk_opened_as_a_sequence_gives_the_frames_of_deform)
+{
+    const test::TemporaryFolder folder;
+    const std::string model = source + "/data/creature.obj", cage = (folder / "cage.obj").string();
+    const auto file = [&](const std::string& name) { return (folder / name).string(); };
+    must({VDBCAGE_COMMAND, "make", model, "-o", cage, "--mesh", "triquad"});
+    fs::create_directory(folder / "walk");
+    must({VDBCAGE_WALK, cage, file("walk")});
+    test::writeText(file("s.view"), "open " + model + "\nset mesh triquad\nwait\nmode pose\ncoordinates green\n" +
+                                        "open-poses " + file("walk/walk.0003.obj") +
+                                        "\nexpect keys 12\nwait\nsave-posed-models " + file("here.%04d.obj") +
+                                        "\nsave-posed-cages " + file("cage.%04d.obj") + "\n");
+    must({program, "--script", file("s.view"), "--without-window", "any"});
+    must({VDBCAGE_COMMAND, "deform", cage, file("walk/walk.%04d.obj"), model, "-o", file("there.%04d.obj"),
+          "--coordinates", "green"});
+    for (int frame = 0; frame < 12; ++frame) {
+        const std::string number = (frame < 10 ? "000" : "00") + std::to_string(frame) + ".obj";
+        BOOST_TEST((test::readText(file("here." + number)) == test::readText(file("there." + number))));
+        BOOST_TEST(readMesh(file("cage." + number)).points == readMesh(file("walk/walk." + number)).points,
+                   boost::test_tools::per_element());
+    }
 }
 
 BOOST_AUTO_TEST_CASE(what_is_recorded_does_the_same_again)

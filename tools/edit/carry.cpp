@@ -50,29 +50,32 @@ private:
 
 } // namespace
 
-std::vector<Vec3d> carriedPose(const Mesh& rest, const std::vector<Vec3d>& posed, const Mesh& other,
-                               Interrupter* interrupter)
+std::vector<std::vector<Vec3d>> carriedPoses(const Mesh& rest, const std::vector<std::vector<Vec3d>>& poses,
+                                             const Mesh& other, Interrupter* interrupter)
 {
     constexpr Coordinates family = Coordinates::meanValue;
     // So many rows at a time: of two cages of 10,000 faces all of them would be 200 MB.
     constexpr std::size_t block = 512;
-    // Of this family handles are the points, and those that no face uses have the weight 0.
-    std::vector<Vec3d> shifts = cageHandles(rest, posed, family);
-    const std::vector<Vec3d> handles = cageHandles(rest, rest.points, family);
-    for (std::size_t i = 0; i < shifts.size(); ++i) shifts[i] -= handles[i];
-
     const PlacedPoints places(rest);
-    std::vector<Vec3d> result = other.points;
-    const bool isAtRest = std::all_of(places.all().begin(), places.all().end(),
-                                      [&](Index point) { return posed[point] == rest.points[point]; });
-    if (isAtRest) return result;
+    std::vector<std::vector<Vec3d>> results(poses.size(), other.points);
+    // Of this family handles are the points, and those that no face uses have the weight 0.
+    const std::vector<Vec3d> handles = cageHandles(rest, rest.points, family);
+    std::vector<std::pair<std::size_t, std::vector<Vec3d>>> moved; // poses, and by how much
+    for (std::size_t k = 0; k < poses.size(); ++k) {
+        std::vector<Vec3d> shifts = cageHandles(rest, poses[k], family);
+        const bool isAtRest = std::all_of(places.all().begin(), places.all().end(),
+                                          [&](Index point) { return shifts[point] == rest.points[point]; });
+        for (std::size_t i = 0; i < shifts.size(); ++i) shifts[i] -= handles[i];
+        if (!isAtRest) moved.emplace_back(k, std::move(shifts));
+    }
+    if (moved.empty()) return results;
+
     std::vector<Index> riding;
-    for (Index i = 0; i < result.size(); ++i) {
-        const Index same = places.at(result[i]);
-        if (same == none) {
-            riding.push_back(i);
-        } else {
-            result[i] = posed[same];
+    for (Index i = 0; i < other.points.size(); ++i) {
+        const Index same = places.at(other.points[i]);
+        if (same == none) riding.push_back(i);
+        for (const auto& entry : moved) {
+            if (same != none) results[entry.first][i] = poses[entry.first][same];
         }
     }
     for (std::size_t first = 0; first < riding.size(); first += block) {
@@ -80,12 +83,14 @@ std::vector<Vec3d> carriedPose(const Mesh& rest, const std::vector<Vec3d>& posed
         std::vector<Vec3d> points;
         for (std::size_t i = 0; i < count; ++i) points.push_back(other.points[riding[first + i]]);
         const std::vector<double> weights = computeCoordinates(rest, points, family, interrupter);
-        const double* weight = weights.data();
-        for (std::size_t i = 0; i < count; ++i) {
-            for (const Vec3d& shift : shifts) result[riding[first + i]] += *weight++ * shift;
+        for (const auto& [pose, shifts] : moved) {
+            const double* weight = weights.data();
+            for (std::size_t i = 0; i < count; ++i) {
+                for (const Vec3d& shift : shifts) results[pose][riding[first + i]] += *weight++ * shift;
+            }
         }
     }
-    return result;
+    return results;
 }
 
 } // namespace vdbcage::edit

@@ -7,7 +7,7 @@
 
 namespace vdbcage::edit {
 
-/// The pose of another cage: where the points of `other` are when those of `rest` are at `posed`.
+/// Poses of another cage: where the points of `other` are when those of `rest` are at each of `poses`.
 ///
 /// A point of `other` that is at a point of `rest` which faces use gets that one's posed place bit for bit, of several
 /// the first one's. The other points ride on `rest` by mean value coordinates. Where no point that faces use has moved,
@@ -16,8 +16,10 @@ namespace vdbcage::edit {
 /// \throw InputError not one posed point for each of `rest`; a point not finite; `rest` is not closed, faces inward or
 /// is flat
 /// \throw Cancelled
-/// Cost: O(points of `other` x faces of `rest`), in parallel. The same for any number of threads.
-std::vector<openvdb::Vec3d> carriedPose(const Mesh& rest, const std::vector<openvdb::Vec3d>& posed, const Mesh& other,
-                                        Interrupter* interrupter = nullptr);
+/// Cost: O(points of `other` x (faces of `rest` + poses x points of `rest`)), in parallel but for the second part. The
+/// same for any number of threads.
+std::vector<std::vector<openvdb::Vec3d>> carriedPoses(const Mesh& rest,
+                                                      const std::vector<std::vector<openvdb::Vec3d>>& poses,
+                                                      const Mesh& other, Interrupter* interrupter = nullptr);
 
 } // namespace vdbcage::edit

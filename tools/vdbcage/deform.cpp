@@ -1,6 +1,7 @@
 #include <iostream>
 #include <optional>
 
+#include <tools/report/frames.h>
 #include <tools/report/posed_cage.h>
 #include <vdbcage/check/check.h>
 #include <vdbcage/core/error.h>
@@ -10,7 +11,6 @@
 #include <vdbcage/mesh/mesh_io.h>
 
 #include "commands.h"
-#include "frames.h"
 #include "interrupt.h"
 #include "outputs.h"
 
@@ -117,7 +117,7 @@ int runDeform(std::vector<std::string> words)
     app.add_option("model", modelPath)->required()->type_name("MODEL");
     app.add_option("-o,--output", output, "the posed model to write")->required()->type_name("OUT");
     CLI::Option* familyOption = app.add_option("--coordinates", family, familyHelp)->type_name("FAMILY");
-    app.add_option("--weights", weights, "of vdbcage bind, else they are computed")->type_name("WEIGHTS.npy");
+    app.add_option("--weights", weights, "of bind, or a matrix (.npy, .dmat) [computed]")->type_name("WEIGHTS");
     app.add_flag("--inversions", inversions, "print how many triangles each pose inverts");
     app.add_flag("-q,--quiet", quiet, "print nothing but errors");
     if (!parse(app, std::move(words))) return exitGood;
@@ -140,6 +140,14 @@ int runDeform(std::vector<std::string> words)
         weights.empty() ? bindFiles(cagePath, modelPath,
                                     [&] { return Binding(cage, model.points, coordinatesNamed(family), &*progress); })
                         : readWeights(weights, cage, model.points);
+    if (binding.family() == Coordinates::given) {
+        const std::string made = weights.string() + ": its weights were made elsewhere; ";
+        if (familyOption->count() > 0) throw InputError(made + "they do not go with --coordinates " + family);
+        if (inversions) {
+            throw InputError(made + "--inversions needs coordinates that can be computed at other points, as those of "
+                                    "vdbcage bind");
+        }
+    }
     if (!weights.empty() && familyOption->count() > 0 && binding.family() != coordinatesNamed(family)) {
         throw InputError(weights.string() + ": has " + coordinatesName(binding.family()) +
                          " coordinates; --coordinates asks for " + family);

@@ -7,15 +7,17 @@
 #include <map>
 #include <system_error>
 
+#include <tools/report/frames.h>
 #include <tools/view/picture_control.h>
 #include <tools/view/saving.h>
-#include <tools/view/selecting.h>
 #include <tools/view/state/folder.h>
+#include <tools/view/state/move.h>
 #include <tools/view/state/posing.h>
 #include <tools/view/state/preferences.h>
 #include <tools/view/state/scene.h>
 #include <tools/view/state/words.h>
 #include <tools/view/values.h>
+#include <tools/view/verb_commands.h>
 #include <tools/view/verbs.h>
 #include <tools/view/viewport.h>
 #include <tools/view/widget_renderer.h>
@@ -58,6 +60,12 @@ public:
           viewport_(api, setup_.isSoftware), widgetRenderer_(api, widgets_.glyphs()),
           runner_(setup_.maker ? std::move(setup_.maker) : makePipelineMaker(), setup_.wake),
           posing_(setup_.binding ? std::move(setup_.binding) : bindingWork(), setup_.wake),
+          saver_(
+              [](const SaveJob& job, Interrupter& interrupter, const auto&) {
+                  job.write(interrupter);
+                  return job.name;
+              },
+              setup_.wake),
           control_({session_, viewport_, [this](const std::string& line) { attempt(line); }, [this] { endDrag(); },
                     [this] { return viewport(); }, double{setup_.scale}})
     {
@@ -66,7 +74,14 @@ public:
         resize(setup_.width, setup_.height);
     }
 
+    /// Waits for what is written.
     void perform(const Words& words)
+    {
+        begin(words);
+        finishSaving();
+    }
+
+    void begin(const Words& words)
     {
         if (words.empty()) return;
         if (isCommand(words[0])) {
@@ -85,10 +100,7 @@ public:
     void attempt(const std::string& line)
     {
         try {
-            const Words words = wordsOf(line);
-            perform(words);
-            const Verb* const verb = words.empty() ? nullptr : verbNamed(words[0]);
-            if (!verb || !verb->isOfWindow) record(line);
+            doLine(line);
         } catch (const std::exception& error) {
             complain(error.what());
         }
@@ -118,8 +130,6 @@ public:
         canvas_.emplace(api_, width, height, 1);
         width_ = width;
         height_ = height;
-        const Rectangle middle = viewport();
-        viewport_.resize(middle.width, middle.height);
         needsFrame_ = true;
         refresh();
     }
@@ -127,7 +137,12 @@ public:
     void update()
     {
         runner_.update();
-        posing_.binder().update();
+        posing_.update();
+        try {
+            takeSaved();
+        } catch (const Error& error) {
+            complain(error.what());
+        }
         refresh();
     }
 
@@ -146,16 +161,35 @@ public:
     void pass(double seconds)
     {
         if (!isAnimated()) return;
-        const draw::Camera& camera = session_.state().view.camera;
-        draw::Camera turned = draw::orbited(camera, turntableDegreesPerSecond * seconds, 0, camera.target);
+        ViewState view = session_.state().view;
+        const draw::Camera& camera = view.camera;
+        if (isTurning()) {
+            view.camera = draw::orbited(camera, turntableDegreesPerSecond * seconds, 0, camera.target);
+        }
+        if (isPlaying()) view.frame = playedFrame(seconds);
         // It is no step that could be undone.
-        State state = session_.state();
-        state.view.camera = turned;
-        session_.replaceView(state.view);
+        session_.replaceView(view);
         refresh();
     }
 
-    bool isAnimated() const { return session_.state().view.turntable && session_.state().document.model; }
+    bool isTurning() const { return session_.state().view.turntable && session_.state().document.model; }
+    bool isPlaying() const
+    {
+        const State& state = session_.state();
+        return state.view.isPlaying && state.view.mode == Mode::pose && state.document.poses.keys().size() > 1;
+    }
+    bool isAnimated() const { return isTurning() || isPlaying(); }
+    /// From the first key to the last, and again.
+    int playedFrame(double seconds)
+    {
+        const State& state = session_.state();
+        const int first = state.document.poses.firstFrame(), count = state.document.poses.finalFrame() - first + 1;
+        playedFrames_ += seconds * state.view.framesPerSecond;
+        const double whole = std::floor(playedFrames_);
+        playedFrames_ -= whole;
+        const int at = std::clamp(state.view.frame - first, 0, count - 1);
+        return first + static_cast<int>(std::fmod(at + whole, count));
+    }
     /// While a value is dragged the processor is for the cages that follow it, not for fine pictures or many.
     bool awaitsCage() const { return isValueDragged_ && !runner_.planner().isSettled(); }
     double secondsBetweenFrames() const { return setup_.isSoftware && awaitsCage() ? 0.05 : 0; }
@@ -207,11 +241,11 @@ public:
     void waitUntilSettled()
     {
         refresh();
-        while (!runner_.planner().isSettled() || !posing_.binder().isSettled()) {
+        while (!runner_.planner().isSettled() || !posing_.isSettled()) {
             if (!runner_.planner().isSettled()) {
                 runner_.waitForNews(1);
             } else {
-                posing_.binder().waitForNews(1);
+                posing_.waitForNews(1);
             }
             update();
         }
@@ -219,7 +253,7 @@ public:
 
     std::map<std::string, std::function<std::string()>> values() const
     {
-        return valuesOf({session_, runner_.planner(), posing_.binder(), messages_, notes_, frames_, isEnded_, keys_});
+        return valuesOf({session_, runner_.planner(), posing_, messages_, notes_, frames_, isEnded_, keys_});
     }
 
     const gl::Api& api_;
@@ -231,6 +265,12 @@ public:
     WidgetRenderer widgetRenderer_;
     Runner runner_;
     Posing posing_;
+    struct SaveJob {
+        std::string name; ///< of what is written
+        std::function<void(Interrupter&)> write;
+    };
+    Worker<SaveJob, std::string> saver_;
+    bool isSaving_ = false;
     PictureControl control_;
     std::optional<draw::Canvas> canvas_;
     int width_ = 0, height_ = 0;
@@ -249,12 +289,24 @@ public:
         return Rectangle{picture.left + round((*at)[0]), picture.top + round((*at)[1]), 0, 0};
     }
 
-    Rectangle viewport() const { return Panels::viewport(width_, height_, setup_.scale); }
+    Rectangle viewport() const
+    {
+        return Panels::viewport(width_, height_, setup_.scale, session_.state().view.mode == Mode::pose);
+    }
     bool isValueDragged_ = false;
     bool isEnded_ = false;
 
 private:
     // ---- lines
+
+    /// As a user does it.
+    void doLine(const std::string& line)
+    {
+        const Words words = wordsOf(line);
+        begin(words);
+        const Verb* const verb = words.empty() ? nullptr : verbNamed(words[0]);
+        if (!verb || !verb->isOfWindow) record(line);
+    }
 
     void execute(const Command& command)
     {
@@ -270,6 +322,7 @@ private:
             show();
             // Not a line of its own: it follows from this one.
             session_.execute(SetCamera{viewport_.fitted(session_.state().view, false)});
+            session_.execute(SetFrame{0});
             // To have opened a model is no work that could be lost.
             if (!hadModel || wasSaved) saved_ = session_.state().document;
         }
@@ -280,7 +333,11 @@ private:
     {
         const std::string& verb = words[0];
         const std::string argument = words.size() > 1 ? words[1] : std::string();
-        if (verb == "undo") {
+        std::optional<SymmetryPlane> made;
+        if (visible_ && visible_->report.symmetry) made = visible_->report.symmetry->plane;
+        if (const auto command = commandOfVerb(session_.state(), made, verb, argument)) {
+            doLine(toText(*command));
+        } else if (verb == "undo") {
             session_.undo();
         } else if (verb == "redo") {
             session_.redo();
@@ -295,27 +352,18 @@ private:
             if (!dismiss()) {
                 runner_.cancel();
                 posing_.binder().cancel();
+                saver_.stop();
             }
-        } else if (verb == "more" || verb == "fewer") {
-            const int faces = steppedFaces(session_.state().document.options.faces, verb == "more" ? 1 : -1);
-            attempt("set faces " + std::to_string(faces));
-        } else if (verb == "toggle") {
-            toggle(argument);
         } else if (verb == "frame") {
             if (argument != "all" && argument != "selected") refuse("frame", argument, "all or selected");
-            frame(argument == "selected");
-        } else if (verb == "look") {
-            look(argument);
-        } else if (verb.rfind("select-", 0) == 0) {
-            attempt(toText(Select{selectionAfter(session_.state(), verb, argument)}));
+            const ViewState& view = session_.state().view;
+            attempt(toText(SetCamera{viewport_.fitted(view, argument == "selected")}));
         } else if (verb == "box") {
             control_.startBox();
         } else if (verb == "grab") {
             const auto* const name = std::find(toolNames.begin() + 1, toolNames.end(), argument);
             if (name == toolNames.end()) refuse("grab", argument, "move, rotate or scale");
             control_.grab(static_cast<Tool>(name - toolNames.begin()));
-        } else if (verb == "projection" || verb == "up") {
-            change(verb, argument);
         } else if (verb.rfind("save-", 0) == 0) {
             save(verb, argument);
         } else if (verb == "open-scene") {
@@ -384,73 +432,6 @@ private:
         session_.execute(OpenModel{model->path.string()});
     }
 
-    void toggle(const std::string& what)
-    {
-        const ViewState& view = session_.state().view;
-        const auto ask = [&](const std::string& name, bool on) { attempt(name + (on ? " off" : " on")); };
-        if (what == "ground") return ask(what, view.ground);
-        if (what == "axes") return ask(what, view.axes);
-        if (what == "turntable") return ask(what, view.turntable);
-        if (what == "see-through") return ask(what, view.seeThrough);
-        if (what == "mode") return attempt(view.mode == Mode::pose ? "mode shape" : "mode pose");
-        for (int axis = 0; axis < 3; ++axis) {
-            if (what == std::string("mirror-") + "xyz"[axis]) return toggleMirror(axis);
-        }
-        for (std::size_t i = 0; i < layerCount; ++i) {
-            if (what == nameOf(static_cast<LayerId>(i))) return ask("layer " + what, view.layers[i].shown);
-        }
-        refuse("toggle", what, "a layer, ground, axes, turntable, mode, see-through, mirror-x, mirror-y or mirror-z");
-    }
-
-    /// The plane is that in which the cage was made symmetric, or else the middle of the cage.
-    void toggleMirror(int axis)
-    {
-        const State& state = session_.state();
-        if (state.view.mirror && state.view.mirror->axis == axis) return attempt("mirror off");
-        if (!state.cage) throw InputError("toggle: there is no cage yet to be mirrored");
-        const auto& made = visible_->report.symmetry;
-        const openvdb::BBoxd box = boundingBox(*state.cage);
-        SymmetryPlane plane{axis, 0.5 * (box.min()[axis] + box.max()[axis])};
-        if (made && made->plane.axis == axis) plane = made->plane;
-        attempt(toText(SetMirror{plane}));
-    }
-
-    void setCamera(const draw::Camera& camera) { attempt(toText(SetCamera{camera})); }
-
-    void frame(bool selected) { setCamera(viewport_.fitted(session_.state().view, selected)); }
-
-    void look(const std::string& side)
-    {
-        draw::Camera camera = session_.state().view.camera;
-        const std::map<std::string, std::pair<double, double>> sides{{"front", {0, 0}},  {"back", {180, 0}},
-                                                                     {"right", {90, 0}}, {"left", {-90, 0}},
-                                                                     {"top", {0, 90}},   {"bottom", {0, -90}}};
-        const auto found = sides.find(side);
-        if (found == sides.end()) refuse("look", side, "front, back, left, right, top or bottom");
-        camera.view.azimuthDegrees = found->second.first;
-        camera.view.elevationDegrees = found->second.second;
-        setCamera(camera);
-    }
-
-    void change(const std::string& what, const std::string& value)
-    {
-        draw::Camera camera = session_.state().view.camera;
-        if (what == "up") {
-            const bool isY = camera.view.up == draw::UpAxis::y;
-            if (value != "y" && value != "z" && value != "toggle") refuse(what, value, "y, z or toggle");
-            camera.view.up = value == "z" || (value == "toggle" && isY) ? draw::UpAxis::z : draw::UpAxis::y;
-        } else {
-            const bool isFar = camera.projection == draw::Projection::orthographic;
-            if (value != "perspective" && value != "orthographic" && value != "toggle") {
-                refuse(what, value, "perspective, orthographic or toggle");
-            }
-            camera.projection = value == "orthographic" || (value == "toggle" && !isFar)
-                                    ? draw::Projection::orthographic
-                                    : draw::Projection::perspective;
-        }
-        setCamera(camera);
-    }
-
     // ---- files
 
     /// The cage of the state, made and current.
@@ -465,8 +446,9 @@ private:
 
     void save(const std::string& verb, const fs::path& path)
     {
-        if (verb == "save-posed-cage" || verb == "save-posed-model" || verb == "save-weights") {
-            savePosed(verb, path);
+        if (verb.rfind("save-posed-", 0) == 0 || verb == "save-weights") return savePosed(verb, path);
+        if (verb == "save-colours") {
+            saveColours(path);
         } else if (verb == "save-cage") {
             writeMesh(currentCage(verb).cage, path);
         } else if (verb == "save-options") {
@@ -488,17 +470,71 @@ private:
         note("saved " + path.filename().string());
     }
 
+    /// What takes time is written on a thread of its own.
     void savePosed(const std::string& verb, const fs::path& path)
     {
         const State& state = session_.state();
-        Mesh posed = currentCage(verb).cage;
-        posed.points = posedPoints(state.document.pose, state.cage);
-        if (verb == "save-posed-cage") return writeMesh(posed, path);
-        const OpenedMesh& model = *state.document.model;
-        if (verb == "save-posed-model") {
-            return writeMoved(model.path, posing_.bindingOf(state)->pose(posed.points), path);
+        if (&currentCage(verb) != visible_.get()) {
+            throw InputError(verb + ": the poses are not carried over to the new cage yet");
         }
-        saveWeights(*state.cage, model, state.document.coordinates, path);
+        if (verb == "save-weights") {
+            return startSaving(path,
+                               [order = bindOrder(state), path](Interrupter& i) { saveWeights(order, path, &i); });
+        }
+        PosedScene scene{bindOrder(state), posing_.bindingOf(state), {}};
+        const bool isSequence = verb.back() == 's';
+        const TimeLine& poses = state.document.poses;
+        const int first = isSequence ? poses.firstFrame() : state.view.frame;
+        const int last = isSequence ? poses.finalFrame() : first;
+        for (int frame = first; frame <= last; ++frame) scene.frames.push_back({frame, posedPoints(state, frame)});
+        fs::path file = path;
+        if (isSequence && !tool::isPattern(path)) {
+            file.replace_extension(".%04d" + path.extension().string());
+        }
+        if (verb.rfind("save-posed-cage", 0) == 0) {
+            startSaving(file, [scene, file](Interrupter& i) { savePosedCages(scene, file, &i); });
+        } else {
+            startSaving(file, [scene, file](Interrupter& i) { savePosedModels(scene, file, &i); });
+        }
+    }
+
+    void saveColours(const fs::path& path)
+    {
+        const auto& values = posing_.modelValues();
+        if (!values) {
+            throw InputError(
+                "save-colours: the model shows none; in mode pose, once it is bound, it can show influence "
+                "or stretch");
+        }
+        const Mesh& model = session_.state().document.model->mesh;
+        const PosedModel& posed = posing_.model();
+        view::saveColours(model, posed.isWhole() ? posed.points() : model.points, *values, path);
+    }
+
+    void startSaving(const fs::path& path, std::function<void(Interrupter&)> write)
+    {
+        if (isSaving_) throw InputError(path.string() + ": another file is still being written");
+        isSaving_ = true;
+        saver_.start({path.filename().string(), std::move(write)});
+    }
+
+    /// \throw InputError why it could not be written
+    void takeSaved()
+    {
+        const auto outcome = saver_.take();
+        if (!outcome) return;
+        isSaving_ = false;
+        if (outcome->result) return note("saved " + *outcome->result);
+        note("nothing was written");
+        if (!outcome->error.empty()) throw InputError(outcome->error);
+    }
+
+    void finishSaving()
+    {
+        while (isSaving_) {
+            saver_.waitForNews(1);
+            takeSaved();
+        }
     }
 
     void saveStages(const fs::path& folder)
@@ -562,9 +598,13 @@ private:
         content.overlay = control_.overlay();
         content.binding = posing_.binder().progress();
         content.isPosedCoarsely = posing_.model().bound() && !posing_.model().isWhole();
-        content.bindingError = posing_.binder().error();
         content.keys = keys_;
         content.selected = selectionFrame(session_.state(), {});
+        if (isSaving_) content.saving = saver_.progress();
+        content.bindingError = posing_.error();
+        content.poseCheck = posing_.check();
+        content.isPosed = !posing_.cagePoints().empty() && session_.state().view.mode == Mode::pose &&
+                          session_.state().cage && posing_.cagePoints() != session_.state().cage->points;
         content.hasModelChanged = hasModelChanged_;
         content.asksToQuit = asksToQuit_;
         return content;
@@ -628,13 +668,15 @@ private:
 
     void show()
     {
+        const Rectangle middle = viewport();
+        viewport_.resize(middle.width, middle.height);
         const Planner& planner = runner_.planner();
-        const CageResultPtr cage = posing_.cageOf(session_.state().document, planner);
-        if (cage != visible_) {
+        const CageResultPtr cage = posing_.cageOf(session_.state(), planner);
+        if (cage != visible_ || session_.state().carried != posing_.carried()) {
             visible_ = cage;
-            session_.setCage(cage ? MeshPtr(cage, &cage->cage) : nullptr);
+            session_.setCage(cage ? MeshPtr(cage, &cage->cage) : nullptr, posing_.carried());
         }
-        posing_.follow(session_.state(), planner);
+        posing_.follow(session_.state(), planner, !control_.isMoving() && !session_.isDragging() && !isPlaying());
         Shown shown;
         shown.model = session_.state().document.model;
         shown.cage = cage;
@@ -662,6 +704,7 @@ private:
 
     Document saved_; ///< as it was last saved, or opened
     CageResultPtr visible_;
+    double playedFrames_ = 0; ///< of a frame, that have passed while it plays
     bool isLaidOut_ = false;
     bool keepsIntermediates_ = false;
     bool asksToQuit_ = false, hasModelChanged_ = false;

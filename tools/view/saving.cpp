@@ -1,14 +1,19 @@
 #include <tools/view/saving.h>
 
+#include <cmath>
 #include <string>
 #include <system_error>
 
+#include <tools/draw/diverging_colours.h>
+#include <tools/report/frames.h>
 #include <tools/report/report.h>
 #include <tools/report/stages.h>
 #include <tools/view/state/preset.h>
 #include <vdbcage/core/detail/atomic_file.h>
 #include <vdbcage/core/error.h>
 #include <vdbcage/deform/weights_io.h>
+#include <vdbcage/mesh/io/formats.h>
+#include <vdbcage/mesh/mesh_io.h>
 
 namespace vdbcage::view {
 
@@ -19,6 +24,21 @@ namespace {
 void saveText(const std::string& text, const fs::path& path)
 {
     writeFileAtomically(path, [&](std::ostream& out) { out << text; });
+}
+
+/// Writes a file a frame; all appear or none.
+template <class Write>
+void saveFrames(const PosedScene& scene, const fs::path& path, Interrupter* interrupter, const Write& write)
+{
+    const Stage stage(interrupter, "write");
+    PendingFiles files;
+    for (std::size_t i = 0; i < scene.frames.size(); ++i) {
+        throwIfInterrupted(interrupter, static_cast<int>(100 * i / scene.frames.size()));
+        const PosedScene::Frame& frame = scene.frames[i];
+        const fs::path file = tool::framePath(path, frame.number);
+        files.add(file, [&](std::ostream& out) { write(frame, out, file); });
+    }
+    files.commit();
 }
 
 } // namespace
@@ -59,11 +79,45 @@ void saveStages(const CageResult& result, const fs::path& folder)
     }
 }
 
-void saveWeights(const Mesh& cage, const OpenedMesh& model, Coordinates family, const std::filesystem::path& path)
+void savePosedCages(const PosedScene& scene, const fs::path& path, Interrupter* interrupter)
+{
+    Mesh posed = *scene.order.cage;
+    saveFrames(scene, path, interrupter, [&](const PosedScene::Frame& frame, std::ostream& out, const fs::path& file) {
+        posed.points = frame.cagePoints;
+        writeMesh(posed, out, file);
+    });
+}
+
+void savePosedModels(PosedScene scene, const fs::path& path, Interrupter* interrupter)
+{
+    detail::requireMeshExtension(path);
+    if (!scene.binding) scene.binding = bindingOf(scene.order, interrupter);
+    saveFrames(scene, path, interrupter, [&](const PosedScene::Frame& frame, std::ostream& out, const fs::path& file) {
+        writeMoved(scene.order.model->path, scene.binding->pose(frame.cagePoints), out, file);
+    });
+}
+
+void saveWeights(const BindOrder& order, const fs::path& path, Interrupter* interrupter)
 {
     if (path.extension() != ".npy") throw InputError(path.string() + ": weights are written as .npy");
-    const std::vector<openvdb::Vec3d>& points = model.mesh.points;
-    writeWeights(cage, points, family, computeWeights(cage, points, family), path);
+    const std::vector<openvdb::Vec3d>& points = order.model->mesh.points;
+    const std::vector<float> weights = computeWeights(*order.cage, points, order.family, interrupter);
+    writeWeights(*order.cage, points, order.family, weights, path);
+}
+
+void saveColours(const Mesh& model, const std::vector<openvdb::Vec3d>& points, const std::vector<double>& values,
+                 const fs::path& path)
+{
+    if (path.extension() != ".ply") throw InputError(path.string() + ": colours are written as .ply");
+    Mesh coloured = model;
+    coloured.points = points;
+    std::vector<PointColour> colours;
+    colours.reserve(values.size());
+    for (const draw::Colour& colour : draw::divergingColours(values)) {
+        PointColour& bytes = colours.emplace_back();
+        for (std::size_t k = 0; k < 3; ++k) bytes[k] = static_cast<std::uint8_t>(std::lround(255 * colour[k]));
+    }
+    writeFileAtomically(path, [&](std::ostream& out) { writeColouredPly(coloured, colours, out, path); });
 }
 
 void savePicture(const draw::Picture& picture, const fs::path& path)

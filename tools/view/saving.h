@@ -1,8 +1,11 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
+#include <vector>
 
 #include <tools/draw/picture.h>
+#include <tools/view/state/bound_model.h>
 #include <tools/view/state/cage_result.h>
 #include <vdbcage/deform/binding.h>
 
@@ -15,9 +18,30 @@ void saveOptions(const CageOptions& options, const std::filesystem::path& path);
 void saveReport(const CageResult& result, const std::filesystem::path& path);
 /// As make --stages; all files appear or none. \pre result.intermediates \throw IoError
 void saveStages(const CageResult& result, const std::filesystem::path& folder);
+
+/// What is saved of a model that its cage poses. A value, to be saved on any thread.
+struct PosedScene {
+    BindOrder order;
+    std::shared_ptr<const Binding> binding; ///< null: it is computed when it is needed
+    struct Frame {
+        int number = 0;
+        std::vector<openvdb::Vec3d> cagePoints;
+    };
+    std::vector<Frame> frames; ///< one at least
+};
+/// The posed cages. \throw InputError, IoError, Cancelled
+void savePosedCages(const PosedScene& scene, const std::filesystem::path& path, Interrupter* interrupter);
+/// The posed models, as the command deform. `path` has a place for the number of the frame, as %04d, if there are more
+/// than one. All files appear or none. \throw InputError, IoError, Cancelled
+void savePosedModels(PosedScene scene, const std::filesystem::path& path, Interrupter* interrupter);
 /// As the command bind; the weights are computed here. \throw InputError the name does not end in .npy, or as
-/// computeWeights; IoError
-void saveWeights(const Mesh& cage, const OpenedMesh& model, Coordinates family, const std::filesystem::path& path);
+/// computeWeights; IoError; Cancelled
+void saveWeights(const BindOrder& order, const std::filesystem::path& path, Interrupter* interrupter);
+/// The model with its points at `points`, and colours that tell one value for each (see draw::divergingColours).
+/// \throw InputError the name does not end in .ply; IoError
+void saveColours(const Mesh& model, const std::vector<openvdb::Vec3d>& points, const std::vector<double>& values,
+                 const std::filesystem::path& path);
+
 /// \throw InputError the name does not end in .png; IoError
 void savePicture(const draw::Picture& picture, const std::filesystem::path& path);
 

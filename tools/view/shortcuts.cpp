@@ -80,6 +80,16 @@ const std::vector<Row>& rows()
         {"shift+e", "tool rotate", "handles that turn", "e"},
         {"shift+r", "tool scale", "handles that scale", "r"},
         {"alt+g", "reset-pose selected", "moves what is selected back to where it is at rest"},
+        {"i", "insert-key", "keeps the pose on the time line", "s"},
+        {"shift+i", "remove-key", "takes the key at this frame off the time line"},
+        {"right", "next-frame", "the next frame"},
+        {"left", "previous-frame", "the frame before"},
+        {"up", "next-key", "the next key of the time line"},
+        {"down", "previous-key", "the key before"},
+        {"", "next-key", "the next key of the time line", "period"},
+        {"", "previous-key", "the key before", "comma"},
+        {"space", "toggle play", "plays the time line, or stops it"},
+        {"", "toggle play", "plays the time line, or stops it", "alt+v"},
         {"f1", "help", "shows keys, mouse and commands"},
     };
     return list;

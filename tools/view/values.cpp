@@ -20,7 +20,7 @@ std::map<std::string, std::function<std::string()>> valuesOf(const ValueSource& 
     const Planner& planner = source.planner;
     const Session& session = source.session;
     const State& state = session.state();
-    const Binder& binder = source.binder;
+    const Posing& posing = source.posing;
     const auto &messages = source.messages, &notes = source.notes;
     const std::uint64_t& frames = source.frames;
     const bool& isEnded = source.isEnded;
@@ -89,13 +89,26 @@ std::map<std::string, std::function<std::string()>> valuesOf(const ValueSource& 
         const std::string text = toText(SetPivot{state.view.pivot});
         return text.substr(text.find(' ') + 1);
     };
-    list["keys"] = [&] { return keyMapNames[static_cast<std::size_t>(keys)]; };
+    list["key-map"] = [&] { return keyMapNames[static_cast<std::size_t>(keys)]; };
     list["see-through"] = [&] { return state.view.seeThrough ? "on" : "off"; };
     list["mirror"] = [&] { return state.view.mirror ? std::string(1, "xyz"[state.view.mirror->axis]) : "off"; };
     list["coordinates"] = [&] { return coordinatesName(state.document.coordinates); };
-    list["posed"] = [&] { return yesNo(state.document.pose != nullptr); };
+    list["posed"] = [&] { return yesNo(!state.document.poses.isEmpty()); };
+    list["time"] = [&] { return std::to_string(state.view.frame); };
+    list["keys"] = [&] { return std::to_string(state.document.poses.keys().size()); };
+    list["key"] = [&] {
+        const PoseKey* const key = state.document.poses.keyAt(state.view.frame);
+        return !key ? "none" : key->name.empty() ? "unnamed" : key->name;
+    };
+    list["last-frame"] = [&] { return std::to_string(state.document.poses.finalFrame()); };
+    list["play"] = [&] { return state.view.isPlaying ? "on" : "off"; };
+    list["pose-valid"] = [&] { return posing.check() ? yesNo(posing.check()->isValid) : "none"; };
+    list["inverted"] = [&] {
+        const PoseCheckPtr& checked = posing.check();
+        return checked && checked->inverted ? std::to_string(checked->inverted->size()) : "none";
+    };
     list["bound"] = [&] {
-        const BoundModelPtr& bound = binder.bound();
+        const BoundModelPtr& bound = posing.binder().bound();
         return !bound ? "no" : bound->whole ? "yes" : "coarsely";
     };
     list["ground"] = [&] { return state.view.ground ? "on" : "off"; };

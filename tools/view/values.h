@@ -16,7 +16,7 @@ namespace vdbcage::view {
 struct ValueSource {
     const Session& session;
     const Planner& planner;
-    const Binder& binder;
+    const Posing& posing;
     const std::vector<std::string>& messages;
     const std::vector<std::string>& notes;
     const std::uint64_t& frames;

@@ -7,7 +7,7 @@ namespace vdbcage::view {
 
 namespace {
 
-constexpr std::array<Verb, 42> verbs{{
+constexpr std::array<Verb, 51> verbs{{
     {"undo", "", 0, 0, "takes back the last change of options or files", false},
     {"redo", "", 0, 0, "does again what was taken back", false},
     {"undo-view", "", 0, 0, "takes back the last change of the view", false},
@@ -16,7 +16,7 @@ constexpr std::array<Verb, 42> verbs{{
     {"cancel", "", 0, 0, "closes what is open, or stops the making of a cage", false},
     {"more", "", 0, 0, "a twentieth more faces", true},
     {"fewer", "", 0, 0, "a twentieth fewer faces", true},
-    {"toggle", "LAYER|ground|axes|turntable|mode|see-through|mirror-x|mirror-y|mirror-z", 1, 1,
+    {"toggle", "LAYER|ground|axes|turntable|mode|play|see-through|mirror-x|mirror-y|mirror-z", 1, 1,
      "shows what is hidden and hides what is shown", true},
     {"frame", "all|selected", 1, 1, "moves the view so that all is seen", true},
     {"look", "front|back|left|right|top|bottom", 1, 1, "looks from there", true},
@@ -32,8 +32,19 @@ constexpr std::array<Verb, 42> verbs{{
     {"select-loop", "", 0, 0, "selects the loops through what is selected", true},
     {"box", "", 0, 0, "selects what is in the box that is dragged next", true},
     {"grab", "move|rotate|scale", 1, 1, "moves what is selected with the pointer", true},
+    {"next-frame", "", 0, 0, "shows the pose of the next frame", true},
+    {"previous-frame", "", 0, 0, "shows the pose of the frame before", true},
+    {"next-key", "", 0, 0, "goes to the next key of the time line", true},
+    {"previous-key", "", 0, 0, "goes to the key before", true},
+    {"insert-key", "", 0, 0, "keeps the pose that is seen on the time line", true},
+    {"remove-key", "", 0, 0, "takes the key at this frame off the time line", true},
     {"save-posed-cage", "FILE", 1, 1, "writes the posed cage (.obj .off .ply .stl)", false},
     {"save-posed-model", "FILE", 1, 1, "writes the model, posed by the cage; all else of an OBJ file stays", false},
+    {"save-posed-cages", "PATTERN", 1, 1, "the same for every frame from the first key to the last: cage.%04d.obj",
+     false},
+    {"save-posed-models", "PATTERN", 1, 1, "the same for every frame from the first key to the last: out.%04d.obj",
+     false},
+    {"save-colours", "FILE.ply", 1, 1, "writes the model as it is seen, with influence or stretch as colours", false},
     {"save-weights", "FILE.npy", 1, 1, "writes by what weights the cage moves the model", false},
     {"save-cage", "FILE", 1, 1, "writes the cage (.obj .off .ply .stl)", false},
     {"save-stages", "FOLDER", 1, 1, "writes every stage (.vdb, .obj)", false},

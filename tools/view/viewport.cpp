@@ -348,12 +348,12 @@ std::vector<draw::Layer> Viewport::layers(const ViewState& view, bool standIn) c
         if (!look.shown || !slots_[i].shape) continue;
         draw::Layer layer;
         layer.shape = &*slots_[i].shape;
+        layer.colour = look.colour;
         if (id == LayerId::model) {
             if (modelValues_ && !hasOnlyStandIn_) layer.colour = {1, 1, 1};
             if (standIn && standIn_.shape) layer.shape = &*standIn_.shape;
             if (hasOnlyStandIn_ && boundStandIn_.shape) layer.shape = &*boundStandIn_.shape;
         }
-        layer.colour = look.colour;
         layer.opacity = static_cast<float>(look.opacity);
         if (id != LayerId::model) layer.edges = edgesOf(id, look);
         if (id == LayerId::cage) {

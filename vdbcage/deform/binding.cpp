@@ -19,6 +19,7 @@
 #include <vdbcage/deform/detail/likelihood.h>
 #include <vdbcage/deform/detail/mean_value.h>
 #include <vdbcage/deform/detail/weight_blocks.h>
+#include <vdbcage/deform/detail/weight_matrix.h>
 
 namespace vdbcage {
 
@@ -30,16 +31,34 @@ struct Family {
     Coordinates family;
     const char* name;
     const char* nameOnQuads;
-    bool (*row)(const detail::BoundCage&, const Vec3d&, double*);
+    bool (*row)(const detail::BoundCage&, const Vec3d&, double*); ///< null for what cannot be computed
 };
 
-constexpr std::array<Family, 3> families{{{Coordinates::meanValue, "mvc", "qmvc", detail::meanValueRow},
+constexpr std::array<Family, 4> families{{{Coordinates::meanValue, "mvc", "qmvc", detail::meanValueRow},
                                           {Coordinates::green, "green", "qgc", detail::greenRow},
-                                          {Coordinates::maximumLikelihood, "mlc", "mlc", detail::likelihoodRow}}};
+                                          {Coordinates::maximumLikelihood, "mlc", "mlc", detail::likelihoodRow},
+                                          {Coordinates::given, "given", "given", nullptr}}};
 
 const Family& entry(Coordinates family)
 {
     return families[static_cast<std::size_t>(family)];
+}
+
+/// The names of those that can be computed.
+std::string computableFamilies()
+{
+    std::string names;
+    for (const Family& family : families) {
+        if (family.row) names += (names.empty() ? "" : ", ") + std::string(family.name);
+    }
+    return names;
+}
+
+Coordinates requireComputable(Coordinates family)
+{
+    if (entry(family).row) return family;
+    throw InputError(std::string("coordinates: '") + entry(family).name +
+                     "' weights were made elsewhere and cannot be computed; there are " + computableFamilies());
 }
 
 bool isFinite(const Vec3d& p)
@@ -91,8 +110,8 @@ void forEachNormal(const Mesh& cage, const Take& take)
 class RowMaker {
 public:
     RowMaker(const Mesh& mesh, const std::vector<Vec3d>& points, Coordinates family, Interrupter* interrupter)
-        : points_(points), family_(family), interrupter_(interrupter), columns_(handleCount(mesh, family)), cage_(mesh),
-          undefined_(points.size(), 0)
+        : points_(points), family_(requireComputable(family)), interrupter_(interrupter),
+          columns_(handleCount(mesh, family)), cage_(mesh), undefined_(points.size(), 0)
     {
         requireFinite(points, "points");
     }
@@ -185,12 +204,10 @@ const char* coordinatesName(Coordinates family)
 
 Coordinates coordinatesNamed(const std::string& name)
 {
-    std::string known;
     for (const Family& family : families) {
-        if (name == family.name || name == family.nameOnQuads) return family.family;
-        known += (known.empty() ? "" : ", ") + std::string(family.name);
+        if (family.row && (name == family.name || name == family.nameOnQuads)) return family.family;
     }
-    throw InputError("coordinates: '" + name + "' is not a family; there are " + known);
+    throw InputError("coordinates: '" + name + "' is not a family; there are " + computableFamilies());
 }
 
 std::vector<Vec3d> cageHandles(const Mesh& cage, const std::vector<Vec3d>& posed, Coordinates family)
@@ -251,6 +268,10 @@ Binding::Binding(const Mesh& cage, std::vector<Vec3d> points, Coordinates family
     requireFinite(points_, "points");
     restHandles_ = cageHandles(cage, cage.points, family);
     detail::requireWeights(weights.size(), points_.size(), handles());
+    if (family == Coordinates::given) {
+        const std::string problem = detail::weightsProblem(weights, handles());
+        if (!problem.empty()) throw InputError("weights: " + problem);
+    }
     weights_ = std::make_shared<detail::WeightBlocks>(
         points_, maxDistancesOf(cage_, family_),
         [&](const std::vector<std::uint32_t>& block, std::vector<float>& rows) {

@@ -29,12 +29,16 @@ enum class Coordinates {
     /// no volume mesh, and so keep the rest pose and affine maps exactly at every point. Defined inside and on the
     /// cage, which they interpolate; an error outside.
     maximumLikelihood,
+    /// Weights that were made elsewhere, of any family: one a cage point. They cannot be computed, nor be had at other
+    /// points. See readWeights. The cage may be open.
+    given,
 };
 
-/// "mvc", "green" or "mlc".
+/// "mvc", "green", "mlc" or "given".
 VDBCAGE_API const char* coordinatesName(Coordinates family);
 
-/// The family of a name. "qmvc" and "qgc" are other names of "mvc" and "green", as their papers call them on quads.
+/// The family of a name, of those that can be computed. "qmvc" and "qgc" are other names of "mvc" and "green", as their
+/// papers call them on quads.
 /// \throw InputError naming the families
 VDBCAGE_API Coordinates coordinatesNamed(const std::string& name);
 
@@ -58,7 +62,7 @@ VDBCAGE_API std::vector<openvdb::Vec3d> cageHandles(const Mesh& cage, const std:
 /// Self-intersections are not looked for. Degenerate faces are allowed. The same for any number of threads.
 /// \pre `cage` is closed and faces outward
 /// \throw InputError a cage that is not closed, faces inward or is flat; a point not finite; a point for which the
-/// family is not defined (the message has the first and how many)
+/// family is not defined (the message has the first and how many); the family is `given`
 /// \throw Cancelled
 /// Cost: O(points x faces), in parallel. Quads cost several times what triangles do.
 VDBCAGE_API std::vector<double> computeCoordinates(const Mesh& cage, const std::vector<openvdb::Vec3d>& points,
@@ -82,8 +86,9 @@ public:
     /// \throw Cancelled
     Binding(const Mesh& cage, std::vector<openvdb::Vec3d> points, Coordinates family,
             Interrupter* interrupter = nullptr);
-    /// Takes coordinates computed before by computeWeights. The same as computing them here.
-    /// \throw InputError their number is not points times handles; a point not finite
+    /// Takes coordinates computed before by computeWeights, or given ones. The same as computing them here.
+    /// \throw InputError their number is not points times handles; a point not finite; of given weights one is not
+    /// finite, or a row's sum is not 1 within 1e-3, so that moving the cage would not move the points along
     Binding(const Mesh& cage, std::vector<openvdb::Vec3d> points, Coordinates family,
             const std::vector<float>& weights);
 

@@ -5,6 +5,7 @@
 #include <vdbcage/deform/inversions.h>
 
 #include <algorithm>
+#include <utility>
 
 #include <vdbcage/core/error.h>
 #include <vdbcage/deform/detail/bound_cage.h>
@@ -49,39 +50,94 @@ Binding bindBeside(const Binding& binding, const Mesh& model, const std::vector<
     }
 }
 
+/// Some of the triangles, in the order of their indices, and what is bound beside them.
+struct Piece {
+    std::vector<std::uint32_t> indices;
+    Binding beside;
+
+    /// Adds those that the pose `cagePoints` inverts, which moves the model's points to `posed`.
+    void addInverted(const std::vector<openvdb::Vec3I>& triangles, const std::vector<Vec3d>& cagePoints,
+                     const std::vector<Vec3d>& posed, std::vector<std::uint32_t>& inverted) const
+    {
+        const std::vector<Vec3d> posedBeside = beside.pose(cagePoints);
+        for (std::size_t i = 0; i < indices.size(); ++i) {
+            const Vec3d down = posedBeside[2 * i + 1] - posedBeside[2 * i];
+            if (!(areaNormal(posed, triangles[indices[i]]).dot(down) < 0)) inverted.push_back(indices[i]);
+        }
+    }
+};
+
+/// \throw InputError
+void requirePair(const Binding& binding, const Mesh& model)
+{
+    if (binding.family() == Coordinates::given) {
+        throw InputError("inversions: the binding's weights were made elsewhere; two points are looked at for each "
+                         "triangle, which needs coordinates that can be computed at other points");
+    }
+    requireUsable(model, "model");
+    if (model.points.size() != binding.points().size()) {
+        throw InputError("model: it has " + std::to_string(model.points.size()) + " points; the binding has " +
+                         std::to_string(binding.points().size()));
+    }
+}
+
+/// Gives `take` the triangles that have a side piece by piece.
+template <typename Take>
+void forEachPiece(const Binding& binding, const Mesh& model, const std::vector<openvdb::Vec3I>& triangles,
+                  Interrupter* interrupter, const Take& take)
+{
+    const double thin = thinnest * detail::CageFrame(binding.cage()).size;
+    for (std::size_t next = 0; next < triangles.size();) {
+        std::vector<std::uint32_t> indices;
+        for (; next < triangles.size() && indices.size() < pieceSize; ++next) {
+            const openvdb::Vec3I& t = triangles[next];
+            if (areaNormal(model.points, t).length() > thin * longestEdge(model.points, t)) {
+                indices.push_back(static_cast<std::uint32_t>(next));
+            }
+        }
+        Binding beside = bindBeside(binding, model, triangles, indices, interrupter);
+        take(Piece{std::move(indices), std::move(beside)});
+    }
+}
+
 } // namespace
 
 std::vector<std::vector<std::uint32_t>> invertedTriangles(const Binding& binding, const Mesh& model,
                                                           const std::vector<std::vector<Vec3d>>& poses,
                                                           Interrupter* interrupter)
 {
-    requireUsable(model, "model");
-    if (model.points.size() != binding.points().size()) {
-        throw InputError("model: it has " + std::to_string(model.points.size()) + " points; the binding has " +
-                         std::to_string(binding.points().size()));
-    }
+    requirePair(binding, model);
     const std::vector<openvdb::Vec3I> triangles = triangulate(model);
-    const double thin = thinnest * detail::CageFrame(binding.cage()).size;
     std::vector<std::vector<std::uint32_t>> inverted(poses.size());
-    std::vector<std::uint32_t> piece;
-    for (std::size_t next = 0; next < triangles.size();) {
-        piece.clear();
-        for (; next < triangles.size() && piece.size() < pieceSize; ++next) {
-            const openvdb::Vec3I& t = triangles[next];
-            if (areaNormal(model.points, t).length() > thin * longestEdge(model.points, t)) {
-                piece.push_back(static_cast<std::uint32_t>(next));
-            }
-        }
-        const Binding beside = bindBeside(binding, model, triangles, piece, interrupter);
+    forEachPiece(binding, model, triangles, interrupter, [&](const Piece& piece) {
         for (std::size_t pose = 0; pose < poses.size(); ++pose) {
             throwIfInterrupted(interrupter);
-            const std::vector<Vec3d> posed = binding.pose(poses[pose]), posedBeside = beside.pose(poses[pose]);
-            for (std::size_t i = 0; i < piece.size(); ++i) {
-                const Vec3d down = posedBeside[2 * i + 1] - posedBeside[2 * i];
-                if (!(areaNormal(posed, triangles[piece[i]]).dot(down) < 0)) inverted[pose].push_back(piece[i]);
-            }
+            piece.addInverted(triangles, poses[pose], binding.pose(poses[pose]), inverted[pose]);
         }
-    }
+    });
+    return inverted;
+}
+
+struct InversionTest::Bound {
+    Binding binding;
+    std::vector<openvdb::Vec3I> triangles;
+    std::vector<Piece> pieces;
+};
+
+InversionTest::InversionTest(const Binding& binding, const Mesh& model, Interrupter* interrupter)
+{
+    requirePair(binding, model);
+    Bound bound{binding, triangulate(model), {}};
+    forEachPiece(binding, model, bound.triangles, interrupter,
+                 [&](Piece&& piece) { bound.pieces.push_back(std::move(piece)); });
+    bound_ = std::make_shared<const Bound>(std::move(bound));
+}
+
+std::vector<std::uint32_t> InversionTest::inverted(const std::vector<Vec3d>& cagePoints) const
+{
+    const std::vector<Vec3d> posed = bound_->binding.pose(cagePoints);
+    std::vector<std::uint32_t> inverted;
+    for (const Piece& piece : bound_->pieces) piece.addInverted(bound_->triangles, cagePoints, posed, inverted);
     return inverted;
 }
 

@@ -2,6 +2,7 @@
 
 #include <vdbcage/deform/weights_io.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <charconv>
 #include <cstdint>
@@ -14,6 +15,7 @@
 #include <vdbcage/core/detail/read_file.h>
 #include <vdbcage/core/error.h>
 #include <vdbcage/deform/detail/weight_blocks.h>
+#include <vdbcage/deform/detail/weight_matrix.h>
 
 namespace vdbcage {
 
@@ -21,7 +23,7 @@ namespace {
 
 static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "reverse the bytes here");
 
-const std::string magic("\x93NUMPY\x01\x00", 8);
+const std::string numpy = "\x93NUMPY", magic("\x93NUMPY\x01\x00", 8);
 const std::string beforeCounts = "{'descr': [('family', '|S8'), ('cage_hash', '<u8'), ('points_hash', '<u8'), "
                                  "('weights', '<f4', (";
 const std::string afterCounts = "))], 'fortran_order': False, 'shape': (), }";
@@ -76,6 +78,21 @@ std::string headerOf(std::size_t points, std::size_t handles)
     return magic + char(text.size() & 0xFFU) + char(text.size() >> 8U) + text;
 }
 
+bool isDmat(const std::filesystem::path& path)
+{
+    std::string extension = path.extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+                   [](char c) { return c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c; });
+    return extension == ".dmat";
+}
+
+/// The family of a record; `given` too, which coordinatesNamed does not take.
+Coordinates familyOf(const Record& record)
+{
+    const std::string name(record.family, ::strnlen(record.family, sizeof record.family));
+    return name == coordinatesName(Coordinates::given) ? Coordinates::given : coordinatesNamed(name);
+}
+
 } // namespace
 
 void writeWeights(const Mesh& cage, const std::vector<openvdb::Vec3d>& points, Coordinates family,
@@ -107,6 +124,16 @@ void writeWeights(const Mesh& cage, const std::vector<openvdb::Vec3d>& points, C
 Binding readWeights(const std::filesystem::path& path, const Mesh& cage, std::vector<openvdb::Vec3d> points)
 {
     const auto fail = [&](const std::string& what) { throw IoError(path.string() + ": " + what); };
+    const auto bindGiven = [&](const std::vector<float>& weights) {
+        const std::string problem = detail::weightsProblem(weights, cage.points.size());
+        if (!problem.empty()) fail(problem);
+        return Binding(cage, std::move(points), Coordinates::given, weights);
+    };
+    if (isDmat(path)) {
+        const std::vector<float> weights =
+            detail::parseDmat(detail::readFile(path), path.string(), points.size(), cage.points.size());
+        return bindGiven(weights);
+    }
     detail::requireRegularFile(path);
     errno = 0;
     std::ifstream in(path, std::ios::binary);
@@ -116,16 +143,21 @@ Binding readWeights(const std::filesystem::path& path, const Mesh& cage, std::ve
     if (problem) fail("cannot be read: " + problem.message());
     std::string start(magic.size() + 2, '\0');
     in.read(start.data(), static_cast<std::streamsize>(start.size()));
-    if (!in || start.compare(0, magic.size(), magic) != 0) fail("it is not a weights file of vdbcage");
+    if (!in || start.compare(0, numpy.size(), numpy) != 0) {
+        fail("it is not a weights file: neither NumPy's (.npy) nor named .dmat");
+    }
     const auto byteAt = [&](std::size_t i) { return static_cast<std::size_t>(static_cast<unsigned char>(start[i])); };
     std::string text(byteAt(magic.size()) + 256 * byteAt(magic.size() + 1), '\0');
     in.read(text.data(), static_cast<std::streamsize>(text.size()));
-    std::size_t rows = 0, columns = 0;
-    if (in && text.compare(0, beforeCounts.size(), beforeCounts) == 0) {
-        const char* const end = text.data() + text.size();
-        const auto first = std::from_chars(text.data() + beforeCounts.size(), end, rows);
-        if (end - first.ptr > 2) std::from_chars(first.ptr + 2, end, columns);
+    if (start.compare(0, magic.size(), magic) != 0 || text.compare(0, beforeCounts.size(), beforeCounts) != 0) {
+        const std::vector<float> weights =
+            detail::parseNpy(detail::readFile(path), path.string(), points.size(), cage.points.size());
+        return bindGiven(weights);
     }
+    std::size_t rows = 0, columns = 0;
+    const char* const end = text.data() + text.size();
+    const auto first = std::from_chars(text.data() + beforeCounts.size(), end, rows);
+    if (end - first.ptr > 2) std::from_chars(first.ptr + 2, end, columns);
     Record record;
     in.read(reinterpret_cast<char*>(&record), sizeof record);
     if (!in || start + text != headerOf(rows, columns)) fail("it is not a weights file of vdbcage, or truncated");
@@ -133,10 +165,9 @@ Binding readWeights(const std::filesystem::path& path, const Mesh& cage, std::ve
     const Record expected = recordOf(cage, points);
     if (record.cageHash != expected.cageHash) fail("it was made for another cage");
     if (record.pointsHash != expected.pointsHash || rows != points.size()) fail("it was made for another model");
-    const std::string name(record.family, ::strnlen(record.family, sizeof record.family));
     Coordinates family{};
     try {
-        family = coordinatesNamed(name);
+        family = familyOf(record);
     } catch (const InputError& error) {
         fail(error.what());
     }
@@ -151,6 +182,7 @@ Binding readWeights(const std::filesystem::path& path, const Mesh& cage, std::ve
     std::vector<float> weights(rows * columns);
     in.read(reinterpret_cast<char*>(weights.data()), static_cast<std::streamsize>(weights.size() * sizeof(float)));
     if (!in) fail("it is truncated");
+    if (family == Coordinates::given) return bindGiven(weights);
     return Binding(cage, std::move(points), family, weights);
 }
 

@@ -27,9 +27,16 @@ VDBCAGE_API void writeWeights(const Mesh& cage, const std::vector<openvdb::Vec3d
 VDBCAGE_API void writeWeights(const Mesh& cage, const std::vector<openvdb::Vec3d>& points, Coordinates family,
                               const std::vector<float>& weights, std::ostream& out, const std::filesystem::path& path);
 
-/// Reads what writeWeights wrote, for the same cage and points.
+/// Reads what writeWeights wrote, for the same cage and points; or weights that were made elsewhere, of any family, as
+/// `Coordinates::given`.
+///
+/// The latter are a matrix with a row a point and a column a point of the cage. Files named .dmat are libigl's, as text
+/// or binary. Others are NumPy's (.npy, version 1.0, 2.0 or 3.0): an array of two dimensions, '<f4' or '<f8', in C or
+/// Fortran order. A matrix does not tell for which cage and model it was made: its size and the sums of its rows are
+/// all that is checked. Reading one takes the memory of its file beside that of the weights.
 /// \throw IoError naming the path: it cannot be read, is truncated or no such file, or was made for another cage or
-/// other points
+/// other points; a matrix of another size or transposed, of other numbers, with a weight not finite or a row whose sum
+/// is not 1 within 1e-3
 VDBCAGE_API Binding readWeights(const std::filesystem::path& path, const Mesh& cage,
                                 std::vector<openvdb::Vec3d> points);
 

@@ -108,6 +108,19 @@ void writeMesh(const Mesh& mesh, std::ostream& out, const std::filesystem::path&
     format.write(mesh, name, out);
 }
 
+void writeColouredPly(const Mesh& mesh, const std::vector<PointColour>& colours, std::ostream& out,
+                      const std::filesystem::path& path)
+{
+    const std::string name = path.string();
+    requireUsable(mesh, name.c_str());
+    requireFinitePoints(mesh.points, name);
+    if (colours.size() != mesh.points.size()) {
+        throw InputError(name + ": " + std::to_string(colours.size()) + " colours were given; the mesh has " +
+                         std::to_string(mesh.points.size()) + " points");
+    }
+    detail::writePly(mesh, &colours, out);
+}
+
 void writeMoved(const std::filesystem::path& original, const std::vector<openvdb::Vec3d>& points,
                 const std::filesystem::path& path)
 {

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <iosfwd>
 #include <string>
@@ -57,6 +59,14 @@ VDBCAGE_API void writeMesh(const Mesh& mesh, const std::filesystem::path& path);
 
 /// The same to a stream, whose state tells whether it took all; `path` gives the format, and the name in errors.
 VDBCAGE_API void writeMesh(const Mesh& mesh, std::ostream& out, const std::filesystem::path& path);
+
+/// Red, green and blue.
+using PointColour = std::array<std::uint8_t, 3>;
+
+/// As writeMesh to a PLY, with a colour for each point (red, green, blue, uchar), which Blender and MeshLab show.
+/// \throw InputError as writeMesh; not as many colours as points
+VDBCAGE_API void writeColouredPly(const Mesh& mesh, const std::vector<PointColour>& colours, std::ostream& out,
+                                  const std::filesystem::path& path);
 
 /// Writes the model file `original` to `path` with its points at `points`, in the order of readMesh.
 ///

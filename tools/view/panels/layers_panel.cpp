@@ -102,12 +102,14 @@ void buildCageColours(const PanelContext& context)
 void buildModelColours(const PanelContext& context)
 {
     const ModelColours now = context.content.session.state().view.modelColours;
-    constexpr std::array<const char*, 3> labels{"Plain", "Influence", "Stretch"},
+    constexpr std::array<const char*, 4> labels{"Plain", "Influence", "Stretch", "Inverted"},
         helps{"one colour", "how far the posed model follows what is selected: red with it, blue against it",
-              "where lengths are longer (red) or shorter (blue) than at rest"};
+              "where lengths are longer (red) or shorter (blue) than at rest",
+              "triangles that the pose turns inside out; they are counted while it stands still"};
     for (std::size_t i = 0; i < labels.size(); ++i) {
+        if (i % 2 == 1) ImGui::SameLine(length(120));
         const std::string label = std::string(labels[i]) + "##model";
-        if (choice(label.c_str(), now == static_cast<ModelColours>(i), i == 0)) {
+        if (ImGui::RadioButton(label.c_str(), now == static_cast<ModelColours>(i))) {
             context.ask(std::string("model-colours ") + modelColourNames[i]);
         }
         context.name(std::string("model-colours.") + modelColourNames[i]);

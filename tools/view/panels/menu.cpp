@@ -37,6 +37,7 @@ void buildMenu(const PanelContext& context)
     const Document& document = session.state().document;
     const ViewState& view = session.state().view;
     const bool hasModel = document.model != nullptr, hasCage = context.content.planner.shown() != nullptr;
+    const bool hasPoses = hasCage && !document.poses.isEmpty();
     const bool hasSelected = hasCage && !view.selection.ids.empty();
     ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {length(8), length(5)});
     if (!ImGui::BeginMainMenuBar()) {
@@ -55,11 +56,15 @@ void buildMenu(const PanelContext& context)
         item(context, "Open cage...", "browse open-cage", hasModel);
         item(context, "Make the cage again", "close-cage", document.cage != nullptr);
         item(context, "Open posed cage...", "browse open-pose", hasCage);
+        item(context, "Open sequence of posed cages...", "browse open-poses", hasCage);
         item(context, "Open scene...", "browse open-scene");
         ImGui::Separator();
         item(context, "Save cage...", "browse save-cage", hasCage);
         item(context, "Save posed cage...", "browse save-posed-cage", hasCage);
         item(context, "Save posed model...", "browse save-posed-model", hasCage);
+        item(context, "Save every posed cage...", "browse save-posed-cages", hasPoses);
+        item(context, "Save every posed model...", "browse save-posed-models", hasPoses);
+        item(context, "Save colours of the model...", "browse save-colours", hasCage);
         item(context, "Save weights...", "browse save-weights", hasCage);
         item(context, "Save scene...", "browse save-scene", hasModel);
         item(context, "Save stages...", "browse save-stages", hasCage);
@@ -101,8 +106,17 @@ void buildMenu(const PanelContext& context)
             item(context, "Merge triangles to quads", "edit-cage merge", isShape);
             item(context, "Cut quads to triangles", "edit-cage cut", isShape);
         });
-        item(context, "Reset the pose", "reset-pose all", document.pose != nullptr);
-        item(context, "Reset the pose of what is selected", "reset-pose selected", document.pose && hasSelected);
+        item(context, "Reset the pose", "reset-pose all", hasPoses);
+        item(context, "Reset the pose of what is selected", "reset-pose selected", hasPoses && hasSelected);
+        item(context, "Insert a key", "insert-key", hasCage && view.mode == Mode::pose);
+        item(context, "Remove the key", "remove-key", document.poses.keyAt(view.frame) != nullptr);
+        menu(context, "In-betweens from rest", [&] {
+            for (const int frames : {12, 24, 48, 96}) {
+                const std::string count = std::to_string(frames);
+                item(context, count + " frames", "in-betweens " + count, hasPoses);
+            }
+        });
+        item(context, "Remove all poses", "clear-poses", hasPoses);
     });
     menu(context, "View", [&] {
         item(context, "Frame all", "frame all");

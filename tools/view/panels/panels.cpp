@@ -7,7 +7,8 @@ namespace vdbcage::view {
 namespace {
 
 // Lengths on an ordinary screen.
-constexpr float menuHeight = 26, toolbarHeight = 38, statusHeight = 28, layersWidth = 256, optionsWidth = 392;
+constexpr float menuHeight = 26, toolbarHeight = 38, statusHeight = 28, timeLineHeight = 76, layersWidth = 256,
+                optionsWidth = 392;
 
 constexpr ImGuiWindowFlags fixed = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
                                    ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoBringToFrontOnFocus |
@@ -39,6 +40,7 @@ struct Panels::State {
     std::string revealed;
     std::map<std::string, std::string> typed;
     FileBrowser browser;
+    TimeLineMemory timeLine;
     bool isHelpOpen = false;
     std::filesystem::path suggested; ///< where files are looked for first
 };
@@ -48,11 +50,11 @@ Panels::Panels() : state_(std::make_unique<State>())
 }
 Panels::~Panels() = default;
 
-Rectangle Panels::viewport(int width, int height, float by)
+Rectangle Panels::viewport(int width, int height, float by, bool hasTimeLine)
 {
     const int left = scaled(layersWidth, by), top = scaled(menuHeight, by) + scaled(toolbarHeight, by);
-    return {left, top, std::max(1, width - left - scaled(optionsWidth, by)),
-            std::max(1, height - top - scaled(statusHeight, by))};
+    const int below = scaled(statusHeight, by) + (hasTimeLine ? scaled(timeLineHeight, by) : 0);
+    return {left, top, std::max(1, width - left - scaled(optionsWidth, by)), std::max(1, height - top - below)};
 }
 
 void Panels::build(const PanelContent& content, PanelAnswer& answer)
@@ -61,23 +63,31 @@ void Panels::build(const PanelContent& content, PanelAnswer& answer)
     const PanelContext context(content, answer, state_->places, state_->revealed);
     const ImVec2 size = ImGui::GetIO().DisplaySize;
     const int width = static_cast<int>(size.x), height = static_cast<int>(size.y);
-    const Rectangle middle = viewport(width, height, scale());
-    const int bottom = middle.top + middle.height, right = middle.left + middle.width;
+    const bool hasTimeLine = content.session.state().view.mode == Mode::pose;
+    const Rectangle middle = viewport(width, height, scale(), hasTimeLine);
+    const int below = middle.top + middle.height, right = middle.left + middle.width;
+    const int bottom = std::max(below, height - scaled(statusHeight, scale()));
 
     buildOverlays(context, middle);
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {length(10), length(10)});
     // The bars are always there: a slider whose width changes while it is dragged changes its value.
-    pane("layers", {0, middle.top, middle.left, middle.height}, ImGuiWindowFlags_AlwaysVerticalScrollbar,
+    pane("layers", {0, middle.top, middle.left, bottom - middle.top}, ImGuiWindowFlags_AlwaysVerticalScrollbar,
          [&] { buildLayers(context, state_->typed); });
-    pane("options", {right, middle.top, width - right, middle.height}, ImGuiWindowFlags_AlwaysVerticalScrollbar, [&] {
-        buildOptions(context, state_->typed);
-        buildResult(context);
-    });
+    pane("options", {right, middle.top, width - right, bottom - middle.top}, ImGuiWindowFlags_AlwaysVerticalScrollbar,
+         [&] {
+             buildOptions(context, state_->typed);
+             buildResult(context);
+         });
     ImGui::PopStyleVar();
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {length(10), length(6)});
     const int barTop = scaled(menuHeight, scale());
     pane("toolbar", {0, barTop, width, middle.top - barTop},
          ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse, [&] { buildToolbar(context); });
+    if (hasTimeLine) {
+        pane("time line", {middle.left, below, middle.width, bottom - below},
+             ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse,
+             [&] { buildTimeLine(context, state_->timeLine); });
+    }
     ImGui::PushStyleColor(ImGuiCol_WindowBg, toImGui(theme::title));
     pane("status", {0, bottom, width, height - bottom},
          ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse, [&] { buildStatusLine(context); });

@@ -13,6 +13,7 @@
 #include <tools/view/picture_overlay.h>
 #include <tools/view/state/move.h>
 #include <tools/view/state/planner.h>
+#include <tools/view/state/pose_checker.h>
 #include <tools/view/state/runner.h>
 #include <tools/view/state/session.h>
 
@@ -48,6 +49,9 @@ struct PanelContent {
     std::string bindingError = {};            ///< empty: none
     KeyMap keys{};                            ///< whose shortcuts these are
     std::optional<SelectionFrame> selected{}; ///< its axes are not used; none: nothing of the cage is
+    bool isPosed = false;                     ///< the cage is not at rest
+    PoseCheckPtr poseCheck = {};              ///< null: the pose is not checked yet
+    std::optional<WorkProgress> saving = {};  ///< none: nothing is being written
     bool hasModelChanged = false;             ///< on disk
     bool asksToQuit = false;                  ///< there is unsaved work
 };
@@ -69,8 +73,8 @@ public:
     /// For Widgets::Build. What is asked for is added to `answer`.
     void build(const PanelContent& content, PanelAnswer& answer);
 
-    /// What is left for the picture, in a window of that size.
-    static Rectangle viewport(int width, int height, float scale);
+    /// What is left for the picture, in a window of that size, with the time line or without.
+    static Rectangle viewport(int width, int height, float scale, bool hasTimeLine);
 
     /// Where the widgets of the last layout are, by their names.
     const std::map<std::string, Rectangle>& places() const;

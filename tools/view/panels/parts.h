@@ -17,6 +17,12 @@ void buildMenu(const PanelContext& context);
 void buildLayers(const PanelContext& context, std::map<std::string, std::string>& typed);
 void buildOptions(const PanelContext& context, std::map<std::string, std::string>& typed);
 void buildResult(const PanelContext& context);
+/// What is remembered of the time line.
+struct TimeLineMemory {
+    std::optional<int> draggedKey; ///< the frame of a key that is being moved
+};
+/// Below the picture, in mode pose: playing, the key at this frame, and a track of frames and keys.
+void buildTimeLine(const PanelContext& context, TimeLineMemory& memory);
 void buildStatusLine(const PanelContext& context);
 /// What lies over the picture: what is shown and what is being made, axes, scale of the grid, legend.
 void buildOverlays(const PanelContext& context, const Rectangle& viewport);

@@ -75,6 +75,25 @@ void buildBinding(const PanelContext& context)
     ImGui::SameLine(0, length(18));
 }
 
+/// The verdict on the pose.
+void buildPose(const PanelContext& context)
+{
+    const PanelContent& content = context.content;
+    if (!content.isPosed) return;
+    const PoseCheckPtr& check = content.poseCheck;
+    row("Pose", [&] {
+        if (!check) return muted("is being checked");
+        if (check->isValid) return coloured(theme::good, "the posed cage is valid");
+        coloured(theme::bad, check->selfIntersections > 0
+                                 ? std::to_string(check->selfIntersections) + " self-intersections of the posed cage"
+                                 : std::string("the posed cage is not valid"));
+    });
+    if (!check || !check->inverted) return;
+    const Mesh& model = content.session.state().document.model->mesh;
+    const std::size_t triangles = model.triangles.size() + 2 * model.quads.size();
+    row("Inverted", std::to_string(check->inverted->size()) + " of " + std::to_string(triangles) + " triangles");
+}
+
 } // namespace
 
 void buildResult(const PanelContext& context)
@@ -105,6 +124,7 @@ void buildResult(const PanelContext& context)
         if (!shown->order.cage) {
             row("Voxels", std::to_string(shown->report.resolution) + " along the longest side");
         }
+        buildPose(context);
         ImGui::EndTable();
     }
     if (!shown->order.cage) {
@@ -147,7 +167,14 @@ void buildStatusLine(const PanelContext& context)
         if (context.content.session.state().view.times) part(number("%.2f s", shown->seconds), theme::mutedText);
     }
     buildBinding(context);
-    if (!context.content.notes.empty()) {
+    if (const auto& saving = context.content.saving) {
+        std::string text = "saving";
+        if (!saving->stage.empty()) text += ": " + saving->stage;
+        if (saving->percent >= 0) text += ' ' + std::to_string(saving->percent) + " %";
+        part(text, theme::accent);
+        help("Escape stops it");
+        ImGui::NewLine();
+    } else if (!context.content.notes.empty()) {
         const std::string& note = context.content.notes.back();
         const float width = ImGui::CalcTextSize(note.c_str()).x;
         const float right = ImGui::GetWindowContentRegionMax().x - width;

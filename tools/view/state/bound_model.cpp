@@ -11,8 +11,8 @@ namespace {
 
 constexpr std::size_t mostTriangles = 12000, leastTriangles = 100, modelTrianglesPerTriangle = 10;
 
-std::shared_ptr<const Binding> bindingOf(const BindOrder& order, std::vector<openvdb::Vec3d> points,
-                                         Interrupter* interrupter)
+std::shared_ptr<const Binding> bound(const BindOrder& order, std::vector<openvdb::Vec3d> points,
+                                     Interrupter* interrupter)
 {
     try {
         return std::make_shared<const Binding>(*order.cage, std::move(points), order.family, interrupter);
@@ -38,6 +38,11 @@ std::size_t coarseTriangles(const Mesh& model)
     return std::clamp(triangles / modelTrianglesPerTriangle, leastTriangles, mostTriangles);
 }
 
+std::shared_ptr<const Binding> bindingOf(const BindOrder& order, Interrupter* interrupter)
+{
+    return bound(order, order.model->mesh.points, interrupter);
+}
+
 BoundModelPtr boundCoarsely(const BindOrder& order, Interrupter* interrupter)
 {
     const Stage stage(interrupter, "bind coarsely");
@@ -48,7 +53,7 @@ BoundModelPtr boundCoarsely(const BindOrder& order, Interrupter* interrupter)
     std::vector<openvdb::Vec3d> points;
     points.reserve(bound.standIn->points.size());
     for (const openvdb::Index32 i : bound.standIn->points) points.push_back(model.points[i]);
-    bound.coarse = bindingOf(order, std::move(points), interrupter);
+    bound.coarse = view::bound(order, std::move(points), interrupter);
     return std::make_shared<const BoundModel>(std::move(bound));
 }
 
@@ -56,7 +61,7 @@ BoundModelPtr boundWhole(const BoundModel& coarse, Interrupter* interrupter)
 {
     const Stage stage(interrupter, "bind");
     BoundModel bound = coarse;
-    bound.whole = bindingOf(bound.order, bound.order.model->mesh.points, interrupter);
+    bound.whole = bindingOf(bound.order, interrupter);
     return std::make_shared<const BoundModel>(std::move(bound));
 }
 

@@ -39,6 +39,9 @@ using BoundModelPtr = std::shared_ptr<const BoundModel>;
 /// At most so many triangles a stand-in of a model has: a tenth of the model's, and so many as are drawn at once.
 std::size_t coarseTriangles(const Mesh& model);
 
+/// Binds all of the model's points. \throw InputError as Binding, naming the file; Cancelled
+std::shared_ptr<const Binding> bindingOf(const BindOrder& order, Interrupter* interrupter);
+
 /// Binds the stand-in. Its points are some of the model's, at most about a tenth, so it costs about as much of the
 /// whole.
 /// \throw InputError as Binding, naming the file; Cancelled

@@ -4,6 +4,7 @@
 #include <set>
 
 #include <tools/view/state/move.h>
+#include <tools/view/state/pose_files.h>
 #include <tools/view/state/preset.h>
 #include <tools/view/state/words.h>
 #include <vdbcage/core/detail/number_text.h>
@@ -160,6 +161,18 @@ Pivot pivotOf(const Words& words)
     return {named<Pivot::Kind>(pivotNames, words[0], "pivot"), Vec3d(0)};
 }
 
+int frameOf(const std::string& word, const char* what)
+{
+    return wholeNumberOf(word, what, 0, lastFrame);
+}
+
+double rateOf(const std::string& word)
+{
+    const double rate = numberOf(word, "rate");
+    requireWithin({1, 240}, rate, "rate");
+    return rate;
+}
+
 double softRadiusOf(const std::string& word)
 {
     const double radius = numberOf(word, "soft");
@@ -238,6 +251,28 @@ const std::array<Syntax, std::variant_size_v<Command>>& syntaxes()
          }},
         {"open-pose", "FILE", 1, 1, "poses the cage as another file has it",
          [](const Words& w) -> Command { return OpenPose{w[0]}; }},
+        {"open-poses", "FILE [FRAMES]", 1, 2,
+         "opens a sequence such as walk.%04d.obj, or one of its files; or FRAMES frames of a .param file",
+         [](const Words& w) -> Command {
+             return w.size() == 1 ? OpenPoses{w[0]}
+                                  : OpenPoses{w[0], wholeNumberOf(w[1], "open-poses", 1, lastFrame + 1)};
+         }},
+        {"key", "FRAME [NAME]", 1, 2, "keeps the pose at a frame on the time line, and names it",
+         [](const Words& w) -> Command {
+             return w.size() == 1 ? SetKey{frameOf(w[0], "key")} : SetKey{frameOf(w[0], "key"), w[1]};
+         }},
+        {"delete-key", "FRAME", 1, 1, "takes a pose off the time line",
+         [](const Words& w) -> Command { return DeleteKey{frameOf(w[0], "delete-key")}; }},
+        {"move-key", "FROM TO", 2, 2, "moves a pose to another frame",
+         [](const Words& w) -> Command {
+             return MoveKey{frameOf(w[0], "move-key"), frameOf(w[1], "move-key")};
+         }},
+        {"in-betweens", "FRAMES", 1, 1, "makes so many frames from rest to the pose that is seen",
+         [](const Words& w) -> Command {
+             return MakeInBetweens{wholeNumberOf(w[0], "in-betweens", 2, lastFrame + 1)};
+         }},
+        {"clear-poses", "", 0, 0, "takes all poses off the time line",
+         [](const Words&) -> Command { return ClearPoses{}; }},
         {"camera", "perspective|orthographic y|z AZIMUTH ELEVATION X Y Z DISTANCE", 8, 8,
          "looks at X Y Z from DISTANCE; the model fills a ball of radius 1 around 0 0 0",
          [](const Words& w) -> Command { return SetCamera{cameraOf(w)}; }},
@@ -261,8 +296,8 @@ const std::array<Syntax, std::variant_size_v<Command>>& syntaxes()
          [](const Words& w) -> Command {
              return SetCageColours{named<CageColours>(cageColourNames, w[0], "cage-colours")};
          }},
-        {"model-colours", "plain|influence|stretch", 1, 1,
-         "colours the posed model: how far it follows what is selected, or how lengths changed",
+        {"model-colours", "plain|influence|stretch|inverted", 1, 1,
+         "colours the posed model: how far it follows what is selected, how lengths changed, or what is inside out",
          [](const Words& w) -> Command {
              return SetModelColours{named<ModelColours>(modelColourNames, w[0], "model-colours")};
          }},
@@ -295,6 +330,12 @@ const std::array<Syntax, std::variant_size_v<Command>>& syntaxes()
          [](const Words& w) -> Command { return SetSoft{softRadiusOf(w[0])}; }},
         {"mirror", "off|x|y|z OFFSET", 1, 2, "does the same on the other side of a plane across an axis",
          [](const Words& w) -> Command { return SetMirror{mirrorOf(w)}; }},
+        {"time", "FRAME", 1, 1, "shows, and changes from now on, the pose at a frame",
+         [](const Words& w) -> Command { return SetFrame{frameOf(w[0], "time")}; }},
+        {"play", "on|off", 1, 1, "shows the frames of the time line one after the other, again and again",
+         [](const Words& w) -> Command { return Play{switchOf(w[0], "play")}; }},
+        {"rate", "FRAMES", 1, 1, "so many frames a second, 1 to 240",
+         [](const Words& w) -> Command { return SetRate{rateOf(w[0])}; }},
     }};
     return list;
 }
@@ -325,6 +366,18 @@ struct ArgumentsOf {
     std::string operator()(const EditCage& c) const { return named(cageEditNames, c.edit); }
     std::string operator()(const ResetPose& c) const { return c.onlySelected ? " selected" : " all"; }
     std::string operator()(const OpenPose& c) const { return ' ' + quotedWord(c.path); }
+    std::string operator()(const OpenPoses& c) const
+    {
+        return ' ' + quotedWord(c.path) + (c.frames == OpenPoses().frames ? "" : ' ' + std::to_string(c.frames));
+    }
+    std::string operator()(const SetKey& c) const
+    {
+        return ' ' + std::to_string(c.frame) + (c.name ? ' ' + quotedWord(*c.name) : "");
+    }
+    std::string operator()(const DeleteKey& c) const { return ' ' + std::to_string(c.frame); }
+    std::string operator()(const MoveKey& c) const { return ' ' + std::to_string(c.from) + ' ' + std::to_string(c.to); }
+    std::string operator()(const MakeInBetweens& c) const { return ' ' + std::to_string(c.frames); }
+    std::string operator()(const ClearPoses&) const { return ""; }
     std::string operator()(const SetCamera& c) const
     {
         const draw::Camera& camera = c.camera;
@@ -371,6 +424,9 @@ struct ArgumentsOf {
     }
     std::string operator()(const SetSeeThrough& c) const { return onOff(c.on); }
     std::string operator()(const SetSoft& c) const { return numbers({c.radius}); }
+    std::string operator()(const SetFrame& c) const { return ' ' + std::to_string(c.frame); }
+    std::string operator()(const Play& c) const { return onOff(c.on); }
+    std::string operator()(const SetRate& c) const { return numbers({c.framesPerSecond}); }
     std::string operator()(const SetMirror& c) const
     {
         if (!c.plane) return " off";
@@ -393,7 +449,7 @@ struct Apply {
     {
         state.document.model = openMesh(c.path);
         state.document.cage.reset();
-        state.document.pose.reset();
+        state.document.poses = {};
     }
     void operator()(const OpenCage& c) const
     {
@@ -417,7 +473,26 @@ struct Apply {
     }
     void operator()(const EditCage& c) const { state.document = withEdit(state, c.edit); }
     void operator()(const ResetPose& c) const { state.document = withResetPose(state, c.onlySelected); }
-    void operator()(const OpenPose& c) const { state.document = withPose(state, openPose(state, c.path)); }
+    void operator()(const OpenPose& c) const { state.document = withOpenedPose(state, c.path); }
+    void operator()(const OpenPoses& c) const { state.document = withOpenedPoses(state, c.path, c.frames); }
+    void operator()(const SetKey& c) const { state.document = withKey(state, c.frame, c.name); }
+    void operator()(const DeleteKey& c) const
+    {
+        requiredKey(c.frame, "delete-key");
+        state.document.poses = state.document.poses.without(c.frame);
+    }
+    void operator()(const MoveKey& c) const
+    {
+        TimeLine& poses = state.document.poses;
+        PoseKey key = requiredKey(c.from, "move-key");
+        if (c.from == c.to) return;
+        if (poses.keyAt(c.to))
+            throw InputError("move-key: there is a key at frame " + std::to_string(c.to) + " already");
+        key.frame = c.to;
+        poses = poses.without(c.from).with(std::move(key));
+    }
+    void operator()(const MakeInBetweens& c) const { state.document = withInBetweens(state, c.frames); }
+    void operator()(const ClearPoses&) const { state.document.poses = {}; }
     void operator()(const SetCamera& c) const { state.view.camera = c.camera; }
     void operator()(const ShowLayer& c) const { state.view.layer(c.layer).shown = c.shown; }
     void operator()(const FadeLayer& c) const { state.view.layer(c.layer).opacity = c.opacity; }
@@ -437,8 +512,17 @@ struct Apply {
     void operator()(const SetSeeThrough& c) const { state.view.seeThrough = c.on; }
     void operator()(const SetSoft& c) const { state.view.softRadius = c.radius; }
     void operator()(const SetMirror& c) const { state.view.mirror = c.plane; }
+    void operator()(const SetFrame& c) const { state.view.frame = c.frame; }
+    void operator()(const Play& c) const { state.view.isPlaying = c.on; }
+    void operator()(const SetRate& c) const { state.view.framesPerSecond = c.framesPerSecond; }
 
 private:
+    PoseKey requiredKey(int frame, const char* what) const
+    {
+        const PoseKey* const key = state.document.poses.keyAt(frame);
+        if (!key) throw InputError(what + (": there is no key at frame " + std::to_string(frame)));
+        return *key;
+    }
     void setOptions(CageOptions options) const
     {
         state.document.options = std::move(options);
@@ -505,7 +589,7 @@ std::vector<Command> commandsFor(const ViewState& view)
                      ShowGround{view.ground}, ShowAxes{view.axes}, SetTurntable{view.turntable}, ShowTimes{view.times},
                      SetMode{view.mode}, SetTool{view.tool}, SetOrientation{view.orientation}, SetPivot{view.pivot},
                      SetSeeThrough{view.seeThrough}, SetSoft{view.softRadius}, SetMirror{view.mirror},
-                     Select{view.selection}});
+                     SetFrame{view.frame}, SetRate{view.framesPerSecond}, Select{view.selection}});
     return commands;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <variant>
@@ -58,14 +59,38 @@ struct ScaleSelected {
 struct EditCage {
     CageEdit edit{};
 };
-/// reset-pose all|selected: back to where it is at rest.
+/// reset-pose all|selected: back to where it is at rest, at the view's frame.
 struct ResetPose {
     bool onlySelected = false;
 };
-/// open-pose FILE: the cage that is shown, posed.
+/// open-pose FILE: the cage that is shown, posed; at the view's frame.
 struct OpenPose {
     std::string path;
 };
+/// open-poses FILE [FRAMES]: a sequence of posed cages, or a file of parameters, in place of all poses.
+struct OpenPoses {
+    std::string path;
+    int frames = 25; ///< of a file of parameters, 1 to lastFrame + 1
+};
+/// key FRAME [NAME]: what is seen at the frame becomes a key of the time line, if it is none yet, and gets the name.
+struct SetKey {
+    int frame = 0;
+    std::optional<std::string> name = {}; ///< none: as it is
+};
+/// delete-key FRAME
+struct DeleteKey {
+    int frame = 0;
+};
+/// move-key FROM TO: from one frame to another that has no key.
+struct MoveKey {
+    int from = 0, to = 0;
+};
+/// in-betweens FRAMES: so many frames from rest to the pose that is seen, in place of all poses.
+struct MakeInBetweens {
+    int frames = 25; ///< 2 to lastFrame + 1
+};
+/// clear-poses: all is at rest.
+struct ClearPoses {};
 
 /// camera PROJECTION UP AZIMUTH ELEVATION X Y Z DISTANCE (see draw::Camera).
 struct SetCamera {
@@ -90,7 +115,7 @@ struct ColourLayer {
 struct SetCageColours {
     CageColours colours{};
 };
-/// model-colours plain|influence|stretch
+/// model-colours plain|influence|stretch|inverted
 struct SetModelColours {
     ModelColours colours{};
 };
@@ -143,6 +168,18 @@ struct SetSeeThrough {
 struct SetSoft {
     double radius = 0; ///< a part of the model's longest side
 };
+/// time FRAME: whose pose is seen.
+struct SetFrame {
+    int frame = 0;
+};
+/// play on|off: frames follow each other.
+struct Play {
+    bool on = true;
+};
+/// rate FRAMES: so many a second, 1 to 240.
+struct SetRate {
+    double framesPerSecond = 24;
+};
 /// mirror off | mirror x|y|z OFFSET: what is done on one side of a plane across an axis is done on the other too, to
 /// points that have a partner there, exactly.
 struct SetMirror {
@@ -151,9 +188,10 @@ struct SetMirror {
 
 using Command =
     std::variant<OpenModel, OpenCage, CloseCage, SetOption, ResetOptions, ApplyPreset, SetCoordinates, MoveSelected,
-                 RotateSelected, ScaleSelected, EditCage, ResetPose, OpenPose, SetCamera, ShowLayer, FadeLayer,
-                 ColourLayer, SetCageColours, SetModelColours, SetSection, ShowGround, ShowAxes, SetTurntable,
-                 ShowTimes, Select, SetMode, SetTool, SetOrientation, SetPivot, SetSeeThrough, SetSoft, SetMirror>;
+                 RotateSelected, ScaleSelected, EditCage, ResetPose, OpenPose, OpenPoses, SetKey, DeleteKey, MoveKey,
+                 MakeInBetweens, ClearPoses, SetCamera, ShowLayer, FadeLayer, ColourLayer, SetCageColours,
+                 SetModelColours, SetSection, ShowGround, ShowAxes, SetTurntable, ShowTimes, Select, SetMode, SetTool,
+                 SetOrientation, SetPivot, SetSeeThrough, SetSoft, SetMirror, SetFrame, Play, SetRate>;
 
 /// Whether it changes the document; else it changes the view.
 bool changesDocument(const Command& command);
@@ -173,9 +211,8 @@ std::vector<std::pair<std::string, std::string>> describeCommands();
 /// The commands that make this view of the default one, each layer and all.
 std::vector<Command> commandsFor(const ViewState& view);
 
-/// The state after the command. OpenModel, OpenCage and OpenPose read their file. What moves or resets points needs a
-/// cage that is shown.
-/// \throw InputError, IoError; the state is as it was
+/// The state after the command. OpenModel, OpenCage, OpenPose and OpenPoses read their files. What moves or resets
+/// points needs a cage that is shown. \throw InputError, IoError; the state is as it was
 State applied(const State& state, const Command& command);
 
 } // namespace vdbcage::view

@@ -55,4 +55,14 @@ std::vector<double> stretch(const Mesh& mesh, const std::vector<Vec3d>& posed)
     return values;
 }
 
+std::vector<double> cornersOf(const std::vector<std::uint32_t>& triangles, const Mesh& mesh)
+{
+    std::vector<double> values(mesh.points.size(), 0);
+    const std::vector<openvdb::Vec3I> all = triangulate(mesh);
+    for (const std::uint32_t triangle : triangles) {
+        for (int k = 0; k < 3; ++k) values[all[triangle][k]] = 1;
+    }
+    return values;
+}
+
 } // namespace vdbcage::view

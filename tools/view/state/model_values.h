@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include <vdbcage/deform/binding.h>
@@ -18,5 +19,8 @@ std::vector<double> influence(const Binding& binding, const std::vector<openvdb:
 /// \pre one of `posed` for each point of the mesh
 /// Cost: O(faces).
 std::vector<double> stretch(const Mesh& mesh, const std::vector<openvdb::Vec3d>& posed);
+
+/// 1 for the corners of the triangles that are named by their indices into triangulate(mesh), 0 for other points.
+std::vector<double> cornersOf(const std::vector<std::uint32_t>& triangles, const Mesh& mesh);
 
 } // namespace vdbcage::view

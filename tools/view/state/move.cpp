@@ -9,7 +9,6 @@
 #include <tools/edit/selection.h>
 #include <tools/edit/soft.h>
 #include <tools/edit/topology.h>
-#include <tools/report/posed_cage.h>
 #include <vdbcage/core/error.h>
 
 namespace vdbcage::view {
@@ -212,10 +211,24 @@ std::vector<Index32> selectedPoints(const State& state)
     return edit::pointsOf(elements, withinCage(state.view.selection, elements));
 }
 
+BindOrder bindOrder(const State& state)
+{
+    return {state.document.model, state.cage, state.document.coordinates};
+}
+
+std::vector<Vec3d> posedPoints(const State& state, int frame)
+{
+    if (state.carried && state.carried->cage() == state.cage) {
+        return pointsAt(state.document.poses, frame, *state.carried);
+    }
+    CarriedPoses carried(state.cage);
+    return pointsAt(state.document.poses, frame, carried);
+}
+
 std::vector<Vec3d> cagePoints(const State& state)
 {
     if (!state.cage) return {};
-    return state.view.mode == Mode::pose ? posedPoints(state.document.pose, state.cage) : state.cage->points;
+    return state.view.mode == Mode::pose ? posedPoints(state, state.view.frame) : state.cage->points;
 }
 
 std::optional<SelectionFrame> selectionFrame(const State& state, const std::array<Vec3d, 3>& view)
@@ -279,23 +292,11 @@ Document withEdit(const State& state, CageEdit edit)
 
 Document withResetPose(const State& state, bool onlySelected)
 {
-    Document document = state.document;
-    if (!onlySelected) {
-        document.pose.reset();
-        return document;
-    }
     const MeshPtr& cage = cageOf(state);
-    std::vector<Vec3d> points = posedPoints(document.pose, cage);
+    if (!onlySelected) return withPose(state, cage->points);
+    std::vector<Vec3d> points = posedPoints(state, state.view.frame);
     for (const Index32 i : requiredPoints(state)) points[i] = cage->points[i];
     return withPose(state, std::move(points));
-}
-
-std::vector<Vec3d> openPose(const State& state, const std::string& path)
-{
-    const Mesh& cage = *cageOf(state);
-    const OpenedMeshPtr posed = openMesh(path);
-    tool::requireSameFaces(posed->path, posed->mesh, "the cage that is shown", cage);
-    return posed->mesh.points;
 }
 
 Document withPose(const State& state, std::vector<Vec3d> points)
@@ -309,8 +310,37 @@ Document withPose(const State& state, std::vector<Vec3d> points)
         if (!p.isFinite()) throw InputError("the pose has a point that is not finite");
     }
     Document document = state.document;
-    // At rest there is no pose, whatever way led there.
-    document.pose = points == cage->points ? nullptr : std::make_shared<const Pose>(Pose{cage, std::move(points)});
+    TimeLine& poses = document.poses;
+    PoseKey key;
+    key.frame = state.view.frame;
+    if (const PoseKey* const before = poses.keyAt(key.frame)) key.name = before->name;
+    key.pose = poseOf(cage, std::move(points));
+    // Where all is at rest there is no pose, whatever way led there.
+    const bool isAlone = poses.without(key.frame).isEmpty();
+    poses = !key.pose && isAlone && key.name.empty() ? TimeLine() : poses.with(std::move(key));
+    return document;
+}
+
+Document withKey(const State& state, int frame, const std::optional<std::string>& name)
+{
+    Document document = state.document;
+    PoseKey key;
+    key.frame = frame;
+    if (const PoseKey* const before = document.poses.keyAt(frame)) {
+        key = *before;
+    } else {
+        key.pose = poseOf(cageOf(state), posedPoints(state, frame));
+    }
+    if (name) key.name = *name;
+    document.poses = document.poses.with(std::move(key));
+    return document;
+}
+
+Document withInBetweens(const State& state, int frames)
+{
+    PosePtr pose = poseOf(cageOf(state), posedPoints(state, state.view.frame));
+    Document document = state.document;
+    document.poses = TimeLine().with({0, nullptr, "rest"}).with({frames - 1, std::move(pose), "pose"});
     return document;
 }
 

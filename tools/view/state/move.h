@@ -1,5 +1,9 @@
 #pragma once
 
+#include <optional>
+#include <string>
+#include <vector>
+
 #include <tools/edit/motion.h>
 #include <tools/view/state/state.h>
 
@@ -12,6 +16,12 @@ edit::Selection withinCage(edit::Selection selection, const edit::Elements& elem
 
 /// The points that are selected, or belong to what is. They are numbers of points that the cage has.
 std::vector<openvdb::Index32> selectedPoints(const State& state);
+
+/// By what the model follows the cage. \pre there are both
+BindOrder bindOrder(const State& state);
+
+/// Where the cage's points are at a frame, posed. \pre there is a cage
+std::vector<openvdb::Vec3d> posedPoints(const State& state, int frame);
 
 /// Where the cage's points are now: posed in mode pose, else at rest. Empty without a cage.
 std::vector<openvdb::Vec3d> cagePoints(const State& state);
@@ -36,15 +46,17 @@ Document withMotion(const State& state, const edit::Motion& motion);
 /// \throw InputError also: the mode is not shape, or one of them cannot be changed so
 Document withEdit(const State& state, CageEdit edit);
 
-/// The pose undone: that of all points, or of those that are selected.
+/// The pose of the view's frame undone: that of all points, or of those that are selected.
 Document withResetPose(const State& state, bool onlySelected);
 
-/// The points of the posed cage in the file at `path`.
-/// \throw InputError, IoError naming the file: it has other faces than the cage
-std::vector<openvdb::Vec3d> openPose(const State& state, const std::string& path);
-
-/// The pose in which the cage's points are at `points`.
+/// The pose of the view's frame is that in which the cage's points are at `points`.
 /// \throw InputError not as many as the cage has, or one not finite
 Document withPose(const State& state, std::vector<openvdb::Vec3d> points);
+
+/// The pose that is seen at `frame` is a key there, with that name; none: with the one that it has.
+Document withKey(const State& state, int frame, const std::optional<std::string>& name);
+
+/// From rest at frame 0 to the pose of the view's frame at the last of `frames`; no other poses. \pre frames > 1
+Document withInBetweens(const State& state, int frames);
 
 } // namespace vdbcage::view

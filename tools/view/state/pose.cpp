@@ -1,5 +1,7 @@
 #include <tools/view/state/pose.h>
 
+#include <utility>
+
 #include <tools/edit/carry.h>
 
 namespace vdbcage::view {
@@ -9,11 +11,44 @@ bool areEqual(const PosePtr& a, const PosePtr& b)
     return a == b || (a && b && a->rest == b->rest && a->points == b->points);
 }
 
-std::vector<openvdb::Vec3d> posedPoints(const PosePtr& pose, const MeshPtr& cage)
+PosePtr poseOf(const MeshPtr& cage, std::vector<openvdb::Vec3d> points)
 {
-    if (!pose) return cage->points;
-    if (pose->rest == cage) return pose->points;
-    return edit::carriedPose(*pose->rest, pose->points, *cage);
+    return points == cage->points ? nullptr : std::make_shared<const Pose>(Pose{cage, std::move(points)});
+}
+
+bool CarriedPoses::has(const PosePtr& pose) const
+{
+    return !pose || pose->rest == cage_ || carried_.count(pose) > 0;
+}
+
+void CarriedPoses::carry(const std::vector<PosePtr>& poses, Interrupter* interrupter)
+{
+    // Those of one cage together: the weights by which it carries are the same.
+    std::map<MeshPtr, std::vector<PosePtr>> byRest;
+    for (const PosePtr& pose : poses) {
+        if (!has(pose)) byRest[pose->rest].push_back(pose);
+    }
+    for (const auto& [rest, some] : byRest) {
+        std::vector<std::vector<openvdb::Vec3d>> posed;
+        for (const PosePtr& pose : some) posed.push_back(pose->points);
+        auto carried = edit::carriedPoses(*rest, posed, *cage_, interrupter);
+        for (std::size_t i = 0; i < some.size(); ++i) carried_[some[i]] = std::move(carried[i]);
+    }
+}
+
+void CarriedPoses::giveUp(const std::vector<PosePtr>& poses)
+{
+    for (const PosePtr& pose : poses) {
+        if (!has(pose)) carried_[pose] = cage_->points;
+    }
+}
+
+const std::vector<openvdb::Vec3d>& CarriedPoses::points(const PosePtr& pose)
+{
+    if (!pose) return cage_->points;
+    if (pose->rest == cage_) return pose->points;
+    carry({pose}, nullptr);
+    return carried_.at(pose);
 }
 
 } // namespace vdbcage::view

@@ -1,14 +1,16 @@
 #pragma once
 
+#include <map>
 #include <memory>
 #include <vector>
 
 #include <tools/view/state/bound_model.h>
+#include <vdbcage/core/interrupter.h>
 
 namespace vdbcage::view {
 
 /// A posed cage. It never changes. It stays with the cage at rest that it was made for, so it can be carried over to
-/// any other (see edit::carriedPose).
+/// any other (see edit::carriedPoses).
 struct Pose {
     MeshPtr rest;                       ///< not null
     std::vector<openvdb::Vec3d> points; ///< of the cage: one for each of rest's
@@ -17,8 +19,34 @@ using PosePtr = std::shared_ptr<const Pose>;
 
 bool areEqual(const PosePtr& a, const PosePtr& b);
 
-/// The points of `cage` in a pose that may have been made for another cage; null: at rest.
-/// Cost: as edit::carriedPose where it was, else a copy.
-std::vector<openvdb::Vec3d> posedPoints(const PosePtr& pose, const MeshPtr& cage);
+/// The cage with its points at `points`; null if that is at rest. \pre as many as the cage has
+PosePtr poseOf(const MeshPtr& cage, std::vector<openvdb::Vec3d> points);
+
+/// Poses as they are for one cage. Those that were made for another cage are carried over once, and kept. For one
+/// thread at a time.
+class CarriedPoses {
+public:
+    explicit CarriedPoses(MeshPtr cage) : cage_(std::move(cage)) {}
+
+    const MeshPtr& cage() const { return cage_; }
+
+    /// Whether points() of each has nothing to compute. Null is at rest.
+    bool has(const PosePtr& pose) const;
+
+    /// Carries over those that are not yet here.
+    /// \throw InputError as edit::carriedPoses; Cancelled
+    void carry(const std::vector<PosePtr>& poses, Interrupter* interrupter);
+
+    /// Poses that cannot be carried over: they are at rest here.
+    void giveUp(const std::vector<PosePtr>& poses);
+
+    /// Where the cage's points are; null: at rest. Stays valid as long as this object and the pose.
+    /// \throw InputError as carry()
+    const std::vector<openvdb::Vec3d>& points(const PosePtr& pose);
+
+private:
+    MeshPtr cage_; ///< not null
+    std::map<PosePtr, std::vector<openvdb::Vec3d>> carried_;
+};
 
 } // namespace vdbcage::view

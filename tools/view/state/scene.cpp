@@ -1,9 +1,14 @@
 #include <tools/view/state/scene.h>
 
+#include <algorithm>
 #include <array>
 #include <charconv>
+#include <map>
+#include <utility>
+#include <vector>
 
 #include <nlohmann/json.hpp>
+#include <tools/report/frames.h>
 #include <tools/view/state/command.h>
 #include <tools/view/state/words.h>
 #include <vdbcage/core/detail/atomic_file.h>
@@ -59,16 +64,48 @@ OpenedMeshPtr editedCage(const fs::path& file)
     return std::make_shared<const OpenedMesh>(std::move(edited));
 }
 
-PosePtr poseOf(const fs::path& rest, const fs::path& posed)
-{
-    Pose pose{std::make_shared<const Mesh>(readMesh(rest)), readMesh(posed).points};
-    if (pose.points.size() != pose.rest->points.size()) {
-        throw InputError(posed.string() + ": it has " + std::to_string(pose.points.size()) +
-                         " points; the cage at rest " + rest.string() + " has " +
-                         std::to_string(pose.rest->points.size()));
+/// Poses to and from files beside a scene. Those of one cage at rest share its file.
+class PoseReader {
+public:
+    explicit PoseReader(fs::path folder) : folder_(std::move(folder)) {}
+
+    TimeLine read(const Json& list)
+    {
+        TimeLine poses;
+        for (const Json& entry : list) {
+            PoseKey key;
+            key.frame = entry.at("frame").get<int>();
+            if (key.frame < 0 || key.frame > lastFrame) {
+                throw InputError("poses: frame " + std::to_string(key.frame) +
+                                 " is not allowed; it must be from 0 to " + std::to_string(lastFrame));
+            }
+            key.name = entry.at("name").get<std::string>();
+            if (!entry.at("posed").is_null()) {
+                key.pose = readPose(folder_ / entry.at("rest").get<std::string>(),
+                                    folder_ / entry.at("posed").get<std::string>());
+            }
+            poses = poses.with(std::move(key));
+        }
+        return poses;
     }
-    return std::make_shared<const Pose>(std::move(pose));
-}
+
+private:
+    PosePtr readPose(const fs::path& restPath, const fs::path& posedPath)
+    {
+        MeshPtr& rest = rests_[restPath];
+        if (!rest) rest = std::make_shared<const Mesh>(readMesh(restPath));
+        Pose pose{rest, readMesh(posedPath).points};
+        if (pose.points.size() != rest->points.size()) {
+            throw InputError(posedPath.string() + ": it has " + std::to_string(pose.points.size()) +
+                             " points; the cage at rest " + restPath.string() + " has " +
+                             std::to_string(rest->points.size()));
+        }
+        return std::make_shared<const Pose>(std::move(pose));
+    }
+
+    fs::path folder_;
+    std::map<fs::path, MeshPtr> rests_;
+};
 
 } // namespace
 
@@ -77,14 +114,14 @@ fs::path cageBeside(const fs::path& scene)
     return fs::path(scene).replace_extension(".cage.obj");
 }
 
-fs::path restBeside(const fs::path& scene)
+fs::path restBeside(const fs::path& scene, std::size_t number)
 {
-    return fs::path(scene).replace_extension(".rest.obj");
+    return fs::path(scene).replace_extension(".rest" + (number == 0 ? "" : '.' + std::to_string(number)) + ".obj");
 }
 
-fs::path poseBeside(const fs::path& scene)
+fs::path poseBeside(const fs::path& scene, int frame)
 {
-    return fs::path(scene).replace_extension(".pose.obj");
+    return tool::framePath(fs::path(scene).replace_extension(".pose.%04d.obj"), frame);
 }
 
 void saveScene(const State& state, const CageResult* current, const fs::path& path)
@@ -98,6 +135,21 @@ void saveScene(const State& state, const CageResult* current, const fs::path& pa
     const bool hasMade = current && !document.cage;
     const bool isEdited = document.cage && document.cage->path.empty();
     const auto nameOf = [](const fs::path& file) { return file.filename().string(); };
+    Json poses = Json::array();
+    std::vector<MeshPtr> rests;
+    std::vector<Mesh> posed; // one for each key that has a pose
+    for (const PoseKey& key : document.poses.keys()) {
+        Json entry{{"frame", key.frame}, {"name", key.name}, {"rest", nullptr}, {"posed", nullptr}};
+        if (key.pose) {
+            auto rest = std::find(rests.begin(), rests.end(), key.pose->rest);
+            if (rest == rests.end()) rest = rests.insert(rest, key.pose->rest);
+            entry["rest"] = nameOf(restBeside(path, static_cast<std::size_t>(rest - rests.begin())));
+            entry["posed"] = nameOf(poseBeside(path, key.frame));
+            posed.push_back(*key.pose->rest);
+            posed.back().points = key.pose->points;
+        }
+        poses.push_back(std::move(entry));
+    }
     const Json scene{{"vdbcage_scene", formatVersion},
                      {"version", VDBCAGE_VERSION},
                      {"model", fileOf(*document.model, path)},
@@ -105,9 +157,7 @@ void saveScene(const State& state, const CageResult* current, const fs::path& pa
                      {"opened_cage", document.cage && !isEdited ? fileOf(*document.cage, path) : Json()},
                      {"made_cage", hasMade ? Json(nameOf(cageBeside(path))) : Json()},
                      {"edited_cage", isEdited ? Json(nameOf(cageBeside(path))) : Json()},
-                     {"pose", document.pose
-                                  ? Json{{"rest", nameOf(restBeside(path))}, {"posed", nameOf(poseBeside(path))}}
-                                  : Json()},
+                     {"poses", poses},
                      {"coordinates", coordinatesName(document.coordinates)},
                      {"view", view}};
     std::string text;
@@ -120,14 +170,12 @@ void saveScene(const State& state, const CageResult* current, const fs::path& pa
     const auto add = [&](const Mesh& mesh, const fs::path& file) {
         files.add(file, [&mesh, file](std::ostream& out) { writeMesh(mesh, out, file); });
     };
-    Mesh posed;
     if (hasMade) add(current->cage, cageBeside(path));
     if (isEdited) add(document.cage->mesh, cageBeside(path));
-    if (document.pose) {
-        posed = *document.pose->rest;
-        posed.points = document.pose->points;
-        add(*document.pose->rest, restBeside(path));
-        add(posed, poseBeside(path));
+    for (std::size_t i = 0; i < rests.size(); ++i) add(*rests[i], restBeside(path, i));
+    std::size_t next = 0;
+    for (const PoseKey& key : document.poses.keys()) {
+        if (key.pose) add(posed[next++], poseBeside(path, key.frame));
     }
     files.add(path, [&](std::ostream& out) { out << text; });
     files.commit();
@@ -159,10 +207,7 @@ State openScene(const fs::path& given)
         if (scene.contains("edited_cage") && !scene["edited_cage"].is_null()) {
             state.document.cage = editedCage(path.parent_path() / scene["edited_cage"].get<std::string>());
         }
-        if (scene.contains("pose") && !scene["pose"].is_null()) {
-            state.document.pose = poseOf(path.parent_path() / scene["pose"].at("rest").get<std::string>(),
-                                         path.parent_path() / scene["pose"].at("posed").get<std::string>());
-        }
+        if (scene.contains("poses")) state.document.poses = PoseReader(path.parent_path()).read(scene["poses"]);
         if (scene.contains("coordinates")) {
             state.document.coordinates = coordinatesNamed(scene["coordinates"].get<std::string>());
         }

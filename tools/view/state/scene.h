@@ -1,12 +1,14 @@
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 
 #include <tools/view/state/cage_result.h>
 
 /// Scenes: all that one works on in one JSON file. It has the options, the view as commands, and names the files of the
-/// model and the cage, with digests. A cage that was made or edited lies beside it, as NAME.cage.obj. A pose lies there
-/// as NAME.pose.obj, and the cage at rest that it belongs to as NAME.rest.obj.
+/// model and the cage, with digests. A cage that was made or edited lies beside it, as NAME.cage.obj. Poses lie there
+/// as NAME.pose.FRAME.obj, which is a sequence for `vdbcage deform`, and the cages at rest that they belong to as
+/// NAME.rest.obj, NAME.rest.1.obj and so on.
 namespace vdbcage::view {
 
 /// Writes the state, and the cage that was made for it; `current` is null if there is none. All files appear together
@@ -18,9 +20,9 @@ void saveScene(const State& state, const CageResult* current, const std::filesys
 /// \throw InputError, IoError naming the file: the scene or one of its files is gone, is no such file, or changed
 State openScene(const std::filesystem::path& path);
 
-/// Where saveScene puts the cage, the cage at rest of a pose, and the posed one.
+/// Where saveScene puts the cage, the cages at rest of poses, and the posed cage of a frame.
 std::filesystem::path cageBeside(const std::filesystem::path& scene);
-std::filesystem::path restBeside(const std::filesystem::path& scene);
-std::filesystem::path poseBeside(const std::filesystem::path& scene);
+std::filesystem::path restBeside(const std::filesystem::path& scene, std::size_t number);
+std::filesystem::path poseBeside(const std::filesystem::path& scene, int frame);
 
 } // namespace vdbcage::view

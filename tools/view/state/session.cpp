@@ -49,12 +49,14 @@ void Session::cancelDrag()
     hasDraggedDocument_ = false;
 }
 
-void Session::setCage(MeshPtr cage)
+void Session::setCage(MeshPtr cage, std::shared_ptr<CarriedPoses> carried)
 {
     const Mesh* const before = state_.cage.get();
     const bool hasOtherFaces =
         before && (!cage || cage->triangles != before->triangles || cage->quads != before->quads);
     if (hasOtherFaces) state_.view.selection.ids.clear();
+    if (!carried && cage) carried = std::make_shared<CarriedPoses>(cage);
+    state_.carried = std::move(carried);
     state_.cage = std::move(cage);
 }
 

@@ -90,8 +90,8 @@ public:
     void replaceView(const ViewState& view) { state_.view = view; }
 
     /// The cage at rest that is shown from now on; null: none. What is selected of it stays selected if its faces are
-    /// the same.
-    void setCage(MeshPtr cage);
+    /// the same. `carried` are the poses that are known for it already; null: none.
+    void setCage(MeshPtr cage, std::shared_ptr<CarriedPoses> carried = nullptr);
 
     /// Takes another state, such as a scene's, and forgets the past.
     void restart(State state);

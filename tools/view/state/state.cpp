@@ -58,7 +58,7 @@ bool areEqual(const CageOptions& a, const CageOptions& b)
 
 bool operator==(const Document& a, const Document& b)
 {
-    return a.model == b.model && a.cage == b.cage && areEqual(a.options, b.options) && areEqual(a.pose, b.pose) &&
+    return a.model == b.model && a.cage == b.cage && areEqual(a.options, b.options) && a.poses == b.poses &&
            a.coordinates == b.coordinates;
 }
 
@@ -71,7 +71,8 @@ bool operator==(const ViewState& a, const ViewState& b)
            a.ground == b.ground && a.axes == b.axes && a.turntable == b.turntable && a.times == b.times &&
            a.mode == b.mode && a.tool == b.tool && a.orientation == b.orientation && a.pivot == b.pivot &&
            a.seeThrough == b.seeThrough && a.softRadius == b.softRadius && a.mirror == b.mirror &&
-           a.selection == b.selection;
+           a.selection == b.selection && a.frame == b.frame && a.isPlaying == b.isPlaying &&
+           a.framesPerSecond == b.framesPerSecond;
 }
 
 } // namespace vdbcage::view

@@ -10,7 +10,7 @@
 #include <tools/draw/colour.h>
 #include <tools/edit/elements.h>
 #include <tools/view/state/opened_mesh.h>
-#include <tools/view/state/pose.h>
+#include <tools/view/state/time_line.h>
 #include <vdbcage/mesh/symmetry.h>
 #include <vdbcage/pipeline/options.h>
 
@@ -23,7 +23,7 @@ struct Document {
     OpenedMeshPtr model; ///< null: none
     CageOptions options;
     OpenedMeshPtr cage; ///< a cage that was opened or edited; null: it is made, by the options
-    PosePtr pose;       ///< null: at rest
+    TimeLine poses;
     Coordinates coordinates = Coordinates::meanValue; ///< by which the model follows the pose
 };
 
@@ -106,9 +106,10 @@ constexpr std::array<const char*, 4> orientationNames{"world", "local", "normal"
 enum class ModelColours : std::uint8_t {
     plain,
     influence, ///< how far it follows what is selected
-    stretch    ///< how much longer or shorter lengths are than at rest
+    stretch,   ///< how much longer or shorter lengths are than at rest
+    inverted   ///< triangles that are inside out
 };
-constexpr std::array<const char*, 3> modelColourNames{"plain", "influence", "stretch"};
+constexpr std::array<const char*, 4> modelColourNames{"plain", "influence", "stretch", "inverted"};
 
 /// A plane that cuts off where normal . p > offset, in world space.
 struct SectionPlane {
@@ -135,6 +136,9 @@ struct ViewState {
     double softRadius = 0;               ///< of soft selection, a part of the model's longest side; 0: off
     std::optional<SymmetryPlane> mirror; ///< what is done on one side of it is done on the other too
     edit::Selection selection;           ///< of the cage
+    int frame = 0;                       ///< whose pose is seen and changed, 0 to lastFrame
+    bool isPlaying = false;              ///< frames follow each other
+    double framesPerSecond = 24;         ///< while it plays, in [1, 240]
 
     const LayerLook& layer(LayerId id) const { return layers[static_cast<std::size_t>(id)]; }
     LayerLook& layer(LayerId id) { return layers[static_cast<std::size_t>(id)]; }
@@ -148,6 +152,8 @@ struct State {
     /// The cage at rest that is shown; null: none. It follows from the document after a while, so it has no history.
     /// What is selected and moved are parts of it.
     MeshPtr cage;
+    /// What the document's poses are for that cage. Null: they are carried over whenever they are needed.
+    std::shared_ptr<CarriedPoses> carried;
 };
 
 /// Values are compared as their text is; models by being the same object, since one that was read anew may differ.

@@ -14,7 +14,8 @@ struct InterpolativeRows {
     std::vector<float> factors;
 };
 
-/// Keeps as many rows as it takes for the others to be off by at most `tolerance` of their size, but for rounding.
+/// Keeps as many rows as it takes for the others to be off by at most `tolerance` of their size, but for rounding, and
+/// by four times that with it.
 ///
 /// The size of a row is the sum of its entries' absolute values, each times its column's `scale`. A multiple of `unit`
 /// is kept, or all where that is no more to hold. `rows` are row after row. Cost: O(rows x kept x columns).

@@ -31,7 +31,8 @@ public:
     static constexpr float tolerance = 1.0F / (1 << 22);
 
     /// `maxDistances` has how far each handle may go, about. The size of a row is the sum of its weights' absolute
-    /// values, each times its handle's maxDistance. A row is off by at most `tolerance` of its size, but for rounding.
+    /// values, each times its handle's maxDistance. A row is off by at most `tolerance` of its size, and by four
+    /// times that with what rounding costs, whatever the weights are.
     /// \pre `points` are finite
     WeightBlocks(const std::vector<openvdb::Vec3d>& points, const std::vector<float>& maxDistances,
                  const MakeRows& makeRows);

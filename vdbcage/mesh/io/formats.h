@@ -29,6 +29,8 @@ MeshFile parseStl(std::string_view bytes, const std::string& name);
 void writeObj(const Mesh& mesh, const std::string& name, std::ostream& out);
 void writeOff(const Mesh& mesh, const std::string& name, std::ostream& out);
 void writePly(const Mesh& mesh, const std::string& name, std::ostream& out);
+/// With a colour for each point, unless `colours` is null.
+void writePly(const Mesh& mesh, const std::vector<PointColour>* colours, std::ostream& out);
 /// \throw IoError naming `name`: a coordinate does not fit a float
 void writeStl(const Mesh& mesh, const std::string& name, std::ostream& out);
 

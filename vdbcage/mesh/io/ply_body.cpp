@@ -386,17 +386,26 @@ MeshFile parsePly(std::string_view bytes, const std::string& name)
 
 void writePly(const Mesh& mesh, const std::string&, std::ostream& out)
 {
+    writePly(mesh, nullptr, out);
+}
+
+void writePly(const Mesh& mesh, const std::vector<PointColour>* colours, std::ostream& out)
+{
     OutputBuffer buffer(out);
     buffer.text("ply\nformat binary_little_endian 1.0\nelement vertex ");
     buffer.number(mesh.points.size());
-    buffer.text("\nproperty double x\nproperty double y\nproperty double z\nelement face ");
+    buffer.text("\nproperty double x\nproperty double y\nproperty double z\n");
+    if (colours) buffer.text("property uchar red\nproperty uchar green\nproperty uchar blue\n");
+    buffer.text("element face ");
     buffer.number(faceCount(mesh));
     // Signed indices are what most programs write and read; they hold all but the largest meshes.
     const bool isHuge = mesh.points.size() > std::size_t(std::numeric_limits<std::int32_t>::max());
     buffer.text(isHuge ? "\nproperty list uchar uint vertex_indices\nend_header\n"
                        : "\nproperty list uchar int vertex_indices\nend_header\n");
-    for (const openvdb::Vec3d& p : mesh.points) {
-        for (int axis = 0; axis < 3; ++axis) buffer.binary(p[axis]);
+    for (std::size_t i = 0; i < mesh.points.size(); ++i) {
+        for (int axis = 0; axis < 3; ++axis) buffer.binary(mesh.points[i][axis]);
+        if (!colours) continue;
+        for (const std::uint8_t channel : (*colours)[i]) buffer.binary(channel);
     }
     for (const openvdb::Vec3I& triangle : mesh.triangles) writeFace(buffer, triangle);
     for (const openvdb::Vec4I& quad : mesh.quads) writeFace(buffer, quad);

@@ -1,4 +1,4 @@
-#include "frames.h"
+#include <tools/report/frames.h>
 
 #include <algorithm>
 #include <charconv>

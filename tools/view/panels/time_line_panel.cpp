@@ -1,0 +1,182 @@
+#include <algorithm>
+#include <cmath>
+
+#include <tools/view/panels/parts.h>
+#include <tools/view/state/words.h>
+#include <vdbcage/core/detail/number_text.h>
+
+namespace vdbcage::view {
+
+namespace {
+
+/// A track shows so many frames at least.
+constexpr int leastFrames = 24;
+
+/// Where frames are along a track, in pixels of the window.
+struct Track {
+    float left = 0, right = 0;
+    int last = leastFrames; ///< the frame at `right`
+
+    float placeOf(int frame) const
+    {
+        return left + (right - left) * static_cast<float>(frame) / static_cast<float>(last);
+    }
+    int frameAt(float x) const
+    {
+        const float share = std::clamp((x - left) / std::max(1.0F, right - left), 0.0F, 1.0F);
+        return static_cast<int>(std::lround(share * static_cast<float>(last)));
+    }
+    /// Frames between two numbers that are written: 1, 2 or 5 times a power of ten, so that they do not touch.
+    int step() const
+    {
+        int power = 1;
+        for (;; power *= 10) {
+            for (const int step : {power, 2 * power, 5 * power}) {
+                if (placeOf(step) - left >= length(44)) return step;
+            }
+        }
+    }
+};
+
+void buildControls(const PanelContext& context)
+{
+    const State& state = context.content.session.state();
+    const ViewState& view = state.view;
+    const TimeLine& poses = state.document.poses;
+    const auto arrow = [&](const char* id, ImGuiDir direction, const char* line, const char* text) {
+        if (ImGui::ArrowButton(id, direction)) context.ask(line);
+        context.name(line);
+        help(text);
+        ImGui::SameLine(0, length(2));
+    };
+    const bool canPlay = poses.keys().size() > 1;
+    arrow("##previous", ImGuiDir_Left, "previous-key", "the key before (Down)");
+    ImGui::BeginDisabled(!canPlay);
+    if (ImGui::Button(view.isPlaying ? "Stop" : "Play", {length(52), 0})) context.ask("toggle play");
+    ImGui::EndDisabled();
+    context.name("play");
+    help("shows the frames from the first key to the last, again and again (Space)");
+    ImGui::SameLine(0, length(2));
+    arrow("##next", ImGuiDir_Right, "next-key", "the next key (Up)");
+    ImGui::SameLine(0, length(12));
+    ImGui::AlignTextToFramePadding();
+    muted("Frame");
+    ImGui::SameLine(0, length(6));
+    int frame = view.frame;
+    ImGui::SetNextItemWidth(length(56));
+    if (ImGui::InputInt("##time", &frame, 0, 0, ImGuiInputTextFlags_EnterReturnsTrue)) {
+        context.ask("time " + std::to_string(frame));
+    }
+    context.name("time");
+    help("whose pose is seen and changed (Left and Right)");
+    ImGui::SameLine(0, length(12));
+    muted("Rate");
+    ImGui::SameLine(0, length(6));
+    double rate = view.framesPerSecond;
+    ImGui::SetNextItemWidth(length(48));
+    if (ImGui::InputDouble("##rate", &rate, 0, 0, "%.4g", ImGuiInputTextFlags_EnterReturnsTrue)) {
+        context.ask("rate " + detail::numberText(rate));
+    }
+    context.name("rate");
+    help("frames a second, 1 to 240");
+    ImGui::SameLine(0, length(18));
+
+    const PoseKey* const key = poses.keyAt(view.frame);
+    std::string name = key ? key->name : std::string();
+    ImGui::BeginDisabled(!state.cage);
+    const float buttonWidth = length(70);
+    const float nameWidth = ImGui::GetContentRegionAvail().x - buttonWidth - length(4);
+    ImGui::SetNextItemWidth(std::clamp(nameWidth, length(36), length(200)));
+    if (ImGui::InputTextWithHint("##key", key ? "a name" : "no key here", &name,
+                                 ImGuiInputTextFlags_EnterReturnsTrue)) {
+        context.ask("key " + std::to_string(view.frame) + ' ' + quotedWord(name));
+    }
+    context.name("key.name");
+    help("the name of the key at this frame; Enter keeps it");
+    ImGui::SameLine(0, length(4));
+    if (ImGui::Button(key ? "Remove" : "Insert", {buttonWidth, 0})) {
+        context.ask(key ? "remove-key" : "insert-key");
+    }
+    context.name("key");
+    help(key ? "takes the pose at this frame off the time line (Shift+I)"
+             : "keeps the pose that is seen at this frame (I); whatever is moved is kept by itself");
+    ImGui::EndDisabled();
+}
+
+void drawKey(ImDrawList& list, const ImVec2& at, const draw::Colour& colour)
+{
+    const float radius = length(5);
+    list.AddQuadFilled({at.x, at.y - radius}, {at.x + radius, at.y}, {at.x, at.y + radius}, {at.x - radius, at.y},
+                       packed(colour));
+}
+
+void drawTrack(const State& state, const Track& track, const ImVec2& low, const ImVec2& high,
+               const std::optional<int>& moved, int movedTo)
+{
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    list.AddRectFilled(low, high, packed(theme::field), length(3));
+    const TimeLine& poses = state.document.poses;
+    const float keyLine = high.y - length(9);
+    if (!poses.isEmpty()) {
+        list.AddRectFilled({track.placeOf(poses.firstFrame()), keyLine - length(2)},
+                           {track.placeOf(poses.finalFrame()), keyLine + length(2)}, packed(theme::selected));
+    }
+    for (int frame = 0; frame <= track.last; frame += track.step()) {
+        const float x = std::round(track.placeOf(frame));
+        list.AddLine({x, low.y + length(2)}, {x, high.y - length(2)}, packed(theme::line));
+        list.AddText({x + length(3), low.y}, packed(theme::mutedText), std::to_string(frame).c_str());
+    }
+    const float now = std::round(track.placeOf(state.view.frame));
+    list.AddLine({now, low.y}, {now, high.y}, packed(theme::accent), length(2));
+    for (const PoseKey& key : poses.keys()) {
+        const int frame = moved && *moved == key.frame ? movedTo : key.frame;
+        drawKey(list, {track.placeOf(frame), keyLine}, frame == state.view.frame ? theme::accent : theme::text);
+    }
+}
+
+void buildTrack(const PanelContext& context, TimeLineMemory& memory)
+{
+    const State& state = context.content.session.state();
+    const TimeLine& poses = state.document.poses;
+    const ImVec2 low = ImGui::GetCursorScreenPos();
+    const ImVec2 size{ImGui::GetContentRegionAvail().x, length(32)};
+    const ImVec2 high{low.x + size.x, low.y + size.y};
+    Track track;
+    track.left = low.x + length(10);
+    track.right = high.x - length(26);
+    track.last = std::max({leastFrames, poses.finalFrame(), state.view.frame});
+    ImGui::InvisibleButton("##track", size);
+    context.name("time-line");
+    context.followDrag();
+    const ImVec2 pointer = ImGui::GetIO().MousePos;
+    const int frame = track.frameAt(pointer.x);
+    if (ImGui::IsItemActivated() && pointer.y > high.y - length(18)) {
+        for (const PoseKey& key : poses.keys()) {
+            if (std::abs(track.placeOf(key.frame) - pointer.x) <= length(6)) memory.draggedKey = key.frame;
+        }
+    }
+    if (memory.draggedKey) {
+        if (ImGui::IsItemDeactivated()) {
+            const int from = *std::exchange(memory.draggedKey, std::nullopt);
+            if (frame != from) context.ask("move-key " + std::to_string(from) + ' ' + std::to_string(frame));
+            if (frame != state.view.frame) context.ask("time " + std::to_string(frame));
+        }
+    } else if (ImGui::IsItemActive() && frame != state.view.frame) {
+        context.ask("time " + std::to_string(frame));
+    }
+    const PoseKey* const hovered = ImGui::IsItemHovered() ? poses.keyAt(frame) : nullptr;
+    if (hovered && !hovered->name.empty()) help(hovered->name + " (frame " + std::to_string(frame) + ')');
+    drawTrack(state, track, low, high, memory.draggedKey, frame);
+}
+
+} // namespace
+
+void buildTimeLine(const PanelContext& context, TimeLineMemory& memory)
+{
+    ImGui::BeginDisabled(!context.content.session.state().document.model);
+    buildControls(context);
+    buildTrack(context, memory);
+    ImGui::EndDisabled();
+}
+
+} // namespace vdbcage::view

@@ -1,0 +1,141 @@
+#include <tools/view/state/pose_files.h>
+
+#include <cmath>
+#include <sstream>
+#include <utility>
+#include <vector>
+
+#include <tools/report/frames.h>
+#include <tools/report/posed_cage.h>
+#include <tools/view/state/move.h>
+#include <tools/view/state/words.h>
+#include <vdbcage/core/detail/read_file.h>
+#include <vdbcage/core/error.h>
+
+namespace vdbcage::view {
+
+namespace {
+
+namespace fs = std::filesystem;
+using openvdb::Vec3d;
+
+const MeshPtr& cageOf(const State& state)
+{
+    if (!state.cage) throw InputError("there is no cage yet");
+    return state.cage;
+}
+
+std::vector<Vec3d> readPose(const Mesh& cage, const fs::path& path)
+{
+    const OpenedMeshPtr posed = openMesh(path);
+    tool::requireSameFaces(posed->path, posed->mesh, "the cage that is shown", cage);
+    return posed->mesh.points;
+}
+
+TimeLine openSequence(const MeshPtr& cage, const fs::path& path)
+{
+    const fs::path pattern = patternOf(path);
+    if (!tool::isPattern(pattern)) {
+        throw InputError(path.string() + ": its name has no number; a sequence is named as walk.0001.obj");
+    }
+    TimeLine poses;
+    for (const tool::Frame& frame : tool::findFrames(pattern)) {
+        if (frame.number > lastFrame) {
+            throw InputError(frame.path.string() + ": the number of a frame must be at most " +
+                             std::to_string(lastFrame));
+        }
+        poses = poses.with(
+            {static_cast<int>(frame.number), poseOf(cage, readPose(*cage, frame.path)), frame.path.stem().string()});
+    }
+    return poses;
+}
+
+/// Reads the numbers of a file of parameters one after the other.
+class Parameters {
+public:
+    explicit Parameters(const fs::path& path) : path_(path.string()), words_(detail::readFile(path)) {}
+
+    double number(const std::string& what)
+    {
+        std::string word;
+        if (!(words_ >> word)) throw InputError(path_ + ": it ends where " + what + " should be");
+        try {
+            return numberOf(word, what);
+        } catch (const InputError& error) {
+            throw InputError(path_ + ": " + error.what());
+        }
+    }
+    std::size_t whole(const std::string& what, std::size_t most)
+    {
+        const double value = number(what);
+        if (!(value >= 0 && value <= static_cast<double>(most) && value == std::floor(value))) {
+            std::ostringstream text;
+            text << path_ << ": " << what << " is " << value << "; it must be a whole number from 0 to " << most;
+            throw InputError(text.str());
+        }
+        return static_cast<std::size_t>(value);
+    }
+    void requireEnd()
+    {
+        std::string word;
+        if (words_ >> word) throw InputError(path_ + ": '" + word + "' comes after the last move");
+    }
+
+private:
+    std::string path_;
+    std::istringstream words_;
+};
+
+TimeLine openParameters(const MeshPtr& cage, const fs::path& path, int frames)
+{
+    Parameters parameters(path);
+    const double least = parameters.number("the least factor"), most = parameters.number("the largest factor");
+    const std::size_t count = parameters.whole("the number of moves", cage->points.size());
+    std::vector<Vec3d> moves(cage->points.size(), Vec3d(0));
+    for (std::size_t i = 0; i < count; ++i) {
+        Vec3d& move = moves[parameters.whole("the number of a point", cage->points.size() - 1)];
+        for (int k = 0; k < 3; ++k) move[k] = parameters.number("a move");
+    }
+    parameters.requireEnd();
+    const auto posed = [&](double factor) {
+        std::vector<Vec3d> points = cage->points;
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            points[i] += factor * moves[i];
+            if (!points[i].isFinite()) throw InputError(path.string() + ": it moves a point out of all numbers");
+        }
+        return poseOf(cage, std::move(points));
+    };
+    const std::string name = path.stem().string();
+    const TimeLine poses = TimeLine().with({frames - 1, posed(most), name});
+    return frames > 1 ? poses.with({0, posed(least), name}) : poses;
+}
+
+} // namespace
+
+Document withOpenedPose(const State& state, const fs::path& path)
+{
+    return withPose(state, readPose(*cageOf(state), path));
+}
+
+Document withOpenedPoses(const State& state, const fs::path& path, int frames)
+{
+    const MeshPtr& cage = cageOf(state);
+    Document document = state.document;
+    document.poses = path.extension() == ".param" ? openParameters(cage, path, frames) : openSequence(cage, path);
+    return document;
+}
+
+fs::path patternOf(const fs::path& path)
+{
+    if (tool::isPattern(path)) return path;
+    const std::string name = path.filename().string(), stem = path.stem().string();
+    const std::size_t last = stem.find_last_of("0123456789");
+    if (last == std::string::npos) return path;
+    const std::size_t before = stem.find_last_not_of("0123456789", last);
+    const std::size_t first = before == std::string::npos ? 0 : before + 1;
+    const std::size_t digits = last - first + 1;
+    return path.parent_path() / (name.substr(0, first) + '%' + (digits > 1 ? "0" + std::to_string(digits) : "") + 'd' +
+                                 name.substr(last + 1));
+}
+
+} // namespace vdbcage::view
