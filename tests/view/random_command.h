@@ -116,7 +116,9 @@ inline view::Command randomCommand(std::mt19937& random, const std::vector<std::
                : below(2) == 0 ? Command(Play{below(2) == 0})
                                : Command(SetRate{real(1, 240)});
     case 18:
-        return SetSoft{below(2) == 0 ? 0 : real(0, 1)};
+        if (below(2) == 0) return SetSoft{below(2) == 0 ? 0 : real(0, 1)};
+        if (below(2) == 0) return SetPivot{{Pivot::Kind::point, {real(-1, 1), real(-1, 1), real(-1, 1)}}};
+        return SetPivot{{static_cast<Pivot::Kind>(below(3))}};
     case 19:
         return below(2) == 0 ? SetMirror{} : SetMirror{SymmetryPlane{below(3), real(-1, 1)}};
     default: {

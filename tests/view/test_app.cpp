@@ -234,14 +234,17 @@ BOOST_AUTO_TEST_CASE(every_shortcut_stands_for_a_line_that_is_known)
 {
     App app(context.api(), setup());
     run(app, {"open " + quotedWord(files[0]), "wait"});
-    for (const Shortcut& shortcut : shortcuts()) {
-        if (shortcut.line == "quit") continue;
-        BOOST_TEST_CONTEXT(shortcut.chord)
-        {
-            BOOST_TEST(nameOf(chordNamed(shortcut.chord)) == shortcut.chord);
-            runLine(app, "key " + shortcut.chord);
-            BOOST_TEST(app.messages().empty());
-            run(app, {"key escape", "key escape"});
+    for (const KeyMap map : {KeyMap::blender, KeyMap::maya}) {
+        runLine(app, std::string("keys ") + keyMapNames[static_cast<std::size_t>(map)]);
+        for (const Shortcut& shortcut : shortcuts(map)) {
+            if (shortcut.line == "quit") continue;
+            BOOST_TEST_CONTEXT(shortcut.chord)
+            {
+                BOOST_TEST(nameOf(chordNamed(shortcut.chord)) == shortcut.chord);
+                runLine(app, "key " + shortcut.chord);
+                BOOST_TEST(app.messages().empty());
+                run(app, {"key escape", "key escape"});
+            }
         }
     }
 }
@@ -332,6 +335,9 @@ BOOST_AUTO_TEST_CASE(errors_of_scripts_name_file_and_line)
                              "frame me",
                              "projection fish",
                              "toggle hat",
+                             "keys hat",
+                             "mouse down hat+left",
+                             "mouse down alt+hat",
                              "browse hat",
                              "save-scene s.json",
                              "save-cage c.obj",

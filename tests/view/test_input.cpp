@@ -49,6 +49,22 @@ BOOST_AUTO_TEST_CASE(every_chord_reads_back)
     BOOST_TEST((chordNamed("shift+control+z") == KeyChord{Key::z, {true, true, false}}));
 }
 
+BOOST_AUTO_TEST_CASE(buttons_have_names_with_what_is_held)
+{
+    for (const Button button : {Button::left, Button::right, Button::middle}) {
+        for (int held = 0; held < 8; ++held) {
+            const Modifiers modifiers{(held & 1) != 0, (held & 2) != 0, (held & 4) != 0};
+            const std::string before = nameOf(modifiers);
+            const ButtonChord read = buttonNamed(before + (before.empty() ? "" : "+") + nameOf(button));
+            BOOST_CHECK(read.button == button);
+            BOOST_CHECK(read.modifiers == modifiers);
+        }
+    }
+    for (const char* word : {"", "hat", "hat+left", "alt+", "alt+alt+left", "a"}) {
+        BOOST_TEST_CONTEXT(word) BOOST_CHECK_THROW((void)buttonNamed(word), InputError);
+    }
+}
+
 BOOST_AUTO_TEST_CASE(slips_get_one_line_that_says_what_is_allowed)
 {
     const auto says = [](const char* word) {

@@ -275,6 +275,17 @@ BOOST_AUTO_TEST_CASE(edges_that_are_collapsed_together_are_those_that_were_selec
     BOOST_TEST(collapsed > 20);
 }
 
+BOOST_AUTO_TEST_CASE(nothing_is_moved_out_of_sight_for_ever)
+{
+    for (const char* line : {"move 1e300 0 0", "move 0 1e12 0", "scale 1e300 1 1 0 0 0", "scale 2 2 2 1e300 0 0",
+                             "rotate 0 0 1 90 1e300 0 0"}) {
+        BOOST_TEST_CONTEXT(line) BOOST_CHECK_THROW(run(line), InputError);
+    }
+    BOOST_TEST(session.state().document.poses.isEmpty());
+    run("move 1e6 0 0");
+    BOOST_TEST(points()[0].x() == cage->points[0].x() + 1e6);
+}
+
 BOOST_AUTO_TEST_CASE(where_nothing_is_selected_nothing_moves)
 {
     run("select points");
@@ -309,6 +320,39 @@ BOOST_AUTO_TEST_CASE(axes_of_what_is_selected)
         }
     }
     BOOST_TEST((selectionFrame(session.state(), view)->axes[0] == view[0]));
+}
+
+BOOST_AUTO_TEST_CASE(the_pivot_is_where_it_is_chosen_and_axes_do_not_depend_on_it)
+{
+    run("select points 0 1 2 3 40");
+    run("orientation local");
+    Vec3d mean(0);
+    openvdb::BBoxd box(cage->points[0], cage->points[0]);
+    for (const std::size_t i : {0, 1, 2, 3, 40}) {
+        mean += cage->points[i] / 5.0;
+        box.expand(cage->points[i]);
+    }
+    const Vec3d middle = 0.5 * (box.min() + box.max());
+    BOOST_TEST((middle - mean).length() > 0.1);
+    const auto axes = selectionFrame(session.state(), {})->axes;
+    for (const auto& [text, expected] : std::vector<std::pair<std::string, Vec3d>>{
+             {"mean", mean}, {"box", middle}, {"origin", Vec3d(0)}, {"0.25 -1 3", Vec3d(0.25, -1, 3)}}) {
+        run("pivot " + text);
+        const auto frame = selectionFrame(session.state(), {});
+        BOOST_TEST_CONTEXT(text)
+        {
+            BOOST_TEST((frame->origin - expected).length() < 1e-12);
+            BOOST_TEST((frame->mean - mean).length() < 1e-12);
+            BOOST_TEST(frame->count == 5u);
+            BOOST_CHECK(frame->axes == axes);
+        }
+    }
+    // It follows what is posed, and is undone with the view.
+    run("pivot box");
+    run("move 1 2 3");
+    BOOST_TEST((selectionFrame(session.state(), {})->origin - middle - Vec3d(1, 2, 3)).length() < 1e-12);
+    session.undoView();
+    BOOST_CHECK((session.state().view.pivot == Pivot{Pivot::Kind::point, {0.25, -1, 3}}));
 }
 
 BOOST_AUTO_TEST_CASE(the_model_follows_as_the_binding_poses_it)

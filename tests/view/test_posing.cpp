@@ -8,6 +8,7 @@
 #include "app_fixture.h"
 #include <tools/view/state/move.h>
 #include <tools/view/state/words.h>
+#include <vdbcage/core/detail/number_text.h>
 #include <vdbcage/core/error.h>
 
 using namespace vdbcage;
@@ -98,6 +99,143 @@ BOOST_AUTO_TEST_CASE(what_a_drag_does_is_what_its_line_does)
             }
         }
     }
+}
+
+BOOST_AUTO_TEST_CASE(what_is_turned_and_scaled_turns_about_the_pivot)
+{
+    selectBox(0.3, 0, 1, 0.6);
+    const auto mean = selectionFrame(app.session().state(), {})->mean;
+    for (const char* pivot : {"mean", "box", "origin", "point", "1 2 -3"}) {
+        BOOST_TEST_CONTEXT(pivot)
+        {
+            if (std::string(pivot) == "1 2 -3") {
+                runLine(app, "pivot 1 2 -3");
+            } else {
+                run(app, {"pivot mean", std::string("widget pivot ") + pivot}); // by the list of the bar
+            }
+            const Vec3d at = selectionFrame(app.session().state(), {})->origin;
+            const std::vector<Vec3d> before = points();
+            const auto selected = selectedPoints(app.session().state());
+            run(app, {"key r", "key z", "key 9", "key 0", "key enter"});
+            BOOST_TEST(recorded.back() == toText(RotateSelected{{0, 0, 1}, 90, at}));
+            for (const openvdb::Index32 i : selected) {
+                const Vec3d d = before[i] - at;
+                BOOST_TEST((points()[i] - at - Vec3d(-d.y(), d.x(), d.z())).length() < 1e-12);
+            }
+            run(app, {"undo", "key s", "key 2", "key enter"});
+            for (const openvdb::Index32 i : selected) {
+                BOOST_TEST((points()[i] - at - 2 * (before[i] - at)).length() < 1e-12);
+            }
+            runLine(app, "undo");
+        }
+    }
+    run(app, {"pivot mean", "widget pivot point"});
+    BOOST_CHECK((app.session().state().view.pivot == Pivot{Pivot::Kind::point, mean}));
+    run(app,
+        {"undo-view", "expect pivot mean", "widget pivot box", "expect pivot box", "undo-view", "expect pivot mean"});
+}
+
+BOOST_AUTO_TEST_CASE(handles_stand_at_the_pivot_and_what_is_moved_freely_stays_under_the_pointer)
+{
+    selectBox(0, 0, 1, 0.4);
+    const auto mean = selectionFrame(app.session().state(), {})->mean;
+    const auto place = [&] {
+        const auto handle = app.widget("handle.screen");
+        BOOST_TEST_REQUIRE(handle.has_value());
+        return std::make_pair(handle->left, handle->top);
+    };
+    run(app, {"tool move", "mouse move picture 0.01 0.99"});
+    const auto atMean = place();
+    run(app, {"pivot origin"});
+    BOOST_TEST((place() != atMean));
+    run(app, {toText(SetPivot{{Pivot::Kind::point, mean}})});
+    BOOST_TEST((place() == atMean));
+    std::vector<std::string> moves;
+    for (const char* pivot : {"mean", "0.3 0.2 -8"}) {
+        run(app, {std::string("pivot ") + pivot, "mouse move picture 0.4 0.4", "key g", "mouse by 30 20", "key enter"});
+        moves.push_back(recorded.back());
+        runLine(app, "undo");
+    }
+    BOOST_TEST(moves[0].rfind("move ", 0) == 0u);
+    BOOST_TEST(moves[0] == moves[1]);
+}
+
+BOOST_AUTO_TEST_CASE(a_pivot_can_be_anywhere)
+{
+    selectBox(0, 0, 1, 0.4);
+    const std::vector<Vec3d> before = points();
+    for (const char* projection : {"perspective", "orthographic"}) {
+        runLine(app, std::string("projection ") + projection);
+        for (const char* pivot : {"1e300 0 0", "0 -1e154 1e154", "1e20 1e20 1e20", "0 0 1e9", "0 0 -1e9"}) {
+            run(app,
+                {std::string("pivot ") + pivot, "tool move", "tool rotate", "tool scale", "look front", "look top"});
+            for (const char* key : {"g", "r", "s"}) {
+                run(app, {"mouse move picture 0.4 0.4", std::string("key ") + key, "mouse by 30 20", "mouse by -7 5",
+                          "key escape", "expect messages 0"});
+            }
+            BOOST_TEST(points() == before, boost::test_tools::per_element());
+            // It is drawn, and then nothing changes any more.
+            while (app.needsFrame()) app.drawFrame();
+            app.update();
+            BOOST_TEST(!app.needsFrame());
+        }
+    }
+}
+
+BOOST_AUTO_TEST_CASE(a_coordinate_that_is_typed_is_where_what_is_selected_goes)
+{
+    BOOST_TEST(!app.widget("selected.x"));
+    selectBox(0, 0, 1, 0.4);
+    runLine(app, "pivot origin"); // the fields are about the mean all the same
+    const auto mean = [&] { return selectionFrame(app.session().state(), {})->mean; };
+    for (const char* axis : {"x", "y", "z"}) {
+        const int k = axis[0] - 'x';
+        for (const double to : {0.3, -1.0 / 3, 1e-7, 0.0}) {
+            const Vec3d before = mean();
+            Vec3d by(0);
+            by[k] = to - before[k];
+            run(app, {std::string("widget selected.") + axis + ' ' + detail::numberText(to), "expect messages 0"});
+            BOOST_TEST(recorded.back() == toText(MoveSelected{by}));
+            for (int j = 0; j < 3; ++j) BOOST_TEST(std::abs(mean()[j] - (j == k ? to : before[j])) < 1e-14);
+            BOOST_TEST(std::abs(std::stod(app.value(std::string("selected.") + axis)) - to) < 1e-14);
+        }
+    }
+    run(app, {"key alt+a", "expect selected.x none"});
+    BOOST_TEST(!app.widget("selected.x"));
+}
+
+BOOST_AUTO_TEST_CASE(a_field_that_is_typed_into_keeps_its_text_and_nonsense_is_a_message)
+{
+    selectBox(0, 0, 1, 0.4);
+    run(app, {"move 0.123456789 0 0"});
+    const std::vector<Vec3d> before = points();
+    const std::size_t lines = recorded.size();
+    // What is shown is rounded; to enter it as it stands changes nothing.
+    run(app, {"mouse move selected.x", "mouse click", "key enter", "expect messages 0"});
+    BOOST_TEST(recorded.size() == lines);
+    for (const char* nonsense : {"abc", "", "1e", "nan", "1 2", "\"\""}) {
+        run(app, {"mouse move selected.x", "mouse click", "key control+a", "key delete", "type " + quotedWord(nonsense),
+                  "key enter", "expect messages 1"});
+        BOOST_TEST(app.value("message").find("is not allowed; it must be a number") != std::string::npos,
+                   app.value("message"));
+        run(app, {"key enter", "expect messages 0"});
+    }
+    BOOST_TEST(points() == before, boost::test_tools::per_element());
+    // Keys are text there, in each map, and what moves meanwhile does not change the field.
+    for (const char* map : {"keys blender", "keys maya"}) {
+        run(app,
+            {map, "mouse move selected.x", "mouse click", "key control+a", "key w", "key g", "type 0.", "move 0 1 0",
+             "expect tool select", "type 25", "key enter", "expect messages 0", "expect tool select"});
+        BOOST_TEST(std::abs(selectionFrame(app.session().state(), {})->mean.x() - 0.25) < 1e-14);
+        run(app, {"undo", "undo"});
+        BOOST_TEST(points() == before, boost::test_tools::per_element());
+    }
+    // Another place that is clicked takes it over, Escape does not.
+    run(app, {"mouse move selected.y", "mouse click", "type 7", "key escape"});
+    BOOST_TEST(points() == before, boost::test_tools::per_element());
+    run(app, {"mouse move selected.y", "mouse click", "type 7", "mouse move picture 0.01 0.01", "mouse down"});
+    BOOST_TEST(std::abs(selectionFrame(app.session().state(), {})->mean.y() - 7) < 1e-13);
+    runLine(app, "mouse up");
 }
 
 BOOST_AUTO_TEST_CASE(escape_gives_up_and_undo_gives_the_first_picture)

@@ -296,9 +296,9 @@ BOOST_AUTO_TEST_CASE(poses_are_carried_over_on_a_thread_of_its_own)
     run("rotate 0 0 1 30 0 0 0");
     const MeshPtr other = std::make_shared<const Mesh>(test::sphere({0.5, 0.5, 0.5}, 0.9, 10));
     Carrier carrier([] {});
-    const auto carried = [&](const MeshPtr& cage) {
-        auto result = carrier.carried(cage, poses());
-        for (; !result; result = carrier.carried(cage, poses())) carrier.waitForNews(1);
+    const auto carried = [&](const MeshPtr& onto) {
+        auto result = carrier.carried(onto, poses());
+        for (; !result; result = carrier.carried(onto, poses())) carrier.waitForNews(1);
         BOOST_TEST(!carrier.isBusy());
         return result;
     };

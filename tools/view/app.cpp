@@ -13,6 +13,7 @@
 #include <tools/view/state/folder.h>
 #include <tools/view/state/move.h>
 #include <tools/view/state/posing.h>
+#include <tools/view/state/preferences.h>
 #include <tools/view/state/scene.h>
 #include <tools/view/state/words.h>
 #include <tools/view/values.h>
@@ -69,6 +70,7 @@ public:
                     [this] { return viewport(); }, double{setup_.scale}})
     {
         recent_ = recentFiles(setup_.recentFiles);
+        setKeys(readPreferences(setup_.preferences).keys);
         resize(setup_.width, setup_.height);
     }
 
@@ -251,7 +253,7 @@ public:
 
     std::map<std::string, std::function<std::string()>> values() const
     {
-        return valuesOf({session_, runner_.planner(), posing_, messages_, notes_, frames_, isEnded_});
+        return valuesOf({session_, runner_.planner(), posing_, messages_, notes_, frames_, isEnded_, keys_});
     }
 
     const gl::Api& api_;
@@ -274,6 +276,7 @@ public:
     int width_ = 0, height_ = 0;
     std::vector<std::string> messages_, notes_;
     std::vector<fs::path> recent_;
+    KeyMap keys_{};
     bool needsFrame_ = true;
     std::uint64_t frames_ = 0;
 
@@ -373,6 +376,11 @@ private:
             reload();
         } else if (verb == "browse") {
             panels_.browse(argument);
+        } else if (verb == "keys") {
+            const auto* const name = std::find(keyMapNames.begin(), keyMapNames.end(), argument);
+            if (name == keyMapNames.end()) refuse("keys", argument, "blender or maya");
+            setKeys(static_cast<KeyMap>(name - keyMapNames.begin()));
+            writePreferences(setup_.preferences, {keys_});
         } else if (verb == "help") {
             panels_.showHelp();
         } else if (verb == "dismiss") {
@@ -386,6 +394,12 @@ private:
             isEnded_ = true;
         }
         needsFrame_ = true;
+    }
+
+    void setKeys(KeyMap keys)
+    {
+        keys_ = keys;
+        control_.setMouse(mouseMap(keys));
     }
 
     bool isSaved() const { return session_.state().document == saved_; }
@@ -561,7 +575,8 @@ private:
     PanelContent content() const
     {
         const ViewState& view = session_.state().view;
-        PanelContent content{session_, runner_.planner(), runner_.progress(), messages_, notes_, shortcuts(), recent_};
+        PanelContent content{session_, runner_.planner(), runner_.progress(), messages_, notes_, shortcuts(keys_),
+                             recent_};
         const draw::Eye eye = draw::eyeOf(view.camera, 1, {});
         for (int k = 0; k < 3; ++k) {
             Vec3d axis(0);
@@ -583,6 +598,8 @@ private:
         content.overlay = control_.overlay();
         content.binding = posing_.binder().progress();
         content.isPosedCoarsely = posing_.model().bound() && !posing_.model().isWhole();
+        content.keys = keys_;
+        content.selected = selectionFrame(session_.state(), {});
         if (isSaving_) content.saving = saver_.progress();
         content.bindingError = posing_.error();
         content.poseCheck = posing_.check();
@@ -680,7 +697,7 @@ private:
         if (down.key == Key::escape) return attempt("cancel");
         if (isMessage || widgets_.wantsText() || widgets_.wantsKeyboard()) return;
         const std::string chord = nameOf(KeyChord{down.key, modifiers});
-        for (const Shortcut& shortcut : shortcuts()) {
+        for (const Shortcut& shortcut : shortcuts(keys_)) {
             if (shortcut.chord == chord) return attempt(shortcut.line);
         }
     }

@@ -26,6 +26,7 @@ struct AppSetup {
     Clipboard clipboard = {};
     std::function<void()> wake = [] {};                  ///< called from any thread when update() has something to do
     std::filesystem::path recentFiles = {};              ///< the list of them; empty: none is kept
+    std::filesystem::path preferences = {};              ///< the file of them; empty: those by default, not kept
     std::unique_ptr<CageMaker> maker = {};               ///< null: pipelines
     Binder::Work binding = {};                           ///< empty: by the library
     std::function<void(const std::string&)> record = {}; ///< gets each line that the user's doing amounts to
@@ -100,8 +101,5 @@ private:
     class Impl;
     std::unique_ptr<Impl> impl_;
 };
-
-/// Keys and their lines.
-const std::vector<Shortcut>& shortcuts();
 
 } // namespace vdbcage::view

@@ -18,10 +18,16 @@ constexpr draw::Colour screenColour{0.30F, 0.31F, 0.33F};
 /// An axis seen under a smaller sine has no arm, and a plane under a smaller one no square: they cannot be dragged.
 constexpr double leastSine = 0.12;
 
+/// From farther away the pixels of single precision are no numbers any more. In drawing units: the model has about 2.
+constexpr double farthestOrigin = 1e6;
+
 Vec3d towardsEye(const GizmoFrame& frame)
 {
     if (frame.eye.projection == draw::Projection::orthographic) return frame.eye.back;
-    return (frame.eye.position - frame.origin).unit();
+    const Vec3d away = frame.eye.position - frame.origin;
+    const double length = away.length();
+    // A pivot can be anywhere: in the eye too, and so far away that its square is no number.
+    return length > 0 && std::isfinite(length) ? away / length : frame.eye.back;
 }
 
 /// The length in space that a pixel has at the origin.
@@ -188,9 +194,10 @@ Pixel pixelOf(const GizmoFrame& frame, const Vec3d& point)
 std::vector<GizmoPart> gizmoParts(const GizmoFrame& frame, Tool tool)
 {
     std::vector<GizmoPart> parts;
-    const bool isBehind = frame.eye.projection == draw::Projection::perspective &&
-                          !((frame.eye.position - frame.origin).dot(frame.eye.back) > 0);
-    if (isBehind || tool == Tool::select) return parts;
+    const Vec3d away = frame.eye.position - frame.origin;
+    const bool isBehind = frame.eye.projection == draw::Projection::perspective && !(away.dot(frame.eye.back) > 0);
+    const bool isFar = !(away.length() < farthestOrigin);
+    if (isBehind || isFar || tool == Tool::select) return parts;
     Builder builder(frame, parts);
     if (tool == Tool::rotate) {
         builder.addRings();

@@ -49,7 +49,7 @@ struct GizmoPart {
     bool isFilled = false; ///< an area: `line` is its border
     draw::Colour colour{};
 };
-/// From the back to the front. None if the origin is behind the eye, or the tool has no handles.
+/// From the back to the front. None if the origin is behind the eye or far away, or the tool has no handles.
 std::vector<GizmoPart> gizmoParts(const GizmoFrame& frame, Tool tool);
 
 /// What is within some pixels of `at`, the nearest; areas before strokes.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 
 #include <vdbcage/core/error.h>
 
@@ -117,6 +118,24 @@ struct NamedModifier {
 constexpr std::array<NamedModifier, 3> modifierNames{
     {{"control", &Modifiers::control}, {"shift", &Modifiers::shift}, {"alt", &Modifiers::alt}}};
 
+// In the order of Button.
+constexpr std::array<std::string_view, 3> buttonNames{"left", "right", "middle"};
+
+/// Takes the modifiers off the front of `name`. None: what stands before a plus is no modifier, or one again.
+std::optional<Modifiers> takeModifiers(std::string_view& name)
+{
+    Modifiers modifiers;
+    for (std::size_t plus = name.find('+'); plus != std::string_view::npos; plus = name.find('+')) {
+        const std::string_view word = name.substr(0, plus);
+        const auto modifier = std::find_if(modifierNames.begin(), modifierNames.end(),
+                                           [&](const NamedModifier& candidate) { return candidate.name == word; });
+        if (modifier == modifierNames.end() || modifiers.*modifier->held) return std::nullopt;
+        modifiers.*modifier->held = true;
+        name.remove_prefix(plus + 1);
+    }
+    return modifiers;
+}
+
 } // namespace
 
 const std::vector<Key>& allKeys()
@@ -153,32 +172,48 @@ bool operator==(const KeyChord& a, const KeyChord& b)
     return a.key == b.key && a.modifiers == b.modifiers;
 }
 
-std::string nameOf(const KeyChord& chord)
+std::string nameOf(const Modifiers& modifiers)
 {
     std::string name;
     for (const NamedModifier& modifier : modifierNames) {
-        if (chord.modifiers.*modifier.held) name.append(modifier.name).append("+");
+        if (modifiers.*modifier.held) name.append(name.empty() ? "" : "+").append(modifier.name);
     }
-    return name + nameOf(chord.key);
+    return name;
+}
+
+std::string nameOf(const KeyChord& chord)
+{
+    const std::string modifiers = nameOf(chord.modifiers);
+    return modifiers + (modifiers.empty() ? "" : "+") + nameOf(chord.key);
+}
+
+std::string nameOf(Button button)
+{
+    return std::string(buttonNames.at(static_cast<std::size_t>(button)));
 }
 
 KeyChord chordNamed(std::string_view name)
 {
-    KeyChord chord;
     std::string_view rest = name;
-    for (std::size_t plus = rest.find('+'); plus != std::string_view::npos; plus = rest.find('+')) {
-        const std::string_view word = rest.substr(0, plus);
-        const auto modifier = std::find_if(modifierNames.begin(), modifierNames.end(),
-                                           [&](const NamedModifier& candidate) { return candidate.name == word; });
-        if (modifier == modifierNames.end() || chord.modifiers.*modifier->held) {
-            throw InputError("keys: '" + std::string(name) +
-                             "' is not allowed; it must be a key, after control+, shift+ and alt+, each once at most");
-        }
-        chord.modifiers.*modifier->held = true;
-        rest.remove_prefix(plus + 1);
+    const auto modifiers = takeModifiers(rest);
+    if (!modifiers) {
+        throw InputError("keys: '" + std::string(name) +
+                         "' is not allowed; it must be a key, after control+, shift+ and alt+, each once at most");
     }
-    chord.key = keyNamed(rest);
-    return chord;
+    return {keyNamed(rest), *modifiers};
+}
+
+ButtonChord buttonNamed(std::string_view name)
+{
+    std::string_view rest = name;
+    const auto modifiers = takeModifiers(rest);
+    const auto found = std::find(buttonNames.begin(), buttonNames.end(), rest);
+    if (!modifiers || found == buttonNames.end()) {
+        throw InputError("mouse: '" + std::string(name) +
+                         "' is not allowed; it must be left, right or middle, after control+, shift+ and alt+, each "
+                         "once at most");
+    }
+    return {static_cast<Button>(found - buttonNames.begin()), *modifiers};
 }
 
 } // namespace vdbcage::view

@@ -36,6 +36,9 @@ struct Modifiers {
 
 bool operator==(const Modifiers& a, const Modifiers& b);
 
+/// Such as "control+shift", in the order control, shift, alt; empty: none.
+std::string nameOf(const Modifiers& modifiers);
+
 /// A key and what is held with it.
 struct KeyChord {
     Key key = Key::a;
@@ -52,6 +55,19 @@ std::string nameOf(const KeyChord& chord);
 KeyChord chordNamed(std::string_view name);
 
 enum class Button { left, right, middle };
+
+/// "left", "right" or "middle".
+std::string nameOf(Button button);
+
+/// A button and what is held with it.
+struct ButtonChord {
+    Button button = Button::left;
+    Modifiers modifiers = {};
+};
+
+/// Reads such as "left" or "control+shift+left", the modifiers in any order.
+/// \throw InputError not such a text
+ButtonChord buttonNamed(std::string_view name);
 
 struct PointerMoved {
     double x = 0, y = 0; ///< pixels from the top left

@@ -11,6 +11,7 @@
 #include <tools/view/script.h>
 #include <tools/view/state/command.h>
 #include <tools/view/state/folder.h>
+#include <tools/view/state/preferences.h>
 #include <tools/view/state/words.h>
 #include <tools/view/verbs.h>
 #include <tools/view/window.h>
@@ -45,6 +46,13 @@ void printTable(const std::string& title, const std::vector<std::pair<std::strin
     }
 }
 
+void printKeys(const std::string& title, KeyMap map)
+{
+    std::vector<std::pair<std::string, std::string>> rows = describeMouse(map);
+    for (const Shortcut& shortcut : shortcuts(map)) rows.emplace_back(shortcut.chord, shortcut.help);
+    printTable(title, rows);
+}
+
 void printHelp()
 {
     std::cout << "vdbcage-view [MODEL|SCENE.json] [CAGE] [POSED] [OPTIONS]: a window in which a cage is\n"
@@ -56,9 +64,8 @@ void printHelp()
     printTable("Lines of a script: commands", describeCommands());
     printTable("Lines of a script: what menus and keys do", describeVerbs());
     printTable("Lines of a script: what hands and eyes do", describeScript());
-    std::vector<std::pair<std::string, std::string>> keys;
-    for (const Shortcut& shortcut : shortcuts()) keys.emplace_back(shortcut.chord, shortcut.help);
-    printTable("Keys", keys);
+    printKeys("Mouse and keys as in Blender (keys blender), which scripts begin with", KeyMap::blender);
+    printKeys("Mouse and keys as in Maya (keys maya)", KeyMap::maya);
 }
 
 Arguments parse(int count, char** words)
@@ -147,8 +154,11 @@ int runProgram(int count, char** words)
     }
     Window window(1280, 800);
     AppSetup setup = window.setup();
-    // What scripts do is no use of files by a user.
-    if (arguments.script.empty()) setup.recentFiles = recentFilesPath();
+    // What scripts do is no use of files by a user, and the same for every user.
+    if (arguments.script.empty()) {
+        setup.recentFiles = recentFilesPath();
+        setup.preferences = preferencesPath();
+    }
     run(window.api(), std::move(setup), arguments, &window);
     return EXIT_SUCCESS;
 }

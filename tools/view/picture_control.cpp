@@ -36,6 +36,12 @@ std::vector<double> numbersIn(const std::string& text)
     return numbers;
 }
 
+/// Of the box between two corners.
+std::vector<Pixel> corners(const std::vector<Pixel>& box)
+{
+    return {box[0], {box[1][0], box[0][1]}, box[1], {box[0][0], box[1][1]}};
+}
+
 } // namespace
 
 Pixel PictureControl::inPicture() const
@@ -82,19 +88,24 @@ void PictureControl::begin(const ButtonDown& down, const Modifiers& modifiers)
     if (held_) return;
     held_ = down;
     heldWith_ = modifiers;
+    drag_.reset();
     pressedX_ = x_;
     pressedY_ = y_;
     const State& state = host_.session.state();
     if (!state.document.model) return;
-    if (isBoxArmed_ || modifiers.control) {
-        isLasso_ = !isBoxArmed_ && down.button == Button::right;
+    const DragBinding* const binding = dragOf(mouse_, {down.button, modifiers});
+    const bool isGrip = !isBoxArmed_ && !(binding && binding->winsOverHandles) && down.button == Button::left && hot_;
+    if (isGrip) {
+        grip_ = gripOf(state.view.tool, *hot_, false);
+        if (grip_) return host_.session.beginDrag();
+    }
+    if (binding) drag_ = binding->action;
+    if (isBoxArmed_) drag_ = DragAction::box;
+    if (drag_ == DragAction::box || drag_ == DragAction::lasso) {
         band_ = {inPicture()};
         return;
     }
-    if (down.button == Button::left && hot_) {
-        grip_ = gripOf(state.view.tool, *hot_);
-        if (grip_) return host_.session.beginDrag();
-    }
+    if (!drag_) return;
     const auto [x, y] = inPanel(inPicture());
     pivot_ = host_.viewport.pointAt(x, y).value_or(
         host_.viewport.selectionCentre(state.view).value_or(state.view.camera.target));
@@ -115,10 +126,12 @@ void PictureControl::move(const PointerMoved& moved, const Modifiers& modifiers)
         if (frame) hot_ = handleAt(gizmoParts(*frame, host_.session.state().view.tool), host_.pixel, inPicture());
         return;
     }
-    if (!host_.session.state().document.model) return;
+    if (!host_.session.state().document.model || !drag_) return;
+    const bool isStill = std::hypot(x_ - pressedX_, y_ - pressedY_) < clickRadius * host_.pixel;
     if (!band_.empty()) {
+        if (isStill && band_.size() == 1) return;
         const Pixel at = inPicture();
-        if (!isLasso_) {
+        if (*drag_ == DragAction::box) {
             band_.resize(1);
             band_.push_back(at);
         } else if (std::hypot(at[0] - band_.back()[0], at[1] - band_.back()[1]) >= lassoStep * host_.pixel) {
@@ -127,7 +140,7 @@ void PictureControl::move(const PointerMoved& moved, const Modifiers& modifiers)
         return;
     }
     if (!isCameraDragged_) {
-        if (std::hypot(x_ - pressedX_, y_ - pressedY_) < clickRadius * host_.pixel) return;
+        if (isStill) return;
         isCameraDragged_ = true;
         host_.session.beginDrag();
     }
@@ -137,11 +150,10 @@ void PictureControl::move(const PointerMoved& moved, const Modifiers& modifiers)
 void PictureControl::dragCamera(double dx, double dy)
 {
     const draw::Camera& camera = host_.session.state().view.camera;
-    const bool pans = held_->button == Button::middle || (held_->button == Button::left && heldWith_.shift);
-    if (pans) {
+    if (*drag_ == DragAction::pan) {
         const Rectangle place = host_.place();
         setCamera(draw::panned(camera, aspect(), 2 * dx / place.width, -2 * dy / place.height));
-    } else if (held_->button == Button::left) {
+    } else if (*drag_ == DragAction::turn) {
         const double degrees = degreesPerPixel / host_.pixel;
         setCamera(draw::orbited(camera, -degrees * dx, degrees * dy, pivot_));
     } else {
@@ -166,32 +178,35 @@ void PictureControl::release(const Modifiers& modifiers)
     isBoxArmed_ = false;
     if (band.size() > 1) {
         std::vector<Pixel> border = band;
-        if (!isLasso_) border = {band[0], {band[1][0], band[0][1]}, band[1], {band[0][0], band[1][1]}};
-        Modifiers how = modifiers;
-        how.control = modifiers.alt; // control may have begun it
-        return select(host_.viewport.elementsWithin(state.view, border), how);
+        if (*drag_ == DragAction::box) border = corners(band);
+        return select(host_.viewport.elementsWithin(state.view, border), pickOf(mouse_.bands, modifiers));
     }
     if (button.button != Button::left || !state.document.model) return;
     const auto hit = host_.viewport.elementAt(state.view, inPicture(), pickRadius * host_.pixel);
     std::vector<openvdb::Index32> ids;
     if (hit) ids.push_back(*hit);
-    Modifiers how = modifiers;
-    how.control = false;
-    // With shift what is selected already is taken out.
-    const std::vector<openvdb::Index32>& selected = state.view.selection.ids;
-    if (modifiers.shift && hit && std::binary_search(selected.begin(), selected.end(), *hit)) how.control = true;
-    select(ids, how);
+    select(ids, pickOf(mouse_.clicks, heldWith_));
 }
 
-/// With shift they are added, with control taken out.
-void PictureControl::select(const std::vector<openvdb::Index32>& ids, const Modifiers& modifiers)
+void PictureControl::select(const std::vector<openvdb::Index32>& ids, PickAction action)
 {
     edit::Selection selection = host_.session.state().view.selection;
     const edit::Selection these{selection.kind, ids};
-    if (modifiers.control) {
+    switch (action) {
+    case PickAction::none:
+        break;
+    case PickAction::replace:
+        selection = these;
+        break;
+    case PickAction::toggle:
+        selection = edit::added(edit::removed(selection, these), edit::removed(these, selection));
+        break;
+    case PickAction::add:
+        selection = edit::added(selection, these);
+        break;
+    case PickAction::remove:
         selection = edit::removed(selection, these);
-    } else {
-        selection = modifiers.shift ? edit::added(selection, these) : these;
+        break;
     }
     if (selection != host_.session.state().view.selection) host_.attempt(toText(Select{selection}));
 }
@@ -212,16 +227,20 @@ std::optional<GizmoFrame> PictureControl::gizmoFrame() const
     return frame;
 }
 
-std::optional<PictureControl::Grip> PictureControl::gripOf(Tool tool, const Handle& handle) const
+std::optional<PictureControl::Grip> PictureControl::gripOf(Tool tool, const Handle& handle, bool isFree) const
 {
     const auto frame = gizmoFrame();
     if (!frame) return std::nullopt;
+    const SelectionFrame selected = *selectionFrame(host_.session.state(), frame->axes);
     Grip grip;
     grip.tool = tool;
     grip.handle = handle;
     grip.from = inPicture();
     grip.frame = *frame;
-    grip.pivot = selectionFrame(host_.session.state(), frame->axes)->origin;
+    // What is moved freely stays under the pointer, wherever the pivot is.
+    if (isFree && tool == Tool::move) grip.frame.origin = host_.viewport.frame().toDrawing(selected.mean);
+    grip.isFree = isFree;
+    grip.pivot = selected.origin;
     grip.unit = host_.viewport.frame().unit();
     return grip;
 }
@@ -229,10 +248,9 @@ std::optional<PictureControl::Grip> PictureControl::gripOf(Tool tool, const Hand
 void PictureControl::grab(Tool tool)
 {
     if (isBusy() || held_) return;
-    auto grip = gripOf(tool, {});
+    auto grip = gripOf(tool, {}, true);
     if (!grip) throw InputError("nothing of the cage is selected");
     grip_ = std::move(grip);
-    grip_->isFree = true;
     host_.session.beginDrag();
 }
 
@@ -245,9 +263,9 @@ void PictureControl::cancel()
 {
     isBoxArmed_ = false;
     band_.clear();
+    held_.reset();
     if (!grip_) return;
     grip_.reset();
-    held_.reset();
     host_.session.cancelDrag();
 }
 
@@ -338,7 +356,7 @@ void PictureControl::follow()
         } else {
             host_.session.replaceDragged(ScaleSelected{by, grip.pivot, {axes[0], axes[1]}});
         }
-    } catch (const InputError&) { // out of all numbers: it stays where it was
+    } catch (const InputError&) { // too far away: it stays where it was
     }
 }
 
@@ -348,16 +366,14 @@ PictureOverlay PictureControl::overlay() const
     const State& state = host_.session.state();
     if (!state.cage || !state.view.layer(LayerId::cage).shown) return overlay;
     if (!band_.empty()) {
-        overlay.band = band_;
-        if (!isLasso_ && band_.size() > 1) {
-            overlay.band = {band_[0], {band_[1][0], band_[0][1]}, band_[1], {band_[0][0], band_[1][1]}};
-        }
+        const bool isBox = drag_ == DragAction::box && band_.size() > 1;
+        overlay.band = isBox ? corners(band_) : band_;
     }
     const auto frame = gizmoFrame();
     if (frame && !grip_) overlay.gizmo = gizmoParts(*frame, state.view.tool);
     overlay.hot = hot_;
     host_.viewport.addElements(state.view, grip_.has_value(), overlay);
-    if (isBoxArmed_) overlay.hint = "Drag a box; shift adds, alt takes out, Escape ends";
+    if (isBoxArmed_) overlay.hint = "Drag a box; " + describeBands(mouse_) + ", Escape ends";
     if (!grip_) return overlay;
     const Amount by = amount();
     static constexpr std::array<const char*, 4> verbs{"", "Move", "Rotate", "Scale"};

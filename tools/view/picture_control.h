@@ -7,6 +7,7 @@
 
 #include <tools/view/gizmo.h>
 #include <tools/view/input.h>
+#include <tools/view/key_map.h>
 #include <tools/view/panels/panels.h>
 #include <tools/view/viewport.h>
 
@@ -27,6 +28,9 @@ public:
     };
     explicit PictureControl(Host host) : host_(std::move(host)) {}
 
+    /// What its buttons do from now on; what is under way goes on as it began.
+    void setMouse(const MouseMap& map) { mouse_ = map; }
+
     /// A pointer event that no panel took, or any while isHeld().
     void handle(const InputEvent& event);
     /// A key that it wants for what it is doing. Returns whether it took it.
@@ -35,7 +39,7 @@ public:
     /// Moves, turns or scales what is selected with the pointer until a click, Enter or Escape. \pre tool is not select
     /// \throw InputError nothing is selected, or there is no cage
     void grab(Tool tool);
-    /// The next drag of the left button selects what is in a box.
+    /// The next drag selects what is in a box.
     void startBox();
 
     /// Where the pointer is, pixels of the window.
@@ -47,7 +51,7 @@ public:
     /// Something is being moved.
     bool isMoving() const { return grip_.has_value(); }
     /// Something is under way that Escape ends.
-    bool isBusy() const { return grip_ || isBoxArmed_; }
+    bool isBusy() const { return grip_ || isBoxArmed_ || !band_.empty(); }
     /// Ends what is under way as if it had not been.
     void cancel();
 
@@ -72,8 +76,8 @@ private:
     void begin(const ButtonDown& down, const Modifiers& modifiers);
     void release(const Modifiers& modifiers);
     void dragCamera(double dx, double dy);
-    void select(const std::vector<openvdb::Index32>& ids, const Modifiers& modifiers);
-    std::optional<Grip> gripOf(Tool tool, const Handle& handle) const;
+    void select(const std::vector<openvdb::Index32>& ids, PickAction action);
+    std::optional<Grip> gripOf(Tool tool, const Handle& handle, bool isFree) const;
     std::optional<GizmoFrame> gizmoFrame() const;
     Amount amount() const;
     void follow();
@@ -86,12 +90,13 @@ private:
     void setCamera(const draw::Camera& camera) { host_.attempt(toText(SetCamera{camera})); }
 
     Host host_;
+    MouseMap mouse_ = mouseMap(KeyMap::blender);
     double x_ = 0, y_ = 0, pressedX_ = 0, pressedY_ = 0; ///< of the window
     std::optional<ButtonDown> held_;
     Modifiers heldWith_;
+    std::optional<DragAction> drag_; ///< what a drag of the held button does; none: nothing
     bool isCameraDragged_ = false, isBoxArmed_ = false;
     std::vector<Pixel> band_; ///< a box's two corners, or a lasso; empty: none
-    bool isLasso_ = false;
     openvdb::Vec3d pivot_{0}; ///< of the camera
     std::optional<Grip> grip_;
     std::optional<Handle> hot_;

@@ -49,11 +49,11 @@ void moveTo(App& app, const std::string& name, double x, double y)
     send(app, PointerMoved{place.left + x * place.width, place.top + y * place.height});
 }
 
-void click(App& app, int clicks = 1, Button button = Button::left)
+void click(App& app, int clicks = 1, const ButtonChord& chord = {})
 {
     for (int i = 1; i <= clicks; ++i) {
-        send(app, ButtonDown{button, i});
-        send(app, ButtonUp{button});
+        send(app, ButtonDown{chord.button, i}, chord.modifiers);
+        send(app, ButtonUp{chord.button}, chord.modifiers);
     }
 }
 
@@ -87,13 +87,9 @@ void type(App& app, const std::string& text)
     for (const char32_t character : charactersOf(text)) send(app, Typed{character});
 }
 
-Button buttonOf(const Words& words, std::size_t i)
+ButtonChord buttonOf(const Words& words, std::size_t i)
 {
-    const std::string name = words.size() > i ? words[i] : "left";
-    if (name == "left") return Button::left;
-    if (name == "right") return Button::right;
-    if (name == "middle") return Button::middle;
-    throw InputError("mouse: '" + name + "' is no button; there are left, right and middle");
+    return words.size() > i ? buttonNamed(words[i]) : ButtonChord{};
 }
 
 void doMouse(App& app, const Words& words)
@@ -108,9 +104,11 @@ void doMouse(App& app, const Words& words)
         const auto [x, y] = app.pointer();
         send(app, PointerMoved{x + numberOf(words[2], "mouse"), y + numberOf(words[3], "mouse")});
     } else if (action == "down" && words.size() <= 3) {
-        send(app, ButtonDown{buttonOf(words, 2)});
+        const ButtonChord chord = buttonOf(words, 2);
+        send(app, ButtonDown{chord.button}, chord.modifiers);
     } else if (action == "up" && words.size() <= 3) {
-        send(app, ButtonUp{buttonOf(words, 2)});
+        const ButtonChord chord = buttonOf(words, 2);
+        send(app, ButtonUp{chord.button}, chord.modifiers);
     } else if (action == "click" && words.size() <= 3) {
         click(app, 1, buttonOf(words, 2));
     } else if (action == "double-click" && words.size() == 2) {
@@ -197,7 +195,7 @@ std::vector<std::pair<std::string, std::string>> describeScript()
         {"mouse move handle.NAME", "to a handle in the picture: x, y, z, plane-x, plane-y, plane-z or screen"},
         {"mouse by X Y", "moves the pointer by pixels, right and down"},
         {"mouse at X Y", "moves the pointer to a pixel"},
-        {"mouse down|up|click [BUTTON]", "left, right or middle"},
+        {"mouse down|up|click [BUTTON]", "left, right or middle, such as control+shift+left"},
         {"mouse double-click", "with the left button"},
         {"mouse wheel NOTCHES", "away from the user is positive"},
         {"key CHORD", "presses keys, such as control+shift+z"},

@@ -1,5 +1,6 @@
 #include <tools/view/values.h>
 
+#include <tools/view/state/move.h>
 #include <vdbcage/core/detail/number_text.h>
 
 namespace vdbcage::view {
@@ -23,6 +24,7 @@ std::map<std::string, std::function<std::string()>> valuesOf(const ValueSource& 
     const auto &messages = source.messages, &notes = source.notes;
     const std::uint64_t& frames = source.frames;
     const bool& isEnded = source.isEnded;
+    const KeyMap& keys = source.keys;
     const auto number = [](double value) { return detail::numberText(value); };
     const auto check = [&](auto&& get) -> std::function<std::string()> {
         return [&planner, get] { return planner.shown() ? get(planner.shown()->report.check) : std::string("none"); };
@@ -69,6 +71,12 @@ std::map<std::string, std::function<std::string()>> valuesOf(const ValueSource& 
     list["making"] = [&] { return yesNo(!planner.isSettled()); };
     list["halted"] = [&] { return yesNo(planner.isHalted()); };
     list["selected"] = [&] { return std::to_string(state.view.selection.ids.size()); };
+    for (int k = 0; k < 3; ++k) {
+        list[std::string("selected.") + "xyz"[k]] = [&, number, k] {
+            const auto selected = selectionFrame(state, {});
+            return selected ? number(selected->mean[k]) : std::string("none");
+        };
+    }
     list["projection"] = [&] {
         return state.view.camera.projection == draw::Projection::perspective ? "perspective" : "orthographic";
     };
@@ -77,6 +85,11 @@ std::map<std::string, std::function<std::string()>> valuesOf(const ValueSource& 
     list["mode"] = [&] { return modeNames[static_cast<std::size_t>(state.view.mode)]; };
     list["tool"] = [&] { return toolNames[static_cast<std::size_t>(state.view.tool)]; };
     list["select-kind"] = [&] { return edit::elementNames[static_cast<std::size_t>(state.view.selection.kind)]; };
+    list["pivot"] = [&] {
+        const std::string text = toText(SetPivot{state.view.pivot});
+        return text.substr(text.find(' ') + 1);
+    };
+    list["key-map"] = [&] { return keyMapNames[static_cast<std::size_t>(keys)]; };
     list["see-through"] = [&] { return state.view.seeThrough ? "on" : "off"; };
     list["mirror"] = [&] { return state.view.mirror ? std::string(1, "xyz"[state.view.mirror->axis]) : "off"; };
     list["coordinates"] = [&] { return coordinatesName(state.document.coordinates); };

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <tools/view/state/posing.h>
+#include <tools/view/state/preferences.h>
 #include <tools/view/state/session.h>
 
 namespace vdbcage::view {
@@ -20,6 +21,7 @@ struct ValueSource {
     const std::vector<std::string>& notes;
     const std::uint64_t& frames;
     const bool& isEnded;
+    const KeyMap& keys;
 };
 
 /// All of them, by their names.

@@ -7,7 +7,7 @@ namespace vdbcage::view {
 
 namespace {
 
-constexpr std::array<Verb, 50> verbs{{
+constexpr std::array<Verb, 51> verbs{{
     {"undo", "", 0, 0, "takes back the last change of options or files", false},
     {"redo", "", 0, 0, "does again what was taken back", false},
     {"undo-view", "", 0, 0, "takes back the last change of the view", false},
@@ -56,6 +56,7 @@ constexpr std::array<Verb, 50> verbs{{
     {"drop", "FILE", 1, 1, "as if FILE was dropped on the window", true},
     {"reload", "", 0, 0, "reads the model's file anew", false},
     {"browse", "LINE", 1, 1, "asks for a file, and then does LINE with it", true},
+    {"keys", "blender|maya", 1, 1, "has the keys and mouse buttons of that program from now on", true},
     {"help", "", 0, 0, "shows keys, mouse and commands", true},
     {"dismiss", "", 0, 0, "closes a message or a question", true},
     {"quit", "", 0, 0, "ends; asks if there is unsaved work", true},

@@ -68,6 +68,21 @@ public:
 
     void ask(const std::string& line) const { answer_.lines.push_back(line); }
 
+    /// The first key of a line, such as "control+z"; empty: it has none.
+    std::string keyOf(const std::string& line) const
+    {
+        for (const Shortcut& shortcut : content.shortcuts) {
+            if (shortcut.line == line) return shortcut.chord;
+        }
+        return {};
+    }
+    /// The text, and the key of the line if it has one: "no handles (w)".
+    std::string withKey(const std::string& text, const std::string& line) const
+    {
+        const std::string key = keyOf(line);
+        return key.empty() ? text : text + " (" + key + ')';
+    }
+
     /// Notes the last item as the widget `name`.
     void name(const std::string& widget) const
     {

@@ -103,12 +103,10 @@ void buildHelp(const PanelContext& context, bool isWanted, bool& isOpen)
 {
     dialog(isWanted, "Keys, mouse and commands", 760, [&] {
         ImGui::BeginChild("text", {0, length(480)});
-        heading("Mouse");
-        table("mouse", {{"left button, drag", "turns the view around what is under the pointer"},
-                        {"middle button, or shift and left, drag", "moves the view"},
-                        {"wheel", "zooms to the pointer"},
-                        {"left button, click", "selects a face of the cage; with shift one more"}});
-        heading("Keys");
+        const std::string as = context.content.keys == KeyMap::maya ? " as in Maya" : " as in Blender";
+        heading("Mouse" + as);
+        table("mouse", describeMouse(context.content.keys));
+        heading("Keys" + as);
         std::vector<std::pair<std::string, std::string>> keys;
         for (const Shortcut& shortcut : context.content.shortcuts) keys.emplace_back(shortcut.chord, shortcut.help);
         table("keys", keys);

@@ -2,7 +2,9 @@
 #include <cstdio>
 
 #include <tools/view/panels/parts.h>
+#include <tools/view/state/words.h>
 #include <vdbcage/core/detail/number_text.h>
+#include <vdbcage/core/error.h>
 
 namespace vdbcage::view {
 
@@ -66,6 +68,16 @@ void buildLayer(const PanelContext& context, const LayerText& text)
     ImGui::PopID();
 }
 
+/// Whether the choice was made. Three of them have room in a row beside a scroll bar.
+bool choice(const char* label, bool isChosen, bool isFirst)
+{
+    if (!isFirst) ImGui::SameLine(0, length(4));
+    ImGui::PushStyleVar(ImGuiStyleVar_ItemInnerSpacing, {length(3), length(4)});
+    const bool isMade = ImGui::RadioButton(label, isChosen);
+    ImGui::PopStyleVar();
+    return isMade;
+}
+
 void buildCageColours(const PanelContext& context)
 {
     const CageColours now = context.content.session.state().view.cageColours;
@@ -75,16 +87,15 @@ void buildCageColours(const PanelContext& context)
         const char* name;
         const char* text;
     };
-    for (const Choice& choice :
+    for (const Choice& c :
          {Choice{CageColours::plain, "Plain", "plain", "one colour"},
           Choice{CageColours::kinds, "Quads", "kinds", "quads have another colour than triangles"},
           Choice{CageColours::distance, "Distance", "distance", "how far the cage is from the model"}}) {
-        if (choice.colours != CageColours::plain) ImGui::SameLine();
-        if (ImGui::RadioButton(choice.label, now == choice.colours)) {
-            context.ask(std::string("cage-colours ") + choice.name);
+        if (choice(c.label, now == c.colours, c.colours == CageColours::plain)) {
+            context.ask(std::string("cage-colours ") + c.name);
         }
-        context.name(std::string("cage-colours.") + choice.name);
-        help(choice.text);
+        context.name(std::string("cage-colours.") + c.name);
+        help(c.text);
     }
 }
 
@@ -154,6 +165,52 @@ void buildSection(const PanelContext& context)
     context.name("section.flip");
 }
 
+/// In the field a coordinate that is 0 but for rounding is 0.
+std::string coordinateText(double value, double length)
+{
+    char text[32];
+    std::snprintf(text, sizeof text, "%.6g", std::abs(value) < 1e-9 * length ? 0.0 : value);
+    return text;
+}
+
+/// Where what is selected is: fields for the mean of its points, which moves to where it is typed.
+void buildSelected(const PanelContext& context, std::map<std::string, std::string>& typed)
+{
+    const auto& selected = context.content.selected;
+    if (!selected) return;
+    const ViewState& view = context.content.session.state().view;
+    heading("Selected");
+    const std::string points = std::to_string(selected->count) + (selected->count == 1 ? " point" : " points");
+    const std::size_t count = view.selection.ids.size();
+    const std::string kind = edit::elementNames[static_cast<std::size_t>(view.selection.kind)];
+    if (view.selection.kind == edit::Element::point) {
+        muted(points);
+    } else {
+        muted(std::to_string(count) + ' ' + (count == 1 ? kind.substr(0, kind.size() - 1) : kind) + ", " + points);
+    }
+    const auto& box = context.content.box;
+    const double longest = box ? box->extents()[box->maxExtent()] : 0;
+    ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {length(8), length(4)});
+    for (int k = 0; k < 3; ++k) {
+        const std::string name = std::string("selected.") + "xyz"[k];
+        ImGui::AlignTextToFramePadding();
+        ImGui::TextUnformatted(std::string(1, "XYZ"[k]).c_str());
+        help("the mean of the selected points along this axis, in world units; a number that is typed moves it there");
+        ImGui::SameLine(length(30));
+        const auto text = typedField(context, typed, name, coordinateText(selected->mean[k], longest), -1);
+        if (!text) continue;
+        std::array<std::string, 3> by{"0", "0", "0"};
+        try {
+            by[static_cast<std::size_t>(k)] = detail::numberText(numberOf(*text, name) - selected->mean[k]);
+        } catch (const InputError&) { // the command says what is wrong
+            by[static_cast<std::size_t>(k)] = quotedWord(*text);
+        }
+        context.ask("move " + by[0] + ' ' + by[1] + ' ' + by[2]);
+    }
+    ImGui::PopStyleVar();
+    ImGui::Dummy({0, length(4)});
+}
+
 void buildCounts(const PanelContext& context)
 {
     if (!context.content.model) return;
@@ -181,7 +238,7 @@ void buildCounts(const PanelContext& context)
 
 } // namespace
 
-void buildLayers(const PanelContext& context)
+void buildLayers(const PanelContext& context, std::map<std::string, std::string>& typed)
 {
     const ViewState& view = context.content.session.state().view;
     heading("Layers");
@@ -205,6 +262,7 @@ void buildLayers(const PanelContext& context)
         buildModelColours(context);
         ImGui::Dummy({0, length(4)});
     }
+    buildSelected(context, typed);
     heading("View");
     buildSection(context);
     const auto check = [&](const char* label, const std::string& name, bool on, const char* text) {

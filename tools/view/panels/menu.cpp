@@ -6,18 +6,10 @@ namespace vdbcage::view {
 
 namespace {
 
-std::string shortcutOf(const PanelContext& context, const std::string& line)
-{
-    for (const Shortcut& shortcut : context.content.shortcuts) {
-        if (shortcut.line == line) return shortcut.chord;
-    }
-    return {};
-}
-
 void item(const PanelContext& context, const std::string& label, const std::string& line, bool enabled = true,
           bool isChecked = false)
 {
-    const std::string chord = shortcutOf(context, line);
+    const std::string chord = context.keyOf(line);
     if (ImGui::MenuItem(label.c_str(), chord.empty() ? nullptr : chord.c_str(), isChecked, enabled)) context.ask(line);
     context.name("menu." + line);
 }
@@ -146,7 +138,13 @@ void buildMenu(const PanelContext& context)
         item(context, "Times", "times " + onOff(!view.times), true, view.times);
         item(context, "Axes", "axes " + onOff(!view.axes), true, view.axes);
     });
-    menu(context, "Help", [&] { item(context, "Keys, mouse and commands", "help"); });
+    menu(context, "Help", [&] {
+        item(context, "Keys, mouse and commands", "help");
+        menu(context, "Keys", [&] {
+            item(context, "Blender", "keys blender", true, context.content.keys == KeyMap::blender);
+            item(context, "Maya", "keys maya", true, context.content.keys == KeyMap::maya);
+        });
+    });
     ImGui::EndMainMenuBar();
 }
 

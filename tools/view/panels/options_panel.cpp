@@ -119,20 +119,7 @@ private:
     /// A field for text that is taken over by Enter, or when another place is clicked.
     void buildField(const std::string& shown, float width) const
     {
-        const auto known = typed_.find(name_);
-        std::string text = known == typed_.end() ? shown : known->second;
-        ImGui::SetNextItemWidth(width);
-        const bool entered = ImGui::InputText("##field", &text,
-                                              ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll);
-        context_.name(name_);
-        const bool isLeft = ImGui::IsItemDeactivatedAfterEdit();
-        if (ImGui::IsItemActive()) {
-            typed_[name_] = text;
-        } else {
-            typed_.erase(name_);
-        }
-        if ((entered || isLeft) && text != shown) ask(text);
-        if (entered) typed_.erase(name_);
+        if (const auto text = typedField(context_, typed_, name_, shown, width)) ask(*text);
     }
 
     void buildNumber(double number, bool isWhole, const std::optional<Auto>& automatic) const

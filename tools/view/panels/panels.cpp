@@ -70,8 +70,9 @@ void Panels::build(const PanelContent& content, PanelAnswer& answer)
 
     buildOverlays(context, middle);
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {length(10), length(10)});
-    pane("layers", {0, middle.top, middle.left, bottom - middle.top}, 0, [&] { buildLayers(context); });
-    // The bar is always there: a slider whose width changes while it is dragged changes its value.
+    // The bars are always there: a slider whose width changes while it is dragged changes its value.
+    pane("layers", {0, middle.top, middle.left, bottom - middle.top}, ImGuiWindowFlags_AlwaysVerticalScrollbar,
+         [&] { buildLayers(context, state_->typed); });
     pane("options", {right, middle.top, width - right, bottom - middle.top}, ImGuiWindowFlags_AlwaysVerticalScrollbar,
          [&] {
              buildOptions(context, state_->typed);

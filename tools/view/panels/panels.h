@@ -9,7 +9,9 @@
 #include <vector>
 
 #include <openvdb/math/Vec3.h>
+#include <tools/view/key_map.h>
 #include <tools/view/picture_overlay.h>
+#include <tools/view/state/move.h>
 #include <tools/view/state/planner.h>
 #include <tools/view/state/pose_checker.h>
 #include <tools/view/state/runner.h>
@@ -25,13 +27,6 @@ struct Rectangle {
 /// How many of each a mesh has.
 struct Counts {
     std::size_t points = 0, edges = 0, faces = 0;
-};
-
-/// A key and the line that it stands for.
-struct Shortcut {
-    std::string chord; ///< as nameOf(KeyChord)
-    std::string line;
-    std::string help;
 };
 
 /// What the panels show. They own nothing of it.
@@ -52,6 +47,8 @@ struct PanelContent {
     std::optional<WorkProgress> binding = {}; ///< none: nothing is being bound
     bool isPosedCoarsely = false;             ///< what is seen of the model is a stand-in, as not all is bound yet
     std::string bindingError = {};            ///< empty: none
+    KeyMap keys{};                            ///< whose shortcuts these are
+    std::optional<SelectionFrame> selected{}; ///< its axes are not used; none: nothing of the cage is
     bool isPosed = false;                     ///< the cage is not at rest
     PoseCheckPtr poseCheck = {};              ///< null: the pose is not checked yet
     std::optional<WorkProgress> saving = {};  ///< none: nothing is being written

@@ -13,8 +13,8 @@ namespace vdbcage::view {
 /// Below the menu: what is done in the picture.
 void buildToolbar(const PanelContext& context);
 void buildMenu(const PanelContext& context);
-void buildLayers(const PanelContext& context);
-/// `typed`: by the name of a field, what was typed and is not taken over yet.
+/// `typed`, here and below: by the name of a field, what was typed and is not taken over yet.
+void buildLayers(const PanelContext& context, std::map<std::string, std::string>& typed);
 void buildOptions(const PanelContext& context, std::map<std::string, std::string>& typed);
 void buildResult(const PanelContext& context);
 /// What is remembered of the time line.
@@ -29,6 +29,10 @@ void buildOverlays(const PanelContext& context, const Rectangle& viewport);
 /// Messages, the question before the end, the file browser, help; one at a time. `isHelpOpen` is set back when it is
 /// closed.
 void buildDialogs(const PanelContext& context, bool& isHelpOpen, FileBrowser& browser);
+/// A field for text that is taken over by Enter, or when another place is clicked; a name, a width in pixels. Returns
+/// what is taken over, if it is another text than `shown`.
+std::optional<std::string> typedField(const PanelContext& context, std::map<std::string, std::string>& typed,
+                                      const std::string& name, const std::string& shown, float width);
 /// The inside of the file browser.
 void buildBrowser(const PanelContext& context, FileBrowser& browser);
 

@@ -57,6 +57,24 @@ void buildStages(const CageResult& shown)
     }
 }
 
+/// In mode pose: how far the binding is.
+void buildBinding(const PanelContext& context)
+{
+    if (context.content.session.state().view.mode != Mode::pose) return;
+    const PanelContent& content = context.content;
+    if (!content.bindingError.empty()) {
+        coloured(theme::bad, "not bound");
+        help(content.bindingError);
+        return ImGui::SameLine(0, length(18));
+    }
+    if (!content.binding) return;
+    std::string text = content.binding->stage.empty() ? "bind" : content.binding->stage;
+    if (content.binding->percent >= 0) text += ' ' + std::to_string(content.binding->percent) + " %";
+    coloured(theme::accent, text);
+    help("the model's points are being bound to the cage; until then a coarse stand-in follows. Escape stops it");
+    ImGui::SameLine(0, length(18));
+}
+
 /// The verdict on the pose.
 void buildPose(const PanelContext& context)
 {
@@ -148,6 +166,7 @@ void buildStatusLine(const PanelContext& context)
         part(verdictOf(check), check.bounding() ? theme::good : theme::bad);
         if (context.content.session.state().view.times) part(number("%.2f s", shown->seconds), theme::mutedText);
     }
+    buildBinding(context);
     if (const auto& saving = context.content.saving) {
         std::string text = "saving";
         if (!saving->stage.empty()) text += ": " + saving->stage;

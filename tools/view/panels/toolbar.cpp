@@ -2,6 +2,7 @@
 #include <cstdio>
 
 #include <tools/view/panels/parts.h>
+#include <tools/view/state/command.h>
 #include <vdbcage/core/detail/number_text.h>
 
 namespace vdbcage::view {
@@ -12,7 +13,7 @@ struct Choice {
     const char* label;
     std::string line;
     bool isOn;
-    const char* text;
+    std::string text;
 };
 
 /// Buttons side by side, of which one is down.
@@ -25,29 +26,52 @@ void choices(const PanelContext& context, const char* group, const std::vector<C
         if (choice.isOn) ImGui::PopStyleColor();
         const std::string name = choice.line.substr(choice.line.rfind(' ') + 1);
         context.name(std::string(group) + '.' + name);
-        help(choice.text);
+        help(context.withKey(choice.text, choice.line));
     }
 }
 
 void gap()
 {
-    ImGui::SameLine(0, length(14));
+    ImGui::SameLine(0, length(10));
 }
 
-/// A list of which one is chosen; its lines are VERB CHOICE.
-void list(const PanelContext& context, const std::string& verb, const std::vector<std::array<const char*, 3>>& entries,
-          std::size_t chosen, float width)
+struct Entry {
+    const char* name;
+    const char* label;
+    const char* text;
+    std::string argument = {}; ///< of its line; empty: the name
+};
+
+/// A list of which one is chosen; its lines are VERB ARGUMENT.
+void list(const PanelContext& context, const std::string& verb, const std::vector<Entry>& entries, std::size_t chosen,
+          float width)
 {
     ImGui::SetNextItemWidth(width);
-    const bool isOpen = ImGui::BeginCombo(("##" + verb).c_str(), entries[chosen][1]);
+    const bool isOpen = ImGui::BeginCombo(("##" + verb).c_str(), entries[chosen].label);
     context.name(verb);
-    if (!isOpen) return help(entries[chosen][2]);
+    if (!isOpen) return help(entries[chosen].text);
     for (std::size_t i = 0; i < entries.size(); ++i) {
-        if (ImGui::Selectable(entries[i][1], i == chosen)) context.ask(verb + ' ' + entries[i][0]);
-        context.name(verb + '.' + entries[i][0]);
-        help(entries[i][2]);
+        const Entry& entry = entries[i];
+        if (ImGui::Selectable(entry.label, i == chosen)) {
+            context.ask(verb + ' ' + (entry.argument.empty() ? entry.name : entry.argument));
+        }
+        context.name(verb + '.' + entry.name);
+        help(entry.text);
     }
     ImGui::EndCombo();
+}
+
+void buildPivot(const PanelContext& context, const ViewState& view)
+{
+    const auto& selected = context.content.selected;
+    const openvdb::Vec3d now = selected ? selected->origin : view.pivot.point;
+    list(context, "pivot",
+         {{"mean", "Mean", "turns and scales about the mean of the selected points"},
+          {"box", "Box", "turns and scales about the middle of the box around the selected points"},
+          {"origin", "Origin", "turns and scales about the world's origin"},
+          {"point", "Point", "turns and scales about one point: where the pivot was when this was chosen",
+           toText(SetPivot{{Pivot::Kind::point, now}}).substr(6)}},
+         static_cast<std::size_t>(view.pivot.kind), length(72));
 }
 
 void buildMirror(const PanelContext& context, const ViewState& view)
@@ -67,30 +91,15 @@ void buildMirror(const PanelContext& context, const ViewState& view)
 
 void buildSoft(const PanelContext& context, const ViewState& view)
 {
-    muted("Soft");
-    ImGui::SameLine(0, length(6));
     float radius = static_cast<float>(view.softRadius);
-    ImGui::SetNextItemWidth(length(70));
-    if (ImGui::SliderFloat("##soft", &radius, 0, 0.5F, radius > 0 ? "%.2f" : "off", ImGuiSliderFlags_AlwaysClamp)) {
+    ImGui::SetNextItemWidth(length(84));
+    const char* const format = radius > 0 ? "Soft %.2f" : "Soft off";
+    if (ImGui::SliderFloat("##soft", &radius, 0, 0.5F, format, ImGuiSliderFlags_AlwaysClamp)) {
         context.ask("soft " + detail::numberText(std::round(100 * double{radius}) / 100));
     }
     context.followDrag();
     context.name("soft");
     help("what is nearer than this along the cage moves too, less and less; a part of the model's longest side");
-}
-
-void buildBinding(const PanelContext& context)
-{
-    const PanelContent& content = context.content;
-    if (!content.bindingError.empty()) {
-        coloured(theme::bad, "not bound");
-        return help(content.bindingError);
-    }
-    if (!content.binding) return;
-    std::string text = content.binding->stage.empty() ? "bind" : content.binding->stage;
-    if (content.binding->percent >= 0) text += ' ' + std::to_string(content.binding->percent) + " %";
-    coloured(theme::accent, text);
-    help("the model's points are being bound to the cage; until then a coarse stand-in follows. Escape stops it");
 }
 
 } // namespace
@@ -100,34 +109,45 @@ void buildToolbar(const PanelContext& context)
     const State& state = context.content.session.state();
     const ViewState& view = state.view;
     const bool isPose = view.mode == Mode::pose;
+    // Narrower than elsewhere: all of it has room in a window of 1100 pixels.
+    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {length(6), length(4)});
     ImGui::BeginDisabled(!state.document.model);
-    choices(context, "mode",
-            {{"Shape", "mode shape", !isPose, "moves the cage at rest; the model stays (Tab)"},
-             {"Pose", "mode pose", isPose, "moves the cage, and the model with it (Tab)"}});
+    choices(
+        context, "mode",
+        {{"Shape", "mode shape", !isPose, context.withKey("moves the cage at rest; the model stays", "toggle mode")},
+         {"Pose", "mode pose", isPose, context.withKey("moves the cage, and the model with it", "toggle mode")}});
     gap();
     const edit::Element kind = view.selection.kind;
     choices(context, "select-kind",
-            {{"Points", "select-kind points", kind == edit::Element::point, "selects points of the cage (1)"},
-             {"Edges", "select-kind edges", kind == edit::Element::edge, "selects edges of the cage (2)"},
-             {"Faces", "select-kind faces", kind == edit::Element::face, "selects faces of the cage (3)"}});
+            {{"Points", "select-kind points", kind == edit::Element::point, "selects points of the cage"},
+             {"Edges", "select-kind edges", kind == edit::Element::edge, "selects edges of the cage"},
+             {"Faces", "select-kind faces", kind == edit::Element::face, "selects faces of the cage"}});
     gap();
+    const auto handles = [&](const char* does, const char* tool) {
+        const std::string free = context.keyOf(std::string("grab ") + tool);
+        return std::string("handles that ") + does + " what is selected" +
+               (free.empty() ? "" : "; " + free + " does it without handles");
+    };
     choices(context, "tool",
-            {{"Select", "tool select", view.tool == Tool::select, "no handles (W)"},
-             {"Move", "tool move", view.tool == Tool::move, "handles that move what is selected (G moves it freely)"},
-             {"Rotate", "tool rotate", view.tool == Tool::rotate, "handles that turn it (R turns it freely)"},
-             {"Scale", "tool scale", view.tool == Tool::scale, "handles that scale it (S scales it freely)"}});
+            {{"Select", "tool select", view.tool == Tool::select, "no handles"},
+             {"Move", "tool move", view.tool == Tool::move, handles("move", "move")},
+             {"Rotate", "tool rotate", view.tool == Tool::rotate, handles("turn", "rotate")},
+             {"Scale", "tool scale", view.tool == Tool::scale, handles("scale", "scale")}});
     gap();
     list(context, "orientation",
          {{"world", "World", "handles along the axes of the world"},
           {"local", "Local", "handles along the principal axes of what is selected"},
           {"normal", "Normal", "handles along the mean normal of what is selected"},
           {"view", "View", "handles to the right, up and to the viewer"}},
-         static_cast<std::size_t>(view.orientation), length(82));
+         static_cast<std::size_t>(view.orientation), length(78));
+    ImGui::SameLine(0, length(4));
+    buildPivot(context, view);
     gap();
-    bool seeThrough = view.seeThrough;
-    if (ImGui::Checkbox("See through", &seeThrough)) context.ask(seeThrough ? "see-through on" : "see-through off");
+    if (view.seeThrough) ImGui::PushStyleColor(ImGuiCol_Button, toImGui(theme::selected));
+    if (ImGui::Button("See through")) context.ask(view.seeThrough ? "see-through off" : "see-through on");
+    if (view.seeThrough) ImGui::PopStyleColor();
     context.name("see-through");
-    help("selects what is hidden too (Shift+Z)");
+    help(context.withKey("selects what is hidden too", "toggle see-through"));
     gap();
     buildMirror(context, view);
     gap();
@@ -137,14 +157,13 @@ void buildToolbar(const PanelContext& context)
         list(context, "coordinates",
              {{"mvc", "Mean value", "mean value coordinates: smooth, defined everywhere, can be negative"},
               {"green", "Green", "Green coordinates: they keep shapes and follow the faces' normals"},
-              {"mlc", "Maximum likelihood", "maximum likelihood coordinates: local, never negative"}},
-             static_cast<std::size_t>(state.document.coordinates), length(150));
-        gap();
-        buildBinding(context);
+              {"mlc", "Likelihood", "maximum likelihood coordinates: local, never negative"}},
+             static_cast<std::size_t>(state.document.coordinates), length(112));
     } else {
         ImGui::NewLine();
     }
     ImGui::EndDisabled();
+    ImGui::PopStyleVar();
 }
 
 } // namespace vdbcage::view

@@ -154,6 +154,13 @@ std::optional<SymmetryPlane> mirrorOf(const Words& words)
     return SymmetryPlane{named<int>(axisNames, words[0], "mirror"), numberOf(words[1], "mirror")};
 }
 
+Pivot pivotOf(const Words& words)
+{
+    if (words.size() == 3) return {Pivot::Kind::point, vectorOf(words, 0, "pivot")};
+    if (words.size() != 1) throw InputError("pivot: it must be mean, box or origin, or a point X Y Z");
+    return {named<Pivot::Kind>(pivotNames, words[0], "pivot"), Vec3d(0)};
+}
+
 int frameOf(const std::string& word, const char* what)
 {
     return wholeNumberOf(word, what, 0, lastFrame);
@@ -319,6 +326,8 @@ const std::array<Syntax, std::variant_size_v<Command>>& syntaxes()
          [](const Words& w) -> Command {
              return SetOrientation{named<Orientation>(orientationNames, w[0], "orientation")};
          }},
+        {"pivot", "mean|box|origin|X Y Z", 1, 3, "what is turned and scaled by hand turns about it",
+         [](const Words& w) -> Command { return SetPivot{pivotOf(w)}; }},
         {"see-through", "on|off", 1, 1, "selects what is hidden too",
          [](const Words& w) -> Command { return SetSeeThrough{switchOf(w[0], "see-through")}; }},
         {"soft", "RADIUS", 1, 1, "moves what is near, less and less; a part of the model's longest side, 0: off",
@@ -414,6 +423,10 @@ struct ArgumentsOf {
     std::string operator()(const SetMode& c) const { return named(modeNames, c.mode); }
     std::string operator()(const SetTool& c) const { return named(toolNames, c.tool); }
     std::string operator()(const SetOrientation& c) const { return named(orientationNames, c.orientation); }
+    std::string operator()(const SetPivot& c) const
+    {
+        return c.pivot.kind == Pivot::Kind::point ? numbers(c.pivot.point) : named(pivotNames, c.pivot.kind);
+    }
     std::string operator()(const SetSeeThrough& c) const { return onOff(c.on); }
     std::string operator()(const SetSoft& c) const { return numbers({c.radius}); }
     std::string operator()(const SetFrame& c) const { return ' ' + std::to_string(c.frame); }
@@ -511,6 +524,7 @@ struct Apply {
     void operator()(const SetMode& c) const { state.view.mode = c.mode; }
     void operator()(const SetTool& c) const { state.view.tool = c.tool; }
     void operator()(const SetOrientation& c) const { state.view.orientation = c.orientation; }
+    void operator()(const SetPivot& c) const { state.view.pivot = c.pivot; }
     void operator()(const SetSeeThrough& c) const { state.view.seeThrough = c.on; }
     void operator()(const SetSoft& c) const { state.view.softRadius = c.radius; }
     void operator()(const SetMirror& c) const { state.view.mirror = c.plane; }
@@ -589,9 +603,10 @@ std::vector<Command> commandsFor(const ViewState& view)
     commands.insert(commands.end(),
                     {SetCageColours{view.cageColours}, SetModelColours{view.modelColours}, SetSection{view.section},
                      ShowGround{view.ground}, ShowAxes{view.axes}, SetTurntable{view.turntable}, ShowTimes{view.times},
-                     SetMode{view.mode}, SetTool{view.tool}, SetOrientation{view.orientation},
+                     SetMode{view.mode}, SetTool{view.tool}, SetOrientation{view.orientation}, SetPivot{view.pivot},
                      SetSeeThrough{view.seeThrough}, SetSoft{view.softRadius}, SetMirror{view.mirror},
-                     SetFrame{view.frame}, SetRate{view.framesPerSecond}, Select{view.selection}});
+                     SetFrame{view.frame}, SetRate{view.framesPerSecond}, Play{view.isPlaying},
+                     Select{view.selection}});
     return commands;
 }
 

@@ -160,6 +160,10 @@ struct SetTool {
 struct SetOrientation {
     Orientation orientation{};
 };
+/// pivot mean|box|origin | pivot X Y Z: what is turned and scaled by hand turns about it (see Pivot).
+struct SetPivot {
+    Pivot pivot;
+};
 /// see-through on|off
 struct SetSeeThrough {
     bool on = true;
@@ -186,12 +190,12 @@ struct SetMirror {
     std::optional<SymmetryPlane> plane;
 };
 
-using Command =
-    std::variant<OpenModel, OpenCage, CloseCage, SetOption, ResetOptions, ApplyPreset, SetCoordinates, OpenWeights,
-                 MoveSelected, RotateSelected, ScaleSelected, EditCage, ResetPose, OpenPose, OpenPoses, SetKey,
-                 DeleteKey, MoveKey, MakeInBetweens, ClearPoses, SetCamera, ShowLayer, FadeLayer, ColourLayer,
-                 SetCageColours, SetModelColours, SetSection, ShowGround, ShowAxes, SetTurntable, ShowTimes, Select,
-                 SetMode, SetTool, SetOrientation, SetSeeThrough, SetSoft, SetMirror, SetFrame, Play, SetRate>;
+using Command = std::variant<OpenModel, OpenCage, CloseCage, SetOption, ResetOptions, ApplyPreset, SetCoordinates,
+                             OpenWeights, MoveSelected, RotateSelected, ScaleSelected, EditCage, ResetPose, OpenPose,
+                             OpenPoses, SetKey, DeleteKey, MoveKey, MakeInBetweens, ClearPoses, SetCamera, ShowLayer,
+                             FadeLayer, ColourLayer, SetCageColours, SetModelColours, SetSection, ShowGround, ShowAxes,
+                             SetTurntable, ShowTimes, Select, SetMode, SetTool, SetOrientation, SetPivot, SetSeeThrough,
+                             SetSoft, SetMirror, SetFrame, Play, SetRate>;
 
 /// Whether it changes the document; else it changes the view.
 bool changesDocument(const Command& command);

@@ -94,6 +94,30 @@ std::array<Vec3d, 3> principalAxes(const std::vector<Vec3d>& points, const std::
     return {x, y, x.cross(y)};
 }
 
+/// \pre something is selected, with the mean `mean`
+Vec3d pivotPoint(const Pivot& pivot, const std::vector<Vec3d>& points, const std::vector<Index32>& selected,
+                 const Vec3d& mean)
+{
+    if (pivot.kind == Pivot::Kind::mean) return mean;
+    if (pivot.kind != Pivot::Kind::box) return pivot.point;
+    openvdb::BBoxd box(points[selected.front()], points[selected.front()]);
+    for (const Index32 i : selected) box.expand(points[i]);
+    return 0.5 * (box.min() + box.max());
+}
+
+/// What is farther away than this many longest sides of the cage is not to be seen, and cannot be drawn in the end.
+constexpr double farthest = 1e9;
+
+void requireNear(const std::vector<Vec3d>& points, const openvdb::BBoxd& cage)
+{
+    const Vec3d middle = 0.5 * (cage.min() + cage.max());
+    const double longest = cage.extents()[cage.maxExtent()];
+    for (const Vec3d& p : points) {
+        const bool isNear = (p - middle).length() <= farthest * longest;
+        if (!p.isFinite() || (longest > 0 && !isNear)) throw InputError("a point would be moved too far away");
+    }
+}
+
 Document withCage(const State& state, Mesh cage)
 {
     OpenedMesh edited;
@@ -213,13 +237,15 @@ std::optional<SelectionFrame> selectionFrame(const State& state, const std::arra
     if (selected.empty()) return std::nullopt;
     const std::vector<Vec3d> points = cagePoints(state);
     SelectionFrame frame;
-    for (const Index32 i : selected) frame.origin += points[i] / static_cast<double>(selected.size());
+    for (const Index32 i : selected) frame.mean += points[i] / static_cast<double>(selected.size());
+    frame.count = selected.size();
+    frame.origin = pivotPoint(state.view.pivot, points, selected, frame.mean);
     switch (state.view.orientation) {
     case Orientation::world:
         frame.axes = axesWithZ(Vec3d(0));
         break;
     case Orientation::local:
-        frame.axes = principalAxes(points, selected, frame.origin);
+        frame.axes = principalAxes(points, selected, frame.mean);
         break;
     case Orientation::normal:
         frame.axes = axesWithZ(meanNormal(*state.cage, points, selected));
@@ -245,9 +271,7 @@ Document withMotion(const State& state, const edit::Motion& motion)
         const auto partners = edit::mirrorPartners(cage.points, plane->axis, plane->offset);
         after = edit::mirrored(before, after, ids, partners, plane->axis, plane->offset);
     }
-    for (const Vec3d& p : after) {
-        if (!p.isFinite()) throw InputError("a point would be moved out of all numbers");
-    }
+    requireNear(after, boundingBox(cage));
     return withCagePoints(state, std::move(after));
 }
 

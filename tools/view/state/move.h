@@ -28,15 +28,17 @@ std::vector<openvdb::Vec3d> cagePoints(const State& state);
 
 /// Where what is selected is moved, turned and scaled from, and along which axes.
 struct SelectionFrame {
-    openvdb::Vec3d origin{0};             ///< the mean of the selected points, world space
+    openvdb::Vec3d origin{0};             ///< the view's pivot, world space
+    openvdb::Vec3d mean{0};               ///< of the selected points, world space
+    std::size_t count = 0;                ///< of the selected points
     std::array<openvdb::Vec3d, 3> axes{}; ///< orthonormal, right-handed
 };
-/// By the view's orientation; `view`: right, up and to the viewer. None: there is nothing to move.
+/// By the view's orientation and pivot; `view`: right, up and to the viewer. None: there is nothing to move.
 std::optional<SelectionFrame> selectionFrame(const State& state, const std::array<openvdb::Vec3d, 3>& view);
 
 /// Moves what is selected, and with it what soft selection and the mirror add. In mode pose the pose changes, else the
 /// cage at rest.
-/// \throw InputError also where a point would be no finite number
+/// \throw InputError also where a point would be no finite number, or farther away than 1e9 sizes of the cage
 Document withMotion(const State& state, const edit::Motion& motion);
 
 /// Changes the faces of the cage at rest: of what is selected, one after the other, as edit::splitEdge and the others.

@@ -69,9 +69,10 @@ bool operator==(const ViewState& a, const ViewState& b)
                       [](const LayerLook& x, const LayerLook& y) { return areEqual(x, y); }) &&
            a.cageColours == b.cageColours && a.modelColours == b.modelColours && areEqual(a.section, b.section) &&
            a.ground == b.ground && a.axes == b.axes && a.turntable == b.turntable && a.times == b.times &&
-           a.mode == b.mode && a.tool == b.tool && a.orientation == b.orientation && a.seeThrough == b.seeThrough &&
-           a.softRadius == b.softRadius && a.mirror == b.mirror && a.selection == b.selection && a.frame == b.frame &&
-           a.isPlaying == b.isPlaying && a.framesPerSecond == b.framesPerSecond;
+           a.mode == b.mode && a.tool == b.tool && a.orientation == b.orientation && a.pivot == b.pivot &&
+           a.seeThrough == b.seeThrough && a.softRadius == b.softRadius && a.mirror == b.mirror &&
+           a.selection == b.selection && a.frame == b.frame && a.isPlaying == b.isPlaying &&
+           a.framesPerSecond == b.framesPerSecond;
 }
 
 } // namespace vdbcage::view

@@ -72,6 +72,24 @@ enum class Orientation : std::uint8_t {
     normal, ///< z is the mean normal of what is selected
     view    ///< right, up and to the viewer
 };
+/// What things are turned about and scaled from.
+struct Pivot {
+    enum class Kind : std::uint8_t {
+        mean,   ///< of the selected points
+        box,    ///< the middle of the box around them
+        origin, ///< of the world
+        point
+    };
+    Kind kind = Kind::mean;
+    openvdb::Vec3d point{0}; ///< world space; 0 unless the kind is point
+};
+inline bool operator==(const Pivot& a, const Pivot& b)
+{
+    return a.kind == b.kind && a.point == b.point;
+}
+/// Of the kinds that need no numbers.
+constexpr std::array<const char*, 3> pivotNames{"mean", "box", "origin"};
+
 /// Changes of the cage's faces.
 enum class CageEdit : std::uint8_t {
     split,    ///< edges in the middle
@@ -114,6 +132,7 @@ struct ViewState {
     Mode mode = Mode::shape;
     Tool tool = Tool::select;
     Orientation orientation = Orientation::world;
+    Pivot pivot;
     bool seeThrough = false;             ///< what is hidden is selected too
     double softRadius = 0;               ///< of soft selection, a part of the model's longest side; 0: off
     std::optional<SymmetryPlane> mirror; ///< what is done on one side of it is done on the other too
