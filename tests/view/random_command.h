@@ -16,7 +16,22 @@ inline view::Command randomMove(std::mt19937& random)
     const auto below = [&](int n) { return static_cast<int>(random() % static_cast<unsigned>(n)); };
     const auto real = [&] { return std::uniform_real_distribution<double>(-1, 1)(random); };
     const auto vector = [&] { return openvdb::Vec3d(real(), real(), real()); };
-    switch (below(8)) {
+    switch (below(10)) {
+    case 8:
+        return below(2) == 0 ? Command(SetFrame{below(6)}) : Command(SetKey{below(6)});
+    case 9:
+        switch (below(5)) {
+        case 0:
+            return DeleteKey{below(6)};
+        case 1:
+            return MoveKey{below(6), below(6)};
+        case 2:
+            return MakeInBetweens{2 + below(5)};
+        case 3:
+            return ClearPoses{};
+        default:
+            return SetKey{below(6), "name " + std::to_string(below(3))};
+        }
     case 0:
     case 1:
         return MoveSelected{vector()};

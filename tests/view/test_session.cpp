@@ -50,11 +50,15 @@ BOOST_AUTO_TEST_CASE(every_command_reads_back_from_its_text)
         }
     };
     const std::string posed = (files.folder.path() / "posed.obj").string();
+    const std::string parameters = (files.folder.path() / "posed.param").string();
     writeMesh(*state.cage, posed);
+    test::writeText(parameters, "-1 1 1 0 0.1 0.2 0.3");
     std::vector<int> seen(std::variant_size_v<Command>);
     for (int i = 0; i < 10000; ++i) {
         Command command = random() % 4 == 0 ? test::randomMove(random) : test::randomCommand(random, files.list);
         if (i % 100 == 0) command = OpenPose{posed};
+        if (i % 100 == 1) command = OpenPoses{parameters, 1 + static_cast<int>(random() % 40)};
+        if (i % 100 == 2) command = OpenWeights{posed}; // it is read when it is needed
         ++seen[command.index()];
         const std::string text = toText(command);
         const Command read = commandOf(wordsOf(text));
@@ -70,6 +74,10 @@ BOOST_AUTO_TEST_CASE(every_command_reads_back_from_its_text)
         if (same.document.cage != state.document.cage && after->document.cage && same.document.cage) {
             BOOST_REQUIRE(test::sameMesh(same.document.cage->mesh, after->document.cage->mesh));
             same.document.cage = after->document.cage;
+        }
+        if (same.document.weights && after->document.weights) {
+            BOOST_REQUIRE(same.document.weights->path == after->document.weights->path);
+            same.document.weights = after->document.weights;
         }
         BOOST_REQUIRE(same == *after);
         state = *after;

@@ -219,11 +219,17 @@ BOOST_AUTO_TEST_CASE(a_file_of_parameters_gives_two_poses)
     run("open-poses " + file("p.param") + " 1");
     BOOST_TEST(poses().keys().size() == 1u);
     BOOST_TEST((at(0)[0] == cage->points[0] + Vec3d(2, 0, 1)));
-    const std::vector<std::pair<std::string, std::string>> bad{
-        {"", "the least factor"},   {"0 x 0", "'x'"},           {"0 1 -1", "-1"},
-        {"0 1 1.5", "1.5"},         {"0 1 9", "from 0 to 8"},   {"0 1 1 8 0 0 0", "from 0 to 7"},
-        {"0 1 1 0 0 0", "it ends"}, {"0 1 1 0 0 0 0 5", "'5'"}, {"0 1e300 1 0 1e300 0 0", "out of all numbers"},
-        {"0 1 1 0 nan 0 0", "nan"}};
+    const std::vector<std::pair<std::string, std::string>> bad{{"", "empty"},
+                                                               {" ", "the least factor"},
+                                                               {"0 x 0", "'x'"},
+                                                               {"0 1 -1", "-1"},
+                                                               {"0 1 1.5", "1.5"},
+                                                               {"0 1 9", "from 0 to 8"},
+                                                               {"0 1 1 8 0 0 0", "from 0 to 7"},
+                                                               {"0 1 1 0 0 0", "it ends"},
+                                                               {"0 1 1 0 0 0 0 5", "'5'"},
+                                                               {"0 1e300 1 0 1e300 0 0", "out of all numbers"},
+                                                               {"0 1 1 0 nan 0 0", "nan"}};
     for (const auto& [text, mention] : bad) {
         test::writeText(folder / "p.param", text);
         checkRefused("open-poses " + file("p.param"), mention);
@@ -318,6 +324,7 @@ BOOST_AUTO_TEST_CASE(poses_are_carried_over_on_a_thread_of_its_own)
     const MeshPtr rest = std::make_shared<const Mesh>(open);
     session.setCage(rest);
     run("clear-poses");
+    run("select points 0 1 2");
     run("move 0.3 0.1 0");
     const auto refused = carried(other);
     BOOST_TEST(!carrier.error().empty());
