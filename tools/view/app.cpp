@@ -7,8 +7,8 @@
 #include <map>
 #include <system_error>
 
-#include <tools/report/frames.h>
 #include <tools/view/picture_control.h>
+#include <tools/view/saver.h>
 #include <tools/view/saving.h>
 #include <tools/view/state/folder.h>
 #include <tools/view/state/move.h>
@@ -23,7 +23,6 @@
 #include <tools/view/widget_renderer.h>
 #include <vdbcage/core/detail/number_text.h>
 #include <vdbcage/core/error.h>
-#include <vdbcage/mesh/mesh_io.h>
 
 namespace vdbcage::view {
 
@@ -59,13 +58,7 @@ public:
         : api_(api), setup_(std::move(setup)), widgets_(setup_.scale, setup_.clipboard),
           viewport_(api, setup_.isSoftware), widgetRenderer_(api, widgets_.glyphs()),
           runner_(setup_.maker ? std::move(setup_.maker) : makePipelineMaker(), setup_.wake),
-          posing_(setup_.binding ? std::move(setup_.binding) : bindingWork(), setup_.wake),
-          saver_(
-              [](const SaveJob& job, Interrupter& interrupter, const auto&) {
-                  job.write(interrupter);
-                  return job.name;
-              },
-              setup_.wake),
+          posing_(setup_.binding ? std::move(setup_.binding) : bindingWork(), setup_.wake), saver_(setup_.wake),
           control_({session_, viewport_, [this](const std::string& line) { attempt(line); }, [this] { endDrag(); },
                     [this] { return viewport(); }, double{setup_.scale}})
     {
@@ -265,12 +258,7 @@ public:
     WidgetRenderer widgetRenderer_;
     Runner runner_;
     Posing posing_;
-    struct SaveJob {
-        std::string name; ///< of what is written
-        std::function<void(Interrupter&)> write;
-    };
-    Worker<SaveJob, std::string> saver_;
-    bool isSaving_ = false;
+    Saver saver_;
     PictureControl control_;
     std::optional<draw::Canvas> canvas_;
     int width_ = 0, height_ = 0;
@@ -434,27 +422,10 @@ private:
 
     // ---- files
 
-    /// The cage of the state, made and current.
-    const CageResult& currentCage(const std::string& verb) const
-    {
-        const Planner& planner = runner_.planner();
-        if (planner.standing() != Planner::Standing::current) {
-            throw InputError(verb + ": the cage of these options is not made yet");
-        }
-        return *planner.shown();
-    }
-
     void save(const std::string& verb, const fs::path& path)
     {
-        if (verb.rfind("save-posed-", 0) == 0 || verb == "save-weights") return savePosed(verb, path);
-        if (verb == "save-colours") {
-            saveColours(path);
-        } else if (verb == "save-cage") {
-            writeMesh(currentCage(verb).cage, path);
-        } else if (verb == "save-options") {
-            saveOptions(session_.state().document.options, path);
-        } else if (verb == "save-scene") {
-            const Planner& planner = runner_.planner();
+        const Planner& planner = runner_.planner();
+        if (verb == "save-scene") {
             const bool isCurrent = planner.standing() == Planner::Standing::current;
             saveScene(session_.state(), isCurrent ? planner.shown().get() : nullptr, path);
             saved_ = session_.state().document;
@@ -462,93 +433,43 @@ private:
         } else if (verb == "save-picture") {
             show();
             savePicture(viewport_.picture(), path);
-        } else if (verb == "save-report") {
-            saveReport(currentCage(verb), path);
-        } else {
+        } else if (verb == "save-stages") {
             saveStages(path);
+        } else {
+            return saver_.save({session_.state(), planner, posing_}, verb, path);
         }
         note("saved " + path.filename().string());
     }
 
-    /// What takes time is written on a thread of its own.
-    void savePosed(const std::string& verb, const fs::path& path)
-    {
-        const State& state = session_.state();
-        if (&currentCage(verb) != visible_.get()) {
-            throw InputError(verb + ": the poses are not carried over to the new cage yet");
-        }
-        if (verb == "save-weights") {
-            return startSaving(path,
-                               [order = bindOrder(state), path](Interrupter& i) { saveWeights(order, path, &i); });
-        }
-        PosedScene scene{bindOrder(state), posing_.bindingOf(state), {}};
-        const bool isSequence = verb.back() == 's';
-        const TimeLine& poses = state.document.poses;
-        const int first = isSequence ? poses.firstFrame() : state.view.frame;
-        const int last = isSequence ? poses.finalFrame() : first;
-        for (int frame = first; frame <= last; ++frame) scene.frames.push_back({frame, posedPoints(state, frame)});
-        fs::path file = path;
-        if (isSequence && !tool::isPattern(path)) {
-            file.replace_extension(".%04d" + path.extension().string());
-        }
-        if (verb.rfind("save-posed-cage", 0) == 0) {
-            startSaving(file, [scene, file](Interrupter& i) { savePosedCages(scene, file, &i); });
-        } else {
-            startSaving(file, [scene, file](Interrupter& i) { savePosedModels(scene, file, &i); });
-        }
-    }
-
-    void saveColours(const fs::path& path)
-    {
-        const auto& values = posing_.modelValues();
-        if (!values) {
-            throw InputError(
-                "save-colours: the model shows none; in mode pose, once it is bound, it can show influence "
-                "or stretch");
-        }
-        const Mesh& model = session_.state().document.model->mesh;
-        const PosedModel& posed = posing_.model();
-        view::saveColours(model, posed.isWhole() ? posed.points() : model.points, *values, path);
-    }
-
-    void startSaving(const fs::path& path, std::function<void(Interrupter&)> write)
-    {
-        if (isSaving_) throw InputError(path.string() + ": another file is still being written");
-        isSaving_ = true;
-        saver_.start({path.filename().string(), std::move(write)});
-    }
-
-    /// \throw InputError why it could not be written
-    void takeSaved()
-    {
-        const auto outcome = saver_.take();
-        if (!outcome) return;
-        isSaving_ = false;
-        if (outcome->result) return note("saved " + *outcome->result);
-        note("nothing was written");
-        if (!outcome->error.empty()) throw InputError(outcome->error);
-    }
-
-    void finishSaving()
-    {
-        while (isSaving_) {
-            saver_.waitForNews(1);
-            takeSaved();
-        }
-    }
-
     void saveStages(const fs::path& folder)
     {
-        if (currentCage("save-stages").order.cage) {
+        if (currentCage(runner_.planner(), "save-stages").order.cage) {
             throw InputError("save-stages: the cage was opened, not made, so it has no stages");
         }
         keepsIntermediates_ = true;
         want();
         waitUntilSettled();
         keepsIntermediates_ = false;
-        const CageResult& result = currentCage("save-stages");
+        const CageResult& result = currentCage(runner_.planner(), "save-stages");
         if (!result.intermediates) throw InputError("save-stages: " + runner_.planner().error());
         view::saveStages(result, folder);
+    }
+
+    /// \throw InputError why it could not be written
+    void takeSaved()
+    {
+        const bool wasBusy = saver_.isBusy();
+        const auto name = saver_.take();
+        if (name) note("saved " + *name);
+        if (!name && wasBusy && !saver_.isBusy()) note("nothing was written");
+    }
+
+    void finishSaving()
+    {
+        while (saver_.isBusy()) {
+            saver_.waitForNews(1);
+            takeSaved();
+        }
     }
 
     void note(const std::string& text)
@@ -600,7 +521,7 @@ private:
         content.isPosedCoarsely = posing_.model().bound() && !posing_.model().isWhole();
         content.keys = keys_;
         content.selected = selectionFrame(session_.state(), {});
-        if (isSaving_) content.saving = saver_.progress();
+        if (saver_.isBusy()) content.saving = saver_.progress();
         content.bindingError = posing_.error();
         content.poseCheck = posing_.check();
         content.isPosed = !posing_.cagePoints().empty() && session_.state().view.mode == Mode::pose &&

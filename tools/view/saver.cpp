@@ -1,0 +1,117 @@
+#include <tools/view/saver.h>
+
+#include <utility>
+
+#include <tools/report/frames.h>
+#include <tools/view/saving.h>
+#include <tools/view/state/move.h>
+#include <vdbcage/core/error.h>
+#include <vdbcage/mesh/mesh_io.h>
+
+namespace vdbcage::view {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Write = std::function<void(Interrupter*)>;
+
+PosedScene posedScene(const Saver::Source& source, bool isSequence)
+{
+    const State& state = source.state;
+    const TimeLine& poses = state.document.poses;
+    PosedScene scene{bindOrder(state), source.posing.bindingOf(state), {}};
+    const int first = isSequence ? poses.firstFrame() : state.view.frame;
+    const int last = isSequence ? poses.finalFrame() : first;
+    for (int frame = first; frame <= last; ++frame) scene.frames.push_back({frame, posedPoints(state, frame)});
+    return scene;
+}
+
+Write writePosed(const Saver::Source& source, const std::string& verb, const fs::path& file)
+{
+    // Of the cage that is seen; a new one may not have its poses yet.
+    if (source.state.cage.get() != &currentCage(source.planner, verb).cage) {
+        throw InputError(verb + ": the poses are not carried over to the new cage yet");
+    }
+    if (verb == "save-weights") {
+        return [order = bindOrder(source.state), file](Interrupter* i) { saveWeights(order, file, i); };
+    }
+    const bool isSequence = verb.back() == 's';
+    const bool isCage = verb.rfind("save-posed-cage", 0) == 0;
+    return [scene = posedScene(source, isSequence), isCage, file](Interrupter* i) {
+        if (isCage) return savePosedCages(scene, file, i);
+        savePosedModels(scene, file, i);
+    };
+}
+
+Write writeColours(const Saver::Source& source, const fs::path& file)
+{
+    const auto values = source.posing.modelValues();
+    if (!values) {
+        throw InputError("save-colours: the model shows none; in mode pose, once it is bound, it can show influence, "
+                         "stretch, or what is inverted");
+    }
+    const OpenedMeshPtr model = source.state.document.model;
+    const PosedModel& posed = source.posing.model();
+    std::vector<openvdb::Vec3d> points = posed.isWhole() ? posed.points() : model->mesh.points;
+    return [model, points = std::move(points), values, file](Interrupter*) {
+        saveColours(model->mesh, points, *values, file);
+    };
+}
+
+Write writerOf(const Saver::Source& source, const std::string& verb, const fs::path& file)
+{
+    if (verb == "save-options") {
+        return [options = source.state.document.options, file](Interrupter*) { saveOptions(options, file); };
+    }
+    if (verb == "save-colours") return writeColours(source, file);
+    if (verb == "save-cage" || verb == "save-report") {
+        currentCage(source.planner, verb);
+        return [cage = source.planner.shown(), isReport = verb == "save-report", file](Interrupter*) {
+            if (isReport) return saveReport(*cage, file);
+            writeMesh(cage->cage, file);
+        };
+    }
+    return writePosed(source, verb, file);
+}
+
+} // namespace
+
+Saver::Saver(std::function<void()> wake)
+    : worker_(
+          [](const Job& job, Interrupter& interrupter, const auto&) {
+              job.write(&interrupter);
+              return job.name;
+          },
+          std::move(wake))
+{
+}
+
+void Saver::save(const Source& source, const std::string& verb, const fs::path& path)
+{
+    if (isBusy_) throw InputError(path.string() + ": another file is still being written");
+    fs::path file = path;
+    const bool isSequence = verb == "save-posed-cages" || verb == "save-posed-models";
+    if (isSequence && !tool::isPattern(path)) file.replace_extension(".%04d" + path.extension().string());
+    Write write = writerOf(source, verb, file);
+    isBusy_ = true;
+    worker_.start({file.filename().string(), std::move(write)});
+}
+
+std::optional<std::string> Saver::take()
+{
+    const auto outcome = worker_.take();
+    if (!outcome) return std::nullopt;
+    isBusy_ = false;
+    if (!outcome->error.empty()) throw InputError(outcome->error);
+    return outcome->result;
+}
+
+const CageResult& currentCage(const Planner& planner, const std::string& verb)
+{
+    if (planner.standing() != Planner::Standing::current) {
+        throw InputError(verb + ": the cage of these options is not made yet");
+    }
+    return *planner.shown();
+}
+
+} // namespace vdbcage::view
