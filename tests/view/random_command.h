@@ -127,6 +127,8 @@ inline view::Command randomCommand(std::mt19937& random, const std::vector<std::
         return below(2) == 0 ? Command(SetOrientation{static_cast<Orientation>(below(4))})
                              : Command(SetSeeThrough{below(2) == 0});
     case 20:
+        if (below(4) == 0) return Compare{static_cast<Coordinates>(below(3))};
+        if (below(6) == 0) return Compare{};
         return below(3) == 0   ? Command(SetFrame{below(200)})
                : below(2) == 0 ? Command(Play{below(2) == 0})
                                : Command(SetRate{real(1, 240)});

@@ -239,9 +239,9 @@ BOOST_AUTO_TEST_CASE(a_file_of_parameters_gives_two_poses)
 
 BOOST_AUTO_TEST_CASE(lines_are_read_as_they_are_written)
 {
-    for (const char* const line :
-         {"key 3", "key 3 \"\"", "key 4 \"a name\"", "delete-key 3", "move-key 3 4", "in-betweens 12", "clear-poses",
-          "open-poses w.%04d.obj", "open-poses p.param 7", "time 0", "time 99999", "play on", "rate 12.5"}) {
+    for (const char* const line : {"key 3", "key 3 \"\"", "key 4 \"a name\"", "delete-key 3", "move-key 3 4",
+                                   "in-betweens 12", "clear-poses", "open-poses w.%04d.obj", "open-poses p.param 7",
+                                   "time 0", "time 99999", "play on", "rate 12.5", "compare off", "compare mlc"}) {
         BOOST_TEST(toText(commandOf(wordsOf(line))) == line);
     }
     for (const char* const line : {"time -1", "time 100000", "time 1.5", "rate 0", "rate 241", "play maybe", "key",

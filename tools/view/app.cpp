@@ -60,7 +60,7 @@ public:
           runner_(setup_.maker ? std::move(setup_.maker) : makePipelineMaker(), setup_.wake),
           posing_(setup_.binding ? std::move(setup_.binding) : bindingWork(), setup_.wake), saver_(setup_.wake),
           control_({session_, viewport_, [this](const std::string& line) { attempt(line); }, [this] { endDrag(); },
-                    [this] { return viewport(); }, double{setup_.scale}})
+                    [this] { return pictureInUse(); }, double{setup_.scale}})
     {
         recent_ = recentFiles(setup_.recentFiles);
         setKeys(readPreferences(setup_.preferences).keys);
@@ -187,7 +187,13 @@ public:
     bool awaitsCage() const { return isValueDragged_ && !runner_.planner().isSettled(); }
     double secondsBetweenFrames() const { return setup_.isSoftware && awaitsCage() ? 0.05 : 0; }
     bool isMoving() const { return control_.isCameraDragged() || control_.isMoving() || isAnimated() || awaitsCage(); }
-    bool leavesItRough() const { return isMoving() && viewport_.isDrawn(); }
+    bool leavesItRough() const { return isMoving() && viewport_.isDrawn() && (!second_ || second_->isDrawn()); }
+    bool isRefined() const { return viewport_.isRefined() && (!second_ || second_->isRefined()); }
+    void drawPictures(bool isRough)
+    {
+        viewport_.draw(isRough);
+        if (second_) second_->draw(isRough);
+    }
 
     /// Brings the panels in line with the state.
     void layOut()
@@ -207,16 +213,19 @@ public:
     bool needsFrame()
     {
         layOut();
-        return needsFrame_ || (!viewport_.isRefined() && !leavesItRough());
+        return needsFrame_ || (!isRefined() && !leavesItRough());
     }
 
     void drawFrame()
     {
         layOut();
-        if (!leavesItRough()) viewport_.draw(isMoving());
-        const Rectangle middle = viewport();
+        if (!leavesItRough()) drawPictures(isMoving());
         draw::Target target = canvas_->target();
-        viewport_.copyTo(target.framebuffer, middle.left, height_ - middle.top - middle.height);
+        const std::vector<Rectangle> places = pictures();
+        for (const Rectangle& place : places) {
+            const Viewport& picture = &place == &places.front() ? viewport_ : *second_;
+            picture.copyTo(target.framebuffer, place.left, height_ - place.top - place.height);
+        }
         widgetRenderer_.draw(target, widgets_.drawing());
         gl::throwIfFailed(api_, "drawing the window");
         needsFrame_ = false;
@@ -226,7 +235,7 @@ public:
     draw::Picture picture()
     {
         layOut();
-        while (!viewport_.isRefined() && !isMoving()) viewport_.draw(false);
+        while (!isRefined() && !isMoving()) drawPictures(false);
         drawFrame();
         return draw::fromPixels(canvas_->pixels(), width_, height_, false);
     }
@@ -255,6 +264,7 @@ public:
     Widgets widgets_;
     Panels panels_;
     Viewport viewport_;
+    std::unique_ptr<Viewport> second_; ///< where two families are compared; else null
     WidgetRenderer widgetRenderer_;
     Runner runner_;
     Posing posing_;
@@ -272,7 +282,7 @@ public:
     {
         const auto at = placeOf(control_.overlay().gizmo, name, double{setup_.scale});
         if (!at) return std::nullopt;
-        const Rectangle picture = viewport();
+        const Rectangle picture = pictures().front();
         const auto round = [](double x) { return static_cast<int>(std::lround(x)); };
         return Rectangle{picture.left + round((*at)[0]), picture.top + round((*at)[1]), 0, 0};
     }
@@ -280,6 +290,23 @@ public:
     Rectangle viewport() const
     {
         return Panels::viewport(width_, height_, setup_.scale, session_.state().view.mode == Mode::pose);
+    }
+    /// Where the picture is, or two side by side.
+    std::vector<Rectangle> pictures() const
+    {
+        Rectangle left = viewport();
+        if (!second_) return {left};
+        Rectangle right = left;
+        left.width = std::max(1, left.width / 2);
+        right.left += left.width;
+        right.width = std::max(1, right.width - left.width);
+        return {left, right};
+    }
+    /// The one that what is done with the pointer belongs to.
+    Rectangle pictureInUse() const
+    {
+        const std::vector<Rectangle> places = pictures();
+        return control_.home()[0] < places.back().left ? places.front() : places.back();
     }
     bool isValueDragged_ = false;
     bool isEnded_ = false;
@@ -335,11 +362,11 @@ private:
             session_.redoView();
         } else if (verb == "make") {
             runner_.again();
-            posing_.binder().again();
+            posing_.again();
         } else if (verb == "cancel") {
             if (!dismiss()) {
                 runner_.cancel();
-                posing_.binder().cancel();
+                posing_.cancel();
                 saver_.stop();
             }
         } else if (verb == "frame") {
@@ -517,13 +544,14 @@ private:
             content.cage = countsOf(cage->cage, viewport_.edgeCount(LayerId::cage));
         }
         content.overlay = control_.overlay();
-        content.binding = posing_.binder().progress();
-        content.isPosedCoarsely = posing_.model().bound() && !posing_.model().isWhole();
+        content.pictures = pictures();
+        content.binding = posing_.follower().binder().progress();
+        content.isPosedCoarsely = posing_.follower().model().bound() && !posing_.follower().model().isWhole();
         content.keys = keys_;
         content.selected = selectionFrame(session_.state(), {});
         if (saver_.isBusy()) content.saving = saver_.progress();
         content.bindingError = posing_.error();
-        content.poseCheck = posing_.check();
+        content.poseCheck = posing_.follower().check();
         content.isPosed = !posing_.cagePoints().empty() && session_.state().view.mode == Mode::pose &&
                           session_.state().cage && posing_.cagePoints() != session_.state().cage->points;
         content.hasModelChanged = hasModelChanged_;
@@ -589,8 +617,6 @@ private:
 
     void show()
     {
-        const Rectangle middle = viewport();
-        viewport_.resize(middle.width, middle.height);
         const Planner& planner = runner_.planner();
         const CageResultPtr cage = posing_.cageOf(session_.state(), planner);
         if (cage != visible_ || session_.state().carried != posing_.carried()) {
@@ -603,9 +629,19 @@ private:
         shown.cage = cage;
         shown.isStale = cage == planner.shown() && planner.standing() == Planner::Standing::stale;
         shown.cagePoints = posing_.cagePoints();
-        shown.modelValues = posing_.modelValues();
-        shown.posed = &posing_.model();
+        shown.modelValues = posing_.follower().values();
+        shown.posed = &posing_.follower().model();
+        const Follower* const compared = posing_.compared();
+        if (!compared) second_.reset();
+        if (compared && !second_) second_ = std::make_unique<Viewport>(api_, setup_.isSoftware);
+        const std::vector<Rectangle> places = pictures();
+        viewport_.resize(places.front().width, places.front().height);
         if (viewport_.show(shown, session_.state().view)) needsFrame_ = true;
+        if (!second_) return;
+        shown.modelValues = compared->values();
+        shown.posed = &compared->model();
+        second_->resize(places.back().width, places.back().height);
+        if (second_->show(shown, session_.state().view)) needsFrame_ = true;
     }
 
     void press(const KeyDown& down, const Modifiers& modifiers, bool isMessage)

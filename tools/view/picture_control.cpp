@@ -116,6 +116,10 @@ void PictureControl::move(const PointerMoved& moved, const Modifiers& modifiers)
     const double dx = moved.x - x_, dy = moved.y - y_;
     x_ = moved.x;
     y_ = moved.y;
+    if (!held_ && !grip_) {
+        homeX_ = x_;
+        homeY_ = y_;
+    }
     if (grip_) {
         grip_->isSnapping = modifiers.control;
         return follow();

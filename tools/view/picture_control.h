@@ -44,6 +44,8 @@ public:
 
     /// Where the pointer is, pixels of the window.
     std::array<double, 2> pointer() const { return {x_, y_}; }
+    /// The same where what is under way began.
+    std::array<double, 2> home() const { return {homeX_, homeY_}; }
     /// It has the pointer, wherever that goes.
     bool isHeld() const { return held_.has_value() || (grip_ && grip_->isFree); }
     /// The view is turned, moved or zoomed.
@@ -91,7 +93,7 @@ private:
 
     Host host_;
     MouseMap mouse_ = mouseMap(KeyMap::blender);
-    double x_ = 0, y_ = 0, pressedX_ = 0, pressedY_ = 0; ///< of the window
+    double x_ = 0, y_ = 0, homeX_ = 0, homeY_ = 0, pressedX_ = 0, pressedY_ = 0; ///< of the window
     std::optional<ButtonDown> held_;
     Modifiers heldWith_;
     std::optional<DragAction> drag_; ///< what a drag of the held button does; none: nothing

@@ -19,7 +19,7 @@ PosedScene posedScene(const Saver::Source& source, bool isSequence)
 {
     const State& state = source.state;
     const TimeLine& poses = state.document.poses;
-    PosedScene scene{bindOrder(state), source.posing.bindingOf(state), {}};
+    PosedScene scene{bindOrder(state), source.posing.follower().bindingOf(state), {}};
     const int first = isSequence ? poses.firstFrame() : state.view.frame;
     const int last = isSequence ? poses.finalFrame() : first;
     for (int frame = first; frame <= last; ++frame) scene.frames.push_back({frame, posedPoints(state, frame)});
@@ -45,13 +45,13 @@ Write writePosed(const Saver::Source& source, const std::string& verb, const fs:
 
 Write writeColours(const Saver::Source& source, const fs::path& file)
 {
-    const auto values = source.posing.modelValues();
+    const auto values = source.posing.follower().values();
     if (!values) {
         throw InputError("save-colours: the model shows none; in mode pose, once it is bound, it can show influence, "
                          "stretch, or what is inverted");
     }
     const OpenedMeshPtr model = source.state.document.model;
-    const PosedModel& posed = source.posing.model();
+    const PosedModel& posed = source.posing.follower().model();
     std::vector<openvdb::Vec3d> points = posed.isWhole() ? posed.points() : model->mesh.points;
     return [model, points = std::move(points), values, file](Interrupter*) {
         saveColours(model->mesh, points, *values, file);

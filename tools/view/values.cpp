@@ -105,13 +105,13 @@ std::map<std::string, std::function<std::string()>> valuesOf(const ValueSource& 
     };
     list["last-frame"] = [&] { return std::to_string(state.document.poses.finalFrame()); };
     list["play"] = [&] { return state.view.isPlaying ? "on" : "off"; };
-    list["pose-valid"] = [&] { return posing.check() ? yesNo(posing.check()->isValid) : "none"; };
+    list["pose-valid"] = [&] { return posing.follower().check() ? yesNo(posing.follower().check()->isValid) : "none"; };
     list["inverted"] = [&] {
-        const PoseCheckPtr& verdict = posing.check();
+        const PoseCheckPtr& verdict = posing.follower().check();
         return verdict && verdict->inverted ? std::to_string(verdict->inverted->size()) : "none";
     };
     list["bound"] = [&] {
-        const BoundModelPtr& bound = posing.binder().bound();
+        const BoundModelPtr& bound = posing.follower().binder().bound();
         return !bound ? "no" : bound->whole ? "yes" : "coarsely";
     };
     list["ground"] = [&] { return state.view.ground ? "on" : "off"; };

@@ -117,6 +117,31 @@ void buildModelColours(const PanelContext& context)
     }
 }
 
+/// A list of families, of which one is seen in a second picture.
+void buildCompare(const PanelContext& context)
+{
+    const auto& compared = context.content.session.state().view.compared;
+    ImGui::AlignTextToFramePadding();
+    muted("Compare with");
+    ImGui::SameLine();
+    ImGui::SetNextItemWidth(-1);
+    const char* const now = compared ? familyTexts[static_cast<std::size_t>(*compared)].label : "nothing";
+    const bool isOpen = ImGui::BeginCombo("##compare", now);
+    context.name("compare");
+    if (!isOpen) return help("a second picture has the model by another family of coordinates");
+    if (ImGui::Selectable("nothing", !compared)) context.ask("compare off");
+    context.name("compare.off");
+    for (std::size_t i = 0; i + 1 < familyTexts.size(); ++i) {
+        const FamilyText& family = familyTexts[i];
+        if (ImGui::Selectable(family.label, compared == static_cast<Coordinates>(i))) {
+            context.ask(std::string("compare ") + family.name);
+        }
+        context.name(std::string("compare.") + family.name);
+        help(family.help);
+    }
+    ImGui::EndCombo();
+}
+
 void buildSection(const PanelContext& context)
 {
     const auto& section = context.content.session.state().view.section;
@@ -260,6 +285,7 @@ void buildLayers(const PanelContext& context, std::map<std::string, std::string>
     if (view.mode == Mode::pose) {
         heading("Colours of the model");
         buildModelColours(context);
+        buildCompare(context);
         ImGui::Dummy({0, length(4)});
     }
     buildSelected(context, typed);

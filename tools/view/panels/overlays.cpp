@@ -159,6 +159,27 @@ void drawEditing(ImDrawList& list, const Rectangle& viewport, const PictureOverl
     }
 }
 
+/// What is edited, in each picture, and by which coordinates the model follows where there are two.
+void drawPictures(ImDrawList& list, const PanelContent& content)
+{
+    const State& state = content.session.state();
+    for (const Rectangle& picture : content.pictures) {
+        const ImVec2 low{static_cast<float>(picture.left), static_cast<float>(picture.top)};
+        const ImVec2 high{low.x + static_cast<float>(picture.width), low.y + static_cast<float>(picture.height)};
+        list.PushClipRect(low, high, true);
+        drawEditing(list, picture, content.overlay);
+        if (content.pictures.size() > 1) {
+            const bool isFirst = &picture == &content.pictures.front();
+            const Coordinates family =
+                isFirst ? state.document.coordinates : state.view.compared.value_or(state.document.coordinates);
+            list.AddText({low.x + length(12), low.y + length(10)}, packed(inkColour),
+                         familyTexts[static_cast<std::size_t>(family)].label);
+            if (!isFirst) list.AddLine(low, {low.x, high.y}, packed(theme::line), length(2));
+        }
+        list.PopClipRect();
+    }
+}
+
 } // namespace
 
 void buildOverlays(const PanelContext& context, const Rectangle& viewport)
@@ -170,7 +191,7 @@ void buildOverlays(const PanelContext& context, const Rectangle& viewport)
         {static_cast<float>(viewport.left), static_cast<float>(viewport.top)},
         {static_cast<float>(viewport.left + viewport.width), static_cast<float>(viewport.top + viewport.height)});
     if (content.session.state().document.model) {
-        drawEditing(list, viewport, content.overlay);
+        drawPictures(list, content);
         if (view.axes) drawAxes(list, viewport, content.axes);
         if (view.ground) {
             const std::string text = "grid " + detail::numberText(content.gridStep);

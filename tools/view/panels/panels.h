@@ -44,6 +44,7 @@ struct PanelContent {
     std::optional<Counts> model = {}, cage = {};
     std::optional<openvdb::math::BBox<openvdb::Vec3d>> box = {}; ///< of the model
     PictureOverlay overlay = {};
+    std::vector<Rectangle> pictures = {};     ///< of the window: one, or two side by side
     std::optional<WorkProgress> binding = {}; ///< none: nothing is being bound
     bool isPosedCoarsely = false;             ///< what is seen of the model is a stand-in, as not all is bound yet
     std::string bindingError = {};            ///< empty: none

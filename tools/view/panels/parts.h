@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <map>
 #include <optional>
 #include <string>
@@ -9,6 +10,19 @@
 
 /// The parts of the window; each is built once a layout. Those that remember something take it.
 namespace vdbcage::view {
+
+/// What users are told of a family of coordinates.
+struct FamilyText {
+    const char* name;
+    const char* label;
+    const char* help;
+};
+/// By their values in Coordinates.
+constexpr std::array<FamilyText, 4> familyTexts{
+    {{"mvc", "Mean value", "mean value coordinates: smooth, defined everywhere, can be negative"},
+     {"green", "Green", "Green coordinates: they keep shapes and follow the faces' normals"},
+     {"mlc", "Likelihood", "maximum likelihood coordinates: local, never negative"},
+     {"given", "Weights", "weights from a file (File > Open weights)"}}};
 
 /// Below the menu: what is done in the picture.
 void buildToolbar(const PanelContext& context);
@@ -24,7 +38,7 @@ struct TimeLineMemory {
 /// Below the picture, in mode pose: playing, the key at this frame, and a track of frames and keys.
 void buildTimeLine(const PanelContext& context, TimeLineMemory& memory);
 void buildStatusLine(const PanelContext& context);
-/// What lies over the picture: what is shown and what is being made, axes, scale of the grid, legend.
+/// What lies over the picture, or over two: what is shown and what is being made, axes, scale of the grid, legend.
 void buildOverlays(const PanelContext& context, const Rectangle& viewport);
 /// Messages, the question before the end, the file browser, help; one at a time. `isHelpOpen` is set back when it is
 /// closed.

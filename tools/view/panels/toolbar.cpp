@@ -52,7 +52,7 @@ void list(const PanelContext& context, const std::string& verb, const std::vecto
     if (!isOpen) return help(entries[chosen].text);
     for (std::size_t i = 0; i < entries.size(); ++i) {
         const Entry& entry = entries[i];
-        if (ImGui::Selectable(entry.label, i == chosen)) {
+        if (ImGui::Selectable(entry.label, i == chosen) && i != chosen) {
             context.ask(verb + ' ' + (entry.argument.empty() ? entry.name : entry.argument));
         }
         context.name(verb + '.' + entry.name);
@@ -154,11 +154,11 @@ void buildToolbar(const PanelContext& context)
     buildSoft(context, view);
     gap();
     if (isPose) {
-        list(context, "coordinates",
-             {{"mvc", "Mean value", "mean value coordinates: smooth, defined everywhere, can be negative"},
-              {"green", "Green", "Green coordinates: they keep shapes and follow the faces' normals"},
-              {"mlc", "Likelihood", "maximum likelihood coordinates: local, never negative"}},
-             static_cast<std::size_t>(state.document.coordinates), length(112));
+        const Coordinates now = state.document.coordinates;
+        std::vector<Entry> families;
+        for (const FamilyText& family : familyTexts) families.push_back({family.name, family.label, family.help});
+        if (now != Coordinates::given) families.pop_back(); // they are chosen by their file
+        list(context, "coordinates", families, static_cast<std::size_t>(now), length(112));
     } else {
         ImGui::NewLine();
     }

@@ -25,15 +25,7 @@ std::shared_ptr<CarriedPoses> Carrier::carried(const MeshPtr& cage, const TimeLi
     }
     const bool isRunningWanted = isRunning_ && running_.cage == wanted.cage && running_.poses == wanted.poses;
     if (isRunning_ && !isRunningWanted) worker_.stop();
-    if (const auto outcome = worker_.take()) {
-        isRunning_ = false;
-        error_ = outcome->error;
-        ready_ = outcome->result.value_or(nullptr);
-        if (!error_.empty()) {
-            ready_ = std::make_shared<CarriedPoses>(running_.cage);
-            ready_->giveUp(running_.poses);
-        }
-    }
+    update();
     if (wanted.poses.empty()) {
         error_.clear();
         return std::make_shared<CarriedPoses>(cage);
@@ -48,6 +40,18 @@ std::shared_ptr<CarriedPoses> Carrier::carried(const MeshPtr& cage, const TimeLi
         worker_.start(std::move(wanted));
     }
     return nullptr;
+}
+
+void Carrier::update()
+{
+    const auto outcome = worker_.take();
+    if (!outcome) return;
+    isRunning_ = false;
+    error_ = outcome->error;
+    ready_ = outcome->result.value_or(nullptr);
+    if (error_.empty()) return;
+    ready_ = std::make_shared<CarriedPoses>(running_.cage);
+    ready_->giveUp(running_.poses);
 }
 
 void Carrier::waitForNews(double seconds)

@@ -21,7 +21,9 @@ public:
     /// way for something else is stopped. Poses that cannot be carried over are at rest; error() says why.
     std::shared_ptr<CarriedPoses> carried(const MeshPtr& cage, const TimeLine& poses);
 
-    /// Something is under way. Ask for carried() again when woken.
+    /// Takes what has ended. Ask for carried() again then.
+    void update();
+    /// Something is under way.
     bool isBusy() const { return isRunning_; }
     /// Waits until there is something to take, or `seconds` have passed. Returns at once if nothing is under way.
     void waitForNews(double seconds);

@@ -334,6 +334,8 @@ const std::array<Syntax, std::variant_size_v<Command>>& syntaxes()
          [](const Words& w) -> Command { return SetSoft{softRadiusOf(w[0])}; }},
         {"mirror", "off|x|y|z OFFSET", 1, 2, "does the same on the other side of a plane across an axis",
          [](const Words& w) -> Command { return SetMirror{mirrorOf(w)}; }},
+        {"compare", "off|mvc|green|mlc", 1, 1, "shows the model by another family of coordinates too, side by side",
+         [](const Words& w) -> Command { return w[0] == "off" ? Compare{} : Compare{coordinatesNamed(w[0])}; }},
         {"time", "FRAME", 1, 1, "shows, and changes from now on, the pose at a frame",
          [](const Words& w) -> Command { return SetFrame{frameOf(w[0], "time")}; }},
         {"play", "on|off", 1, 1, "shows the frames of the time line one after the other, again and again",
@@ -429,6 +431,10 @@ struct ArgumentsOf {
     }
     std::string operator()(const SetSeeThrough& c) const { return onOff(c.on); }
     std::string operator()(const SetSoft& c) const { return numbers({c.radius}); }
+    std::string operator()(const Compare& c) const
+    {
+        return c.family ? ' ' + std::string(coordinatesName(*c.family)) : " off";
+    }
     std::string operator()(const SetFrame& c) const { return ' ' + std::to_string(c.frame); }
     std::string operator()(const Play& c) const { return onOff(c.on); }
     std::string operator()(const SetRate& c) const { return numbers({c.framesPerSecond}); }
@@ -528,6 +534,7 @@ struct Apply {
     void operator()(const SetSeeThrough& c) const { state.view.seeThrough = c.on; }
     void operator()(const SetSoft& c) const { state.view.softRadius = c.radius; }
     void operator()(const SetMirror& c) const { state.view.mirror = c.plane; }
+    void operator()(const Compare& c) const { state.view.compared = c.family; }
     void operator()(const SetFrame& c) const { state.view.frame = c.frame; }
     void operator()(const Play& c) const { state.view.isPlaying = c.on; }
     void operator()(const SetRate& c) const { state.view.framesPerSecond = c.framesPerSecond; }
@@ -605,7 +612,7 @@ std::vector<Command> commandsFor(const ViewState& view)
                      ShowGround{view.ground}, ShowAxes{view.axes}, SetTurntable{view.turntable}, ShowTimes{view.times},
                      SetMode{view.mode}, SetTool{view.tool}, SetOrientation{view.orientation}, SetPivot{view.pivot},
                      SetSeeThrough{view.seeThrough}, SetSoft{view.softRadius}, SetMirror{view.mirror},
-                     SetFrame{view.frame}, SetRate{view.framesPerSecond}, Play{view.isPlaying},
+                     Compare{view.compared}, SetFrame{view.frame}, SetRate{view.framesPerSecond}, Play{view.isPlaying},
                      Select{view.selection}});
     return commands;
 }

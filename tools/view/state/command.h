@@ -172,6 +172,10 @@ struct SetSeeThrough {
 struct SetSoft {
     double radius = 0; ///< a part of the model's longest side
 };
+/// compare off|mvc|green|mlc: a second picture beside the first has the model by another family, in mode pose.
+struct Compare {
+    std::optional<Coordinates> family;
+};
 /// time FRAME: whose pose is seen.
 struct SetFrame {
     int frame = 0;
@@ -195,7 +199,7 @@ using Command = std::variant<OpenModel, OpenCage, CloseCage, SetOption, ResetOpt
                              OpenPoses, SetKey, DeleteKey, MoveKey, MakeInBetweens, ClearPoses, SetCamera, ShowLayer,
                              FadeLayer, ColourLayer, SetCageColours, SetModelColours, SetSection, ShowGround, ShowAxes,
                              SetTurntable, ShowTimes, Select, SetMode, SetTool, SetOrientation, SetPivot, SetSeeThrough,
-                             SetSoft, SetMirror, SetFrame, Play, SetRate>;
+                             SetSoft, SetMirror, Compare, SetFrame, Play, SetRate>;
 
 /// Whether it changes the document; else it changes the view.
 bool changesDocument(const Command& command);

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include <tools/view/state/model_values.h>
 #include <tools/view/state/move.h>
 
 namespace vdbcage::view {
@@ -48,15 +47,12 @@ CageResultPtr Posing::wantedCage(const Document& document, const Planner& planne
 void Posing::follow(const State& state, const Planner& planner, bool standsStill)
 {
     const Document& document = state.document;
-    const bool isPosing = state.view.mode == Mode::pose && document.model && state.cage;
-    if (isPosing && !isCarried(document.poses)) return;
-    // A preview's cage is gone in a moment: it is not worth the binding.
-    const bool isToStay = planner.standing() == Planner::Standing::current || planner.isHalted();
-    if (!isPosing) {
-        binder_.want(std::nullopt);
-    } else if (isToStay) {
-        binder_.want(bindOrder(state));
-    }
+    Follower::Effort effort;
+    effort.isPosing = state.view.mode == Mode::pose && document.model && state.cage;
+    if (effort.isPosing && !isCarried(document.poses)) return;
+    // A preview's cage is gone in a moment.
+    effort.isToStay = planner.standing() == Planner::Standing::current || planner.isHalted();
+    effort.standsStill = standsStill;
     if (document.poses != poses_ || state.cage != cage_ || state.view.mode != mode_ || state.view.frame != frame_) {
         poses_ = document.poses;
         cage_ = state.cage;
@@ -64,89 +60,57 @@ void Posing::follow(const State& state, const Planner& planner, bool standsStill
         frame_ = state.view.frame;
         cagePoints_ = view::cagePoints(state);
     }
-    const BoundModelPtr& bound = binder_.bound();
-    if (!isPosing || cagePoints_ == state.cage->points) {
-        model_.update(nullptr, {});
-    } else if (bound && bound->order == bindOrder(state)) {
-        model_.update(bound, cagePoints_);
+    follower_.follow(state, cagePoints_, effort);
+    if (!effort.isPosing || !state.view.compared) {
+        compared_.reset();
+        return;
     }
-    followCheck(state, standsStill && isPosing);
-    followValues(state);
-}
-
-void Posing::followCheck(const State& state, bool standsStill)
-{
-    std::optional<PoseCheckOrder> order;
-    if (standsStill && cagePoints_ != state.cage->points) {
-        order = PoseCheckOrder{bindOrder(state), cagePoints_, nullptr};
-        // Given weights are not known at the points that are looked at to count them.
-        const bool areCounted =
-            state.view.modelColours == ModelColours::inverted && state.document.coordinates != Coordinates::given;
-        if (areCounted) order->binding = bindingOf(state);
-        // It is counted once it is bound.
-        if (areCounted && !order->binding && !binder_.isHalted()) order.reset();
-    }
-    checker_.want(order);
+    if (!compared_) compared_ = std::make_unique<Follower>(work_, wake_);
+    State other = state;
+    other.document.coordinates = *state.view.compared;
+    other.document.weights.reset();
+    compared_->follow(other, cagePoints_, effort);
 }
 
 void Posing::update()
 {
-    binder_.update();
-    checker_.update();
+    carrier_.update();
+    follower_.update();
+    if (compared_) compared_->update();
+}
+
+bool Posing::isSettled() const
+{
+    return !carrier_.isBusy() && follower_.isSettled() && (!compared_ || compared_->isSettled());
 }
 
 void Posing::waitForNews(double seconds)
 {
     if (carrier_.isBusy()) {
         carrier_.waitForNews(seconds);
-    } else if (!binder_.isSettled()) {
-        binder_.waitForNews(seconds);
-    } else {
-        checker_.waitForNews(seconds);
+    } else if (!follower_.isSettled()) {
+        follower_.waitForNews(seconds);
+    } else if (compared_) {
+        compared_->waitForNews(seconds);
     }
 }
 
-std::string Posing::error() const
+void Posing::again()
+{
+    follower_.binder().again();
+    if (compared_) compared_->binder().again();
+}
+
+void Posing::cancel()
+{
+    follower_.binder().cancel();
+    if (compared_) compared_->binder().cancel();
+}
+
+const std::string& Posing::error() const
 {
     if (!carrier_.error().empty()) return carrier_.error();
-    return binder_.error().empty() ? checker_.error() : binder_.error();
-}
-
-void Posing::followValues(const State& state)
-{
-    const BoundModelPtr& bound = binder_.bound();
-    const bool isBound = bound && bound->whole && bound->order == bindOrder(state);
-    ModelColours colours = isBound && state.view.mode == Mode::pose ? state.view.modelColours : ModelColours::plain;
-    if (colours == ModelColours::stretch && !model_.isWhole()) colours = ModelColours::plain; // it is at rest
-    std::vector<openvdb::Index32> points;
-    if (colours == ModelColours::influence) points = selectedPoints(state);
-    const std::uint64_t version = colours == ModelColours::stretch ? model_.version() : 0;
-    const PoseCheckPtr check = colours == ModelColours::inverted ? checker_.result() : nullptr;
-    // Until the next pose is checked the colours are those of the last one.
-    if (colours == ModelColours::inverted && valuesOf_ == colours && model_.bound() && !check) return;
-    if (colours == valuesOf_ && bound == valuesBound_ && points == valuesPoints_ && version == valuesVersion_ &&
-        check == valuesCheck_) {
-        return;
-    }
-    valuesOf_ = colours;
-    valuesBound_ = bound;
-    valuesPoints_ = points;
-    valuesVersion_ = version;
-    valuesCheck_ = check;
-    values_.reset();
-    if (colours == ModelColours::influence) {
-        values_ = std::make_shared<const std::vector<double>>(influence(*bound->whole, points));
-    } else if (colours == ModelColours::stretch) {
-        values_ = std::make_shared<const std::vector<double>>(stretch(bound->order.model->mesh, model_.points()));
-    } else if (check && check->inverted) {
-        values_ = std::make_shared<const std::vector<double>>(cornersOf(*check->inverted, bound->order.model->mesh));
-    }
-}
-
-std::shared_ptr<const Binding> Posing::bindingOf(const State& state) const
-{
-    const BoundModelPtr& bound = binder_.bound();
-    return bound && bound->order == bindOrder(state) ? bound->whole : nullptr;
+    return compared_ && follower_.error().empty() ? compared_->error() : follower_.error();
 }
 
 } // namespace vdbcage::view

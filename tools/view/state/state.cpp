@@ -71,7 +71,7 @@ bool operator==(const ViewState& a, const ViewState& b)
            a.ground == b.ground && a.axes == b.axes && a.turntable == b.turntable && a.times == b.times &&
            a.mode == b.mode && a.tool == b.tool && a.orientation == b.orientation && a.pivot == b.pivot &&
            a.seeThrough == b.seeThrough && a.softRadius == b.softRadius && a.mirror == b.mirror &&
-           a.selection == b.selection && a.frame == b.frame && a.isPlaying == b.isPlaying &&
+           a.selection == b.selection && a.compared == b.compared && a.frame == b.frame && a.isPlaying == b.isPlaying &&
            a.framesPerSecond == b.framesPerSecond;
 }
 

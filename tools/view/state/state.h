@@ -137,6 +137,7 @@ struct ViewState {
     double softRadius = 0;               ///< of soft selection, a part of the model's longest side; 0: off
     std::optional<SymmetryPlane> mirror; ///< what is done on one side of it is done on the other too
     edit::Selection selection;           ///< of the cage
+    std::optional<Coordinates> compared; ///< a second picture has the model by this family
     int frame = 0;                       ///< whose pose is seen and changed, 0 to lastFrame
     bool isPlaying = false;              ///< frames follow each other
     double framesPerSecond = 24;         ///< while it plays, in [1, 240]
