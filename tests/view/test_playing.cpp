@@ -173,4 +173,37 @@ BOOST_AUTO_TEST_CASE(colours_are_saved_with_the_posed_model)
     BOOST_TEST(readText(folder / "a.ply") != readText(folder / "c.ply"));
 }
 
+BOOST_AUTO_TEST_CASE(two_families_are_seen_side_by_side)
+{
+    run(app, {"time 10", "wait", "mouse move picture 0.02 0.98"});
+    const draw::Picture one = app.picture();
+    run(app, {"widget compare green", "wait"});
+    const draw::Picture green = app.picture();
+    BOOST_TEST(!samePicture(green, one));
+    run(app, {"compare mvc", "wait", "key 3", "select faces"});
+    BOOST_TEST(!samePicture(app.picture(), green));
+    // A click on the right does what the same click on the left does.
+    int hits = 0;
+    for (const double x : {0.3, 0.4, 0.5, 0.6}) {
+        const auto selectedBy = [&](double at) {
+            run(app, {"select faces", "mouse move picture " + std::to_string(at) + " 0.5", "mouse click"});
+            return app.session().state().view.selection;
+        };
+        const edit::Selection left = selectedBy(x / 2), right = selectedBy(0.5 + x / 2);
+        BOOST_TEST((left == right));
+        hits += left.ids.empty() ? 0 : 1;
+    }
+    BOOST_TEST(hits > 1);
+    run(app,
+        {"mode shape", "mode pose", "wait", "compare off", "select points 0 1 2 3", "mouse move picture 0.02 0.98"});
+    BOOST_TEST(samePicture(app.picture(), one));
+}
+
+BOOST_AUTO_TEST_CASE(a_pose_is_checked_when_it_stands_still)
+{
+    run(app, {"time 0", "wait", "expect pose-valid none", "time 10", "wait", "expect pose-valid yes",
+              "expect inverted none", "widget model-colours.inverted press", "wait", "expect inverted >=0",
+              "move 0 -20 0", "wait", "expect pose-valid no", "expect inverted >0"});
+}
+
 BOOST_AUTO_TEST_SUITE_END()
