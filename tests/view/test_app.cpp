@@ -285,14 +285,14 @@ BOOST_AUTO_TEST_CASE(files_are_browsed_and_not_written_over_without_a_question)
     const std::string cage = (folder / "cage.obj").string();
     App app(context.api(), setup());
     run(app, {"key control+o", "widget browser.name " + quotedWord(files[1]), "wait", "expect model \"model 2.obj\"",
-              "key control+s", "widget browser.name " + quotedWord(cage), "expect messages 0"});
+              "key control+s", "widget browser.name " + quotedWord(cage), "wait", "expect messages 0"});
     BOOST_TEST(fs::exists(cage));
     test::writeText(cage, "old");
     run(app, {"key control+s", "widget browser.name " + quotedWord(cage)});
     BOOST_TEST(test::readText(cage) == "old");
     run(app, {"widget browser.no press"});
     BOOST_TEST(test::readText(cage) == "old");
-    run(app, {"widget browser.ok press", "widget browser.yes press"});
+    run(app, {"widget browser.ok press", "widget browser.yes press", "wait"});
     BOOST_TEST(test::readText(cage) != "old");
     run(app, {"key control+o", "widget \"browser.entry.model 3.obj\" press", "widget browser.ok press", "wait",
               "expect model \"model 3.obj\""});

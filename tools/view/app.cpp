@@ -251,6 +251,19 @@ public:
             }
             update();
         }
+        while (saver_.isBusy()) {
+            saver_.waitForNews(1);
+            update();
+        }
+    }
+
+    /// \throw InputError why something could not be written
+    void finishSaving()
+    {
+        while (saver_.isBusy()) {
+            saver_.waitForNews(1);
+            takeSaved();
+        }
     }
 
     std::map<std::string, std::function<std::string()>> values() const
@@ -404,8 +417,10 @@ private:
             pass(numberOf(argument, "tick"));
         } else if (verb == "quit") {
             asksToQuit_ = !isSaved();
+            if (!asksToQuit_) finishSaving();
             isEnded_ = !asksToQuit_;
         } else if (verb == "quit!") {
+            finishSaving();
             isEnded_ = true;
         }
         needsFrame_ = true;
@@ -489,14 +504,6 @@ private:
         const auto name = saver_.take();
         if (name) note("saved " + *name);
         if (!name && wasBusy && !saver_.isBusy()) note("nothing was written");
-    }
-
-    void finishSaving()
-    {
-        while (saver_.isBusy()) {
-            saver_.waitForNews(1);
-            takeSaved();
-        }
     }
 
     void note(const std::string& text)
@@ -746,6 +753,11 @@ draw::Picture App::picture()
 void App::waitUntilSettled()
 {
     impl_->waitUntilSettled();
+}
+
+void App::waitUntilSaved()
+{
+    impl_->finishSaving();
 }
 
 std::string App::value(const std::string& name) const

@@ -74,8 +74,10 @@ public:
     /// What the window shows when nothing moves: draws all that is left to draw. \throw DeviceError
     draw::Picture picture();
 
-    /// Waits until the cage that is wanted is there, or cannot be had.
+    /// Waits until the cage that is wanted is there, or cannot be had, and all that was to be written is.
     void waitUntilSettled();
+    /// Waits until all that was to be written is. \throw InputError why it cannot be
+    void waitUntilSaved();
     /// What a script can expect, by name. \throw InputError no such name
     std::string value(const std::string& name) const;
     /// All these names.

@@ -188,7 +188,7 @@ void doScreenshot(App& app, const Words& words)
 std::vector<std::pair<std::string, std::string>> describeScript()
 {
     return {
-        {"wait", "until the cage is made, or cannot be"},
+        {"wait", "until the cage is made, or cannot be, and files are written"},
         {"screenshot FILE.png [WIDTHxHEIGHT]", "writes what the window shows, in that size from now on"},
         {"expect NAME VALUE", "ends with an error unless NAME is VALUE, or with <, <=, >, >= before a number is so"},
         {"mouse move WIDGET|picture [X [Y]]", "moves the pointer to a share of the widget, from its left and top"},
@@ -240,6 +240,7 @@ void runScript(App& app, const std::filesystem::path& path)
             throw InputError(path.string() + ":" + std::to_string(number) + ": " + error.what());
         }
     }
+    app.waitUntilSaved();
 }
 
 } // namespace vdbcage::view

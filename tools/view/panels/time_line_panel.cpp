@@ -63,7 +63,7 @@ void buildControls(const PanelContext& context)
     muted("Frame");
     ImGui::SameLine(0, length(6));
     int frame = view.frame;
-    ImGui::SetNextItemWidth(length(56));
+    ImGui::SetNextItemWidth(length(50));
     if (ImGui::InputInt("##time", &frame, 0, 0, ImGuiInputTextFlags_EnterReturnsTrue)) {
         context.ask("time " + std::to_string(frame));
     }
@@ -73,7 +73,7 @@ void buildControls(const PanelContext& context)
     muted("Rate");
     ImGui::SameLine(0, length(6));
     double rate = view.framesPerSecond;
-    ImGui::SetNextItemWidth(length(48));
+    ImGui::SetNextItemWidth(length(40));
     if (ImGui::InputDouble("##rate", &rate, 0, 0, "%.4g", ImGuiInputTextFlags_EnterReturnsTrue)) {
         context.ask("rate " + detail::numberText(rate));
     }
