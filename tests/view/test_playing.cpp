@@ -175,6 +175,7 @@ BOOST_AUTO_TEST_CASE(colours_are_saved_with_the_posed_model)
 
 BOOST_AUTO_TEST_CASE(two_families_are_seen_side_by_side)
 {
+    app.resize(1280, 1100); // no panel is scrolled
     run(app, {"time 10", "widget compare green", "wait", "mouse move picture 0.02 0.98"});
     const draw::Picture green = app.picture();
     runLine(app, "compare off");
