@@ -50,10 +50,16 @@ bool isPattern(const fs::path& path)
     return parse(path).found;
 }
 
-std::vector<Frame> findFrames(const fs::path& path)
+fs::path patternFor(const fs::path& path)
 {
-    const Pattern pattern = parse(path);
-    if (!pattern.found) return {{0, path}};
+    if (isPattern(path)) return path;
+    return fs::path(path).replace_extension(".%04d" + path.extension().string());
+}
+
+namespace {
+
+std::vector<Frame> framesOf(const fs::path& path, const Pattern& pattern)
+{
     std::vector<Frame> frames;
     std::error_code error;
     const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
@@ -73,9 +79,24 @@ std::vector<Frame> findFrames(const fs::path& path)
         }
         frames.push_back({number, path.parent_path() / name});
     }
-    if (frames.empty()) throw IoError(path.string() + ": there is no file of this pattern");
     std::sort(frames.begin(), frames.end(), [](const Frame& a, const Frame& b) { return a.number < b.number; });
     return frames;
+}
+
+} // namespace
+
+std::vector<Frame> findFrames(const fs::path& path)
+{
+    const Pattern pattern = parse(path);
+    if (!pattern.found) return {{0, path}};
+    std::vector<Frame> frames = framesOf(path, pattern);
+    if (frames.empty()) throw IoError(path.string() + ": there is no file of this pattern");
+    return frames;
+}
+
+std::size_t countFrames(const fs::path& path)
+{
+    return framesOf(path, parse(path)).size();
 }
 
 fs::path framePath(const fs::path& path, long number)

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <vector>
 
@@ -15,8 +16,15 @@ struct Frame {
 /// \throw InputError if it has more than one
 bool isPattern(const std::filesystem::path& path);
 
+/// The path, with a place for the frame's number before its extension, as walk.%04d.obj, unless it has one.
+/// \throw InputError as isPattern
+std::filesystem::path patternFor(const std::filesystem::path& path);
+
 /// The files that there are of a pattern, by number; the path itself if it is none. \throw IoError if there are none
 std::vector<Frame> findFrames(const std::filesystem::path& pattern);
+
+/// How many there are, 0 too. \pre it is a pattern
+std::size_t countFrames(const std::filesystem::path& pattern);
 
 /// The path of a frame of a pattern; the path itself if it is none.
 std::filesystem::path framePath(const std::filesystem::path& pattern, long number);

@@ -169,7 +169,9 @@ public:
     bool isPlaying() const
     {
         const State& state = session_.state();
-        return state.view.isPlaying && state.view.mode == Mode::pose && state.document.poses.keys().size() > 1;
+        // What is dragged is of the frame at which that began.
+        return state.view.isPlaying && state.view.mode == Mode::pose && state.document.poses.keys().size() > 1 &&
+               !session_.isDragging();
     }
     bool isAnimated() const { return isTurning() || isPlaying(); }
     /// From the first key to the last, and again.
@@ -377,11 +379,10 @@ private:
             runner_.again();
             posing_.again();
         } else if (verb == "cancel") {
-            if (!dismiss()) {
-                runner_.cancel();
-                posing_.cancel();
-                saver_.stop();
-            }
+            if (dismiss()) return;
+            if (saver_.isBusy()) return saver_.stop();
+            runner_.cancel();
+            posing_.cancel();
         } else if (verb == "frame") {
             if (argument != "all" && argument != "selected") refuse("frame", argument, "all or selected");
             const ViewState& view = session_.state().view;
@@ -414,7 +415,9 @@ private:
         } else if (verb == "dismiss") {
             dismiss();
         } else if (verb == "tick") {
-            pass(numberOf(argument, "tick"));
+            const double seconds = numberOf(argument, "tick");
+            requireWithin({0, 86400}, seconds, "tick");
+            pass(seconds);
         } else if (verb == "quit") {
             asksToQuit_ = !isSaved();
             if (!asksToQuit_) finishSaving();
@@ -558,6 +561,7 @@ private:
         content.selected = selectionFrame(session_.state(), {});
         if (saver_.isBusy()) content.saving = saver_.progress();
         content.bindingError = posing_.error();
+        content.isPoseChecked = posing_.follower().isChecking();
         content.poseCheck = posing_.follower().check();
         content.isPosed = !posing_.cagePoints().empty() && session_.state().view.mode == Mode::pose &&
                           session_.state().cage && posing_.cagePoints() != session_.state().cage->points;
@@ -592,10 +596,10 @@ private:
         needsFrame_ = true;
         if (!setup_.record) return;
         const State& before = session_.dragged();
-        if (session_.state().document != before.document && session_.documents().canUndo()) {
+        if (session_.hasDraggedDocument() && session_.state().document != before.document) {
             setup_.record(session_.documents().undone());
         }
-        if (session_.state().view != before.view && session_.views().canUndo()) {
+        if (session_.hasDraggedView() && session_.state().view != before.view) {
             setup_.record(session_.views().undone());
         }
     }

@@ -19,11 +19,10 @@ PosedScene posedScene(const Saver::Source& source, bool isSequence)
 {
     const State& state = source.state;
     const TimeLine& poses = state.document.poses;
-    PosedScene scene{bindOrder(state), source.posing.follower().bindingOf(state), {}};
+    const CarriedPoses carried = state.carried ? *state.carried : CarriedPoses(state.cage);
     const int first = isSequence ? poses.firstFrame() : state.view.frame;
     const int last = isSequence ? poses.finalFrame() : first;
-    for (int frame = first; frame <= last; ++frame) scene.frames.push_back({frame, posedPoints(state, frame)});
-    return scene;
+    return {bindOrder(state), source.posing.follower().bindingOf(state), poses, carried, first, last};
 }
 
 Write writePosed(const Saver::Source& source, const std::string& verb, const fs::path& file)
@@ -32,12 +31,16 @@ Write writePosed(const Saver::Source& source, const std::string& verb, const fs:
     if (source.state.cage.get() != &currentCage(source.planner, verb).cage) {
         throw InputError(verb + ": the poses are not carried over to the new cage yet");
     }
+    for (const PoseKey& key : source.state.document.poses.keys()) {
+        if (source.state.carried && source.state.carried->isGivenUp(key.pose)) {
+            throw InputError(verb + ": a pose cannot be carried over to this cage: " + source.posing.error());
+        }
+    }
     if (verb == "save-weights") {
         return [order = bindOrder(source.state), file](Interrupter* i) { saveWeights(order, file, i); };
     }
-    const bool isSequence = verb.back() == 's';
     const bool isCage = verb.rfind("save-posed-cage", 0) == 0;
-    return [scene = posedScene(source, isSequence), isCage, file](Interrupter* i) {
+    return [scene = posedScene(source, isSequence(verb)), isCage, file](Interrupter* i) {
         if (isCage) return savePosedCages(scene, file, i);
         savePosedModels(scene, file, i);
     };
@@ -76,6 +79,11 @@ Write writerOf(const Saver::Source& source, const std::string& verb, const fs::p
 
 } // namespace
 
+bool isSequence(const std::string& verb)
+{
+    return verb == "save-posed-cages" || verb == "save-posed-models";
+}
+
 Saver::Saver(std::function<void()> wake)
     : worker_(
           [](const Job& job, Interrupter& interrupter, const auto&) {
@@ -90,8 +98,7 @@ void Saver::save(const Source& source, const std::string& verb, const fs::path& 
 {
     if (isBusy_) throw InputError(path.string() + ": another file is still being written");
     fs::path file = path;
-    const bool isSequence = verb == "save-posed-cages" || verb == "save-posed-models";
-    if (isSequence && !tool::isPattern(path)) file.replace_extension(".%04d" + path.extension().string());
+    if (isSequence(verb)) file = tool::patternFor(path);
     Write write = writerOf(source, verb, file);
     isBusy_ = true;
     worker_.start({file.filename().string(), std::move(write)});

@@ -46,6 +46,9 @@ private:
     bool isBusy_ = false;
 };
 
+/// Whether the verb writes a file for each frame; its path gets a place for their numbers (see tool::patternFor).
+bool isSequence(const std::string& verb);
+
 /// The cage of the options that are set now, or that was opened. \throw InputError naming the verb: it is not there yet
 const CageResult& currentCage(const Planner& planner, const std::string& verb);
 

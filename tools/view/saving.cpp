@@ -26,17 +26,19 @@ void saveText(const std::string& text, const fs::path& path)
     writeFileAtomically(path, [&](std::ostream& out) { out << text; });
 }
 
+using Points = std::vector<openvdb::Vec3d>;
+
 /// Writes a file a frame; all appear or none.
 template <class Write>
-void saveFrames(const PosedScene& scene, const fs::path& path, Interrupter* interrupter, const Write& write)
+void saveFrames(PosedScene& scene, const fs::path& path, Interrupter* interrupter, const Write& write)
 {
     const Stage stage(interrupter, "write");
     PendingFiles files;
-    for (std::size_t i = 0; i < scene.frames.size(); ++i) {
-        throwIfInterrupted(interrupter, static_cast<int>(100 * i / scene.frames.size()));
-        const PosedScene::Frame& frame = scene.frames[i];
-        const fs::path file = tool::framePath(path, frame.number);
-        files.add(file, [&](std::ostream& out) { write(frame, out, file); });
+    for (int frame = scene.first; frame <= scene.last; ++frame) {
+        throwIfInterrupted(interrupter, 100 * (frame - scene.first) / (scene.last - scene.first + 1));
+        const std::vector<openvdb::Vec3d> points = pointsAt(scene.poses, frame, scene.carried);
+        const fs::path file = tool::framePath(path, frame);
+        files.add(file, [&](std::ostream& out) { write(points, out, file); });
     }
     files.commit();
 }
@@ -79,11 +81,11 @@ void saveStages(const CageResult& result, const fs::path& folder)
     }
 }
 
-void savePosedCages(const PosedScene& scene, const fs::path& path, Interrupter* interrupter)
+void savePosedCages(PosedScene scene, const fs::path& path, Interrupter* interrupter)
 {
     Mesh posed = *scene.order.cage;
-    saveFrames(scene, path, interrupter, [&](const PosedScene::Frame& frame, std::ostream& out, const fs::path& file) {
-        posed.points = frame.cagePoints;
+    saveFrames(scene, path, interrupter, [&](const Points& points, std::ostream& out, const fs::path& file) {
+        posed.points = points;
         writeMesh(posed, out, file);
     });
 }
@@ -92,8 +94,8 @@ void savePosedModels(PosedScene scene, const fs::path& path, Interrupter* interr
 {
     detail::requireMeshExtension(path);
     if (!scene.binding) scene.binding = bindingOf(scene.order, interrupter);
-    saveFrames(scene, path, interrupter, [&](const PosedScene::Frame& frame, std::ostream& out, const fs::path& file) {
-        writeMoved(scene.order.model->path, scene.binding->pose(frame.cagePoints), out, file);
+    saveFrames(scene, path, interrupter, [&](const Points& points, std::ostream& out, const fs::path& file) {
+        writeMoved(scene.order.model->path, scene.binding->pose(points), out, file);
     });
 }
 

@@ -7,6 +7,7 @@
 #include <tools/draw/picture.h>
 #include <tools/view/state/bound_model.h>
 #include <tools/view/state/cage_result.h>
+#include <tools/view/state/time_line.h>
 #include <vdbcage/deform/binding.h>
 
 /// What the window writes beside cages and scenes, as the command `make` does. Each file appears whole or not at all.
@@ -23,14 +24,12 @@ void saveStages(const CageResult& result, const std::filesystem::path& folder);
 struct PosedScene {
     BindOrder order;
     std::shared_ptr<const Binding> binding; ///< null: it is computed when it is needed
-    struct Frame {
-        int number = 0;
-        std::vector<openvdb::Vec3d> cagePoints;
-    };
-    std::vector<Frame> frames; ///< one at least
+    TimeLine poses;
+    CarriedPoses carried;    ///< for the cage of `order`
+    int first = 0, last = 0; ///< frames
 };
 /// The posed cages. \throw InputError, IoError, Cancelled
-void savePosedCages(const PosedScene& scene, const std::filesystem::path& path, Interrupter* interrupter);
+void savePosedCages(PosedScene scene, const std::filesystem::path& path, Interrupter* interrupter);
 /// The posed models, as the command deform. `path` has a place for the number of the frame, as %04d, if there are more
 /// than one. All files appear or none. \throw InputError, IoError, Cancelled
 void savePosedModels(PosedScene scene, const std::filesystem::path& path, Interrupter* interrupter);

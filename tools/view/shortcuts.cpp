@@ -27,7 +27,7 @@ const std::vector<Row>& rows()
         {"", "redo", "does it again", "shift+z"},
         {"alt+z", "undo-view", "takes back the last change of the view", "left-bracket"},
         {"shift+alt+z", "redo-view", "does it again", "right-bracket"},
-        {"escape", "cancel", "closes a message, or stops the making of a cage"},
+        {"escape", "cancel", "closes a message, or stops what is written, made or bound"},
         {"control+enter", "make", "makes the cage that was cancelled"},
         {"page-up", "more", "a twentieth more faces"},
         {"page-down", "fewer", "a twentieth fewer faces"},

@@ -57,7 +57,9 @@ Command toggled(const State& state, const std::optional<SymmetryPlane>& made, co
     if (what == "axes") return ShowAxes{!view.axes};
     if (what == "turntable") return SetTurntable{!view.turntable};
     if (what == "see-through") return SetSeeThrough{!view.seeThrough};
-    if (what == "play") return Play{!view.isPlaying};
+    // What cannot play now would begin by itself later.
+    const bool canPlay = view.mode == Mode::pose && state.document.poses.keys().size() > 1;
+    if (what == "play") return Play{!view.isPlaying && canPlay};
     if (what == "mode") return SetMode{view.mode == Mode::pose ? Mode::shape : Mode::pose};
     for (int axis = 0; axis < 3; ++axis) {
         if (what == std::string("mirror-") + "xyz"[axis]) return toggledMirror(state, made, axis);

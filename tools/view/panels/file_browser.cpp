@@ -5,7 +5,9 @@
 #include <cstdio>
 #include <system_error>
 
+#include <tools/report/frames.h>
 #include <tools/view/panels/parts.h>
+#include <tools/view/saver.h>
 #include <tools/view/state/words.h>
 #include <vdbcage/core/error.h>
 
@@ -110,9 +112,12 @@ void choose(const PanelContext& context, FileBrowser& browser, bool isConfirmed)
         browser.name.clear();
         return;
     }
-    if (browser.saves && !isConfirmed && fs::exists(path, error)) {
+    const bool isThere =
+        isSequence(browser.verb) ? tool::countFrames(tool::patternFor(path)) > 0 : fs::exists(path, error);
+    if (browser.saves && !isConfirmed && isThere) {
         browser.question =
             path.filename().string() + (browser.extensions.empty() ? " is there already. Write the stages into it?"
+                                        : isSequence(browser.verb) ? ": some frames are there already. Write over them?"
                                                                    : " is there already. Write over it?");
         return;
     }

@@ -66,7 +66,7 @@ void buildMenu(const PanelContext& context)
         item(context, "Save every posed cage...", "browse save-posed-cages", hasPoses);
         item(context, "Save every posed model...", "browse save-posed-models", hasPoses);
         item(context, "Save colours of the model...", "browse save-colours", hasCage);
-        item(context, "Save weights...", "browse save-weights", hasCage);
+        item(context, "Save weights...", "browse save-weights", hasCage && document.coordinates != Coordinates::given);
         item(context, "Save scene...", "browse save-scene", hasModel);
         item(context, "Save stages...", "browse save-stages", hasCage);
         item(context, "Save report...", "browse save-report", hasCage);

@@ -51,7 +51,8 @@ struct PanelContent {
     KeyMap keys{};                            ///< whose shortcuts these are
     std::optional<SelectionFrame> selected{}; ///< its axes are not used; none: nothing of the cage is
     bool isPosed = false;                     ///< the cage is not at rest
-    PoseCheckPtr poseCheck = {};              ///< null: the pose is not checked yet
+    bool isPoseChecked = false;               ///< just now
+    PoseCheckPtr poseCheck = {};              ///< null: the pose is not checked, or not yet
     std::optional<WorkProgress> saving = {};  ///< none: nothing is being written
     bool hasModelChanged = false;             ///< on disk
     bool asksToQuit = false;                  ///< there is unsaved work

@@ -33,7 +33,9 @@ void buildOptions(const PanelContext& context, std::map<std::string, std::string
 void buildResult(const PanelContext& context);
 /// What is remembered of the time line.
 struct TimeLineMemory {
+    std::optional<int> last;       ///< the last frame of the track while it is held
     std::optional<int> draggedKey; ///< the frame of a key that is being moved
+    float besideKey = 0;           ///< how far to its right the pointer took it, pixels
 };
 /// Below the picture, in mode pose: playing, the key at this frame, and a track of frames and keys.
 void buildTimeLine(const PanelContext& context, TimeLineMemory& memory);

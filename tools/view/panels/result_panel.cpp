@@ -63,7 +63,7 @@ void buildBinding(const PanelContext& context)
     if (context.content.session.state().view.mode != Mode::pose) return;
     const PanelContent& content = context.content;
     if (!content.bindingError.empty()) {
-        coloured(theme::bad, "not bound");
+        coloured(theme::bad, "the pose is not followed");
         help(content.bindingError);
         return ImGui::SameLine(0, length(18));
     }
@@ -82,7 +82,7 @@ void buildPose(const PanelContext& context)
     if (!content.isPosed) return;
     const PoseCheckPtr& check = content.poseCheck;
     row("Pose", [&] {
-        if (!check) return muted("is being checked");
+        if (!check) return muted(content.isPoseChecked ? "is being checked" : "is not checked now");
         if (check->isValid) return coloured(theme::good, "the posed cage is valid");
         coloured(theme::bad, check->selfIntersections > 0
                                  ? std::to_string(check->selfIntersections) + " self-intersections of the posed cage"

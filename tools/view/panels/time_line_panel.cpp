@@ -29,12 +29,12 @@ struct Track {
     /// Frames between two numbers that are written: 1, 2 or 5 times a power of ten, so that they do not touch.
     int step() const
     {
-        int power = 1;
-        for (;; power *= 10) {
+        for (int power = 1; power <= lastFrame; power *= 10) {
             for (const int step : {power, 2 * power, 5 * power}) {
                 if (placeOf(step) - left >= length(44)) return step;
             }
         }
+        return lastFrame;
     }
 };
 
@@ -46,18 +46,18 @@ void buildControls(const PanelContext& context)
     const auto arrow = [&](const char* id, ImGuiDir direction, const char* line, const char* text) {
         if (ImGui::ArrowButton(id, direction)) context.ask(line);
         context.name(line);
-        help(text);
+        help(context.withKey(text, line));
         ImGui::SameLine(0, length(2));
     };
     const bool canPlay = poses.keys().size() > 1;
-    arrow("##previous", ImGuiDir_Left, "previous-key", "the key before (Down)");
-    ImGui::BeginDisabled(!canPlay);
+    arrow("##previous", ImGuiDir_Left, "previous-key", "the key before");
+    ImGui::BeginDisabled(!canPlay && !view.isPlaying);
     if (ImGui::Button(view.isPlaying ? "Stop" : "Play", {length(52), 0})) context.ask("toggle play");
     ImGui::EndDisabled();
     context.name("play");
-    help("shows the frames from the first key to the last, again and again (Space)");
+    help(context.withKey("shows the frames from the first key to the last, again and again", "toggle play"));
     ImGui::SameLine(0, length(2));
-    arrow("##next", ImGuiDir_Right, "next-key", "the next key (Up)");
+    arrow("##next", ImGuiDir_Right, "next-key", "the next key");
     ImGui::SameLine(0, length(12));
     ImGui::AlignTextToFramePadding();
     muted("Frame");
@@ -68,7 +68,7 @@ void buildControls(const PanelContext& context)
         context.ask("time " + std::to_string(frame));
     }
     context.name("time");
-    help("whose pose is seen and changed (Left and Right)");
+    help("whose pose is seen and changed");
     ImGui::SameLine(0, length(12));
     muted("Rate");
     ImGui::SameLine(0, length(6));
@@ -98,8 +98,9 @@ void buildControls(const PanelContext& context)
         context.ask(key ? "remove-key" : "insert-key");
     }
     context.name("key");
-    help(key ? "takes the pose at this frame off the time line (Shift+I)"
-             : "keeps the pose that is seen at this frame (I); whatever is moved is kept by itself");
+    help(key ? context.withKey("takes the pose at this frame off the time line", "remove-key")
+             : context.withKey("keeps the pose that is seen at this frame", "insert-key") +
+                   "; whatever is moved is kept by itself");
     ImGui::EndDisabled();
 }
 
@@ -121,7 +122,8 @@ void drawTrack(const State& state, const Track& track, const ImVec2& low, const 
         list.AddRectFilled({track.placeOf(poses.firstFrame()), keyLine - length(2)},
                            {track.placeOf(poses.finalFrame()), keyLine + length(2)}, packed(theme::selected));
     }
-    for (int frame = 0; frame <= track.last; frame += track.step()) {
+    const int step = track.step();
+    for (int frame = 0; frame <= track.last; frame += step) {
         const float x = std::round(track.placeOf(frame));
         list.AddLine({x, low.y + length(2)}, {x, high.y - length(2)}, packed(theme::line));
         list.AddText({x + length(3), low.y}, packed(theme::mutedText), std::to_string(frame).c_str());
@@ -134,6 +136,20 @@ void drawTrack(const State& state, const Track& track, const ImVec2& low, const 
     }
 }
 
+/// The frame of the key that is hit at `x`; none if there is none.
+std::optional<int> nearestKey(const TimeLine& poses, const Track& track, float x)
+{
+    std::optional<int> nearest;
+    float distance = length(6);
+    for (const PoseKey& key : poses.keys()) {
+        const float there = std::abs(track.placeOf(key.frame) - x);
+        if (there > distance) continue;
+        distance = there;
+        nearest = key.frame;
+    }
+    return nearest;
+}
+
 void buildTrack(const PanelContext& context, TimeLineMemory& memory)
 {
     const State& state = context.content.session.state();
@@ -141,23 +157,26 @@ void buildTrack(const PanelContext& context, TimeLineMemory& memory)
     const ImVec2 low = ImGui::GetCursorScreenPos();
     const ImVec2 size{ImGui::GetContentRegionAvail().x, length(32)};
     const ImVec2 high{low.x + size.x, low.y + size.y};
+    if (size.x < length(60)) return;
     Track track;
     track.left = low.x + length(10);
     track.right = high.x - length(26);
-    track.last = std::max({leastFrames, poses.finalFrame(), state.view.frame});
     ImGui::InvisibleButton("##track", size);
     context.name("time-line");
     context.followDrag();
+    // While it is held it keeps its length, which follows the frame otherwise.
+    if (!ImGui::IsItemActive() && !ImGui::IsItemDeactivated()) memory = {};
+    track.last = memory.last.value_or(std::max({leastFrames, poses.finalFrame(), state.view.frame}));
     const ImVec2 pointer = ImGui::GetIO().MousePos;
-    const int frame = track.frameAt(pointer.x);
-    if (ImGui::IsItemActivated() && pointer.y > high.y - length(18)) {
-        for (const PoseKey& key : poses.keys()) {
-            if (std::abs(track.placeOf(key.frame) - pointer.x) <= length(6)) memory.draggedKey = key.frame;
-        }
+    if (ImGui::IsItemActivated()) {
+        memory.last = track.last;
+        if (pointer.y > high.y - length(18)) memory.draggedKey = nearestKey(poses, track, pointer.x);
+        if (memory.draggedKey) memory.besideKey = pointer.x - track.placeOf(*memory.draggedKey);
     }
+    const int frame = track.frameAt(pointer.x - memory.besideKey);
     if (memory.draggedKey) {
         if (ImGui::IsItemDeactivated()) {
-            const int from = *std::exchange(memory.draggedKey, std::nullopt);
+            const int from = *memory.draggedKey;
             if (frame != from) context.ask("move-key " + std::to_string(from) + ' ' + std::to_string(frame));
             if (frame != state.view.frame) context.ask("time " + std::to_string(frame));
         }

@@ -34,6 +34,8 @@ public:
     const std::shared_ptr<const std::vector<double>>& values() const { return values_; }
     /// The verdict on the pose; null: it is at rest, or not checked yet.
     const PoseCheckPtr& check() const { return checker_.result(); }
+    /// The pose is being checked.
+    bool isChecking() const { return !checker_.isSettled(); }
     /// The whole binding of a state's model to its cage; null: it is not there yet.
     std::shared_ptr<const Binding> bindingOf(const State& state) const;
 

@@ -235,6 +235,9 @@ std::optional<SelectionFrame> selectionFrame(const State& state, const std::arra
 {
     const std::vector<Index32> selected = selectedPoints(state);
     if (selected.empty()) return std::nullopt;
+    // It is asked for at each event: carrying over is for those who can wait.
+    const bool isPosed = state.view.mode == Mode::pose;
+    if (isPosed && state.carried && !areCarried(state.document.poses, *state.carried)) return std::nullopt;
     const std::vector<Vec3d> points = cagePoints(state);
     SelectionFrame frame;
     for (const Index32 i : selected) frame.mean += points[i] / static_cast<double>(selected.size());

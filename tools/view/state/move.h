@@ -33,7 +33,8 @@ struct SelectionFrame {
     std::size_t count = 0;                ///< of the selected points
     std::array<openvdb::Vec3d, 3> axes{}; ///< orthonormal, right-handed
 };
-/// By the view's orientation and pivot; `view`: right, up and to the viewer. None: there is nothing to move.
+/// By the view's orientation and pivot; `view`: right, up and to the viewer. None: there is nothing to move, or poses
+/// are still to be carried over to the cage.
 std::optional<SelectionFrame> selectionFrame(const State& state, const std::array<openvdb::Vec3d, 3>& view);
 
 /// Moves what is selected, and with it what soft selection and the mirror add. In mode pose the pose changes, else the

@@ -39,7 +39,9 @@ void CarriedPoses::carry(const std::vector<PosePtr>& poses, Interrupter* interru
 void CarriedPoses::giveUp(const std::vector<PosePtr>& poses)
 {
     for (const PosePtr& pose : poses) {
-        if (!has(pose)) carried_[pose] = cage_->points;
+        if (has(pose)) continue;
+        carried_[pose] = cage_->points;
+        givenUp_.insert(pose);
     }
 }
 

@@ -2,6 +2,7 @@
 
 #include <map>
 #include <memory>
+#include <set>
 #include <vector>
 
 #include <tools/view/state/bound_model.h>
@@ -39,6 +40,7 @@ public:
 
     /// Poses that cannot be carried over: they are at rest here.
     void giveUp(const std::vector<PosePtr>& poses);
+    bool isGivenUp(const PosePtr& pose) const { return givenUp_.count(pose) > 0; }
 
     /// Where the cage's points are; null: at rest. Stays valid as long as this object and the pose.
     /// \throw InputError as carry()
@@ -47,6 +49,7 @@ public:
 private:
     MeshPtr cage_; ///< not null
     std::map<PosePtr, std::vector<openvdb::Vec3d>> carried_;
+    std::set<PosePtr> givenUp_;
 };
 
 } // namespace vdbcage::view

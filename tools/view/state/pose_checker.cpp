@@ -30,7 +30,7 @@ public:
         result.selfIntersections = check.selfIntersections;
         if (order.binding) {
             if (bound_ != order.binding) {
-                inversions_.reset();
+                bound_.reset(); // it may be interrupted
                 inversions_.emplace(*order.binding, model, &interrupter);
                 bound_ = order.binding;
             }

@@ -134,8 +134,12 @@ fs::path patternOf(const fs::path& path)
     const std::size_t before = stem.find_last_not_of("0123456789", last);
     const std::size_t first = before == std::string::npos ? 0 : before + 1;
     const std::size_t digits = last - first + 1;
-    return path.parent_path() / (name.substr(0, first) + '%' + (digits > 1 ? "0" + std::to_string(digits) : "") + 'd' +
-                                 name.substr(last + 1));
+    const auto with = [&](const std::string& place) {
+        return path.parent_path() / (name.substr(0, first) + place + name.substr(last + 1));
+    };
+    const fs::path plain = with("%d"), padded = with("%0" + std::to_string(digits) + 'd');
+    if (digits == 1) return plain;
+    return name[first] == '0' || tool::countFrames(plain) <= tool::countFrames(padded) ? padded : plain;
 }
 
 } // namespace vdbcage::view

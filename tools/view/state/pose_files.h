@@ -23,8 +23,8 @@ Document withOpenedPose(const State& state, const std::filesystem::path& path);
 /// \throw InputError, IoError naming the file, the value and what is allowed
 Document withOpenedPoses(const State& state, const std::filesystem::path& path, int frames);
 
-/// The pattern of which `path` is a file: its last number becomes %0Nd, of as many digits. The path itself if it is a
-/// pattern, or its name has no number.
+/// The pattern of which `path` is a file: its last number becomes %0Nd, of as many digits, if it begins with 0, and
+/// else that or %d, of which there are more files. The path itself if it is a pattern, or its name has no number.
 std::filesystem::path patternOf(const std::filesystem::path& path);
 
 } // namespace vdbcage::view

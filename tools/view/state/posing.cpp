@@ -14,7 +14,7 @@ CageResultPtr Posing::cageOf(const State& state, const Planner& planner)
     if (!wanted) {
         carried_.reset();
     } else if (state.view.mode == Mode::pose) {
-        if (wanted == shown_ && isCarried(poses)) return shown_;
+        if (wanted == shown_ && areCarried(poses, *carried_)) return shown_;
         auto carried = carrier_.carried(MeshPtr(wanted, &wanted->cage), poses);
         if (!carried) return shown_;
         carried_ = std::move(carried);
@@ -23,12 +23,6 @@ CageResultPtr Posing::cageOf(const State& state, const Planner& planner)
     }
     shown_ = wanted;
     return shown_;
-}
-
-bool Posing::isCarried(const TimeLine& poses) const
-{
-    return std::all_of(poses.keys().begin(), poses.keys().end(),
-                       [&](const PoseKey& key) { return carried_->has(key.pose); });
 }
 
 CageResultPtr Posing::wantedCage(const Document& document, const Planner& planner)
@@ -49,7 +43,7 @@ void Posing::follow(const State& state, const Planner& planner, bool standsStill
     const Document& document = state.document;
     Follower::Effort effort;
     effort.isPosing = state.view.mode == Mode::pose && document.model && state.cage;
-    if (effort.isPosing && !isCarried(document.poses)) return;
+    if (effort.isPosing && !areCarried(document.poses, *carried_)) return;
     // A preview's cage is gone in a moment.
     effort.isToStay = planner.standing() == Planner::Standing::current || planner.isHalted();
     effort.standsStill = standsStill;
@@ -109,7 +103,8 @@ void Posing::cancel()
 
 const std::string& Posing::error() const
 {
-    if (!carrier_.error().empty()) return carrier_.error();
+    const auto isGivenUp = [&](const PoseKey& key) { return carried_ && carried_->isGivenUp(key.pose); };
+    if (std::any_of(poses_.keys().begin(), poses_.keys().end(), isGivenUp)) return carrier_.error();
     return compared_ && follower_.error().empty() ? compared_->error() : follower_.error();
 }
 

@@ -51,7 +51,6 @@ public:
     const std::string& error() const;
 
 private:
-    bool isCarried(const TimeLine& poses) const;
     CageResultPtr wantedCage(const Document& document, const Planner& planner);
 
     Binder::Work work_;

@@ -205,11 +205,17 @@ State openScene(const fs::path& given)
         }
         state.document.model = openMesh(sameFile(scene.at("model"), path));
         if (!scene.at("opened_cage").is_null()) state.document.cage = openMesh(sameFile(scene.at("opened_cage"), path));
-        // Scenes of before there were poses have none of these.
+        // Scenes of before have none of these.
         if (scene.contains("edited_cage") && !scene["edited_cage"].is_null()) {
             state.document.cage = editedCage(path.parent_path() / scene["edited_cage"].get<std::string>());
         }
-        if (scene.contains("poses")) state.document.poses = PoseReader(path.parent_path()).read(scene["poses"]);
+        PoseReader poses(path.parent_path());
+        if (scene.contains("poses")) state.document.poses = poses.read(scene["poses"]);
+        if (scene.contains("pose") && !scene["pose"].is_null()) { // there was one alone
+            const Json& one = scene["pose"];
+            state.document.poses = poses.read(
+                Json::array({Json{{"frame", 0}, {"name", ""}, {"rest", one.at("rest")}, {"posed", one.at("posed")}}}));
+        }
         if (scene.contains("weights") && !scene["weights"].is_null()) {
             state.document.weights = openWeights(sameFile(scene["weights"], path));
             state.document.coordinates = Coordinates::given;

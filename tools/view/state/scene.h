@@ -7,8 +7,7 @@
 
 /// Scenes: all that one works on in one JSON file. It has the options, the view as commands, and names the files of the
 /// model and the cage, with digests. A cage that was made or edited lies beside it, as NAME.cage.obj. Poses lie there
-/// as NAME.pose.FRAME.obj, which is a sequence for `vdbcage deform`, and the cages at rest that they belong to as
-/// NAME.rest.obj, NAME.rest.1.obj and so on.
+/// as NAME.pose.FRAME.obj, and the cages at rest that they belong to as NAME.rest.obj, NAME.rest.1.obj and so on.
 namespace vdbcage::view {
 
 /// Writes the state, and the cage that was made for it; `current` is null if there is none. All files appear together

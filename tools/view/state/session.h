@@ -75,6 +75,9 @@ public:
     /// Ends the drag; the document is as if it had not been.
     void cancelDrag();
     bool isDragging() const { return isDragging_; }
+    /// Whether the last drag made a step, or goes on with one.
+    bool hasDraggedDocument() const { return hasDraggedDocument_; }
+    bool hasDraggedView() const { return hasDraggedView_; }
     /// The state at the last beginDrag().
     const State& dragged() const { return dragged_; }
 

@@ -64,6 +64,12 @@ bool operator==(const TimeLine& a, const TimeLine& b)
                       });
 }
 
+bool areCarried(const TimeLine& timeLine, const CarriedPoses& poses)
+{
+    return std::all_of(timeLine.keys().begin(), timeLine.keys().end(),
+                       [&](const PoseKey& key) { return poses.has(key.pose); });
+}
+
 std::vector<openvdb::Vec3d> pointsAt(const TimeLine& timeLine, int frame, CarriedPoses& poses)
 {
     const TimeLine::Between between = timeLine.at(frame);

@@ -51,6 +51,9 @@ private:
     std::shared_ptr<const std::vector<PoseKey>> keys_; // null: none
 };
 
+/// Whether pointsAt() has nothing to carry over, at any frame. Cost: O(keys).
+bool areCarried(const TimeLine& timeLine, const CarriedPoses& poses);
+
 /// The cage's points at a frame. \pre `poses` are for the cage
 /// Cost: O(points), and once for each pose that was made for another cage as CarriedPoses::points.
 std::vector<openvdb::Vec3d> pointsAt(const TimeLine& timeLine, int frame, CarriedPoses& poses);
