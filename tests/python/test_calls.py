@@ -2,6 +2,7 @@
 
 import os
 import signal
+import subprocess
 import sys
 import threading
 import time
@@ -155,3 +156,27 @@ class CallsTest(Case):
                 make_cage(self.model, progress=stop, **LONG)
         self.assertLess(threads(), before + rounds)
         self.assertEqual((sys.getrefcount(stop), sys.getrefcount(self.model)), references)
+
+    def test_python_ends_while_daemon_threads_work(self):
+        begin = """
+import os, sys, threading, vdbcage
+model = vdbcage.Mesh.read(sys.argv[1])
+begun = threading.Event()
+def work():
+    vdbcage.make_cage(model, faces=1000, effort="best", progress=lambda stage, percent: begun.set())
+for _ in range(3):
+    threading.Thread(target=work, daemon=True).start()
+begun.wait()
+"""
+        fork = """
+import atexit
+child = os.fork()
+if child:
+    assert os.waitpid(child, 0)[1] == 0
+else:
+    atexit._run_exitfuncs()
+    os._exit(0)  # with exit() log4cplus, which is OpenVDB's, waits for a thread that is not there
+"""
+        for program in (begin, begin + fork):
+            for _ in range(3):
+                subprocess.run([sys.executable, "-c", program, CREATURE], check=True, stderr=subprocess.DEVNULL)

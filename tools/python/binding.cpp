@@ -44,21 +44,13 @@ void defineBinding(py::module_& module)
         .def("pose",
              [](const Binding& binding, const py::array& cagePoints) {
                  const Points cage = toRows<openvdb::Vec3d>(cagePoints);
-                 Points posed;
-                 {
-                     const py::gil_scoped_release release;
-                     posed = binding.pose(cage);
-                 }
-                 return toArray(std::move(posed));
+                 return toArray(resultOfJob(py::none(), [&](Interrupter*) { return binding.pose(cage); }));
              })
         .def("update",
              [](const Binding& binding, const py::array& posed, const py::array& before, const py::array& after) {
                  Points points = toRows<openvdb::Vec3d>(posed);
                  const Points from = toRows<openvdb::Vec3d>(before), to = toRows<openvdb::Vec3d>(after);
-                 {
-                     const py::gil_scoped_release release;
-                     binding.update(points, from, to);
-                 }
+                 runJob(py::none(), [&](Interrupter*) { binding.update(points, from, to); });
                  return toArray(std::move(points));
              })
         .def("weights",
@@ -80,8 +72,9 @@ void defineBinding(py::module_& module)
 
     module.def("read_binding", [](const std::string& path, const MeshPtr& cage, const py::array& points) {
         Points rows = toRows<openvdb::Vec3d>(points);
-        const py::gil_scoped_release release;
-        return std::make_shared<Binding>(readWeights(path, *cage, std::move(rows)));
+        return resultOfJob(py::none(), [&](Interrupter*) {
+            return std::make_shared<Binding>(readWeights(path, *cage, std::move(rows)));
+        });
     });
 }
 

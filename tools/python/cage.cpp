@@ -161,8 +161,7 @@ void defineCage(py::module_& module)
     });
     py::class_<SharedPipeline>(module, "Pipeline", py::module_local())
         .def(py::init([](const MeshPtr& model) {
-            const py::gil_scoped_release release;
-            return std::make_unique<SharedPipeline>(*model);
+            return resultOfJob(py::none(), [&](Interrupter*) { return std::make_unique<SharedPipeline>(*model); });
         }))
         .def("run", &SharedPipeline::run)
         .def("mesh", stageOf);

@@ -3,6 +3,7 @@
 #include <vdbcage/mesh/mesh_io.h>
 
 #include "arrays.h"
+#include "job.h"
 #include "module.h"
 
 namespace py = pybind11;
@@ -24,12 +25,10 @@ void defineMesh(py::module_& module)
                                [](const py::object& self) { return readOnly(self.cast<const Mesh&>().quads, self); });
 
     module.def("read_mesh", [](const std::string& path) {
-        const py::gil_scoped_release release;
-        return std::make_shared<Mesh>(readMesh(path));
+        return resultOfJob(py::none(), [&](Interrupter*) { return std::make_shared<Mesh>(readMesh(path)); });
     });
     module.def("write_mesh", [](const Mesh& mesh, const std::string& path) {
-        const py::gil_scoped_release release;
-        writeMesh(mesh, std::filesystem::path(path));
+        runJob(py::none(), [&](Interrupter*) { writeMesh(mesh, std::filesystem::path(path)); });
     });
 }
 

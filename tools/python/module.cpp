@@ -1,5 +1,7 @@
 #include "module.h"
 
+#include "job.h"
+
 #include <exception>
 
 #include <vdbcage/core/error.h>
@@ -45,6 +47,7 @@ PYBIND11_MODULE(_vdbcage, module)
     using namespace vdbcage::python;
     py::register_exception_translator(translate);
     module.attr("version") = VDBCAGE_VERSION;
+    defineJobs(module);
     defineMesh(module);
     defineCage(module);
     defineBinding(module);
