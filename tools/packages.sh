@@ -15,7 +15,8 @@ test_packages=(
     clang-format   # formatting is a test
     tetgen # fills cages, to see that others can use them
     xvfb xauth # a display for the window
-    python3-mypy # its stubtest holds the stubs to the Python module
+    python3-mypy    # its stubtest holds the stubs to the Python module
+    python3-openvdb # files and arrays go between it and the Python module
 )
 
 # install_packages NAME...: by apt-get, as root or through sudo; silent and quick when nothing is missing.

@@ -1,6 +1,7 @@
 #include <atomic>
 #include <chrono>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -121,6 +122,11 @@ public:
         const Use use(*this);
         return hasRun_ ? std::make_shared<Mesh>((pipeline_.*stage)()) : nullptr;
     }
+    std::optional<VolumeMask> mask(openvdb::MaskGrid::ConstPtr (Pipeline::*stage)() const)
+    {
+        const Use use(*this);
+        return hasRun_ ? std::optional(VolumeMask{(pipeline_.*stage)()}) : std::nullopt;
+    }
 
 private:
     /// Holds the pipeline for one call. Waiting for it could go on forever: a call in `progress` would wait for itself.
@@ -150,6 +156,11 @@ MeshPtr stageOf(SharedPipeline& pipeline, const std::string& name)
                                               : &Pipeline::decimated);
 }
 
+std::optional<VolumeMask> maskOf(SharedPipeline& pipeline, const std::string& name)
+{
+    return pipeline.mask(name == "solid" ? &Pipeline::solid : &Pipeline::closed);
+}
+
 } // namespace
 
 void defineCage(py::module_& module)
@@ -164,7 +175,8 @@ void defineCage(py::module_& module)
             return resultOfJob(py::none(), [&](Interrupter*) { return std::make_unique<SharedPipeline>(*model); });
         }))
         .def("run", &SharedPipeline::run)
-        .def("mesh", stageOf);
+        .def("mesh", stageOf)
+        .def("mask", maskOf);
     module.def("check_cage", [](const MeshPtr& cage, const MeshPtr& model, bool asFloats, bool measure,
                                 std::size_t samples, const py::object& progress) {
         return toDict(resultOfJob(progress, [&](Interrupter* interrupter) {

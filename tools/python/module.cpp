@@ -51,4 +51,5 @@ PYBIND11_MODULE(_vdbcage, module)
     defineMesh(module);
     defineCage(module);
     defineBinding(module);
+    defineVolume(module);
 }

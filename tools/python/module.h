@@ -4,6 +4,7 @@
 #include <memory>
 #include <string>
 
+#include <openvdb/openvdb.h>
 #include <pybind11/pybind11.h>
 #include <vdbcage/mesh/mesh.h>
 
@@ -14,8 +15,14 @@ namespace vdbcage::python {
 /// Meshes are never changed once Python has them, so that arrays can look into them and threads can share them.
 using MeshPtr = std::shared_ptr<Mesh>;
 
+/// A mask is never changed either.
+struct VolumeMask {
+    openvdb::MaskGrid::ConstPtr grid;
+};
+
 void defineMesh(pybind11::module_& module);
 void defineCage(pybind11::module_& module);
 void defineBinding(pybind11::module_& module);
+void defineVolume(pybind11::module_& module);
 
 } // namespace vdbcage::python

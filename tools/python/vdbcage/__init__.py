@@ -13,6 +13,7 @@ the caller, with the name of the stage (str) and its percentage (int, 0 where it
 the work ends with Cancelled; what it raises ends the work too, and so does Ctrl-C. Several threads may work at once.
 """
 
+import contextlib
 import dataclasses
 import difflib
 import numbers
@@ -22,8 +23,8 @@ import re
 
 import numpy
 
-__all__ = ["Binding", "Cage", "CageCheck", "Cancelled", "DeviceError", "Error", "InputError", "IoError", "Mesh",
-           "Pipeline", "check_cage", "make_cage"]
+__all__ = ["Binding", "Cage", "CageCheck", "Cancelled", "DeviceError", "Error", "InputError", "IoError", "Mask", "Mesh",
+           "Pipeline", "check_cage", "close_mask", "make_cage", "read_vdb", "voxelize", "write_vdb"]
 
 
 class Error(Exception):
@@ -104,6 +105,47 @@ def _path(value):
     return path
 
 
+def _number(name, value, least, most):
+    """A float within these bounds."""
+    if isinstance(value, numbers.Real) and not isinstance(value, (bool, numpy.bool_)) and least <= value <= most:
+        return float(value)
+    raise InputError(f"{name}: {value!r} is not allowed; it must be a number, {least:g} to {most:g}")
+
+
+def _whole(name, value, least, most):
+    """An int within these bounds."""
+    if isinstance(value, numbers.Integral) and not isinstance(value, bool) and least <= value <= most:
+        return operator.index(value)
+    raise InputError(f"{name}: {value!r} is not allowed; it must be a whole number, {least} to {most}")
+
+
+def _rows(name, value, shape, kinds, content):
+    """A small array of this shape and finite entries."""
+    try:
+        array = numpy.asarray(value)
+    except (TypeError, ValueError) as error:
+        raise InputError(f"{name}: {error}") from None
+    if array.shape != shape or array.dtype.kind not in kinds or not numpy.isfinite(array).all():
+        raise InputError(f"{name}: {value!r} is not allowed; it must be {content}")
+    return array
+
+
+def _voxels(name, value):
+    """Indices of voxels as an array of shape (n, 3)."""
+    array = _array(name, value, 3, "iu", "whole numbers")
+    outside = (array < -2**30) | (array >= 2**30)
+    if outside.any():
+        row, column = numpy.argwhere(outside)[0]
+        raise InputError(f"{name}: row {row} has the index {array[row, column]}; it must be -2**30 to 2**30 - 1")
+    return array
+
+
+def _mask(name, value):
+    if not isinstance(value, Mask):
+        raise InputError(f"{name}: a {type(value).__name__} is not allowed; it must be a vdbcage.Mask")
+    return value._mask
+
+
 def _mesh(name, value):
     if not isinstance(value, Mesh):
         raise InputError(f"{name}: a {type(value).__name__} is not allowed; it must be a vdbcage.Mesh")
@@ -144,10 +186,15 @@ def _option_texts(options):
     return texts
 
 
-def _in_python(text):
-    """A message with the names that options have here: close_radius for --close-radius."""
-    names = "|".join(name for name, allowed in _vdbcage.options())
-    return re.sub(rf"(^| )--({names})(?=:| |$)", lambda found: found[1] + found[2].replace("-", "_"), text)
+@contextlib.contextmanager
+def _names_of_python():
+    """Messages get the names that options have here: close_radius for --close-radius."""
+    try:
+        yield
+    except InputError as error:
+        names = "|".join(name for name, allowed in _vdbcage.options())
+        text = re.sub(rf"(^| )--({names})(?=:| |$)", lambda found: found[1] + found[2].replace("-", "_"), str(error))
+        raise InputError(text) from None
 
 
 class Mesh:
@@ -299,10 +346,8 @@ def make_cage(model, /, *, progress=None, **options):
 
 
 def _run(pipeline, texts, progress):
-    try:
+    with _names_of_python():
         mesh, check, report = pipeline.run(texts, progress)
-    except InputError as error:
-        raise InputError(_in_python(str(error))) from None
     report["options"] = {name.replace("-", "_"): text for name, text in report["options"].items()}
     return Cage._made(mesh, check, report)
 
@@ -336,6 +381,16 @@ class Pipeline:
         return self._model
 
     @property
+    def solid(self):
+        """The voxels of the model, a Mask; None before the first run."""
+        return self._mask("solid")
+
+    @property
+    def closed(self):
+        """Their closing, with cavities filled, a Mask; None before the first run."""
+        return self._mask("closed")
+
+    @property
     def surface(self):
         """What the last cage was made from, a Mesh of quads; None before the first run."""
         return self._stage("surface")
@@ -349,6 +404,10 @@ class Pipeline:
     def decimated(self):
         """The last cage before it was tightened, a Mesh; None before the first run."""
         return self._stage("decimated")
+
+    def _mask(self, name):
+        mask = self._pipeline.mask(name)
+        return None if mask is None else Mask._of(mask)
 
     def _stage(self, name):
         mesh = self._pipeline.mesh(name)
@@ -364,12 +423,7 @@ def check_cage(cage, model, *, as_floats=False, measure=True, samples=20000, pro
     samples: points on the cage for the distances, 1 to 10**9
     Raises InputError, Cancelled.
     """
-    try:
-        samples = operator.index(samples)
-    except TypeError:
-        samples = repr(samples)
-    if isinstance(samples, str) or not 1 <= samples <= 10**9:
-        raise InputError(f"samples: {samples} is not allowed; it must be a whole number, 1 to 1000000000")
+    samples = _whole("samples", samples, 1, 10**9)
     return CageCheck(**_vdbcage.check_cage(_mesh("cage", cage), _mesh("model", model), bool(as_floats), bool(measure),
                                            samples, _callback(progress)))
 
@@ -474,3 +528,148 @@ class Binding:
 
     def __repr__(self):
         return f"<vdbcage.Binding: {len(self.points)} points, {self.handles} handles, {self.coordinates}>"
+
+
+class Mask:
+    """A set of voxels, sparse, and where they are in the world. It never changes.
+
+    voxels: array-like of whole numbers, shape (n, 3): indices i, j, k of the active voxels, -2**30 to 2**30 - 1
+    voxel_size: world units
+    origin: world position of the centre of the voxel 0, 0, 0
+    """
+
+    __slots__ = ("_mask",)
+
+    def __init__(self, voxels, voxel_size=1.0, origin=(0.0, 0.0, 0.0)):
+        self._mask = _vdbcage.Mask(_voxels("voxels", voxels), _number("voxel_size", voxel_size, 1e-100, 1e100),
+                                   _rows("origin", origin, (3,), "fiu", "three finite numbers").tolist())
+
+    @classmethod
+    def _of(cls, mask):
+        """What the core made."""
+        self = cls.__new__(cls)
+        self._mask = mask
+        return self
+
+    @classmethod
+    def from_dense(cls, array, corner=(0, 0, 0), voxel_size=1.0, origin=(0.0, 0.0, 0.0)):
+        """A mask from a box of voxels, those that are true or not 0.
+
+        array: array-like of bool or whole numbers, shape (x, y, z)
+        corner: the indices of its first voxel
+        """
+        try:
+            array = numpy.asarray(array)
+        except (TypeError, ValueError) as error:
+            raise InputError(f"array: {error}") from None
+        if array.ndim != 3 or array.dtype.kind not in "biu":
+            raise InputError(f"array: shape {array.shape} of {array.dtype} is not allowed; it must be (x, y, z), of bool "
+                             "or whole numbers")
+        corner = _voxels("corner", [_rows("corner", corner, (3,), "iu", "three whole numbers")])[0]
+        return Mask(numpy.argwhere(array) + corner.astype(numpy.int64), voxel_size, origin)
+
+    def voxels(self):
+        """The active voxels: int32, shape (n, 3), in the order of i, then j, then k.
+
+        Raises InputError for more than 2**30 of them.
+        """
+        return self._mask.voxels()
+
+    def dense(self):
+        """The box around the active voxels: (bool array of shape (x, y, z), int32 indices of its first voxel).
+
+        Raises InputError for more than 2**32 voxels in it.
+        """
+        if not len(self):
+            return numpy.zeros((0, 0, 0), bool), numpy.zeros(3, numpy.int32)
+        low, high = self._mask.box()
+        shape = tuple(int(size) + 1 for size in high.astype(numpy.int64) - low)
+        if shape[0] * shape[1] * shape[2] > 2**32:
+            raise InputError(f"mask: its box is of {shape} voxels; an array can have 2**32")
+        array = numpy.zeros(shape, bool)
+        array[tuple((self.voxels() - low).T)] = True
+        return array, low
+
+    @property
+    def matrix(self):
+        """From indices to the world: float64, shape (4, 4), for columns (i, j, k, 1)."""
+        return self._mask.matrix()
+
+    @property
+    def voxel_size(self):
+        """World units. Raises InputError for a mask of a file whose voxels are no upright cubes; see matrix."""
+        matrix = self.matrix[:3, :3]
+        if matrix[0, 0] <= 0 or not numpy.array_equal(matrix, matrix[0, 0] * numpy.eye(3)):
+            raise InputError("voxel_size: the voxels of this mask are no upright cubes; matrix says what they are")
+        return float(matrix[0, 0])
+
+    @property
+    def origin(self):
+        """World position of the centre of the voxel 0, 0, 0: float64, shape (3,)."""
+        return self.matrix[:3, 3].copy()
+
+    def __len__(self):
+        """The number of active voxels."""
+        return self._mask.count
+
+    def __bool__(self):
+        return True
+
+    def __repr__(self):
+        return f"<vdbcage.Mask: {len(self)} voxels>"
+
+
+def voxelize(model, resolution=128, *, voxelizer=None, box=None, progress=None):
+    """The voxels that a face of the model touches, and those inside, as a Mask. It has no cavities.
+
+    model: a Mesh of any kind
+    resolution: voxels along the model's longest side, 1 to 4096
+    voxelizer: None (auto), "cpu", "gl" or "cgal"; all give the same voxels
+    box: array-like, shape (2, 3): lower and upper corner; the voxels are laid out as for a model with this bounding box
+    Raises InputError, DeviceError, Cancelled.
+    """
+    resolution = _whole("resolution", resolution, 1, 4096)
+    if box is not None:
+        box = _rows("box", box, (2, 3), "fiu", "two rows of three finite numbers").astype(float).ravel().tolist()
+    voxelizer = _option_text("voxelizer", voxelizer, "auto")
+    with _names_of_python():
+        return Mask._of(_vdbcage.voxelize(_mesh("model", model), resolution, voxelizer, box, _callback(progress)))
+
+
+def close_mask(mask, close_radius, erode_radius=None, *, element="sphere", scale_field=None, progress=None):
+    """The closing of a mask: its dilation by the close radius, eroded by the erode radius.
+
+    mask: a Mask
+    close_radius, erode_radius: voxels, 0 to 512; the erode radius is at most the close radius, which None stands for
+    element: "sphere" or "cube"
+    scale_field: None, or what the radii are multiplied by in places, as in docs/VOLUMES.md
+    Raises InputError, IoError for the file of a scale field, Cancelled.
+    """
+    mask = _mask("mask", mask)
+    close_radius = _number("close_radius", close_radius, 0, 512)
+    erode_radius = close_radius if erode_radius is None else _number("erode_radius", erode_radius, 0, close_radius)
+    element = _option_text("element", element, "")
+    scale_field = _option_text("scale_field", scale_field, "")
+    with _names_of_python():
+        return Mask._of(_vdbcage.close_mask(mask, close_radius, erode_radius, element, scale_field,
+                                            _callback(progress)))
+
+
+def read_vdb(path):
+    """Reads a Mask from a .vdb: its first grid named density, or else its only grid, of floats, doubles or booleans.
+
+    Active are voxels above 0.5, below 0 in a level set, or true. The file need not be trusted. Raises IoError.
+    """
+    return Mask._of(_vdbcage.read_vdb(_path(path)))
+
+
+def write_vdb(mask, path, metadata=None):
+    """Writes a Mask as a .vdb with one FloatGrid named density, a fog volume of 1 in the active voxels.
+
+    metadata: a dict of strings; each becomes a string of the grid named vdbcage_KEY
+    Raises IoError.
+    """
+    metadata = {} if metadata is None else metadata
+    if not isinstance(metadata, dict) or not all(isinstance(text, str) for item in metadata.items() for text in item):
+        raise InputError(f"metadata: {metadata!r} is not allowed; it must be a dict of strings")
+    _vdbcage.write_vdb(_mask("mask", mask), _path(path), metadata)
