@@ -16,6 +16,11 @@ from vdbcage import Mesh, make_cage
 LONG = {"faces": 1000, "effort": "best"}  # seconds: a callback comes before it is done
 
 
+def threads():
+    """The number of threads of this process, those of C++ too."""
+    return len(os.listdir("/proc/self/task"))
+
+
 class CallsTest(Case):
     @classmethod
     def setUpClass(cls):
@@ -80,23 +85,22 @@ class CallsTest(Case):
     def test_ctrl_c_is_a_keyboard_interrupt(self):
         before = signal.signal(signal.SIGINT, signal.default_int_handler)  # ctest may run with it ignored
         self.addCleanup(signal.signal, signal.SIGINT, before)
-        for has_callback in (True, False):
-            begun, sent = threading.Event(), []
+        for progress in (None, lambda stage, percent: None):
+            begin, sent = threading.Event(), []
 
             def interrupt():
-                begun.wait()
+                before = threads()
+                begin.set()
+                while threads() == before:  # the call has not begun to work
+                    time.sleep(0.001)
                 sent.append(time.monotonic())
                 os.kill(os.getpid(), signal.SIGINT)
 
-            def tell(stage, percent):
-                begun.set()
-
             sender = threading.Thread(target=interrupt)
             sender.start()
+            begin.wait()
             with self.assertRaises(KeyboardInterrupt):
-                if not has_callback:
-                    begun.set()
-                make_cage(self.model, progress=tell if has_callback else None, **LONG)
+                make_cage(self.model, progress=progress, **LONG)
                 sender.join()
             sender.join()
             print(f"KeyboardInterrupt came out {1000 * (time.monotonic() - sent[0]):.0f} ms after the signal",
@@ -139,9 +143,6 @@ class CallsTest(Case):
         thread.join()
 
     def test_no_thread_and_no_reference_is_left(self):
-        def threads():
-            return len(os.listdir("/proc/self/task"))
-
         class Stop(Exception):
             pass
 
