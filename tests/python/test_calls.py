@@ -85,6 +85,7 @@ class CallsTest(Case):
     def test_ctrl_c_is_a_keyboard_interrupt(self):
         before = signal.signal(signal.SIGINT, signal.default_int_handler)  # ctest may run with it ignored
         self.addCleanup(signal.signal, signal.SIGINT, before)
+        pipeline = vdbcage.Pipeline(self.model)
         for progress in (None, lambda stage, percent: None):
             begin, sent = threading.Event(), []
 
@@ -100,7 +101,7 @@ class CallsTest(Case):
             sender.start()
             begin.wait()
             with self.assertRaises(KeyboardInterrupt):
-                make_cage(self.model, progress=progress, **LONG)
+                pipeline.run(progress=progress, **LONG)
                 sender.join()
             sender.join()
             print(f"KeyboardInterrupt came out {1000 * (time.monotonic() - sent[0]):.0f} ms after the signal",
