@@ -8,12 +8,15 @@ packages=(
     libgl-dev libegl-dev libosmesa6-dev libgl1-mesa-dri libpng-dev             # pictures, voxels by OpenGL
     libcli11-dev nlohmann-json3-dev                                            # the command
     libimgui-dev libglfw3-dev fonts-inter pkg-config                           # the window
+    python3-dev python3-numpy pybind11-dev                                     # the Python module
 )
 test_packages=(
     libboost-test-dev
     clang-format   # formatting is a test
     tetgen # fills cages, to see that others can use them
     xvfb xauth # a display for the window
+    python3-mypy    # its stubtest holds the stubs to the Python module
+    python3-openvdb # files and arrays go between it and the Python module
 )
 
 # install_packages NAME...: by apt-get, as root or through sudo; silent and quick when nothing is missing.

@@ -1,0 +1,98 @@
+import numpy
+
+from support import SHELL, Case, command
+from vdbcage import Binding, IoError, Mesh, make_cage
+
+
+class BindingTest(Case):
+    @classmethod
+    def setUpClass(cls):
+        cls.model = Mesh.read(SHELL)
+        cls.cages = {mesh: make_cage(cls.model, faces=60, mesh=mesh, effort="fast") for mesh in ("triangles", "quads")}
+        cls.cage = cls.cages["triangles"]
+
+    def test_weights_are_those_of_the_command(self):
+        for mesh, cage in self.cages.items():
+            for family in ("mvc", "green", "mlc"):
+                with self.subTest(f"{family} of {mesh}"):
+                    cage.write(self.folder / "cage.ply")
+                    command("bind", self.folder / "cage.ply", SHELL, "-q", "--coordinates", family, "-o",
+                            self.folder / "command.npy")
+                    binding = Binding(cage, self.model.points, family)
+                    weights = binding.weights()
+                    self.assertEqual(weights.dtype, numpy.float32)
+                    self.assertEqual(weights.shape, (len(self.model.points), binding.handles))
+                    self.assertEqual(binding.coordinates, family)
+                    self.assertTrue(numpy.array_equal(weights, numpy.load(self.folder / "command.npy")["weights"]))
+                    binding.write(self.folder / "python.npy")
+                    self.assertEqual((self.folder / "python.npy").read_bytes(),
+                                     (self.folder / "command.npy").read_bytes())
+
+    def test_poses_are_those_of_the_command(self):
+        posed = Mesh(self.cage.points * [1, 1.5, 0.8] + [0, 0, 3], self.cage.triangles)
+        for name, mesh in {"cage.ply": self.cage, "posed.ply": posed}.items():
+            mesh.write(self.folder / name)
+        command("deform", self.folder / "cage.ply", self.folder / "posed.ply", SHELL, "-q", "-o",
+                self.folder / "model.ply")
+        points = Binding(self.cage, self.model.points).pose(posed.points)
+        self.assertTrue(numpy.array_equal(points, Mesh.read(self.folder / "model.ply").points))
+
+    def test_the_rest_pose_is_exact_and_an_update_is_a_pose(self):
+        binding = Binding(self.cage, self.model.points)
+        self.assertTrue(numpy.array_equal(binding.pose(self.cage.points), self.model.points))
+        self.assertTrue(numpy.array_equal(binding.points, self.model.points))
+        self.assertFalse(binding.points.flags.writeable)
+        self.assertIs(binding.cage, self.cage)
+        size = numpy.ptp(self.model.points, axis=0).max()
+        moved = self.cage.points.copy()
+        moved[3] += 0.1 * size
+        rest = binding.points.copy()
+        updated = binding.update(rest, self.cage.points, moved)
+        self.assertTrue(numpy.array_equal(rest, binding.points))
+        numpy.testing.assert_allclose(updated, binding.pose(moved), rtol=0, atol=1e-6 * size)
+        updated[0] = 0  # the caller's own
+
+    def test_a_file_is_read_for_the_same_cage_and_points(self):
+        binding, path = Binding(self.cage, self.model.points, "green"), self.folder / "weights.npy"
+        binding.write(path)
+        moved = self.cage.points * 1.1
+        back = Binding.read(path, self.cage, self.model.points)
+        self.assertTrue(numpy.array_equal(back.pose(moved), binding.pose(moved)))
+        self.assertTrue(numpy.array_equal(back.weights(), binding.weights()))
+        self.assertEqual(back.coordinates, "green")
+        self.refuses("weights.npy: ", Binding.read, path, self.cages["quads"], self.model.points, error=IoError)
+        self.refuses("weights.npy: ", Binding.read, path, self.cage, self.model.points[1:], error=IoError)
+        self.refuses("missing.npy: ", Binding.read, self.folder / "missing.npy", self.cage, [], error=IoError)
+
+    def test_weights_made_elsewhere_pose(self):
+        binding, path = Binding(self.cage, self.model.points), self.folder / "given.npy"
+        numpy.save(path, binding.weights())
+        given = Binding.read(path, self.cage, self.model.points)
+        self.assertEqual(given.coordinates, "given")
+        moved = self.cage.points * 1.1
+        self.assertTrue(numpy.allclose(given.pose(moved), binding.pose(moved), rtol=1e-4))
+        self.refuses("weights: ", given.weights)
+        self.refuses("weights: ", given.write, self.folder / "other.npy")
+
+    def test_bad_arguments_are_refused(self):
+        inside = self.model.points[:5]
+        far = [[1e6, 0, 0]]
+        self.refuses("coordinates: 'cotangent' is not a family", Binding, self.cage, inside, "cotangent")
+        self.refuses("coordinates: 5 is not allowed", Binding, self.cage, inside, 5)
+        self.refuses("cage: a str is not allowed", Binding, "cage.obj", inside)
+        self.refuses("points: row 0 has the coordinate nan", Binding, self.cage, [[numpy.nan, 0, 0]])
+        self.refuses("points: an array of shape (2, 2)", Binding, self.cage, [[1, 2], [3, 4]])
+        self.refuses("points: point 0", Binding, self.cage, far, "green")
+        self.refuses("cage: it is not closed", Binding, Mesh(inside, [[0, 1, 2]]), inside)
+        self.refuses("cage: it faces inward", Binding, Mesh(self.cage.points, self.cage.triangles[:, ::-1]), inside)
+        binding = Binding(self.cage, inside)
+        rest = self.cage.points
+        broken = rest.copy()
+        broken[7, 1] = numpy.inf
+        self.refuses("cage_points: it has 5 rows; the cage has", binding.pose, inside)
+        self.refuses("cage_points: row 7 has the coordinate inf", binding.pose, broken)
+        self.refuses("posed: it has 4 rows; the binding has 5", binding.update, inside[:4], rest, rest)
+        self.refuses("before: row 7", binding.update, inside, broken, rest)
+        self.refuses("after: it has 1 rows", binding.update, inside, rest, rest[:1])
+        self.assertIn("5 points", repr(binding))
+        self.assertEqual(Binding(self.cage, []).weights().shape, (0, binding.handles))

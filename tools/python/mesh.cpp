@@ -1,0 +1,35 @@
+#include <utility>
+
+#include <vdbcage/mesh/mesh_io.h>
+
+#include "arrays.h"
+#include "job.h"
+#include "module.h"
+
+namespace py = pybind11;
+
+namespace vdbcage::python {
+
+void defineMesh(py::module_& module)
+{
+    py::class_<Mesh, MeshPtr>(module, "Mesh", py::module_local())
+        .def(py::init([](const py::array& points, const py::array& triangles, const py::array& quads) {
+            return std::make_shared<Mesh>(
+                Mesh{toRows<openvdb::Vec3d>(points), toRows<openvdb::Vec3I>(triangles), toRows<openvdb::Vec4I>(quads)});
+        }))
+        .def_property_readonly("points",
+                               [](const py::object& self) { return readOnly(self.cast<const Mesh&>().points, self); })
+        .def_property_readonly(
+            "triangles", [](const py::object& self) { return readOnly(self.cast<const Mesh&>().triangles, self); })
+        .def_property_readonly("quads",
+                               [](const py::object& self) { return readOnly(self.cast<const Mesh&>().quads, self); });
+
+    module.def("read_mesh", [](const std::string& path) {
+        return resultOfJob(py::none(), [&](Interrupter*) { return std::make_shared<Mesh>(readMesh(path)); });
+    });
+    module.def("write_mesh", [](const Mesh& mesh, const std::string& path) {
+        runJob(py::none(), [&](Interrupter*) { writeMesh(mesh, std::filesystem::path(path)); });
+    });
+}
+
+} // namespace vdbcage::python

@@ -1,0 +1,675 @@
+"""Coarse cages that are certified to bound a model, and posing by them.
+
+    import vdbcage
+    model = vdbcage.Mesh.read("model.obj")
+    cage = vdbcage.make_cage(model, faces=400)
+    cage.write("cage.obj")
+
+Points are in world space, as files have them. Indices of points begin with 0. Faces are counter-clockwise seen from
+outside.
+
+Functions that can take long have an argument `progress`: a function that is called 20 times a second, in the thread of
+the caller, with the name of the stage (str) and its percentage (int, 0 where it is not known). Where it returns False
+the work ends with Cancelled; what it raises ends the work too, and so does Ctrl-C. Several threads may work at once.
+"""
+
+import contextlib
+import dataclasses
+import difflib
+import numbers
+import operator
+import os
+import re
+
+import numpy
+
+__all__ = ["Binding", "Cage", "CageCheck", "Cancelled", "DeviceError", "Error", "InputError", "IoError", "Mask", "Mesh",
+           "Pipeline", "check_cage", "close_mask", "make_cage", "read_vdb", "voxelize", "write_vdb"]
+
+
+class Error(Exception):
+    """Base of the exceptions that vdbcage raises. The text is one line."""
+
+
+class InputError(Error, ValueError):
+    """An argument is not acceptable. The text names it, its value and what is allowed. Raised before any work."""
+
+
+class IoError(Error, OSError):
+    """A file could not be read or written. The text begins with its path."""
+
+
+class DeviceError(Error):
+    """A device, such as an OpenGL context, is missing or failed."""
+
+
+class Cancelled(Error):
+    """`progress` returned False. Nothing was written and there is no partial result."""
+
+
+from . import _vdbcage  # noqa: E402 (it raises the exceptions above)
+
+__version__ = _vdbcage.version
+
+
+def _array(name, value, columns, kinds, content):
+    """`value` as an array of shape (n, columns) whose dtype is of one of `kinds`; nothing at all is n = 0."""
+    try:
+        array = numpy.asarray(() if value is None else value)
+    except (TypeError, ValueError) as error:
+        raise InputError(f"{name}: {error}") from None
+    if array.ndim in (1, 2) and array.shape[0] == 0:
+        return numpy.empty((0, columns), numpy.float64 if "f" in kinds else numpy.uint32)
+    if array.ndim != 2 or array.shape[1] != columns:
+        raise InputError(f"{name}: an array of shape {array.shape} is not allowed; it must be (n, {columns})")
+    if array.dtype.kind not in kinds:
+        raise InputError(f"{name}: an array of {array.dtype} is not allowed; it must be {content}")
+    return array
+
+
+def _points(name, value, count=None, owner=""):
+    """Finite points as an array of shape (n, 3); n is `count`, which `owner` has, if that is given."""
+    array = _array(name, value, 3, "fiu", "numbers")
+    if count is not None and len(array) != count:
+        raise InputError(f"{name}: it has {len(array)} rows; {owner} has {count} points")
+    if array.dtype.kind == "f":
+        if array.dtype.itemsize > 8:
+            with numpy.errstate(over="ignore"):  # what is too large is infinite, and refused below
+                array = array.astype(numpy.float64)
+        finite = numpy.isfinite(array)
+        if not finite.all():
+            row, column = numpy.argwhere(~finite)[0]
+            raise InputError(f"{name}: row {row} has the coordinate {array[row, column]}; it must be finite")
+    return array
+
+
+def _indices(name, value, corners, count):
+    """Faces as an array of shape (n, corners) of indices below `count`."""
+    array = _array(name, value, corners, "iu", "whole numbers")
+    outside = (array < 0) | (array >= count)
+    if outside.any():
+        row, column = numpy.argwhere(outside)[0]
+        allowed = f"it must be 0 to {count - 1}" if count else "there are no points"
+        raise InputError(f"{name}: row {row} has the index {array[row, column]}; {allowed}")
+    return array
+
+
+def _path(value):
+    """The bytes of a path."""
+    try:
+        path = os.fsencode(value)
+    except (TypeError, UnicodeError):
+        raise InputError(f"path: {value!r} is not a path") from None
+    if b"\0" in path:
+        raise InputError(f"path: {value!r} has a null character")
+    return path
+
+
+def _number(name, value, least, most):
+    """A float within these bounds."""
+    if isinstance(value, numbers.Real) and not isinstance(value, (bool, numpy.bool_)) and least <= value <= most:
+        return float(value)
+    raise InputError(f"{name}: {value!r} is not allowed; it must be a number, {least:g} to {most:g}")
+
+
+def _whole(name, value, least, most):
+    """An int within these bounds."""
+    if isinstance(value, numbers.Integral) and not isinstance(value, bool) and least <= value <= most:
+        return operator.index(value)
+    raise InputError(f"{name}: {value!r} is not allowed; it must be a whole number, {least} to {most}")
+
+
+def _rows(name, value, shape, kinds, content):
+    """A small array of this shape and finite entries."""
+    try:
+        array = numpy.asarray(value)
+    except (TypeError, ValueError) as error:
+        raise InputError(f"{name}: {error}") from None
+    if array.shape != shape or array.dtype.kind not in kinds or not numpy.isfinite(array).all():
+        raise InputError(f"{name}: {value!r} is not allowed; it must be {content}")
+    return array
+
+
+def _voxels(name, value):
+    """Indices of voxels as an array of shape (n, 3)."""
+    array = _array(name, value, 3, "iu", "whole numbers")
+    outside = (array < -2**30) | (array >= 2**30)
+    if outside.any():
+        row, column = numpy.argwhere(outside)[0]
+        raise InputError(f"{name}: row {row} has the index {array[row, column]}; it must be -2**30 to 2**30 - 1")
+    return array
+
+
+def _mask(name, value):
+    if not isinstance(value, Mask):
+        raise InputError(f"{name}: a {type(value).__name__} is not allowed; it must be a vdbcage.Mask")
+    return value._mask
+
+
+def _mesh(name, value):
+    if not isinstance(value, Mesh):
+        raise InputError(f"{name}: a {type(value).__name__} is not allowed; it must be a vdbcage.Mesh")
+    return value._mesh
+
+
+def _callback(value):
+    if value is not None and not callable(value):
+        raise InputError(f"progress: {value!r} is not allowed; it must be None or a function of (stage, percent)")
+    return value
+
+
+def _option_text(name, value, allowed):
+    """An option's value as the command takes it. `allowed` is as in its help: "auto|N", "on|off"."""
+    names = allowed.split("|")
+    if value is None:
+        return "auto" if "auto" in names else "none" if name == "scale_field" else "None"
+    if isinstance(value, (bool, numpy.bool_)):
+        return ("on" if value else "off") if "on" in names else str(value)
+    if isinstance(value, numbers.Integral):
+        return str(operator.index(value))
+    if isinstance(value, numbers.Real):
+        return repr(float(value))
+    if isinstance(value, (str, os.PathLike)):
+        return os.fsdecode(value)
+    raise InputError(f"{name}: {value!r} is not allowed; it must be a number, a string, True, False or None")
+
+
+def _option_texts(options):
+    known = {name.replace("-", "_"): (name, allowed) for name, allowed in _vdbcage.options()}
+    texts = []
+    for name, value in options.items():
+        if name not in known:
+            near = difflib.get_close_matches(name, known, 1)
+            hint = f"did you mean {near[0]}?" if near else f"there are: {', '.join(known)}"
+            raise InputError(f"{name}: there is no such option; {hint}")
+        texts.append((known[name][0], _option_text(name, value, known[name][1])))
+    return texts
+
+
+@contextlib.contextmanager
+def _names_of_python():
+    """Messages get the names that options have here: close_radius for --close-radius."""
+    try:
+        yield
+    except InputError as error:
+        names = "|".join(name for name, allowed in _vdbcage.options())
+        text = re.sub(rf"(^| )--({names})(?=:| |$)", lambda found: found[1] + found[2].replace("-", "_"), str(error))
+        raise InputError(text) from None
+
+
+class Mesh:
+    """Points, and faces of three or four corners. It never changes.
+
+    points: array-like of numbers, shape (n, 3): world space, finite
+    triangles, quads: array-likes of whole numbers, shapes (n, 3) and (n, 4): indices of points
+    Raises InputError with the argument, the row and the value.
+    """
+
+    __slots__ = ("_mesh",)
+
+    def __init__(self, points, triangles=None, quads=None):
+        points = _points("points", points)
+        self._mesh = _vdbcage.Mesh(points, _indices("triangles", triangles, 3, len(points)),
+                                   _indices("quads", quads, 4, len(points)))
+
+    @classmethod
+    def _of(cls, mesh):
+        """What the core made."""
+        self = cls.__new__(cls)
+        self._mesh = mesh
+        return self
+
+    @classmethod
+    def read(cls, path):
+        """Reads an OBJ, OFF, PLY or STL file.
+
+        Faces of more than four corners are split. Cages bound them in every way they can be split, also where another
+        program splits them otherwise. A mesh that is made anew from these arrays does not know these other ways.
+        Raises IoError.
+        """
+        return Mesh._of(_vdbcage.read_mesh(_path(path)))
+
+    def write(self, path):
+        """Writes an OBJ, OFF, PLY or STL file; the extension says which. It appears whole or not at all.
+
+        Raises IoError; InputError if the mesh has no usable face.
+        """
+        _vdbcage.write_mesh(self._mesh, _path(path))
+
+    @property
+    def points(self):
+        """float64, shape (n, 3), read-only: world space. No copy."""
+        return self._mesh.points
+
+    @property
+    def triangles(self):
+        """uint32, shape (n, 3), read-only: indices of points. No copy."""
+        return self._mesh.triangles
+
+    @property
+    def quads(self):
+        """uint32, shape (n, 4), read-only: indices of points. No copy."""
+        return self._mesh.quads
+
+    def __len__(self):
+        """The number of faces."""
+        return len(self.triangles) + len(self.quads)
+
+    def __bool__(self):
+        return True
+
+    def __repr__(self):
+        return (f"<vdbcage.{type(self).__name__}: {len(self.points)} points, {len(self.triangles)} triangles, "
+                f"{len(self.quads)} quads>")
+
+
+@dataclasses.dataclass(frozen=True)
+class CageCheck:
+    """The verdict on a cage. Answers and counts are exact, measures are rounded.
+
+    Lengths are fractions of the longest side of the model's bounding box. Faces are numbered triangles first.
+    vdbcage/check/check.h says more of each field.
+    """
+
+    valid: bool  # closed, manifold, oriented, without degenerate faces and self-intersections
+    bounding: bool  # valid, no contact with the model, every vertex of the model strictly inside
+    closed: bool
+    manifold: bool
+    oriented: bool
+    points: int
+    triangles: int
+    quads: int
+    components: int
+    genus: int
+    boundary_edges: int
+    non_manifold_edges: int
+    non_manifold_vertices: int
+    misoriented_edges: int
+    inward_components: int
+    degenerate_faces: int
+    self_intersections: int
+    contact_faces: int
+    model_vertices_outside: int
+    bad_faces: tuple
+    diagonal: float  # of the model's bounding box
+    mean_distance: float
+    max_distance: float
+    min_distance: float
+    cage_volume: float  # world units cubed
+    volume_ratio: float  # of the cage to the model
+    min_angle_degrees: float
+    angle_1st_percentile_degrees: float
+    median_angle_degrees: float
+
+
+class Cage(Mesh):
+    """A mesh that make_cage or Pipeline.run made, with its verdict and its report."""
+
+    __slots__ = ("_check", "_report")
+
+    def __init__(self, *args, **kwargs):
+        raise TypeError("a vdbcage.Cage comes from make_cage")
+
+    @classmethod
+    def _made(cls, mesh, check, report):
+        self = cls._of(mesh)
+        self._check = CageCheck(**check)
+        self._report = report
+        return self
+
+    @property
+    def check(self):
+        """The CageCheck of this cage against its model."""
+        return self._check
+
+    @property
+    def report(self):
+        """How the cage came about, a dict.
+
+        options: every option, as text; seconds: wall clock; stages: the seconds of each stage; and what
+        `vdbcage make --report` has under "result": resolution, close_radius, start, float_safe and more.
+        """
+        return self._report
+
+
+def make_cage(model, /, *, progress=None, **options):
+    """Makes a cage around a model, certified to bound it, and returns it as a Cage.
+
+    model: a Mesh of any kind: open, self-intersecting, badly oriented, in many parts
+    progress: see the help of vdbcage
+    options: those of `vdbcage make`, with underscores: faces=400, close_radius=0.02, mesh="triquad", bounding=False.
+        None stands for auto. Lengths are fractions of the model's longest side. docs/OPTIONS.md has all of them.
+    Raises InputError, DeviceError, Cancelled.
+    """
+    texts, progress = _option_texts(options), _callback(progress)
+    return _run(_vdbcage.Pipeline(_mesh("model", model)), texts, progress)
+
+
+def _run(pipeline, texts, progress):
+    with _names_of_python():
+        mesh, check, report = pipeline.run(texts, progress)
+    report["options"] = {name.replace("-", "_"): text for name, text in report["options"].items()}
+    return Cage._made(mesh, check, report)
+
+
+class Pipeline:
+    """Makes one cage after another around a model, and keeps what is between them.
+
+    A run begins with the first stage that its options touch: another face count needs no new voxels. One thread at a
+    time can use a pipeline.
+
+    model: a Mesh, as for make_cage
+    """
+
+    __slots__ = ("_model", "_pipeline")
+
+    def __init__(self, model):
+        self._pipeline = _vdbcage.Pipeline(_mesh("model", model))
+        self._model = model
+
+    def run(self, *, progress=None, **options):
+        """The Cage for these options, as make_cage gives it.
+
+        A run that raises leaves the surfaces and masks of the last one that did not.
+        """
+        texts, progress = _option_texts(options), _callback(progress)
+        return _run(self._pipeline, texts, progress)
+
+    @property
+    def model(self):
+        """The Mesh that the pipeline was made with."""
+        return self._model
+
+    @property
+    def solid(self):
+        """The voxels of the model, a Mask; None before the first run."""
+        return self._mask("solid")
+
+    @property
+    def closed(self):
+        """Their closing, with cavities filled, a Mask; None before the first run."""
+        return self._mask("closed")
+
+    @property
+    def surface(self):
+        """What the last cage was made from, a Mesh of quads; None before the first run."""
+        return self._stage("surface")
+
+    @property
+    def smoothed(self):
+        """Without bounding: the surface, smoothed; else the surface. None before the first run."""
+        return self._stage("smoothed")
+
+    @property
+    def decimated(self):
+        """The last cage before it was tightened, a Mesh; None before the first run."""
+        return self._stage("decimated")
+
+    def _mask(self, name):
+        mask = self._pipeline.mask(name)
+        return None if mask is None else Mask._of(mask)
+
+    def _stage(self, name):
+        mesh = self._pipeline.mesh(name)
+        return None if mesh is None else Mesh._of(mesh)
+
+
+def check_cage(cage, model, *, as_floats=False, measure=True, samples=20000, progress=None):
+    """Examines any mesh as a cage of any model and returns a CageCheck.
+
+    cage, model: Mesh
+    as_floats: both meshes are examined with their points rounded to float
+    measure: False leaves the measures at 0, which is faster
+    samples: points on the cage for the distances, 1 to 10**9
+    Raises InputError, Cancelled.
+    """
+    samples = _whole("samples", samples, 1, 10**9)
+    return CageCheck(**_vdbcage.check_cage(_mesh("cage", cage), _mesh("model", model), bool(as_floats), bool(measure),
+                                           samples, _callback(progress)))
+
+
+class Binding:
+    """Points bound to a cage, which moves them.
+
+    cage: a Mesh, closed and facing outward
+    points: array-like, shape (n, 3): world space
+    coordinates: "mvc" (mean value), "green" or "mlc" (maximum likelihood); see docs/DEFORMING.md
+    Raises InputError; Cancelled.
+    """
+
+    __slots__ = ("_binding", "_cage")
+
+    def __init__(self, cage, points, coordinates="mvc", *, progress=None):
+        if not isinstance(coordinates, str):
+            raise InputError(f"coordinates: {coordinates!r} is not allowed; it must be a string")
+        self._binding = _vdbcage.Binding(_mesh("cage", cage), _points("points", points), coordinates,
+                                         _callback(progress))
+        self._cage = cage
+
+    @classmethod
+    def read(cls, path, cage, points):
+        """Reads weights of `vdbcage bind` or write() for the same cage and points, or a matrix made elsewhere.
+
+        path: .npy, or .dmat of libigl
+        A matrix has a row a point and a column a point of the cage; its coordinates are "given".
+        Raises IoError, also where the file was made for another cage or other points.
+        """
+        self = cls.__new__(cls)
+        self._binding = _vdbcage.read_binding(_path(path), _mesh("cage", cage), _points("points", points))
+        self._cage = cage
+        return self
+
+    def write(self, path, *, progress=None):
+        """Writes the file that `vdbcage bind` writes. The weights are computed for it, as by weights().
+
+        Raises IoError; InputError for given weights; Cancelled.
+        """
+        path = _path(path)
+        self._require_computed()
+        self._binding.write(path, _callback(progress))
+
+    def weights(self, *, progress=None):
+        """float32, shape (points, handles): how much each handle moves each point.
+
+        The binding holds them compressed, so they are computed anew, which takes as long as binding. The handles are
+        the cage's points; for "green" normals follow, one a triangle and four a quad.
+        Raises InputError for given weights; Cancelled.
+        """
+        self._require_computed()
+        return self._binding.weights(_callback(progress))
+
+    def pose(self, cage_points):
+        """Where the points are when those of the cage are at `cage_points`: float64, shape (n, 3).
+
+        cage_points: array-like, shape (points of the cage, 3)
+        Raises InputError.
+        """
+        return self._binding.pose(self._cage_points("cage_points", cage_points))
+
+    def update(self, posed, before, after):
+        """Where points that the cage at `before` posed are when it is at `after`: float64, shape (n, 3).
+
+        This is faster than pose() where few points of the cage moved. Each update rounds to 1e-7 of the motion.
+
+        posed: array-like, shape (n, 3), from pose() or update(); it stays as it is
+        before, after: array-likes, shape (points of the cage, 3)
+        Raises InputError.
+        """
+        return self._binding.update(_points("posed", posed, len(self.points), "the binding"),
+                                    self._cage_points("before", before), self._cage_points("after", after))
+
+    @property
+    def cage(self):
+        """The Mesh that moves the points."""
+        return self._cage
+
+    @property
+    def points(self):
+        """The points at rest: float64, shape (n, 3), read-only. No copy."""
+        return self._binding.points
+
+    @property
+    def coordinates(self):
+        """The family: "mvc", "green", "mlc" or "given"."""
+        return self._binding.coordinates
+
+    @property
+    def handles(self):
+        """The number of weights a point."""
+        return self._binding.handles
+
+    def _cage_points(self, name, value):
+        return _points(name, value, len(self._cage.points), "the cage")
+
+    def _require_computed(self):
+        if self.coordinates == "given":
+            raise InputError("weights: those of this binding were made elsewhere and are kept compressed; "
+                             "their file has them")
+
+    def __repr__(self):
+        return f"<vdbcage.Binding: {len(self.points)} points, {self.handles} handles, {self.coordinates}>"
+
+
+class Mask:
+    """A set of voxels, sparse, and where they are in the world. It never changes.
+
+    voxels: array-like of whole numbers, shape (n, 3): indices i, j, k of the active voxels, -2**30 to 2**30 - 1
+    voxel_size: world units
+    origin: world position of the centre of the voxel 0, 0, 0
+    """
+
+    __slots__ = ("_mask",)
+
+    def __init__(self, voxels, voxel_size=1.0, origin=(0.0, 0.0, 0.0)):
+        self._mask = _vdbcage.Mask(_voxels("voxels", voxels), _number("voxel_size", voxel_size, 1e-100, 1e100),
+                                   _rows("origin", origin, (3,), "fiu", "three finite numbers").tolist())
+
+    @classmethod
+    def _of(cls, mask):
+        """What the core made."""
+        self = cls.__new__(cls)
+        self._mask = mask
+        return self
+
+    @classmethod
+    def from_dense(cls, array, corner=(0, 0, 0), voxel_size=1.0, origin=(0.0, 0.0, 0.0)):
+        """A mask from a box of voxels, those that are true or not 0.
+
+        array: array-like of bool or whole numbers, shape (x, y, z)
+        corner: the indices of its first voxel
+        """
+        try:
+            array = numpy.asarray(array)
+        except (TypeError, ValueError) as error:
+            raise InputError(f"array: {error}") from None
+        if array.ndim != 3 or array.dtype.kind not in "biu":
+            raise InputError(f"array: shape {array.shape} of {array.dtype} is not allowed; it must be (x, y, z), of bool "
+                             "or whole numbers")
+        corner = _voxels("corner", [_rows("corner", corner, (3,), "iu", "three whole numbers")])[0]
+        return Mask(numpy.argwhere(array) + corner.astype(numpy.int64), voxel_size, origin)
+
+    def voxels(self):
+        """The active voxels: int32, shape (n, 3), in the order of i, then j, then k.
+
+        Raises InputError for more than 2**30 of them.
+        """
+        return self._mask.voxels()
+
+    def dense(self):
+        """The box around the active voxels: (bool array of shape (x, y, z), int32 indices of its first voxel).
+
+        Raises InputError for more than 2**32 voxels in it.
+        """
+        if not len(self):
+            return numpy.zeros((0, 0, 0), bool), numpy.zeros(3, numpy.int32)
+        low, high = self._mask.box()
+        shape = tuple(int(size) + 1 for size in high.astype(numpy.int64) - low)
+        if shape[0] * shape[1] * shape[2] > 2**32:
+            raise InputError(f"mask: its box is of {shape} voxels; an array can have 2**32")
+        array = numpy.zeros(shape, bool)
+        array[tuple((self.voxels() - low).T)] = True
+        return array, low
+
+    @property
+    def matrix(self):
+        """From indices to the world: float64, shape (4, 4), for columns (i, j, k, 1)."""
+        return self._mask.matrix()
+
+    @property
+    def voxel_size(self):
+        """World units. Raises InputError for a mask of a file whose voxels are no upright cubes; see matrix."""
+        matrix = self.matrix[:3, :3]
+        if matrix[0, 0] <= 0 or not numpy.array_equal(matrix, matrix[0, 0] * numpy.eye(3)):
+            raise InputError("voxel_size: the voxels of this mask are no upright cubes; matrix says what they are")
+        return float(matrix[0, 0])
+
+    @property
+    def origin(self):
+        """World position of the centre of the voxel 0, 0, 0: float64, shape (3,)."""
+        return self.matrix[:3, 3].copy()
+
+    def __len__(self):
+        """The number of active voxels."""
+        return self._mask.count
+
+    def __bool__(self):
+        return True
+
+    def __repr__(self):
+        return f"<vdbcage.Mask: {len(self)} voxels>"
+
+
+def voxelize(model, resolution=128, *, voxelizer=None, box=None, progress=None):
+    """The voxels that a face of the model touches, and those inside, as a Mask. It has no cavities.
+
+    model: a Mesh of any kind
+    resolution: voxels along the model's longest side, 1 to 4096
+    voxelizer: None (auto), "cpu", "gl" or "cgal"; all give the same voxels
+    box: array-like, shape (2, 3): lower and upper corner; the voxels are laid out as for a model with this bounding box
+    Raises InputError, DeviceError, Cancelled.
+    """
+    resolution = _whole("resolution", resolution, 1, 4096)
+    if box is not None:
+        box = _rows("box", box, (2, 3), "fiu", "two rows of three finite numbers").astype(float).ravel().tolist()
+    voxelizer = _option_text("voxelizer", voxelizer, "auto")
+    with _names_of_python():
+        return Mask._of(_vdbcage.voxelize(_mesh("model", model), resolution, voxelizer, box, _callback(progress)))
+
+
+def close_mask(mask, close_radius, erode_radius=None, *, element="sphere", scale_field=None, progress=None):
+    """The closing of a mask: its dilation by the close radius, eroded by the erode radius.
+
+    mask: a Mask
+    close_radius, erode_radius: voxels, 0 to 512; the erode radius is at most the close radius, which None stands for
+    element: "sphere" or "cube"
+    scale_field: None, or what the radii are multiplied by in places, as in docs/VOLUMES.md
+    Raises InputError, IoError for the file of a scale field, Cancelled.
+    """
+    mask = _mask("mask", mask)
+    close_radius = _number("close_radius", close_radius, 0, 512)
+    erode_radius = close_radius if erode_radius is None else _number("erode_radius", erode_radius, 0, close_radius)
+    element = _option_text("element", element, "")
+    scale_field = _option_text("scale_field", scale_field, "")
+    with _names_of_python():
+        return Mask._of(_vdbcage.close_mask(mask, close_radius, erode_radius, element, scale_field,
+                                            _callback(progress)))
+
+
+def read_vdb(path):
+    """Reads a Mask from a .vdb: its first grid named density, or else its only grid, of floats, doubles or booleans.
+
+    Active are voxels above 0.5, below 0 in a level set, or true. The file need not be trusted. Raises IoError.
+    """
+    return Mask._of(_vdbcage.read_vdb(_path(path)))
+
+
+def write_vdb(mask, path, metadata=None):
+    """Writes a Mask as a .vdb with one FloatGrid named density, a fog volume of 1 in the active voxels.
+
+    metadata: a dict of strings; each becomes a string of the grid named vdbcage_KEY
+    Raises IoError.
+    """
+    metadata = {} if metadata is None else metadata
+    if not isinstance(metadata, dict) or not all(isinstance(text, str) for item in metadata.items() for text in item):
+        raise InputError(f"metadata: {metadata!r} is not allowed; it must be a dict of strings")
+    _vdbcage.write_vdb(_mask("mask", mask), _path(path), metadata)
