@@ -106,6 +106,27 @@ BOOST_AUTO_TEST_CASE(a_pose_through_itself_is_not_valid_and_turns_triangles_insi
     BOOST_TEST(!follower.model().bound());
 }
 
+BOOST_AUTO_TEST_CASE(a_count_that_was_stopped_is_begun_anew)
+{
+    run("model-colours inverted");
+    run("move -5 0 0");
+    follow();
+    const PoseCheckPtr first = follower.check();
+    for (int i = 0; i < 20; ++i) {
+        run("coordinates mlc");
+        const Follower::Effort effort{true, true, true};
+        for (follower.follow(session.state(), points(), effort); !follower.isChecking();
+             follower.follow(session.state(), points(), effort)) {
+            follower.waitForNews(1);
+            follower.update();
+        }
+        run("coordinates mvc");
+        follow();
+        BOOST_TEST_REQUIRE(follower.check());
+        BOOST_TEST((follower.check()->inverted == first->inverted));
+    }
+}
+
 BOOST_AUTO_TEST_CASE(weights_from_a_file_pose_it)
 {
     const std::vector<Vec3d>& rest = model->mesh.points;

@@ -6,6 +6,7 @@
 #include "app_fixture.h"
 #include <tools/view/state/move.h>
 #include <tools/view/state/words.h>
+#include <tools/view/verbs.h>
 #include <vdbcage/core/error.h>
 
 using namespace vdbcage;
@@ -205,6 +206,72 @@ BOOST_AUTO_TEST_CASE(a_pose_is_checked_when_it_stands_still)
     run(app, {"time 0", "wait", "expect pose-valid none", "time 10", "wait", "expect pose-valid yes",
               "expect inverted none", "widget model-colours.inverted press", "wait", "expect inverted >=0",
               "move 0 -20 0", "wait", "expect pose-valid no", "expect inverted >0"});
+}
+
+BOOST_AUTO_TEST_CASE(a_window_of_any_size_has_its_time_line)
+{
+    for (const int width : {1, 300, 660, 690, 720, 800, 3000}) {
+        app.resize(width, 500);
+        for (const char* const frame : {"0", "10", "99999"}) {
+            runLine(app, std::string("time ") + frame);
+            BOOST_TEST(app.picture().width == width);
+        }
+    }
+}
+
+BOOST_AUTO_TEST_CASE(a_click_on_a_long_track_goes_where_it_is_seen)
+{
+    run(app, {"time 500", "mouse move time-line 0.5 0.2", "mouse click"});
+    const int frame = app.session().state().view.frame;
+    BOOST_TEST((frame > 200 && frame < 300), frame);
+}
+
+BOOST_AUTO_TEST_CASE(of_many_keys_the_one_that_is_pressed_is_taken)
+{
+    for (int frame = 0; frame <= 200; ++frame) runLine(app, "set-key " + std::to_string(frame));
+    const auto place = app.widget("time-line");
+    BOOST_TEST_REQUIRE(place.has_value());
+    for (const int frame : {0, 50, 51, 199}) {
+        const double x = place->left + 10 + (place->width - 36) * frame / 200.0;
+        const std::string y = std::to_string(place->top + place->height - 8);
+        run(app, {"mouse at " + std::to_string(x) + ' ' + y, "mouse click", "expect messages 0"});
+        BOOST_TEST(std::abs(app.session().state().view.frame - frame) <= 1);
+        BOOST_TEST(app.session().state().document.poses.keys().size() == 201u);
+    }
+}
+
+BOOST_AUTO_TEST_CASE(what_cannot_play_does_not_begin_later)
+{
+    run(app, {"clear-poses", "key space", "expect play off", "in-betweens 5", "expect play off", "mode shape",
+              "key space", "expect play off", "mode pose", "key space", "expect play on"});
+    // While something is moved its frame is seen.
+    run(app,
+        {"time 0", "key g", "key x", "key 1", "tick 1", "expect time 0", "key enter", "tick 0.05", "expect time 1"});
+    BOOST_CHECK_THROW(runLine(app, "tick -1"), InputError);
+}
+
+BOOST_AUTO_TEST_CASE(frames_that_are_there_are_not_written_over_without_a_question)
+{
+    writeText(folder / "c.0003.obj", "old");
+    run(app, {"browse save-posed-cages", "widget browser.name " + file("c.%04d.obj"), "wait"});
+    BOOST_TEST(readText(folder / "c.0003.obj") == "old");
+    run(app, {"widget browser.yes press", "wait"});
+    BOOST_TEST(readText(folder / "c.0003.obj") != "old");
+    BOOST_TEST(fs::exists(folder / "c.0010.obj"));
+}
+
+BOOST_AUTO_TEST_CASE(no_line_of_a_script_means_two_things)
+{
+    for (const auto& line : describeScript()) {
+        const std::string word = line.first.substr(0, line.first.find(' '));
+        BOOST_TEST(!isCommand(word), word);
+        BOOST_TEST(!verbNamed(word), word);
+    }
+    for (const auto& line : describeVerbs()) BOOST_TEST(!isCommand(line.first.substr(0, line.first.find(' '))));
+    // What a button does is recorded as a line that does it.
+    run(app, {"time 7", "key i"});
+    BOOST_TEST(recorded.back() == "set-key 7");
+    run(app, {"undo", "expect key none", recorded.back(), "expect key unnamed"});
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -140,9 +140,9 @@ BOOST_AUTO_TEST_CASE(keys_are_exact_and_what_is_moved_becomes_one)
     BOOST_TEST(poses().keys().size() == 3u);
     session.undo();
     BOOST_TEST(poses().keys().size() == 2u);
-    run("key 5 middle");
+    run("set-key 5 middle");
     BOOST_TEST(poses().keyAt(5)->name == "middle");
-    run("key 5"); // it keeps its name
+    run("set-key 5"); // it keeps its name
     BOOST_TEST(poses().keyAt(5)->name == "middle");
     run("move-key 5 7");
     BOOST_TEST(!poses().keyAt(5));
@@ -192,6 +192,11 @@ BOOST_AUTO_TEST_CASE(a_sequence_is_opened_by_its_pattern_or_one_of_its_files)
         BOOST_TEST(poses().keyAt(4)->name == "w.0004");
         for (const int frame : {3, 4, 10}) BOOST_TEST((at(frame)[0] == Vec3d(0, 0.01 * frame, 0)));
     }
+    for (int frame = 1; frame <= 12; ++frame) writePosed("u" + std::to_string(frame) + ".obj", {0.01 * frame, 0, 0});
+    for (const char* const path : {"u10.obj", "u3.obj"}) { // no zeros before
+        run("open-poses " + file(path));
+        BOOST_TEST(poses().keys().size() == 12u);
+    }
     BOOST_TEST(patternOf("/a 1/walk12.003.obj") == fs::path("/a 1/walk12.%03d.obj"));
     BOOST_TEST(patternOf("walk7.ply") == fs::path("walk%d.ply"));
     BOOST_TEST(patternOf("007") == fs::path("%03d"));
@@ -239,12 +244,13 @@ BOOST_AUTO_TEST_CASE(a_file_of_parameters_gives_two_poses)
 
 BOOST_AUTO_TEST_CASE(lines_are_read_as_they_are_written)
 {
-    for (const char* const line : {"key 3", "key 3 \"\"", "key 4 \"a name\"", "delete-key 3", "move-key 3 4",
-                                   "in-betweens 12", "clear-poses", "open-poses w.%04d.obj", "open-poses p.param 7",
-                                   "time 0", "time 99999", "play on", "rate 12.5", "compare off", "compare mlc"}) {
+    for (const char* const line :
+         {"set-key 3", "set-key 3 \"\"", "set-key 4 \"a name\"", "delete-key 3", "move-key 3 4", "in-betweens 12",
+          "clear-poses", "open-poses w.%04d.obj", "open-poses p.param 7", "time 0", "time 99999", "play on",
+          "rate 12.5", "compare off", "compare mlc"}) {
         BOOST_TEST(toText(commandOf(wordsOf(line))) == line);
     }
-    for (const char* const line : {"time -1", "time 100000", "time 1.5", "rate 0", "rate 241", "play maybe", "key",
+    for (const char* const line : {"time -1", "time 100000", "time 1.5", "rate 0", "rate 241", "play maybe", "set-key",
                                    "in-betweens 100001", "open-poses p.param 0"}) {
         BOOST_CHECK_THROW(commandOf(wordsOf(line)), InputError);
     }
@@ -255,8 +261,8 @@ BOOST_AUTO_TEST_CASE(a_scene_keeps_all_of_it)
     run("move 0.1 0 0");
     run("time 12");
     run("move 0 0.2 0");
-    run("key 12 \"the end\"");
-    run("key 20 \"\"");
+    run("set-key 12 \"the end\"");
+    run("set-key 20 \"\"");
     // Another cage at rest.
     session.setCage(std::make_shared<const Mesh>(test::box({-0.1, 0, 0}, {1, 1, 1})));
     run("time 5");
@@ -283,6 +289,14 @@ BOOST_AUTO_TEST_CASE(a_scene_keeps_all_of_it)
         BOOST_TEST(test::readText(fs::path(scene).replace_extension(ending)) ==
                    test::readText(fs::path(again).replace_extension(ending)));
     }
+    // A scene of when there was one pose alone.
+    std::string one = test::readText(scene);
+    one.replace(one.find("\"poses\""), 7,
+                "\"pose\": {\"rest\": \"s.rest.obj\", \"posed\": \"s.pose.0012.obj\"}, \"x\"");
+    test::writeText(folder / "old.json", one);
+    const State old = openScene(folder / "old.json");
+    BOOST_TEST_REQUIRE(old.document.poses.keys().size() == 1u);
+    BOOST_CHECK(old.document.poses.keyAt(0)->pose->points == poses().keyAt(12)->pose->points);
     const std::string text = test::readText(scene);
     const auto replaced = [&](const std::string& what, const std::string& with) {
         std::string changed = text;
@@ -318,6 +332,12 @@ BOOST_AUTO_TEST_CASE(poses_are_carried_over_on_a_thread_of_its_own)
     BOOST_TEST(carrier.carried(std::make_shared<const Mesh>(test::sphere({0, 0, 0}, 2, 40)), poses()) == nullptr);
     BOOST_TEST(carried(other)->cage() == other);
     BOOST_TEST(carrier.error().empty());
+    // Who only looks neither waits nor is refused.
+    session.setCage(other);
+    run("select points 0 1 2");
+    BOOST_TEST(!selectionFrame(state(), {}));
+    session.setCage(other, there);
+    BOOST_TEST(selectionFrame(state(), {}).has_value());
     // A cage that is not closed poses nothing.
     Mesh open = *cage;
     open.quads.pop_back();

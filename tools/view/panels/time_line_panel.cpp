@@ -89,7 +89,7 @@ void buildControls(const PanelContext& context)
     ImGui::SetNextItemWidth(std::clamp(nameWidth, length(36), length(200)));
     if (ImGui::InputTextWithHint("##key", key ? "a name" : "no key here", &name,
                                  ImGuiInputTextFlags_EnterReturnsTrue)) {
-        context.ask("key " + std::to_string(view.frame) + ' ' + quotedWord(name));
+        context.ask("set-key " + std::to_string(view.frame) + ' ' + quotedWord(name));
     }
     context.name("key.name");
     help("the name of the key at this frame; Enter keeps it");

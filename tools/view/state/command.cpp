@@ -261,9 +261,9 @@ const std::array<Syntax, std::variant_size_v<Command>>& syntaxes()
              return w.size() == 1 ? OpenPoses{w[0]}
                                   : OpenPoses{w[0], wholeNumberOf(w[1], "open-poses", 1, lastFrame + 1)};
          }},
-        {"key", "FRAME [NAME]", 1, 2, "keeps the pose at a frame on the time line, and names it",
+        {"set-key", "FRAME [NAME]", 1, 2, "keeps the pose at a frame on the time line, and names it",
          [](const Words& w) -> Command {
-             return w.size() == 1 ? SetKey{frameOf(w[0], "key")} : SetKey{frameOf(w[0], "key"), w[1]};
+             return w.size() == 1 ? SetKey{frameOf(w[0], "set-key")} : SetKey{frameOf(w[0], "set-key"), w[1]};
          }},
         {"delete-key", "FRAME", 1, 1, "takes a pose off the time line",
          [](const Words& w) -> Command { return DeleteKey{frameOf(w[0], "delete-key")}; }},
