@@ -76,7 +76,8 @@ struct OpenPoses {
     std::string path;
     int frames = 25; ///< of a file of parameters, 1 to lastFrame + 1
 };
-/// set-key FRAME [NAME]: what is seen at the frame becomes a key of the time line, if it is none yet, and gets the name.
+/// set-key FRAME [NAME]: what is seen at the frame becomes a key of the time line, if it is none yet, and gets the
+/// name.
 struct SetKey {
     int frame = 0;
     std::optional<std::string> name = {}; ///< none: as it is
