@@ -7,7 +7,9 @@
 #include <map>
 #include <system_error>
 
+#include <tools/view/animation.h>
 #include <tools/view/picture_control.h>
+#include <tools/view/pictures.h>
 #include <tools/view/saver.h>
 #include <tools/view/saving.h>
 #include <tools/view/state/folder.h>
@@ -19,7 +21,6 @@
 #include <tools/view/values.h>
 #include <tools/view/verb_commands.h>
 #include <tools/view/verbs.h>
-#include <tools/view/viewport.h>
 #include <tools/view/widget_renderer.h>
 #include <vdbcage/core/detail/number_text.h>
 #include <vdbcage/core/error.h>
@@ -32,13 +33,6 @@ namespace {
 
 using Words = std::vector<std::string>;
 using openvdb::Vec3d;
-
-constexpr double turntableDegreesPerSecond = 24;
-
-[[noreturn]] void refuse(const std::string& what, const std::string& value, const std::string& allowed)
-{
-    throw InputError(what + ": '" + value + "' is not allowed; it must be " + allowed);
-}
 
 Counts countsOf(const Mesh& mesh, std::size_t edges)
 {
@@ -56,11 +50,11 @@ class App::Impl {
 public:
     Impl(const gl::Api& api, AppSetup setup)
         : api_(api), setup_(std::move(setup)), widgets_(setup_.scale, setup_.clipboard),
-          viewport_(api, setup_.isSoftware), widgetRenderer_(api, widgets_.glyphs()),
+          pictures_(api, setup_.isSoftware), widgetRenderer_(api, widgets_.glyphs()),
           runner_(setup_.maker ? std::move(setup_.maker) : makePipelineMaker(), setup_.wake),
           posing_(setup_.binding ? std::move(setup_.binding) : bindingWork(), setup_.wake), saver_(setup_.wake),
-          control_({session_, viewport_, [this](const std::string& line) { attempt(line); }, [this] { endDrag(); },
-                    [this] { return pictureInUse(); }, double{setup_.scale}})
+          control_({session_, pictures_.first(), [this](const std::string& line) { attempt(line); },
+                    [this] { endDrag(); }, [this] { return pictureInUse(); }, double{setup_.scale}})
     {
         recent_ = recentFiles(setup_.recentFiles);
         setKeys(readPreferences(setup_.preferences).keys);
@@ -154,48 +148,18 @@ public:
     void pass(double seconds)
     {
         if (!isAnimated()) return;
-        ViewState view = session_.state().view;
-        const draw::Camera& camera = view.camera;
-        if (isTurning()) {
-            view.camera = draw::orbited(camera, turntableDegreesPerSecond * seconds, 0, camera.target);
-        }
-        if (isPlaying()) view.frame = playedFrame(seconds);
         // It is no step that could be undone.
-        session_.replaceView(view);
+        session_.replaceView(animation_.passed(session_.state(), seconds));
         refresh();
     }
 
-    bool isTurning() const { return session_.state().view.turntable && session_.state().document.model; }
-    bool isPlaying() const
-    {
-        const State& state = session_.state();
-        // What is dragged is of the frame at which that began.
-        return state.view.isPlaying && state.view.mode == Mode::pose && state.document.poses.keys().size() > 1 &&
-               !session_.isDragging();
-    }
-    bool isAnimated() const { return isTurning() || isPlaying(); }
-    /// From the first key to the last, and again.
-    int playedFrame(double seconds)
-    {
-        const State& state = session_.state();
-        const int first = state.document.poses.firstFrame(), count = state.document.poses.finalFrame() - first + 1;
-        playedFrames_ += seconds * state.view.framesPerSecond;
-        const double whole = std::floor(playedFrames_);
-        playedFrames_ -= whole;
-        const int at = std::clamp(state.view.frame - first, 0, count - 1);
-        return first + static_cast<int>(std::fmod(at + whole, count));
-    }
+    /// What is dragged is of the frame and the camera at which that began.
+    bool isAnimated() const { return Animation::isAnimated(session_.state()) && !session_.isDragging(); }
     /// While a value is dragged the processor is for the cages that follow it, not for fine pictures or many.
     bool awaitsCage() const { return isValueDragged_ && !runner_.planner().isSettled(); }
     double secondsBetweenFrames() const { return setup_.isSoftware && awaitsCage() ? 0.05 : 0; }
     bool isMoving() const { return control_.isCameraDragged() || control_.isMoving() || isAnimated() || awaitsCage(); }
-    bool leavesItRough() const { return isMoving() && viewport_.isDrawn() && (!second_ || second_->isDrawn()); }
-    bool isRefined() const { return viewport_.isRefined() && (!second_ || second_->isRefined()); }
-    void drawPictures(bool isRough)
-    {
-        viewport_.draw(isRough);
-        if (second_) second_->draw(isRough);
-    }
+    bool leavesItRough() const { return isMoving() && pictures_.isDrawn(); }
 
     /// Brings the panels in line with the state.
     void layOut()
@@ -215,19 +179,15 @@ public:
     bool needsFrame()
     {
         layOut();
-        return needsFrame_ || (!isRefined() && !leavesItRough());
+        return needsFrame_ || (!pictures_.isRefined() && !leavesItRough());
     }
 
     void drawFrame()
     {
         layOut();
-        if (!leavesItRough()) drawPictures(isMoving());
+        if (!leavesItRough()) pictures_.draw(isMoving());
         draw::Target target = canvas_->target();
-        const std::vector<Rectangle> places = pictures();
-        for (const Rectangle& place : places) {
-            const Viewport& picture = &place == &places.front() ? viewport_ : *second_;
-            picture.copyTo(target.framebuffer, place.left, height_ - place.top - place.height);
-        }
+        pictures_.copyTo(target.framebuffer, height_);
         widgetRenderer_.draw(target, widgets_.drawing());
         gl::throwIfFailed(api_, "drawing the window");
         needsFrame_ = false;
@@ -237,7 +197,7 @@ public:
     draw::Picture picture()
     {
         layOut();
-        while (!isRefined() && !isMoving()) drawPictures(false);
+        while (!pictures_.isRefined() && !isMoving()) pictures_.draw(false);
         drawFrame();
         return draw::fromPixels(canvas_->pixels(), width_, height_, false);
     }
@@ -278,8 +238,7 @@ public:
     Session session_;
     Widgets widgets_;
     Panels panels_;
-    Viewport viewport_;
-    std::unique_ptr<Viewport> second_; ///< where two families are compared; else null
+    Pictures pictures_;
     WidgetRenderer widgetRenderer_;
     Runner runner_;
     Posing posing_;
@@ -297,7 +256,7 @@ public:
     {
         const auto at = placeOf(control_.overlay().gizmo, name, double{setup_.scale});
         if (!at) return std::nullopt;
-        const Rectangle picture = pictures().front();
+        const Rectangle& picture = pictures_.places().front();
         const auto round = [](double x) { return static_cast<int>(std::lround(x)); };
         return Rectangle{picture.left + round((*at)[0]), picture.top + round((*at)[1]), 0, 0};
     }
@@ -306,21 +265,10 @@ public:
     {
         return Panels::viewport(width_, height_, setup_.scale, session_.state().view.mode == Mode::pose);
     }
-    /// Where the picture is, or two side by side.
-    std::vector<Rectangle> pictures() const
-    {
-        Rectangle left = viewport();
-        if (!second_) return {left};
-        Rectangle right = left;
-        left.width = std::max(1, left.width / 2);
-        right.left += left.width;
-        right.width = std::max(1, right.width - left.width);
-        return {left, right};
-    }
-    /// The one that what is done with the pointer belongs to.
+    /// The picture that what is done with the pointer belongs to.
     Rectangle pictureInUse() const
     {
-        const std::vector<Rectangle> places = pictures();
+        const std::vector<Rectangle>& places = pictures_.places();
         return control_.home()[0] < places.back().left ? places.front() : places.back();
     }
     bool isValueDragged_ = false;
@@ -351,7 +299,7 @@ private:
             ignoredStamp_ = {};
             show();
             // Not a line of its own: it follows from this one.
-            session_.execute(SetCamera{viewport_.fitted(session_.state().view, false)});
+            session_.execute(SetCamera{pictures_.first().fitted(session_.state().view, false)});
             session_.execute(SetFrame{0});
             // To have opened a model is no work that could be lost.
             if (!hadModel || wasSaved) saved_ = session_.state().document;
@@ -386,7 +334,7 @@ private:
         } else if (verb == "frame") {
             if (argument != "all" && argument != "selected") refuse("frame", argument, "all or selected");
             const ViewState& view = session_.state().view;
-            attempt(toText(SetCamera{viewport_.fitted(view, argument == "selected")}));
+            attempt(toText(SetCamera{pictures_.first().fitted(view, argument == "selected")}));
         } else if (verb == "box") {
             control_.startBox();
         } else if (verb == "grab") {
@@ -477,7 +425,7 @@ private:
             asksToQuit_ = false;
         } else if (verb == "save-picture") {
             show();
-            savePicture(viewport_.picture(), path);
+            savePicture(pictures_.first().picture(), path);
         } else if (verb == "save-stages") {
             saveStages(path);
         } else {
@@ -541,20 +489,20 @@ private:
             axis[k] = 1;
             content.axes[static_cast<std::size_t>(k)] = {axis.dot(eye.right), axis.dot(eye.up), axis.dot(eye.back)};
         }
-        content.gridStep = viewport_.gridStep();
+        content.gridStep = pictures_.first().gridStep();
         if (const OpenedMeshPtr& model = session_.state().document.model) {
-            const openvdb::BBoxd& box = viewport_.box();
+            const openvdb::BBoxd& box = pictures_.first().box();
             const Vec3d extents = box.extents();
             const double longest = std::max({extents.x(), extents.y(), extents.z()});
-            content.largestDistance = longest > 0 ? viewport_.largestDistance() / longest : 0;
+            content.largestDistance = longest > 0 ? pictures_.first().largestDistance() / longest : 0;
             content.box = box;
-            content.model = countsOf(model->mesh, viewport_.edgeCount(LayerId::model));
+            content.model = countsOf(model->mesh, pictures_.first().edgeCount(LayerId::model));
         }
         if (const CageResultPtr& cage = runner_.planner().shown()) {
-            content.cage = countsOf(cage->cage, viewport_.edgeCount(LayerId::cage));
+            content.cage = countsOf(cage->cage, pictures_.first().edgeCount(LayerId::cage));
         }
         content.overlay = control_.overlay();
-        content.pictures = pictures();
+        content.pictures = pictures_.places();
         content.binding = posing_.follower().binder().progress();
         content.isPosedCoarsely = posing_.follower().model().bound() && !posing_.follower().model().isWhole();
         content.keys = keys_;
@@ -634,25 +582,16 @@ private:
             visible_ = cage;
             session_.setCage(cage ? MeshPtr(cage, &cage->cage) : nullptr, posing_.carried());
         }
-        posing_.follow(session_.state(), planner, !control_.isMoving() && !session_.isDragging() && !isPlaying());
+        posing_.follow(session_.state(), planner,
+                       !control_.isMoving() && !session_.isDragging() && !Animation::isPlaying(session_.state()));
         Shown shown;
         shown.model = session_.state().document.model;
         shown.cage = cage;
         shown.isStale = cage == planner.shown() && planner.standing() == Planner::Standing::stale;
         shown.cagePoints = posing_.cagePoints();
-        shown.modelValues = posing_.follower().values();
-        shown.posed = &posing_.follower().model();
-        const Follower* const compared = posing_.compared();
-        if (!compared) second_.reset();
-        if (compared && !second_) second_ = std::make_unique<Viewport>(api_, setup_.isSoftware);
-        const std::vector<Rectangle> places = pictures();
-        viewport_.resize(places.front().width, places.front().height);
-        if (viewport_.show(shown, session_.state().view)) needsFrame_ = true;
-        if (!second_) return;
-        shown.modelValues = compared->values();
-        shown.posed = &compared->model();
-        second_->resize(places.back().width, places.back().height);
-        if (second_->show(shown, session_.state().view)) needsFrame_ = true;
+        const bool changed =
+            pictures_.show(viewport(), shown, posing_.follower(), posing_.compared(), session_.state().view);
+        if (changed) needsFrame_ = true;
     }
 
     void press(const KeyDown& down, const Modifiers& modifiers, bool isMessage)
@@ -672,7 +611,7 @@ private:
 
     Document saved_; ///< as it was last saved, or opened
     CageResultPtr visible_;
-    double playedFrames_ = 0; ///< of a frame, that have passed while it plays
+    Animation animation_;
     bool isLaidOut_ = false;
     bool keepsIntermediates_ = false;
     bool asksToQuit_ = false, hasModelChanged_ = false;

@@ -5,18 +5,15 @@
 #include <cmath>
 
 #include <tools/edit/selection.h>
+#include <tools/view/animation.h>
 #include <tools/view/state/move.h>
 #include <tools/view/state/planner.h>
+#include <tools/view/state/words.h>
 #include <vdbcage/core/error.h>
 
 namespace vdbcage::view {
 
 namespace {
-
-[[noreturn]] void refuse(const std::string& what, const std::string& value, const std::string& allowed)
-{
-    throw InputError(what + ": '" + value + "' is not allowed; it must be " + allowed);
-}
 
 edit::Element kindNamed(const std::string& name)
 {
@@ -58,8 +55,9 @@ Command toggled(const State& state, const std::optional<SymmetryPlane>& made, co
     if (what == "turntable") return SetTurntable{!view.turntable};
     if (what == "see-through") return SetSeeThrough{!view.seeThrough};
     // What cannot play now would begin by itself later.
-    const bool canPlay = view.mode == Mode::pose && state.document.poses.keys().size() > 1;
-    if (what == "play") return Play{!view.isPlaying && canPlay};
+    State playing = state;
+    playing.view.isPlaying = true;
+    if (what == "play") return Play{!view.isPlaying && Animation::isPlaying(playing)};
     if (what == "mode") return SetMode{view.mode == Mode::pose ? Mode::shape : Mode::pose};
     for (int axis = 0; axis < 3; ++axis) {
         if (what == std::string("mirror-") + "xyz"[axis]) return toggledMirror(state, made, axis);

@@ -132,12 +132,12 @@ void buildCompare(const PanelContext& context)
     if (ImGui::Selectable("nothing", !compared)) context.ask("compare off");
     context.name("compare.off");
     for (std::size_t i = 0; i + 1 < familyTexts.size(); ++i) {
-        const FamilyText& family = familyTexts[i];
-        if (ImGui::Selectable(family.label, compared == static_cast<Coordinates>(i))) {
-            context.ask(std::string("compare ") + family.name);
+        const auto family = static_cast<Coordinates>(i);
+        if (ImGui::Selectable(familyTexts[i].label, compared == family)) {
+            context.ask(std::string("compare ") + coordinatesName(family));
         }
-        context.name(std::string("compare.") + family.name);
-        help(family.help);
+        context.name(std::string("compare.") + coordinatesName(family));
+        help(familyTexts[i].help);
     }
     ImGui::EndCombo();
 }

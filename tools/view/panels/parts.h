@@ -13,16 +13,15 @@ namespace vdbcage::view {
 
 /// What users are told of a family of coordinates.
 struct FamilyText {
-    const char* name;
     const char* label;
     const char* help;
 };
 /// By their values in Coordinates.
 constexpr std::array<FamilyText, 4> familyTexts{
-    {{"mvc", "Mean value", "mean value coordinates: smooth, defined everywhere, can be negative"},
-     {"green", "Green", "Green coordinates: they keep shapes and follow the faces' normals"},
-     {"mlc", "Likelihood", "maximum likelihood coordinates: local, never negative"},
-     {"given", "Weights", "weights from a file (File > Open weights)"}}};
+    {{"Mean value", "mean value coordinates: smooth, defined everywhere, can be negative"},
+     {"Green", "Green coordinates: they keep shapes and follow the faces' normals"},
+     {"Likelihood", "maximum likelihood coordinates: local, never negative"},
+     {"Weights", "weights from a file (File > Open weights)"}}};
 
 /// Below the menu: what is done in the picture.
 void buildToolbar(const PanelContext& context);

@@ -156,7 +156,10 @@ void buildToolbar(const PanelContext& context)
     if (isPose) {
         const Coordinates now = state.document.coordinates;
         std::vector<Entry> families;
-        for (const FamilyText& family : familyTexts) families.push_back({family.name, family.label, family.help});
+        for (std::size_t i = 0; i < familyTexts.size(); ++i) {
+            families.push_back(
+                {coordinatesName(static_cast<Coordinates>(i)), familyTexts[i].label, familyTexts[i].help});
+        }
         if (now != Coordinates::given) families.pop_back(); // they are chosen by their file
         list(context, "coordinates", families, static_cast<std::size_t>(now), length(112));
     } else {

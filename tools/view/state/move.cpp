@@ -18,12 +18,6 @@ namespace {
 using openvdb::Index32;
 using openvdb::Vec3d;
 
-const MeshPtr& cageOf(const State& state)
-{
-    if (!state.cage) throw InputError("there is no cage yet");
-    return state.cage;
-}
-
 std::vector<Index32> requiredPoints(const State& state)
 {
     std::vector<Index32> points = selectedPoints(state);
@@ -196,6 +190,12 @@ Mesh withCutQuads(Mesh cage, const std::vector<Index32>& faces)
 }
 
 } // namespace
+
+const MeshPtr& cageOf(const State& state)
+{
+    if (!state.cage) throw InputError("there is no cage yet");
+    return state.cage;
+}
 
 edit::Selection withinCage(edit::Selection selection, const edit::Elements& elements)
 {

@@ -11,6 +11,9 @@
 /// throws InputError where there is no cage, or nothing of it is selected.
 namespace vdbcage::view {
 
+/// The cage that is shown. \throw InputError there is none
+const MeshPtr& cageOf(const State& state);
+
 /// A selection without what the cage does not have, as a script may name it.
 edit::Selection withinCage(edit::Selection selection, const edit::Elements& elements);
 

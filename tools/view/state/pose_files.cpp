@@ -19,12 +19,6 @@ namespace {
 namespace fs = std::filesystem;
 using openvdb::Vec3d;
 
-const MeshPtr& cageOf(const State& state)
-{
-    if (!state.cage) throw InputError("there is no cage yet");
-    return state.cage;
-}
-
 std::vector<Vec3d> readPose(const Mesh& cage, const fs::path& path)
 {
     const OpenedMeshPtr posed = openMesh(path);

@@ -111,4 +111,9 @@ bool switchOf(const std::string& word, const std::string& what)
     throw InputError(what + ": '" + word + "' is not allowed; it must be on or off");
 }
 
+void refuse(const std::string& what, const std::string& value, const std::string& allowed)
+{
+    throw InputError(what + ": '" + value + "' is not allowed; it must be " + allowed);
+}
+
 } // namespace vdbcage::view

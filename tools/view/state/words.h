@@ -24,4 +24,7 @@ int wholeNumberOf(const std::string& word, const std::string& what, int least, i
 /// Reads "on" or "off". \throw InputError naming `what`
 bool switchOf(const std::string& word, const std::string& what);
 
+/// \throw InputError what a value is for, the value, and what is allowed
+[[noreturn]] void refuse(const std::string& what, const std::string& value, const std::string& allowed);
+
 } // namespace vdbcage::view

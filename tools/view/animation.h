@@ -1,0 +1,21 @@
+#pragma once
+
+#include <tools/view/state/state.h>
+
+namespace vdbcage::view {
+
+/// What moves by itself: the turntable, and poses that are played from the first key to the last, and again.
+class Animation {
+public:
+    static bool isTurning(const State& state);
+    static bool isPlaying(const State& state);
+    static bool isAnimated(const State& state) { return isTurning(state) || isPlaying(state); }
+
+    /// The view after so many seconds. \pre seconds >= 0
+    ViewState passed(const State& state, double seconds);
+
+private:
+    double frames_ = 0; ///< the part of a frame that has passed
+};
+
+} // namespace vdbcage::view
