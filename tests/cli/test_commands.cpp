@@ -2,6 +2,7 @@
 
 #include <csignal>
 #include <cstdio>
+#include <regex>
 
 #include <nlohmann/json.hpp>
 #include <openvdb/openvdb.h>
@@ -31,6 +32,40 @@ json readJson(const std::filesystem::path& path)
 } // namespace
 
 BOOST_AUTO_TEST_SUITE(commands)
+
+/// The stages that lines of progress name, in their order; anything else in them is an error.
+std::vector<std::string> stagesOf(const std::string& text)
+{
+    std::vector<std::string> stages;
+    std::istringstream lines(text);
+    const std::regex pattern("(  0| [ 1-9][0-9]|100) %  ([a-z]+) +[0-9]+\\.[0-9] s");
+    for (std::string line; std::getline(lines, line);) {
+        std::smatch match;
+        if (!std::regex_match(line, match, pattern)) break; // the words about the result begin
+        if (stages.empty() || stages.back() != match[2]) stages.push_back(match[2]);
+    }
+    return stages;
+}
+
+BOOST_AUTO_TEST_CASE(verbose_names_every_stage_where_there_is_no_terminal)
+{
+    const TemporaryFolder folder;
+    const auto made =
+        runCommand({command, "make", bishop, "-o", folder / "cage.obj", "--report", folder / "made.json", "-v"});
+    BOOST_REQUIRE(made.status == 0);
+    const json report = readJson(folder / "made.json");
+    std::vector<std::string> names;
+    for (const json& stage : report["stages"]) names.push_back(stage["name"]);
+    BOOST_TEST(stagesOf(made.err) == names, boost::test_tools::per_element());
+
+    const auto bound = runCommand({command, "bind", folder / "cage.obj", bishop, "-o", folder / "weights.npy", "-v"});
+    BOOST_TEST(!stagesOf(bound.err).empty(), bound.err);
+    const auto posed = runCommand(
+        {command, "deform", folder / "cage.obj", folder / "cage.obj", bishop, "-o", folder / "posed.obj", "-v"});
+    BOOST_TEST(!stagesOf(posed.err).empty(), posed.err);
+    const auto quiet = runCommand({command, "make", bishop, "-o", folder / "cage.obj", "-v", "-q"});
+    BOOST_TEST(quiet.err.empty(), quiet.err);
+}
 
 BOOST_AUTO_TEST_CASE(make_leaves_cage_stages_report_and_picture)
 {

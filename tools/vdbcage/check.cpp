@@ -30,7 +30,7 @@ int runCheck(std::vector<std::string> words)
     outputs.reads(modelPath);
     if (!reportPath.empty()) outputs.writes(reportPath);
 
-    std::optional<Progress> progress(quiet);
+    std::optional<Progress> progress(verbosityOf(quiet));
     const Mesh cage = readMesh(cagePath);
     const MeshFile file = readMeshFile(modelPath);
     const CageCheck check = checkCage(cage, file.mesh, {}, &*progress);

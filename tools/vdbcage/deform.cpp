@@ -65,7 +65,7 @@ int runBind(std::vector<std::string> words)
 {
     fs::path cagePath, modelPath, output;
     std::string family = "mvc";
-    bool quiet = false;
+    bool quiet = false, verbose = false;
     CLI::App app("vdbcage bind CAGE MODEL -o WEIGHTS.npy [OPTIONS]\n"
                  "Computes the weights by which the cage moves the model's points.\n"
                  "For vdbcage deform --weights, and for NumPy:\n"
@@ -76,6 +76,7 @@ int runBind(std::vector<std::string> words)
     app.add_option("-o,--output", output, "the weights to write")->required()->type_name("WEIGHTS.npy");
     app.add_option("--coordinates", family, familyHelp)->type_name("FAMILY");
     app.add_flag("-q,--quiet", quiet, "print nothing but errors");
+    app.add_flag("-v,--verbose", verbose, "print the progress, also without a terminal");
     if (!parse(app, std::move(words))) return exitGood;
     const Coordinates coordinates = coordinatesNamed(family);
     if (output.extension() != ".npy") {
@@ -86,7 +87,7 @@ int runBind(std::vector<std::string> words)
     outputs.reads(modelPath);
     outputs.writes(output);
 
-    std::optional<Progress> progress(quiet);
+    std::optional<Progress> progress(verbosityOf(quiet, verbose));
     const Mesh cage = readMesh(cagePath), model = readMesh(modelPath);
     const std::vector<float> weights =
         bindFiles(cagePath, modelPath, [&] { return computeWeights(cage, model.points, coordinates, &*progress); });
@@ -106,7 +107,7 @@ int runDeform(std::vector<std::string> words)
 {
     fs::path cagePath, posedPath, modelPath, output, weights;
     std::string family = "mvc";
-    bool quiet = false, inversions = false;
+    bool quiet = false, verbose = false, inversions = false;
     CLI::App app("vdbcage deform CAGE POSED_CAGE MODEL -o OUT [OPTIONS]\n"
                  "Moves the model as its cage moved. A sequence has the frame's number in the\n"
                  "names of POSED_CAGE and OUT: cage.%04d.obj. From OBJ to OBJ all stays as it\n"
@@ -120,6 +121,7 @@ int runDeform(std::vector<std::string> words)
     app.add_option("--weights", weights, "of bind, or a matrix (.npy, .dmat) [computed]")->type_name("WEIGHTS");
     app.add_flag("--inversions", inversions, "print how many triangles each pose inverts");
     app.add_flag("-q,--quiet", quiet, "print nothing but errors");
+    app.add_flag("-v,--verbose", verbose, "print the progress, also without a terminal");
     if (!parse(app, std::move(words))) return exitGood;
     coordinatesNamed(family);
     detail::requireMeshExtension(output);
@@ -134,7 +136,7 @@ int runDeform(std::vector<std::string> words)
     for (const Frame& frame : frames) outputs.reads(frame.path);
     for (const Frame& frame : frames) outputs.writes(framePath(output, frame.number));
 
-    std::optional<Progress> progress(quiet);
+    std::optional<Progress> progress(verbosityOf(quiet, verbose));
     const Mesh cage = readMesh(cagePath), model = readMesh(modelPath);
     const Binding binding =
         weights.empty() ? bindFiles(cagePath, modelPath,

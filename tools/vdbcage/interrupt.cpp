@@ -90,7 +90,14 @@ void sayCancelled() noexcept
     write("vdbcage: error: cancelled\n");
 }
 
-Progress::Progress(bool quiet) : visible_(!quiet && ::isatty(STDERR_FILENO) == 1)
+Progress::Form Progress::formOf(Verbosity verbosity)
+{
+    if (verbosity == Verbosity::quiet) return Form::none;
+    if (::isatty(STDERR_FILENO) == 1) return Form::bar;
+    return verbosity == Verbosity::verbose ? Form::lines : Form::none;
+}
+
+Progress::Progress(Verbosity verbosity) : form_(formOf(verbosity))
 {
 }
 
@@ -103,31 +110,39 @@ void Progress::start(const char* name)
 {
     const std::lock_guard lock(mutex_);
     stage_ = name ? name : "";
-    draw(0);
+    percent_ = 0;
+    draw();
 }
 
 void Progress::end()
 {
     const std::lock_guard lock(mutex_);
-    draw(100);
+    percent_ = 100;
+    if (form_ == Form::bar) draw(); // in lines the next stage says as much
 }
 
 bool Progress::wasInterrupted(int percent)
 {
-    if (visible_ && percent >= 0 && mutex_.try_lock()) {
+    if (form_ != Form::none && mutex_.try_lock()) {
         const std::lock_guard lock(mutex_, std::adopt_lock);
-        if (Clock::now() - drawn_ >= std::chrono::milliseconds(100)) draw(percent);
+        const std::chrono::milliseconds pause(form_ == Form::bar ? 100 : 1000);
+        if (percent >= 0) percent_ = percent;
+        if (Clock::now() - drawn_ >= pause) draw();
     }
     return signalled();
 }
 
 /// Allocates nothing: it also runs while an exception is on its way.
-void Progress::draw(int percent)
+void Progress::draw()
 {
-    if (!visible_) return;
+    if (form_ == Form::none) return;
     drawn_ = Clock::now();
     const double seconds = std::chrono::duration<double>(drawn_ - began_).count();
-    const int done = std::clamp(percent, 0, 100);
+    const int done = std::clamp(percent_, 0, 100);
+    if (form_ == Form::lines) {
+        if (!stage_.empty()) std::fprintf(stderr, "%3d %%  %-10s %6.1f s\n", done, stage_.c_str(), seconds);
+        return;
+    }
     std::array<char, barWidth + 1> bar{};
     std::fill_n(bar.begin(), barWidth, '.');
     std::fill_n(bar.begin(), barWidth * static_cast<std::size_t>(done) / 100, '#');

@@ -32,11 +32,19 @@ void ignoreSignals() noexcept;
 /// Prints that the command was cancelled, unless that was said before.
 void sayCancelled() noexcept;
 
-/// Shows how far the work is on a terminal and passes a signal on to it: one line on standard error that is redrawn at
-/// most ten times a second; nothing where standard error is not a terminal or `quiet`.
+/// How much a command says of its progress.
+enum class Verbosity { quiet, normal, verbose };
+constexpr Verbosity verbosityOf(bool quiet, bool verbose = false)
+{
+    return quiet ? Verbosity::quiet : verbose ? Verbosity::verbose : Verbosity::normal;
+}
+
+/// Shows how far the work is, on standard error, and passes a signal on to it. On a terminal it is one line that is
+/// redrawn at most ten times a second. Elsewhere it is nothing, or if verbose a line for every stage and every second
+/// of it, `PERCENT % STAGE SECONDS s`, for logs and for programs that show it.
 class Progress : public Interrupter {
 public:
-    explicit Progress(bool quiet);
+    explicit Progress(Verbosity verbosity);
     ~Progress() override;
 
     void start(const char* name = nullptr) override;
@@ -44,13 +52,16 @@ public:
     bool wasInterrupted(int percent = -1) override;
 
 private:
-    void draw(int percent);
+    enum class Form { none, bar, lines };
+    static Form formOf(Verbosity verbosity);
+    void draw();
 
     using Clock = std::chrono::steady_clock;
-    const bool visible_;
+    const Form form_;
     const Clock::time_point began_ = Clock::now();
     std::mutex mutex_; // guards what follows: wasInterrupted is called from many threads
     std::string stage_;
+    int percent_ = 0; // of the stage, as far as it says
     Clock::time_point drawn_;
 };
 

@@ -145,12 +145,12 @@ int runMake(std::vector<std::string> words)
     app.add_option("--report", arguments.report, "options, times, memory, verdict as JSON")->type_name("FILE.json");
     app.add_option("--picture", arguments.picture, "the model with its cage")->type_name("FILE.png");
     app.add_flag("-q,--quiet", arguments.quiet, "print nothing but errors");
-    app.add_flag("-v,--verbose", arguments.verbose, "print stage times and the whole verdict");
+    app.add_flag("-v,--verbose", arguments.verbose, "print progress, stage times, the whole verdict");
     if (!parse(app, std::move(words))) return exitGood;
     Outputs outputs;
     announce(arguments, outputs);
 
-    std::optional<Progress> progress(arguments.quiet);
+    std::optional<Progress> progress(verbosityOf(arguments.quiet, arguments.verbose));
     const std::string text = makeFiles(arguments, outputs, *progress);
     outputs.commit();
     progress.reset();

@@ -54,7 +54,7 @@ int runRepair(std::vector<std::string> words)
     outputs.writes(outputPath);
     if (!reportPath.empty()) outputs.writes(reportPath);
 
-    std::optional<Progress> progress(quiet);
+    std::optional<Progress> progress(verbosityOf(quiet));
     const auto [mended, report] = repair(readMesh(cagePath), &*progress);
     outputs.add(outputPath, [&](std::ostream& out) { writeMesh(mended, out, outputPath); });
     if (!reportPath.empty()) {

@@ -1,0 +1,9 @@
+"""Runs unittest modules of this folder in Blender: blender --background --factory-startup --python run.py -- test_make"""
+
+import pathlib
+import sys
+import unittest
+
+sys.path.insert(0, str(pathlib.Path(__file__).parent))
+names = sys.argv[sys.argv.index("--") + 1:]
+unittest.main(module=None, argv=["blender", "-v", *names])

@@ -1,0 +1,224 @@
+"""Pose and Set Rest."""
+
+import os
+import struct
+
+import bpy
+import numpy
+from support import BISHOP, CREATURE, Case, command, load, positions, select, set_positions, size, write_obj
+
+
+def bent(points):
+    """A pose: turned about x, more the further a point is along z."""
+    low, high = points[:, 2].min(), points[:, 2].max()
+    angle = 0.8 * (points[:, 2] - low) / (high - low)
+    sine, cosine = numpy.sin(angle), numpy.cos(angle)
+    y, z = points[:, 1] - points[:, 1].mean(), points[:, 2] - low
+    return numpy.stack([points[:, 0], y * cosine - z * sine, y * sine + z * cosine], axis=1)
+
+
+def key(model):
+    """The points of the shape key that holds the pose."""
+    return numpy.array([point.co for point in model.data.shape_keys.key_blocks[-1].data])
+
+
+class Pose(Case):
+    def by_hand(self, family, cage, model, rest, posed):
+        """The points that the command's deform gives, in the world: `rest` and `posed` are points of the cage."""
+        set_positions(cage, rest)
+        write_obj(self.folder / "cage.obj", cage)
+        set_positions(cage, posed)
+        write_obj(self.folder / "posed.obj", cage)
+        command("deform", self.folder / "cage.obj", self.folder / "posed.obj", write_obj(self.folder / "m.obj", model),
+                "-o", self.folder / "result.obj", "--coordinates", family)
+        lines = (self.folder / "result.obj").read_text().splitlines()
+        return numpy.array([line.split()[1:] for line in lines if line.startswith("v ")], float)
+
+    def test_a_shape_key_is_what_the_command_gives_in_the_world(self):
+        """In the world: where a scale differs from axis to axis, Green coordinates keep the shapes that are seen."""
+        model = load(BISHOP)
+        model.scale = (1, 2, 0.7)
+        model.rotation_euler = (1, 0.2, 3)
+        model.location = (3, 1, 2)
+        bpy.context.view_layer.update()
+        bpy.ops.vdbcage.make_cage(faces=200)
+        cage = model.vdbcage.cage
+        rest = positions(cage, world=False)
+        for family in ("green", "mvc", "mlc"):
+            if model.data.shape_keys:
+                model.data.shape_keys.key_blocks[-1].value = 0
+            expected = self.by_hand(family, cage, model, rest, bent(rest))
+            bpy.ops.vdbcage.pose(coordinates=family)
+            self.assertEqual([block.name for block in model.data.shape_keys.key_blocks],
+                             ["Basis", "Posed by bishop Cage"])
+            self.assertNear(positions(model), expected, 2e-6 * size(expected))
+
+    def test_where_objects_go_after_they_were_at_rest_is_of_no_matter(self):
+        model = load(BISHOP)
+        bpy.ops.vdbcage.make_cage(faces=100)
+        cage = model.vdbcage.cage
+        rest = positions(cage, world=False)
+        set_positions(cage, bent(rest))
+        bpy.ops.vdbcage.pose()
+        posed = key(model)
+        model.location, cage.location, cage.scale = (1, 2, 3), (5, 5, 5), (2, 2, 2)
+        bpy.ops.vdbcage.pose()
+        self.assertNear(key(model), posed, 1e-7)
+
+    def test_the_pose_is_taken_in_edit_mode_too(self):
+        model = load(BISHOP)
+        bpy.ops.vdbcage.make_cage(faces=100)
+        cage = model.vdbcage.cage
+        rest = positions(cage, world=False)
+        select(cage)
+        bpy.ops.object.mode_set(mode="EDIT")
+        bpy.ops.mesh.select_all(action="SELECT")
+        bpy.ops.transform.translate(value=(0, 0, 1))
+        bpy.ops.vdbcage.pose(coordinates="mvc")
+        bpy.ops.object.mode_set(mode="OBJECT")
+        move = positions(cage, world=False) - rest
+        self.assertGreater(numpy.abs(move).max(), 0.9)
+        self.assertNear(key(model), positions_at_rest(model) + move[0], 2e-6 * size(rest))
+
+    def test_an_animation_becomes_a_point_cache(self):
+        model = load(BISHOP)
+        model.modifiers.new("subdivided", "SUBSURF").levels = 1
+        model.rotation_euler = (1, 0.2, 3)
+        bpy.context.view_layer.update()
+        bpy.ops.vdbcage.make_cage(faces=200)
+        cage = model.vdbcage.cage
+        rest, at_rest = positions(cage, world=False), positions(model)
+        cage.shape_key_add(name="Basis")
+        pose = cage.shape_key_add(name="bent")
+        pose.data.foreach_set("co", bent(rest).astype(numpy.float32).ravel())
+        pose.value = 0
+        pose.keyframe_insert("value", frame=3)
+        pose.value = 1
+        pose.keyframe_insert("value", frame=6)
+        for curve in cage.data.shape_keys.animation_data.action.fcurves:
+            for point in curve.keyframe_points:
+                point.interpolation = "LINEAR"
+        scene = bpy.context.scene
+        scene.frame_set(5)
+        bpy.ops.vdbcage.pose(coordinates="green", target="POINT_CACHE", frame_start=3, frame_end=6,
+                             directory=str(self.folder))
+        self.assertEqual(scene.frame_current, 5)
+        self.assertEqual([modifier.type for modifier in model.modifiers], ["SUBSURF", "MESH_CACHE"])
+        header = (self.folder / "bishop.pc2").read_bytes()[:32]
+        self.assertEqual(struct.unpack("<12siiffi", header), (b"POINTCACHE2\0", 1, len(at_rest), 3, 1, 4))
+        self.assertEqual(os.listdir(self.folder), ["bishop.pc2"])
+
+        seen = {}
+        for frame in (1, 3, 4, 6, 8):
+            scene.frame_set(frame)
+            seen[frame] = positions(model)
+        self.assertNear(seen[3], at_rest, 1e-5 * size(at_rest))
+        self.assertNear(seen[1], seen[3], 0)
+        self.assertNear(seen[8], seen[6], 0)
+        modifier = model.modifiers[-1]
+        modifier.show_viewport = False
+        cage.shape_key_clear()
+        for frame, part in ((4, 1 / 3), (6, 1)):
+            expected = self.by_hand("green", cage, model, rest, rest + part * (bent(rest) - rest))
+            self.assertNear(seen[frame], expected, 1e-5 * size(expected))
+
+    def test_two_models_of_one_cage(self):
+        body, clothes = load(BISHOP), load(BISHOP)
+        clothes.location = (0.4, 0, 0)
+        bpy.context.view_layer.update()
+        select(body, clothes)
+        bpy.ops.vdbcage.make_cage(faces=200)
+        cage = body.vdbcage.cage
+        shape = positions(cage, world=False)
+        set_positions(cage, shape + [0, 2, 0])
+        select(cage)
+        bpy.ops.vdbcage.pose(coordinates="mvc")
+        for model in (body, clothes):
+            self.assertNear(key(model), positions_at_rest(model) + [0, 2, 0], 2e-6 * size(shape))
+
+    def test_what_is_bound_and_what_is_posed_take_turns(self):
+        model = load(BISHOP)
+        bpy.ops.vdbcage.make_cage(faces=100)
+        cage = model.vdbcage.cage
+        bpy.ops.vdbcage.bind()
+        shape = positions(cage, world=False)
+        rest = positions(model, world=False)
+        set_positions(cage, shape + [0, 2, 0])
+        bpy.ops.vdbcage.pose(coordinates="mvc")
+        self.assertNear(positions(model, world=False), rest + [0, 2, 0], 1e-5 * size(shape))
+        bpy.ops.vdbcage.pose(coordinates="mvc", target="POINT_CACHE", frame_start=1, frame_end=1,
+                             directory=str(self.folder))
+        set_positions(cage, shape)
+        bpy.ops.vdbcage.bind()
+        self.assertNear(positions(model, world=False), rest, 1e-5 * size(shape))
+        set_positions(cage, shape + [0, 2, 0])
+        self.assertNear(positions(model, world=False), rest + [0, 2, 0], 1e-5 * size(shape))
+
+    def test_set_rest(self):
+        model = load(BISHOP)
+        bpy.ops.vdbcage.make_cage(faces=100)
+        cage = model.vdbcage.cage
+        set_positions(cage, 1.2 * positions(cage, world=False))
+        bpy.ops.vdbcage.set_rest()
+        bpy.ops.vdbcage.pose(coordinates="mvc")
+        self.assertNear(key(model), positions_at_rest(model), 2e-6 * size(key(model)))
+
+    def test_weights_are_kept_until_something_changes(self):
+        model = load(BISHOP)
+        bpy.ops.vdbcage.make_cage(faces=100)
+
+        def kept():
+            return [name for name in os.listdir(bpy.app.tempdir) if name.startswith("vdbcage_weights_bishop_")]
+
+        bpy.ops.vdbcage.pose(coordinates="mvc")
+        first = kept()
+        self.assertEqual(len(first), 1)
+        set_positions(model.vdbcage.cage, 1.2 * positions(model.vdbcage.cage, world=False))
+        bpy.ops.vdbcage.pose(coordinates="mvc")
+        self.assertEqual(kept(), first)
+        posed = key(model)
+        bpy.ops.vdbcage.set_rest()
+        bpy.ops.vdbcage.pose(coordinates="mvc")
+        self.assertEqual(len(kept()), 1)
+        self.assertNotEqual(kept(), first)
+        self.assertGreater(numpy.abs(key(model) - posed).max(), 0.1)
+
+    def test_files_are_beside_the_blend(self):
+        model = load(BISHOP)
+        bpy.ops.vdbcage.make_cage(faces=100)
+        blend = self.folder / "scene.blend"
+        self.fails("Point caches are files beside the .blend. Save it first", bpy.ops.vdbcage.pose,
+                   target="POINT_CACHE", frame_start=1, frame_end=2)
+        bpy.ops.wm.save_as_mainfile(filepath=str(blend))
+        try:
+            bpy.ops.vdbcage.pose(target="POINT_CACHE", frame_start=1, frame_end=2)
+            self.assertTrue((self.folder / "vdbcage_cache" / "bishop.pc2").exists())
+            self.assertEqual(model.modifiers[0].filepath, "//vdbcage_cache/bishop.pc2")
+        finally:
+            bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
+
+    def test_wrong_input_changes_nothing(self):
+        pose = bpy.ops.vdbcage.pose
+        self.fails("Select a model that has a cage, or its cage", pose)
+        model = load(BISHOP)
+        bpy.ops.mesh.primitive_cube_add(size=1)
+        cube = bpy.context.object
+        model.vdbcage.cage = cube
+        self.fails("bishop has no shape at rest. Press Set Rest", pose)
+        bpy.ops.vdbcage.set_rest()
+        self.fails("Error: bishop.ply: point 38 at", pose, coordinates="green")
+        bpy.ops.object.mode_set(mode="EDIT")
+        bpy.ops.mesh.subdivide()
+        bpy.ops.object.mode_set(mode="OBJECT")
+        self.fails("Cube has 26 points, and had 8 at rest", pose)
+        bpy.ops.vdbcage.set_rest()
+        cube.modifiers.new("subdivided", "SUBSURF")
+        self.fails("Cube has modifiers that change its number of points", pose)
+        self.fails("The last frame, 1, is before the first, 2", pose, target="POINT_CACHE", frame_start=2, frame_end=1)
+        select(model)
+        bpy.ops.object.mode_set(mode="EDIT")
+        self.fails("bishop is in Edit Mode", pose)
+
+
+def positions_at_rest(model):
+    return numpy.array([point.co for point in model.data.shape_keys.reference_key.data])

@@ -1,0 +1,107 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The files that go between Blender and the command, and Blender's point caches. Nothing here knows Blender."""
+
+import os
+import struct
+
+import numpy
+
+
+class Polygons:
+    """A mesh as arrays: points (n, 3), the number of corners of each face, and all corners, face after face."""
+
+    def __init__(self, points, counts, corners):
+        self.points, self.counts, self.corners = points, counts, corners
+
+    def moved(self, matrix):
+        """The mesh moved by a matrix, (4, 4). Faces stay outward where it mirrors."""
+        points = self.points @ matrix[:3, :3].T + matrix[:3, 3]
+        if numpy.linalg.det(matrix[:3, :3]) >= 0:
+            return Polygons(points, self.counts, self.corners)
+        ends = numpy.cumsum(self.counts)
+        first = numpy.repeat(ends - self.counts, self.counts)
+        last = numpy.repeat(ends - 1, self.counts)
+        return Polygons(points, self.counts, self.corners[first + last - numpy.arange(len(self.corners))])
+
+    def faces(self):
+        """A list of corners a face."""
+        ends = numpy.cumsum(self.counts)
+        return [self.corners[end - count:end].tolist() for end, count in zip(ends, self.counts)]
+
+
+def joined(meshes):
+    """Several meshes as one."""
+    before = numpy.cumsum([0] + [len(mesh.points) for mesh in meshes])
+    return Polygons(numpy.concatenate([mesh.points for mesh in meshes]),
+                    numpy.concatenate([mesh.counts for mesh in meshes]),
+                    numpy.concatenate([mesh.corners + start for mesh, start in zip(meshes, before)]))
+
+
+def write_ply(path, mesh):
+    """Writes a binary PLY: doubles, and faces of any number of corners."""
+    starts = numpy.cumsum(mesh.counts) - mesh.counts
+    faces = numpy.insert(mesh.corners, starts, mesh.counts).astype("<i4")  # the count before each face's corners
+    header = ("ply\nformat binary_little_endian 1.0\n"
+              f"element vertex {len(mesh.points)}\nproperty double x\nproperty double y\nproperty double z\n"
+              f"element face {len(mesh.counts)}\nproperty list int int vertex_indices\nend_header\n")
+    with open(path, "wb") as file:
+        file.write(header.encode())
+        file.write(numpy.ascontiguousarray(mesh.points, "<f8").tobytes())
+        file.write(faces.tobytes())
+
+
+def _ply(path):
+    """Header and body of a PLY of the command: the numbers of points and faces, and the bytes behind the header."""
+    with open(path, "rb") as file:
+        data = file.read()
+    end = data.index(b"end_header\n") + len(b"end_header\n")
+    words = data[:end].decode().split()
+    numbers = {words[i + 1]: int(words[i + 2]) for i, word in enumerate(words) if word == "element"}
+    return numbers["vertex"], numbers["face"], data[end:]
+
+
+def read_ply_points(path):
+    """The points of a PLY that the command wrote, (n, 3) doubles."""
+    points, _, body = _ply(path)
+    return numpy.frombuffer(body, "<f8", points * 3).reshape(-1, 3)
+
+
+def read_ply(path):
+    """A PLY that the command wrote."""
+    points, faces, body = _ply(path)
+    at = points * 24
+    counts, corners = [], []
+    for _ in range(faces):
+        count = body[at]
+        counts.append(count)
+        corners.extend(struct.unpack_from(f"<{count}i", body, at + 1))
+        at += 1 + 4 * count
+    return Polygons(numpy.frombuffer(body, "<f8", points * 3).reshape(-1, 3), numpy.array(counts, int),
+                    numpy.array(corners, int))
+
+
+class PointCache:
+    """Writes a .pc2 file: positions of the same points at frames that follow each other. It appears whole or not at
+    all.
+
+        with PointCache(path, points, first_frame, frames) as cache:
+            cache.add(positions)  # (points, 3), once a frame
+    """
+
+    def __init__(self, path, points, first_frame, frames):
+        self._path, self._partial = path, f"{path}.part"
+        self._file = open(self._partial, "wb")
+        self._file.write(struct.pack("<12siiffi", b"POINTCACHE2", 1, points, first_frame, 1, frames))
+
+    def add(self, positions):
+        self._file.write(numpy.ascontiguousarray(positions, "<f4").tobytes())
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, kind, *_):
+        self._file.close()
+        if kind is None:
+            os.replace(self._partial, self._path)
+        else:
+            os.remove(self._partial)

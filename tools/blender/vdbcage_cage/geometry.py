@@ -1,0 +1,91 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Arrays of Blender's meshes."""
+
+import contextlib
+
+import bpy
+import numpy
+
+from .command import CommandError
+from .files import Polygons
+
+
+def _positions(collection, attribute="co"):
+    array = numpy.empty(3 * len(collection), numpy.float32)
+    collection.foreach_get(attribute, array)
+    return array.reshape(-1, 3).astype(numpy.float64)
+
+
+def _integers(collection, attribute):
+    array = numpy.empty(len(collection), numpy.int32)
+    collection.foreach_get(attribute, array)
+    return array.astype(numpy.int64)
+
+
+def _polygons(mesh, points):
+    counts, starts = _integers(mesh.polygons, "loop_total"), _integers(mesh.polygons, "loop_start")
+    ends = numpy.cumsum(counts)
+    # Faces need not lie one after the other in Blender 3.
+    order = numpy.repeat(starts - (ends - counts), counts) + numpy.arange(ends[-1] if len(ends) else 0)
+    return Polygons(points, counts, _integers(mesh.loops, "vertex_index")[order])
+
+
+def _flush(thing):
+    if thing.mode == "EDIT":
+        thing.update_from_editmode()
+
+
+def rest(thing):
+    """The mesh of an object as it was modelled: without modifiers, and without shape keys but the basis."""
+    _flush(thing)
+    keys = thing.data.shape_keys
+    points = _positions(keys.reference_key.data if keys else thing.data.vertices)
+    return _polygons(thing.data, points)
+
+
+@contextlib.contextmanager
+def _muted(modifiers):
+    """These modifiers do nothing for a while."""
+    shown = [modifier for modifier in modifiers if modifier.show_viewport]
+    for modifier in shown:
+        modifier.show_viewport = False
+    try:
+        yield
+    finally:
+        for modifier in shown:
+            modifier.show_viewport = True
+
+
+def evaluated(context, thing, without=()):
+    """The mesh of an object as it is seen in this frame, but for these modifiers."""
+    _flush(thing)
+    with _muted(without):
+        context.view_layer.update()
+        shown = thing.evaluated_get(context.evaluated_depsgraph_get())
+        mesh = shown.to_mesh()
+        try:
+            return _polygons(mesh, _positions(mesh.vertices))
+        finally:
+            shown.to_mesh_clear()
+
+
+def matrix(blender):
+    """A 4 x 4 matrix as an array."""
+    return numpy.array(blender, numpy.float64)
+
+
+def inverse(name, blender):
+    """The inverse of the matrix of the object `name`. Raises CommandError."""
+    array = matrix(blender)
+    scales = numpy.linalg.norm(array[:3, :3], axis=0)
+    if not (scales > 0).all() or abs(numpy.linalg.det(array[:3, :3] / scales)) < 1e-6:
+        raise CommandError(f"{name} is flat: its scale is 0 along an axis")
+    return numpy.linalg.inv(array)
+
+
+def new_mesh(name, polygons):
+    """A mesh of Blender."""
+    mesh = bpy.data.meshes.new(name)
+    mesh.from_pydata(polygons.points.tolist(), [], polygons.faces())
+    mesh.update()
+    return mesh

@@ -1,0 +1,236 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Pose: vdbcage's own coordinates move the models, also Green's, which Blender does not have."""
+
+import hashlib
+import os
+import pathlib
+
+import bpy
+import numpy
+
+from . import files, geometry, links
+from .command import CommandError
+from .folders import folder, stored
+from .make import still_there
+from .running import CommandOperator, command
+
+
+class Settings(bpy.types.PropertyGroup):
+    """What the panel shows."""
+
+    coordinates: bpy.props.EnumProperty(
+        name="Coordinates",
+        items=(("green", "Green", "Keeps shapes: what is inside turns with the faces. The model must be inside"),
+               ("mvc", "Mean Value", "Follows the cage's points exactly. The model may reach out of the cage"),
+               ("mlc", "Maximum Likelihood", "Follows the cage's points, most locally. The model must be inside")))
+    target: bpy.props.EnumProperty(
+        name="Into",
+        items=(("SHAPE_KEY", "Shape Key", "The cage as it is now poses the mesh, below all modifiers"),
+               ("POINT_CACHE", "Point Cache", "The cage's animation poses the model as it is seen. The points go to a "
+                                              "file that a Mesh Cache modifier reads")))
+    directory: bpy.props.StringProperty(
+        name="Folder", subtype="DIR_PATH",
+        description="Where point caches are kept. If this is empty, it is a folder beside the .blend")
+
+
+class VDBCAGE_OT_pose(CommandOperator, bpy.types.Operator):
+    """Pose the models as their cage is posed, by vdbcage's coordinates"""
+
+    bl_idname = "vdbcage.pose"
+    bl_label = "Pose"
+
+    coordinates: Settings.__annotations__["coordinates"]
+    target: Settings.__annotations__["target"]
+    directory: Settings.__annotations__["directory"]
+    frame_start: bpy.props.IntProperty(name="First Frame", default=1)
+    frame_end: bpy.props.IntProperty(name="Last Frame", default=250)
+
+    def take_settings(self, context):
+        scene = context.scene
+        for name in Settings.__annotations__:
+            if not self.properties.is_property_set(name):
+                setattr(self, name, getattr(scene.vdbcage_pose, name))
+        for name in ("frame_start", "frame_end"):
+            if not self.properties.is_property_set(name):
+                setattr(self, name, getattr(scene, name))
+
+    def prepare(self, context, job):
+        program = command(context)
+        pairs = links.pairs(context)
+        self._frames = [context.scene.frame_current]
+        if self.target == "POINT_CACHE":
+            if self.frame_end < self.frame_start:
+                raise CommandError(f"The last frame, {self.frame_end}, is before the first, {self.frame_start}")
+            self._frames = list(range(self.frame_start, self.frame_end + 1))
+            self._caches = folder(self.directory, "vdbcage_cache", "Point caches are files")
+        self._poses, commands = [], []
+        for i, (model, cage) in enumerate(pairs):
+            pose = _Pose(context, model, cage, job.folder / str(i), self.target, self.coordinates)
+            self._poses.append(pose)
+        _write_frames(context, self._poses, self._frames)
+        for pose in self._poses:
+            commands += pose.commands(program)
+        return commands
+
+    def finish(self, context, job):
+        things = [still_there(context, [pose.model, pose.cage]) for pose in self._poses]
+        # All that can fail comes before the scene changes.
+        if self.target == "SHAPE_KEY":
+            results = [pose.result(0) for pose in self._poses]
+            for (model, _), points in zip(things, results):
+                if len(points) != len(model.data.vertices):
+                    raise CommandError(f"{model.name} has {len(model.data.vertices)} points now, and had {len(points)}")
+        else:
+            results = [self._write_cache(pose) for pose in self._poses]
+        for (model, cage), result in zip(things, results):
+            if self.target == "SHAPE_KEY":
+                _set_shape_key(model, cage, result)
+            else:
+                _set_cache(model, cage, result, self.frame_start)
+            links.mute_bound(model, cage)
+        names = ", ".join(pose.model for pose in self._poses)
+        frames = f"{len(self._frames)} frames of " if self.target == "POINT_CACHE" else ""
+        self.report({"INFO"}, f"Posed {frames}{names}")
+
+    def _write_cache(self, pose):
+        """Writes the point cache of a model; its path."""
+        os.makedirs(self._caches, exist_ok=True)
+        path = os.path.join(self._caches, f"{bpy.path.clean_name(pose.model)}.pc2")
+        with files.PointCache(path, pose.points, self.frame_start, len(self._frames)) as cache:
+            for frame in range(len(self._frames)):
+                cache.add(pose.result(frame))
+        return path
+
+
+class _Pose:
+    """One model that is posed: its files in the job's folder.
+
+    The command gets points as they were in the world at rest: Green coordinates keep shapes, so it matters how a model
+    is scaled. Where the objects have gone since then is of no matter, as with Blender's modifiers.
+    """
+
+    def __init__(self, context, model, cage, place, target, coordinates):
+        """`place` is a folder that there is not yet."""
+        self.model, self.cage = model.name, cage.name
+        self._folder, self._coordinates = place, coordinates
+        self._model_file = place / f"{bpy.path.clean_name(model.name)}.ply"  # messages of the command have this name
+        if not model.vdbcage.is_at_rest:
+            raise CommandError(f"{model.name} has no shape at rest. Press Set Rest while {cage.name} is as it is")
+        if model.mode == "EDIT":
+            raise CommandError(f"{model.name} is in Edit Mode. Leave it first")
+        rest = links.rest_points(cage)
+        if target == "SHAPE_KEY":
+            mesh = geometry.rest(model)
+        else:
+            mesh = geometry.evaluated(context, model, links.driven_by(model, cage))
+        self.points = len(mesh.points)
+        self._model_to_world, self._cage_to_world = model.vdbcage.matrices()
+        self._faces = geometry.rest(cage)
+        place.mkdir()
+        files.write_ply(self._model_file, mesh.moved(self._model_to_world))
+        self._write_cage(place / "rest.ply", rest)
+        self._weights = self._weights_file()
+
+    def write_frame(self, number, points):
+        """Writes the cage's points, in its own space, as a frame. Raises CommandError."""
+        if len(points) != len(self._faces.points):
+            raise CommandError(f"{self.cage} has modifiers that change its number of points. Apply them first")
+        self._write_cage(self._folder / f"posed.{number:04d}.ply", points)
+
+    def commands(self, program):
+        """The commands that leave the posed model in the folder."""
+        cage, model = self._folder / "rest.ply", self._model_file
+        bind = [program, "bind", cage, model, "-o", self._weights, "--coordinates", self._coordinates, "-v"]
+        deform = [program, "deform", cage, self._folder / "posed.%04d.ply", model, "-o",
+                  self._folder / "result.%04d.ply", "--weights", self._weights, "-v"]
+        return [deform] if self._weights.exists() else [bind, deform]
+
+    def result(self, number):
+        """The points of a frame, in the model's space."""
+        points = files.read_ply_points(self._folder / f"result.{number:04d}.ply")
+        world = numpy.linalg.inv(self._model_to_world)
+        return points @ world[:3, :3].T + world[:3, 3]
+
+    def _write_cage(self, path, points):
+        mesh = files.Polygons(points, self._faces.counts, self._faces.corners)
+        files.write_ply(path, mesh.moved(self._cage_to_world))
+
+    def _weights_file(self):
+        """Where the weights of this model and cage are kept until Blender ends: they take longer than a pose."""
+        content = hashlib.sha256(self._coordinates.encode())
+        for file in (self._folder / "rest.ply", self._model_file):
+            content.update(file.read_bytes())
+        start = f"vdbcage_weights_{bpy.path.clean_name(self.model)}_"
+        path = pathlib.Path(bpy.app.tempdir) / f"{start}{content.hexdigest()[:32]}.npy"
+        for old in path.parent.glob(f"{start}*.npy"):
+            if old != path:
+                old.unlink()
+        return path
+
+
+def _write_frames(context, poses, frames):
+    """Writes the posed cages of these frames, and goes back to the frame that is seen."""
+    current = context.scene.frame_current
+    try:
+        for number, frame in enumerate(frames):
+            if frame != context.scene.frame_current:
+                context.scene.frame_set(frame)
+            for pose in poses:
+                cage = context.scene.objects[pose.cage]
+                pose.write_frame(number, geometry.evaluated(context, cage).points)
+    finally:
+        if context.scene.frame_current != current:
+            context.scene.frame_set(current)
+
+
+def _set_shape_key(model, cage, points):
+    """Sets the shape key that holds poses by this cage."""
+    if model.data.shape_keys is None:
+        model.shape_key_add(name="Basis", from_mix=False)
+    name = links.pose_name(cage)
+    key = model.data.shape_keys.key_blocks.get(name) or model.shape_key_add(name=name, from_mix=False)
+    key.data.foreach_set("co", points.astype(numpy.float32).ravel())
+    key.value = 1
+    model.data.update()
+
+
+def _set_cache(model, cage, path, first_frame):
+    """Lets a Mesh Cache modifier read the points."""
+    name = links.pose_name(cage)
+    modifier = model.modifiers.get(name) or model.modifiers.new(name, "MESH_CACHE")
+    modifier.cache_format = "PC2"
+    modifier.filepath = stored(path)
+    modifier.frame_start = first_frame
+    modifier.show_viewport = modifier.show_render = True
+
+
+class VDBCAGE_OT_set_rest(bpy.types.Operator):
+    """Take the cage as it is now for the shape in which its models are at rest"""
+
+    bl_idname = "vdbcage.set_rest"
+    bl_label = "Set Rest"
+    bl_options = {"REGISTER", "UNDO"}
+
+    def execute(self, context):
+        try:
+            for model, cage in links.pairs(context):
+                links.set_rest(context, model, cage)
+        except CommandError as error:
+            self.report({"ERROR"}, str(error))
+            return {"CANCELLED"}
+        return {"FINISHED"}
+
+
+_classes = (Settings, VDBCAGE_OT_pose, VDBCAGE_OT_set_rest)
+
+
+def register():
+    for one in _classes:
+        bpy.utils.register_class(one)
+    bpy.types.Scene.vdbcage_pose = bpy.props.PointerProperty(type=Settings)
+
+
+def unregister():
+    del bpy.types.Scene.vdbcage_pose
+    for one in reversed(_classes):
+        bpy.utils.unregister_class(one)

@@ -1,0 +1,86 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Show Stages: the volumes from which the cage of the selected objects is made."""
+
+import os
+
+import bpy
+from mathutils import Matrix, Vector
+
+from .command import CommandError
+from .folders import folder, stored
+from .make import MakingOperator
+
+_names = ("solid", "dilated", "closed", "contour")
+_folder = "vdbcage_folder"  # a custom property of the collection: where its volumes are
+
+
+class VDBCAGE_OT_show_stages(MakingOperator, bpy.types.Operator):
+    """Show the volumes from which the cage of the selected objects is made"""
+
+    bl_idname = "vdbcage.show_stages"
+    bl_label = "Show Stages"
+
+    directory: bpy.props.StringProperty(
+        name="Folder", subtype="DIR_PATH",
+        description="Where the volumes are kept. If this is empty, it is a folder beside the .blend")
+
+    def take_settings(self, context):
+        super().take_settings(context)
+        if not self.properties.is_property_set("directory"):
+            self.directory = context.scene.vdbcage_stages
+
+    def prepare(self, context, job):
+        words = self.prepare_cage(context, job)
+        default = f"vdbcage_stages/{bpy.path.clean_name(self._models[0])}"
+        self._directory = folder(self.directory, default, "Volumes are files")
+        return [words + ["--stages", self._directory]]
+
+    def finish(self, context, job):
+        first = self.models(context)[0]
+        collection = self._collection(context, first)
+        for name, volume in self._volumes(context, first).items():
+            thing = bpy.data.objects.new(f"{first.name} {name}", volume)
+            collection.objects.link(thing)
+            # Voxel ijk is centred at ijk in the file; Blender draws it from ijk to ijk + 1.
+            half = Vector([axis.length / 2 for axis in volume.grids[0].matrix_object.to_3x3().col])
+            thing.matrix_world = first.matrix_world @ Matrix.Translation(-half)
+            volume.grids.unload()
+
+    def _volumes(self, context, first):
+        """The volumes by their stages, loaded. Raises CommandError."""
+        context.view_layer.update()  # Blender keeps a file that it has read for as long as something shows it
+        volumes = {}
+        for name in _names:
+            path = os.path.join(self._directory, f"{name}.vdb")
+            volume = volumes[name] = bpy.data.volumes.new(f"{first.name} {name}")
+            volume.filepath = stored(path)
+            if not volume.grids.load():
+                error = volume.grids.error_message
+                bpy.data.batch_remove(volumes.values())
+                raise CommandError(f"{path}: {error}")
+        return volumes
+
+    def _collection(self, context, first):
+        """An empty collection for the volumes: that of an earlier run if it showed the same files."""
+        for collection in context.scene.collection.children_recursive:
+            if collection.get(_folder) == self._directory:
+                for thing in list(collection.objects):
+                    if thing.type == "VOLUME":
+                        bpy.data.volumes.remove(thing.data)
+                return collection
+        collection = bpy.data.collections.new(f"{first.name} Stages")
+        collection[_folder] = self._directory
+        context.scene.collection.children.link(collection)
+        return collection
+
+
+def register():
+    bpy.utils.register_class(VDBCAGE_OT_show_stages)
+    bpy.types.Scene.vdbcage_stages = bpy.props.StringProperty(
+        name="Folder", subtype="DIR_PATH",
+        description="Where the volumes are kept. If this is empty, it is a folder beside the .blend")
+
+
+def unregister():
+    del bpy.types.Scene.vdbcage_stages
+    bpy.utils.unregister_class(VDBCAGE_OT_show_stages)
