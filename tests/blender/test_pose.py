@@ -146,8 +146,12 @@ class Pose(Case):
         set_positions(cage, shape + [0, 2, 0])
         bpy.ops.vdbcage.pose(coordinates="mvc")
         self.assertNear(positions(model, world=False), rest + [0, 2, 0], 1e-5 * size(shape))
+        set_positions(cage, shape + [0, 3, 0])
         bpy.ops.vdbcage.pose(coordinates="mvc", target="POINT_CACHE", frame_start=1, frame_end=1,
                              directory=str(self.folder))
+        self.assertNear(positions(model, world=False), rest + [0, 3, 0], 1e-5 * size(shape))
+        bpy.ops.vdbcage.pose(coordinates="mvc")
+        self.assertNear(positions(model, world=False), rest + [0, 3, 0], 1e-5 * size(shape))
         set_positions(cage, shape)
         bpy.ops.vdbcage.bind()
         self.assertNear(positions(model, world=False), rest, 1e-5 * size(shape))

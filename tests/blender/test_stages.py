@@ -11,6 +11,7 @@ STAGES = ("solid", "dilated", "closed", "contour")
 
 def meshed(volume):
     """The points of a volume's surface in the world, and what is inside it in its own space."""
+    bpy.context.view_layer.update()
     mesh = bpy.data.meshes.new("surface")
     holder = bpy.data.objects.new("surface", mesh)
     bpy.context.scene.collection.objects.link(holder)

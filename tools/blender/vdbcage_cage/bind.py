@@ -91,14 +91,34 @@ def not_following(context, model, modifier, points, matrix):
     to_model = numpy.linalg.inv(geometry.matrix(model.matrix_world)) @ geometry.matrix(matrix)
     expected = to_model[:3, :3] @ move
     at = []
-    was_shown, modifier.show_viewport = modifier.show_viewport, True
     for shift in (0 * move, move):
-        with _stand_in(context, modifier, points + shift, matrix):
-            at.append(geometry.evaluated(context, model, behind).points)
-    modifier.show_viewport = was_shown
+        with _stand_in(context, modifier, points + shift, matrix), geometry.muted(behind):
+            at.append(geometry.evaluated(context, model).points)
     off = numpy.linalg.norm(at[1] - at[0] - expected, axis=1)
     rounding = 1e-6 * max(numpy.abs(at[1]).max(initial=0), numpy.abs(points).max())
     return int((off > 1e-5 * numpy.linalg.norm(expected) + rounding).sum()), len(off)
+
+
+def _bind_at_rest(context, model, cage, modifier, matrix):
+    """Binds a modifier to its cage at rest, with this world matrix, and lets it alone move the model. As
+    `not_following`. Raises CommandError."""
+    points = links.rest_points(cage)
+    others = [other for other in links.driven_by(model, cage) if other != modifier]
+    was_shown, modifier.show_viewport = modifier.show_viewport, True
+    try:
+        with geometry.muted(others, links.pose_keys(model, cage)):
+            with _stand_in(context, modifier, points, matrix):
+                _bind(context, model, modifier)
+            stay, number = not_following(context, model, modifier, points, matrix)
+        if stay == number:
+            needs = _kinds[modifier.type].needs
+            needs += ", and the precision high enough" if modifier.type == "MESH_DEFORM" else ""
+            raise CommandError(f"None of the {number} points of {model.name} would follow: {needs}")
+    except CommandError:
+        modifier.show_viewport = was_shown
+        raise
+    links.only(model, cage, modifier)
+    return stay, number
 
 
 def _modifier(model, cage, kind):
@@ -154,7 +174,6 @@ class VDBCAGE_OT_bind(bpy.types.Operator):
 
     def _bind(self, context, model, cage):
         links.set_rest(context, model, cage)
-        links.mute_pose(model, cage)
         before = {modifier.name for modifier in model.modifiers}
         modifier = _modifier(model, cage, self.method)
         is_new = modifier.name not in before
@@ -163,14 +182,8 @@ class VDBCAGE_OT_bind(bpy.types.Operator):
                 bpy.ops.object.modifier_move_to_index(modifier=modifier.name, index=0)
         if self.method == "MESH_DEFORM":
             modifier.precision = self.precision
-        modifier.show_viewport = modifier.show_render = True
         try:
-            _bind(context, model, modifier)
-            stay, number = not_following(context, model, modifier, links.rest_points(cage), cage.matrix_world)
-            if stay == number:
-                needs = _kinds[self.method].needs
-                needs += ", and the precision high enough" if self.method == "MESH_DEFORM" else ""
-                raise CommandError(f"None of the {number} points of {model.name} would follow: {needs}")
+            found = _bind_at_rest(context, model, cage, modifier, cage.matrix_world)
         except CommandError:
             if is_new:
                 model.modifiers.remove(modifier)
@@ -178,7 +191,7 @@ class VDBCAGE_OT_bind(bpy.types.Operator):
         for other in links.driven_by(model, cage):
             if other != modifier and other.type in _kinds:
                 model.modifiers.remove(other)
-        return stay, number
+        return found
 
 
 class VDBCAGE_OT_rebind(bpy.types.Operator):
@@ -202,7 +215,8 @@ class VDBCAGE_OT_rebind(bpy.types.Operator):
                     continue
                 for modifier in links.driven_by(model, cage):
                     if modifier.type in _kinds:
-                        bound.append((model.name, *self._rebind(context, model, cage, modifier)))
+                        matrix = links.cage_matrix_now(model)
+                        bound.append((model.name, *_bind_at_rest(context, model, cage, modifier, matrix)))
         except CommandError as error:
             self.report({"ERROR"}, str(error))
             return {"FINISHED"} if bound else {"CANCELLED"}
@@ -211,13 +225,6 @@ class VDBCAGE_OT_rebind(bpy.types.Operator):
             return {"CANCELLED"}
         _report(self, bound)
         return {"FINISHED"}
-
-    def _rebind(self, context, model, cage, modifier):
-        points = links.rest_points(cage)
-        matrix = links.cage_matrix_now(model)
-        with _stand_in(context, modifier, points, matrix):
-            _bind(context, model, modifier)
-        return not_following(context, model, modifier, points, matrix)
 
 
 _classes = (Settings, VDBCAGE_OT_bind, VDBCAGE_OT_rebind)

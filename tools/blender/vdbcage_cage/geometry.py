@@ -44,29 +44,33 @@ def rest(thing):
 
 
 @contextlib.contextmanager
-def _muted(modifiers):
-    """These modifiers do nothing for a while."""
+def muted(modifiers, keys=()):
+    """For a while these modifiers and shape keys do nothing."""
     shown = [modifier for modifier in modifiers if modifier.show_viewport]
+    heard = [key for key in keys if not key.mute]
     for modifier in shown:
         modifier.show_viewport = False
+    for key in heard:
+        key.mute = True
     try:
         yield
     finally:
         for modifier in shown:
             modifier.show_viewport = True
+        for key in heard:
+            key.mute = False
 
 
-def evaluated(context, thing, without=()):
-    """The mesh of an object as it is seen in this frame, but for these modifiers."""
+def evaluated(context, thing):
+    """The mesh of an object as it is seen in this frame."""
     _flush(thing)
-    with _muted(without):
-        context.view_layer.update()
-        shown = thing.evaluated_get(context.evaluated_depsgraph_get())
-        mesh = shown.to_mesh()
-        try:
-            return _polygons(mesh, _positions(mesh.vertices))
-        finally:
-            shown.to_mesh_clear()
+    context.view_layer.update()
+    shown = thing.evaluated_get(context.evaluated_depsgraph_get())
+    mesh = shown.to_mesh()
+    try:
+        return _polygons(mesh, _positions(mesh.vertices))
+    finally:
+        shown.to_mesh_clear()
 
 
 def matrix(blender):

@@ -102,21 +102,27 @@ def cage_matrix_now(model):
     return model.matrix_world @ Matrix(relation.tolist())
 
 
-def mute_pose(model, cage):
-    """What holds a pose by the cage does nothing from now on: something else moves the model."""
+def pose_keys(model, cage):
+    """The shape key that holds a pose by the cage, if there is one."""
     keys = model.data.shape_keys
-    if keys is not None and pose_name(cage) in keys.key_blocks:
-        keys.key_blocks[pose_name(cage)].value = 0
-    for modifier in driven_by(model, cage):
-        if modifier.type == "MESH_CACHE":
-            modifier.show_viewport = modifier.show_render = False
+    return [key for key in keys.key_blocks if key.name == pose_name(cage)] if keys else []
 
 
-def mute_bound(model, cage):
-    """Modifiers that are bound to the cage do nothing from now on: a pose holds the model."""
+def only(model, cage, mover):
+    """From now on nothing of the cage moves the model but `mover`, a modifier or a shape key."""
     for modifier in driven_by(model, cage):
-        if modifier.type != "MESH_CACHE":
-            modifier.show_viewport = modifier.show_render = False
+        modifier.show_viewport = modifier.show_render = modifier == mover
+    for key in pose_keys(model, cage):
+        key.value = key == mover
+
+
+def unmoved(context, model):
+    """The mesh of a model as it is seen, but for what its cage moves."""
+    cage = cage_of(context, model)
+    if cage is None:
+        return geometry.evaluated(context, model)
+    with geometry.muted(driven_by(model, cage), pose_keys(model, cage)):
+        return geometry.evaluated(context, model)
 
 
 def pose_name(cage):

@@ -21,7 +21,7 @@ class Options:
                                  description="Faces of the cage, at most")
     mesh: bpy.props.EnumProperty(
         name="Mesh", default="triangles",
-        items=(("triangles", "Triangles", "The tightest"), ("triquad", "Triangles and Quads", "More than half are quads"),
+        items=(("triangles", "Triangles", "The tightest"), ("triquad", "Mixed", "Triangles and quads; more than half are quads"),
                ("quads", "Quads", "Nine of ten faces are quads")))
     effort: bpy.props.EnumProperty(
         name="Effort", default="fair",
@@ -82,8 +82,7 @@ def write_models(context, models, surface, path):
         if surface == "REST":
             mesh = geometry.rest(model)
         else:
-            driven = links.driven_by(model, links.cage_of(context, model))
-            mesh = geometry.evaluated(context, model, driven)
+            mesh = links.unmoved(context, model)
         if len(mesh.counts) == 0:
             raise CommandError(f"{model.name} has no faces")
         if not numpy.isfinite(mesh.points).all():

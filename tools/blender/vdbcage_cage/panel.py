@@ -65,7 +65,7 @@ class VDBCAGE_PT_cage(_Panel, bpy.types.Panel):
         box.label(text=cage.name, icon="CHECKMARK" if check["bounding"] else "ERROR")
         faces = check["triangles"] + check["quads"]
         box.label(text=f"{faces} faces, {'certified to bound' if check['bounding'] else 'not certified'}")
-        box.label(text=f"Mean distance {100 * check['mean_distance']:.2f} % of the size")
+        box.label(text=f"Distance {100 * check['mean_distance']:.2f} % of the size")
         box.label(text=f"Made in {report['seconds']:.1f} s")
 
 
@@ -118,7 +118,7 @@ class VDBCAGE_PT_pose(_Panel, bpy.types.Panel):
     def draw(self, context):
         settings = context.scene.vdbcage_pose
         column = _column(self.layout)
-        column.prop(settings, "coordinates")
+        column.prop(settings, "coordinates", text="By")
         column.prop(settings, "target")
         if settings.target == "POINT_CACHE":
             column.prop(settings, "directory")

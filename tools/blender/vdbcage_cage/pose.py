@@ -84,10 +84,10 @@ class VDBCAGE_OT_pose(CommandOperator, bpy.types.Operator):
             results = [self._write_cache(pose) for pose in self._poses]
         for (model, cage), result in zip(things, results):
             if self.target == "SHAPE_KEY":
-                _set_shape_key(model, cage, result)
+                mover = _set_shape_key(model, cage, result)
             else:
-                _set_cache(model, cage, result, self.frame_start)
-            links.mute_bound(model, cage)
+                mover = _set_cache(model, cage, result, self.frame_start)
+            links.only(model, cage, mover)
         names = ", ".join(pose.model for pose in self._poses)
         frames = f"{len(self._frames)} frames of " if self.target == "POINT_CACHE" else ""
         self.report({"INFO"}, f"Posed {frames}{names}")
@@ -122,7 +122,7 @@ class _Pose:
         if target == "SHAPE_KEY":
             mesh = geometry.rest(model)
         else:
-            mesh = geometry.evaluated(context, model, links.driven_by(model, cage))
+            mesh = links.unmoved(context, model)
         self.points = len(mesh.points)
         self._model_to_world, self._cage_to_world = model.vdbcage.matrices()
         self._faces = geometry.rest(cage)
@@ -184,24 +184,24 @@ def _write_frames(context, poses, frames):
 
 
 def _set_shape_key(model, cage, points):
-    """Sets the shape key that holds poses by this cage."""
+    """Sets the shape key that holds poses by this cage, and returns it."""
     if model.data.shape_keys is None:
         model.shape_key_add(name="Basis", from_mix=False)
     name = links.pose_name(cage)
     key = model.data.shape_keys.key_blocks.get(name) or model.shape_key_add(name=name, from_mix=False)
     key.data.foreach_set("co", points.astype(numpy.float32).ravel())
-    key.value = 1
     model.data.update()
+    return key
 
 
 def _set_cache(model, cage, path, first_frame):
-    """Lets a Mesh Cache modifier read the points."""
+    """Lets a Mesh Cache modifier read the points, and returns it."""
     name = links.pose_name(cage)
     modifier = model.modifiers.get(name) or model.modifiers.new(name, "MESH_CACHE")
     modifier.cache_format = "PC2"
     modifier.filepath = stored(path)
     modifier.frame_start = first_frame
-    modifier.show_viewport = modifier.show_render = True
+    return modifier
 
 
 class VDBCAGE_OT_set_rest(bpy.types.Operator):

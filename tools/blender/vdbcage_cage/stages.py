@@ -31,7 +31,7 @@ class VDBCAGE_OT_show_stages(MakingOperator, bpy.types.Operator):
 
     def prepare(self, context, job):
         words = self.prepare_cage(context, job)
-        default = f"vdbcage_stages/{bpy.path.clean_name(self._models[0])}"
+        default = f"{bpy.path.clean_name(self._models[0])}_stages"
         self._directory = folder(self.directory, default, "Volumes are files")
         return [words + ["--stages", self._directory]]
 

@@ -1,0 +1,203 @@
+"""The add-on in a window, by timers and events: see window.sh. Takes the pictures of docs/blender.md on the way."""
+
+import os
+import pathlib
+import sys
+import traceback
+
+import bpy
+from mathutils import Quaternion, Vector
+
+sys.path.insert(0, str(pathlib.Path(__file__).parent))
+from documented import Documented  # noqa: E402
+from support import BISHOP, COMMAND, load, positions, select  # noqa: E402
+
+pictures = pathlib.Path(sys.argv[sys.argv.index("--") + 1])
+
+
+def check(holds, text):
+    print(("ok: " if holds else "FAILED: ") + text, flush=True)
+    if not holds:
+        raise AssertionError(text)
+
+
+class Window:
+    """The window and its 3D viewport."""
+
+    def __init__(self):
+        self.window = bpy.context.window_manager.windows[0]
+        self.area = next(area for area in self.window.screen.areas if area.type == "VIEW_3D")
+        self.region, self.sidebar = (next(region for region in self.area.regions if region.type == kind)
+                                     for kind in ("WINDOW", "UI"))
+        self.space = self.area.spaces[0]
+
+    def context(self):
+        return bpy.context.temp_override(window=self.window, area=self.area, region=self.region)
+
+    def event(self, kind, value, x, y):
+        self.window.event_simulate(type=kind, value=value, x=x, y=y)
+
+    def look(self, place, distance):
+        """Looks from the left and a little from above."""
+        view = self.space.region_3d
+        view.view_rotation = Quaternion((0.62, 0.38, -0.36, -0.58)).normalized()
+        view.view_location = Vector(place)
+        view.view_distance = distance
+
+    def picture(self, name):
+        with self.context():
+            bpy.ops.screen.screenshot(filepath=str(pictures / f"{name}.png"))
+
+
+def running():
+    return bpy.context.window_manager.vdbcage.is_active
+
+
+def cages():
+    return [thing.name for thing in bpy.data.objects if "vdbcage_report" in thing]
+
+
+def temporary():
+    return [name for name in os.listdir(bpy.app.tempdir) if not name.startswith("vdbcage_weights_")]
+
+
+def invoke(window, operator, **options):
+    with window.context():
+        return operator("INVOKE_DEFAULT", **options)
+
+
+def open_tab(window):
+    """Opens the sidebar and clicks along its tabs until the panel is drawn."""
+    from vdbcage_cage import panel
+
+    drawn = []
+    draw = panel.VDBCAGE_PT_cage.draw
+
+    def drawing(self, context):
+        drawn.append(True)
+        draw(self, context)
+
+    panel.VDBCAGE_PT_cage.draw = drawing
+    window.space.show_region_ui = True
+    yield
+    bar = window.sidebar
+    for y in range(bar.y + bar.height - 20, bar.y, -30):
+        if drawn:
+            break
+        for value in ("PRESS", "RELEASE"):
+            window.event("LEFTMOUSE", value, bar.x + bar.width - 8, y)
+        yield
+    panel.VDBCAGE_PT_cage.draw = draw
+    check(bool(drawn), "the tab Cage is opened by a click")
+
+
+def cancelling(window):
+    for thing in list(bpy.data.objects):
+        bpy.data.objects.remove(thing)
+    bpy.context.scene.vdbcage.mesh = "triangles"
+    model = load(BISHOP)
+    select(model)
+    yield
+    check(invoke(window, bpy.ops.vdbcage.make_cage) == {"RUNNING_MODAL"}, "Make Cage returns at once")
+    yield
+    check(running() and cages() == [], "it runs")
+    try:
+        invoke(window, bpy.ops.vdbcage.make_cage)
+        check(False, "a second one was started")
+    except RuntimeError as error:
+        check("A command of vdbcage still runs" in str(error), "a second one is refused meanwhile")
+    model.location.x += 1
+    with window.context():
+        bpy.ops.view3d.view_selected()
+    yield
+    window.picture("running")
+    bpy.ops.vdbcage.cancel()
+    while running():
+        yield
+    check(cages() == [] and temporary() == [], "Cancel ends it and leaves nothing")
+
+    invoke(window, bpy.ops.vdbcage.make_cage)
+    yield
+    for value in ("PRESS", "RELEASE"):
+        window.event("ESC", value, window.region.x + 200, window.region.y + 200)
+    while running():
+        yield
+    check(cages() == [] and temporary() == [], "Esc ends it and leaves nothing")
+
+    invoke(window, bpy.ops.vdbcage.make_cage, faces=50)
+    bpy.data.objects.remove(model)
+    while running():
+        yield
+    check(cages() == [] and temporary() == [], "a model that was deleted meanwhile gets no cage")
+
+    model = load(BISHOP)
+    select(model)
+    bpy.context.scene.vdbcage.faces = 60
+    invoke(window, bpy.ops.vdbcage.make_cage)
+    while running():
+        yield
+    check(cages() == ["bishop Cage"] and temporary() == [], "the cage is made")
+    cage = bpy.data.objects["bishop Cage"]
+    check(len(cage.data.polygons) <= 60, "with what the panel shows")
+    invoke(window, bpy.ops.vdbcage.pose, coordinates="mvc")
+    bpy.data.objects.remove(cage)
+    while running():
+        yield
+    check(model.data.shape_keys is None and temporary() == [], "a cage that was deleted meanwhile poses nothing")
+
+
+def documented(window):
+    """The pictures are what the page says."""
+    for thing in list(bpy.data.objects):
+        bpy.data.objects.remove(thing)
+    window.space.overlay.show_floor = window.space.overlay.show_axis_x = window.space.overlay.show_axis_y = False
+    folder = pictures / "walk"
+    folder.mkdir()
+    docs = Documented(folder)
+    window.look((0, 15, 68), 250)
+    bpy.context.scene.vdbcage.mesh = "triquad"  # as the page says
+    for text, picture in (("make_cage", "cage"), ("turn @", "bound"), ("SHAPE_KEY", "pose"), ("show_stages", "stages")):
+        while True:
+            with window.context():
+                block = docs.run()
+            yield
+            if text in block:
+                break
+        if picture == "cage":
+            model, cage = bpy.data.objects["creature"], bpy.data.objects["creature Cage"]
+            rest = positions(model)
+        if picture == "stages":
+            for thing in bpy.data.collections["creature Stages"].objects:
+                thing.hide_set(not thing.name.endswith("dilated"))
+            cage.hide_set(True)
+            model.modifiers[-1].show_viewport = False
+        yield
+        window.picture(picture)
+    check(abs(positions(model) - rest).max() < 1e-3, "without its point cache the model is at rest")
+
+
+def steps():
+    window = Window()
+    for thing in list(bpy.data.objects):
+        bpy.data.objects.remove(thing)
+    yield
+    yield from open_tab(window)
+    yield from documented(window)
+    yield from cancelling(window)
+
+
+def tick(all_steps=steps()):
+    try:
+        next(all_steps)
+        return 0.2
+    except StopIteration:
+        os._exit(0)
+    except BaseException:
+        traceback.print_exc()
+        sys.stderr.flush()
+        os._exit(1)
+
+
+bpy.context.preferences.view.show_splash = False
+bpy.context.preferences.addons["vdbcage_cage"].preferences.command = COMMAND
+bpy.app.timers.register(tick, first_interval=1)
