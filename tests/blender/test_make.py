@@ -7,6 +7,7 @@ import unittest.mock
 import bpy
 import numpy
 from support import BISHOP, COMMAND, CREATURE, Case, command, load, positions, select, write_obj
+from vdbcage_cage import files
 
 
 class Make(Case):
@@ -66,6 +67,11 @@ class Make(Case):
         self.assertIsNone(other.vdbcage.cage)
         self.assertEqual(cage.matrix_world, body.matrix_world)
         self.certified(cage, body, clothes)
+
+    def test_faces_stay_outward_where_a_matrix_mirrors(self):
+        mesh = files.Polygons(numpy.eye(4)[:, :3] + 1, numpy.array([3, 4]), numpy.array([0, 1, 2, 0, 3, 2, 1]))
+        self.assertEqual(mesh.moved(numpy.diag([2, 1, -1, 1])).faces(), [[2, 1, 0], [1, 2, 3, 0]])
+        self.assertEqual(mesh.moved(numpy.diag([2, -1, -1, 1])).faces(), mesh.faces())
 
     def test_a_cage_bounds_the_model_with_its_modifiers_or_without(self):
         model = load(BISHOP)
