@@ -23,8 +23,8 @@ Json toJson(const CageOptions& options);
 
 /// A cage that was made, with all that `make --report` tells.
 struct CageMade {
-    Json model;                 ///< toJson of its file
-    std::filesystem::path cage; ///< where it is, or will be, written
+    std::pair<std::string, Json> model; ///< "model" and toJson of its file; see models.h
+    std::filesystem::path cage;         ///< where it is, or will be, written
     const CageOptions& options;
     double seconds = 0; ///< wall clock
     const std::vector<StageTime>& stages;

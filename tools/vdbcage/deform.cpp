@@ -59,47 +59,66 @@ std::string describeInversions(const Binding& binding, const Mesh& model, const 
     return text;
 }
 
+/// Where the weights of each model go: into `output`, or for several models into that folder, by their names.
+std::vector<fs::path> weightsFiles(const fs::path& output, const std::vector<fs::path>& models)
+{
+    if (models.size() == 1) {
+        if (output.extension() == ".npy") return {output};
+        throw InputError(output.string() + ": weights are written as .npy; the name must end so");
+    }
+    if (output.extension() == ".npy") {
+        throw InputError(output.string() + ": for several models it must be a folder, which gets a .npy for each");
+    }
+    std::vector<fs::path> files;
+    for (const fs::path& model : models) files.push_back(output / model.stem().concat(".npy"));
+    return files;
+}
+
 } // namespace
 
 int runBind(std::vector<std::string> words)
 {
-    fs::path cagePath, modelPath, output;
+    fs::path cagePath, output;
+    std::vector<fs::path> modelPaths;
     std::string family = "mvc";
     bool quiet = false, verbose = false;
-    CLI::App app("vdbcage bind CAGE MODEL -o WEIGHTS.npy [OPTIONS]\n"
-                 "Computes the weights by which the cage moves the model's points.\n"
+    CLI::App app("vdbcage bind CAGE MODEL... -o WEIGHTS.npy [OPTIONS]\n"
+                 "Computes the weights by which the cage moves the model's points. For several\n"
+                 "models WEIGHTS is a folder, which gets a .npy for each, by its name.\n"
                  "For vdbcage deform --weights, and for NumPy:\n"
                  "numpy.load(\"WEIGHTS.npy\")[\"weights\"] is float32, points x handles.",
                  "bind");
     app.add_option("cage", cagePath)->required()->type_name("CAGE");
-    app.add_option("model", modelPath)->required()->type_name("MODEL");
-    app.add_option("-o,--output", output, "the weights to write")->required()->type_name("WEIGHTS.npy");
+    app.add_option("models", modelPaths)->required()->type_name("MODEL...");
+    app.add_option("-o,--output", output, "the weights to write")->required()->type_name("WEIGHTS");
     app.add_option("--coordinates", family, familyHelp)->type_name("FAMILY");
     app.add_flag("-q,--quiet", quiet, "print nothing but errors");
     app.add_flag("-v,--verbose", verbose, "print the progress, also without a terminal");
     if (!parse(app, std::move(words))) return exitGood;
     const Coordinates coordinates = coordinatesNamed(family);
-    if (output.extension() != ".npy") {
-        throw InputError(output.string() + ": weights are written as .npy; the name must end so");
-    }
+    const std::vector<fs::path> files = weightsFiles(output, modelPaths);
     Outputs outputs;
     outputs.reads(cagePath);
-    outputs.reads(modelPath);
-    outputs.writes(output);
+    for (const fs::path& model : modelPaths) outputs.reads(model);
+    if (files.size() > 1) outputs.writesInto(output);
+    for (const fs::path& file : files) outputs.writes(file);
 
     std::optional<Progress> progress(verbosityOf(quiet, verbose));
-    const Mesh cage = readMesh(cagePath), model = readMesh(modelPath);
-    const std::vector<float> weights =
-        bindFiles(cagePath, modelPath, [&] { return computeWeights(cage, model.points, coordinates, &*progress); });
-    outputs.add(output,
-                [&](std::ostream& out) { writeWeights(cage, model.points, coordinates, weights, out, output); });
-    const std::string text = quiet ? std::string()
-                                   : printable(output) + ": " + std::to_string(model.points.size()) + " points, " +
-                                         std::to_string(cageHandles(cage, cage.points, coordinates).size()) +
-                                         " handles, " + coordinatesName(coordinates) + '\n';
+    const Mesh cage = readMesh(cagePath);
+    const std::size_t handles = cageHandles(cage, cage.points, coordinates).size();
+    std::string text;
+    for (std::size_t i = 0; i < files.size(); ++i) {
+        const Mesh model = readMesh(modelPaths[i]);
+        const std::vector<float> weights = bindFiles(
+            cagePath, modelPaths[i], [&] { return computeWeights(cage, model.points, coordinates, &*progress); });
+        outputs.add(files[i],
+                    [&](std::ostream& out) { writeWeights(cage, model.points, coordinates, weights, out, files[i]); });
+        text += printable(files[i]) + ": " + std::to_string(model.points.size()) + " points, " +
+                std::to_string(handles) + " handles, " + coordinatesName(coordinates) + '\n';
+    }
     outputs.commit();
     progress.reset();
-    std::cerr << text;
+    if (!quiet) std::cerr << text;
     return exitGood;
 }
 

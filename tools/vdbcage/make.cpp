@@ -3,6 +3,7 @@
 #include <iostream>
 #include <optional>
 
+#include <tools/report/models.h>
 #include <tools/report/report.h>
 #include <tools/report/stages.h>
 #include <vdbcage/core/error.h>
@@ -23,7 +24,8 @@ namespace {
 namespace fs = std::filesystem;
 
 struct MakeArguments {
-    fs::path model, cage, stages, report, picture;
+    std::vector<fs::path> models;
+    fs::path cage, stages, report, picture;
     CageOptions options;
     bool quiet = false, verbose = false;
 };
@@ -34,7 +36,7 @@ void announce(const MakeArguments& arguments, Outputs& outputs)
     detail::requireMeshExtension(arguments.cage);
     if (!arguments.picture.empty()) requirePngExtension(arguments.picture);
     requireValid(arguments.options);
-    outputs.reads(arguments.model);
+    for (const fs::path& model : arguments.models) outputs.reads(model);
     if (!arguments.options.scale.file.empty()) outputs.reads(arguments.options.scale.file);
     if (!arguments.stages.empty()) outputs.writesInto(arguments.stages); // the others may go there too
     outputs.writes(arguments.cage);
@@ -45,29 +47,31 @@ void announce(const MakeArguments& arguments, Outputs& outputs)
 }
 
 /// Runs the pipeline; an objection to the model names its file.
-Pipeline makePipeline(Mesh model, const MakeArguments& arguments, Interrupter& interrupter)
+Pipeline makePipeline(std::vector<ModelFile>& models, const MakeArguments& arguments, Interrupter& interrupter)
 {
     try {
-        Pipeline pipeline(std::move(model));
+        Pipeline pipeline(takeMesh(models));
         pipeline.run(arguments.options, &interrupter);
         return pipeline;
     } catch (const InputError& error) {
         const std::string text = error.what(), prefix = "model: ";
         if (text.compare(0, prefix.size(), prefix) != 0) throw;
-        throw InputError(arguments.model.string() + ": " + text.substr(prefix.size()));
+        throw InputError(namesOf(models) + ": " + text.substr(prefix.size()));
     }
 }
 
 void addStages(const Pipeline& pipeline, const MakeArguments& arguments, Interrupter* interrupter, Outputs& outputs)
 {
+    std::string source;
+    for (const fs::path& model : arguments.models) source += (source.empty() ? "" : ", ") + model.filename().string();
     writeStages(
-        {arguments.model.filename().string(), arguments.options, pipeline.report(), *pipeline.solid(),
-         *pipeline.closed(), pipeline.surface(), pipeline.smoothed(), pipeline.decimated()},
+        {source, arguments.options, pipeline.report(), *pipeline.solid(), *pipeline.closed(), pipeline.surface(),
+         pipeline.smoothed(), pipeline.decimated()},
         arguments.stages, [&](const fs::path& path, const FileWriter& write) { outputs.add(path, write); },
         interrupter);
 }
 
-std::string summaryOf(const MakeArguments& arguments, const ReadSummary& summary, const Pipeline& pipeline,
+std::string summaryOf(const MakeArguments& arguments, const std::vector<ModelFile>& models, const Pipeline& pipeline,
                       const std::vector<StageTime>& stages, double seconds)
 {
     const CageReport& report = pipeline.report();
@@ -81,7 +85,7 @@ std::string summaryOf(const MakeArguments& arguments, const ReadSummary& summary
                              : ", NOT a valid cage")
         << ", mean distance " << 100 * check.meanDistance << " % of the longest side, " << seconds << " s\n";
     for (const std::string& remark : remarks(report, arguments.options)) out << "  " << remark << '\n';
-    out << describe(summary);
+    out << describe(models);
     if (!arguments.verbose) return out.str();
     for (const StageTime& stage : stages) {
         out << "  " << std::left << std::setw(10) << stage.name << std::right << std::setw(8) << stage.seconds
@@ -101,12 +105,12 @@ std::string makeFiles(const MakeArguments& arguments, Outputs& outputs, Interrup
     StageClock clock(&interrupter);
 
     std::optional<Stage> reading(std::in_place, &clock, "read");
-    MeshFile file = readMeshFile(arguments.model);
-    const Json modelReport = toJson(file.mesh, file.summary, arguments.model);
+    std::vector<ModelFile> models = readModels(arguments.models);
     reading.reset();
 
-    Pipeline pipeline = makePipeline(std::move(file.mesh), arguments, clock);
+    Pipeline pipeline = makePipeline(models, arguments, clock);
     const Mesh& cage = pipeline.cage();
+    checkEach(models, cage, &clock);
 
     std::optional<Stage> writing(std::in_place, &clock, "write");
     // All work first: while files are waiting a signal has to wait for work.
@@ -118,10 +122,10 @@ std::string makeFiles(const MakeArguments& arguments, Outputs& outputs, Interrup
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
     if (!arguments.report.empty()) {
         const Json report = toJson(
-            CageMade{modelReport, arguments.cage, arguments.options, seconds, clock.stages(), pipeline.report()});
+            CageMade{entryOf(models), arguments.cage, arguments.options, seconds, clock.stages(), pipeline.report()});
         outputs.add(arguments.report, [&](std::ostream& out) { out << toText(report); });
     }
-    return summaryOf(arguments, file.summary, pipeline, clock.stages(), seconds);
+    return summaryOf(arguments, models, pipeline, clock.stages(), seconds);
 }
 
 } // namespace
@@ -129,8 +133,8 @@ std::string makeFiles(const MakeArguments& arguments, Outputs& outputs, Interrup
 int runMake(std::vector<std::string> words)
 {
     MakeArguments arguments;
-    CLI::App app("vdbcage make MODEL -o CAGE [OPTIONS]: bounds MODEL (.obj .off .ply .stl)", "make");
-    app.add_option("model", arguments.model)->required()->type_name("MODEL");
+    CLI::App app("vdbcage make MODEL... -o CAGE [OPTIONS]: bounds them (.obj .off .ply .stl)", "make");
+    app.add_option("models", arguments.models)->required()->type_name("MODEL...");
     app.add_option("-o,--output", arguments.cage, "the cage to write")->required()->type_name("CAGE");
     for (const OptionText& option : describeOptions()) {
         app.add_option_function<std::string>(

@@ -39,23 +39,57 @@ Size parseSize(const std::string& text)
     return size;
 }
 
-/// Colours the first layer of a panel by the weights of point `vertex` of the second, a cage.
+/// Colours the models of a panel by the weights of point `vertex` of the first cage.
 void colourByInfluence(std::vector<Layer>& panel, int vertex, Coordinates family)
 {
-    if (panel.size() < 2) throw InputError("--influence: a panel needs a model and its cage");
-    const Mesh &model = *panel[0].mesh, &cage = *panel[1].mesh;
+    const auto cageLayer = std::find_if(panel.begin(), panel.end(),
+                                        [](const Layer& layer) { return layer.style == LayerStyle::wireframe; });
+    if (cageLayer == panel.end()) throw InputError("--influence: a panel needs a model and its cage");
+    const Mesh& cage = *cageLayer->mesh;
     if (vertex < 0 || static_cast<std::size_t>(vertex) >= cage.points.size()) {
         throw InputError("--influence: " + std::to_string(vertex) + " is not a vertex of the cage; 0 to " +
                          std::to_string(cage.points.size() - 1) + " are");
     }
-    const std::vector<double> coordinates = computeCoordinates(cage, model.points, family);
-    const std::size_t handles = coordinates.size() / model.points.size();
-    std::vector<double> weights;
-    for (std::size_t i = 0; i < model.points.size(); ++i) {
-        weights.push_back(coordinates[i * handles + static_cast<std::size_t>(vertex)]);
+    for (auto layer = panel.begin(); layer != cageLayer; ++layer) {
+        const Mesh& model = *layer->mesh;
+        const std::vector<double> coordinates = computeCoordinates(cage, model.points, family);
+        const std::size_t handles = coordinates.size() / model.points.size();
+        std::vector<double> weights;
+        for (std::size_t i = 0; i < model.points.size(); ++i) {
+            weights.push_back(coordinates[i * handles + static_cast<std::size_t>(vertex)]);
+        }
+        layer->colour = {1, 1, 1};
+        layer->pointColours = draw::divergingColours(weights);
     }
-    panel[0].colour = {1, 1, 1};
-    panel[0].pointColours = draw::divergingColours(weights);
+}
+
+/// A file of a panel. It is joined to the one before by a lone +: drawn in the same way.
+struct PanelFile {
+    std::string name;
+    bool isJoined = false;
+};
+
+/// The files of each panel, of words with a lone / between panels.
+std::vector<std::vector<PanelFile>> panelsOf(const std::vector<std::string>& words)
+{
+    std::vector<std::vector<PanelFile>> panels(1);
+    const InputError wrongPlus("a lone + must stand between two files: FILE + FILE");
+    bool isJoined = false; // a + came, and no file yet
+    for (const std::string& word : words) {
+        if (word != "/" && word != "+") {
+            panels.back().push_back({word, isJoined});
+            isJoined = false;
+            continue;
+        }
+        if (isJoined || (word == "+" && panels.back().empty())) throw wrongPlus;
+        if (word == "/") panels.emplace_back();
+        isJoined = word == "+";
+    }
+    if (isJoined) throw wrongPlus;
+    for (const auto& panel : panels) {
+        if (panel.empty()) throw InputError("a panel has no file; write FILE... / FILE...");
+    }
+    return panels;
 }
 
 /// The option's text names the range itself.
@@ -88,7 +122,8 @@ int runRender(std::vector<std::string> words)
     Scene scene;
     CLI::App app("vdbcage render FILE... [/ FILE...] -o PICTURE.png [OPTIONS]\n"
                  "Draws models shaded, cages as wireframes over them, .vdb volumes as voxels.\n"
-                 "In each panel the first file is the model; a lone / begins the next panel.",
+                 "In each panel the first file is the model; a lone / begins the next panel.\n"
+                 "A lone + has the next file drawn as the one before it: body.obj + hair.obj",
                  "render");
     app.add_option("files", files)->required()->type_name("FILE...");
     app.add_option("-o,--output", picture, "the picture to write")->required()->type_name("PICTURE.png");
@@ -111,29 +146,25 @@ int runRender(std::vector<std::string> words)
     if (!parse(app, std::move(words))) return exitGood;
     requirePngExtension(picture);
     Outputs outputs;
-    for (const std::string& file : files) {
-        if (file != "/") outputs.reads(file);
+    const std::vector<std::vector<PanelFile>> panels = panelsOf(files);
+    for (const std::vector<PanelFile>& panel : panels) {
+        for (const PanelFile& file : panel) outputs.reads(file.name);
     }
     outputs.writes(picture);
     const Size size = parseSize(sizeText);
     const Coordinates coordinates = coordinatesNamed(family);
 
     std::map<std::string, Mesh> meshes; // by file: many panels can show the same model; layers point at them
-    scene.panels.emplace_back();
-    for (const std::string& file : files) {
-        if (file == "/") {
-            scene.panels.emplace_back();
-            continue;
+    for (const std::vector<PanelFile>& panelFiles : panels) {
+        std::vector<Layer>& panel = scene.panels.emplace_back();
+        for (const PanelFile& file : panelFiles) {
+            const bool voxels = fs::path(file.name).extension() == ".vdb";
+            const auto [known, isNew] = meshes.try_emplace(file.name);
+            Mesh& mesh = known->second;
+            if (isNew) mesh = voxels ? extractSurface(*readVdb(file.name)) : readMesh(file.name);
+            const bool isModel = panel.empty() || (file.isJoined && panel.back().style == LayerStyle::shaded);
+            panel.push_back(voxels ? voxelsLayer(mesh) : isModel ? shadedLayer(mesh) : wireframeLayer(mesh));
         }
-        const bool voxels = fs::path(file).extension() == ".vdb";
-        const auto [known, isNew] = meshes.try_emplace(file);
-        Mesh& mesh = known->second;
-        if (isNew) mesh = voxels ? extractSurface(*readVdb(file)) : readMesh(file);
-        std::vector<Layer>& panel = scene.panels.back();
-        panel.push_back(voxels ? voxelsLayer(mesh) : panel.empty() ? shadedLayer(mesh) : wireframeLayer(mesh));
-    }
-    for (const auto& panel : scene.panels) {
-        if (panel.empty()) throw InputError("a panel has no file; write FILE... / FILE...");
     }
     if (influence->count() > 0) {
         for (auto& panel : scene.panels) colourByInfluence(panel, vertex, coordinates);

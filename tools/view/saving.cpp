@@ -53,7 +53,7 @@ void saveOptions(const CageOptions& options, const fs::path& path)
 void saveReport(const CageResult& result, const fs::path& path)
 {
     const OpenedMesh& model = *result.order.model;
-    const tool::CageMade made{tool::toJson(model.mesh, model.summary, model.path),
+    const tool::CageMade made{{"model", tool::toJson(model.mesh, model.summary, model.path)},
                               {},
                               result.order.options,
                               result.seconds,

@@ -1,0 +1,94 @@
+#include "models.h"
+
+#include <array>
+#include <cstdio>
+
+#include <vdbcage/core/detail/printable.h>
+
+namespace vdbcage::tool {
+
+namespace {
+
+/// Puts the points and faces of `mesh` behind those of `all`.
+void append(const Mesh& mesh, Mesh& all)
+{
+    const auto before = static_cast<openvdb::Index32>(all.points.size());
+    all.points.insert(all.points.end(), mesh.points.begin(), mesh.points.end());
+    const auto appendFaces = [before](const auto& from, auto& to) {
+        for (auto face : from) {
+            for (int i = 0; i < face.size; ++i) face[i] += before;
+            to.push_back(face);
+        }
+    };
+    appendFaces(mesh.triangles, all.triangles);
+    appendFaces(mesh.quads, all.quads);
+    appendFaces(mesh.alternatives, all.alternatives);
+}
+
+} // namespace
+
+std::vector<ModelFile> readModels(const std::vector<std::filesystem::path>& paths)
+{
+    std::vector<ModelFile> models;
+    for (const std::filesystem::path& path : paths) {
+        MeshFile file = readMeshFile(path);
+        Json facts = toJson(file.mesh, file.summary, path);
+        models.push_back({path, std::move(file.mesh), file.summary, std::move(facts)});
+    }
+    return models;
+}
+
+Mesh takeMesh(std::vector<ModelFile>& models)
+{
+    if (models.size() == 1) return std::move(models.front().mesh);
+    Mesh all;
+    for (const ModelFile& model : models) append(model.mesh, all);
+    return all;
+}
+
+void checkEach(std::vector<ModelFile>& models, const Mesh& cage, Interrupter* interrupter)
+{
+    if (models.size() == 1) return;
+    for (ModelFile& model : models) model.check = checkCage(cage, model.mesh, {}, interrupter);
+}
+
+std::pair<std::string, Json> entryOf(const std::vector<ModelFile>& models)
+{
+    if (models.size() == 1) return {"model", models.front().facts};
+    Json list = Json::array();
+    for (const ModelFile& model : models) {
+        list.push_back(model.facts);
+        if (model.check) list.back()["check"] = toJson(*model.check);
+    }
+    return {"models", list};
+}
+
+std::string namesOf(const std::vector<ModelFile>& models)
+{
+    std::string names;
+    for (const ModelFile& model : models) names += (names.empty() ? "" : ", ") + model.path.string();
+    return names;
+}
+
+std::string describe(const std::vector<ModelFile>& models)
+{
+    std::string text;
+    for (const ModelFile& model : models) {
+        if (model.check) {
+            std::array<char, 64> distance{};
+            std::snprintf(distance.data(), distance.size(), "%.2f %% of its longest side",
+                          100 * model.check->meanDistance);
+            text += "  " + detail::printable(model.path.string()) + ": " + verdict(*model.check) + ", mean distance " +
+                    distance.data() + '\n';
+        }
+        text += describe(model.summary);
+    }
+    return text;
+}
+
+const char* verdict(const CageCheck& check)
+{
+    return check.bounding() ? "bounding" : check.valid() ? "NOT bounding" : "NOT a valid cage";
+}
+
+} // namespace vdbcage::tool

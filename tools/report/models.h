@@ -1,0 +1,45 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <tools/report/report.h>
+#include <vdbcage/check/check.h>
+#include <vdbcage/core/interrupter.h>
+#include <vdbcage/mesh/mesh_io.h>
+
+namespace vdbcage::tool {
+
+/// One of the models that a cage is to bound.
+struct ModelFile {
+    std::filesystem::path path;
+    Mesh mesh;
+    ReadSummary summary;
+    Json facts;                          ///< toJson of the three above
+    std::optional<CageCheck> check = {}; ///< the verdict on the cage against this model alone
+};
+
+/// Reads them. \throw IoError
+std::vector<ModelFile> readModels(const std::vector<std::filesystem::path>& paths);
+
+/// All models as one. A lone model gives its mesh away.
+Mesh takeMesh(std::vector<ModelFile>& models);
+
+/// Where there are several: sets the verdict of each. \throw InputError, Cancelled
+void checkEach(std::vector<ModelFile>& models, const Mesh& cage, Interrupter* interrupter);
+
+/// "model" and the facts of a lone model; "models" and a list where there are several, each with its "check".
+std::pair<std::string, Json> entryOf(const std::vector<ModelFile>& models);
+
+/// Their names for messages: "body.obj, shirt.obj".
+std::string namesOf(const std::vector<ModelFile>& models);
+
+/// What there is to say of each: its verdict, and faces that are certified as split here only. Lines with their ends.
+std::string describe(const std::vector<ModelFile>& models);
+
+/// "bounding", "NOT bounding" or "NOT a valid cage".
+const char* verdict(const CageCheck& check);
+
+} // namespace vdbcage::tool
