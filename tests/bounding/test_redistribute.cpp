@@ -13,6 +13,7 @@
 
 #include "support/manifold.h"
 #include "support/shapes.h"
+#include "support/stop_at.h"
 #include "support/surface_models.h"
 #include "support/symmetric.h"
 #include "support/targets.h"
@@ -202,6 +203,26 @@ BOOST_AUTO_TEST_CASE(of_two_flips_that_would_cross_one_is_made)
     detail::flipEdges(surface, 0, nullptr);
     BOOST_TEST(checkCage(surface.mesh(), inside).bounding());
     BOOST_TEST(areJoined(surface, 1, 5) != areJoined(surface, 2, 6));
+}
+
+BOOST_AUTO_TEST_CASE(asks_at_each_edge_and_each_vertex)
+{
+    const BoundingGuard guard(model);
+    const GuardedMesh surface(ball(), detail::modelOf(guard));
+    std::size_t corners = 0;
+    forEachCorner(surface, [&](std::uint32_t, std::uint32_t, std::uint32_t) { ++corners; });
+    const double perSample = detail::areaPerSample(surface, surface.liveFaces(), 4);
+    const auto asked = [&](const auto& run) {
+        GuardedMesh changed = surface;
+        test::StopAt never(1000000);
+        run(changed, &never);
+        return static_cast<std::size_t>(test::questions(never, 1000000));
+    };
+    const auto vertices = static_cast<std::size_t>(surface.vertices());
+    BOOST_TEST(asked([&](GuardedMesh& at, Interrupter* i) { detail::flipEdges(at, 0, i); }) >= corners);
+    BOOST_TEST(asked([&](GuardedMesh& at, Interrupter* i) { detail::redistribute(at, 1, 0, i); }) >=
+               corners / 2 + 2 * vertices);
+    BOOST_TEST(asked([&](GuardedMesh& at, Interrupter* i) { detail::tighten(at, 1, perSample, i); }) >= vertices);
 }
 
 BOOST_AUTO_TEST_CASE(flips_bring_surfaces_nearer_to_the_model)

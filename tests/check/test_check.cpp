@@ -6,6 +6,7 @@
 #include <support/stop_at.h>
 #include <tbb/global_control.h>
 #include <vdbcage/check/check.h>
+#include <vdbcage/check/detail/predicates.h>
 #include <vdbcage/core/detail/nearest_float.h>
 #include <vdbcage/core/error.h>
 
@@ -595,6 +596,27 @@ BOOST_AUTO_TEST_CASE(cancelling_at_every_question)
         test::StopAt stop(k);
         BOOST_CHECK_THROW(checkCage(cage, model, {}, &stop), Cancelled);
     }
+}
+
+BOOST_AUTO_TEST_CASE(cancelling_does_not_wait_for_samples)
+{
+    const Mesh cage = sphere({}, 2, 6), model = sphere({}, 1, 20);
+    CheckOptions options;
+    options.samples = std::numeric_limits<std::size_t>::max(); // nothing holds them, or gets past them
+    for (const int k : {2000, 20000}) {
+        test::StopAt stop(k);
+        BOOST_CHECK_THROW(checkCage(cage, model, options, &stop), Cancelled);
+    }
+}
+
+BOOST_AUTO_TEST_CASE(an_exact_volume_asks_at_each_triangle)
+{
+    Mesh flat = sphere({}, 1, 6);
+    for (Vec3d& p : flat.points) p.z() = 0;
+    const std::vector<openvdb::Vec3I> triangles = triangulate(flat);
+    test::StopAt never(1000000);
+    BOOST_TEST(detail::volumeSign(flat.points, triangles, &never) == 0);
+    BOOST_TEST(test::questions(never, 1000000) == int(triangles.size()));
 }
 
 BOOST_AUTO_TEST_SUITE_END()

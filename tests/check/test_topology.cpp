@@ -3,8 +3,10 @@
 #include <random>
 
 #include <support/shapes.h>
+#include <support/stop_at.h>
 #include <support/topology_count.h>
 #include <tbb/global_control.h>
+#include <vdbcage/core/error.h>
 #include <vdbcage/mesh/topology.h>
 
 using namespace vdbcage;
@@ -148,6 +150,27 @@ BOOST_AUTO_TEST_CASE(the_number_of_threads_does_not_matter)
     BOOST_TEST(many.faceComponent == one.faceComponent);
     BOOST_TEST(many.componentIsCycle == one.componentIsCycle);
     BOOST_TEST(many.boundaryEdges == one.boundaryEdges);
+}
+
+BOOST_AUTO_TEST_CASE(asks_at_each_vertex_and_after_so_many_faces)
+{
+    std::mt19937 random(3);
+    Mesh mesh; // whose vertices have thousands of faces each
+    mesh.points.resize(20);
+    for (int i = 0; i < 50000; ++i) {
+        const auto corner = [&] { return static_cast<openvdb::Index32>(random() % mesh.points.size()); };
+        mesh.triangles.emplace_back(corner(), corner(), corner());
+    }
+    const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
+    test::StopAt never(1000000);
+    analyzeTopology(mesh, &never);
+    const int asked = test::questions(never, 1000000);
+    const auto turns = int(3 * mesh.triangles.size() / 65536);
+    BOOST_TEST(asked >= int(mesh.points.size()) + 2 * turns); // the corners are gone through twice
+    for (int k = 0; k < asked; ++k) {
+        test::StopAt stop(k);
+        BOOST_CHECK_THROW(analyzeTopology(mesh, &stop), Cancelled);
+    }
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -247,7 +247,7 @@ BOOST_AUTO_TEST_CASE(bad_arguments)
     expectRefusal(folder, {command, "make", model}, {"--output"});
     expectRefusal(folder, {command, "make", "-o", cage}, {"model"});
     expectRefusal(folder, {command, "make", model, "-o", cage, "--faces"}, {"--faces"});
-    expectRefusal(folder, {command, "make", model, model, "-o", cage}, {});
+    expectRefusal(folder, {command, "make", model, model, "-o", cage}, {model + ": this model is named twice"});
     expectRefusal(folder, {command, "make", model, "-o", cage, "--colour", "red"}, {"--colour"});
 }
 

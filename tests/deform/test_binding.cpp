@@ -5,9 +5,11 @@
 #include <filesystem>
 
 #include <deform/cages.h>
+#include <support/stop_at.h>
 #include <tbb/global_control.h>
 #include <vdbcage/core/error.h>
 #include <vdbcage/deform/binding.h>
+#include <vdbcage/deform/detail/weight_blocks.h>
 #include <vdbcage/mesh/mesh_io.h>
 #include <vdbcage/pipeline/pipeline.h>
 
@@ -361,6 +363,36 @@ BOOST_AUTO_TEST_CASE(green_keeps_the_shape_of_the_creature)
     };
     compare("bend", bent);
     compare("twist", twisted);
+}
+
+BOOST_AUTO_TEST_CASE(can_be_cancelled_at_every_question)
+{
+    const Mesh cage = randomCage(Kind::both, 15);
+    const std::vector<Vec3d> points = pointsInside(cage, 15, 600);
+    const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1); // the same questions each time
+    test::StopAt never(1000000);
+    const Binding all(cage, points, Coordinates::green, &never);
+    const int asked = test::questions(never, 1000000);
+    BOOST_TEST(asked > int(points.size()) + 2); // at each point, and where blocks are split and compressed
+    for (int k = 0; k < asked; ++k) {
+        test::StopAt stop(k);
+        BOOST_CHECK_THROW(Binding(cage, points, Coordinates::green, &stop), Cancelled);
+    }
+}
+
+BOOST_AUTO_TEST_CASE(sorting_many_points_into_blocks_asks)
+{
+    Random random(16);
+    std::vector<Vec3d> points(300000);
+    for (Vec3d& p : points) p = random.direction();
+    const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
+    test::StopAt never(1000000);
+    struct Sorted {};
+    const auto stopAtFirstRow = [](const std::vector<std::uint32_t>&, std::vector<float>&) { throw Sorted(); };
+    BOOST_CHECK_THROW(detail::WeightBlocks(points, {1.0F}, stopAtFirstRow, &never), Sorted);
+    const auto blocks = int(points.size() / 256);
+    const auto turns = int(points.size() / 65536); // of the first split, at least
+    BOOST_TEST(test::questions(never, 1000000) >= blocks + turns);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -2,8 +2,10 @@
 
 #include <array>
 #include <cstdio>
+#include <system_error>
 
 #include <vdbcage/core/detail/printable.h>
+#include <vdbcage/core/error.h>
 
 namespace vdbcage::tool {
 
@@ -31,6 +33,12 @@ std::vector<ModelFile> readModels(const std::vector<std::filesystem::path>& path
 {
     std::vector<ModelFile> models;
     for (const std::filesystem::path& path : paths) {
+        for (const ModelFile& other : models) {
+            std::error_code ignored; // reading says what is wrong
+            if (std::filesystem::equivalent(path, other.path, ignored)) {
+                throw InputError(path.string() + ": this model is named twice");
+            }
+        }
         MeshFile file = readMeshFile(path);
         Json facts = toJson(file.mesh, file.summary, path);
         models.push_back({path, std::move(file.mesh), file.summary, std::move(facts)});

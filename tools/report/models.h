@@ -21,7 +21,7 @@ struct ModelFile {
     std::optional<CageCheck> check = {}; ///< the verdict on the cage against this model alone
 };
 
-/// Reads them. \throw IoError
+/// Reads them. \throw IoError; InputError if one is named twice
 std::vector<ModelFile> readModels(const std::vector<std::filesystem::path>& paths);
 
 /// All models as one. A lone model gives its mesh away.

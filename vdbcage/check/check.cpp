@@ -33,7 +33,7 @@ std::size_t countDegenerateFaces(detail::CageFaces& cage)
     return result;
 }
 
-std::size_t countInwardComponents(const Mesh& mesh, const MeshTopology& topology)
+std::size_t countInwardComponents(const Mesh& mesh, const MeshTopology& topology, Interrupter* interrupter)
 {
     std::vector<std::vector<Vec3I>> components(topology.components());
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
@@ -54,7 +54,7 @@ std::size_t countInwardComponents(const Mesh& mesh, const MeshTopology& topology
     }
     std::size_t result = 0;
     for (std::size_t i = 0; i < components.size(); ++i) {
-        if (topology.componentIsCycle[i] && detail::volumeSign(mesh.points, components[i]) <= 0) ++result;
+        if (topology.componentIsCycle[i] && detail::volumeSign(mesh.points, components[i], interrupter) <= 0) ++result;
     }
     return result;
 }
@@ -64,7 +64,7 @@ void measure(CageCheck& result, const detail::CageFaces& cage, const detail::Che
 {
     if (hasInside) result.cageVolume = detail::volume(cage.mesh.points, cage.faces);
     if (model.volume > 0) result.volumeRatio = result.cageVolume / model.volume;
-    const detail::Angles angles = detail::angles(cage.mesh.points, cage.faces);
+    const detail::Angles angles = detail::angles(cage.mesh.points, cage.faces, interrupter);
     result.minAngleDegrees = angles.least;
     result.angle1stPercentileDegrees = angles.firstPercentile;
     result.medianAngleDegrees = angles.median;
@@ -117,7 +117,7 @@ CageCheck CageChecker::check(const Mesh& given, const CheckOptions& options, Int
     result.nonManifoldEdges = topology.nonManifoldEdges;
     result.nonManifoldVertices = topology.nonManifoldVertices;
     result.misorientedEdges = topology.misorientedEdges;
-    result.inwardComponents = countInwardComponents(cage, topology);
+    result.inwardComponents = countInwardComponents(cage, topology, interrupter);
 
     detail::CageFaces faces(cage, interrupter);
     result.degenerateFaces = countDegenerateFaces(faces);

@@ -122,9 +122,9 @@ public:
     void make(std::size_t count, const PointOf& pointOf, const Take& take)
     {
         detail::parallelFor(tbb::blocked_range<std::size_t>(0, count, 16), [&](const auto& range) {
-            throwIfInterrupted(interrupter_);
             std::vector<double> row(columns_);
             for (std::size_t i = range.begin(); i < range.end(); ++i) {
+                throwIfInterrupted(interrupter_);
                 const std::size_t point = pointOf(i);
                 const Vec3d x = cage_.scaled(points_[point]);
                 const bool defined = isFinite(x) && entry(family_).row(cage_, x, row.data()) &&
@@ -165,7 +165,13 @@ std::vector<Number> computeRows(const Mesh& cage, const std::vector<Vec3d>& poin
 {
     const Stage stage(interrupter, "bind");
     RowMaker maker(cage, points, family, interrupter);
-    std::vector<Number> rows(points.size() * handleCount(cage, family));
+    std::vector<Number> rows;
+    const std::size_t count = points.size() * handleCount(cage, family);
+    rows.reserve(count);
+    while (rows.size() < count) { // getting gigabytes takes seconds
+        throwIfInterrupted(interrupter);
+        rows.resize(std::min(count, rows.size() + (1U << 22)));
+    }
     maker.make(
         points.size(), [](std::size_t i) { return i; },
         [&](std::size_t i, const std::vector<double>& row) {
@@ -247,17 +253,17 @@ Binding::Binding(const Mesh& cage, std::vector<Vec3d> points, Coordinates family
     const Stage stage(interrupter, "bind");
     RowMaker maker(cage_, points_, family_, interrupter);
     restHandles_ = cageHandles(cage_, cage_.points, family_);
-    weights_ =
-        std::make_shared<detail::WeightBlocks>(points_, maxDistancesOf(cage_, family_),
-                                               [&](const std::vector<std::uint32_t>& block, std::vector<float>& rows) {
-                                                   maker.make(
-                                                       block.size(), [&](std::size_t i) { return block[i]; },
-                                                       [&](std::size_t i, const std::vector<double>& row) {
-                                                           float* const to = rows.data() + i * row.size();
-                                                           for (std::size_t k = 0; k < row.size(); ++k)
-                                                               to[k] = static_cast<float>(row[k]);
-                                                       });
-                                               });
+    weights_ = std::make_shared<detail::WeightBlocks>(
+        points_, maxDistancesOf(cage_, family_),
+        [&](const std::vector<std::uint32_t>& block, std::vector<float>& rows) {
+            maker.make(
+                block.size(), [&](std::size_t i) { return block[i]; },
+                [&](std::size_t i, const std::vector<double>& row) {
+                    float* const to = rows.data() + i * row.size();
+                    for (std::size_t k = 0; k < row.size(); ++k) to[k] = static_cast<float>(row[k]);
+                });
+        },
+        interrupter);
     maker.requireDefined();
 }
 

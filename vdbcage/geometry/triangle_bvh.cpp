@@ -13,6 +13,7 @@
 #include <utility>
 
 #include <tbb/blocked_range.h>
+#include <vdbcage/core/detail/asker.h>
 #include <vdbcage/core/detail/parallel.h>
 #include <vdbcage/core/error.h>
 
@@ -411,8 +412,10 @@ private:
             firstItem[leaf] = items;
             items += refs_[leaf].count;
         }
+        throwIfInterrupted(interrupter_);
         tree_.items_.resize(items);
         parallelFor(tbb::blocked_range<std::uint32_t>(0, refCount_, blockSize), [&](const auto& range) {
+            throwIfInterrupted(interrupter_);
             for (std::uint32_t leaf = range.begin(); leaf < range.end(); ++leaf) {
                 for (std::uint32_t i = 0; i < refs_[leaf].count; ++i) {
                     const std::uint32_t triangle = refs_[leaf].triangle + i;
@@ -421,6 +424,7 @@ private:
             }
         });
         parallelFor(tbb::blocked_range<std::uint32_t>(0, nodeCount_, blockSize), [&](const auto& range) {
+            throwIfInterrupted(interrupter_);
             for (std::uint32_t node = range.begin(); node < range.end(); ++node) {
                 for (std::uint32_t& child : tree_.nodes_[node].child) {
                     if (!(child & TriangleBvh::isLeaf)) continue;
@@ -448,7 +452,6 @@ private:
     FloatBox buildNode(std::uint32_t nodeIndex, const Range& whole)
     {
         const bool large = whole.size() > taskSize;
-        if (large) throwIfInterrupted(interrupter_);
         std::array<Range, 4> ranges{whole};
         std::size_t count = 1;
         while (count < 4) {
@@ -495,6 +498,8 @@ private:
     // range where all have the same centre: there they are dropped, if they are to be, which makes the range shorter.
     std::uint32_t split(Range& range)
     {
+        if (range.size() > taskSize) throwIfInterrupted(interrupter_);
+        Asker ask(interrupter_);
         Ref* const first = refs_.get() + range.begin;
         Ref* last = refs_.get() + range.end;
         const Binning binning(fold<FloatBox>(
@@ -506,8 +511,10 @@ private:
                 ++bins.counts[bin];
             }));
             if (best > 0) {
-                const Ref* const middle =
-                    std::partition(first, last, [&](const Ref& ref) { return binning.bin(ref) < best; });
+                const Ref* const middle = std::partition(first, last, [&](const Ref& ref) {
+                    ask();
+                    return binning.bin(ref) < best;
+                });
                 return range.begin + static_cast<std::uint32_t>(middle - first);
             }
         }
@@ -518,6 +525,7 @@ private:
         }
         const std::uint32_t middle = range.begin + range.size() / 2;
         std::nth_element(first, refs_.get() + middle, last, [&](const Ref& a, const Ref& b) {
+            ask();
             return std::make_pair(a.twiceCentre()[binning.axis], a.triangle) <
                    std::make_pair(b.twiceCentre()[binning.axis], b.triangle);
         });
@@ -541,7 +549,9 @@ private:
         };
         std::unordered_set<const Ref*, decltype(hash), decltype(same)> kept(16, hash, same);
         Ref* end = first;
+        Asker ask(interrupter_);
         for (Ref* ref = first; ref != last; ++ref) {
+            ask();
             std::swap(*end, *ref);
             if (kept.insert(end).second) ++end;
         }

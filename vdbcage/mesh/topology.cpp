@@ -5,6 +5,7 @@
 #include <functional>
 
 #include <tbb/blocked_range.h>
+#include <vdbcage/core/detail/asker.h>
 #include <vdbcage/core/detail/parallel.h>
 #include <vdbcage/geometry/union_find.h>
 #include <vdbcage/mesh/detail/half_edges.h>
@@ -19,12 +20,20 @@ using Index = HalfEdges::Index;
 // For each point the half-edges that leave it, one a corner: those of point p are corners[first[p]] ...
 // corners[first[p + 1] - 1], ascending.
 struct CornersOfPoints {
-    CornersOfPoints(const HalfEdges& all, std::size_t points) : first(points + 1, 0), corners(all.size())
+    CornersOfPoints(const HalfEdges& all, std::size_t points, Interrupter* interrupter)
+        : first(points + 1, 0), corners(all.size())
     {
-        for (std::size_t c = 0; c < all.size(); ++c) ++first[all.from(c) + 1];
+        detail::Asker ask(interrupter);
+        for (std::size_t c = 0; c < all.size(); ++c) {
+            ask();
+            ++first[all.from(c) + 1];
+        }
         for (std::size_t p = 0; p < points; ++p) first[p + 1] += first[p];
         std::vector<std::size_t> next(first.begin(), first.end() - 1);
-        for (std::size_t c = 0; c < all.size(); ++c) corners[next[all.from(c)]++] = c;
+        for (std::size_t c = 0; c < all.size(); ++c) {
+            ask();
+            corners[next[all.from(c)]++] = c;
+        }
     }
 
     std::vector<std::size_t> first;
@@ -137,14 +146,14 @@ long MeshTopology::eulerCharacteristic() const
 MeshTopology analyzeTopology(const Mesh& mesh, Interrupter* interrupter)
 {
     const HalfEdges corners(mesh);
-    const CornersOfPoints ofPoints(corners, mesh.points.size());
+    const CornersOfPoints ofPoints(corners, mesh.points.size(), interrupter);
     FaceFacts faces(faceCount(mesh));
     throwIfInterrupted(interrupter);
 
     const auto examine = [&](const tbb::blocked_range<std::size_t>& range, Counts counts) {
-        throwIfInterrupted(interrupter);
         VertexExaminer examiner(corners, ofPoints, faces);
         for (std::size_t vertex = range.begin(); vertex < range.end(); ++vertex) {
+            throwIfInterrupted(interrupter); // each time: a vertex may have any number of corners
             examiner.examine(static_cast<Index>(vertex), counts);
         }
         return counts;
@@ -161,7 +170,9 @@ MeshTopology analyzeTopology(const Mesh& mesh, Interrupter* interrupter)
     result.misorientedEdges = counts.misoriented;
     result.nonManifoldVertices = counts.nonManifoldVertices;
     result.faceComponent.resize(result.faces);
+    detail::Asker ask(interrupter);
     for (Index face = 0; face < result.faces; ++face) {
+        ask();
         const Index first = faces.sets.find(face); // the root is the component's first face: numbered before the others
         if (first == face) {
             result.faceComponent[face] = static_cast<Index>(result.componentIsCycle.size());

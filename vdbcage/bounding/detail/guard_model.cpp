@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include <vdbcage/core/detail/asker.h>
 #include <vdbcage/core/detail/nearest_float.h>
 #include <vdbcage/core/error.h>
 #include <vdbcage/geometry/union_find.h>
@@ -112,6 +113,7 @@ GuardModel::GuardModel(const Mesh& model, const GuardOptions& options, Interrupt
     for (const Vec3d& p : model.points) points.push_back(scaled(p));
     auto [triangles, beyond] = facesOf(model, points, clearance_ / 4);
     clearance_ += beyond;
+    throwIfInterrupted(interrupter);
     if (options.symmetry) {
         // Surfaces are little larger than the model: multiples of the step up to four times as far are floats, or
         // doubles with some bits to spare for the rounding of points that are to be symmetric.
@@ -123,7 +125,9 @@ GuardModel::GuardModel(const Mesh& model, const GuardOptions& options, Interrupt
     tree_ = TriangleBvh(points, triangles, interrupter, TriangleBvh::Copies::drop);
 
     UnionFind sets(points.size());
+    Asker ask(interrupter);
     for (const Vec3I& t : triangles) {
+        ask();
         sets.unite(t[0], t[1]);
         sets.unite(t[1], t[2]);
     }

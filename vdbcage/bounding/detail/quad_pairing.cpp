@@ -17,11 +17,12 @@ namespace vdbcage::detail {
 namespace {
 
 /// The integral of the distance to the model over a mean face.
-double distancePerFace(const GuardedMesh& surface)
+double distancePerFace(const GuardedMesh& surface, Interrupter* interrupter)
 {
     constexpr int samplesPerFace = 4;
     const std::size_t faces = surface.liveFaces();
-    return integratedDistance(surface, areaPerSample(surface, faces, samplesPerFace)) / static_cast<double>(faces);
+    return integratedDistance(surface, areaPerSample(surface, faces, samplesPerFace), interrupter) /
+           static_cast<double>(faces);
 }
 
 bool hasEnoughQuads(const GuardedMesh& surface, const PairingOptions& options)
@@ -105,7 +106,7 @@ void pairUp(GuardedMesh& surface, const PairingOptions& options, Interrupter* in
 {
     if (surface.liveFaces() == 0) return;
     surface.limitQuadFold(options.mergeAngleDegrees);
-    const double perFace = distancePerFace(surface);
+    const double perFace = distancePerFace(surface, interrupter);
     const double maxGrowth = options.maxLoss * perFace;
     pairGreedily(surface, quadCandidates(surface, options.mergeAngleDegrees, perFace), options, interrupter);
     pairAlongPaths(surface, options, maxGrowth, interrupter);

@@ -65,10 +65,14 @@ void findPlace(const GuardedMesh& surface, const DistanceMeasure& measure, EdgeC
 
 /// Makes those of the changes that gain, those that gain most first, until there are `faces`; no two touch the same
 /// face.
-void makeBest(GuardedMesh& surface, std::vector<EdgeChange> changes, std::size_t faces, double areaPerSample)
+void makeBest(GuardedMesh& surface, std::vector<EdgeChange> changes, std::size_t faces, double areaPerSample,
+              Interrupter* interrupter)
 {
     const DistanceMeasure measure(surface.guard(), areaPerSample);
-    parallelFor(std::size_t(0), changes.size(), [&](std::size_t i) { findPlace(surface, measure, changes[i]); });
+    parallelFor(std::size_t(0), changes.size(), [&](std::size_t i) {
+        throwIfInterrupted(interrupter);
+        findPlace(surface, measure, changes[i]);
+    });
     const auto gainsNothing = [](const EdgeChange& change) { return !(change.gain > 0); };
     changes.erase(std::remove_if(changes.begin(), changes.end(), gainsNothing), changes.end());
     std::stable_sort(changes.begin(), changes.end(),
@@ -76,6 +80,7 @@ void makeBest(GuardedMesh& surface, std::vector<EdgeChange> changes, std::size_t
     std::vector<char> changed(surface.faces() + 2 * changes.size(), 0);
     StarChange star;
     for (const EdgeChange& change : changes) {
+        throwIfInterrupted(interrupter);
         if (surface.liveFaces() >= faces) return;
         if (!starOf(surface, change, star)) continue;
         const auto wasChanged = [&](std::uint32_t f) { return changed[f] != 0; };
@@ -87,7 +92,7 @@ void makeBest(GuardedMesh& surface, std::vector<EdgeChange> changes, std::size_t
 }
 
 /// Splits edges until there are `faces`, or none gains.
-void splitBest(GuardedMesh& surface, std::size_t faces, double areaPerSample)
+void splitBest(GuardedMesh& surface, std::size_t faces, double areaPerSample, Interrupter* interrupter)
 {
     std::vector<EdgeChange> splits;
     for (std::uint32_t a = 0; a < surface.vertices(); ++a) {
@@ -95,7 +100,7 @@ void splitBest(GuardedMesh& surface, std::size_t faces, double areaPerSample)
             if (a < b) splits.push_back({a, b});
         }
     }
-    makeBest(surface, std::move(splits), faces, areaPerSample);
+    makeBest(surface, std::move(splits), faces, areaPerSample, interrupter);
 }
 
 } // namespace
@@ -106,15 +111,15 @@ void redistribute(GuardedMesh& surface, int rounds, int sweeps, Interrupter* int
     if (faces == 0) return;
     const double perSample = areaPerSample(surface, faces, samplesPerFace);
     double share = 1; // of the faces that are added, as far as that goes, and taken away again
-    double distance = integratedDistance(surface, perSample);
+    double distance = integratedDistance(surface, perSample, interrupter);
     for (int i = 0; i < rounds; ++i) {
         GuardedMesh changed = surface;
         const auto added = static_cast<std::size_t>(share * static_cast<double>(faces));
-        splitBest(changed, faces + added, perSample);
+        splitBest(changed, faces + added, perSample, interrupter);
         tighten(changed, sweeps, perSample, interrupter);
         collapseByQuadrics(changed, faces, interrupter);
         tighten(changed, sweeps, perSample, interrupter);
-        const double after = integratedDistance(changed, perSample);
+        const double after = integratedDistance(changed, perSample, interrupter);
         if (changed.liveFaces() <= faces && after < distance) {
             distance = after;
             surface = std::move(changed);
@@ -133,7 +138,7 @@ void flipEdges(GuardedMesh& surface, int sweeps, Interrupter* interrupter)
     for (std::uint32_t v = 0; v < surface.vertices(); ++v) {
         for (const auto& edge : starOf(surface, v).link) flips.push_back({edge[0], edge[1], v});
     }
-    makeBest(surface, std::move(flips), anyNumber, perSample);
+    makeBest(surface, std::move(flips), anyNumber, perSample, interrupter);
     tighten(surface, sweeps, perSample, interrupter);
 }
 

@@ -60,10 +60,10 @@ void sweep(GuardedMesh& surface, const std::vector<std::uint32_t>& vertices, Int
         // apart.
         const std::size_t batches = (group.size() + batch - 1) / batch;
         for (std::size_t first = 0; first < batches; ++first) {
-            throwIfInterrupted(interrupter);
             const std::size_t count = (group.size() - first + batches - 1) / batches;
             proposals.assign(count, {});
             parallelFor(std::size_t(0), count, [&](std::size_t i) {
+                throwIfInterrupted(interrupter); // each time: a place may take a millisecond
                 const std::uint32_t v = group[first + i * batches];
                 proposals[i].star = starOf(surface, v);
                 proposals[i].place = propose(v, proposals[i].star);
@@ -134,11 +134,12 @@ void pushOut(GuardedMesh& surface, const std::vector<std::uint32_t>& vertices, d
 }
 
 /// The integral of the distance to the model over each face and each quad's other, by number.
-std::vector<double> distances(const GuardedMesh& surface, double areaPerSample)
+std::vector<double> distances(const GuardedMesh& surface, double areaPerSample, Interrupter* interrupter)
 {
     const DistanceMeasure measure(surface.guard(), areaPerSample);
     std::vector<double> integrals(surface.faces(), 0);
     parallelFor(std::uint32_t(0), surface.vertices(), [&](std::uint32_t v) {
+        throwIfInterrupted(interrupter);
         std::uint32_t seed = TriangleBvh::none;
         for (const auto* list : {&surface.facesOf(v), &surface.alternatesOf(v)}) {
             for (const std::uint32_t f : *list) {
@@ -281,9 +282,9 @@ double medianDistance(const GuardedMesh& surface)
     return *middle;
 }
 
-double integratedDistance(const GuardedMesh& surface, double areaPerSample)
+double integratedDistance(const GuardedMesh& surface, double areaPerSample, Interrupter* interrupter)
 {
-    return sum(distances(surface, areaPerSample));
+    return sum(distances(surface, areaPerSample, interrupter));
 }
 
 void tighten(GuardedMesh& surface, int sweeps, double areaPerSample, Interrupter* interrupter)
@@ -351,17 +352,17 @@ void relaxFinally(GuardedMesh& surface, double areaPerSample, Interrupter* inter
 void perturb(GuardedMesh& surface, int times, int sweeps, double areaPerSample, Interrupter* interrupter)
 {
     if (surface.liveFaces() == 0) return;
-    std::vector<double> now = distances(surface, areaPerSample);
+    std::vector<double> now = distances(surface, areaPerSample, interrupter);
     double push = 0.3; // of the mean distance
     for (int i = 0; i < times; ++i) {
         GuardedMesh perturbed = surface;
         inflate(perturbed, push * sum(now) / area(surface), interrupter);
         tighten(perturbed, sweeps, areaPerSample, interrupter);
-        std::vector<double> growth = distances(perturbed, areaPerSample);
+        std::vector<double> growth = distances(perturbed, areaPerSample, interrupter);
         std::transform(growth.begin(), growth.end(), now.begin(), growth.begin(), std::minus<>());
         undoWhereGrown(perturbed, surface, growth, interrupter);
         tighten(perturbed, sweeps, areaPerSample, interrupter);
-        std::vector<double> after = distances(perturbed, areaPerSample);
+        std::vector<double> after = distances(perturbed, areaPerSample, interrupter);
         if (sum(after) < sum(now)) {
             now = std::move(after);
             surface = std::move(perturbed);

@@ -49,6 +49,6 @@ double areaPerSample(const GuardedMesh& surface, std::size_t faces, int samples)
 double medianDistance(const GuardedMesh& surface);
 
 /// The integral of the distance to the model over the surface.
-double integratedDistance(const GuardedMesh& surface, double areaPerSample);
+double integratedDistance(const GuardedMesh& surface, double areaPerSample, Interrupter* interrupter = nullptr);
 
 } // namespace vdbcage::detail

@@ -7,6 +7,7 @@
 
 #include <vdbcage/check/detail/face_triangles.h>
 #include <vdbcage/check/detail/predicates.h>
+#include <vdbcage/core/detail/asker.h>
 #include <vdbcage/core/interrupter.h>
 #include <vdbcage/geometry/triangle_bvh.h>
 
@@ -34,7 +35,11 @@ struct CageFaces {
         : mesh(cage), faces(cage), tree(mesh.points, faces.triangles(), interrupter), degenerate(faces.size()),
           bad(faces.faces())
     {
-        for (std::size_t t = 0; t < faces.size(); ++t) degenerate[t] = isDegenerate(corners(t)) ? 1 : 0;
+        Asker ask(interrupter);
+        for (std::size_t t = 0; t < faces.size(); ++t) {
+            ask();
+            degenerate[t] = isDegenerate(corners(t)) ? 1 : 0;
+        }
     }
 
     Corners corners(std::size_t triangle) const

@@ -6,6 +6,7 @@
 #include <string>
 
 #include <vdbcage/check/detail/measures.h>
+#include <vdbcage/core/detail/asker.h>
 #include <vdbcage/core/detail/parallel.h>
 #include <vdbcage/core/error.h>
 #include <vdbcage/geometry/union_find.h>
@@ -55,7 +56,9 @@ CheckedModel::CheckedModel(const Mesh& mesh, Interrupter* interrupter)
 {
     if (faceCount(mesh) == 0) throw InputError("model: it has no faces; at least one is needed");
     requireSound(mesh, "model");
+    throwIfInterrupted(interrupter);
     const FaceTriangles faces(mesh);
+    throwIfInterrupted(interrupter);
     bool dropped = false;
     const auto buildTree = [&] {
         const std::vector<Vec3I> triangles = everyTriangle(mesh, faces);
@@ -80,9 +83,10 @@ void CheckedModel::findParts(const Mesh& mesh, const FaceTriangles& faces, bool 
 {
     constexpr std::uint32_t none = ~std::uint32_t(0);
     UnionFind sets(mesh.points.size());
+    Asker ask(interrupter);
     partOfPoint.assign(mesh.points.size(), none);
     for (std::size_t t = 0; t < faces.size(); ++t) {
-        if (t % 65536 == 0) throwIfInterrupted(interrupter);
+        ask();
         sets.unite(faces[t][0], faces[t][1]);
         sets.unite(faces[t][0], faces[t][2]);
         for (int i = 0; i < 3; ++i) partOfPoint[faces[t][i]] = 0;
@@ -93,15 +97,19 @@ void CheckedModel::findParts(const Mesh& mesh, const FaceTriangles& faces, bool 
             if (partOfPoint[p] != none) byPlace.push_back(p);
         }
         const auto& points = mesh.points;
-        std::sort(byPlace.begin(), byPlace.end(),
-                  [&](std::uint32_t a, std::uint32_t b) { return points[a] < points[b]; });
+        std::sort(byPlace.begin(), byPlace.end(), [&](std::uint32_t a, std::uint32_t b) {
+            ask();
+            return points[a] < points[b];
+        });
         for (std::size_t i = 1; i < byPlace.size(); ++i) {
+            ask();
             if (points[byPlace[i]] == points[byPlace[i - 1]]) sets.unite(byPlace[i], byPlace[i - 1]);
         }
     }
     usedVertices = 0;
     partFirst.assign(1, 0);
     for (std::uint32_t p = 0; p < mesh.points.size(); ++p) { // the root of a set is its first vertex
+        ask();
         if (partOfPoint[p] == none) continue;
         ++usedVertices;
         const std::uint32_t root = sets.find(p);

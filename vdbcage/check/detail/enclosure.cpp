@@ -106,10 +106,10 @@ std::size_t countOutside(CageFaces& cage, const CheckedModel::View& view, const 
     }
     std::atomic<std::size_t> result{0};
     parallelFor(Range(0, questions.size(), 64), [&](const Range& range) {
-        throwIfInterrupted(interrupter);
         std::vector<std::uint32_t> crossed;
         std::size_t outside = 0;
         for (std::size_t i = range.begin(); i < range.end(); ++i) {
+            throwIfInterrupted(interrupter);
             const Question& question = questions[i];
             const Vec3d p = view.point(question.vertex);
             if ((question.onCage && liesOnCage(cage, p)) || !liesInside(cage, p, crossed)) outside += question.weight;

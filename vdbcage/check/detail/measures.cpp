@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <vdbcage/core/detail/asker.h>
 #include <vdbcage/core/detail/parallel.h>
 
 namespace vdbcage::detail {
@@ -30,30 +31,43 @@ Vec3d pointWithin(const std::vector<Vec3d>& points, const Vec3I& t, std::size_t 
     return a + u * (points[t[1]] - a) + v * (points[t[2]] - a);
 }
 
-// Systematic sampling: `samples` equal shares of area, a sample in the middle of each, so that every triangle gets its
-// share to within one sample.
-std::vector<Vec3d> spreadSamples(const std::vector<Vec3d>& points, const FaceTriangles& faces, std::size_t samples)
-{
-    std::vector<double> areaUpTo;
-    double total = 0;
-    for (std::size_t t = 0; t < faces.size(); ++t) {
-        total += area(points, faces[t]) * (faces.ofQuad(t) ? 0.5 : 1.0);
-        areaUpTo.push_back(total);
-    }
-    std::vector<Vec3d> result;
-    if (!(total > 0) || !std::isfinite(total)) return result;
-    result.reserve(samples);
-    std::size_t triangle = 0, within = 0;
-    for (std::size_t i = 0; i < samples; ++i) {
-        const double target = (static_cast<double>(i) + 0.5) / static_cast<double>(samples) * total;
-        while (triangle + 1 < faces.size() && areaUpTo[triangle] < target) {
-            ++triangle;
-            within = 0;
+// Systematic sampling: equal shares of area, a sample in the middle of each, so that every triangle gets its share to
+// within one sample. They come one by one: a caller that wants very many need not hold them.
+class EvenSamples {
+public:
+    EvenSamples(const std::vector<Vec3d>& points, const FaceTriangles& faces, std::size_t count,
+                Interrupter* interrupter)
+        : points_(points), faces_(faces), count_(count)
+    {
+        Asker ask(interrupter);
+        double total = 0;
+        for (std::size_t t = 0; t < faces.size(); ++t) {
+            ask();
+            total += area(points, faces[t]) * (faces.ofQuad(t) ? 0.5 : 1.0);
+            areaUpTo_.push_back(total);
         }
-        result.push_back(pointWithin(points, faces[triangle], within++));
+        if (!(total > 0) || !std::isfinite(total)) count_ = 0;
     }
-    return result;
-}
+
+    std::size_t count() const { return count_; }
+
+    Vec3d next()
+    {
+        const double target = (static_cast<double>(index_++) + 0.5) / static_cast<double>(count_) * areaUpTo_.back();
+        while (triangle_ + 1 < faces_.size() && areaUpTo_[triangle_] < target) {
+            ++triangle_;
+            within_ = 0;
+        }
+        return pointWithin(points_, faces_[triangle_], within_++);
+    }
+
+private:
+    const std::vector<Vec3d>& points_;
+    const FaceTriangles& faces_;
+    std::size_t count_;
+    std::vector<double> areaUpTo_;
+    std::size_t index_ = 0, triangle_ = 0, within_ = 0; // of the next sample
+};
 
 std::vector<double> distancesOf(const std::vector<Vec3d>& from, const TriangleBvh& tree, Interrupter* interrupter)
 {
@@ -107,12 +121,14 @@ double volume(const std::vector<Vec3d>& points, const FaceTriangles& faces)
     return sum / 6;
 }
 
-Angles angles(const std::vector<Vec3d>& points, const FaceTriangles& faces)
+Angles angles(const std::vector<Vec3d>& points, const FaceTriangles& faces, Interrupter* interrupter)
 {
     if (faces.size() == 0) return {};
     std::vector<double> all;
     all.reserve(3 * faces.size());
+    Asker ask(interrupter);
     for (const Vec3I& t : faces.triangles()) {
+        ask();
         for (int i = 0; i < 3; ++i) {
             all.push_back(angleDegrees(points[t[i]], points[t[(i + 1) % 3]], points[t[(i + 2) % 3]]));
         }
@@ -129,18 +145,24 @@ Distances distances(const std::vector<Vec3d>& points, const FaceTriangles& faces
                     std::size_t samples, Interrupter* interrupter)
 {
     if (faces.size() == 0) return {};
-    const std::vector<double> even = distancesOf(spreadSamples(points, faces, samples), tree, interrupter);
     const std::vector<double> corners = distancesOf(usedPoints(points, faces), tree, interrupter);
     Distances result;
     const auto [least, most] = std::minmax_element(corners.begin(), corners.end());
     result.least = *least;
     result.most = *most;
-    for (const double distance : even) {
-        result.mean += distance;
-        result.least = std::min(result.least, distance);
-        result.most = std::max(result.most, distance);
+    constexpr std::size_t mostAtATime = 1U << 16; // a multiple of the blocks of distancesOf
+    EvenSamples even(points, faces, samples, interrupter);
+    for (std::size_t left = even.count(); left > 0;) {
+        std::vector<Vec3d> some(std::min(left, mostAtATime));
+        for (Vec3d& p : some) p = even.next();
+        for (const double distance : distancesOf(some, tree, interrupter)) {
+            result.mean += distance;
+            result.least = std::min(result.least, distance);
+            result.most = std::max(result.most, distance);
+        }
+        left -= some.size();
     }
-    if (!even.empty()) result.mean /= static_cast<double>(even.size());
+    if (even.count() > 0) result.mean /= static_cast<double>(even.count());
     return result;
 }
 

@@ -16,8 +16,8 @@ double volume(const std::vector<Vec3d>& points, const FaceTriangles& faces);
 struct Angles {
     double least = 0, firstPercentile = 0, median = 0; ///< degrees
 };
-/// Of all corners of all triangles. Zeros for no faces.
-Angles angles(const std::vector<Vec3d>& points, const FaceTriangles& faces);
+/// Of all corners of all triangles. Zeros for no faces. \throw Cancelled
+Angles angles(const std::vector<Vec3d>& points, const FaceTriangles& faces, Interrupter* interrupter);
 
 struct Distances {
     double mean = 0, most = 0, least = 0; ///< in world units

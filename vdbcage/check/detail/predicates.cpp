@@ -192,7 +192,7 @@ int sideOfPlane(const Vec3d& a, const Vec3d& b, const Vec3d& c, const Vec3d& d)
     return orientation(a, b, c, d);
 }
 
-int volumeSign(const std::vector<Vec3d>& points, const std::vector<Vec3I>& triangles)
+int volumeSign(const std::vector<Vec3d>& points, const std::vector<Vec3I>& triangles, Interrupter* interrupter)
 {
     if (triangles.empty()) return 0;
     const Vec3d origin = points[triangles[0][0]]; // any point will do: the surface has no boundary
@@ -213,6 +213,7 @@ int volumeSign(const std::vector<Vec3d>& points, const std::vector<Vec3I>& trian
     using Exact = CGAL::Exact_rational;
     Exact sum(0);
     for (const Vec3I& t : triangles) {
+        throwIfInterrupted(interrupter);
         std::array<std::array<Exact, 3>, 3> m;
         for (std::size_t row = 0; row < 3; ++row) {
             for (std::size_t column = 0; column < 3; ++column) {

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include <openvdb/Types.h>
+#include <vdbcage/core/interrupter.h>
 #include <vdbcage/geometry/triangle_bvh.h>
 
 /// Exact answers about triangles with the coordinates given, which are any finite doubles. All sets are closed: a touch
@@ -40,6 +41,7 @@ int sideOfPlane(const Vec3d& a, const Vec3d& b, const Vec3d& c, const Vec3d& d);
 
 /// The sign of the volume within the triangles.
 /// \pre together they have no boundary
-int volumeSign(const std::vector<Vec3d>& points, const std::vector<Vec3I>& triangles);
+/// \throw Cancelled
+int volumeSign(const std::vector<Vec3d>& points, const std::vector<Vec3I>& triangles, Interrupter* interrupter);
 
 } // namespace vdbcage::detail

@@ -109,8 +109,8 @@ tbb::blocked_range<std::size_t> allFaces(const CageFaces& cage)
 void markSelfIntersections(CageFaces& cage, Interrupter* interrupter)
 {
     parallelFor(allFaces(cage), [&](const tbb::blocked_range<std::size_t>& range) {
-        throwIfInterrupted(interrupter);
         for (std::size_t face = range.begin(); face < range.end(); ++face) {
+            throwIfInterrupted(interrupter);
             if (isSet(cage.bad[face])) continue;
             bool found = isFoldedFace(cage, face);
             if (!found) {
@@ -136,9 +136,9 @@ std::size_t countSelfIntersections(CageFaces& cage, Interrupter* interrupter)
     tbb::enumerable_thread_specific<std::vector<Index>> counted(
         [&] { return std::vector<Index>(cage.faces.faces(), ~Index(0)); });
     parallelFor(allFaces(cage), [&](const tbb::blocked_range<std::size_t>& range) {
-        throwIfInterrupted(interrupter);
         std::vector<Index>& countedBy = counted.local();
         for (std::size_t face = range.begin(); face < range.end() && result < mostSelfIntersections; ++face) {
+            throwIfInterrupted(interrupter);
             std::size_t pairs = 0;
             forCollisions(
                 cage, face, [&](Index other) { return other > face && countedBy[other] != face; },

@@ -142,7 +142,7 @@ double offBy(const std::vector<float>& rows, const std::vector<float>& scale, co
 } // namespace
 
 InterpolativeRows interpolativeRows(const std::vector<float>& rows, const std::vector<float>& scale, float tolerance,
-                                    std::size_t unit)
+                                    std::size_t unit, Interrupter* interrupter)
 {
     const std::size_t count = scale.empty() ? 0 : rows.size() / scale.size();
     InterpolativeRows all;
@@ -156,6 +156,7 @@ InterpolativeRows interpolativeRows(const std::vector<float>& rows, const std::v
     std::vector<std::uint32_t>& order = result.order;
     for (std::size_t kept = 1;;) {
         for (;; ++kept) {
+            throwIfInterrupted(interrupter);
             if (kept > scale.size()) return all; // factors would be as many as the entries that they stand for
             const auto worst = std::max_element(
                 order.begin() + static_cast<std::ptrdiff_t>(kept), order.end(),

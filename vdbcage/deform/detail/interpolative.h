@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <vector>
 
+#include <vdbcage/core/interrupter.h>
+
 namespace vdbcage::detail {
 
 /// The rows of a matrix by a few of them. The first `kept` of `order` are kept. Row order[kept + i] is
@@ -19,7 +21,8 @@ struct InterpolativeRows {
 ///
 /// The size of a row is the sum of its entries' absolute values, each times its column's `scale`. A multiple of `unit`
 /// is kept, or all where that is no more to hold. `rows` are row after row. Cost: O(rows x kept x columns).
+/// \throw Cancelled
 InterpolativeRows interpolativeRows(const std::vector<float>& rows, const std::vector<float>& scale, float tolerance,
-                                    std::size_t unit);
+                                    std::size_t unit, Interrupter* interrupter = nullptr);
 
 } // namespace vdbcage::detail

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include <tbb/blocked_range.h>
+#include <vdbcage/core/detail/asker.h>
 #include <vdbcage/core/detail/parallel.h>
 #include <vdbcage/core/error.h>
 #include <vdbcage/deform/detail/interpolative.h>
@@ -93,26 +94,29 @@ GroupSums sumUp(const float* weights, const Moves& moves)
 
 using Indices = std::vector<std::uint32_t>;
 
-/// Halves points across the longest side of their box until they are a block or less.
-void split(const std::vector<Vec3d>& points, Indices::iterator begin, Indices::iterator end,
-           std::vector<Indices>& blocks)
+/// Sorts indices of points, `blockSize` to a block, by halving the points across the longest side of their box until
+/// they are a block or less.
+void sortIntoBlocks(const std::vector<Vec3d>& points, Indices::iterator begin, Indices::iterator end,
+                    Interrupter* interrupter)
 {
     const auto count = static_cast<std::size_t>(end - begin);
     if (count <= blockSize) {
-        blocks.emplace_back(begin, end);
-        std::sort(blocks.back().begin(), blocks.back().end());
+        std::sort(begin, end);
         return;
     }
+    throwIfInterrupted(interrupter);
     openvdb::BBoxd box;
     std::for_each(begin, end, [&](std::uint32_t i) { box.expand(points[i]); });
     const auto axis = static_cast<int>(box.maxExtent());
     const std::size_t blocksBefore = (count + blockSize - 1) / blockSize / 2;
     const auto middle = begin + static_cast<std::ptrdiff_t>(blocksBefore * blockSize);
+    Asker ask(interrupter);
     std::nth_element(begin, middle, end, [&](std::uint32_t a, std::uint32_t b) {
+        ask();
         return std::pair(points[a][axis], a) < std::pair(points[b][axis], b);
     });
-    split(points, begin, middle, blocks);
-    split(points, middle, end, blocks);
+    parallelInvoke([&] { sortIntoBlocks(points, begin, middle, interrupter); },
+                   [&] { sortIntoBlocks(points, middle, end, interrupter); });
 }
 
 /// Rows, `row(i)` gives the `i`th, in groups of which each has them column by column.
@@ -138,21 +142,22 @@ void requireWeights(std::size_t weights, std::size_t points, std::size_t handles
 }
 
 WeightBlocks::WeightBlocks(const std::vector<Vec3d>& points, const std::vector<float>& maxDistances,
-                           const MakeRows& makeRows)
-    : handles_(maxDistances.size())
+                           const MakeRows& makeRows, Interrupter* interrupter)
+    : handles_(maxDistances.size()), blocks_((points.size() + blockSize - 1) / blockSize)
 {
     Indices all(points.size());
     std::iota(all.begin(), all.end(), 0U);
-    std::vector<Indices> blocks;
-    if (!all.empty()) split(points, all.begin(), all.end(), blocks);
-    blocks_.resize(blocks.size());
-    parallelFor(std::size_t(0), blocks.size(), [&](std::size_t b) {
-        std::vector<float> rows(blocks[b].size() * handles_);
-        makeRows(blocks[b], rows);
-        const InterpolativeRows few = interpolativeRows(rows, maxDistances, tolerance, groupSize);
+    sortIntoBlocks(points, all.begin(), all.end(), interrupter);
+    parallelFor(std::size_t(0), blocks_.size(), [&](std::size_t b) {
+        const std::size_t first = b * blockSize, count = std::min(blockSize, points.size() - first);
+        const Indices indices(all.begin() + static_cast<std::ptrdiff_t>(first),
+                              all.begin() + static_cast<std::ptrdiff_t>(first + count));
+        std::vector<float> rows(count * handles_);
+        makeRows(indices, rows);
+        const InterpolativeRows few = interpolativeRows(rows, maxDistances, tolerance, groupSize, interrupter);
         Block& block = blocks_[b];
         block.held = few.kept;
-        for (const std::uint32_t i : few.order) block.points.push_back(blocks[b][i]);
+        for (const std::uint32_t i : few.order) block.points.push_back(indices[i]);
         appendGroups(
             few.kept, handles_, [&](std::size_t i) { return rows.data() + few.order[i] * handles_; }, block.weights);
         appendGroups(

@@ -5,6 +5,7 @@
 #include <functional>
 #include <vector>
 
+#include <vdbcage/core/interrupter.h>
 #include <vdbcage/mesh/mesh.h>
 
 namespace vdbcage::detail {
@@ -34,8 +35,9 @@ public:
     /// values, each times its handle's maxDistance. A row is off by at most `tolerance` of its size, and by four
     /// times that with what rounding costs, whatever the weights are.
     /// \pre `points` are finite
+    /// \throw Cancelled
     WeightBlocks(const std::vector<openvdb::Vec3d>& points, const std::vector<float>& maxDistances,
-                 const MakeRows& makeRows);
+                 const MakeRows& makeRows, Interrupter* interrupter = nullptr);
 
     /// Adds what `moves` move them by, times `size`, to `points`. The number of threads does not matter.
     /// Cost: reading the weights of these handles and the combinations once, in parallel.

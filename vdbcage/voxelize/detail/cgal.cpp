@@ -61,7 +61,7 @@ public:
           last_(surface_.size().offsetBy(-1)), crossings_{BitGrid(frame.voxels), BitGrid(frame.voxels),
                                                           BitGrid(frame.voxels)}
     {
-        const SlabbedTriangles all(model, frame, surface_.size().x());
+        const SlabbedTriangles all(model, frame, surface_.size().x(), interrupter);
         for (std::size_t i = 0; i < all.size(0); ++i) {
             add(all.triangle(0, i));
             if (all.counted(0, i)) counted_ = triangles_.size();

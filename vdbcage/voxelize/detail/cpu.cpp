@@ -45,8 +45,9 @@ private:
 class CpuVoxelizer {
 public:
     CpuVoxelizer(const Mesh& model, const Frame& frame, Interrupter* interrupter)
-        : interrupter_(interrupter), triangles_(model, frame, std::clamp(frame.voxels.dim().x() / 16, 1, 8)),
-          grid_(frame.voxels), rows_(grid_.size().y()), words_(grid_.wordsPerRow()), planeWords_(grid_.rowOffset(1, 0)),
+        : interrupter_(interrupter),
+          triangles_(model, frame, std::clamp(frame.voxels.dim().x() / 16, 1, 8), interrupter), grid_(frame.voxels),
+          rows_(grid_.size().y()), words_(grid_.wordsPerRow()), planeWords_(grid_.rowOffset(1, 0)),
           parities_(paritiesAlongX(triangles_, words_, planeWords_, interrupter))
     {
     }

@@ -108,7 +108,7 @@ public:
     GlRun(const gl::Api& api, GlVoxelizer::Path path, const gl::ProgramObject& program, const Mesh& model,
           const Frame& frame, int slabThickness, Interrupter* interrupter)
         : api_(api), raster_(path == GlVoxelizer::Path::raster), program_(program), interrupter_(interrupter),
-          triangles_(model, frame, slabThickness), grid_(frame.voxels), rows_(grid_.size().y()),
+          triangles_(model, frame, slabThickness, interrupter), grid_(frame.voxels), rows_(grid_.size().y()),
           words_(grid_.wordsPerRow()), planeWords_(grid_.rowOffset(1, 0)),
           slabWords_(planeWords_ * static_cast<std::size_t>(slabThickness)),
           items_(gl::makeBuffer(api, batchSize * sizeof(Item), nullptr, GL_DYNAMIC_STORAGE_BIT)),

@@ -9,7 +9,7 @@ namespace vdbcage::detail {
 using openvdb::Vec3i;
 using openvdb::Vec3I;
 
-SlabbedTriangles::SlabbedTriangles(const Mesh& model, const Frame& frame, int slabThickness)
+SlabbedTriangles::SlabbedTriangles(const Mesh& model, const Frame& frame, int slabThickness, Interrupter* interrupter)
     : points_(latticePoints(model, frame)), faces_(everySplit(model)),
       counted_(model.triangles.size() + 2 * model.quads.size()), slabThickness_(slabThickness),
       slabCount_((frame.voxels.dim().x() + slabThickness_ - 1) / slabThickness_), planes_(frame.voxels.dim().x())
@@ -17,7 +17,7 @@ SlabbedTriangles::SlabbedTriangles(const Mesh& model, const Frame& frame, int sl
     const openvdb::Coord low = frame.voxels.min();
     const Vec3i origin(low.x() * latticeStep, low.y() * latticeStep, low.z() * latticeStep);
     for (Vec3i& point : points_) point -= origin;
-    sortIntoSlabs();
+    sortIntoSlabs(interrupter);
 }
 
 Span SlabbedTriangles::planes(int slab) const
@@ -34,7 +34,7 @@ Span SlabbedTriangles::slabsOf(const Vec3I& face) const
 }
 
 /// A counting sort, in parallel over blocks of faces, that keeps the order of the faces.
-void SlabbedTriangles::sortIntoSlabs()
+void SlabbedTriangles::sortIntoSlabs(Interrupter* interrupter)
 {
     const auto slabs = static_cast<std::size_t>(slabCount_);
     const std::size_t blockSize = std::max<std::size_t>(4096, faces_.size() / 64 + 1);
@@ -42,6 +42,7 @@ void SlabbedTriangles::sortIntoSlabs()
     std::vector<std::size_t> next(blocks * slabs); // by block and slab: first the counts, then where to write
     const auto forEachFace = [&](const auto& visit) {
         parallelFor(std::size_t(0), blocks, [&](std::size_t block) {
+            throwIfInterrupted(interrupter);
             std::size_t* const row = next.data() + block * slabs;
             const std::size_t end = std::min(faces_.size(), (block + 1) * blockSize);
             for (std::size_t i = block * blockSize; i < end; ++i) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include <openvdb/Types.h>
+#include <vdbcage/core/interrupter.h>
 #include <vdbcage/mesh/mesh.h>
 #include <vdbcage/voxelize/detail/face_scan.h>
 #include <vdbcage/voxelize/detail/frame.h>
@@ -16,8 +17,9 @@ namespace vdbcage::detail {
 class SlabbedTriangles {
 public:
     /// Makes slabs of `slabThickness` planes; the last may have fewer.
+    /// \throw Cancelled
     /// Cost: O(faces + slabs entered by faces), in parallel.
-    SlabbedTriangles(const Mesh& model, const Frame& frame, int slabThickness);
+    SlabbedTriangles(const Mesh& model, const Frame& frame, int slabThickness, Interrupter* interrupter);
 
     int slabCount() const { return slabCount_; }
     int slabThickness() const { return slabThickness_; }
@@ -37,7 +39,7 @@ public:
 private:
     static std::size_t index(int slab) { return static_cast<std::size_t>(slab); }
     Span slabsOf(const openvdb::Vec3I& face) const;
-    void sortIntoSlabs();
+    void sortIntoSlabs(Interrupter* interrupter);
 
     std::vector<openvdb::Vec3i> points_; ///< lattice units, counted from the centre of the grid's first voxel
     std::vector<openvdb::Vec3I> faces_;
