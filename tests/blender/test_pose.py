@@ -124,6 +124,7 @@ class Pose(Case):
 
     def test_two_models_of_one_cage(self):
         body, clothes = load(BISHOP), load(BISHOP)
+        body.name, clothes.name = "Körper/a", "Körper:a"  # both are files for a while
         clothes.location = (0.4, 0, 0)
         bpy.context.view_layer.update()
         select(body, clothes)
@@ -220,6 +221,9 @@ class Pose(Case):
         self.fails("Cube has modifiers that change its number of points", pose)
         self.fails("The last frame, 1, is before the first, 2", pose, target="POINT_CACHE", frame_start=2, frame_end=1)
         select(model)
+        twin = bpy.data.objects.new("twin", model.data)
+        self.fails("bishop shares its mesh with other objects", pose)
+        bpy.data.objects.remove(twin)
         bpy.ops.object.mode_set(mode="EDIT")
         self.fails("bishop is in Edit Mode", pose)
 

@@ -2,9 +2,15 @@
 """The files that go between Blender and the command, and Blender's point caches. Nothing here knows Blender."""
 
 import os
+import re
 import struct
 
 import numpy
+
+
+def file_name(name):
+    """A name that a file can have; different names give different ones."""
+    return re.sub(r"[^\w .-]", lambda found: f"%{ord(found[0]):x}%", name)
 
 
 class Polygons:

@@ -118,7 +118,7 @@ class MakingOperator(Options, CommandOperator):
         """Writes the models; the words of the command, which writes cage.ply."""
         models = selected_models(context)
         self._models = [model.name for model in models]
-        file = job.folder / "models" / f"{bpy.path.clean_name(models[0].name)}.ply"  # messages have this name
+        file = job.folder / "models" / f"{files.file_name(models[0].name)}.ply"  # messages have this name
         words = [command(context), "make", file, "-o", job.folder / "cage.ply", "-v", *option_words(self)]
         file.parent.mkdir()
         write_models(context, models, self.surface, file)

@@ -95,7 +95,7 @@ class VDBCAGE_OT_pose(CommandOperator, bpy.types.Operator):
     def _write_cache(self, pose):
         """Writes the point cache of a model; its path."""
         os.makedirs(self._caches, exist_ok=True)
-        path = os.path.join(self._caches, f"{bpy.path.clean_name(pose.model)}.pc2")
+        path = os.path.join(self._caches, f"{files.file_name(pose.model)}.pc2")
         with files.PointCache(path, pose.points, self.frame_start, len(self._frames)) as cache:
             for frame in range(len(self._frames)):
                 cache.add(pose.result(frame))
@@ -113,11 +113,14 @@ class _Pose:
         """`place` is a folder that there is not yet."""
         self.model, self.cage = model.name, cage.name
         self._folder, self._coordinates = place, coordinates
-        self._model_file = place / f"{bpy.path.clean_name(model.name)}.ply"  # messages of the command have this name
+        self._model_file = place / f"{files.file_name(model.name)}.ply"  # messages of the command have this name
         if not model.vdbcage.is_at_rest:
             raise CommandError(f"{model.name} has no shape at rest. Press Set Rest while {cage.name} is as it is")
         if model.mode == "EDIT":
             raise CommandError(f"{model.name} is in Edit Mode. Leave it first")
+        if target == "SHAPE_KEY" and model.data.users > 1:
+            raise CommandError(f"{model.name} shares its mesh with other objects, which a shape key would pose too. Make "
+                               "it a single user first")
         rest = links.rest_points(cage)
         if target == "SHAPE_KEY":
             mesh = geometry.rest(model)
@@ -160,9 +163,9 @@ class _Pose:
         content = hashlib.sha256(self._coordinates.encode())
         for file in (self._folder / "rest.ply", self._model_file):
             content.update(file.read_bytes())
-        start = f"vdbcage_weights_{bpy.path.clean_name(self.model)}_"
+        start = f"vdbcage_weights_{files.file_name(self.model)}_"
         path = pathlib.Path(bpy.app.tempdir) / f"{start}{content.hexdigest()[:32]}.npy"
-        for old in path.parent.glob(f"{start}*.npy"):
+        for old in path.parent.glob(f"{start}{'?' * 32}.npy"):
             if old != path:
                 old.unlink()
         return path

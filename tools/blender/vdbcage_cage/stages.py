@@ -7,6 +7,7 @@ import bpy
 from mathutils import Matrix, Vector
 
 from .command import CommandError
+from .files import file_name
 from .folders import folder, stored
 from .make import MakingOperator
 
@@ -31,7 +32,7 @@ class VDBCAGE_OT_show_stages(MakingOperator, bpy.types.Operator):
 
     def prepare(self, context, job):
         words = self.prepare_cage(context, job)
-        default = f"{bpy.path.clean_name(self._models[0])}_stages"
+        default = f"{file_name(self._models[0])}_stages"
         self._directory = folder(self.directory, default, "Volumes are files")
         return [words + ["--stages", self._directory]]
 
