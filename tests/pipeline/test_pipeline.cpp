@@ -425,7 +425,10 @@ BOOST_AUTO_TEST_CASE(a_plane_that_is_asked_for_is_obeyed)
     Pipeline made(model);
     const Mesh found = made.run(options);
     BOOST_CHECK(!made.report().symmetry);
-    BOOST_TEST(made.report().noSymmetry != "");
+    const std::string reason = made.report().noSymmetry;
+    BOOST_TEST(reason.rfind("the model misses ", 0) == 0U, reason);
+    BOOST_TEST(reason.find(" % of its longest side, which is more than 0.5 %: --symmetry ") != std::string::npos,
+               reason);
     options.symmetry = CageSymmetry::off;
     BOOST_CHECK(sameMesh(found, makeCage(model, options)));
     options.bounding = false;
@@ -436,6 +439,30 @@ BOOST_AUTO_TEST_CASE(a_plane_that_is_asked_for_is_obeyed)
     BOOST_TEST(made.report().noSymmetry == "bounding is off");
     options.symmetry = CageSymmetry::x;
     BOOST_CHECK_THROW(made.run(options), InputError);
+}
+
+BOOST_AUTO_TEST_CASE(a_plane_that_is_absurd_is_refused_with_its_figure)
+{
+    Mesh flag = test::box({0, 0, 0}, {0.2, 0.2, 4});
+    flag = test::joined(flag, test::box({0.1, 0, 3}, {4, 0.2, 4}));
+    CageOptions options = coarse();
+    options.symmetry = CageSymmetry::x;
+    std::string refusal;
+    try {
+        makeCage(flag, options);
+    } catch (const InputError& error) {
+        refusal = error.what();
+    }
+    const std::string start = "--symmetry: 'x' is not allowed: the model misses x by ";
+    BOOST_REQUIRE(refusal.rfind(start, 0) == 0U);
+    const double percent = std::stod(refusal.substr(start.size()));
+    BOOST_TEST(percent > 20);
+    BOOST_TEST(percent < 100);
+    BOOST_TEST(refusal.find("; it may be at most 20 %") != std::string::npos, refusal);
+    options.symmetry = CageSymmetry::y; // it is flat there
+    Pipeline made(flag);
+    made.run(options);
+    BOOST_TEST(made.report().symmetry.has_value());
 }
 
 BOOST_AUTO_TEST_CASE(voxels_are_symmetric_whatever_the_scale_and_are_kept)

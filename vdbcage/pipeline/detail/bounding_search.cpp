@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iomanip>
+#include <limits>
+#include <sstream>
 #include <utility>
 
 #include <vdbcage/bounding/near_coplanar.h>
@@ -53,6 +56,26 @@ void keepAtMost(std::size_t most, const Mesh Candidate::*mesh, std::vector<Candi
     candidates.erase(std::remove_if(candidates.begin(), candidates.end(), hasTooMany), candidates.end());
 }
 
+/// Why there is to be no cage that is symmetric in the best plane; empty if there is. \throw InputError
+std::string againstSymmetry(const Symmetry& best, CageSymmetry wanted)
+{
+    const double limit =
+        wanted == CageSymmetry::automatic ? policy::symmetryTolerance : policy::largestRequestedDeviation;
+    if (best.deviation <= limit) return "";
+    std::ostringstream percent, most;
+    percent << std::setprecision(2) << 100 * best.deviation << " % of its longest side";
+    most << 100 * limit << " %";
+    const std::string axis(1, "xyz"[best.plane.axis]);
+    const std::string finding = "the model misses " + axis + " by " + percent.str();
+    if (wanted != CageSymmetry::automatic) {
+        throw InputError("--symmetry: '" + axis + "' is not allowed: " + finding + "; it may be at most " + most.str());
+    }
+    std::string advice = finding + ", which is more than " + most.str();
+    if (best.deviation <= policy::largestRequestedDeviation)
+        advice += ": --symmetry " + axis + " takes it all the same";
+    return advice;
+}
+
 } // namespace
 
 Candidate BoundingSearch::run(const CageOptions& options, const ScaleVersion& scale, Interrupter* interrupter)
@@ -77,11 +100,12 @@ Candidate BoundingSearch::find(const Run& run)
 {
     std::string noSymmetry;
     if (run.options.symmetry != CageSymmetry::off) {
-        noSymmetry = "the model is not symmetric across x, y or z";
-        if (std::optional<Symmetry> symmetry = planeFor(run)) {
-            const BoundingGuard& guard = guardFor(run, symmetry->plane);
+        Symmetry symmetry = planeFor(run);
+        noSymmetry = againstSymmetry(symmetry, run.options.symmetry);
+        if (noSymmetry.empty()) {
+            const BoundingGuard& guard = guardFor(run, symmetry.plane);
             if (auto candidate = climb(run, guard)) {
-                symmetry->plane = *guard.symmetry();
+                symmetry.plane = *guard.symmetry();
                 candidate->symmetry = symmetry;
                 return *std::move(candidate);
             }
@@ -95,14 +119,14 @@ Candidate BoundingSearch::find(const Run& run)
     return candidate;
 }
 
-/// The plane found or given; the model has the same one in every run.
-std::optional<Symmetry> BoundingSearch::planeFor(const Run& run)
+/// The best plane of those that are asked for; the model has the same one in every run.
+const Symmetry& BoundingSearch::planeFor(const Run& run)
 {
     const CageSymmetry wanted = run.options.symmetry;
     if (wanted == soughtSymmetry_) return symmetry_;
     const Stage stage(run.interrupter, "symmetry");
     if (wanted == CageSymmetry::automatic) {
-        symmetry_ = findSymmetry(model_, policy::symmetryTolerance, run.interrupter);
+        symmetry_ = *findSymmetry(model_, std::numeric_limits<double>::infinity(), run.interrupter);
     } else {
         const int axis = wanted == CageSymmetry::x ? 0 : wanted == CageSymmetry::y ? 1 : 2;
         symmetry_ = bestSymmetry(model_, axis, run.interrupter);

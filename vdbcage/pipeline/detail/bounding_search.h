@@ -38,7 +38,7 @@ private:
     using Candidates = std::vector<Candidate>;
 
     Candidate find(const Run& run);
-    std::optional<Symmetry> planeFor(const Run& run);
+    const Symmetry& planeFor(const Run& run);
     const BoundingGuard& guardFor(const Run& run, const std::optional<SymmetryPlane>& plane);
     std::optional<Candidate> climb(const Run& run, const BoundingGuard& guard);
     Candidates startsFrom(const Run& run, const Voxels& voxels, const BoundingGuard& guard);
@@ -52,7 +52,7 @@ private:
     Volumes& volumes_;
     Certifier& certifier_;
     CageSymmetry soughtSymmetry_ = CageSymmetry::off; // what was asked for `symmetry_`; off: nothing yet
-    std::optional<Symmetry> symmetry_;
+    Symmetry symmetry_;
     std::unique_ptr<const BoundingGuard> guard_; // of the last run
     GuardOptions guardOptions_;                  // that it was made with
     struct Counted {
