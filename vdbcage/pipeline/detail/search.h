@@ -48,7 +48,7 @@ constexpr double mostlyQuads = 0.875;
 constexpr std::size_t trianglesPerQuad = 3; ///< to begin with: two a quad, and some that vanish; 2 to 4 are alike
 constexpr int symmetricPerturbations = 3;   ///< times as many, in the time that half a surface saves
 constexpr double symmetryTolerance = 0.005; ///< of the longest side: below the distance of tight cages of some hundred
-constexpr double largestRequestedDeviation = 0.2; ///< of a plane across a given axis; a fifth off is no symmetry
+constexpr double largestRequestedDeviation = 0.3; ///< of a plane across a given axis: more is no symmetry
 constexpr double boxMargin = 0.01;                ///< of the longest side, between the model and its box
 constexpr int stepSmoothing = 3; ///< sweeps that take the steps of the voxels away, where no guard does
 
