@@ -405,7 +405,7 @@ BOOST_AUTO_TEST_CASE(symmetric_models_get_symmetric_cages)
 
 BOOST_AUTO_TEST_CASE(a_plane_that_is_asked_for_is_obeyed)
 {
-    const Mesh model = test::joined(test::sphere({0, 0, 0}, 1, 12), test::box({1.2, 0.1, 0.2}, {2, 0.9, 0.7}));
+    const Mesh model = test::joined(test::sphere({0, 0, 0}, 1, 12), test::box({1.1, 0.1, 0.2}, {1.6, 0.5, 0.6}));
     CageOptions options = coarse();
     const CageSymmetry planes[] = {CageSymmetry::x, CageSymmetry::y, CageSymmetry::z};
     for (const int axis : {0, 1, 2}) {

@@ -63,7 +63,7 @@ std::string againstSymmetry(const Symmetry& best, CageSymmetry wanted)
         wanted == CageSymmetry::automatic ? policy::symmetryTolerance : policy::largestRequestedDeviation;
     if (best.deviation <= limit) return "";
     std::ostringstream percent, most;
-    percent << std::setprecision(2) << 100 * best.deviation << " % of its longest side";
+    percent << std::setprecision(3) << 100 * best.deviation << " % of its longest side";
     most << 100 * limit << " %";
     const std::string axis(1, "xyz"[best.plane.axis]);
     const std::string finding = "the model misses " + axis + " by " + percent.str();
