@@ -1,4 +1,4 @@
-"""Runs unittest modules of this folder in Blender: blender --background --factory-startup --python run.py -- test_make"""
+"""Runs unittest modules of this folder: blender --background --factory-startup --python run.py -- test_make"""
 
 import pathlib
 import sys

@@ -100,7 +100,8 @@ class Case(unittest.TestCase):
     def fails(self, text, operator, **options):
         """The operator reports an error with this text, and changes nothing; no file is left."""
         def state():
-            data = [sorted(part.name for part in kind) for kind in (bpy.data.objects, bpy.data.meshes, bpy.data.volumes)]
+            kinds = (bpy.data.objects, bpy.data.meshes, bpy.data.volumes)
+            data = [sorted(part.name for part in kind) for kind in kinds]
             modifiers = [(thing.name, [m.name for m in thing.modifiers]) for thing in bpy.data.objects]
             keys = [(mesh.name, mesh.shape_keys is None) for mesh in bpy.data.meshes]
             return data, modifiers, keys, sorted(name for name in os.listdir(bpy.app.tempdir)

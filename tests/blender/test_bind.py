@@ -36,7 +36,7 @@ class Bind(Case):
 
     def test_the_model_follows_its_cage(self):
         model = load(CREATURE)
-        bpy.ops.vdbcage.make_cage(faces=400)
+        bpy.ops.vdbcage.make_cage(faces=400, effort="fast")
         for method in ("MESH_DEFORM", "SURFACE_DEFORM", "MESH_DEFORM"):
             bpy.ops.vdbcage.bind(method=method)
             self.assertEqual([modifier.type for modifier in model.modifiers], [method])
@@ -49,7 +49,7 @@ class Bind(Case):
             model.location = (5, 1, -2)
             model.scale = scale
             bpy.context.view_layer.update()
-            bpy.ops.vdbcage.make_cage(faces=200)
+            bpy.ops.vdbcage.make_cage(faces=200, effort="fast")
             for method in ("MESH_DEFORM", "SURFACE_DEFORM"):
                 bpy.ops.vdbcage.bind(method=method)
                 self.follows_in_part(model.vdbcage.cage, model)
@@ -60,7 +60,7 @@ class Bind(Case):
         clothes.scale = (1.2, 1, 0.9)
         bpy.context.view_layer.update()
         select(body, clothes)
-        bpy.ops.vdbcage.make_cage(faces=300)
+        bpy.ops.vdbcage.make_cage(faces=300, effort="fast")
         select(body.vdbcage.cage)
         for method in ("MESH_DEFORM", "SURFACE_DEFORM"):
             bpy.ops.vdbcage.bind(method=method)
@@ -77,7 +77,7 @@ class Bind(Case):
     def test_it_finds_the_points_that_do_not_follow(self):
         """Blender says is_bound all the same."""
         model = load(BISHOP)
-        bpy.ops.vdbcage.make_cage(faces=200)
+        bpy.ops.vdbcage.make_cage(faces=200, effort="fast")
         cage = model.vdbcage.cage
         out = positions(model, world=False)
         out[::100] += 3 * size(out)
@@ -90,7 +90,7 @@ class Bind(Case):
 
     def test_precision_2_moves_nothing(self):
         model = load(CREATURE)
-        bpy.ops.vdbcage.make_cage(faces=400)
+        bpy.ops.vdbcage.make_cage(faces=400, effort="fast")
         bpy.ops.vdbcage.set_rest()
         self.fails("None of the 18530 points of creature would follow", bpy.ops.vdbcage.bind, precision=2)
         modifier = model.modifiers.new("plain", "MESH_DEFORM")
@@ -102,7 +102,7 @@ class Bind(Case):
     def test_a_cage_around_the_mesh_without_modifiers_is_bound_below_them(self):
         model = load(BISHOP)
         model.modifiers.new("subdivided", "SUBSURF")
-        bpy.ops.vdbcage.make_cage(faces=200, surface="REST")
+        bpy.ops.vdbcage.make_cage(faces=200, surface="REST", effort="fast")
         bpy.ops.vdbcage.bind()
         self.assertEqual([modifier.type for modifier in model.modifiers], ["MESH_DEFORM", "SUBSURF"])
         self.follows(model.vdbcage.cage, model)
@@ -111,7 +111,7 @@ class Bind(Case):
         model = load(BISHOP)
         array = model.modifiers.new("array", "ARRAY")
         array.count = 1
-        bpy.ops.vdbcage.make_cage(faces=200)
+        bpy.ops.vdbcage.make_cage(faces=200, effort="fast")
         for method in ("MESH_DEFORM", "SURFACE_DEFORM"):
             array.count = 1
             bpy.ops.vdbcage.bind(method=method)
@@ -144,7 +144,7 @@ class Bind(Case):
         self.assertEqual(list(model.modifiers), [])
         bpy.data.objects.remove(plane)
         self.fails("Select a model that has a cage, or its cage", bpy.ops.vdbcage.bind)
-        bpy.ops.vdbcage.make_cage(faces=100)
+        bpy.ops.vdbcage.make_cage(faces=100, effort="fast")
         cage = model.vdbcage.cage
         cage.modifiers.new("subdivided", "SUBSURF")
         self.fails("bishop Cage has modifiers that change its number of points", bpy.ops.vdbcage.bind)

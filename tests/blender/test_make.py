@@ -49,7 +49,7 @@ class Make(Case):
             model.rotation_euler = (0.3, 1, -2)
             model.scale = scale
             bpy.context.view_layer.update()
-            bpy.ops.vdbcage.make_cage(faces=150)
+            bpy.ops.vdbcage.make_cage(faces=150, effort="fast")
             cage = model.vdbcage.cage
             self.assertEqual(cage.parent, parent)
             self.assertNear(cage.matrix_world, model.matrix_world, 1e-5)
@@ -61,7 +61,7 @@ class Make(Case):
         clothes.scale = (-1.2, 1, 0.9)
         bpy.context.view_layer.update()
         select(body, clothes)
-        bpy.ops.vdbcage.make_cage(faces=300)
+        bpy.ops.vdbcage.make_cage(faces=300, effort="fast")
         cage = body.vdbcage.cage
         self.assertEqual(clothes.vdbcage.cage, cage)
         self.assertIsNone(other.vdbcage.cage)
@@ -77,10 +77,10 @@ class Make(Case):
         model = load(BISHOP)
         modifier = model.modifiers.new("array", "ARRAY")
         modifier.count = 2
-        bpy.ops.vdbcage.make_cage(faces=200)
+        bpy.ops.vdbcage.make_cage(faces=200, effort="fast")
         self.certified(model.vdbcage.cage, model)
         both = numpy.ptp(positions(model.vdbcage.cage), axis=0).max()
-        bpy.ops.vdbcage.make_cage(faces=200, surface="REST")
+        bpy.ops.vdbcage.make_cage(faces=200, surface="REST", effort="fast")
         self.assertEqual(model.vdbcage.surface, "REST")
         self.assertTrue(modifier.show_viewport)
         cage = model.vdbcage.cage
@@ -90,13 +90,13 @@ class Make(Case):
 
     def test_a_model_that_its_cage_moves_gets_the_next_cage_around_its_shape_at_rest(self):
         model = load(BISHOP)
-        bpy.ops.vdbcage.make_cage(faces=150)
+        bpy.ops.vdbcage.make_cage(faces=150, effort="fast")
         rest = positions(model.vdbcage.cage)
         bpy.ops.vdbcage.bind()
         first = model.vdbcage.cage
         for vertex in first.data.vertices:
             vertex.co *= 2
-        bpy.ops.vdbcage.make_cage(faces=150)
+        bpy.ops.vdbcage.make_cage(faces=150, effort="fast")
         self.assertNotEqual(model.vdbcage.cage, first)
         self.assertNear(positions(model.vdbcage.cage), rest, 1e-6)
 

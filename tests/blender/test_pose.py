@@ -41,7 +41,7 @@ class Pose(Case):
         model.rotation_euler = (1, 0.2, 3)
         model.location = (3, 1, 2)
         bpy.context.view_layer.update()
-        bpy.ops.vdbcage.make_cage(faces=200)
+        bpy.ops.vdbcage.make_cage(faces=200, effort="fast")
         cage = model.vdbcage.cage
         rest = positions(cage, world=False)
         for family in ("green", "mvc", "mlc"):
@@ -55,7 +55,7 @@ class Pose(Case):
 
     def test_where_objects_go_after_they_were_at_rest_is_of_no_matter(self):
         model = load(BISHOP)
-        bpy.ops.vdbcage.make_cage(faces=100)
+        bpy.ops.vdbcage.make_cage(faces=100, effort="fast")
         cage = model.vdbcage.cage
         rest = positions(cage, world=False)
         set_positions(cage, bent(rest))
@@ -67,7 +67,7 @@ class Pose(Case):
 
     def test_the_pose_is_taken_in_edit_mode_too(self):
         model = load(BISHOP)
-        bpy.ops.vdbcage.make_cage(faces=100)
+        bpy.ops.vdbcage.make_cage(faces=100, effort="fast")
         cage = model.vdbcage.cage
         rest = positions(cage, world=False)
         select(cage)
@@ -85,7 +85,7 @@ class Pose(Case):
         model.modifiers.new("subdivided", "SUBSURF").levels = 1
         model.rotation_euler = (1, 0.2, 3)
         bpy.context.view_layer.update()
-        bpy.ops.vdbcage.make_cage(faces=200)
+        bpy.ops.vdbcage.make_cage(faces=200, effort="fast")
         cage = model.vdbcage.cage
         rest, at_rest = positions(cage, world=False), positions(model)
         cage.shape_key_add(name="Basis")
@@ -128,7 +128,7 @@ class Pose(Case):
         clothes.location = (0.4, 0, 0)
         bpy.context.view_layer.update()
         select(body, clothes)
-        bpy.ops.vdbcage.make_cage(faces=200)
+        bpy.ops.vdbcage.make_cage(faces=200, effort="fast")
         cage = body.vdbcage.cage
         shape = positions(cage, world=False)
         set_positions(cage, shape + [0, 2, 0])
@@ -139,7 +139,7 @@ class Pose(Case):
 
     def test_what_is_bound_and_what_is_posed_take_turns(self):
         model = load(BISHOP)
-        bpy.ops.vdbcage.make_cage(faces=100)
+        bpy.ops.vdbcage.make_cage(faces=100, effort="fast")
         cage = model.vdbcage.cage
         bpy.ops.vdbcage.bind()
         shape = positions(cage, world=False)
@@ -161,7 +161,7 @@ class Pose(Case):
 
     def test_set_rest(self):
         model = load(BISHOP)
-        bpy.ops.vdbcage.make_cage(faces=100)
+        bpy.ops.vdbcage.make_cage(faces=100, effort="fast")
         cage = model.vdbcage.cage
         set_positions(cage, 1.2 * positions(cage, world=False))
         bpy.ops.vdbcage.set_rest()
@@ -170,7 +170,7 @@ class Pose(Case):
 
     def test_weights_are_kept_until_something_changes(self):
         model = load(BISHOP)
-        bpy.ops.vdbcage.make_cage(faces=100)
+        bpy.ops.vdbcage.make_cage(faces=100, effort="fast")
 
         def kept():
             return [name for name in os.listdir(bpy.app.tempdir) if name.startswith("vdbcage_weights_bishop_")]
@@ -190,7 +190,7 @@ class Pose(Case):
 
     def test_files_are_beside_the_blend(self):
         model = load(BISHOP)
-        bpy.ops.vdbcage.make_cage(faces=100)
+        bpy.ops.vdbcage.make_cage(faces=100, effort="fast")
         blend = self.folder / "scene.blend"
         self.fails("Point caches are files beside the .blend. Save it first", bpy.ops.vdbcage.pose,
                    target="POINT_CACHE", frame_start=1, frame_end=2)

@@ -41,7 +41,8 @@ def voxels(path):
 class Stages(Case):
     def shown(self, model, **options):
         """Shows the stages; the objects by their stages."""
-        bpy.ops.vdbcage.show_stages(directory=str(self.folder / "stages"), resolution=64, use_resolution=True, **options)
+        bpy.ops.vdbcage.show_stages(directory=str(self.folder / "stages"), resolution=64, use_resolution=True,
+                                   effort="fast", **options)
         collection = bpy.data.collections[f"{model.name} Stages"]
         self.assertEqual([thing.name for thing in collection.objects],
                          [f"{model.name} {stage}" for stage in STAGES])

@@ -35,8 +35,8 @@ class Settings(bpy.types.PropertyGroup):
                ("SURFACE_DEFORM", "Surface Deform", "The model follows the cage's nearest faces. Quick to bind")))
     precision: bpy.props.IntProperty(
         name="Precision", default=5, min=2, max=10,
-        description="Of Mesh Deform. One more takes some ten times as long: for a cage of 400 faces half a second at 5, "
-                    "four seconds at 6, a minute at 7. Loose cages take much longer, and gigabytes")
+        description="Of Mesh Deform. One more takes some ten times as long: for a cage of 400 faces half a second "
+                    "at 5, four seconds at 6, a minute at 7. Loose cages take much longer, and gigabytes")
 
 
 def _unbind(context, model, modifier):

@@ -79,8 +79,8 @@ def rest_points(cage):
         raise CommandError(f"{cage.name} has no shape at rest. Press Set Rest while it is as the model is")
     points = numpy.array(cage[_rest], numpy.float64).reshape(-1, 3)
     if len(points) != len(cage.data.vertices):
-        raise CommandError(f"{cage.name} has {len(cage.data.vertices)} points, and had {len(points)} at rest. Press Set "
-                           "Rest while it is as the model is")
+        raise CommandError(f"{cage.name} has {len(cage.data.vertices)} points, and had {len(points)} at rest. Press "
+                           "Set Rest while it is as the model is")
     return points
 
 

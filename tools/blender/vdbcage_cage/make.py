@@ -21,11 +21,13 @@ class Options:
                                  description="Faces of the cage, at most")
     mesh: bpy.props.EnumProperty(
         name="Mesh", default="triangles",
-        items=(("triangles", "Triangles", "The tightest"), ("triquad", "Mixed", "Triangles and quads; more than half are quads"),
+        items=(("triangles", "Triangles", "The tightest"),
+               ("triquad", "Mixed", "Triangles and quads; more than half are quads"),
                ("quads", "Quads", "Nine of ten faces are quads")))
     effort: bpy.props.EnumProperty(
         name="Effort", default="fair",
-        items=(("fast", "Fast", "A second or less"), ("fair", "Fair", "A few seconds"), ("best", "Best", "The tightest")))
+        items=(("fast", "Fast", "A second or less"), ("fair", "Fair", "A few seconds"),
+               ("best", "Best", "The tightest")))
     symmetry: bpy.props.EnumProperty(
         name="Symmetry", default="off",
         items=(("off", "Off", "No symmetry"), ("auto", "Automatic", "If the model is symmetric"),

@@ -119,8 +119,8 @@ class _Pose:
         if model.mode == "EDIT":
             raise CommandError(f"{model.name} is in Edit Mode. Leave it first")
         if target == "SHAPE_KEY" and model.data.users > 1:
-            raise CommandError(f"{model.name} shares its mesh with other objects, which a shape key would pose too. Make "
-                               "it a single user first")
+            raise CommandError(f"{model.name} shares its mesh with other objects, which a shape key would pose too. "
+                               "Make it a single user first")
         rest = links.rest_points(cage)
         if target == "SHAPE_KEY":
             mesh = geometry.rest(model)
