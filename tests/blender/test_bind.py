@@ -85,13 +85,13 @@ class Bind(Case):
         bpy.ops.vdbcage.bind()
         modifier = model.modifiers[0]
         self.assertTrue(modifier.is_bound)
-        found = bind.not_following(bpy.context, model, modifier, links.rest_points(cage), cage.matrix_world)
+        found = bind.not_following(bpy.context, model, modifier, links.rest_of(model, cage).points,
+                                   cage.matrix_world)
         self.assertEqual(found, (len(out[::100]), len(out)))
 
     def test_precision_2_moves_nothing(self):
         model = load(CREATURE)
         bpy.ops.vdbcage.make_cage(faces=400, effort="fast")
-        bpy.ops.vdbcage.set_rest()
         self.fails("None of the 18530 points of creature would follow", bpy.ops.vdbcage.bind, precision=2)
         modifier = model.modifiers.new("plain", "MESH_DEFORM")
         modifier.object = model.vdbcage.cage
@@ -132,6 +132,66 @@ class Bind(Case):
             set_positions(cage, shape)
             self.follows(cage, model)
 
+    def test_a_binding_that_fails_leaves_the_one_before(self):
+        model = load(BISHOP)
+        bpy.ops.vdbcage.make_cage(faces=200, effort="fast")
+        bpy.ops.vdbcage.bind()
+        cage = model.vdbcage.cage
+        shape = positions(cage, world=False)
+        set_positions(cage, shape + [0, 0, 1])
+        moved = positions(model)
+        self.fails("would follow", bpy.ops.vdbcage.bind, precision=2)
+        self.assertNear(positions(model), moved, 1e-6)
+        self.assertNear(links.rest_of(model, cage).points, shape, 1e-6)
+        self.assertEqual([modifier.precision for modifier in model.modifiers], [5])
+
+    def test_a_second_cage_takes_the_place_of_the_first(self):
+        model = load(BISHOP)
+        bpy.ops.vdbcage.make_cage(faces=200, effort="fast")
+        bpy.ops.vdbcage.bind()
+        rest = positions(model)
+        first = model.vdbcage.cage
+        set_positions(first, 1.5 * positions(first, world=False))
+        bpy.ops.object.select_all(action="SELECT")  # a cage is no model
+        bpy.ops.vdbcage.make_cage(faces=150, effort="fast")
+        cage = model.vdbcage.cage
+        self.assertNotEqual(cage, first)
+        self.assertIsNone(first.vdbcage.cage)
+        self.assertNear(positions(model), rest, 1e-5 * size(rest))  # as the new cage bounds it
+        bpy.ops.vdbcage.bind()
+        self.assertEqual([modifier.object for modifier in model.modifiers], [cage])
+        self.follows(cage, model)
+
+    def test_rebind_keeps_what_holds_the_model(self):
+        model = load(BISHOP)
+        bpy.ops.vdbcage.make_cage(faces=100, effort="fast")
+        bpy.ops.vdbcage.bind()
+        cage = model.vdbcage.cage
+        set_positions(cage, positions(cage, world=False) * [1, 1, 1.3])
+        bpy.ops.vdbcage.pose()
+        posed = positions(model)
+        bpy.ops.vdbcage.rebind()
+        self.assertNear(positions(model), posed, 1e-6)
+        self.assertFalse(model.modifiers[0].show_viewport)
+
+    def test_rebind_leaves_what_cannot_be_seen_and_goes_on(self):
+        hidden, model = load(BISHOP), load(BISHOP)
+        for one in (hidden, model):
+            select(one)
+            bpy.ops.vdbcage.make_cage(faces=100, effort="fast")
+            bpy.ops.vdbcage.bind()
+        hidden.hide_viewport = True
+        array = model.modifiers.new("array", "ARRAY")
+        bpy.context.view_layer.objects.active = model
+        bpy.ops.object.modifier_move_to_index(modifier="array", index=0)
+        array.count = 2
+        array.constant_offset_displace = (0, 0, 0)
+        array.use_relative_offset, array.use_constant_offset = False, True
+        with self.assertRaisesRegex(RuntimeError, "bishop is disabled or excluded in this view layer"):
+            bpy.ops.vdbcage.rebind()
+        self.assertTrue(hidden.modifiers[0].is_bound)
+        self.follows(model.vdbcage.cage, model)
+
     def test_wrong_input_changes_nothing(self):
         model = load(BISHOP)
         self.fails("Select a model that has a cage, or its cage", bpy.ops.vdbcage.bind)
@@ -142,6 +202,10 @@ class Bind(Case):
         select(model)
         self.fails("None of the 8157 points of bishop would follow: the cage must be closed", bpy.ops.vdbcage.bind)
         self.assertEqual(list(model.modifiers), [])
+        by_hand = model.modifiers.new("by hand", "MESH_DEFORM")
+        by_hand.object = plane
+        self.fails("bishop has no shape at rest. Press Set Rest", bpy.ops.vdbcage.rebind)
+        model.modifiers.remove(by_hand)
         bpy.data.objects.remove(plane)
         self.fails("Select a model that has a cage, or its cage", bpy.ops.vdbcage.bind)
         bpy.ops.vdbcage.make_cage(faces=100, effort="fast")

@@ -159,6 +159,58 @@ class Pose(Case):
         set_positions(cage, shape + [0, 2, 0])
         self.assertNear(positions(model, world=False), rest + [0, 2, 0], 1e-5 * size(shape))
 
+    def test_names_are_of_no_matter(self):
+        """A cage that is renamed, a copy, and a name that Blender makes shorter: the pose stays one."""
+        model = load(BISHOP)
+        model.name = "\u043c" * 28
+        bpy.ops.vdbcage.make_cage(faces=100, effort="fast")
+        cage = model.vdbcage.cage
+        shape, rest = positions(cage, world=False), positions(model, world=False)
+        set_positions(cage, shape + [0, 1, 0])
+        bpy.ops.vdbcage.pose(coordinates="mvc")
+        self.assertNear(positions(model, world=False), rest + [0, 1, 0], 1e-5 * size(shape))
+        cage.name = "renamed"
+        bpy.ops.vdbcage.pose(coordinates="mvc")
+        self.assertEqual(len(model.data.shape_keys.key_blocks), 2)
+        self.assertNear(positions(model, world=False), rest + [0, 1, 0], 1e-5 * size(shape))
+        select(model, cage)
+        bpy.ops.object.duplicate()
+        copy = next(thing for thing in bpy.context.selected_objects if thing.vdbcage.cage is not None)
+        self.assertNotIn(copy.vdbcage.cage, (None, cage))
+        select(copy)
+        bpy.ops.vdbcage.pose(coordinates="mvc")
+        self.assertEqual(len(copy.data.shape_keys.key_blocks), 2)
+        self.assertNear(positions(copy, world=False), rest + [0, 1, 0], 1e-5 * size(shape))
+
+    def test_each_model_has_a_rest_of_its_own(self):
+        body, clothes = load(BISHOP), load(BISHOP)
+        clothes.location = (0.4, 0, 0)
+        bpy.context.view_layer.update()
+        select(body, clothes)
+        bpy.ops.vdbcage.make_cage(faces=100, effort="fast")
+        cage = body.vdbcage.cage
+        set_positions(cage, positions(cage, world=False) + [0, 1, 0])
+        select(body)
+        bpy.ops.vdbcage.set_rest()
+        select(cage)
+        bpy.ops.vdbcage.pose(coordinates="mvc")
+        self.assertNear(key(body), positions_at_rest(body), 1e-5 * size(key(body)))
+        self.assertNear(key(clothes), positions_at_rest(clothes) + [0, 1, 0], 1e-5 * size(key(body)))
+
+    def test_the_cache_is_on_top_of_all_modifiers(self):
+        model = load(BISHOP)
+        bpy.ops.vdbcage.make_cage(faces=100, effort="fast")
+        cage = model.vdbcage.cage
+        options = {"coordinates": "mvc", "target": "POINT_CACHE", "frame_start": 1, "frame_end": 1,
+                   "directory": str(self.folder)}
+        bpy.ops.vdbcage.pose(**options)
+        model.modifiers.new("subdivided", "SUBSURF").levels = 1
+        rest = positions(model, world=False)
+        set_positions(cage, positions(cage, world=False) + [0, 1, 0])
+        bpy.ops.vdbcage.pose(**options)
+        self.assertEqual([modifier.type for modifier in model.modifiers], ["SUBSURF", "MESH_CACHE"])
+        self.assertNear(positions(model, world=False), rest + [0, 1, 0], 1e-5 * size(rest))
+
     def test_set_rest(self):
         model = load(BISHOP)
         bpy.ops.vdbcage.make_cage(faces=100, effort="fast")
@@ -178,9 +230,11 @@ class Pose(Case):
         bpy.ops.vdbcage.pose(coordinates="mvc")
         first = kept()
         self.assertEqual(len(first), 1)
+        made = os.stat(os.path.join(bpy.app.tempdir, first[0])).st_mtime_ns
         set_positions(model.vdbcage.cage, 1.2 * positions(model.vdbcage.cage, world=False))
         bpy.ops.vdbcage.pose(coordinates="mvc")
         self.assertEqual(kept(), first)
+        self.assertEqual(os.stat(os.path.join(bpy.app.tempdir, first[0])).st_mtime_ns, made)
         posed = key(model)
         bpy.ops.vdbcage.set_rest()
         bpy.ops.vdbcage.pose(coordinates="mvc")
@@ -220,7 +274,28 @@ class Pose(Case):
         cube.modifiers.new("subdivided", "SUBSURF")
         self.fails("Cube has modifiers that change its number of points", pose)
         self.fails("The last frame, 1, is before the first, 2", pose, target="POINT_CACHE", frame_start=2, frame_end=1)
+        cube.modifiers.clear()
         select(model)
+        cube.hide_viewport = True
+        self.fails("Cube is disabled or excluded in this view layer. Show it first", pose)
+        cube.hide_viewport = False
+        collection = bpy.data.collections.new("apart")
+        bpy.context.scene.collection.children.link(collection)
+        cube.users_collection[0].objects.unlink(cube)
+        collection.objects.link(cube)
+        for disable in (True, False):
+            collection.hide_viewport = disable
+            bpy.context.view_layer.layer_collection.children["apart"].exclude = not disable
+            self.fails("Cube is disabled or excluded in this view layer. Show it first", pose)
+        bpy.context.view_layer.layer_collection.children["apart"].exclude = False
+        other = bpy.data.objects.new("other", cube.data)
+        bpy.context.scene.collection.objects.link(other)
+        select(model)
+        model.vdbcage.cage = other
+        self.fails("bishop has no shape at rest. Press Set Rest", pose)
+        bpy.ops.vdbcage.set_rest()
+        model.data.use_fake_user = True
+        self.assertEqual(pose(coordinates="mvc"), {"FINISHED"})
         twin = bpy.data.objects.new("twin", model.data)
         self.fails("bishop shares its mesh with other objects", pose)
         bpy.data.objects.remove(twin)

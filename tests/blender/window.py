@@ -118,11 +118,34 @@ def cancelling(window):
 
     invoke(window, bpy.ops.vdbcage.make_cage)
     yield
-    for value in ("PRESS", "RELEASE"):
-        window.event("ESC", value, window.region.x + 200, window.region.y + 200)
+    place = (window.region.x + 200, window.region.y + 200)
+    window.event("ESC", "RELEASE", *place)  # what is left where Esc ended something else
+    yield
+    check(running(), "letting go of Esc does not end it")
+    window.event("ESC", "PRESS", *place)
     while running():
         yield
+    window.event("ESC", "RELEASE", *place)
     check(cages() == [] and temporary() == [], "Esc ends it and leaves nothing")
+
+    invoke(window, bpy.ops.vdbcage.make_cage)
+    yield
+    bpy.ops.preferences.addon_disable(module="vdbcage_cage")
+    check(temporary() == [], "it ends with the add-on")
+    bpy.ops.preferences.addon_enable(module="vdbcage_cage")
+    bpy.context.preferences.addons["vdbcage_cage"].preferences.command = COMMAND
+    yield
+    check(not running(), "and does not seem to run after that")
+
+    other = load(BISHOP)
+    select(model, other)
+    invoke(window, bpy.ops.vdbcage.make_cage, faces=50)
+    other.location.x += 5
+    while running():
+        yield
+    check(cages() == [] and temporary() == [], "models that moved apart meanwhile get no cage")
+    bpy.data.objects.remove(other)
+    select(model)
 
     invoke(window, bpy.ops.vdbcage.make_cage, faces=50)
     bpy.data.objects.remove(model)

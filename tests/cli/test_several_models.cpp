@@ -98,7 +98,7 @@ BOOST_AUTO_TEST_CASE(bind_makes_a_folder_with_the_weights_of_each)
     BOOST_TEST(named.err.find("for several models it must be a folder") != std::string::npos, named.err);
     const auto twice = runCommand({command, "bind", cage, body, body, "-o", folder / "twice"});
     BOOST_TEST(twice.status == 1);
-    BOOST_TEST(twice.err.find("bishop.npy: this file is named twice") != std::string::npos, twice.err);
+    BOOST_TEST(twice.err.find("bishop.obj: another model has this name too") != std::string::npos, twice.err);
     BOOST_TEST(!std::filesystem::exists(folder / "twice"));
 }
 

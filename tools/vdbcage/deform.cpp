@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <iostream>
 #include <optional>
 
@@ -70,7 +71,13 @@ std::vector<fs::path> weightsFiles(const fs::path& output, const std::vector<fs:
         throw InputError(output.string() + ": for several models it must be a folder, which gets a .npy for each");
     }
     std::vector<fs::path> files;
-    for (const fs::path& model : models) files.push_back(output / model.stem().concat(".npy"));
+    for (const fs::path& model : models) {
+        files.push_back(output / model.stem().concat(".npy"));
+        if (std::count(files.begin(), files.end(), files.back()) > 1) {
+            throw InputError(model.string() + ": another model has this name too, and the weights of both would be " +
+                             files.back().string());
+        }
+    }
     return files;
 }
 

@@ -12,16 +12,15 @@ from .files import Polygons
 
 
 class _Kind:
-    """What is said of a modifier that binds: its name, which property holds the cage, and what a cage must be."""
+    """What is said of a modifier that binds: its name, and what a cage must be."""
 
-    def __init__(self, name, target, operator, needs):
-        self.name, self.target, self.operator, self.needs = name, target, operator, needs
+    def __init__(self, name, operator, needs):
+        self.name, self.operator, self.needs = name, operator, needs
 
 
 _kinds = {
-    "MESH_DEFORM": _Kind("Mesh Deform", "object", bpy.ops.object.meshdeform_bind,
-                         "the cage must be closed and face outward"),
-    "SURFACE_DEFORM": _Kind("Surface Deform", "target", bpy.ops.object.surfacedeform_bind,
+    "MESH_DEFORM": _Kind("Mesh Deform", bpy.ops.object.meshdeform_bind, "the cage must be closed and face outward"),
+    "SURFACE_DEFORM": _Kind("Surface Deform", bpy.ops.object.surfacedeform_bind,
                             "the cage's faces must be convex, and its edges have two faces"),
 }
 
@@ -62,8 +61,8 @@ def _bind(context, model, modifier):
 @contextlib.contextmanager
 def _stand_in(context, modifier, points, matrix):
     """For a while the modifier takes an object for the cage that has its faces, and these points in its own space."""
-    target = _kinds[modifier.type].target
-    cage = getattr(modifier, target)
+    target = links.TARGETS[modifier.type]
+    cage = links.target_of(modifier)
     shape = geometry.rest(cage)
     mesh = geometry.new_mesh("stand-in", Polygons(points, shape.counts, shape.corners))
     thing = bpy.data.objects.new("stand-in", mesh)
@@ -99,36 +98,23 @@ def not_following(context, model, modifier, points, matrix):
     return int((off > 1e-5 * numpy.linalg.norm(expected) + rounding).sum()), len(off)
 
 
-def _bind_at_rest(context, model, cage, modifier, matrix):
-    """Binds a modifier to its cage at rest, with this world matrix, and lets it alone move the model. As
-    `not_following`. Raises CommandError."""
-    points = links.rest_points(cage)
-    others = [other for other in links.driven_by(model, cage) if other != modifier]
+def _bind_to(context, model, modifier, points, matrix):
+    """Binds a modifier to its cage with these points, in its own space, and this world matrix; nothing else of cages
+    moves the model meanwhile. As `not_following`. Raises CommandError."""
+    modifiers, keys = links.moved_by(model)
     was_shown, modifier.show_viewport = modifier.show_viewport, True
     try:
-        with geometry.muted(others, links.pose_keys(model, cage)):
+        with geometry.muted([other for other in modifiers if other != modifier], keys):
             with _stand_in(context, modifier, points, matrix):
                 _bind(context, model, modifier)
             stay, number = not_following(context, model, modifier, points, matrix)
-        if stay == number:
-            needs = _kinds[modifier.type].needs
-            needs += ", and the precision high enough" if modifier.type == "MESH_DEFORM" else ""
-            raise CommandError(f"None of the {number} points of {model.name} would follow: {needs}")
-    except CommandError:
+    finally:
         modifier.show_viewport = was_shown
-        raise
-    links.only(model, cage, modifier)
+    if stay == number:
+        needs = _kinds[modifier.type].needs
+        needs += ", and the precision high enough" if modifier.type == "MESH_DEFORM" else ""
+        raise CommandError(f"None of the {number} points of {model.name} would follow: {needs}")
     return stay, number
-
-
-def _modifier(model, cage, kind):
-    """The modifier of this kind by which the cage moves the model; the one there is, or a new one in its place."""
-    for modifier in links.driven_by(model, cage):
-        if modifier.type == kind:
-            return modifier
-    modifier = model.modifiers.new(cage.name, kind)
-    setattr(modifier, _kinds[kind].target, cage)
-    return modifier
 
 
 def _report(operator, bound):
@@ -173,24 +159,27 @@ class VDBCAGE_OT_bind(bpy.types.Operator):
         return {"FINISHED"}
 
     def _bind(self, context, model, cage):
-        links.set_rest(context, model, cage)
-        before = {modifier.name for modifier in model.modifiers}
-        modifier = _modifier(model, cage, self.method)
-        is_new = modifier.name not in before
-        if is_new and model.vdbcage.surface == "REST":  # the cage bounds what comes before all modifiers
-            with context.temp_override(object=model, active_object=model):
-                bpy.ops.object.modifier_move_to_index(modifier=modifier.name, index=0)
+        """Binds a new modifier; those before go only if that succeeds. As `not_following`. Raises CommandError."""
+        rest = links.seen_rest(context, model, cage)
+        before = links.bound_by(model)
+        places = [list(model.modifiers).index(modifier) for modifier in before]
+        modifier = model.modifiers.new(cage.name, self.method)
+        setattr(modifier, links.TARGETS[self.method], cage)
+        if before or model.vdbcage.surface == "REST":  # in their place, or else below what the cage does not bound
+            geometry.move_modifier(context, model, modifier, min(places, default=0))
         if self.method == "MESH_DEFORM":
             modifier.precision = self.precision
+        name = modifier.name
         try:
-            found = _bind_at_rest(context, model, cage, modifier, cage.matrix_world)
+            found = _bind_to(context, model, modifier, rest.points, cage.matrix_world)
         except CommandError:
-            if is_new:
-                model.modifiers.remove(modifier)
+            model.modifiers.remove(modifier)
             raise
-        for other in links.driven_by(model, cage):
-            if other != modifier and other.type in _kinds:
+        links.set_rest(model, cage, rest)
+        for other in links.bound_by(model):
+            if other.name != name:
                 model.modifiers.remove(other)
+        links.only(model, model.modifiers[name])
         return found
 
 
@@ -207,24 +196,26 @@ class VDBCAGE_OT_rebind(bpy.types.Operator):
         return context.mode == "OBJECT"
 
     def execute(self, context):
-        bound = []
-        try:
-            for model in context.scene.objects:
-                cage = links.cage_of(context, model) if model.type == "MESH" else None
-                if cage is None:
+        bound, failures = [], []
+        for model in context.scene.objects:
+            cage = links.cage_of(context, model) if model.type == "MESH" else None
+            for modifier in links.bound_by(model):
+                if cage is None or links.target_of(modifier) != cage:
                     continue
-                for modifier in links.driven_by(model, cage):
-                    if modifier.type in _kinds:
-                        matrix = links.cage_matrix_now(model)
-                        bound.append((model.name, *_bind_at_rest(context, model, cage, modifier, matrix)))
-        except CommandError as error:
-            self.report({"ERROR"}, str(error))
-            return {"FINISHED"} if bound else {"CANCELLED"}
-        if not bound:
+                try:
+                    geometry.evaluated(context, model)  # one that cannot be seen is not unbound
+                    rest = links.rest_of(model, cage)
+                    matrix = links.cage_matrix_now(model, rest)
+                    bound.append((model.name, *_bind_to(context, model, modifier, rest.points, matrix)))
+                except CommandError as error:
+                    failures.append(str(error))
+        if failures:
+            self.report({"ERROR"}, "; ".join(failures))
+        elif not bound:
             self.report({"ERROR"}, "No model is bound to a cage")
-            return {"CANCELLED"}
-        _report(self, bound)
-        return {"FINISHED"}
+        else:
+            _report(self, bound)
+        return {"FINISHED"} if bound or failures else {"CANCELLED"}
 
 
 _classes = (Settings, VDBCAGE_OT_bind, VDBCAGE_OT_rebind)

@@ -29,6 +29,11 @@ class Polygons:
         last = numpy.repeat(ends - 1, self.counts)
         return Polygons(points, self.counts, self.corners[first + last - numpy.arange(len(self.corners))])
 
+    def equals(self, other):
+        """Whether both have the same points and faces."""
+        return (numpy.array_equal(self.points, other.points) and numpy.array_equal(self.counts, other.counts)
+                and numpy.array_equal(self.corners, other.corners))
+
     def faces(self):
         """A list of corners a face."""
         ends = numpy.cumsum(self.counts)
@@ -106,8 +111,10 @@ class PointCache:
         return self
 
     def __exit__(self, kind, *_):
-        self._file.close()
-        if kind is None:
-            os.replace(self._partial, self._path)
-        else:
-            os.remove(self._partial)
+        try:
+            self._file.close()  # a full disk may show only now
+            if kind is None:
+                os.replace(self._partial, self._path)
+        finally:
+            if os.path.exists(self._partial):
+                os.remove(self._partial)

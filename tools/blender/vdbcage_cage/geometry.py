@@ -61,8 +61,24 @@ def muted(modifiers, keys=()):
             key.mute = False
 
 
+def _is_enabled(view_layer, thing):
+    """Whether Blender works out modifiers, shape keys and animation of an object. It does where only the eye is shut."""
+    if thing.hide_viewport:
+        return False
+    collections = [view_layer.layer_collection]
+    while collections:
+        one = collections.pop()
+        if not one.exclude and not one.collection.hide_viewport:
+            if one.collection.objects.get(thing.name) == thing:
+                return True
+            collections.extend(one.children)
+    return False
+
+
 def evaluated(context, thing):
-    """The mesh of an object as it is seen in this frame."""
+    """The mesh of an object as it is seen in this frame. Raises CommandError."""
+    if not _is_enabled(context.view_layer, thing):
+        raise CommandError(f"{thing.name} is disabled or excluded in this view layer. Show it first")
     _flush(thing)
     context.view_layer.update()
     shown = thing.evaluated_get(context.evaluated_depsgraph_get())
@@ -71,6 +87,12 @@ def evaluated(context, thing):
         return _polygons(mesh, _positions(mesh.vertices))
     finally:
         shown.to_mesh_clear()
+
+
+def move_modifier(context, thing, modifier, index):
+    """Gives a modifier this place in the stack."""
+    with context.temp_override(object=thing, active_object=thing):
+        bpy.ops.object.modifier_move_to_index(modifier=modifier.name, index=index)
 
 
 def matrix(blender):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Which cage a model has, and how both were at rest."""
+"""Which cage a model has, how both were at rest, and by what cages move a model."""
 
 import bpy
 import numpy
@@ -8,26 +8,35 @@ from mathutils import Matrix
 from . import geometry
 from .command import CommandError
 
-_rest = "vdbcage_rest"  # a custom property of cages: x, y, z of all points at rest, in the cage's own space
+_rest = "vdbcage_rest"  # a custom property of models: x, y, z of the cage's points at rest, in the cage's own space
+
+
+def _forget_rest(self, _context):
+    self.is_at_rest = False
 
 
 class Link(bpy.types.PropertyGroup):
-    """What a model knows of its cage."""
+    """What an object knows as a model, and whether it is a cage."""
 
     cage: bpy.props.PointerProperty(
         name="Cage", type=bpy.types.Object, poll=lambda self, thing: thing.type == "MESH" and thing != self.id_data,
-        description="The cage that moves this model; any closed mesh around it")
+        update=_forget_rest, description="The cage that moves this model; any closed mesh around it")
+    is_cage: bpy.props.BoolProperty()
     surface: bpy.props.EnumProperty(
         name="Mesh", items=(("EVALUATED", "With Modifiers", "The model as it is seen, with its modifiers"),
                             ("REST", "Without Modifiers", "The mesh as it was modelled")))
-    is_at_rest: bpy.props.BoolProperty()  # whether the two below are known
+    is_at_rest: bpy.props.BoolProperty()  # whether the two below and the points of the cage are known
     model_matrix: bpy.props.FloatVectorProperty(size=16)
     cage_matrix: bpy.props.FloatVectorProperty(size=16)
+    pose_key: bpy.props.StringProperty()  # the shape key that holds a pose, or nothing
+    pose_cache: bpy.props.StringProperty()  # the Mesh Cache modifier that holds poses, or nothing
 
-    def matrices(self):
-        """The world matrices of model and cage at rest, (4, 4)."""
-        return (numpy.array(self.model_matrix, numpy.float64).reshape(4, 4),
-                numpy.array(self.cage_matrix, numpy.float64).reshape(4, 4))
+
+class Rest:
+    """A model and its cage at rest: the cage's points in its own space, (n, 3), and both world matrices, (4, 4)."""
+
+    def __init__(self, points, model_matrix, cage_matrix):
+        self.points, self.model_matrix, self.cage_matrix = points, model_matrix, cage_matrix
 
 
 def in_scene(context, thing):
@@ -56,78 +65,84 @@ def pairs(context):
     return found
 
 
-def set_rest(context, model, cage, surface=None):
-    """From now on the model is at rest where the cage is as it is now. Raises CommandError."""
+def seen_rest(context, model, cage):
+    """Both as they are now. Raises CommandError."""
     shape = geometry.evaluated(context, cage)
     if len(shape.points) != len(cage.data.vertices):
         raise CommandError(f"{cage.name} has modifiers that change its number of points. Apply them first")
     geometry.inverse(cage.name, cage.matrix_world)
     geometry.inverse(model.name, model.matrix_world)
-    cage[_rest] = shape.points.ravel().tolist()
+    return Rest(shape.points, geometry.matrix(model.matrix_world), geometry.matrix(cage.matrix_world))
+
+
+def set_rest(model, cage, rest):
+    """From now on this is how the model and its cage are at rest."""
     link = model.vdbcage
     link.cage = cage
-    if surface is not None:
-        link.surface = surface
-    link.model_matrix = geometry.matrix(model.matrix_world).ravel()
-    link.cage_matrix = geometry.matrix(cage.matrix_world).ravel()
+    cage.vdbcage.is_cage = True
+    model[_rest] = rest.points.ravel().tolist()
+    link.model_matrix, link.cage_matrix = rest.model_matrix.ravel(), rest.cage_matrix.ravel()
     link.is_at_rest = True
 
 
-def rest_points(cage):
-    """The points of a cage at rest, in its own space, (n, 3). Raises CommandError."""
-    if _rest not in cage:
-        raise CommandError(f"{cage.name} has no shape at rest. Press Set Rest while it is as the model is")
-    points = numpy.array(cage[_rest], numpy.float64).reshape(-1, 3)
+def rest_of(model, cage):
+    """How the model and its cage are at rest. Raises CommandError."""
+    link = model.vdbcage
+    if not link.is_at_rest or _rest not in model:
+        raise CommandError(f"{model.name} has no shape at rest. Press Set Rest while {cage.name} is as it is")
+    points = numpy.array(model[_rest], numpy.float64).reshape(-1, 3)
     if len(points) != len(cage.data.vertices):
         raise CommandError(f"{cage.name} has {len(cage.data.vertices)} points, and had {len(points)} at rest. Press "
                            "Set Rest while it is as the model is")
-    return points
+    return Rest(points, numpy.array(link.model_matrix, numpy.float64).reshape(4, 4),
+                numpy.array(link.cage_matrix, numpy.float64).reshape(4, 4))
 
 
-def driven_by(model, cage):
-    """The modifiers by which a cage moves a model."""
-    return [modifier for modifier in model.modifiers
-            if (modifier.type == "MESH_DEFORM" and modifier.object == cage)
-            or (modifier.type == "SURFACE_DEFORM" and modifier.target == cage)
-            or (modifier.type == "MESH_CACHE" and modifier.name == pose_name(cage))]
-
-
-def cage_matrix_now(model):
+def cage_matrix_now(model, rest):
     """The world matrix that the cage had if it had moved along with the model since both were at rest.
 
     Blender's modifiers do not look at where a cage's object is either: only its points move a model.
     """
-    at_rest, cage = model.vdbcage.matrices()
-    relation = numpy.linalg.inv(at_rest) @ cage
+    relation = numpy.linalg.inv(rest.model_matrix) @ rest.cage_matrix
     return model.matrix_world @ Matrix(relation.tolist())
 
 
-def pose_keys(model, cage):
-    """The shape key that holds a pose by the cage, if there is one."""
-    keys = model.data.shape_keys
-    return [key for key in keys.key_blocks if key.name == pose_name(cage)] if keys else []
+TARGETS = {"MESH_DEFORM": "object", "SURFACE_DEFORM": "target"}  # modifiers that bind, and which property has the cage
 
 
-def only(model, cage, mover):
-    """From now on nothing of the cage moves the model but `mover`, a modifier or a shape key."""
-    for modifier in driven_by(model, cage):
+def target_of(modifier):
+    """The object that a modifier is bound to, or None."""
+    return getattr(modifier, TARGETS[modifier.type]) if modifier.type in TARGETS else None
+
+
+def bound_by(model):
+    """The modifiers by which cages move a model at once."""
+    targets = [(modifier, target_of(modifier)) for modifier in model.modifiers]
+    return [modifier for modifier, target in targets
+            if target is not None and (target == model.vdbcage.cage or target.vdbcage.is_cage)]
+
+
+def moved_by(model):
+    """The modifiers and the shape keys by which cages move a model."""
+    link, keys = model.vdbcage, model.data.shape_keys
+    modifiers = bound_by(model) + [modifier for modifier in model.modifiers
+                                   if modifier.type == "MESH_CACHE" and modifier.name == link.pose_cache]
+    return modifiers, [key for key in keys.key_blocks if key.name == link.pose_key] if keys else []
+
+
+def only(model, mover):
+    """From now on nothing of cages moves the model but `mover`, a modifier or a shape key, or None."""
+    modifiers, keys = moved_by(model)
+    for modifier in modifiers:
         modifier.show_viewport = modifier.show_render = modifier == mover
-    for key in pose_keys(model, cage):
+    for key in keys:
         key.value = key == mover
 
 
 def unmoved(context, model):
-    """The mesh of a model as it is seen, but for what its cage moves."""
-    cage = cage_of(context, model)
-    if cage is None:
+    """The mesh of a model as it is seen, but for what cages move. Raises CommandError."""
+    with geometry.muted(*moved_by(model)):
         return geometry.evaluated(context, model)
-    with geometry.muted(driven_by(model, cage), pose_keys(model, cage)):
-        return geometry.evaluated(context, model)
-
-
-def pose_name(cage):
-    """The name of the shape key or modifier that holds the pose by a cage."""
-    return f"Posed by {cage.name}"[:63]
 
 
 def register():

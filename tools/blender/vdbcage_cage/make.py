@@ -68,16 +68,20 @@ def option_words(options):
 
 
 def selected_models(context):
-    """The selected meshes that are nobody's cage; the active one first, if it is one of them. Raises CommandError."""
+    """The selected meshes that are no cages; the active one first, if it is one of them. Raises CommandError."""
     cages = {links.cage_of(context, thing) for thing in context.scene.objects}
-    models = [thing for thing in context.selected_objects if thing.type == "MESH" and thing not in cages]
+    models = [thing for thing in context.selected_objects
+              if thing.type == "MESH" and not thing.vdbcage.is_cage and thing not in cages]
     if not models:
         raise CommandError("Select the meshes that the cage is to bound")
+    for model in models:
+        if model.library is not None:
+            raise CommandError(f"{model.name} is linked from another file. Make it local first")
     return sorted(models, key=lambda thing: thing != context.object)
 
 
-def write_models(context, models, surface, path):
-    """Writes the models into one file, in the space of the first. Raises CommandError."""
+def joined_models(context, models, surface):
+    """The models as one mesh, in the space of the first. Raises CommandError."""
     world = geometry.inverse(models[0].name, models[0].matrix_world)
     meshes = []
     for model in models:
@@ -93,7 +97,7 @@ def write_models(context, models, surface, path):
             geometry.inverse(model.name, model.matrix_world)
             mesh = mesh.moved(world @ geometry.matrix(model.matrix_world))
         meshes.append(mesh)
-    files.write_ply(path, files.joined(meshes))
+    return files.joined(meshes)
 
 
 def still_there(context, names):
@@ -123,12 +127,16 @@ class MakingOperator(Options, CommandOperator):
         file = job.folder / "models" / f"{files.file_name(models[0].name)}.ply"  # messages have this name
         words = [command(context), "make", file, "-o", job.folder / "cage.ply", "-v", *option_words(self)]
         file.parent.mkdir()
-        write_models(context, models, self.surface, file)
+        self._written = joined_models(context, models, self.surface)
+        files.write_ply(file, self._written)
         return words
 
     def models(self, context):
-        """The models, as they are after the command has ended. Raises CommandError."""
-        return still_there(context, self._models)
+        """The models, after the command has ended. Raises CommandError if they are not what they were."""
+        models = still_there(context, self._models)
+        if not joined_models(context, models, self.surface).equals(self._written):
+            raise CommandError(f"{', '.join(self._models)} changed while the command ran. Run it again")
+        return models
 
 
 class VDBCAGE_OT_make_cage(MakingOperator, bpy.types.Operator):
@@ -150,14 +158,18 @@ class VDBCAGE_OT_make_cage(MakingOperator, bpy.types.Operator):
         cage["vdbcage_report"] = _property(report)
         cage.display_type = "WIRE"
         cage.hide_render = True
-        for collection in first.users_collection or [context.scene.collection]:
+        own = [collection for collection in first.users_collection
+               if collection.library is None and collection.override_library is None]
+        for collection in own or [context.scene.collection]:
             collection.objects.link(cage)
         cage.parent, cage.parent_type, cage.parent_bone = first.parent, first.parent_type, first.parent_bone
         cage.matrix_parent_inverse = first.matrix_parent_inverse
         cage.rotation_mode = first.rotation_mode
         cage.matrix_world = first.matrix_world
         for model in models:
-            links.set_rest(context, model, cage, self.surface)
+            links.set_rest(model, cage, links.seen_rest(context, model, cage))
+            model.vdbcage.surface = self.surface
+            links.only(model, None)  # the cage bounds it unmoved
         check = report["check"]
         faces = check["triangles"] + check["quads"]
         certified = "certified to bound" if check["bounding"] else "NOT certified to bound"

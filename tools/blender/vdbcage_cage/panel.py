@@ -64,9 +64,9 @@ class VDBCAGE_PT_cage(_Panel, bpy.types.Panel):
         box = self.layout.box().column(align=True)
         box.label(text=cage.name, icon="CHECKMARK" if check["bounding"] else "ERROR")
         faces = check["triangles"] + check["quads"]
-        box.label(text=f"{faces} faces, {'certified to bound' if check['bounding'] else 'not certified'}")
+        box.label(text=f"{faces} faces, {'certified' if check['bounding'] else 'not certified'}")
         box.label(text=f"Distance {100 * check['mean_distance']:.2f} % of the size")
-        box.label(text=f"Made in {report['seconds']:.1f} s")
+        box.label(text=f"when it was made, in {report['seconds']:.1f} s")
 
 
 class VDBCAGE_PT_more(_Panel, bpy.types.Panel):

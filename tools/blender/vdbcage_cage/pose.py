@@ -75,6 +75,8 @@ class VDBCAGE_OT_pose(CommandOperator, bpy.types.Operator):
     def finish(self, context, job):
         things = [still_there(context, [pose.model, pose.cage]) for pose in self._poses]
         # All that can fail comes before the scene changes.
+        for model, _ in things:
+            _require_object_mode(model)
         if self.target == "SHAPE_KEY":
             results = [pose.result(0) for pose in self._poses]
             for (model, _), points in zip(things, results):
@@ -86,10 +88,11 @@ class VDBCAGE_OT_pose(CommandOperator, bpy.types.Operator):
             if self.target == "SHAPE_KEY":
                 mover = _set_shape_key(model, cage, result)
             else:
-                mover = _set_cache(model, cage, result, self.frame_start)
-            links.only(model, cage, mover)
+                mover = _set_cache(context, model, cage, result, self.frame_start)
+            links.only(model, mover)
         names = ", ".join(pose.model for pose in self._poses)
-        frames = f"{len(self._frames)} frames of " if self.target == "POINT_CACHE" else ""
+        count = len(self._frames)
+        frames = f"{count} frame{'s' if count > 1 else ''} of " if self.target == "POINT_CACHE" else ""
         self.report({"INFO"}, f"Posed {frames}{names}")
 
     def _write_cache(self, pose):
@@ -114,24 +117,21 @@ class _Pose:
         self.model, self.cage = model.name, cage.name
         self._folder, self._coordinates = place, coordinates
         self._model_file = place / f"{files.file_name(model.name)}.ply"  # messages of the command have this name
-        if not model.vdbcage.is_at_rest:
-            raise CommandError(f"{model.name} has no shape at rest. Press Set Rest while {cage.name} is as it is")
-        if model.mode == "EDIT":
-            raise CommandError(f"{model.name} is in Edit Mode. Leave it first")
-        if target == "SHAPE_KEY" and model.data.users > 1:
+        rest = links.rest_of(model, cage)
+        _require_object_mode(model)
+        if target == "SHAPE_KEY" and model.data.users - model.data.use_fake_user > 1:
             raise CommandError(f"{model.name} shares its mesh with other objects, which a shape key would pose too. "
                                "Make it a single user first")
-        rest = links.rest_points(cage)
         if target == "SHAPE_KEY":
             mesh = geometry.rest(model)
         else:
             mesh = links.unmoved(context, model)
         self.points = len(mesh.points)
-        self._model_to_world, self._cage_to_world = model.vdbcage.matrices()
+        self._model_to_world, self._cage_to_world = rest.model_matrix, rest.cage_matrix
         self._faces = geometry.rest(cage)
         place.mkdir()
         files.write_ply(self._model_file, mesh.moved(self._model_to_world))
-        self._write_cage(place / "rest.ply", rest)
+        self._write_cage(place / "rest.ply", rest.points)
         self._weights = self._weights_file()
 
     def write_frame(self, number, points):
@@ -186,21 +186,30 @@ def _write_frames(context, poses, frames):
             context.scene.frame_set(current)
 
 
+def _require_object_mode(model):
+    """Raises CommandError: what is set beside the mesh in Edit Mode is lost."""
+    if model.mode == "EDIT":
+        raise CommandError(f"{model.name} is in Edit Mode. Leave it first")
+
+
 def _set_shape_key(model, cage, points):
     """Sets the shape key that holds poses by this cage, and returns it."""
     if model.data.shape_keys is None:
         model.shape_key_add(name="Basis", from_mix=False)
-    name = links.pose_name(cage)
-    key = model.data.shape_keys.key_blocks.get(name) or model.shape_key_add(name=name, from_mix=False)
+    _, keys = links.moved_by(model)
+    key = keys[0] if keys else model.shape_key_add(name=f"Posed by {cage.name}", from_mix=False)
+    model.vdbcage.pose_key = key.name  # Blender may have made it shorter or another one
     key.data.foreach_set("co", points.astype(numpy.float32).ravel())
     model.data.update()
     return key
 
 
-def _set_cache(model, cage, path, first_frame):
-    """Lets a Mesh Cache modifier read the points, and returns it."""
-    name = links.pose_name(cage)
-    modifier = model.modifiers.get(name) or model.modifiers.new(name, "MESH_CACHE")
+def _set_cache(context, model, cage, path, first_frame):
+    """Lets a Mesh Cache modifier on top of all others read the points, and returns it."""
+    modifiers = [modifier for modifier in links.moved_by(model)[0] if modifier.type == "MESH_CACHE"]
+    modifier = modifiers[0] if modifiers else model.modifiers.new(f"Posed by {cage.name}", "MESH_CACHE")
+    model.vdbcage.pose_cache = modifier.name
+    geometry.move_modifier(context, model, modifier, len(model.modifiers) - 1)
     modifier.cache_format = "PC2"
     modifier.filepath = stored(path)
     modifier.frame_start = first_frame
@@ -216,11 +225,13 @@ class VDBCAGE_OT_set_rest(bpy.types.Operator):
 
     def execute(self, context):
         try:
-            for model, cage in links.pairs(context):
-                links.set_rest(context, model, cage)
+            # All that can fail comes before anything changes.
+            rests = [(model, cage, links.seen_rest(context, model, cage)) for model, cage in links.pairs(context)]
         except CommandError as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
+        for model, cage, rest in rests:
+            links.set_rest(model, cage, rest)
         return {"FINISHED"}
 
 

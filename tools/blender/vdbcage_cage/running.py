@@ -42,7 +42,8 @@ class CommandOperator:
     what they wrote. Both raise CommandError for what is wrong; then nothing was added to the scene.
     """
 
-    bl_options = {"REGISTER", "UNDO"}
+    bl_options = {"UNDO"}  # not REGISTER: Adjust Last Operation would run it again with the window standing still
+    _running = None  # the job and the timer of what runs, so that they end with the add-on
 
     def execute(self, context):
         try:
@@ -72,6 +73,7 @@ class CommandOperator:
         running.label, running.percent = self.bl_label, 0
         self._timer = context.window_manager.event_timer_add(0.1, window=context.window)
         context.window_manager.modal_handler_add(self)
+        CommandOperator._running = self._job, self._timer
         return {"RUNNING_MODAL"}
 
     def take_settings(self, context):
@@ -83,7 +85,8 @@ class CommandOperator:
 
     def modal(self, context, event):
         running = context.window_manager.vdbcage
-        if running.is_cancelled or event.type == "ESC":
+        # The press alone: whatever else Esc ends, such as a menu, leaves its release.
+        if running.is_cancelled or (event.type == "ESC" and event.value == "PRESS"):
             self.cancel(context)
             self.report({"INFO"}, f"{self.bl_label}: cancelled")
             return {"CANCELLED"}
@@ -106,9 +109,17 @@ class CommandOperator:
 
     def cancel(self, context):
         """Ends the process and removes its files; Blender calls it too, when it closes."""
-        context.window_manager.event_timer_remove(self._timer)
+        _end(context)
+
+
+def _end(context):
+    """Ends what runs."""
+    if CommandOperator._running is not None:
+        job, timer = CommandOperator._running
+        CommandOperator._running = None
+        context.window_manager.event_timer_remove(timer)
         context.window_manager.vdbcage.is_active = False
-        self._job.close()
+        job.close()
         _redraw(context)
 
 
@@ -144,6 +155,7 @@ def register():
 
 
 def unregister():
+    _end(bpy.context)
     del bpy.types.WindowManager.vdbcage
     for one in reversed(_classes):
         bpy.utils.unregister_class(one)

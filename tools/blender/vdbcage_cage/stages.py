@@ -38,8 +38,10 @@ class VDBCAGE_OT_show_stages(MakingOperator, bpy.types.Operator):
 
     def finish(self, context, job):
         first = self.models(context)[0]
-        collection = self._collection(context, first)
-        for name, volume in self._volumes(context, first).items():
+        shown = self._shown(context)
+        volumes = self._volumes(context, first)
+        collection = shown or self._new_collection(context, first)
+        for name, volume in volumes.items():
             thing = bpy.data.objects.new(f"{first.name} {name}", volume)
             collection.objects.link(thing)
             # Voxel ijk is centred at ijk in the file; Blender draws it from ijk to ijk + 1.
@@ -61,14 +63,17 @@ class VDBCAGE_OT_show_stages(MakingOperator, bpy.types.Operator):
                 raise CommandError(f"{path}: {error}")
         return volumes
 
-    def _collection(self, context, first):
-        """An empty collection for the volumes: that of an earlier run if it showed the same files."""
+    def _shown(self, context):
+        """The collection of an earlier run that showed the same files, emptied of them; or None."""
         for collection in context.scene.collection.children_recursive:
             if collection.get(_folder) == self._directory:
                 for thing in list(collection.objects):
                     if thing.type == "VOLUME":
                         bpy.data.volumes.remove(thing.data)
                 return collection
+        return None
+
+    def _new_collection(self, context, first):
         collection = bpy.data.collections.new(f"{first.name} Stages")
         collection[_folder] = self._directory
         context.scene.collection.children.link(collection)
