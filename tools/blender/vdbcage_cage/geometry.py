@@ -62,7 +62,7 @@ def muted(modifiers, keys=()):
 
 
 def _is_enabled(view_layer, thing):
-    """Whether Blender works out modifiers, shape keys and animation of an object. It does where only the eye is shut."""
+    """Whether Blender works out modifiers and animation of an object. It does where only the eye is shut."""
     if thing.hide_viewport:
         return False
     collections = [view_layer.layer_collection]
