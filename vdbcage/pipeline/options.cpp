@@ -22,8 +22,10 @@ const ElementNames& names(StructuringElement /*type*/)
 
 const std::vector<std::pair<const char*, CageFaces>>& names(CageFaces /*type*/)
 {
-    static const std::vector<std::pair<const char*, CageFaces>> list{
-        {"triangles", CageFaces::triangles}, {"triquad", CageFaces::triquad}, {"quads", CageFaces::quads}};
+    static const std::vector<std::pair<const char*, CageFaces>> list{{"triangles", CageFaces::triangles},
+                                                                     {"triquad", CageFaces::triquad},
+                                                                     {"quads", CageFaces::quads},
+                                                                     {"loops", CageFaces::loops}};
     return list;
 }
 
@@ -242,6 +244,14 @@ void requireValid(const CageOptions& options)
     if (!options.bounding && asksForSymmetry) {
         throw InputError("--symmetry: '" + ToText{}(options.symmetry) +
                          "' is not allowed with --bounding off; it must be auto or off");
+    }
+    constexpr int fewest = 12; // but for loops, which end at a box
+    if (options.faces < fewest && options.mesh != CageFaces::loops) {
+        throw InputError("--faces: '" + ToText{}(options.faces) + "' is not allowed with --mesh " +
+                         ToText{}(options.mesh) + "; it must be 12 or more, or the mesh loops");
+    }
+    if (!options.bounding && options.mesh == CageFaces::loops) {
+        throw InputError("--mesh: 'loops' is not allowed with --bounding off; it must be triangles, triquad or quads");
     }
     if (options.element != StructuringElement::sphere && ToText{}(options.scale) != "none") {
         throw InputError("--scale-field: '" + ToText{}(options.scale) +

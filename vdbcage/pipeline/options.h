@@ -20,7 +20,8 @@ namespace vdbcage {
 enum class CageFaces {
     triangles,
     triquad, ///< triangles, merged into quads where they are flat enough
-    quads    ///< of at least 87 % of the faces, where it can
+    quads,   ///< of at least 87 % of the faces, where it can
+    loops    ///< quads only, in rings around limbs, as drawn by hand; looser than quads; bounding only
 };
 
 /// What becomes of parts of the model that the closing leaves apart.
@@ -70,7 +71,7 @@ struct OptionInfo {
 template <typename Options, typename Visit>
 void visitOptions(Options& options, Visit&& visit)
 {
-    visit(OptionInfo{"faces", "N", "faces of the cage, at most", {12, 1000000}}, options.faces);
+    visit(OptionInfo{"faces", "N", "faces of the cage, at most", {6, 1000000}}, options.faces);
     visit(OptionInfo{"resolution", "N", "voxels along the longest side", {8, 2048}}, options.resolution);
     visit(OptionInfo{"close-radius", "F", "bridges gaps up to twice it", {0, 0.25}}, options.closeRadius);
     visit(OptionInfo{"erode-radius", "F", "if less, leaves an offset", {0, 0.25}}, options.erodeRadius);

@@ -123,7 +123,9 @@ std::optional<Vec3d> towards(const GuardedMesh& surface, const StarChange& star,
     return std::nullopt;
 }
 
-void pushOut(GuardedMesh& surface, const std::vector<std::uint32_t>& vertices, double by, Interrupter* interrupter)
+} // namespace
+
+void inflate(GuardedMesh& surface, const std::vector<std::uint32_t>& vertices, double by, Interrupter* interrupter)
 {
     sweep(
         surface, vertices, interrupter,
@@ -132,6 +134,8 @@ void pushOut(GuardedMesh& surface, const std::vector<std::uint32_t>& vertices, d
         },
         [](std::uint32_t, const StarChange&, bool) {});
 }
+
+namespace {
 
 /// The integral of the distance to the model over each face and each quad's other, by number.
 std::vector<double> distances(const GuardedMesh& surface, double areaPerSample)
@@ -229,7 +233,7 @@ void shrink(GuardedMesh& surface, Interrupter* interrupter)
 
 void inflate(GuardedMesh& surface, double by, Interrupter* interrupter)
 {
-    pushOut(surface, allVertices(surface), by, interrupter);
+    inflate(surface, allVertices(surface), by, interrupter);
 }
 
 void inflateTriangles(GuardedMesh& surface, double by, Interrupter* interrupter)
@@ -240,7 +244,7 @@ void inflateTriangles(GuardedMesh& surface, double by, Interrupter* interrupter)
         if (std::any_of(faces.begin(), faces.end(), [&](std::uint32_t f) { return isTriangle(surface, f); }))
             vertices.push_back(v);
     }
-    pushOut(surface, vertices, by, interrupter);
+    inflate(surface, vertices, by, interrupter);
 }
 
 void roundOff(GuardedMesh& surface, int sweeps, Interrupter* interrupter)
@@ -286,12 +290,12 @@ double integratedDistance(const GuardedMesh& surface, double areaPerSample)
     return sum(distances(surface, areaPerSample));
 }
 
-void tighten(GuardedMesh& surface, int sweeps, double areaPerSample, Interrupter* interrupter)
+void tighten(GuardedMesh& surface, int sweeps, double areaPerSample, Interrupter* interrupter, const CornerShape* shape)
 {
     constexpr double sleepBelow = 0.002; // a smaller part gained: not tried again until a neighbour moves
     constexpr double stopBelow = 0.002;  // the same for a whole sweep
     constexpr int gentleSweeps = 6;
-    const DistanceMeasure measure(surface.guard(), areaPerSample);
+    const DistanceMeasure measure(surface.guard(), areaPerSample, shape);
     const std::size_t n = surface.vertices();
     std::vector<std::uint32_t> seed(n, TriangleBvh::none);
     std::vector<double> before(n, 0), after(n, 0);
@@ -348,7 +352,8 @@ void relaxFinally(GuardedMesh& surface, double areaPerSample, Interrupter* inter
     }
 }
 
-void perturb(GuardedMesh& surface, int times, int sweeps, double areaPerSample, Interrupter* interrupter)
+void perturb(GuardedMesh& surface, int times, int sweeps, double areaPerSample, Interrupter* interrupter,
+             const CornerShape* shape)
 {
     if (surface.liveFaces() == 0) return;
     std::vector<double> now = distances(surface, areaPerSample);
@@ -356,11 +361,11 @@ void perturb(GuardedMesh& surface, int times, int sweeps, double areaPerSample, 
     for (int i = 0; i < times; ++i) {
         GuardedMesh perturbed = surface;
         inflate(perturbed, push * sum(now) / area(surface), interrupter);
-        tighten(perturbed, sweeps, areaPerSample, interrupter);
+        tighten(perturbed, sweeps, areaPerSample, interrupter, shape);
         std::vector<double> growth = distances(perturbed, areaPerSample);
         std::transform(growth.begin(), growth.end(), now.begin(), growth.begin(), std::minus<>());
         undoWhereGrown(perturbed, surface, growth, interrupter);
-        tighten(perturbed, sweeps, areaPerSample, interrupter);
+        tighten(perturbed, sweeps, areaPerSample, interrupter, shape);
         std::vector<double> after = distances(perturbed, areaPerSample);
         if (sum(after) < sum(now)) {
             now = std::move(after);

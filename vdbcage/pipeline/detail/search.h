@@ -29,6 +29,13 @@ constexpr int hullResolution = 32;                         ///< a hull has no de
 constexpr double leastRadius = 0.03;                       ///< of a closing, of the longest side
 constexpr double greatestRadius = 0.24;                    ///< after three doublings; the option's range ends at 0.25
 
+// Loops of quads begin with the quads of coarse voxels, some times as many as are wanted.
+constexpr double loopsResolution =
+    1.2; ///< voxels along the longest side, for the root of a face; then as the surface has
+constexpr double quadsPerLoopsFace = 3;
+constexpr int coarsestLoops = 8;             ///< voxels along the longest side
+constexpr double loopsStarts[] = {1.0, 0.8}; ///< shares of the resolution
+
 // Surfaces.
 constexpr double enoughTriangles = 9000; ///< for up to `usualFaces` and Effort::fast; with 7500 some are 8 % looser
 constexpr double coarsestShare = 0.75;   ///< of the resolution to have no more: thin parts need some
