@@ -1,7 +1,8 @@
 #include <vdbcage/bounding/quad_loops.h>
 
-#include <optional>
+#include <algorithm>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <vdbcage/bounding/detail/face_queries.h>
@@ -32,26 +33,34 @@ std::vector<std::uint32_t> pairAll(GuardedMesh& surface, const QuadTable& table,
     return left;
 }
 
-/// Makes all quads, with ever more room where it does not go.
-void makeQuads(GuardedMesh& surface, const QuadTable& table, Interrupter* interrupter)
+std::vector<std::uint32_t> allQuads(const QuadTable& table)
 {
-    constexpr int rounds = 8, sweeps = 3;
-    constexpr ShapeWeight shape{2, 0.1};
+    std::vector<std::uint32_t> quads;
+    for (std::uint32_t q = 0; q < table.quads(); ++q) {
+        if (table.isQuad(q)) quads.push_back(q);
+    }
+    return quads;
+}
+
+/// Makes all quads. Where some do not go they get more room, and are made flatter. Returns those that do not go
+/// either.
+std::vector<std::uint32_t> makeQuads(GuardedMesh& surface, const QuadTable& table, Interrupter* interrupter)
+{
+    constexpr int rounds = 8, vainRounds = 2, sweeps = 3;
+    constexpr ShapeWeights shape{2, 0.1, 8, 8};
     double room = medianDistance(surface);
-    inflate(surface, room, interrupter);
-    for (int round = 0; round < rounds; ++round) {
-        const std::vector<std::uint32_t> left = pairAll(surface, table, interrupter);
-        if (left.empty()) return;
-        std::vector<std::uint32_t> corners;
-        for (const std::uint32_t q : left) {
-            for (int i = 0; i < 4; ++i) corners.push_back(table.corners(q)[i]);
-        }
-        std::sort(corners.begin(), corners.end());
-        corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
-        inflate(surface, corners, room, interrupter);
+    const QuadShapeTerm fit(table, {});
+    inflate(surface, cornersOf(table, allQuads(table)), room, interrupter, &fit);
+    std::vector<std::uint32_t> left = pairAll(surface, table, interrupter);
+    for (int round = 0, vain = 0; round < rounds && vain < vainRounds && !left.empty(); ++round) {
+        inflate(surface, cornersOf(table, left), room, interrupter, &fit);
         relaxQuads(surface, table, shape, sweeps, interrupter);
+        const std::size_t before = left.size();
+        left = pairAll(surface, table, interrupter);
+        vain = left.size() < before ? 0 : vain + 1;
         room *= 1.5;
     }
+    return left;
 }
 
 bool areSquare(const GuardedMesh& surface, const QuadTable& table, const QuadLoopsOptions& options)
@@ -68,8 +77,8 @@ void tightenSquarely(GuardedMesh& surface, const QuadTable& table, const QuadLoo
     const TightenOptions& tightening = options.tightening;
     for (double share = firstShare; share < mostShare; share *= 1.6) {
         const double sample = areaPerSample(surface, surface.liveFaces(), tightening.samples);
-        const double perQuad = integratedDistance(surface, sample) / static_cast<double>(table.count());
-        const CornerShape shape(table, share * perQuad, free);
+        const double perQuad = distancePerQuad(surface, table, sample);
+        const QuadShapeTerm shape(table, {share * perQuad, free, 0, 0});
         tighten(surface, tightening.sweeps, sample, interrupter, &shape);
         if (!areSquare(surface, table, options)) continue;
         perturb(surface, tightening.perturbations, tightening.sweeps, sample, interrupter, &shape);
@@ -86,13 +95,22 @@ Mesh quadLoops(const Mesh& surface, const BoundingGuard& guard, const QuadLoopsO
         throw InputError("faces: " + std::to_string(options.faces) +
                          " is not allowed; a closed surface of quads has at least 6");
     }
+    requireWithin(QuadLoopsOptions::angles, options.meanAngleDegrees, "mean angle");
+    requireWithin(QuadLoopsOptions::angles, options.mostAngleDegrees, "most angle");
     requireValid(options.tightening);
     GuardedMesh guarded(surface, modelOf(guard), GuardedMesh::Quads::split);
     QuadTable table(guarded);
     if (table.count() == 0) return guarded.mesh();
-    shrink(guarded, interrupter);
     collapseLoops(guarded, table, options.faces / guarded.copies(), interrupter);
-    makeQuads(guarded, table, interrupter);
+    // Where a quad cannot be made, the loops through it go.
+    constexpr int attempts = 10;
+    GuardedMesh paired = guarded;
+    std::vector<std::uint32_t> left = makeQuads(paired, table, interrupter);
+    for (int i = 0; i < attempts && !left.empty() && collapseLoopThrough(guarded, table, left); ++i) {
+        paired = guarded;
+        left = makeQuads(paired, table, interrupter);
+    }
+    guarded = std::move(paired);
     tightenSquarely(guarded, table, options, interrupter);
     return guarded.mesh();
 }

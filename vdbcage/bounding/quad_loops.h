@@ -6,11 +6,14 @@
 #include <vdbcage/bounding/tighten.h>
 #include <vdbcage/core/export.h>
 #include <vdbcage/core/interrupter.h>
+#include <vdbcage/core/range.h>
 #include <vdbcage/mesh/mesh.h>
 
 namespace vdbcage {
 
 struct QuadLoopsOptions {
+    static constexpr Range angles{0, 90};
+
     std::size_t faces = 400; ///< to end with, at most; at least 6
     /// How far corners may be from square, in degrees: on average, and 95 % of them. Distance is given up until they
     /// are, as far as that goes.

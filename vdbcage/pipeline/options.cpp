@@ -231,6 +231,11 @@ void setOption(CageOptions& options, const std::string& name, const std::string&
     }
 }
 
+int leastFaces(CageFaces mesh)
+{
+    return mesh == CageFaces::loops ? 6 : 12;
+}
+
 void requireValid(const CageOptions& options)
 {
     visitOptions(options, [](const OptionInfo& info, const auto& field) { RequireRange{info}(field); });
@@ -245,8 +250,7 @@ void requireValid(const CageOptions& options)
         throw InputError("--symmetry: '" + ToText{}(options.symmetry) +
                          "' is not allowed with --bounding off; it must be auto or off");
     }
-    constexpr int fewest = 12; // but for loops, which end at a box
-    if (options.faces < fewest && options.mesh != CageFaces::loops) {
+    if (options.faces < leastFaces(options.mesh)) {
         throw InputError("--faces: '" + ToText{}(options.faces) + "' is not allowed with --mesh " +
                          ToText{}(options.mesh) + "; it must be 12 or more, or the mesh loops");
     }

@@ -110,6 +110,9 @@ VDBCAGE_API std::vector<std::pair<std::string, std::string>> optionValues(const 
 /// \throw InputError naming the option, the value and what is allowed
 VDBCAGE_API void setOption(CageOptions& options, const std::string& name, const std::string& value);
 
+/// The fewest faces that may be asked for: a box of quads, or of triangles.
+VDBCAGE_API int leastFaces(CageFaces mesh);
+
 /// Checks every range and that options fit each other. \throw InputError
 VDBCAGE_API void requireValid(const CageOptions& options);
 

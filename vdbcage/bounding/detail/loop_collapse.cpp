@@ -45,16 +45,18 @@ bool collapseLoop(GuardedMesh& surface, QuadTable& table, VertexQuadrics& quadri
     };
     bool isDone = true;
     for (std::size_t i = 0; isDone && i < loop.rungs.size(); ++i) isDone = collapseRung(loop.rungs[i]);
-    if (!isDone || !accepts()) {
-        for (std::size_t i = changes.size(); i-- > 0;) {
-            surface.restore(changes[i]);
-            quadrics.set(sums[i].first, sums[i].second);
-        }
-        return false;
+    if (isDone) {
+        const QuadTable::Saved quads = table.saved(cornersOf(table, loop.quads));
+        for (const std::uint32_t q : loop.quads) table.remove(q);
+        for (const auto& [kept, removed] : merges) table.merge(kept, removed);
+        if (accepts()) return true;
+        table.restore(quads);
     }
-    for (const std::uint32_t q : loop.quads) table.remove(q);
-    for (const auto& [kept, removed] : merges) table.merge(kept, removed);
-    return true;
+    for (std::size_t i = changes.size(); i-- > 0;) {
+        surface.restore(changes[i]);
+        quadrics.set(sums[i].first, sums[i].second);
+    }
+    return false;
 }
 
 } // namespace vdbcage::detail

@@ -9,10 +9,9 @@ namespace vdbcage::detail {
 
 /// Collapses the rungs of a loop one after the other, each under the guard, all or none. Returns whether.
 ///
-/// Where all are collapsed, `accepts` is asked whether they may stay; it may look at the surface, but not at the table.
-/// If not, or if the guard does not allow one, surface, table and quadrics are as before, to the bit.
-/// \pre leavesQuads()
-/// Cost: O(rungs), with a question to the guard for each place that is tried.
+/// Where all are collapsed, `accepts` is asked whether they may stay. If not, or if the guard does not allow one,
+/// surface, table and quadrics are as before, to the bit. \pre leavesQuads() Cost: O(rungs), with a question to the
+/// guard for each place that is tried.
 bool collapseLoop(GuardedMesh& surface, QuadTable& table, VertexQuadrics& quadrics, const QuadLoop& loop,
                   const std::function<bool()>& accepts);
 

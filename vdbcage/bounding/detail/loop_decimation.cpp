@@ -9,6 +9,7 @@
 #include <tuple>
 #include <vector>
 
+#include <vdbcage/bounding/detail/face_queries.h>
 #include <vdbcage/bounding/detail/loop_collapse.h>
 #include <vdbcage/bounding/detail/relax.h>
 #include <vdbcage/core/detail/parallel.h>
@@ -18,10 +19,28 @@ namespace vdbcage::detail {
 namespace {
 
 constexpr int samplesPerTriangle = 2; // of the distance
+constexpr double unfitLoss = 8;       // in parts of a mean quad's distance
 
 double perSample(const GuardedMesh& surface)
 {
     return areaPerSample(surface, surface.liveFaces(), samplesPerTriangle);
+}
+
+struct Ranked {
+    double cost; // by quadrics, for each quad that goes
+    std::size_t loop;
+};
+
+/// Best first.
+std::vector<Ranked> ranked(const VertexQuadrics& quadrics, const std::vector<QuadLoop>& loops)
+{
+    std::vector<Ranked> ranking(loops.size());
+    parallelFor(std::size_t(0), loops.size(), [&](std::size_t i) {
+        ranking[i] = {collapseCost(quadrics, loops[i]) / static_cast<double>(loops[i].quads.size()), i};
+    });
+    std::sort(ranking.begin(), ranking.end(),
+              [](const Ranked& a, const Ranked& b) { return std::tie(a.cost, a.loop) < std::tie(b.cost, b.loop); });
+    return ranking;
 }
 
 class LoopDecimator {
@@ -31,11 +50,15 @@ public:
     void run(std::size_t quads, Interrupter* interrupter)
     {
         constexpr double relaxAfter = 0.75; // of the quads
-        constexpr int relaxSweeps = 3;
-        constexpr ShapeWeight shape{0.35, 0.15};
+        constexpr int firstSweeps = 4, relaxSweeps = 3;
+        constexpr ShapeWeights shape{0.35, 0.15, 0.35, unfitLoss};
         constexpr int mostPushes = 3;
+        constexpr std::size_t mostPercent = 70; // tightening comes after
         int pushes = 0;
         double maxLoss = firstLoss;
+        if (table_.count() <= quads) return;
+        const std::size_t start = table_.count() - quads;
+        relaxQuads(surface_, table_, shape, firstSweeps, interrupter);
         while (table_.count() > quads) {
             relaxQuads(surface_, table_, shape, relaxSweeps, interrupter);
             VertexQuadrics quadrics(surface_);
@@ -43,6 +66,8 @@ public:
                 std::max(quads, static_cast<std::size_t>(relaxAfter * static_cast<double>(table_.count())));
             const std::size_t before = table_.count();
             while (table_.count() > relaxAt && collapseRound(quadrics, relaxAt, maxLoss, interrupter)) {
+                const std::size_t left = std::max(table_.count(), quads) - quads;
+                throwIfInterrupted(interrupter, static_cast<int>(mostPercent * (start - left) / start));
             }
             if (table_.count() < before) continue;
             if (maxLoss < lastLoss) {
@@ -58,37 +83,26 @@ public:
 private:
     static constexpr double firstLoss = 4, lastLoss = 100; // of distance for a quad less, in parts of a mean quad's
 
-    struct Ranked {
-        double cost;
-        std::size_t loop;
-    };
-
     /// Collapses loops that do not touch, until `quads` or a tenth are left out. Returns whether any went.
     bool collapseRound(VertexQuadrics& quadrics, std::size_t quads, double maxLoss, Interrupter* interrupter)
     {
         throwIfInterrupted(interrupter);
         const std::vector<QuadLoop> loops = straightLoops(table_);
-        std::vector<Ranked> ranking(loops.size());
-        parallelFor(std::size_t(0), loops.size(), [&](std::size_t i) {
-            ranking[i] = {collapseCost(quadrics, loops[i]) / static_cast<double>(loops[i].quads.size()), i};
-        });
-        std::sort(ranking.begin(), ranking.end(),
-                  [](const Ranked& a, const Ranked& b) { return std::tie(a.cost, a.loop) < std::tie(b.cost, b.loop); });
         const double sample = perSample(surface_);
-        const double perQuad = integratedDistance(surface_, sample) / static_cast<double>(table_.count());
+        const double perQuad = distancePerQuad(surface_, table_, sample);
         const DistanceMeasure measure(surface_.guard(), sample);
         const std::size_t most = table_.count() / 20;
         std::size_t removed = 0;
         std::vector<char> isTouched(surface_.vertices(), 0);
-        for (const Ranked& next : ranking) {
+        for (const Ranked& next : ranked(quadrics, loops)) {
             const QuadLoop& loop = loops[next.loop];
             if (table_.count() <= quads || (removed > 0 && removed + loop.quads.size() > most)) break;
             if (touches(loop, isTouched) || !leavesQuads(surface_, table_, loop)) continue;
             throwIfInterrupted(interrupter);
-            const double before = distanceAround(measure, loop);
-            const double limit = maxLoss * perQuad * static_cast<double>(loop.quads.size());
+            const double limit =
+                lossAround(measure, loop, perQuad) + maxLoss * perQuad * static_cast<double>(loop.quads.size());
             const bool isDone = collapseLoop(surface_, table_, quadrics, loop,
-                                             [&] { return distanceAround(measure, loop) - before <= limit; });
+                                             [&] { return lossAround(measure, loop, perQuad) <= limit; });
             if (!isDone) continue;
             removed += loop.quads.size();
             touch(loop, isTouched);
@@ -114,21 +128,31 @@ private:
         }
     }
 
-    /// The integral over the faces around the rungs.
-    double distanceAround(const DistanceMeasure& measure, const QuadLoop& loop) const
+    /// The faces or quads that `around` has for the ends of the rungs, each once.
+    template <typename Around>
+    static std::vector<std::uint32_t> gathered(const QuadLoop& loop, const Around& around)
     {
-        std::vector<std::uint32_t> faces;
+        std::vector<std::uint32_t> list;
         for (const Rung& rung : loop.rungs) {
-            for (const std::uint32_t v : rung) {
-                const auto& around = surface_.facesOf(v);
-                faces.insert(faces.end(), around.begin(), around.end());
-            }
+            for (const std::uint32_t v : rung) list.insert(list.end(), around(v).begin(), around(v).end());
         }
-        std::sort(faces.begin(), faces.end());
-        faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+        std::sort(list.begin(), list.end());
+        list.erase(std::unique(list.begin(), list.end()), list.end());
+        return list;
+    }
+
+    /// The integral of the distance over the faces around the rungs, and what quads that are not fit count for.
+    double lossAround(const DistanceMeasure& measure, const QuadLoop& loop, double perQuad) const
+    {
         double sum = 0;
         std::uint32_t seed = TriangleBvh::none;
-        for (const std::uint32_t f : faces) sum += measure.integral(surface_.corners(f), seed);
+        for (const std::uint32_t f : gathered(
+                 loop, [&](std::uint32_t v) -> auto& { return surface_.facesOf(v); }))
+            sum += measure.integral(surface_.corners(f), seed);
+        for (const std::uint32_t q : gathered(
+                 loop, [&](std::uint32_t v) -> auto& { return table_.quadsOf(v); })) {
+            if (!isFit(surface_.guard(), pointsOf(surface_, table_.corners(q)))) sum += unfitLoss * perQuad;
+        }
         return sum;
     }
 
@@ -138,13 +162,31 @@ private:
 
 } // namespace
 
-void relaxQuads(GuardedMesh& surface, const QuadTable& table, const ShapeWeight& shape, int sweeps,
+double distancePerQuad(const GuardedMesh& surface, const QuadTable& table, double areaPerSample)
+{
+    return integratedDistance(surface, areaPerSample) / static_cast<double>(table.count());
+}
+
+void relaxQuads(GuardedMesh& surface, const QuadTable& table, const ShapeWeights& weights, int sweeps,
                 Interrupter* interrupter)
 {
-    const double sample = perSample(surface);
-    const double perQuad = integratedDistance(surface, sample) / static_cast<double>(table.count());
-    const CornerShape corners(table, shape.share * perQuad, shape.free);
-    tighten(surface, sweeps, sample, interrupter, &corners);
+    const double sample = perSample(surface), perQuad = distancePerQuad(surface, table, sample);
+    const QuadShapeTerm shape(
+        table, {weights.corners * perQuad, weights.free, weights.flat * perQuad, weights.unfit * perQuad});
+    tighten(surface, sweeps, sample, interrupter, &shape);
+}
+
+bool collapseLoopThrough(GuardedMesh& surface, QuadTable& table, const std::vector<std::uint32_t>& quads)
+{
+    VertexQuadrics quadrics(surface);
+    const auto isAmong = [&](std::uint32_t q) { return std::find(quads.begin(), quads.end(), q) != quads.end(); };
+    const std::vector<QuadLoop> loops = straightLoops(table);
+    for (const Ranked& next : ranked(quadrics, loops)) {
+        const QuadLoop& loop = loops[next.loop];
+        if (std::none_of(loop.quads.begin(), loop.quads.end(), isAmong) || !leavesQuads(surface, table, loop)) continue;
+        if (collapseLoop(surface, table, quadrics, loop, [] { return true; })) return true;
+    }
+    return false;
 }
 
 void collapseLoops(GuardedMesh& surface, QuadTable& table, std::size_t quads, Interrupter* interrupter)

@@ -1,21 +1,24 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <vector>
 
-#include <vdbcage/bounding/detail/corner_shape.h>
+#include <vdbcage/bounding/detail/quad_shape_term.h>
 #include <vdbcage/bounding/detail/quad_table.h>
 #include <vdbcage/core/interrupter.h>
 
 namespace vdbcage::detail {
 
-/// What a corner's error may cost, in parts of the distance of a mean quad, and up to which |cos| it costs nothing.
-struct ShapeWeight {
-    double share, free;
-};
+/// The distance of a mean quad: what the weights of shapes are parts of.
+double distancePerQuad(const GuardedMesh& surface, const QuadTable& table, double areaPerSample);
 
-/// tighten() with the corners' shape. Its weight is that of the surface as it is now.
-void relaxQuads(GuardedMesh& surface, const QuadTable& table, const ShapeWeight& shape, int sweeps,
+/// tighten() with the quads' shape. `weights` are parts of the distance of a mean quad as the surface is now.
+void relaxQuads(GuardedMesh& surface, const QuadTable& table, const ShapeWeights& weights, int sweeps,
                 Interrupter* interrupter);
+
+/// Collapses the cheapest of the loops that pass one of these quads and may go. Returns whether there was one.
+bool collapseLoopThrough(GuardedMesh& surface, QuadTable& table, const std::vector<std::uint32_t>& quads);
 
 /// Collapses loops until at most `quads` are left, or none may go.
 ///

@@ -97,6 +97,8 @@ bool leavesQuads(const GuardedMesh& surface, const QuadTable& table, const QuadL
         merged.erase(from);
         if (merged[to].size() > mostMerged) return false;
     }
+    std::map<Rung, std::vector<std::uint32_t>> quadsAt; // by the ends of a side, the lesser first
+    std::vector<std::uint32_t> around;                  // the quads that are left
     std::vector<std::uint32_t> gone = loop.quads;
     std::sort(gone.begin(), gone.end());
     for (const auto& [place, members] : merged) {
@@ -111,6 +113,7 @@ bool leavesQuads(const GuardedMesh& surface, const QuadTable& table, const QuadL
                 int i = 0;
                 while (ids[i] != v) ++i;
                 ++count;
+                around.push_back(q);
                 beside.push_back(placeOf(ids[(i + 1) % 4]));
                 beside.push_back(placeOf(ids[(i + 3) % 4]));
                 opposite.push_back(placeOf(ids[(i + 2) % 4]));
@@ -134,7 +137,22 @@ bool leavesQuads(const GuardedMesh& surface, const QuadTable& table, const QuadL
         if (std::adjacent_find(opposite.begin(), opposite.end()) != opposite.end()) return false;
         if (std::binary_search(opposite.begin(), opposite.end(), place)) return false;
     }
-    return true;
+    // A limb needs at least three quads around it: two would share two sides.
+    std::sort(around.begin(), around.end());
+    around.erase(std::unique(around.begin(), around.end()), around.end());
+    for (const std::uint32_t q : around) {
+        const Vec4I& ids = table.corners(q);
+        for (int i = 0; i < 4; ++i) {
+            const auto [a, b] = std::minmax({placeOf(ids[i]), placeOf(ids[(i + 1) % 4])});
+            quadsAt[{a, b}].push_back(q);
+        }
+    }
+    std::vector<Rung> neighbours;
+    for (const auto& side : quadsAt) {
+        if (side.second.size() == 2) neighbours.push_back({side.second[0], side.second[1]}); // ascending
+    }
+    std::sort(neighbours.begin(), neighbours.end());
+    return std::adjacent_find(neighbours.begin(), neighbours.end()) == neighbours.end();
 }
 
 } // namespace vdbcage::detail

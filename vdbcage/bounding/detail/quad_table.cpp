@@ -57,6 +57,34 @@ void QuadTable::merge(std::uint32_t kept, std::uint32_t removed)
     quadsOf_[removed].clear();
 }
 
+QuadTable::Saved QuadTable::saved(const std::vector<std::uint32_t>& vertices) const
+{
+    Saved saved{{}, {}, count_};
+    for (const std::uint32_t v : vertices) {
+        saved.quadsOf.emplace_back(v, quadsOf_[v]);
+        for (const std::uint32_t q : quadsOf_[v]) saved.corners.emplace_back(q, corners_[q]);
+    }
+    return saved;
+}
+
+void QuadTable::restore(const Saved& saved)
+{
+    for (const auto& [v, list] : saved.quadsOf) quadsOf_[v] = list;
+    for (const auto& [q, ids] : saved.corners) corners_[q] = ids;
+    count_ = saved.count;
+}
+
+std::vector<std::uint32_t> cornersOf(const QuadTable& table, const std::vector<std::uint32_t>& quads)
+{
+    std::vector<std::uint32_t> corners;
+    for (const std::uint32_t q : quads) {
+        for (int i = 0; i < 4; ++i) corners.push_back(table.corners(q)[i]);
+    }
+    std::sort(corners.begin(), corners.end());
+    corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
+    return corners;
+}
+
 std::size_t valence(const GuardedMesh& surface, const QuadTable& table, std::uint32_t v)
 {
     return (surface.isOnPlane(v) ? 2 : 1) * table.quadsOf(v).size();

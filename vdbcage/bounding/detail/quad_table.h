@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include <boost/container/small_vector.hpp>
@@ -41,11 +42,24 @@ public:
     void merge(std::uint32_t kept, std::uint32_t removed);
     void remove(std::uint32_t q);
 
+    /// The quads around some vertices.
+    struct Saved {
+        std::vector<std::pair<std::uint32_t, Vec4I>> corners;
+        std::vector<std::pair<std::uint32_t, Quads>> quadsOf;
+        std::size_t count;
+    };
+    Saved saved(const std::vector<std::uint32_t>& vertices) const;
+    /// Takes back what was merged and removed among saved vertices and quads: all is as before.
+    void restore(const Saved& saved);
+
 private:
     std::vector<Vec4I> corners_; // {none, ...}: gone
     std::vector<Quads> quadsOf_; // by vertex
     std::size_t count_ = 0;
 };
+
+/// The corners of some quads, each once, ascending.
+std::vector<std::uint32_t> cornersOf(const QuadTable& table, const std::vector<std::uint32_t>& quads);
 
 /// How many edges a vertex has; on the plane of symmetry with those of the other half.
 std::size_t valence(const GuardedMesh& surface, const QuadTable& table, std::uint32_t v);

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include <vdbcage/bounding/detail/face_queries.h>
+#include <vdbcage/bounding/detail/quad_shape_term.h>
 #include <vdbcage/bounding/detail/vertex_placement.h>
 #include <vdbcage/core/detail/parallel.h>
 
@@ -110,14 +111,15 @@ double meanIncidentEdge(const GuardedMesh& surface, const StarChange& star)
                     [&](std::uint32_t v) { return (surface.point(v) - surface.point(star.centre)).length(); });
 }
 
-/// The first of the places on the way to `goal` that is allowed.
+/// The first of the places on the way to `goal` that is allowed, and at which `shape`, if given, keeps quads fit.
 std::optional<Vec3d> towards(const GuardedMesh& surface, const StarChange& star, const Vec3d& goal,
-                             std::initializer_list<double> steps)
+                             std::initializer_list<double> steps, const QuadShapeTerm* shape = nullptr)
 {
     const Vec3d& p = surface.point(star.centre);
     Obstacle obstacle;
     for (const double step : steps) {
         const Vec3d target = rounded(surface, star, p + step * (goal - p));
+        if (shape && !shape->keepsFit(surface, star, target)) continue;
         if (allows(surface, star, target, &obstacle)) return target;
     }
     return std::nullopt;
@@ -125,12 +127,13 @@ std::optional<Vec3d> towards(const GuardedMesh& surface, const StarChange& star,
 
 } // namespace
 
-void inflate(GuardedMesh& surface, const std::vector<std::uint32_t>& vertices, double by, Interrupter* interrupter)
+void inflate(GuardedMesh& surface, const std::vector<std::uint32_t>& vertices, double by, Interrupter* interrupter,
+             const QuadShapeTerm* shape)
 {
     sweep(
         surface, vertices, interrupter,
         [&](std::uint32_t v, const StarChange& star) {
-            return towards(surface, star, surface.point(v) + by * outward(surface, star), {1.0, 0.5, 0.2});
+            return towards(surface, star, surface.point(v) + by * outward(surface, star), {1.0, 0.5, 0.2}, shape);
         },
         [](std::uint32_t, const StarChange&, bool) {});
 }
@@ -290,7 +293,8 @@ double integratedDistance(const GuardedMesh& surface, double areaPerSample)
     return sum(distances(surface, areaPerSample));
 }
 
-void tighten(GuardedMesh& surface, int sweeps, double areaPerSample, Interrupter* interrupter, const CornerShape* shape)
+void tighten(GuardedMesh& surface, int sweeps, double areaPerSample, Interrupter* interrupter,
+             const QuadShapeTerm* shape)
 {
     constexpr double sleepBelow = 0.002; // a smaller part gained: not tried again until a neighbour moves
     constexpr double stopBelow = 0.002;  // the same for a whole sweep
@@ -353,7 +357,7 @@ void relaxFinally(GuardedMesh& surface, double areaPerSample, Interrupter* inter
 }
 
 void perturb(GuardedMesh& surface, int times, int sweeps, double areaPerSample, Interrupter* interrupter,
-             const CornerShape* shape)
+             const QuadShapeTerm* shape)
 {
     if (surface.liveFaces() == 0) return;
     std::vector<double> now = distances(surface, areaPerSample);

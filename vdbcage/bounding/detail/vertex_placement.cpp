@@ -7,7 +7,7 @@
 #include <vdbcage/bounding/detail/vertex_placement.h>
 
 #include <vdbcage/bounding/detail/admissible.h>
-#include <vdbcage/bounding/detail/corner_shape.h>
+#include <vdbcage/bounding/detail/quad_shape_term.h>
 
 #include <algorithm>
 #include <cmath>

@@ -14,7 +14,7 @@ struct Quadratic {
     Vec3d slope{0.0};
 };
 
-class CornerShape;
+class QuadShapeTerm;
 
 /// How far a centre may go at once.
 struct StepLimit {
@@ -37,7 +37,7 @@ bool descend(const GuardedMesh& surface, const StarChange& star, Vec3d& p, const
 class DistanceMeasure {
 public:
     /// `areaPerSample` is in the guard's units, squared. If `shape` is given, fit() and improve() count it, too.
-    DistanceMeasure(const GuardModel& guard, double areaPerSample, const CornerShape* shape = nullptr)
+    DistanceMeasure(const GuardModel& guard, double areaPerSample, const QuadShapeTerm* shape = nullptr)
         : guard_(guard), areaPerSample_(areaPerSample), shape_(shape)
     {
     }
@@ -73,7 +73,7 @@ private:
 
     const GuardModel& guard_;
     double areaPerSample_;
-    const CornerShape* shape_;
+    const QuadShapeTerm* shape_;
 };
 
 } // namespace vdbcage::detail
