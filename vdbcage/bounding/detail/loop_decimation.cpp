@@ -19,7 +19,12 @@ namespace vdbcage::detail {
 namespace {
 
 constexpr int samplesPerTriangle = 2; // of the distance
-constexpr double unfitLoss = 8;       // in parts of a mean quad's distance
+constexpr ShapeWeights shape{0.35, 0.15, 0.35, 8};
+
+ShapeWeights scaled(const ShapeWeights& weights, double perQuad)
+{
+    return {weights.corners * perQuad, weights.free, weights.flat * perQuad, weights.unfit * perQuad};
+}
 
 double perSample(const GuardedMesh& surface)
 {
@@ -51,7 +56,6 @@ public:
     {
         constexpr double relaxAfter = 0.75; // of the quads
         constexpr int firstSweeps = 4, relaxSweeps = 3;
-        constexpr ShapeWeights shape{0.35, 0.15, 0.35, unfitLoss};
         constexpr int mostPushes = 3;
         constexpr std::size_t mostPercent = 70; // tightening comes after
         int pushes = 0;
@@ -71,7 +75,7 @@ public:
             }
             if (table_.count() < before) continue;
             if (maxLoss < lastLoss) {
-                maxLoss *= 3;
+                maxLoss *= 2;
             } else if (pushes < mostPushes) {
                 inflate(surface_, 0.02 * (1 << pushes++), interrupter); // there is room farther out
             } else {
@@ -81,7 +85,9 @@ public:
     }
 
 private:
-    static constexpr double firstLoss = 4, lastLoss = 100; // of distance for a quad less, in parts of a mean quad's
+    static constexpr double firstLoss = 2, strictLoss = 30,
+                            lastLoss = 100; // of distance for a quad less, in a mean quad's
+    static constexpr int settleSweeps = 2;
 
     /// Collapses loops that do not touch, until `quads` or a tenth are left out. Returns whether any went.
     bool collapseRound(VertexQuadrics& quadrics, std::size_t quads, double maxLoss, Interrupter* interrupter)
@@ -91,6 +97,7 @@ private:
         const double sample = perSample(surface_);
         const double perQuad = distancePerQuad(surface_, table_, sample);
         const DistanceMeasure measure(surface_.guard(), sample);
+        const QuadShapeTerm term(table_, scaled(shape, perQuad));
         const std::size_t most = table_.count() / 20;
         std::size_t removed = 0;
         std::vector<char> isTouched(surface_.vertices(), 0);
@@ -101,8 +108,10 @@ private:
             throwIfInterrupted(interrupter);
             const double limit =
                 lossAround(measure, loop, perQuad) + maxLoss * perQuad * static_cast<double>(loop.quads.size());
-            const bool isDone = collapseLoop(surface_, table_, quadrics, loop,
-                                             [&] { return lossAround(measure, loop, perQuad) <= limit; });
+            const bool isDone = collapseLoop(surface_, table_, quadrics, loop, [&](const auto& kept) {
+                tighten(surface_, kept, settleSweeps, sample, interrupter, &term);
+                return lossAround(measure, loop, perQuad) <= limit;
+            });
             if (!isDone) continue;
             removed += loop.quads.size();
             touch(loop, isTouched);
@@ -151,7 +160,7 @@ private:
             sum += measure.integral(surface_.corners(f), seed);
         for (const std::uint32_t q : gathered(
                  loop, [&](std::uint32_t v) -> auto& { return table_.quadsOf(v); })) {
-            if (!isFit(surface_.guard(), pointsOf(surface_, table_.corners(q)))) sum += unfitLoss * perQuad;
+            if (!isFit(surface_.guard(), pointsOf(surface_, table_.corners(q)))) sum += shape.unfit * perQuad;
         }
         return sum;
     }
@@ -171,9 +180,8 @@ void relaxQuads(GuardedMesh& surface, const QuadTable& table, const ShapeWeights
                 Interrupter* interrupter)
 {
     const double sample = perSample(surface), perQuad = distancePerQuad(surface, table, sample);
-    const QuadShapeTerm shape(
-        table, {weights.corners * perQuad, weights.free, weights.flat * perQuad, weights.unfit * perQuad});
-    tighten(surface, sweeps, sample, interrupter, &shape);
+    const QuadShapeTerm term(table, scaled(weights, perQuad));
+    tighten(surface, sweeps, sample, interrupter, &term);
 }
 
 bool collapseLoopThrough(GuardedMesh& surface, QuadTable& table, const std::vector<std::uint32_t>& quads)
@@ -184,7 +192,7 @@ bool collapseLoopThrough(GuardedMesh& surface, QuadTable& table, const std::vect
     for (const Ranked& next : ranked(quadrics, loops)) {
         const QuadLoop& loop = loops[next.loop];
         if (std::none_of(loop.quads.begin(), loop.quads.end(), isAmong) || !leavesQuads(surface, table, loop)) continue;
-        if (collapseLoop(surface, table, quadrics, loop, [] { return true; })) return true;
+        if (collapseLoop(surface, table, quadrics, loop, [](const auto&) { return true; })) return true;
     }
     return false;
 }

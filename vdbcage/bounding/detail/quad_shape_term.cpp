@@ -65,7 +65,8 @@ bool isFit(const GuardModel& guard, const std::array<Vec3d, 4>& p)
     if (!isConvexQuad(p, 0, deviation)) return false;
     const double least = std::min({minSine({p[0], p[1], p[2]}), minSine({p[0], p[2], p[3]}),
                                    minSine({p[0], p[1], p[3]}), minSine({p[1], p[2], p[3]})});
-    return least >= guard.minSine();
+    constexpr double leastSine = 0.087; // of 5 degrees
+    return least >= std::max(guard.minSine(), leastSine);
 }
 
 double QuadShapeTerm::add(const GuardedMesh& surface, const StarChange& star, const Vec3d& centre,

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <iterator>
 #include <numeric>
 #include <optional>
 #include <vector>
@@ -296,6 +297,12 @@ double integratedDistance(const GuardedMesh& surface, double areaPerSample)
 void tighten(GuardedMesh& surface, int sweeps, double areaPerSample, Interrupter* interrupter,
              const QuadShapeTerm* shape)
 {
+    tighten(surface, allVertices(surface), sweeps, areaPerSample, interrupter, shape);
+}
+
+void tighten(GuardedMesh& surface, const std::vector<std::uint32_t>& vertices, int sweeps, double areaPerSample,
+             Interrupter* interrupter, const QuadShapeTerm* shape)
+{
     constexpr double sleepBelow = 0.002; // a smaller part gained: not tried again until a neighbour moves
     constexpr double stopBelow = 0.002;  // the same for a whole sweep
     constexpr int gentleSweeps = 6;
@@ -303,7 +310,7 @@ void tighten(GuardedMesh& surface, int sweeps, double areaPerSample, Interrupter
     const std::size_t n = surface.vertices();
     std::vector<std::uint32_t> seed(n, TriangleBvh::none);
     std::vector<double> before(n, 0), after(n, 0);
-    std::vector<std::uint32_t> active = allVertices(surface);
+    std::vector<std::uint32_t> active = vertices;
     for (int i = 0; i < sweeps && !active.empty(); ++i) {
         DistanceMeasure::Pace pace;
         pace.share = i < gentleSweeps ? 0.5 : 1;
@@ -329,9 +336,8 @@ void tighten(GuardedMesh& surface, int sweeps, double areaPerSample, Interrupter
             });
         if (!(gain > stopBelow * total)) break;
         active.clear();
-        for (std::uint32_t v = 0; v < n; ++v) {
-            if (becomesActive[v]) active.push_back(v);
-        }
+        std::copy_if(vertices.begin(), vertices.end(), std::back_inserter(active),
+                     [&](std::uint32_t v) { return becomesActive[v] != 0; });
     }
 }
 

@@ -24,6 +24,10 @@ void shrink(GuardedMesh& surface, Interrupter* interrupter);
 void tighten(GuardedMesh& surface, int sweeps, double areaPerSample, Interrupter* interrupter,
              const QuadShapeTerm* shape = nullptr);
 
+/// tighten() for some vertices; the others stay.
+void tighten(GuardedMesh& surface, const std::vector<std::uint32_t>& vertices, int sweeps, double areaPerSample,
+             Interrupter* interrupter, const QuadShapeTerm* shape);
+
 /// Moves every vertex of a tightened surface twice more, by steps and for gains too small for tighten().
 ///
 /// It becomes half a percent tighter. It becomes flatter over flat parts of the model, where such steps are all that

@@ -50,6 +50,7 @@ constexpr double fewStarts[] = {1.0, 0.85, 0.7, 0.6}, fewestStarts[] = {0.65, 0.
 // Shape of the cage.
 constexpr double mergeAnyFold = 90, mergeFlat = 10, mergeUsual = 30; ///< degrees: quads, no guard, triquad
 constexpr double wideAngle = 10, usualAngle = 6; ///< degrees; the wide one costs up to 5 % of the tightness
+constexpr double loopsAngle = 1; ///< degrees; with more, half collapsed loops are stopped by their slender triangles
 constexpr double mostlyQuads = 0.875;
 ///< of the faces; more cost a third of the tightness on models with edges
 constexpr std::size_t trianglesPerQuad = 3; ///< to begin with: two a quad, and some that vanish; 2 to 4 are alike
