@@ -457,7 +457,8 @@ BOOST_AUTO_TEST_CASE(the_shape_s_slope_is_that_of_its_sum)
     const QuadTable table(surface);
     std::mt19937 random(1);
     std::uniform_real_distribution<double> unit(-1, 1);
-    for (const ShapeWeights& weights : {ShapeWeights{1, 0.1, 0, 0}, ShapeWeights{0, 0, 1, 0}}) {
+    for (const ShapeWeights& weights :
+         {ShapeWeights{1, 0.1, 0, 0, 0}, ShapeWeights{0, 0, 1, 0, 0}, ShapeWeights{0, 0, 0, 1, 0}}) {
         const QuadShapeTerm shape(table, weights);
         for (std::uint32_t v = 0; v < surface.vertices(); ++v) {
             const StarChange star = starOf(surface, v);

@@ -47,7 +47,7 @@ std::vector<std::uint32_t> allQuads(const QuadTable& table)
 std::vector<std::uint32_t> makeQuads(GuardedMesh& surface, const QuadTable& table, Interrupter* interrupter)
 {
     constexpr int rounds = 8, vainRounds = 2, sweeps = 3;
-    constexpr ShapeWeights shape{2, 0.1, 8, 8};
+    constexpr ShapeWeights shape{2, 0.1, 0, 8, 8};
     double room = medianDistance(surface);
     const QuadShapeTerm fit(table, {});
     inflate(surface, cornersOf(table, allQuads(table)), room, interrupter, &fit);
@@ -63,26 +63,26 @@ std::vector<std::uint32_t> makeQuads(GuardedMesh& surface, const QuadTable& tabl
     return left;
 }
 
-bool areSquare(const GuardedMesh& surface, const QuadTable& table, const QuadLoopsOptions& options)
-{
-    const CornerAngles angles = cornerAngles(surface, table);
-    return angles.mean <= options.meanAngleDegrees && angles.mostOf95 <= options.mostAngleDegrees;
-}
-
-/// Tightens with the least weight of the shape that makes the corners as square as asked.
+/// Tightens with the least weights of the shape that make the corners as square as asked.
 void tightenSquarely(GuardedMesh& surface, const QuadTable& table, const QuadLoopsOptions& options,
                      Interrupter* interrupter)
 {
-    constexpr double firstShare = 0.05, mostShare = 2, free = 0.15;
+    constexpr double first = 0.05, firstBad = 0.2, growth = 1.7, free = 0.15;
+    constexpr int rounds = 8;
     const TightenOptions& tightening = options.tightening;
-    for (double share = firstShare; share < mostShare; share *= 1.6) {
-        const double sample = areaPerSample(surface, surface.liveFaces(), tightening.samples);
+    const double sample = areaPerSample(surface, surface.liveFaces(), tightening.samples);
+    double corners = first, bad = firstBad;
+    for (int round = 0; round < rounds; ++round) {
         const double perQuad = distancePerQuad(surface, table, sample);
-        const QuadShapeTerm shape(table, {share * perQuad, free, 0, 0});
+        const QuadShapeTerm shape(table, {corners * perQuad, free, bad * perQuad, 0, 0});
         tighten(surface, tightening.sweeps, sample, interrupter, &shape);
-        if (!areSquare(surface, table, options)) continue;
-        perturb(surface, tightening.perturbations, tightening.sweeps, sample, interrupter, &shape);
-        if (areSquare(surface, table, options)) return;
+        if (round == 0) perturb(surface, tightening.perturbations, tightening.sweeps, sample, interrupter, &shape);
+        const CornerAngles angles = cornerAngles(surface, table);
+        const bool isMean = angles.mean <= options.meanAngleDegrees,
+                   isMost = angles.mostOf95 <= options.mostAngleDegrees;
+        if (isMean && isMost) return;
+        if (!isMean) corners *= growth;
+        if (!isMost) bad *= growth * growth;
     }
 }
 

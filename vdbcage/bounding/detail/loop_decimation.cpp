@@ -19,11 +19,12 @@ namespace vdbcage::detail {
 namespace {
 
 constexpr int samplesPerTriangle = 2; // of the distance
-constexpr ShapeWeights shape{0.35, 0.15, 0.35, 8};
+constexpr ShapeWeights shape{0.35, 0.15, 0, 0.35, 8};
 
 ShapeWeights scaled(const ShapeWeights& weights, double perQuad)
 {
-    return {weights.corners * perQuad, weights.free, weights.flat * perQuad, weights.unfit * perQuad};
+    return {weights.corners * perQuad, weights.free, weights.bad * perQuad, weights.flat * perQuad,
+            weights.unfit * perQuad};
 }
 
 double perSample(const GuardedMesh& surface)
@@ -36,12 +37,13 @@ struct Ranked {
     std::size_t loop;
 };
 
-/// Best first.
-std::vector<Ranked> ranked(const VertexQuadrics& quadrics, const std::vector<QuadLoop>& loops)
+/// Best first. No more quads than `tooMany` count.
+std::vector<Ranked> ranked(const VertexQuadrics& quadrics, const std::vector<QuadLoop>& loops, std::size_t tooMany)
 {
     std::vector<Ranked> ranking(loops.size());
     parallelFor(std::size_t(0), loops.size(), [&](std::size_t i) {
-        ranking[i] = {collapseCost(quadrics, loops[i]) / static_cast<double>(loops[i].quads.size()), i};
+        const std::size_t gone = std::min(loops[i].quads.size(), tooMany);
+        ranking[i] = {collapseCost(quadrics, loops[i]) / static_cast<double>(gone), i};
     });
     std::sort(ranking.begin(), ranking.end(),
               [](const Ranked& a, const Ranked& b) { return std::tie(a.cost, a.loop) < std::tie(b.cost, b.loop); });
@@ -69,7 +71,7 @@ public:
             const auto relaxAt =
                 std::max(quads, static_cast<std::size_t>(relaxAfter * static_cast<double>(table_.count())));
             const std::size_t before = table_.count();
-            while (table_.count() > relaxAt && collapseRound(quadrics, relaxAt, maxLoss, interrupter)) {
+            while (table_.count() > relaxAt && collapseRound(quadrics, relaxAt, quads, maxLoss, interrupter)) {
                 const std::size_t left = std::max(table_.count(), quads) - quads;
                 throwIfInterrupted(interrupter, static_cast<int>(mostPercent * (start - left) / start));
             }
@@ -90,7 +92,8 @@ private:
     static constexpr int settleSweeps = 2;
 
     /// Collapses loops that do not touch, until `quads` or a tenth are left out. Returns whether any went.
-    bool collapseRound(VertexQuadrics& quadrics, std::size_t quads, double maxLoss, Interrupter* interrupter)
+    bool collapseRound(VertexQuadrics& quadrics, std::size_t quads, std::size_t target, double maxLoss,
+                       Interrupter* interrupter)
     {
         throwIfInterrupted(interrupter);
         const std::vector<QuadLoop> loops = straightLoops(table_);
@@ -98,10 +101,10 @@ private:
         const double perQuad = distancePerQuad(surface_, table_, sample);
         const DistanceMeasure measure(surface_.guard(), sample);
         const QuadShapeTerm term(table_, scaled(shape, perQuad));
-        const std::size_t most = table_.count() / 20;
+        const std::size_t most = table_.count() / 20, tooMany = table_.count() - target;
         std::size_t removed = 0;
         std::vector<char> isTouched(surface_.vertices(), 0);
-        for (const Ranked& next : ranked(quadrics, loops)) {
+        for (const Ranked& next : ranked(quadrics, loops, tooMany)) {
             const QuadLoop& loop = loops[next.loop];
             if (table_.count() <= quads || (removed > 0 && removed + loop.quads.size() > most)) break;
             if (touches(loop, isTouched) || !leavesQuads(surface_, table_, loop)) continue;
@@ -189,7 +192,7 @@ bool collapseLoopThrough(GuardedMesh& surface, QuadTable& table, const std::vect
     VertexQuadrics quadrics(surface);
     const auto isAmong = [&](std::uint32_t q) { return std::find(quads.begin(), quads.end(), q) != quads.end(); };
     const std::vector<QuadLoop> loops = straightLoops(table);
-    for (const Ranked& next : ranked(quadrics, loops)) {
+    for (const Ranked& next : ranked(quadrics, loops, table.count())) {
         const QuadLoop& loop = loops[next.loop];
         if (std::none_of(loop.quads.begin(), loop.quads.end(), isAmong) || !leavesQuads(surface, table, loop)) continue;
         if (collapseLoop(surface, table, quadrics, loop, [](const auto&) { return true; })) return true;

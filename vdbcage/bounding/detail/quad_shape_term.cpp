@@ -36,11 +36,13 @@ void addCorner(const ShapeWeights& weights, const std::array<Vec3d, 3>& corner, 
     if (!(lengthU > 0 && lengthW > 0)) return;
     u /= lengthU;
     w /= lengthW;
-    const double cosine = u.dot(w), beyond = std::abs(cosine) - weights.free;
-    if (!(beyond > 0)) return;
+    constexpr double bad = 0.6; // 37 degrees off square
+    const double cosine = u.dot(w), size = std::abs(cosine);
+    if (!(size > weights.free)) return;
     const Vec3d ofOne = (w - cosine * u) / lengthU, ofOther = (u - cosine * w) / lengthW;
     const Vec3d slope = moving == 0 ? -(ofOne + ofOther) : moving == 1 ? ofOne : ofOther;
-    sum.add(weights.corners, beyond, cosine > 0 ? slope : -slope);
+    sum.add(weights.corners, size - weights.free, cosine > 0 ? slope : -slope);
+    if (size > bad) sum.add(weights.bad, size - bad, cosine > 0 ? slope : -slope);
 }
 
 /// The height of the diagonals above each other, in parts of half a mean side; corner 0 moves.

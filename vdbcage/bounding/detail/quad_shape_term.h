@@ -11,6 +11,7 @@ namespace vdbcage::detail {
 struct ShapeWeights {
     double corners; ///< of a corner with a cosine of 1, squared
     double free;    ///< up to this |cos| a corner costs nothing, so that distance is spent on bad corners only
+    double bad;     ///< the same again of corners beyond a |cos| of 0.6
     double flat;    ///< of diagonals that pass each other at half a side's length, squared
     double unfit;   ///< of a quad that cannot bound under both diagonals, wherever the model is
 };

@@ -96,7 +96,9 @@ GuardOptions guardOptions(const CageOptions& options)
     const bool isWide = options.mesh == CageFaces::triangles && options.effort == Effort::fair;
     GuardOptions guarding;
     guarding.clearance = options.clearance;
-    guarding.minAngleDegrees = options.minAngle.value_or(options.mesh == CageFaces::loops ? loopsAngle : isWide ? wideAngle : usualAngle);
+    guarding.minAngleDegrees = options.minAngle.value_or(options.mesh == CageFaces::loops ? loopsAngle
+                                                         : isWide                         ? wideAngle
+                                                                                          : usualAngle);
     return guarding;
 }
 
