@@ -7,6 +7,7 @@
 
 #include <vdbcage/bounding/detail/face_queries.h>
 #include <vdbcage/bounding/detail/loop_decimation.h>
+#include <vdbcage/bounding/detail/loop_exchange.h>
 #include <vdbcage/bounding/detail/merge_triangles.h>
 #include <vdbcage/bounding/detail/relax.h>
 #include <vdbcage/bounding/detail/tightening.h>
@@ -119,11 +120,13 @@ Mesh quadLoops(const Mesh& surface, const BoundingGuard& guard, const QuadLoopsO
     }
     requireWithin(QuadLoopsOptions::angles, options.meanAngleDegrees, "mean angle");
     requireWithin(QuadLoopsOptions::angles, options.mostAngleDegrees, "most angle");
+    requireWithin(QuadLoopsOptions::exchangeCounts, options.exchanges, "exchanges");
     requireValid(options.tightening);
     GuardedMesh guarded(surface, modelOf(guard), GuardedMesh::Quads::split);
     QuadTable table(guarded);
     if (table.count() == 0) return guarded.mesh();
     collapseLoops(guarded, table, options.faces / guarded.copies(), interrupter);
+    exchangeLoops(guarded, table, options.faces / guarded.copies(), options.exchanges, interrupter);
     // Where a quad cannot be made, the loops through it go.
     constexpr int attempts = 10;
     GuardedMesh paired = guarded;

@@ -12,12 +12,13 @@
 namespace vdbcage {
 
 struct QuadLoopsOptions {
-    static constexpr Range angles{0, 90};
+    static constexpr Range angles{0, 90}, exchangeCounts{0, 100};
 
     std::size_t faces = 400; ///< to end with, at most; at least 6
     /// How far corners may be from square, in degrees: on average, and 95 % of them. Distance is given up until they
     /// are, as far as that goes.
     double meanAngleDegrees = 16, mostAngleDegrees = 42;
+    int exchanges = 4; ///< times that loops go where they bring little, and come where they bring more
     TightenOptions tightening = {};
 };
 

@@ -6,6 +6,7 @@
 #include <vdbcage/bounding/detail/loop_decimation.h>
 
 #include <algorithm>
+#include <cmath>
 #include <tuple>
 #include <vector>
 
@@ -18,8 +19,9 @@ namespace vdbcage::detail {
 
 namespace {
 
-constexpr int samplesPerTriangle = 2; // of the distance
-constexpr ShapeWeights shape{0.35, 0.15, 0, 0.35, 8};
+constexpr int samplesPerTriangle = 2;   // of the distance
+constexpr double irregularWeight = 0.4; // 0 makes slanted limbs more irregular, 0.8 puts off loops that should go
+constexpr ShapeWeights shape{0.35, 0.15, 0, 0.35, unfitWeight};
 
 ShapeWeights scaled(const ShapeWeights& weights, double perQuad)
 {
@@ -37,13 +39,27 @@ struct Ranked {
     std::size_t loop;
 };
 
+/// How much more irregular the vertices become for each rung that goes, by |valence - 4|: -1 to 2.
+double irregularityGrowth(const GuardedMesh& surface, const QuadTable& table, const QuadLoop& loop)
+{
+    const auto irregularity = [](std::size_t edges) { return std::abs(static_cast<double>(edges) - 4); };
+    double growth = 0;
+    for (const auto& [u, v] : loop.rungs) {
+        const std::size_t a = valence(surface, table, u), b = valence(surface, table, v);
+        growth += irregularity(a + b - 4) - irregularity(a) - irregularity(b);
+    }
+    return growth / static_cast<double>(loop.rungs.size());
+}
+
 /// Best first. No more quads than `tooMany` count.
-std::vector<Ranked> ranked(const VertexQuadrics& quadrics, const std::vector<QuadLoop>& loops, std::size_t tooMany)
+std::vector<Ranked> ranked(const GuardedMesh& surface, const QuadTable& table, const VertexQuadrics& quadrics,
+                           const std::vector<QuadLoop>& loops, std::size_t tooMany)
 {
     std::vector<Ranked> ranking(loops.size());
     parallelFor(std::size_t(0), loops.size(), [&](std::size_t i) {
         const std::size_t gone = std::min(loops[i].quads.size(), tooMany);
-        ranking[i] = {collapseCost(quadrics, loops[i]) / static_cast<double>(gone), i};
+        const double ragged = irregularWeight * irregularityGrowth(surface, table, loops[i]);
+        ranking[i] = {collapseCost(quadrics, loops[i]) * (1 + ragged) / static_cast<double>(gone), i};
     });
     std::sort(ranking.begin(), ranking.end(),
               [](const Ranked& a, const Ranked& b) { return std::tie(a.cost, a.loop) < std::tie(b.cost, b.loop); });
@@ -104,7 +120,7 @@ private:
         const std::size_t most = table_.count() / 20, tooMany = table_.count() - target;
         std::size_t removed = 0;
         std::vector<char> isTouched(surface_.vertices(), 0);
-        for (const Ranked& next : ranked(quadrics, loops, tooMany)) {
+        for (const Ranked& next : ranked(surface_, table_, quadrics, loops, tooMany)) {
             const QuadLoop& loop = loops[next.loop];
             if (table_.count() <= quads || (removed > 0 && removed + loop.quads.size() > most)) break;
             if (touches(loop, isTouched) || !leavesQuads(surface_, table_, loop)) continue;
@@ -187,12 +203,33 @@ void relaxQuads(GuardedMesh& surface, const QuadTable& table, const ShapeWeights
     tighten(surface, sweeps, sample, interrupter, &term);
 }
 
+void relaxQuads(GuardedMesh& surface, const QuadTable& table, int sweeps, Interrupter* interrupter)
+{
+    relaxQuads(surface, table, shape, sweeps, interrupter);
+}
+
+void relaxQuads(GuardedMesh& surface, const QuadTable& table, const std::vector<std::uint32_t>& vertices, int sweeps,
+                Interrupter* interrupter)
+{
+    const double sample = perSample(surface);
+    const QuadShapeTerm term(table, scaled(shape, distancePerQuad(surface, table, sample)));
+    tighten(surface, vertices, sweeps, sample, interrupter, &term);
+}
+
+std::size_t countUnfit(const GuardedMesh& surface, const QuadTable& table)
+{
+    std::size_t count = 0;
+    for (std::uint32_t q = 0; q < table.quads(); ++q)
+        count += table.isQuad(q) && !isFit(surface.guard(), pointsOf(surface, table.corners(q)));
+    return count;
+}
+
 bool collapseLoopThrough(GuardedMesh& surface, QuadTable& table, const std::vector<std::uint32_t>& quads)
 {
     VertexQuadrics quadrics(surface);
     const auto isAmong = [&](std::uint32_t q) { return std::find(quads.begin(), quads.end(), q) != quads.end(); };
     const std::vector<QuadLoop> loops = straightLoops(table);
-    for (const Ranked& next : ranked(quadrics, loops, table.count())) {
+    for (const Ranked& next : ranked(surface, table, quadrics, loops, table.count())) {
         const QuadLoop& loop = loops[next.loop];
         if (std::none_of(loop.quads.begin(), loop.quads.end(), isAmong) || !leavesQuads(surface, table, loop)) continue;
         if (collapseLoop(surface, table, quadrics, loop, [](const auto&) { return true; })) return true;

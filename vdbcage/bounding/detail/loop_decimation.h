@@ -13,6 +13,15 @@ namespace vdbcage::detail {
 /// The distance of a mean quad: what the weights of shapes are parts of.
 double distancePerQuad(const GuardedMesh& surface, const QuadTable& table, double areaPerSample);
 
+/// How many quads are not fit, and what one counts for in parts of the distance of a mean quad.
+std::size_t countUnfit(const GuardedMesh& surface, const QuadTable& table);
+constexpr double unfitWeight = 8;
+
+/// tighten() with the shape that quads have while loops come and go, all vertices or some.
+void relaxQuads(GuardedMesh& surface, const QuadTable& table, int sweeps, Interrupter* interrupter);
+void relaxQuads(GuardedMesh& surface, const QuadTable& table, const std::vector<std::uint32_t>& vertices, int sweeps,
+                Interrupter* interrupter);
+
 /// tighten() with the quads' shape. `weights` are parts of the distance of a mean quad as the surface is now.
 void relaxQuads(GuardedMesh& surface, const QuadTable& table, const ShapeWeights& weights, int sweeps,
                 Interrupter* interrupter);

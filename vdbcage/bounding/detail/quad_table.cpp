@@ -57,6 +57,26 @@ void QuadTable::merge(std::uint32_t kept, std::uint32_t removed)
     quadsOf_[removed].clear();
 }
 
+void QuadTable::add(const Vec4I& corners)
+{
+    corners_.emplace_back(none);
+    ++count_;
+    replace(quads() - 1, corners);
+}
+
+void QuadTable::replace(std::uint32_t q, const Vec4I& corners)
+{
+    if (isQuad(q)) {
+        remove(q);
+        ++count_;
+    }
+    corners_[q] = corners;
+    for (int i = 0; i < 4; ++i) {
+        if (corners[i] >= quadsOf_.size()) quadsOf_.resize(corners[i] + 1);
+        quadsOf_[corners[i]].push_back(q);
+    }
+}
+
 QuadTable::Saved QuadTable::saved(const std::vector<std::uint32_t>& vertices) const
 {
     Saved saved{{}, {}, count_};

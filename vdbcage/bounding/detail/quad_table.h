@@ -41,6 +41,9 @@ public:
     /// \pre none has both
     void merge(std::uint32_t kept, std::uint32_t removed);
     void remove(std::uint32_t q);
+    /// The corners of a new quad, or the new ones of an old quad.
+    void add(const Vec4I& corners);
+    void replace(std::uint32_t q, const Vec4I& corners);
 
     /// The quads around some vertices.
     struct Saved {

@@ -220,6 +220,7 @@ void BoundingSearch::collapseLoops(const Run& run, Candidates& starts, const Bou
     QuadLoopsOptions options;
     options.faces = static_cast<std::size_t>(run.options.faces);
     options.tightening = tightenOptions(run.options.effort);
+    options.exchanges = loopExchanges(run.options.effort);
     forEach(starts, run.interrupter, "loops", [&](Candidate& candidate) {
         candidate.cage = quadLoops(*candidate.surface, guard, options, run.interrupter);
         candidate.decimated = candidate.cage;

@@ -83,6 +83,11 @@ bool hasFewEnoughHandles(const CageOptions& options, const MeshTopology& topolog
     return taken <= handleShare * options.faces;
 }
 
+int loopExchanges(Effort effort)
+{
+    return effort == Effort::fast ? loopExchangesFast : effort == Effort::fair ? loopExchangesFair : loopExchangesBest;
+}
+
 double mergeAngle(const CageOptions& options)
 {
     const double automatic = options.mesh == CageFaces::quads ? mergeAnyFold
