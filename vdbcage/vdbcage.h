@@ -6,6 +6,7 @@
 #include <vdbcage/bounding/decimate.h>
 #include <vdbcage/bounding/effort.h>
 #include <vdbcage/bounding/near_coplanar.h>
+#include <vdbcage/bounding/quad_loops.h>
 #include <vdbcage/bounding/smooth.h>
 #include <vdbcage/bounding/tighten.h>
 #include <vdbcage/bounding/triquad.h>

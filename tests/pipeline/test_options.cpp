@@ -90,7 +90,7 @@ BOOST_AUTO_TEST_CASE(a_scale_field_is_given_as_text)
 BOOST_AUTO_TEST_CASE(what_is_not_allowed_is_refused_by_name_value_and_range)
 {
     const std::vector<std::pair<std::string, std::string>> bad{
-        {"faces", "11"},        {"faces", "1000001"},    {"faces", "4.5"},          {"faces", ""},
+        {"faces", "5"},         {"faces", "1000001"},    {"faces", "4.5"},          {"faces", ""},
         {"faces", "12x"},       {"faces", " 12"},        {"resolution", "7"},       {"resolution", "2049"},
         {"close-radius", "-1"}, {"close-radius", "nan"}, {"close-radius", "inf"},   {"close-radius", "0,03"},
         {"erode-radius", "x"},  {"element", "Cube"},     {"mesh", "quads!"},        {"merge-angle", "181"},
@@ -121,6 +121,16 @@ BOOST_AUTO_TEST_CASE(fields_set_directly_are_checked_too)
     options = {};
     options.faces = 0;
     BOOST_CHECK_THROW(requireValid(options), InputError);
+    options.faces = 11; // triangles need 12
+    BOOST_CHECK_EXCEPTION(requireValid(options), InputError,
+                          [](const InputError& error) { return names(error, "'11'") && names(error, "mesh"); });
+    options.mesh = CageFaces::loops;
+    BOOST_CHECK_NO_THROW(requireValid(options));
+    options.faces = 6;
+    BOOST_CHECK_NO_THROW(requireValid(options));
+    options.bounding = false;
+    BOOST_CHECK_EXCEPTION(requireValid(options), InputError,
+                          [](const InputError& error) { return names(error, "loops") && names(error, "bounding"); });
 }
 
 BOOST_AUTO_TEST_SUITE_END()

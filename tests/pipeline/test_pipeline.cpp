@@ -51,6 +51,39 @@ BOOST_AUTO_TEST_CASE(every_cage_is_certified_and_has_no_more_faces_than_asked)
     }
 }
 
+BOOST_AUTO_TEST_CASE(cages_of_loops_are_of_quads_only)
+{
+    const std::vector<Mesh> models{test::sphere({0, 0, 0}, 1, 12), test::box({0, 0, 0}, {1, 2, 3}),
+                                   test::torus(1, 0.3, 40, 16), saturn()};
+    for (const Mesh& model : models) {
+        Pipeline made(model);
+        for (const int faces : {6, 50, 150}) {
+            CageOptions options;
+            options.faces = faces;
+            options.mesh = CageFaces::loops;
+            options.effort = Effort::fast;
+            options.symmetry = faces == 50 ? CageSymmetry::x : CageSymmetry::off;
+            const Mesh& cage = made.run(options);
+            BOOST_TEST(cage.triangles.empty());
+            BOOST_TEST(cage.quads.size() <= static_cast<std::size_t>(faces));
+            BOOST_TEST(checkCage(cage, model).bounding());
+            BOOST_TEST(made.report().floatSafe);
+        }
+    }
+}
+
+BOOST_AUTO_TEST_CASE(the_cage_of_loops_of_a_brick_is_the_brick)
+{
+    const Mesh model = test::box({0, 0, 0}, {1, 2, 3});
+    CageOptions options;
+    options.faces = 6;
+    options.mesh = CageFaces::loops;
+    Pipeline made(model);
+    BOOST_TEST(made.run(options).quads.size() == 6U);
+    BOOST_TEST(made.report().check.meanDistance < 0.001);
+    BOOST_CHECK(made.report().start == CageStart::closing);
+}
+
 BOOST_AUTO_TEST_CASE(models_that_are_no_solids_get_cages_too)
 {
     Mesh triangle;

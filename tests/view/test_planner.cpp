@@ -340,11 +340,13 @@ BOOST_AUTO_TEST_CASE(any_sequence_of_changes_cancels_and_late_results)
 
 BOOST_AUTO_TEST_CASE(steps_of_faces_stay_within_the_range)
 {
-    BOOST_TEST(steppedFaces(400, 1) == 420);
-    BOOST_TEST(steppedFaces(400, -1) == 380);
-    BOOST_TEST(steppedFaces(12, -1) == 12);
-    BOOST_TEST(steppedFaces(12, 1) == 13);
-    BOOST_TEST(steppedFaces(1000000, 1) == 1000000);
+    BOOST_TEST(steppedFaces(400, 1, CageFaces::quads) == 420);
+    BOOST_TEST(steppedFaces(400, -1, CageFaces::quads) == 380);
+    BOOST_TEST(steppedFaces(12, -1, CageFaces::quads) == 12);
+    BOOST_TEST(steppedFaces(12, -1, CageFaces::loops) == 11);
+    BOOST_TEST(steppedFaces(6, -1, CageFaces::loops) == 6);
+    BOOST_TEST(steppedFaces(12, 1, CageFaces::quads) == 13);
+    BOOST_TEST(steppedFaces(1000000, 1, CageFaces::quads) == 1000000);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -120,7 +120,8 @@ std::optional<Command> commandOfVerb(const State& state, const std::optional<Sym
 {
     const ViewState& view = state.view;
     if (verb == "more" || verb == "fewer") {
-        const int faces = steppedFaces(state.document.options.faces, verb == "more" ? 1 : -1);
+        const int faces =
+            steppedFaces(state.document.options.faces, verb == "more" ? 1 : -1, state.document.options.mesh);
         return SetOption{"faces", std::to_string(faces)};
     }
     if (verb == "toggle") return toggled(state, made, argument);

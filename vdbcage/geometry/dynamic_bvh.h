@@ -56,6 +56,14 @@ public:
         ++live_;
     }
 
+    /// Adds a thing that was removed.
+    void restore(std::uint32_t thing, const Box& box)
+    {
+        boxes_[thing] = box;
+        late_.push_back(thing);
+        ++live_;
+    }
+
     /// Changes the box of a thing. Seen after refit().
     void update(std::uint32_t thing, const Box& box)
     {

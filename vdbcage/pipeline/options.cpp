@@ -22,8 +22,10 @@ const ElementNames& names(StructuringElement /*type*/)
 
 const std::vector<std::pair<const char*, CageFaces>>& names(CageFaces /*type*/)
 {
-    static const std::vector<std::pair<const char*, CageFaces>> list{
-        {"triangles", CageFaces::triangles}, {"triquad", CageFaces::triquad}, {"quads", CageFaces::quads}};
+    static const std::vector<std::pair<const char*, CageFaces>> list{{"triangles", CageFaces::triangles},
+                                                                     {"triquad", CageFaces::triquad},
+                                                                     {"quads", CageFaces::quads},
+                                                                     {"loops", CageFaces::loops}};
     return list;
 }
 
@@ -229,6 +231,11 @@ void setOption(CageOptions& options, const std::string& name, const std::string&
     }
 }
 
+int leastFaces(CageFaces mesh)
+{
+    return mesh == CageFaces::loops ? 6 : 12;
+}
+
 void requireValid(const CageOptions& options)
 {
     visitOptions(options, [](const OptionInfo& info, const auto& field) { RequireRange{info}(field); });
@@ -242,6 +249,13 @@ void requireValid(const CageOptions& options)
     if (!options.bounding && asksForSymmetry) {
         throw InputError("--symmetry: '" + ToText{}(options.symmetry) +
                          "' is not allowed with --bounding off; it must be auto or off");
+    }
+    if (options.faces < leastFaces(options.mesh)) {
+        throw InputError("--faces: '" + ToText{}(options.faces) + "' is not allowed with --mesh " +
+                         ToText{}(options.mesh) + "; it must be 12 or more, or the mesh loops");
+    }
+    if (!options.bounding && options.mesh == CageFaces::loops) {
+        throw InputError("--mesh: 'loops' is not allowed with --bounding off; it must be triangles, triquad or quads");
     }
     if (options.element != StructuringElement::sphere && ToText{}(options.scale) != "none") {
         throw InputError("--scale-field: '" + ToText{}(options.scale) +

@@ -20,7 +20,8 @@ namespace vdbcage {
 enum class CageFaces {
     triangles,
     triquad, ///< triangles, merged into quads where they are flat enough
-    quads    ///< of at least 87 % of the faces, where it can
+    quads,   ///< of at least 87 % of the faces, where it can
+    loops    ///< quads only, in rings around limbs, as drawn by hand; looser than quads; bounding only
 };
 
 /// What becomes of parts of the model that the closing leaves apart.
@@ -70,7 +71,7 @@ struct OptionInfo {
 template <typename Options, typename Visit>
 void visitOptions(Options& options, Visit&& visit)
 {
-    visit(OptionInfo{"faces", "N", "faces of the cage, at most", {12, 1000000}}, options.faces);
+    visit(OptionInfo{"faces", "N", "faces of the cage, at most", {6, 1000000}}, options.faces);
     visit(OptionInfo{"resolution", "N", "voxels along the longest side", {8, 2048}}, options.resolution);
     visit(OptionInfo{"close-radius", "F", "bridges gaps up to twice it", {0, 0.25}}, options.closeRadius);
     visit(OptionInfo{"erode-radius", "F", "if less, leaves an offset", {0, 0.25}}, options.erodeRadius);
@@ -108,6 +109,9 @@ VDBCAGE_API std::vector<std::pair<std::string, std::string>> optionValues(const 
 /// Sets the option called `name` from text. Numbers are written in the C locale's way.
 /// \throw InputError naming the option, the value and what is allowed
 VDBCAGE_API void setOption(CageOptions& options, const std::string& name, const std::string& value);
+
+/// The fewest faces that may be asked for: a box of quads, or of triangles.
+VDBCAGE_API int leastFaces(CageFaces mesh);
 
 /// Checks every range and that options fit each other. \throw InputError
 VDBCAGE_API void requireValid(const CageOptions& options);

@@ -50,7 +50,7 @@ Order previewOf(Order order)
     return order;
 }
 
-int steppedFaces(int faces, int direction)
+int steppedFaces(int faces, int direction, CageFaces mesh)
 {
     Range range;
     CageOptions options;
@@ -58,7 +58,7 @@ int steppedFaces(int faces, int direction)
         if (static_cast<const void*>(&field) == &options.faces) range = info.range;
     });
     const double step = std::max(1, faces / 20);
-    return static_cast<int>(std::clamp(faces + (direction > 0 ? step : -step), range.least, range.most));
+    return static_cast<int>(std::clamp(faces + (direction > 0 ? step : -step), double(leastFaces(mesh)), range.most));
 }
 
 void Planner::want(const std::optional<Order>& order, bool isDragging, bool intermediates)
@@ -161,7 +161,7 @@ std::optional<Job> Planner::nextJob() const
     // Once for each thing that is wanted, whatever comes of it.
     for (int side = madeAhead_; side < 2 && !wanted_->cage; ++side) {
         Order next = preview;
-        next.options.faces = steppedFaces(next.options.faces, side == 0 ? -1 : 1);
+        next.options.faces = steppedFaces(next.options.faces, side == 0 ? -1 : 1, next.options.mesh);
         if (next != preview && !kept(next)) return Job{Job::Kind::ahead, next, false};
     }
     return std::nullopt;

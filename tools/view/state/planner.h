@@ -80,6 +80,6 @@ private:
 };
 
 /// The next face count that a step up or down leads to: a twentieth, at least 1. Within the option's range.
-int steppedFaces(int faces, int direction);
+int steppedFaces(int faces, int direction, CageFaces mesh);
 
 } // namespace vdbcage::view

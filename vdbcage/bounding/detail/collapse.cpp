@@ -15,9 +15,8 @@
 #include <utility>
 
 #include <tbb/blocked_range.h>
-#include <vdbcage/bounding/detail/vertex_placement.h>
+#include <vdbcage/bounding/detail/vertex_quadrics.h>
 #include <vdbcage/core/detail/parallel.h>
-#include <vdbcage/geometry/quadric.h>
 
 namespace vdbcage::detail {
 
@@ -56,21 +55,8 @@ std::vector<Edge> allEdges(const GuardedMesh& surface)
 class QuadricCollapser {
 public:
     explicit QuadricCollapser(GuardedMesh& surface)
-        : surface_(surface), quadrics_(surface.vertices()), stamp_(surface.vertices(), 0)
+        : surface_(surface), quadrics_(surface), stamp_(surface.vertices(), 0)
     {
-        if (surface.vertices() > 0) origin_ = surface.point(0);
-        if (surface.guard().symmetry()) origin_ = surface.ontoPlane(origin_);
-        for (std::uint32_t v = 0; v < surface.vertices(); ++v) {
-            for (const std::uint32_t f : surface.facesOf(v)) {
-                const Corners t = surface.corners(f);
-                Vec3d normal = (t[1] - t[0]).cross(t[2] - t[0]);
-                const double twiceArea = normal.length();
-                if (!(twiceArea > 0)) continue;
-                normal /= twiceArea;
-                quadrics_[v].addPlane(normal, t[0] - origin_, twiceArea / 6);
-                quadrics_[v].addSpread((t[0] + t[1] + t[2]) / 3.0 - origin_, twiceArea / 6);
-            }
-        }
     }
 
     /// Collapses until `faces` are left.
@@ -141,7 +127,7 @@ private:
                 continue;
             }
             made(p.star, *p.place);
-            quadrics_[edge.u] += quadrics_[edge.v];
+            quadrics_.merge(edge.u, edge.v);
             ++stamp_[edge.u];
             ++stamp_[edge.v];
             kept.push_back(edge.u);
@@ -161,42 +147,6 @@ private:
                surface_.isVertex(edge.v);
     }
 
-    Quadric sum(std::uint32_t u, std::uint32_t v) const
-    {
-        Quadric q = quadrics_[u];
-        q += quadrics_[v];
-        const bool uOnPlane = surface_.isOnPlane(u), vOnPlane = surface_.isOnPlane(v);
-        if (uOnPlane || vOnPlane) q.symmetrize(surface_.guard().symmetry()->axis);
-        if (uOnPlane && vOnPlane) q += Quadric(q); // both halves, for as many faces as others save in one
-        return q;
-    }
-
-    double cost(const Quadric& q, const Vec3d& p) const
-    {
-        constexpr double spreadWeight = 1e-3;
-        return q.cost(p - origin_, spreadWeight);
-    }
-
-    static constexpr double stiffness = 1e-3; // below this the planes leave a direction open
-
-    Vec3d optimum(const Quadric& q, std::uint32_t u, std::uint32_t v) const
-    {
-        Vec3d place;
-        const bool found = q.bestPlace(stiffness, place);
-        return optimum(found, place, u, v);
-    }
-
-    /// \param found, best what Quadric::bestPlace() gives
-    Vec3d optimum(bool found, const Vec3d& best, std::uint32_t u, std::uint32_t v) const
-    {
-        const Vec3d a = surface_.point(u), b = surface_.point(v);
-        const bool onPlane = surface_.isOnPlane(u) || surface_.isOnPlane(v);
-        const Vec3d middle = onPlane ? surface_.ontoPlane(0.5 * (a + b)) : 0.5 * (a + b);
-        if (!found) return middle;
-        const Vec3d place = best + origin_;
-        return (place - middle).length() > 2 * (a - b).length() ? middle : place;
-    }
-
     void push(const std::vector<Edge>& edges)
     {
         std::vector<double> costs(edges.size());
@@ -206,12 +156,12 @@ private:
             for (std::size_t first = range.begin(); first < range.end(); first += quadrics.size()) {
                 const std::size_t count = std::min(quadrics.size(), range.end() - first);
                 for (std::size_t i = 0; i < count; ++i) {
-                    quadrics[i] = sum(edges[first + i].first, edges[first + i].second);
+                    quadrics[i] = quadrics_.sum(edges[first + i].first, edges[first + i].second);
                 }
-                const auto found = Quadric::bestPlaces(quadrics, stiffness, places);
+                const auto found = Quadric::bestPlaces(quadrics, VertexQuadrics::stiffness, places);
                 for (std::size_t i = 0; i < count; ++i) {
                     const auto [u, v] = edges[first + i];
-                    costs[first + i] = cost(quadrics[i], optimum(found[i], places[i], u, v));
+                    costs[first + i] = quadrics_.cost(quadrics[i], quadrics_.optimum(found[i], places[i], u, v));
                 }
             }
         });
@@ -231,44 +181,13 @@ private:
             return;
         }
         if (place && allows(surface_, proposal.star, *place)) return;
-        const Quadric q = sum(edge.u, edge.v);
-        place = findPlace(proposal.star, q, slides);
-        if (place) edge.cost = cost(q, *place);
-    }
-
-    std::optional<Vec3d> findPlace(const StarChange& star, const Quadric& q, bool slides) const
-    {
-        const Vec3d a = surface_.point(star.centre), b = surface_.point(star.removed), middle = 0.5 * (a + b);
-        const Vec3d best = optimum(q, star.centre, star.removed);
-        const Vec3d up = outward(surface_, star) * (a - b).length();
-        Obstacle obstacle;
-        for (const Vec3d& at : {best, best + 0.1 * up, best + 0.25 * up, best + 0.5 * up, a, b, middle + 0.1 * up,
-                                middle + 0.35 * up, middle + 0.8 * up}) {
-            Vec3d place = rounded(surface_, star, at);
-            if (!allows(surface_, star, place, &obstacle)) continue;
-            if (slides && at != best) slide(star, q, best, place);
-            return place;
-        }
-        return std::nullopt;
-    }
-
-    /// Moves an allowed place towards the best one along what it touches.
-    void slide(const StarChange& star, const Quadric& q, const Vec3d& best, Vec3d& place) const
-    {
-        Quadratic change;
-        change.curvature = q.planes();
-        const double damping = 0.01 * change.curvature.trace();
-        for (int i = 0; i < 3; ++i) change.curvature[i][i] += damping;
-        change.slope = change.curvature * (place - best);
-        const double before = cost(q, place);
-        const double edge = (surface_.point(star.centre) - surface_.point(star.removed)).length();
-        descend(surface_, star, place, change, {4 * (edge + (place - best).length())},
-                [&](const Vec3d& target) { return cost(q, target) < before; });
+        const Quadric q = quadrics_.sum(edge.u, edge.v);
+        place = quadrics_.findPlace(proposal.star, q, slides);
+        if (place) edge.cost = quadrics_.cost(q, *place);
     }
 
     GuardedMesh& surface_;
-    Vec3d origin_{0.0};
-    std::vector<Quadric> quadrics_;
+    VertexQuadrics quadrics_;
     std::vector<std::uint32_t> stamp_; // grows when an edge at the vertex changes: older entries of the queue are void
     std::priority_queue<QueuedEdge> queue_;
     std::vector<Vec3d> places_; // allowed when they were found, of edges that went back into the queue

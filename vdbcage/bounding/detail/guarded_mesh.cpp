@@ -182,6 +182,39 @@ void GuardedMesh::change(const StarChange& star, const Vec3d& p)
     }
 }
 
+GuardedMesh::Saved GuardedMesh::saved(const StarChange& star) const
+{
+    Saved saved;
+    std::vector<std::uint32_t> touched;
+    for (const std::uint32_t f : star.oldFaces) {
+        saved.faces.emplace_back(f, faces_[f]);
+        for (const int k : {0, 1, 2}) touched.push_back(faces_[f][k]);
+    }
+    std::sort(touched.begin(), touched.end());
+    touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
+    for (const std::uint32_t v : touched) saved.facesOf.emplace_back(v, facesOf_[v]);
+    saved.points.emplace_back(star.centre, points_[star.centre]);
+    return saved;
+}
+
+void GuardedMesh::restore(const Saved& saved)
+{
+    for (const auto& [v, p] : saved.points) points_[v] = p;
+    for (const auto& [v, list] : saved.facesOf) facesOf_[v] = list;
+    for (const auto& [f, t] : saved.faces) {
+        faces_[f] = t;
+        if (life_[f] == live) {
+            tree_.update(f, Box::of(corners(f)));
+        } else {
+            life_[f] = live;
+            ++liveFaces_;
+            tree_.restore(f, Box::of(corners(f)));
+        }
+    }
+    tree_.rebuildIfWorthwhile();
+    tree_.refit();
+}
+
 void GuardedMesh::reconnect(const StarChange& star)
 {
     for (const std::uint32_t f : star.oldFaces) {

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <utility>
 #include <vector>
 
 #include <boost/container/small_vector.hpp>
@@ -69,6 +70,18 @@ public:
     /// apply() for one of several changes: tree() does not see it before refit().
     void change(const StarChange& star, const Vec3d& p);
     void refit() { tree_.refit(); }
+    /// What a change takes away.
+    struct Saved {
+        std::vector<std::pair<std::uint32_t, Vec3I>> faces;
+        std::vector<std::pair<std::uint32_t, Vec3d>> points;
+        std::vector<std::pair<std::uint32_t, FaceList>> facesOf;
+    };
+    /// What `star` would take away.
+    /// \pre it touches no quad, and makes no new vertex or face
+    Saved saved(const StarChange& star) const;
+    /// Takes a change back: all is as before, to the bit.
+    /// \pre `saved` is of the last change that was not taken back
+    void restore(const Saved& saved);
     /// The boxes of all faces and alternates, by number.
     const DynamicBvh& tree() const { return tree_; }
 

@@ -8,11 +8,13 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <iterator>
 #include <numeric>
 #include <optional>
 #include <vector>
 
 #include <vdbcage/bounding/detail/face_queries.h>
+#include <vdbcage/bounding/detail/quad_shape_term.h>
 #include <vdbcage/bounding/detail/vertex_placement.h>
 #include <vdbcage/core/detail/parallel.h>
 
@@ -110,28 +112,34 @@ double meanIncidentEdge(const GuardedMesh& surface, const StarChange& star)
                     [&](std::uint32_t v) { return (surface.point(v) - surface.point(star.centre)).length(); });
 }
 
-/// The first of the places on the way to `goal` that is allowed.
+/// The first of the places on the way to `goal` that is allowed, and at which `shape`, if given, keeps quads fit.
 std::optional<Vec3d> towards(const GuardedMesh& surface, const StarChange& star, const Vec3d& goal,
-                             std::initializer_list<double> steps)
+                             std::initializer_list<double> steps, const QuadShapeTerm* shape = nullptr)
 {
     const Vec3d& p = surface.point(star.centre);
     Obstacle obstacle;
     for (const double step : steps) {
         const Vec3d target = rounded(surface, star, p + step * (goal - p));
+        if (shape && !shape->keepsFit(surface, star, target)) continue;
         if (allows(surface, star, target, &obstacle)) return target;
     }
     return std::nullopt;
 }
 
-void pushOut(GuardedMesh& surface, const std::vector<std::uint32_t>& vertices, double by, Interrupter* interrupter)
+} // namespace
+
+void inflate(GuardedMesh& surface, const std::vector<std::uint32_t>& vertices, double by, Interrupter* interrupter,
+             const QuadShapeTerm* shape)
 {
     sweep(
         surface, vertices, interrupter,
         [&](std::uint32_t v, const StarChange& star) {
-            return towards(surface, star, surface.point(v) + by * outward(surface, star), {1.0, 0.5, 0.2});
+            return towards(surface, star, surface.point(v) + by * outward(surface, star), {1.0, 0.5, 0.2}, shape);
         },
         [](std::uint32_t, const StarChange&, bool) {});
 }
+
+namespace {
 
 /// The integral of the distance to the model over each face and each quad's other, by number.
 std::vector<double> distances(const GuardedMesh& surface, double areaPerSample, Interrupter* interrupter)
@@ -230,7 +238,7 @@ void shrink(GuardedMesh& surface, Interrupter* interrupter)
 
 void inflate(GuardedMesh& surface, double by, Interrupter* interrupter)
 {
-    pushOut(surface, allVertices(surface), by, interrupter);
+    inflate(surface, allVertices(surface), by, interrupter);
 }
 
 void inflateTriangles(GuardedMesh& surface, double by, Interrupter* interrupter)
@@ -241,7 +249,7 @@ void inflateTriangles(GuardedMesh& surface, double by, Interrupter* interrupter)
         if (std::any_of(faces.begin(), faces.end(), [&](std::uint32_t f) { return isTriangle(surface, f); }))
             vertices.push_back(v);
     }
-    pushOut(surface, vertices, by, interrupter);
+    inflate(surface, vertices, by, interrupter);
 }
 
 void roundOff(GuardedMesh& surface, int sweeps, Interrupter* interrupter)
@@ -287,16 +295,23 @@ double integratedDistance(const GuardedMesh& surface, double areaPerSample, Inte
     return sum(distances(surface, areaPerSample, interrupter));
 }
 
-void tighten(GuardedMesh& surface, int sweeps, double areaPerSample, Interrupter* interrupter)
+void tighten(GuardedMesh& surface, int sweeps, double areaPerSample, Interrupter* interrupter,
+             const QuadShapeTerm* shape)
+{
+    tighten(surface, allVertices(surface), sweeps, areaPerSample, interrupter, shape);
+}
+
+void tighten(GuardedMesh& surface, const std::vector<std::uint32_t>& vertices, int sweeps, double areaPerSample,
+             Interrupter* interrupter, const QuadShapeTerm* shape)
 {
     constexpr double sleepBelow = 0.002; // a smaller part gained: not tried again until a neighbour moves
     constexpr double stopBelow = 0.002;  // the same for a whole sweep
     constexpr int gentleSweeps = 6;
-    const DistanceMeasure measure(surface.guard(), areaPerSample);
+    const DistanceMeasure measure(surface.guard(), areaPerSample, shape);
     const std::size_t n = surface.vertices();
     std::vector<std::uint32_t> seed(n, TriangleBvh::none);
     std::vector<double> before(n, 0), after(n, 0);
-    std::vector<std::uint32_t> active = allVertices(surface);
+    std::vector<std::uint32_t> active = vertices;
     for (int i = 0; i < sweeps && !active.empty(); ++i) {
         DistanceMeasure::Pace pace;
         pace.share = i < gentleSweeps ? 0.5 : 1;
@@ -322,9 +337,8 @@ void tighten(GuardedMesh& surface, int sweeps, double areaPerSample, Interrupter
             });
         if (!(gain > stopBelow * total)) break;
         active.clear();
-        for (std::uint32_t v = 0; v < n; ++v) {
-            if (becomesActive[v]) active.push_back(v);
-        }
+        std::copy_if(vertices.begin(), vertices.end(), std::back_inserter(active),
+                     [&](std::uint32_t v) { return becomesActive[v] != 0; });
     }
 }
 
@@ -349,7 +363,8 @@ void relaxFinally(GuardedMesh& surface, double areaPerSample, Interrupter* inter
     }
 }
 
-void perturb(GuardedMesh& surface, int times, int sweeps, double areaPerSample, Interrupter* interrupter)
+void perturb(GuardedMesh& surface, int times, int sweeps, double areaPerSample, Interrupter* interrupter,
+             const QuadShapeTerm* shape)
 {
     if (surface.liveFaces() == 0) return;
     std::vector<double> now = distances(surface, areaPerSample, interrupter);
@@ -357,11 +372,11 @@ void perturb(GuardedMesh& surface, int times, int sweeps, double areaPerSample, 
     for (int i = 0; i < times; ++i) {
         GuardedMesh perturbed = surface;
         inflate(perturbed, push * sum(now) / area(surface), interrupter);
-        tighten(perturbed, sweeps, areaPerSample, interrupter);
+        tighten(perturbed, sweeps, areaPerSample, interrupter, shape);
         std::vector<double> growth = distances(perturbed, areaPerSample, interrupter);
         std::transform(growth.begin(), growth.end(), now.begin(), growth.begin(), std::minus<>());
         undoWhereGrown(perturbed, surface, growth, interrupter);
-        tighten(perturbed, sweeps, areaPerSample, interrupter);
+        tighten(perturbed, sweeps, areaPerSample, interrupter, shape);
         std::vector<double> after = distances(perturbed, areaPerSample, interrupter);
         if (sum(after) < sum(now)) {
             now = std::move(after);

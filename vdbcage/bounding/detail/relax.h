@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <vector>
 
 #include <vdbcage/bounding/detail/guarded_mesh.h>
 #include <vdbcage/core/interrupter.h>
@@ -9,6 +11,8 @@
 /// of threads. All that take an interrupter throw Cancelled.
 namespace vdbcage::detail {
 
+class QuadShapeTerm;
+
 /// Moves every vertex once, half way between the average of its neighbours and the model.
 void shrink(GuardedMesh& surface, Interrupter* interrupter);
 
@@ -16,8 +20,13 @@ void shrink(GuardedMesh& surface, Interrupter* interrupter);
 /// `sweeps` are done.
 ///
 /// `areaPerSample` is as in DistanceMeasure. The first sweeps go half of the way only: a vertex that used up all the
-/// room would stop its neighbours short of a better place.
-void tighten(GuardedMesh& surface, int sweeps, double areaPerSample, Interrupter* interrupter);
+/// room would stop its neighbours short of a better place. If `shape` is given, it is part of what is to be less.
+void tighten(GuardedMesh& surface, int sweeps, double areaPerSample, Interrupter* interrupter,
+             const QuadShapeTerm* shape = nullptr);
+
+/// tighten() for some vertices; the others stay.
+void tighten(GuardedMesh& surface, const std::vector<std::uint32_t>& vertices, int sweeps, double areaPerSample,
+             Interrupter* interrupter, const QuadShapeTerm* shape);
 
 /// Moves every vertex of a tightened surface twice more, by steps and for gains too small for tighten().
 ///
@@ -27,14 +36,19 @@ void relaxFinally(GuardedMesh& surface, double areaPerSample, Interrupter* inter
 
 void inflate(GuardedMesh& surface, double by, Interrupter* interrupter);
 
+/// inflate() for some vertices, where `shape`, if given, keeps quads fit.
+void inflate(GuardedMesh& surface, const std::vector<std::uint32_t>& vertices, double by, Interrupter* interrupter,
+             const QuadShapeTerm* shape = nullptr);
+
 /// inflate() for the vertices of faces that are in no quad.
 void inflateTriangles(GuardedMesh& surface, double by, Interrupter* interrupter);
 
 /// Pushes all vertices outward a little and tightens again, `times` times. That frees vertices that hold each other.
 ///
 /// Where the surface did not come nearer to the model it is undone, as far as the guard allows. If it did not on the
-/// whole, it is undone everywhere, and the next push is smaller.
-void perturb(GuardedMesh& surface, int times, int sweeps, double areaPerSample, Interrupter* interrupter);
+/// whole, it is undone everywhere, and the next push is smaller. `shape` is as in tighten().
+void perturb(GuardedMesh& surface, int times, int sweeps, double areaPerSample, Interrupter* interrupter,
+             const QuadShapeTerm* shape = nullptr);
 
 /// Sweeps of HC Laplacian smoothing: towards the average of the neighbours, less what that would shrink the surface.
 /// Based on: Vollmer, Mencl, Muller, Improved Laplacian Smoothing of Noisy Surface Meshes, 1999.

@@ -7,6 +7,7 @@
 #include <vdbcage/bounding/detail/vertex_placement.h>
 
 #include <vdbcage/bounding/detail/admissible.h>
+#include <vdbcage/bounding/detail/quad_shape_term.h>
 
 #include <algorithm>
 #include <cmath>
@@ -191,6 +192,11 @@ DistanceMeasure::Fit DistanceMeasure::fit(const GuardedMesh& surface, const Star
             if (i != across) fit.change.curvature[i][across] = fit.change.curvature[across][i] = 0;
         }
         fit.change.slope[across] = 0;
+    }
+    if (shape_) {
+        const double before = fit.change.curvature.trace();
+        fit.integral += shape_->add(surface, star, centre, fit.change);
+        weights += std::max(0.0, fit.change.curvature.trace() - before);
     }
     // Flat stars say nothing of moves along themselves: a little stiffness keeps these small.
     for (int i = 0; i < 3; ++i) fit.change.curvature[i][i] += 0.01 * weights;

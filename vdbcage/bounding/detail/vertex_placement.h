@@ -14,6 +14,8 @@ struct Quadratic {
     Vec3d slope{0.0};
 };
 
+class QuadShapeTerm;
+
 /// How far a centre may go at once.
 struct StepLimit {
     double radius;       ///< of the star; no step is longer than half of it
@@ -34,8 +36,11 @@ bool descend(const GuardedMesh& surface, const StarChange& star, Vec3d& p, const
 /// A triangle is cut into k x k equal ones, each counted at its centroid. k grows with the triangle's size.
 class DistanceMeasure {
 public:
-    /// `areaPerSample` is in the guard's units, squared.
-    DistanceMeasure(const GuardModel& guard, double areaPerSample) : guard_(guard), areaPerSample_(areaPerSample) {}
+    /// `areaPerSample` is in the guard's units, squared. If `shape` is given, fit() and improve() count it, too.
+    DistanceMeasure(const GuardModel& guard, double areaPerSample, const QuadShapeTerm* shape = nullptr)
+        : guard_(guard), areaPerSample_(areaPerSample), shape_(shape)
+    {
+    }
 
     /// The integral over a triangle. `seed` is an item of the model near it, or TriangleBvh::none, and becomes a nearer
     /// one.
@@ -68,6 +73,7 @@ private:
 
     const GuardModel& guard_;
     double areaPerSample_;
+    const QuadShapeTerm* shape_;
 };
 
 } // namespace vdbcage::detail

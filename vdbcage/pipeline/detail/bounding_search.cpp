@@ -8,6 +8,7 @@
 #include <utility>
 
 #include <vdbcage/bounding/near_coplanar.h>
+#include <vdbcage/bounding/quad_loops.h>
 #include <vdbcage/bounding/smooth.h>
 #include <vdbcage/bounding/tighten.h>
 #include <vdbcage/bounding/triquad.h>
@@ -25,7 +26,7 @@ double longestSide(const openvdb::BBoxd& box)
     return box.extents()[static_cast<int>(box.maxExtent())];
 }
 
-/// The six faces of `box`, each as two triangles facing outward.
+/// The six faces of `box`, facing outward.
 Mesh boxMesh(const openvdb::BBoxd& box)
 {
     Mesh mesh;
@@ -33,12 +34,7 @@ Mesh boxMesh(const openvdb::BBoxd& box)
         mesh.points.emplace_back((corner & 1 ? box.max() : box.min()).x(), (corner & 2 ? box.max() : box.min()).y(),
                                  (corner & 4 ? box.max() : box.min()).z());
     }
-    const openvdb::Vec4I sides[6] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4},
-                                     {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
-    for (const openvdb::Vec4I& side : sides) {
-        mesh.triangles.emplace_back(side[0], side[1], side[2]);
-        mesh.triangles.emplace_back(side[0], side[2], side[3]);
-    }
+    mesh.quads = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
     return mesh;
 }
 
@@ -222,6 +218,45 @@ Candidate BoundingSearch::begin(const Run& run, const Voxels& voxels, CageStart 
 std::optional<Candidate> BoundingSearch::shrinkOnto(const Run& run, Candidates starts, const BoundingGuard& guard)
 {
     const CageOptions& options = run.options;
+    if (options.mesh == CageFaces::loops) {
+        collapseLoops(run, starts, guard);
+    } else {
+        decimateAndTighten(run, starts, guard);
+    }
+    keepAtMost(static_cast<std::size_t>(options.faces), &Candidate::cage, starts);
+    if (options.smooth > 0) {
+        forEach(starts, run.interrupter, "smooth", [&](Candidate& candidate) {
+            candidate.cage = smooth(candidate.cage, guard, {options.smooth}, run.interrupter);
+        });
+    }
+    if (options.mesh == CageFaces::triangles) {
+        const Stage stage(run.interrupter, "coplanar");
+        for (Candidate& candidate : starts) {
+            candidate.cage = bendNearCoplanarEdges(candidate.cage, guard, run.interrupter);
+        }
+    }
+    return tightestCertified(run, std::move(starts));
+}
+
+/// Cages of quads in loops; what is not of quads only is left out.
+void BoundingSearch::collapseLoops(const Run& run, Candidates& starts, const BoundingGuard& guard)
+{
+    QuadLoopsOptions options;
+    options.faces = static_cast<std::size_t>(run.options.faces);
+    options.tightening = tightenOptions(run.options.effort);
+    options.exchanges = loopExchanges(run.options.effort);
+    forEach(starts, run.interrupter, "loops", [&](Candidate& candidate) {
+        candidate.cage = quadLoops(*candidate.surface, guard, options, run.interrupter);
+        candidate.decimated = candidate.cage;
+    });
+    const auto hasTriangles = [](const Candidate& candidate) { return !candidate.cage.triangles.empty(); };
+    starts.erase(std::remove_if(starts.begin(), starts.end(), hasTriangles), starts.end());
+}
+
+/// Cages of triangles, or of triangles and quads.
+void BoundingSearch::decimateAndTighten(const Run& run, Candidates& starts, const BoundingGuard& guard)
+{
+    const CageOptions& options = run.options;
     Interrupter* const interrupter = run.interrupter;
     const auto faces = static_cast<std::size_t>(options.faces);
     const bool onlyTriangles = options.mesh == CageFaces::triangles;
@@ -251,19 +286,6 @@ std::optional<Candidate> BoundingSearch::shrinkOnto(const Run& run, Candidates s
             candidate.cage = triquad(candidate.decimated, guard, pairing, interrupter);
         });
     }
-    keepAtMost(faces, &Candidate::cage, starts);
-    if (options.smooth > 0) {
-        forEach(starts, interrupter, "smooth", [&](Candidate& candidate) {
-            candidate.cage = smooth(candidate.cage, guard, {options.smooth}, interrupter);
-        });
-    }
-    if (onlyTriangles) {
-        const Stage stage(interrupter, "coplanar");
-        for (Candidate& candidate : starts) {
-            candidate.cage = bendNearCoplanarEdges(candidate.cage, guard, interrupter);
-        }
-    }
-    return tightestCertified(run, std::move(starts));
 }
 
 std::optional<Candidate> BoundingSearch::tightestCertified(const Run& run, Candidates candidates)
@@ -289,10 +311,16 @@ Candidate BoundingSearch::box(const Run& run, const BoundingGuard& guard)
     candidate.voxels = ladder(run.options).back();
     candidate.start = CageStart::box;
     candidate.closing = volumes_.closing(run.options, run.scale, candidate.voxels, run.interrupter);
-    candidate.surface = candidate.smoothed = std::make_shared<const Mesh>(boxMesh(box));
+    Mesh surface = boxMesh(box);
+    if (run.options.mesh != CageFaces::loops) {
+        surface.triangles = triangulate(surface);
+        surface.quads.clear();
+    }
+    candidate.surface = candidate.smoothed = std::make_shared<const Mesh>(std::move(surface));
     candidate.topology = analyzeTopology(*candidate.surface, nullptr);
     candidate.decimated = certifier_.rounded(*candidate.surface);
-    candidate.cage = merged(candidate.decimated, run.options);
+    candidate.cage =
+        run.options.mesh == CageFaces::loops ? candidate.decimated : merged(candidate.decimated, run.options);
     candidate.check = certifier_.check(candidate.cage, run.interrupter);
     candidate.boundsAsFloats = certifier_.boundsAsFloats(candidate.cage, run.interrupter);
     return candidate;

@@ -45,6 +45,8 @@ private:
     int resolutionFor(const Run& run, const Voxels& voxels);
     Candidate begin(const Run& run, const Voxels& voxels, CageStart kind, const BoundingGuard& guard);
     std::optional<Candidate> shrinkOnto(const Run& run, Candidates starts, const BoundingGuard& guard);
+    static void collapseLoops(const Run& run, Candidates& starts, const BoundingGuard& guard);
+    static void decimateAndTighten(const Run& run, Candidates& starts, const BoundingGuard& guard);
     std::optional<Candidate> tightestCertified(const Run& run, Candidates candidates);
     Candidate box(const Run& run, const BoundingGuard& guard);
 

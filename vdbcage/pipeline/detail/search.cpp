@@ -24,8 +24,11 @@ double growth(const CageOptions& options)
 
 std::vector<Voxels> ladder(const CageOptions& options)
 {
-    const double wanted = shareOf(options.effort) * usualResolution * std::sqrt(growth(options));
-    const int resolution = options.resolution.value_or(std::min(finestResolution, static_cast<int>(std::ceil(wanted))));
+    const double wanted = options.mesh == CageFaces::loops
+                              ? loopsResolution * std::sqrt(options.faces)
+                              : shareOf(options.effort) * usualResolution * std::sqrt(growth(options));
+    const int resolution =
+        options.resolution.value_or(std::clamp(static_cast<int>(std::ceil(wanted)), coarsestLoops, finestResolution));
     std::vector<Voxels> list{{resolution, options.closeRadius.value_or(leastRadius)}};
     if (!options.closeRadius) {
         for (double radius = 2 * leastRadius; radius <= greatestRadius; radius *= 2) {
@@ -33,7 +36,8 @@ std::vector<Voxels> ladder(const CageOptions& options)
         }
     }
     if (!options.resolution) {
-        for (int coarser = resolution / 2; coarser >= coarsestResolution; coarser /= 2) {
+        const int coarsest = options.mesh == CageFaces::loops ? coarsestLoops : coarsestResolution;
+        for (int coarser = resolution / 2; coarser >= coarsest; coarser /= 2) {
             list.push_back({coarser, options.closeRadius.value_or(greatestRadius)});
         }
     }
@@ -43,6 +47,10 @@ std::vector<Voxels> ladder(const CageOptions& options)
 std::vector<double> startScales(const CageOptions& options)
 {
     if (options.resolution) return {1.0};
+    if (options.mesh == CageFaces::loops) {
+        if (options.effort == Effort::fast) return {1.0};
+        return {std::begin(loopsStarts), std::end(loopsStarts)};
+    }
     if (options.effort != Effort::best && options.faces <= fewestFaces)
         return {std::begin(fewestStarts), std::end(fewestStarts)};
     if (options.effort == Effort::best && options.faces <= fewFaces)
@@ -52,11 +60,16 @@ std::vector<double> startScales(const CageOptions& options)
 
 bool dependsOnSurface(const CageOptions& options)
 {
-    return options.effort == Effort::fast && !options.resolution && options.faces > fewestFaces;
+    if (options.resolution) return false;
+    return options.mesh == CageFaces::loops || (options.effort == Effort::fast && options.faces > fewestFaces);
 }
 
 int affordableResolution(const CageOptions& options, const Voxels& voxels, std::size_t quads)
 {
+    if (options.mesh == CageFaces::loops) {
+        const double share = std::sqrt(quadsPerLoopsFace * options.faces / static_cast<double>(quads));
+        return std::clamp(static_cast<int>(std::lround(share * voxels.resolution)), coarsestLoops, finestResolution);
+    }
     const double triangles = 2 * static_cast<double>(quads);
     const double share = std::sqrt(enoughTriangles * growth(options) / triangles);
     return static_cast<int>(std::lround(std::clamp(share, coarsestShare, 1.0) * voxels.resolution));
@@ -68,6 +81,11 @@ bool hasFewEnoughHandles(const CageOptions& options, const MeshTopology& topolog
     if (options.parts == CageParts::merge && parts > 1) return false;
     const double taken = facesPerPart * (parts - 1) + facesPerHandle * static_cast<double>(topology.genus());
     return taken <= handleShare * options.faces;
+}
+
+int loopExchanges(Effort effort)
+{
+    return effort == Effort::fast ? loopExchangesFast : effort == Effort::fair ? loopExchangesFair : loopExchangesBest;
 }
 
 double mergeAngle(const CageOptions& options)
@@ -83,7 +101,9 @@ GuardOptions guardOptions(const CageOptions& options)
     const bool isWide = options.mesh == CageFaces::triangles && options.effort == Effort::fair;
     GuardOptions guarding;
     guarding.clearance = options.clearance;
-    guarding.minAngleDegrees = options.minAngle.value_or(isWide ? wideAngle : usualAngle);
+    guarding.minAngleDegrees = options.minAngle.value_or(options.mesh == CageFaces::loops ? loopsAngle
+                                                         : isWide                         ? wideAngle
+                                                                                          : usualAngle);
     return guarding;
 }
 

@@ -29,6 +29,14 @@ constexpr int hullResolution = 32;                         ///< a hull has no de
 constexpr double leastRadius = 0.03;                       ///< of a closing, of the longest side
 constexpr double greatestRadius = 0.24;                    ///< after three doublings; the option's range ends at 0.25
 
+// Loops of quads begin with the quads of coarse voxels, some times as many as are wanted.
+constexpr double loopsResolution =
+    1.2; ///< voxels along the longest side, for the root of a face; then as the surface has
+constexpr double quadsPerLoopsFace = 3;
+constexpr int coarsestLoops = 8;                                                   ///< voxels along the longest side
+constexpr int loopExchangesFast = 1, loopExchangesFair = 4, loopExchangesBest = 8; ///< 4 gain 3 %, in a third more time
+constexpr double loopsStarts[] = {1.0, 0.8};                                       ///< shares of the resolution
+
 // Surfaces.
 constexpr double enoughTriangles = 9000; ///< for up to `usualFaces` and Effort::fast; with 7500 some are 8 % looser
 constexpr double coarsestShare = 0.75;   ///< of the resolution to have no more: thin parts need some
@@ -43,6 +51,7 @@ constexpr double fewStarts[] = {1.0, 0.85, 0.7, 0.6}, fewestStarts[] = {0.65, 0.
 // Shape of the cage.
 constexpr double mergeAnyFold = 90, mergeFlat = 10, mergeUsual = 30; ///< degrees: quads, no guard, triquad
 constexpr double wideAngle = 10, usualAngle = 6; ///< degrees; the wide one costs up to 5 % of the tightness
+constexpr double loopsAngle = 1; ///< degrees; with more, half collapsed loops are stopped by their slender triangles
 constexpr double mostlyQuads = 0.875;
 ///< of the faces; more cost a third of the tightness on models with edges
 constexpr std::size_t trianglesPerQuad = 3; ///< to begin with: two a quad, and some that vanish; 2 to 4 are alike
@@ -75,6 +84,9 @@ int affordableResolution(const CageOptions& options, const Voxels& voxels, std::
 
 /// Whether parts and handles leave faces enough for the shape.
 bool hasFewEnoughHandles(const CageOptions& options, const MeshTopology& topology);
+
+/// How often loops are exchanged.
+int loopExchanges(Effort effort);
 
 /// Degrees. \pre the options ask for quads
 double mergeAngle(const CageOptions& options);

@@ -1,0 +1,245 @@
+// Based on: Daniels, Silva, Shepherd, Cohen, "Quadrilateral Mesh Simplification", 2008 (polychords collapse, cheapest
+//           first, until few enough quads are left).
+// Differs: every rung is a collapse under the guard, the loss of distance of a loop is measured and bounded, and
+// vertices are moved in between.
+
+#include <vdbcage/bounding/detail/loop_decimation.h>
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+#include <vector>
+
+#include <vdbcage/bounding/detail/face_queries.h>
+#include <vdbcage/bounding/detail/loop_collapse.h>
+#include <vdbcage/bounding/detail/relax.h>
+#include <vdbcage/core/detail/parallel.h>
+
+namespace vdbcage::detail {
+
+namespace {
+
+constexpr int samplesPerTriangle = 2;   // of the distance
+constexpr double irregularWeight = 0.4; // 0 makes slanted limbs more irregular, 0.8 puts off loops that should go
+constexpr ShapeWeights shape{0.35, 0.15, 0, 0.35, unfitWeight};
+
+ShapeWeights scaled(const ShapeWeights& weights, double perQuad)
+{
+    return {weights.corners * perQuad, weights.free, weights.bad * perQuad, weights.flat * perQuad,
+            weights.unfit * perQuad};
+}
+
+double perSample(const GuardedMesh& surface)
+{
+    return areaPerSample(surface, surface.liveFaces(), samplesPerTriangle);
+}
+
+struct Ranked {
+    double cost; // by quadrics, for each quad that goes
+    std::size_t loop;
+};
+
+/// How much more irregular the vertices become for each rung that goes, by |valence - 4|: -1 to 2.
+double irregularityGrowth(const GuardedMesh& surface, const QuadTable& table, const QuadLoop& loop)
+{
+    const auto irregularity = [](std::size_t edges) { return std::abs(static_cast<double>(edges) - 4); };
+    double growth = 0;
+    for (const auto& [u, v] : loop.rungs) {
+        const std::size_t a = valence(surface, table, u), b = valence(surface, table, v);
+        growth += irregularity(a + b - 4) - irregularity(a) - irregularity(b);
+    }
+    return growth / static_cast<double>(loop.rungs.size());
+}
+
+/// Best first. No more quads than `tooMany` count.
+std::vector<Ranked> ranked(const GuardedMesh& surface, const QuadTable& table, const VertexQuadrics& quadrics,
+                           const std::vector<QuadLoop>& loops, std::size_t tooMany)
+{
+    std::vector<Ranked> ranking(loops.size());
+    parallelFor(std::size_t(0), loops.size(), [&](std::size_t i) {
+        const std::size_t gone = std::min(loops[i].quads.size(), tooMany);
+        const double ragged = irregularWeight * irregularityGrowth(surface, table, loops[i]);
+        ranking[i] = {collapseCost(quadrics, loops[i]) * (1 + ragged) / static_cast<double>(gone), i};
+    });
+    std::sort(ranking.begin(), ranking.end(),
+              [](const Ranked& a, const Ranked& b) { return std::tie(a.cost, a.loop) < std::tie(b.cost, b.loop); });
+    return ranking;
+}
+
+class LoopDecimator {
+public:
+    LoopDecimator(GuardedMesh& surface, QuadTable& table) : surface_(surface), table_(table) {}
+
+    void run(std::size_t quads, Interrupter* interrupter)
+    {
+        constexpr double relaxAfter = 0.75; // of the quads
+        constexpr int firstSweeps = 4, relaxSweeps = 3;
+        constexpr int mostPushes = 3;
+        constexpr std::size_t mostPercent = 70; // tightening comes after
+        int pushes = 0;
+        double maxLoss = firstLoss;
+        if (table_.count() <= quads) return;
+        const std::size_t start = table_.count() - quads;
+        relaxQuads(surface_, table_, shape, firstSweeps, interrupter);
+        while (table_.count() > quads) {
+            relaxQuads(surface_, table_, shape, relaxSweeps, interrupter);
+            VertexQuadrics quadrics(surface_);
+            const auto relaxAt =
+                std::max(quads, static_cast<std::size_t>(relaxAfter * static_cast<double>(table_.count())));
+            const std::size_t before = table_.count();
+            while (table_.count() > relaxAt && collapseRound(quadrics, relaxAt, quads, maxLoss, interrupter)) {
+                const std::size_t left = std::max(table_.count(), quads) - quads;
+                throwIfInterrupted(interrupter, static_cast<int>(mostPercent * (start - left) / start));
+            }
+            if (table_.count() < before) continue;
+            if (maxLoss < lastLoss) {
+                maxLoss *= 2;
+            } else if (pushes < mostPushes) {
+                inflate(surface_, 0.02 * (1 << pushes++), interrupter); // there is room farther out
+            } else {
+                return;
+            }
+        }
+    }
+
+private:
+    static constexpr double firstLoss = 2, strictLoss = 30,
+                            lastLoss = 100; // of distance for a quad less, in a mean quad's
+    static constexpr int settleSweeps = 2;
+
+    /// Collapses loops that do not touch, until `quads` or a tenth are left out. Returns whether any went.
+    bool collapseRound(VertexQuadrics& quadrics, std::size_t quads, std::size_t target, double maxLoss,
+                       Interrupter* interrupter)
+    {
+        throwIfInterrupted(interrupter);
+        const std::vector<QuadLoop> loops = straightLoops(table_);
+        const double sample = perSample(surface_);
+        const double perQuad = distancePerQuad(surface_, table_, sample);
+        const DistanceMeasure measure(surface_.guard(), sample);
+        const QuadShapeTerm term(table_, scaled(shape, perQuad));
+        const std::size_t most = table_.count() / 20, tooMany = table_.count() - target;
+        std::size_t removed = 0;
+        std::vector<char> isTouched(surface_.vertices(), 0);
+        for (const Ranked& next : ranked(surface_, table_, quadrics, loops, tooMany)) {
+            const QuadLoop& loop = loops[next.loop];
+            if (table_.count() <= quads || (removed > 0 && removed + loop.quads.size() > most)) break;
+            if (touches(loop, isTouched) || !leavesQuads(surface_, table_, loop)) continue;
+            throwIfInterrupted(interrupter);
+            const double limit =
+                lossAround(measure, loop, perQuad) + maxLoss * perQuad * static_cast<double>(loop.quads.size());
+            const bool isDone = collapseLoop(surface_, table_, quadrics, loop, [&](const auto& kept) {
+                tighten(surface_, kept, settleSweeps, sample, interrupter, &term);
+                return lossAround(measure, loop, perQuad) <= limit;
+            });
+            if (!isDone) continue;
+            removed += loop.quads.size();
+            touch(loop, isTouched);
+        }
+        return removed > 0;
+    }
+
+    static bool touches(const QuadLoop& loop, const std::vector<char>& isTouched)
+    {
+        return std::any_of(loop.rungs.begin(), loop.rungs.end(),
+                           [&](const Rung& rung) { return isTouched[rung[0]] || isTouched[rung[1]]; });
+    }
+
+    void touch(const QuadLoop& loop, std::vector<char>& isTouched) const
+    {
+        for (const Rung& rung : loop.rungs) {
+            for (const std::uint32_t v : rung) {
+                isTouched[v] = 1;
+                for (const std::uint32_t q : table_.quadsOf(v)) {
+                    for (int i = 0; i < 4; ++i) isTouched[table_.corners(q)[i]] = 1;
+                }
+            }
+        }
+    }
+
+    /// The faces or quads that `around` has for the ends of the rungs, each once.
+    template <typename Around>
+    static std::vector<std::uint32_t> gathered(const QuadLoop& loop, const Around& around)
+    {
+        std::vector<std::uint32_t> list;
+        for (const Rung& rung : loop.rungs) {
+            for (const std::uint32_t v : rung) list.insert(list.end(), around(v).begin(), around(v).end());
+        }
+        std::sort(list.begin(), list.end());
+        list.erase(std::unique(list.begin(), list.end()), list.end());
+        return list;
+    }
+
+    /// The integral of the distance over the faces around the rungs, and what quads that are not fit count for.
+    double lossAround(const DistanceMeasure& measure, const QuadLoop& loop, double perQuad) const
+    {
+        double sum = 0;
+        std::uint32_t seed = TriangleBvh::none;
+        for (const std::uint32_t f : gathered(
+                 loop, [&](std::uint32_t v) -> auto& { return surface_.facesOf(v); }))
+            sum += measure.integral(surface_.corners(f), seed);
+        for (const std::uint32_t q : gathered(
+                 loop, [&](std::uint32_t v) -> auto& { return table_.quadsOf(v); })) {
+            if (!isFit(surface_.guard(), pointsOf(surface_, table_.corners(q)))) sum += shape.unfit * perQuad;
+        }
+        return sum;
+    }
+
+    GuardedMesh& surface_;
+    QuadTable& table_;
+};
+
+} // namespace
+
+double distancePerQuad(const GuardedMesh& surface, const QuadTable& table, double areaPerSample)
+{
+    return integratedDistance(surface, areaPerSample) / static_cast<double>(table.count());
+}
+
+void relaxQuads(GuardedMesh& surface, const QuadTable& table, const ShapeWeights& weights, int sweeps,
+                Interrupter* interrupter)
+{
+    const double sample = perSample(surface), perQuad = distancePerQuad(surface, table, sample);
+    const QuadShapeTerm term(table, scaled(weights, perQuad));
+    tighten(surface, sweeps, sample, interrupter, &term);
+}
+
+void relaxQuads(GuardedMesh& surface, const QuadTable& table, int sweeps, Interrupter* interrupter)
+{
+    relaxQuads(surface, table, shape, sweeps, interrupter);
+}
+
+void relaxQuads(GuardedMesh& surface, const QuadTable& table, const std::vector<std::uint32_t>& vertices, int sweeps,
+                Interrupter* interrupter)
+{
+    const double sample = perSample(surface);
+    const QuadShapeTerm term(table, scaled(shape, distancePerQuad(surface, table, sample)));
+    tighten(surface, vertices, sweeps, sample, interrupter, &term);
+}
+
+std::size_t countUnfit(const GuardedMesh& surface, const QuadTable& table)
+{
+    std::size_t count = 0;
+    for (std::uint32_t q = 0; q < table.quads(); ++q)
+        count += table.isQuad(q) && !isFit(surface.guard(), pointsOf(surface, table.corners(q)));
+    return count;
+}
+
+bool collapseLoopThrough(GuardedMesh& surface, QuadTable& table, const std::vector<std::uint32_t>& quads)
+{
+    VertexQuadrics quadrics(surface);
+    const auto isAmong = [&](std::uint32_t q) { return std::find(quads.begin(), quads.end(), q) != quads.end(); };
+    const std::vector<QuadLoop> loops = straightLoops(table);
+    for (const Ranked& next : ranked(surface, table, quadrics, loops, table.count())) {
+        const QuadLoop& loop = loops[next.loop];
+        if (std::none_of(loop.quads.begin(), loop.quads.end(), isAmong) || !leavesQuads(surface, table, loop)) continue;
+        if (collapseLoop(surface, table, quadrics, loop, [](const auto&) { return true; })) return true;
+    }
+    return false;
+}
+
+void collapseLoops(GuardedMesh& surface, QuadTable& table, std::size_t quads, Interrupter* interrupter)
+{
+    LoopDecimator(surface, table).run(quads, interrupter);
+}
+
+} // namespace vdbcage::detail
