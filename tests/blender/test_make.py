@@ -39,6 +39,14 @@ class Make(Case):
         self.assertNear(positions(cage, world=False), numpy.array(expected, float), 1e-5)
         self.assertEqual(os.listdir(bpy.app.tempdir), [])
 
+    def test_every_kind_of_mesh(self):
+        model = load(BISHOP)
+        for kind in ("triangles", "triquad", "quads", "loops"):
+            bpy.ops.vdbcage.make_cage(faces=60, mesh=kind, effort="fast")
+            cage = model.vdbcage.cage
+            self.assertEqual(cage["vdbcage_report"]["options"]["mesh"], kind)
+            self.certified(cage, model)
+
     def test_objects_that_are_turned_scaled_mirrored_and_have_a_parent(self):
         parent = bpy.data.objects.new("parent", None)
         bpy.context.scene.collection.objects.link(parent)

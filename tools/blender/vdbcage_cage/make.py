@@ -17,13 +17,14 @@ _automatic = "Off: vdbcage chooses it"
 class Options:
     """The options of `vdbcage make`, for the panel and for operators."""
 
-    faces: bpy.props.IntProperty(name="Faces", default=400, min=12, max=1000000, soft_max=5000,
+    faces: bpy.props.IntProperty(name="Faces", default=400, min=6, max=1000000, soft_max=5000,
                                  description="Faces of the cage, at most")
     mesh: bpy.props.EnumProperty(
         name="Mesh", default="triangles",
         items=(("triangles", "Triangles", "The tightest"),
                ("triquad", "Mixed", "Triangles and quads; more than half are quads"),
-               ("quads", "Quads", "Nine of ten faces are quads")))
+               ("quads", "Quads", "Nine of ten faces are quads"),
+               ("loops", "Loops", "Quads only, in rings around limbs, as drawn by hand. Looser, and slower to make")))
     effort: bpy.props.EnumProperty(
         name="Effort", default="fair",
         items=(("fast", "Fast", "A second or less"), ("fair", "Fair", "A few seconds"),
