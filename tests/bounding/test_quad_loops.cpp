@@ -346,6 +346,19 @@ BOOST_AUTO_TEST_CASE(a_loop_may_go_if_quads_are_left)
     }
     BOOST_TEST(mayGo > 50);
     BOOST_TEST(mayNot > 50);
+    int turning = 0;
+    for (unsigned seed = 1; seed <= 30; ++seed) {
+        const Lump lump(seed);
+        const Working now(lump.surface, lump.guard);
+        for (const QuadLoop& loop : turningLoops(now.surface, now.table)) {
+            if (!leavesQuads(now.surface, now.table, loop)) continue;
+            ++turning;
+            const Mesh left = contracted(now.table, loop, lump.surface.points.size());
+            BOOST_TEST(isOfQuads(left));
+            BOOST_TEST(left.quads.size() == now.table.count() - loop.quads.size());
+        }
+    }
+    BOOST_TEST(turning > 50);
     // A bar of one voxel's width: rings of four quads. Without a loop along it two would be left, with two sides in
     // common.
     auto bar = openvdb::MaskGrid::create();

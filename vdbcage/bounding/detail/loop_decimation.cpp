@@ -87,10 +87,13 @@ public:
             const auto relaxAt =
                 std::max(quads, static_cast<std::size_t>(relaxAfter * static_cast<double>(table_.count())));
             const std::size_t before = table_.count();
-            while (table_.count() > relaxAt && collapseRound(quadrics, relaxAt, quads, maxLoss, interrupter)) {
+            while (table_.count() > relaxAt &&
+                   collapseRound(quadrics, straightLoops(table_), relaxAt, quads, maxLoss, interrupter)) {
                 const std::size_t left = std::max(table_.count(), quads) - quads;
                 throwIfInterrupted(interrupter, static_cast<int>(mostPercent * (start - left) / start));
             }
+            if (table_.count() == before)
+                collapseRound(quadrics, turningLoops(surface_, table_), relaxAt, quads, maxLoss, interrupter);
             if (table_.count() < before) continue;
             if (maxLoss < lastLoss) {
                 maxLoss *= 2;
@@ -108,11 +111,10 @@ private:
     static constexpr int settleSweeps = 2;
 
     /// Collapses loops that do not touch, until `quads` or a tenth are left out. Returns whether any went.
-    bool collapseRound(VertexQuadrics& quadrics, std::size_t quads, std::size_t target, double maxLoss,
-                       Interrupter* interrupter)
+    bool collapseRound(VertexQuadrics& quadrics, const std::vector<QuadLoop>& loops, std::size_t quads,
+                       std::size_t target, double maxLoss, Interrupter* interrupter)
     {
         throwIfInterrupted(interrupter);
-        const std::vector<QuadLoop> loops = straightLoops(table_);
         const double sample = perSample(surface_);
         const double perQuad = distancePerQuad(surface_, table_, sample);
         const DistanceMeasure measure(surface_.guard(), sample);

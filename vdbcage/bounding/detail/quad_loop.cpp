@@ -71,6 +71,105 @@ std::vector<QuadLoop> straightLoops(const QuadTable& table)
     return loops;
 }
 
+namespace {
+
+/// Part of a closed loop: from quad `first` to quad `last`, forward.
+struct Arc {
+    const QuadLoop* loop;
+    std::size_t first, last;
+
+    std::size_t length() const { return (last + loop->quads.size() - first) % loop->quads.size(); }
+    std::size_t at(std::size_t i) const { return (first + i) % loop->quads.size(); }
+    /// The rungs at its ends.
+    const Rung& firstRung() const { return loop->rungs[at(1)]; }
+    const Rung& lastRung() const { return loop->rungs[last]; }
+};
+
+/// How much more irregular the corners of a quad become where a loop turns in it, by |valence - 4|: `one` and `other`
+/// are its rungs.
+int turnGrowth(const GuardedMesh& surface, const QuadTable& table, std::uint32_t q, const Rung& one, const Rung& other)
+{
+    const auto irregularity = [](int edges) { return std::abs(edges - 4); };
+    const std::uint32_t inner = one[0] == other[0] || one[0] == other[1] ? one[0] : one[1];
+    int merged = -7, growth = 0; // of three vertices, whose edges fall together
+    for (int i = 0; i < 4; ++i) {
+        const std::uint32_t v = table.corners(q)[i];
+        const auto edges = static_cast<int>(valence(surface, table, v));
+        growth -= irregularity(edges);
+        if (table.corners(q)[(i + 2) % 4] == inner) {
+            growth += irregularity(edges - 1);
+        } else {
+            merged += edges;
+        }
+    }
+    return growth + irregularity(merged);
+}
+
+/// The loop along one arc and back along another, from its beginning or, if `isBackward`, from its end.
+QuadLoop joined(const Arc& a, const Arc& b, bool isBackward)
+{
+    QuadLoop loop;
+    for (std::size_t i = 0; i <= a.length(); ++i) {
+        loop.quads.push_back(a.loop->quads[a.at(i)]);
+        if (i > 0) loop.rungs.push_back(a.loop->rungs[a.at(i)]);
+    }
+    for (std::size_t i = 1; i <= b.length(); ++i) {
+        const std::size_t rung = isBackward ? b.length() + 1 - i : i, quad = isBackward ? b.length() - i : i;
+        loop.rungs.push_back(b.loop->rungs[b.at(rung)]);
+        if (i < b.length()) loop.quads.push_back(b.loop->quads[b.at(quad)]);
+    }
+    return loop;
+}
+
+} // namespace
+
+std::vector<QuadLoop> turningLoops(const GuardedMesh& surface, const QuadTable& table)
+{
+    struct Place {
+        std::size_t loop, at;
+    };
+    const std::vector<QuadLoop> straight = straightLoops(table);
+    std::vector<std::vector<Place>> placesOf(table.quads());
+    for (std::size_t l = 0; l < straight.size(); ++l) {
+        if (!straight[l].isClosed()) continue;
+        for (std::size_t i = 0; i < straight[l].quads.size(); ++i) placesOf[straight[l].quads[i]].push_back({l, i});
+    }
+    std::vector<QuadLoop> loops;
+    const auto addIfSimple = [&](const Arc& a, const Arc& b, bool isBackward) {
+        const std::uint32_t begin = a.loop->quads[a.first], end = a.loop->quads[a.last];
+        const Rung &atBegin = isBackward ? b.firstRung() : b.lastRung(),
+                   &atEnd = isBackward ? b.lastRung() : b.firstRung();
+        if (turnGrowth(surface, table, begin, a.firstRung(), atBegin) +
+                turnGrowth(surface, table, end, a.lastRung(), atEnd) >
+            0)
+            return;
+        QuadLoop loop = joined(a, b, isBackward);
+        std::vector<std::uint32_t> sorted = loop.quads;
+        std::sort(sorted.begin(), sorted.end());
+        if (std::adjacent_find(sorted.begin(), sorted.end()) == sorted.end()) loops.push_back(std::move(loop));
+    };
+    for (std::size_t l = 0; l < straight.size(); ++l) {
+        std::map<std::size_t, std::vector<std::array<std::size_t, 2>>> crossings; // by the other loop: where on both
+        for (std::size_t i = 0; i < straight[l].quads.size(); ++i) {
+            for (const Place& place : placesOf[straight[l].quads[i]]) {
+                if (place.loop > l && straight[l].isClosed()) crossings[place.loop].push_back({i, place.at});
+            }
+        }
+        for (const auto& [other, at] : crossings) {
+            const QuadLoop *a = &straight[l], *b = &straight[other];
+            for (std::size_t i = 0; i < at.size(); ++i) {
+                for (std::size_t j = i + 1; j < at.size(); ++j) {
+                    for (const auto& [from, to] : {std::pair(at[i], at[j]), std::pair(at[j], at[i])}) {
+                        addIfSimple({a, from[0], to[0]}, {b, to[1], from[1]}, false);
+                        addIfSimple({a, from[0], to[0]}, {b, from[1], to[1]}, true);
+                    }
+                }
+            }
+        }
+    }
+    return loops;
+}
+
 bool leavesQuads(const GuardedMesh& surface, const QuadTable& table, const QuadLoop& loop)
 {
     constexpr std::size_t mostValence = 8, mostMerged = 3;

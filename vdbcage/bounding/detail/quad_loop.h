@@ -24,6 +24,11 @@ struct QuadLoop {
 /// Based on: Daniels, Silva, Shepherd, Cohen, Quadrilateral Mesh Simplification, 2008.
 std::vector<QuadLoop> straightLoops(const QuadTable& table);
 
+/// Loops that turn twice: a part of a polychord that closes, and the part of another one that crosses it at both ends.
+/// Both turns are at quads with irregular corners, so that no more vertices are irregular without the loop than with
+/// it. Where whole polychords cannot go, these may. Cost: O(p^2 sqrt(n)) for p polychords and n quads at most.
+std::vector<QuadLoop> turningLoops(const GuardedMesh& surface, const QuadTable& table);
+
 /// Whether collapsing a loop leaves a surface of quads: closed and 2-manifold, valences 3 to 8, no two quads with two
 /// sides or both ends of a diagonal in common.
 bool leavesQuads(const GuardedMesh& surface, const QuadTable& table, const QuadLoop& loop);

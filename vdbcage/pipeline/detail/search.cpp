@@ -49,6 +49,7 @@ std::vector<double> startScales(const CageOptions& options)
     if (options.resolution) return {1.0};
     if (options.mesh == CageFaces::loops) {
         if (options.effort == Effort::fast) return {1.0};
+        if (options.effort == Effort::best) return {std::begin(bestLoopsStarts), std::end(bestLoopsStarts)};
         return {std::begin(loopsStarts), std::end(loopsStarts)};
     }
     if (options.effort != Effort::best && options.faces <= fewestFaces)
