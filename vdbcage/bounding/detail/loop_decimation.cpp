@@ -106,8 +106,8 @@ public:
     }
 
 private:
-    static constexpr double firstLoss = 2, strictLoss = 30,
-                            lastLoss = 100; // of distance for a quad less, in a mean quad's
+    static constexpr double firstLoss = 2, lastLoss = 100; // of distance for a quad less, in a mean quad's
+    static constexpr std::size_t mostRefused = 24;         // in one round: those after cost more still
     static constexpr int settleSweeps = 2;
 
     /// Collapses loops that do not touch, until `quads` or a tenth are left out. Returns whether any went.
@@ -120,7 +120,7 @@ private:
         const DistanceMeasure measure(surface_.guard(), sample);
         const QuadShapeTerm term(table_, scaled(shape, perQuad));
         const std::size_t most = table_.count() / 20, tooMany = table_.count() - target;
-        std::size_t removed = 0;
+        std::size_t removed = 0, refused = 0;
         std::vector<char> isTouched(surface_.vertices(), 0);
         for (const Ranked& next : ranked(surface_, table_, quadrics, loops, tooMany)) {
             const QuadLoop& loop = loops[next.loop];
@@ -133,6 +133,7 @@ private:
                 tighten(surface_, kept, settleSweeps, sample, interrupter, &term);
                 return lossAround(measure, loop, perQuad) <= limit;
             });
+            if (!isDone && ++refused == mostRefused) break;
             if (!isDone) continue;
             removed += loop.quads.size();
             touch(loop, isTouched);
