@@ -16,6 +16,7 @@
 #include <vdbcage/bounding/detail/loop_collapse.h>
 #include <vdbcage/bounding/detail/loop_decimation.h>
 #include <vdbcage/bounding/detail/loop_split.h>
+#include <vdbcage/bounding/detail/quad_shape_term.h>
 #include <vdbcage/bounding/quad_loops.h>
 #include <vdbcage/check/check.h>
 #include <vdbcage/core/error.h>
