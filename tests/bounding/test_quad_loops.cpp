@@ -12,8 +12,11 @@
 #include <set>
 
 #include <tbb/global_control.h>
+#include <vdbcage/bounding/detail/face_queries.h>
 #include <vdbcage/bounding/detail/loop_collapse.h>
 #include <vdbcage/bounding/detail/loop_decimation.h>
+#include <vdbcage/bounding/detail/loop_split.h>
+#include <vdbcage/bounding/detail/quad_shape_term.h>
 #include <vdbcage/bounding/quad_loops.h>
 #include <vdbcage/check/check.h>
 #include <vdbcage/core/error.h>
@@ -463,6 +466,53 @@ BOOST_AUTO_TEST_CASE(a_collapse_that_the_guard_stops_leaves_no_trace)
     BOOST_TEST(stopped > 10);
 }
 
+BOOST_AUTO_TEST_CASE(a_loop_that_is_split_is_two_loops)
+{
+    int split = 0;
+    for (unsigned seed = 1; seed <= 12; ++seed) {
+        const Lump lump(seed);
+        const Working before(lump.surface, lump.guard);
+        for (const QuadLoop& loop : straightLoops(before.table)) {
+            Working now(lump.surface, lump.guard);
+            const std::vector<std::uint32_t> middle = splitLoop(now.surface, now.table, loop);
+            if (middle.empty()) continue;
+            ++split;
+            BOOST_TEST(middle.size() == loop.rungs.size());
+            BOOST_TEST(now.table.count() == before.table.count() + loop.quads.size());
+            BOOST_TEST(now.surface.liveFaces() == 2 * now.table.count());
+            Mesh quads;
+            for (std::uint32_t v = 0; v < now.surface.vertices(); ++v) quads.points.push_back(now.surface.point(v));
+            quads.quads = now.quads();
+            BOOST_TEST(isOfQuads(quads));
+            BOOST_TEST(loopsByUnion(quads).size() == loopsByUnion(lump.surface).size() + 1);
+            for (const Vec4I& q : quads.quads) { // two faces make each
+                const std::uint32_t f = faceAt(now.surface, q[0], q[1]), g = faceAt(now.surface, q[2], q[3]);
+                BOOST_TEST(f != g);
+                const std::uint32_t tip = cornerOpposite(now.surface, f, q[0], q[1]);
+                BOOST_TEST((tip == q[2] || tip == q[3]));
+            }
+            BOOST_TEST(checkCage(now.surface.mesh(), lump.model).bounding());
+        }
+    }
+    BOOST_TEST(split > 50);
+}
+
+BOOST_AUTO_TEST_CASE(exchanged_loops_bring_a_surface_nearer)
+{
+    double before = 0, after = 0;
+    for (const Mesh& model : {test::torus(0.3, 0.08, 24, 10), test::box({-0.3, -0.2, -0.1}, {0.2, 0.2, 0.2})}) {
+        const BoundingGuard guard(model);
+        for (const int exchanges : {0, 4}) {
+            QuadLoopsOptions options = to(100);
+            options.exchanges = exchanges;
+            const Mesh cage = quadLoops(test::ball(14), guard, options);
+            BOOST_TEST(cage.quads.size() <= 100U);
+            (exchanges == 0 ? before : after) += checkCage(cage, model).meanDistance;
+        }
+    }
+    BOOST_TEST(after < before);
+}
+
 BOOST_AUTO_TEST_CASE(the_shape_s_slope_is_that_of_its_sum)
 {
     const Lump lump(3);
@@ -545,6 +595,9 @@ BOOST_AUTO_TEST_CASE(bad_options_and_surfaces_are_refused)
     BOOST_CHECK_THROW(quadLoops(test::ball(), guard, to(5)), InputError);
     QuadLoopsOptions options;
     options.tightening.sweeps = -1;
+    BOOST_CHECK_THROW(quadLoops(test::ball(), guard, options), InputError);
+    options = {};
+    options.exchanges = -1;
     BOOST_CHECK_THROW(quadLoops(test::ball(), guard, options), InputError);
     for (const double angle : {-1.0, 91.0}) {
         options = {};

@@ -9,6 +9,7 @@
 #include <vdbcage/bounding/detail/loop_decimation.h>
 #include <vdbcage/bounding/detail/loop_exchange.h>
 #include <vdbcage/bounding/detail/merge_triangles.h>
+#include <vdbcage/bounding/detail/quad_relax.h>
 #include <vdbcage/bounding/detail/relax.h>
 #include <vdbcage/bounding/detail/tightening.h>
 #include <vdbcage/core/error.h>
@@ -131,7 +132,7 @@ Mesh quadLoops(const Mesh& surface, const BoundingGuard& guard, const QuadLoopsO
     constexpr int attempts = 10;
     GuardedMesh paired = guarded;
     std::vector<std::uint32_t> left = makeQuads(paired, table, interrupter);
-    for (int i = 0; i < attempts && !left.empty() && collapseLoopThrough(guarded, table, left); ++i) {
+    for (int i = 0; i < attempts && !left.empty() && collapseLoopThrough(guarded, table, left, interrupter); ++i) {
         paired = guarded;
         left = makeQuads(paired, table, interrupter);
     }

@@ -25,8 +25,9 @@ struct QuadLoopsOptions {
 /// Makes a cage as drawn by hand of a surface that bounds the guard's model and keeps it so: quads only, in closed
 /// loops around limbs and body, with corners near square.
 ///
-/// Whole loops of quads are collapsed, each edge under the guard, so that those that are left stay loops. What comes
-/// out depends on the loops of `surface`. Those of extractSurface are outlines of slices; voxels some twice as wide as
+/// Whole loops of quads are collapsed, each edge under the guard, so that those that are left stay loops; where none
+/// may go, loops of parts of two. Then loops are exchanged: some are collapsed, others are split. What comes out
+/// depends on the loops of `surface`. Those of extractSurface are outlines of slices; voxels some twice as wide as
 /// for other cages are best, so that there are about three times the quads wanted. The quads that are left are made to
 /// bound under both diagonals, and tightened.
 ///

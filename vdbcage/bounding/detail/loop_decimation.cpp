@@ -12,6 +12,7 @@
 
 #include <vdbcage/bounding/detail/face_queries.h>
 #include <vdbcage/bounding/detail/loop_collapse.h>
+#include <vdbcage/bounding/detail/quad_relax.h>
 #include <vdbcage/bounding/detail/relax.h>
 #include <vdbcage/core/detail/parallel.h>
 
@@ -19,21 +20,7 @@ namespace vdbcage::detail {
 
 namespace {
 
-constexpr int samplesPerTriangle = 2;   // of the distance
 constexpr double irregularWeight = 0.4; // 0 makes slanted limbs more irregular, 0.8 puts off loops that should go
-constexpr ShapeWeights shape{0.35, 0.15, 0, 0.35, unfitWeight};
-
-ShapeWeights scaled(const ShapeWeights& weights, double perQuad)
-{
-    return {weights.corners * perQuad, weights.free, weights.bad * perQuad, weights.flat * perQuad,
-            weights.unfit * perQuad};
-}
-
-double perSample(const GuardedMesh& surface)
-{
-    return areaPerSample(surface, surface.liveFaces(), samplesPerTriangle);
-}
-
 struct Ranked {
     double cost; // by quadrics, for each quad that goes
     std::size_t loop;
@@ -80,9 +67,9 @@ public:
         double maxLoss = firstLoss;
         if (table_.count() <= quads) return;
         const std::size_t start = table_.count() - quads;
-        relaxQuads(surface_, table_, shape, firstSweeps, interrupter);
+        relaxQuads(surface_, table_, firstSweeps, interrupter);
         while (table_.count() > quads) {
-            relaxQuads(surface_, table_, shape, relaxSweeps, interrupter);
+            relaxQuads(surface_, table_, relaxSweeps, interrupter);
             VertexQuadrics quadrics(surface_);
             const auto relaxAt =
                 std::max(quads, static_cast<std::size_t>(relaxAfter * static_cast<double>(table_.count())));
@@ -106,8 +93,8 @@ public:
     }
 
 private:
-    static constexpr double firstLoss = 2, strictLoss = 30,
-                            lastLoss = 100; // of distance for a quad less, in a mean quad's
+    static constexpr double firstLoss = 2, lastLoss = 100; // of distance for a quad less, in a mean quad's
+    static constexpr std::size_t mostRefused = 24;         // in one round: those after cost more still
     static constexpr int settleSweeps = 2;
 
     /// Collapses loops that do not touch, until `quads` or a tenth are left out. Returns whether any went.
@@ -115,12 +102,12 @@ private:
                        std::size_t target, double maxLoss, Interrupter* interrupter)
     {
         throwIfInterrupted(interrupter);
-        const double sample = perSample(surface_);
+        const double sample = areaPerSample(surface_);
         const double perQuad = distancePerQuad(surface_, table_, sample);
         const DistanceMeasure measure(surface_.guard(), sample);
-        const QuadShapeTerm term(table_, scaled(shape, perQuad));
+        const QuadShapeTerm term(table_, scaled(usualShape, perQuad));
         const std::size_t most = table_.count() / 20, tooMany = table_.count() - target;
-        std::size_t removed = 0;
+        std::size_t removed = 0, refused = 0;
         std::vector<char> isTouched(surface_.vertices(), 0);
         for (const Ranked& next : ranked(surface_, table_, quadrics, loops, tooMany)) {
             const QuadLoop& loop = loops[next.loop];
@@ -133,6 +120,7 @@ private:
                 tighten(surface_, kept, settleSweeps, sample, interrupter, &term);
                 return lossAround(measure, loop, perQuad) <= limit;
             });
+            if (!isDone && ++refused == mostRefused) break;
             if (!isDone) continue;
             removed += loop.quads.size();
             touch(loop, isTouched);
@@ -181,7 +169,7 @@ private:
             sum += measure.integral(surface_.corners(f), seed);
         for (const std::uint32_t q : gathered(
                  loop, [&](std::uint32_t v) -> auto& { return table_.quadsOf(v); })) {
-            if (!isFit(surface_.guard(), pointsOf(surface_, table_.corners(q)))) sum += shape.unfit * perQuad;
+            if (!isFit(surface_.guard(), pointsOf(surface_, table_.corners(q)))) sum += unfitWeight * perQuad;
         }
         return sum;
     }
@@ -192,41 +180,8 @@ private:
 
 } // namespace
 
-double distancePerQuad(const GuardedMesh& surface, const QuadTable& table, double areaPerSample)
-{
-    return integratedDistance(surface, areaPerSample) / static_cast<double>(table.count());
-}
-
-void relaxQuads(GuardedMesh& surface, const QuadTable& table, const ShapeWeights& weights, int sweeps,
-                Interrupter* interrupter)
-{
-    const double sample = perSample(surface), perQuad = distancePerQuad(surface, table, sample);
-    const QuadShapeTerm term(table, scaled(weights, perQuad));
-    tighten(surface, sweeps, sample, interrupter, &term);
-}
-
-void relaxQuads(GuardedMesh& surface, const QuadTable& table, int sweeps, Interrupter* interrupter)
-{
-    relaxQuads(surface, table, shape, sweeps, interrupter);
-}
-
-void relaxQuads(GuardedMesh& surface, const QuadTable& table, const std::vector<std::uint32_t>& vertices, int sweeps,
-                Interrupter* interrupter)
-{
-    const double sample = perSample(surface);
-    const QuadShapeTerm term(table, scaled(shape, distancePerQuad(surface, table, sample)));
-    tighten(surface, vertices, sweeps, sample, interrupter, &term);
-}
-
-std::size_t countUnfit(const GuardedMesh& surface, const QuadTable& table)
-{
-    std::size_t count = 0;
-    for (std::uint32_t q = 0; q < table.quads(); ++q)
-        count += table.isQuad(q) && !isFit(surface.guard(), pointsOf(surface, table.corners(q)));
-    return count;
-}
-
-bool collapseLoopThrough(GuardedMesh& surface, QuadTable& table, const std::vector<std::uint32_t>& quads)
+bool collapseLoopThrough(GuardedMesh& surface, QuadTable& table, const std::vector<std::uint32_t>& quads,
+                         Interrupter* interrupter)
 {
     VertexQuadrics quadrics(surface);
     const auto isAmong = [&](std::uint32_t q) { return std::find(quads.begin(), quads.end(), q) != quads.end(); };
@@ -234,6 +189,7 @@ bool collapseLoopThrough(GuardedMesh& surface, QuadTable& table, const std::vect
     for (const Ranked& next : ranked(surface, table, quadrics, loops, table.count())) {
         const QuadLoop& loop = loops[next.loop];
         if (std::none_of(loop.quads.begin(), loop.quads.end(), isAmong) || !leavesQuads(surface, table, loop)) continue;
+        throwIfInterrupted(interrupter);
         if (collapseLoop(surface, table, quadrics, loop, [](const auto&) { return true; })) return true;
     }
     return false;

@@ -12,6 +12,7 @@
 #include <vdbcage/bounding/detail/face_queries.h>
 #include <vdbcage/bounding/detail/loop_decimation.h>
 #include <vdbcage/bounding/detail/loop_split.h>
+#include <vdbcage/bounding/detail/quad_relax.h>
 #include <vdbcage/bounding/detail/relax.h>
 #include <vdbcage/core/detail/parallel.h>
 
@@ -87,8 +88,8 @@ void refill(Quads& now, std::size_t quads, double areaPerSample, Interrupter* in
 void exchangeLoops(GuardedMesh& surface, QuadTable& table, std::size_t quads, int rounds, Interrupter* interrupter)
 {
     constexpr double firstShare = 0.1;
-    constexpr int sweeps = 4, samples = 2;
-    const double perSample = areaPerSample(surface, surface.liveFaces(), samples);
+    constexpr int sweeps = 4;
+    const double perSample = areaPerSample(surface);
     const auto relax = [&](Quads& now) {
         relaxQuads(now.surface, now.table, sweeps, interrupter);
         now.distance = distanceOf(now.surface, now.table, perSample);

@@ -32,7 +32,7 @@ constexpr double greatestRadius = 0.24;                    ///< after three doub
 // Loops of quads begin with the quads of coarse voxels, some times as many as are wanted.
 constexpr double loopsResolution =
     1.2; ///< voxels along the longest side, for the root of a face; then as the surface has
-constexpr double quadsPerLoopsFace = 3.5;
+constexpr double quadsPerLoopsFace = 3;
 constexpr int coarsestLoops = 8;                                                   ///< voxels along the longest side
 constexpr int loopExchangesFast = 1, loopExchangesFair = 4, loopExchangesBest = 8; ///< 4 gain 3 %, in a third more time
 constexpr double loopsStarts[] = {1.0, 1.35}, bestLoopsStarts[] = {0.85, 1.0, 1.2, 1.4}; ///< shares of the resolution

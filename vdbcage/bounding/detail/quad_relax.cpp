@@ -1,0 +1,54 @@
+#include <vdbcage/bounding/detail/quad_relax.h>
+
+#include <vdbcage/bounding/detail/face_queries.h>
+#include <vdbcage/bounding/detail/relax.h>
+
+namespace vdbcage::detail {
+
+ShapeWeights scaled(const ShapeWeights& weights, double distancePerQuad)
+{
+    return {weights.corners * distancePerQuad, weights.free, weights.bad * distancePerQuad,
+            weights.flat * distancePerQuad, weights.unfit * distancePerQuad};
+}
+
+double areaPerSample(const GuardedMesh& surface)
+{
+    constexpr int samplesPerTriangle = 2;
+    return areaPerSample(surface, surface.liveFaces(), samplesPerTriangle);
+}
+
+double distancePerQuad(const GuardedMesh& surface, const QuadTable& table, double areaPerSample)
+{
+    return integratedDistance(surface, areaPerSample) / static_cast<double>(table.count());
+}
+
+void relaxQuads(GuardedMesh& surface, const QuadTable& table, const ShapeWeights& weights, int sweeps,
+                Interrupter* interrupter)
+{
+    const double sample = areaPerSample(surface), perQuad = distancePerQuad(surface, table, sample);
+    const QuadShapeTerm term(table, scaled(weights, perQuad));
+    tighten(surface, sweeps, sample, interrupter, &term);
+}
+
+void relaxQuads(GuardedMesh& surface, const QuadTable& table, int sweeps, Interrupter* interrupter)
+{
+    relaxQuads(surface, table, usualShape, sweeps, interrupter);
+}
+
+void relaxQuads(GuardedMesh& surface, const QuadTable& table, const std::vector<std::uint32_t>& vertices, int sweeps,
+                Interrupter* interrupter)
+{
+    const double sample = areaPerSample(surface);
+    const QuadShapeTerm term(table, scaled(usualShape, distancePerQuad(surface, table, sample)));
+    tighten(surface, vertices, sweeps, sample, interrupter, &term);
+}
+
+std::size_t countUnfit(const GuardedMesh& surface, const QuadTable& table)
+{
+    std::size_t count = 0;
+    for (std::uint32_t q = 0; q < table.quads(); ++q)
+        count += table.isQuad(q) && !isFit(surface.guard(), pointsOf(surface, table.corners(q)));
+    return count;
+}
+
+} // namespace vdbcage::detail

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include <vdbcage/bounding/detail/quad_shape_term.h>
+#include <vdbcage/core/interrupter.h>
+
+/// Moving the vertices of quads to where both distance and shape are better, while the guard holds their triangles.
+namespace vdbcage::detail {
+
+/// The distance of a mean quad: what the weights of shapes are parts of.
+double distancePerQuad(const GuardedMesh& surface, const QuadTable& table, double areaPerSample);
+
+/// How many quads are not fit, and what one counts for in parts of the distance of a mean quad.
+std::size_t countUnfit(const GuardedMesh& surface, const QuadTable& table);
+constexpr double unfitWeight = 8;
+
+/// The weights of the shape while loops come and go, in parts of the distance of a mean quad; and those of a surface.
+constexpr ShapeWeights usualShape{0.35, 0.15, 0, 0.35, unfitWeight};
+ShapeWeights scaled(const ShapeWeights& weights, double distancePerQuad);
+
+/// The area for each sample of the distance.
+double areaPerSample(const GuardedMesh& surface);
+
+/// tighten() with the shape that quads have while loops come and go, all vertices or some.
+void relaxQuads(GuardedMesh& surface, const QuadTable& table, int sweeps, Interrupter* interrupter);
+void relaxQuads(GuardedMesh& surface, const QuadTable& table, const std::vector<std::uint32_t>& vertices, int sweeps,
+                Interrupter* interrupter);
+
+/// tighten() with the quads' shape. `weights` are parts of the distance of a mean quad as the surface is now.
+void relaxQuads(GuardedMesh& surface, const QuadTable& table, const ShapeWeights& weights, int sweeps,
+                Interrupter* interrupter);
+
+} // namespace vdbcage::detail
