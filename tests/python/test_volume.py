@@ -110,8 +110,9 @@ class VolumeTest(Case):
         self.refuses("mask: its box is of (4096, 4096, 4096) voxels", mask.dense)
 
     def test_a_call_can_be_cancelled(self):
-        with self.assertRaises(vdbcage.Cancelled):
-            close_mask(voxelize(Mesh.read(BISHOP), 512), 100, progress=lambda stage, percent: False)
+        solid = voxelize(Mesh.read(BISHOP), 2048)
+        with self.assertRaises(vdbcage.Cancelled):  # closing goes on for sixty times as long as until it is asked
+            close_mask(solid, 400, progress=lambda stage, percent: False)
 
     def test_bad_arguments_are_refused(self):
         model, mask, nan = Mesh.read(BISHOP), Mask([[0, 0, 0]]), float("nan")
