@@ -12,6 +12,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).parent))
 from documented import Documented  # noqa: E402
 from support import BISHOP, COMMAND, load, positions, select  # noqa: E402
 
+LONG = {"faces": 2000, "effort": "best", "mesh": "quads"}  # no machine is done before it is cancelled
 pictures = pathlib.Path(sys.argv[sys.argv.index("--") + 1])
 
 
@@ -98,7 +99,7 @@ def cancelling(window):
     model = load(BISHOP)
     select(model)
     yield
-    check(invoke(window, bpy.ops.vdbcage.make_cage) == {"RUNNING_MODAL"}, "Make Cage returns at once")
+    check(invoke(window, bpy.ops.vdbcage.make_cage, **LONG) == {"RUNNING_MODAL"}, "Make Cage returns at once")
     yield
     check(running() and cages() == [], "it runs")
     try:
@@ -116,7 +117,7 @@ def cancelling(window):
         yield
     check(cages() == [] and temporary() == [], "Cancel ends it and leaves nothing")
 
-    invoke(window, bpy.ops.vdbcage.make_cage)
+    invoke(window, bpy.ops.vdbcage.make_cage, **LONG)
     yield
     place = (window.region.x + 200, window.region.y + 200)
     window.event("ESC", "RELEASE", *place)  # what is left where Esc ended something else
@@ -128,7 +129,7 @@ def cancelling(window):
     window.event("ESC", "RELEASE", *place)
     check(cages() == [] and temporary() == [], "Esc ends it and leaves nothing")
 
-    invoke(window, bpy.ops.vdbcage.make_cage)
+    invoke(window, bpy.ops.vdbcage.make_cage, **LONG)
     yield
     bpy.ops.preferences.addon_disable(module="vdbcage_cage")
     check(temporary() == [], "it ends with the add-on")
