@@ -6,6 +6,14 @@ from support import BISHOP, CREATURE, Case, load, positions, select, set_positio
 from vdbcage_cage import bind, links
 
 
+def bound_bishop():
+    """A model that is bound to its cage."""
+    model = load(BISHOP)
+    bpy.ops.vdbcage.make_cage(faces=200, effort="fast")
+    bpy.ops.vdbcage.bind()
+    return model
+
+
 class Bind(Case):
     def follows(self, cage, *models):
         """All points follow the cage's."""
@@ -133,9 +141,7 @@ class Bind(Case):
             self.follows(cage, model)
 
     def test_a_binding_that_fails_leaves_the_one_before(self):
-        model = load(BISHOP)
-        bpy.ops.vdbcage.make_cage(faces=200, effort="fast")
-        bpy.ops.vdbcage.bind()
+        model = bound_bishop()
         cage = model.vdbcage.cage
         shape = positions(cage, world=False)
         set_positions(cage, shape + [0, 0, 1])
@@ -146,9 +152,7 @@ class Bind(Case):
         self.assertEqual([modifier.precision for modifier in model.modifiers], [5])
 
     def test_a_second_cage_takes_the_place_of_the_first(self):
-        model = load(BISHOP)
-        bpy.ops.vdbcage.make_cage(faces=200, effort="fast")
-        bpy.ops.vdbcage.bind()
+        model = bound_bishop()
         rest = positions(model)
         first = model.vdbcage.cage
         set_positions(first, 1.5 * positions(first, world=False))
@@ -163,9 +167,7 @@ class Bind(Case):
         self.follows(cage, model)
 
     def test_rebind_keeps_what_holds_the_model(self):
-        model = load(BISHOP)
-        bpy.ops.vdbcage.make_cage(faces=100, effort="fast")
-        bpy.ops.vdbcage.bind()
+        model = bound_bishop()
         cage = model.vdbcage.cage
         set_positions(cage, positions(cage, world=False) * [1, 1, 1.3])
         bpy.ops.vdbcage.pose()

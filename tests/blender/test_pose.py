@@ -5,7 +5,7 @@ import struct
 
 import bpy
 import numpy
-from support import BISHOP, CREATURE, Case, command, load, positions, select, set_positions, size, write_obj
+from support import BISHOP, Case, command, load, positions, select, set_positions, size, write_obj
 
 
 def bent(points):

@@ -4,8 +4,8 @@
 #include <cstdio>
 #include <regex>
 
-#include <nlohmann/json.hpp>
 #include <openvdb/openvdb.h>
+#include <support/read_json.h>
 #include <support/read_png.h>
 #include <support/run_command.h>
 #include <support/shapes.h>
@@ -16,6 +16,7 @@
 
 using namespace vdbcage;
 using nlohmann::json;
+using test::readJson;
 using test::runCommand;
 using test::TemporaryFolder;
 
@@ -23,11 +24,6 @@ namespace {
 
 const std::string command = VDBCAGE_COMMAND;
 const std::string bishop = VDBCAGE_MODELS "/bishop.obj";
-
-json readJson(const std::filesystem::path& path)
-{
-    return json::parse(test::readText(path));
-}
 
 } // namespace
 

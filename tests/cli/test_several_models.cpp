@@ -1,14 +1,15 @@
 #include <boost/test/unit_test.hpp>
 
-#include <nlohmann/json.hpp>
-#include <support/read_png.h>
+#include <support/read_json.h>
 #include <support/run_command.h>
+#include <support/shapes.h>
 #include <vdbcage/check/check.h>
 #include <vdbcage/deform/weights_io.h>
 #include <vdbcage/mesh/mesh_io.h>
 
 using namespace vdbcage;
 using nlohmann::json;
+using test::readJson;
 using test::runCommand;
 using test::TemporaryFolder;
 
@@ -23,11 +24,6 @@ Mesh moved(double along)
     Mesh mesh = readMesh(body);
     for (openvdb::Vec3d& point : mesh.points) point = {1.2 * point.x() + along, point.y(), 0.8 * point.z()};
     return mesh;
-}
-
-json readJson(const std::filesystem::path& path)
-{
-    return json::parse(test::readText(path));
 }
 
 } // namespace
@@ -106,19 +102,9 @@ BOOST_AUTO_TEST_CASE(a_lone_plus_joins_models_in_a_picture)
 {
     const TemporaryFolder folder;
     const std::string shirt = folder / "shirt.obj", all = folder / "all.obj";
-    const Mesh bishop = readMesh(body), other = moved(0.6);
+    const Mesh other = moved(0.6);
     writeMesh(other, shirt);
-    Mesh joined = bishop;
-    for (openvdb::Vec3I triangle : other.triangles) {
-        for (int i = 0; i < 3; ++i) triangle[i] += static_cast<openvdb::Index32>(bishop.points.size());
-        joined.triangles.push_back(triangle);
-    }
-    for (openvdb::Vec4I quad : other.quads) {
-        for (int i = 0; i < 4; ++i) quad[i] += static_cast<openvdb::Index32>(bishop.points.size());
-        joined.quads.push_back(quad);
-    }
-    joined.points.insert(joined.points.end(), other.points.begin(), other.points.end());
-    writeMesh(joined, all);
+    writeMesh(test::joined(readMesh(body), other), all);
     const auto render = [&](std::vector<std::string> files, const char* picture) {
         files.insert(files.begin(), {command, "render"});
         files.insert(files.end(), {"-o", folder / picture, "--size", "200x150"});

@@ -1,13 +1,7 @@
 cmake_minimum_required(VERSION 3.25)
+include(${CMAKE_CURRENT_LIST_DIR}/../support/run.cmake)
 set(work ${build}/install_${kind})
 file(REMOVE_RECURSE ${work}/prefix ${work}/consumer)
-
-function(run)
-    execute_process(COMMAND ${ARGN} RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE output)
-    if(NOT status EQUAL 0)
-        message(FATAL_ERROR "failed (${status}): ${ARGN}\n${output}")
-    endif()
-endfunction()
 
 set(library ${build})
 if(kind STREQUAL "shared")

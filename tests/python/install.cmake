@@ -1,13 +1,7 @@
 cmake_minimum_required(VERSION 3.25)
+include(${CMAKE_CURRENT_LIST_DIR}/../support/run.cmake)
 set(prefix ${build}/python_install)
 file(REMOVE_RECURSE ${prefix})
-
-function(run)
-    execute_process(COMMAND ${ARGN} RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE output)
-    if(NOT status EQUAL 0)
-        message(FATAL_ERROR "failed (${status}): ${ARGN}\n${output}")
-    endif()
-endfunction()
 
 run(${CMAKE_COMMAND} --install ${build} --prefix ${prefix})
 foreach(file __init__.py __init__.pyi py.typed)

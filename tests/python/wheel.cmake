@@ -1,16 +1,10 @@
 # pip makes the wheel, from a copy of the sources, without network. Installed in an environment of its own it runs the
 # example of README.md.
 cmake_minimum_required(VERSION 3.25)
+include(${CMAKE_CURRENT_LIST_DIR}/../support/run.cmake)
 set(work ${build}/python_wheel) # build/wheel of the copy is as deep as this build: a compiler cache sees the same paths
 set(copy ${work}/source)
 file(REMOVE_RECURSE ${work}/wheels ${work}/venv)
-
-function(run)
-    execute_process(COMMAND ${ARGN} RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE output)
-    if(NOT status EQUAL 0)
-        message(FATAL_ERROR "failed (${status}): ${ARGN}\n${output}")
-    endif()
-endfunction()
 
 set(sources CMakeLists.txt LICENSE README.md cmake data pyproject.toml setup.py shaders tools vdbcage)
 file(GLOB old ${copy}/*)

@@ -11,16 +11,26 @@ bl_info = {  # of Blender 3.4 to 4.1; later ones read blender_manifest.toml
     "category": "Rigging",
 }
 
-from . import bind, links, make, panel, pose, running, stages  # noqa: E402 (Blender reads bl_info first)
+import bpy  # noqa: E402 (Blender reads bl_info first)
 
+from . import bind, links, make, panel, pose, running, stages  # noqa: E402
+
+# Each has its CLASSES, and where they are kept its PROPERTIES: of what, by what name, and of what kind.
 _modules = (links, running, make, stages, bind, pose, panel)
 
 
 def register():
     for module in _modules:
-        module.register()
+        for one in module.CLASSES:
+            bpy.utils.register_class(one)
+        for owner, name, kind in getattr(module, "PROPERTIES", ()):
+            setattr(owner, name, kind)
 
 
 def unregister():
+    running.end(bpy.context)
     for module in reversed(_modules):
-        module.unregister()
+        for owner, name, _ in getattr(module, "PROPERTIES", ()):
+            delattr(owner, name)
+        for one in reversed(module.CLASSES):
+            bpy.utils.unregister_class(one)

@@ -9,6 +9,7 @@ import numpy
 from . import geometry, links
 from .command import CommandError
 from .files import Polygons
+from .running import take
 
 
 class _Kind:
@@ -142,9 +143,7 @@ class VDBCAGE_OT_bind(bpy.types.Operator):
         return context.mode == "OBJECT"
 
     def invoke(self, context, _event):
-        for name in Settings.__annotations__:
-            if not self.properties.is_property_set(name):
-                setattr(self, name, getattr(context.scene.vdbcage_bind, name))
+        take(self, context.scene.vdbcage_bind, Settings.__annotations__)
         return self.execute(context)
 
     def execute(self, context):
@@ -218,16 +217,5 @@ class VDBCAGE_OT_rebind(bpy.types.Operator):
         return {"FINISHED"} if bound or failures else {"CANCELLED"}
 
 
-_classes = (Settings, VDBCAGE_OT_bind, VDBCAGE_OT_rebind)
-
-
-def register():
-    for one in _classes:
-        bpy.utils.register_class(one)
-    bpy.types.Scene.vdbcage_bind = bpy.props.PointerProperty(type=Settings)
-
-
-def unregister():
-    del bpy.types.Scene.vdbcage_bind
-    for one in reversed(_classes):
-        bpy.utils.unregister_class(one)
+CLASSES = (Settings, VDBCAGE_OT_bind, VDBCAGE_OT_rebind)
+PROPERTIES = ((bpy.types.Scene, "vdbcage_bind", bpy.props.PointerProperty(type=Settings)),)

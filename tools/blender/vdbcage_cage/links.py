@@ -11,6 +11,11 @@ from .command import CommandError
 _rest = "vdbcage_rest"  # a custom property of models: x, y, z of the cage's points at rest, in the cage's own space
 
 
+SURFACE = bpy.props.EnumProperty(
+    name="Around", items=(("EVALUATED", "With Modifiers", "The model as it is seen, with its modifiers"),
+                          ("REST", "Without Modifiers", "The mesh as it was modelled")))
+
+
 def _forget_rest(self, _context):
     self.is_at_rest = False
 
@@ -22,9 +27,7 @@ class Link(bpy.types.PropertyGroup):
         name="Cage", type=bpy.types.Object, poll=lambda self, thing: thing.type == "MESH" and thing != self.id_data,
         update=_forget_rest, description="The cage that moves this model; any closed mesh around it")
     is_cage: bpy.props.BoolProperty()
-    surface: bpy.props.EnumProperty(
-        name="Mesh", items=(("EVALUATED", "With Modifiers", "The model as it is seen, with its modifiers"),
-                            ("REST", "Without Modifiers", "The mesh as it was modelled")))
+    surface: SURFACE  # what of the model its cage was made around
     is_at_rest: bpy.props.BoolProperty()  # whether the two below and the points of the cage are known
     model_matrix: bpy.props.FloatVectorProperty(size=16)
     cage_matrix: bpy.props.FloatVectorProperty(size=16)
@@ -145,11 +148,5 @@ def unmoved(context, model):
         return geometry.evaluated(context, model)
 
 
-def register():
-    bpy.utils.register_class(Link)
-    bpy.types.Object.vdbcage = bpy.props.PointerProperty(type=Link)
-
-
-def unregister():
-    del bpy.types.Object.vdbcage
-    bpy.utils.unregister_class(Link)
+CLASSES = (Link,)
+PROPERTIES = ((bpy.types.Object, "vdbcage", bpy.props.PointerProperty(type=Link)),)

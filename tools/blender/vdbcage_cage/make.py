@@ -9,7 +9,7 @@ import numpy
 
 from . import files, geometry, links
 from .command import CommandError
-from .running import CommandOperator, command
+from .running import CommandOperator, command, take
 
 _automatic = "Off: vdbcage chooses it"
 
@@ -44,10 +44,7 @@ class Options:
     close_radius: bpy.props.FloatProperty(name="Close Radius", default=0.03, min=0, max=0.25, step=1, precision=3,
                                           description="Gaps up to twice it are bridged; a part of the longest side")
     more: bpy.props.StringProperty(name="More", description="Other options of vdbcage make, as --parts merge")
-    surface: bpy.props.EnumProperty(
-        name="Around", default="EVALUATED",
-        items=(("EVALUATED", "With Modifiers", "The model as it is seen, with its modifiers"),
-               ("REST", "Without Modifiers", "The mesh as it was modelled")))
+    surface: links.SURFACE
 
 
 class Settings(Options, bpy.types.PropertyGroup):
@@ -117,9 +114,7 @@ class MakingOperator(Options, CommandOperator):
         return context.mode == "OBJECT"
 
     def take_settings(self, context):
-        for name in Options.__annotations__:
-            if not self.properties.is_property_set(name):
-                setattr(self, name, getattr(context.scene.vdbcage, name))
+        take(self, context.scene.vdbcage, Options.__annotations__)
 
     def prepare_cage(self, context, job):
         """Writes the models; the words of the command, which writes cage.ply."""
@@ -188,16 +183,5 @@ def _property(value):
     return value
 
 
-_classes = (Settings, VDBCAGE_OT_make_cage)
-
-
-def register():
-    for one in _classes:
-        bpy.utils.register_class(one)
-    bpy.types.Scene.vdbcage = bpy.props.PointerProperty(type=Settings)
-
-
-def unregister():
-    del bpy.types.Scene.vdbcage
-    for one in reversed(_classes):
-        bpy.utils.unregister_class(one)
+CLASSES = (Settings, VDBCAGE_OT_make_cage)
+PROPERTIES = ((bpy.types.Scene, "vdbcage", bpy.props.PointerProperty(type=Settings)),)

@@ -64,9 +64,9 @@ class VDBCAGE_PT_cage(_Panel, bpy.types.Panel):
         box = self.layout.box().column(align=True)
         box.label(text=cage.name, icon="CHECKMARK" if check["bounding"] else "ERROR")
         faces = check["triangles"] + check["quads"]
-        box.label(text=f"{faces} faces, {'certified' if check['bounding'] else 'not certified'}")
+        box.label(text=f"{faces} faces, made in {report['seconds']:.1f} s")
+        box.label(text="Certified when it was made" if check["bounding"] else "Not certified")
         box.label(text=f"Distance {100 * check['mean_distance']:.2f} % of the size")
-        box.label(text=f"when it was made, in {report['seconds']:.1f} s")
 
 
 class VDBCAGE_PT_more(_Panel, bpy.types.Panel):
@@ -137,14 +137,4 @@ def _cage(column, context):
         column.prop(thing.vdbcage, "cage")
 
 
-_classes = (VDBCAGE_PT_cage, VDBCAGE_PT_more, VDBCAGE_PT_stages, VDBCAGE_PT_bind, VDBCAGE_PT_pose)
-
-
-def register():
-    for one in _classes:
-        bpy.utils.register_class(one)
-
-
-def unregister():
-    for one in reversed(_classes):
-        bpy.utils.unregister_class(one)
+CLASSES = (VDBCAGE_PT_cage, VDBCAGE_PT_more, VDBCAGE_PT_stages, VDBCAGE_PT_bind, VDBCAGE_PT_pose)

@@ -12,7 +12,7 @@ from . import files, geometry, links
 from .command import CommandError
 from .folders import folder, stored
 from .make import still_there
-from .running import CommandOperator, command
+from .running import CommandOperator, command, take
 
 
 class Settings(bpy.types.PropertyGroup):
@@ -46,13 +46,8 @@ class VDBCAGE_OT_pose(CommandOperator, bpy.types.Operator):
     frame_end: bpy.props.IntProperty(name="Last Frame", default=250)
 
     def take_settings(self, context):
-        scene = context.scene
-        for name in Settings.__annotations__:
-            if not self.properties.is_property_set(name):
-                setattr(self, name, getattr(scene.vdbcage_pose, name))
-        for name in ("frame_start", "frame_end"):
-            if not self.properties.is_property_set(name):
-                setattr(self, name, getattr(scene, name))
+        take(self, context.scene.vdbcage_pose, Settings.__annotations__)
+        take(self, context.scene, ("frame_start", "frame_end"))
 
     def prepare(self, context, job):
         program = command(context)
@@ -235,16 +230,5 @@ class VDBCAGE_OT_set_rest(bpy.types.Operator):
         return {"FINISHED"}
 
 
-_classes = (Settings, VDBCAGE_OT_pose, VDBCAGE_OT_set_rest)
-
-
-def register():
-    for one in _classes:
-        bpy.utils.register_class(one)
-    bpy.types.Scene.vdbcage_pose = bpy.props.PointerProperty(type=Settings)
-
-
-def unregister():
-    del bpy.types.Scene.vdbcage_pose
-    for one in reversed(_classes):
-        bpy.utils.unregister_class(one)
+CLASSES = (Settings, VDBCAGE_OT_pose, VDBCAGE_OT_set_rest)
+PROPERTIES = ((bpy.types.Scene, "vdbcage_pose", bpy.props.PointerProperty(type=Settings)),)

@@ -32,6 +32,13 @@ def command(context):
     return found(bpy.path.abspath(addon.preferences.command) if addon else "")
 
 
+def take(operator, settings, names):
+    """Gives the properties of these names of an operator the values of the settings, unless its caller set them."""
+    for name in names:
+        if not operator.properties.is_property_set(name):
+            setattr(operator, name, getattr(settings, name))
+
+
 _failures = (CommandError, OSError)  # a full disk, a folder that cannot be written
 
 
@@ -109,10 +116,10 @@ class CommandOperator:
 
     def cancel(self, context):
         """Ends the process and removes its files; Blender calls it too, when it closes."""
-        _end(context)
+        end(context)
 
 
-def _end(context):
+def end(context):
     """Ends what runs."""
     if CommandOperator._running is not None:
         job, timer = CommandOperator._running
@@ -145,17 +152,5 @@ class VDBCAGE_OT_cancel(bpy.types.Operator):
         return {"FINISHED"}
 
 
-_classes = (Running, Preferences, VDBCAGE_OT_cancel)
-
-
-def register():
-    for one in _classes:
-        bpy.utils.register_class(one)
-    bpy.types.WindowManager.vdbcage = bpy.props.PointerProperty(type=Running)
-
-
-def unregister():
-    _end(bpy.context)
-    del bpy.types.WindowManager.vdbcage
-    for one in reversed(_classes):
-        bpy.utils.unregister_class(one)
+CLASSES = (Running, Preferences, VDBCAGE_OT_cancel)
+PROPERTIES = ((bpy.types.WindowManager, "vdbcage", bpy.props.PointerProperty(type=Running)),)

@@ -13,6 +13,9 @@ from .make import MakingOperator
 
 _names = ("solid", "dilated", "closed", "contour")
 _folder = "vdbcage_folder"  # a custom property of the collection: where its volumes are
+DIRECTORY = bpy.props.StringProperty(
+    name="Folder", subtype="DIR_PATH",
+    description="Where the volumes are kept. If this is empty, it is a folder beside the .blend")
 
 
 class VDBCAGE_OT_show_stages(MakingOperator, bpy.types.Operator):
@@ -21,9 +24,7 @@ class VDBCAGE_OT_show_stages(MakingOperator, bpy.types.Operator):
     bl_idname = "vdbcage.show_stages"
     bl_label = "Show Stages"
 
-    directory: bpy.props.StringProperty(
-        name="Folder", subtype="DIR_PATH",
-        description="Where the volumes are kept. If this is empty, it is a folder beside the .blend")
+    directory: DIRECTORY
 
     def take_settings(self, context):
         super().take_settings(context)
@@ -80,13 +81,5 @@ class VDBCAGE_OT_show_stages(MakingOperator, bpy.types.Operator):
         return collection
 
 
-def register():
-    bpy.utils.register_class(VDBCAGE_OT_show_stages)
-    bpy.types.Scene.vdbcage_stages = bpy.props.StringProperty(
-        name="Folder", subtype="DIR_PATH",
-        description="Where the volumes are kept. If this is empty, it is a folder beside the .blend")
-
-
-def unregister():
-    del bpy.types.Scene.vdbcage_stages
-    bpy.utils.unregister_class(VDBCAGE_OT_show_stages)
+CLASSES = (VDBCAGE_OT_show_stages,)
+PROPERTIES = ((bpy.types.Scene, "vdbcage_stages", DIRECTORY),)

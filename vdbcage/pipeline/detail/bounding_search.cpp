@@ -67,8 +67,9 @@ std::string againstSymmetry(const Symmetry& best, CageSymmetry wanted)
         throw InputError("--symmetry: '" + axis + "' is not allowed: " + finding + "; it may be at most " + most.str());
     }
     std::string advice = finding + ", which is more than " + most.str();
-    if (best.deviation <= policy::largestRequestedDeviation)
+    if (best.deviation <= policy::largestRequestedDeviation) {
         advice += ": --symmetry " + axis + " takes it all the same";
+    }
     return advice;
 }
 
@@ -122,7 +123,9 @@ const Symmetry& BoundingSearch::planeFor(const Run& run)
     if (wanted == soughtSymmetry_) return symmetry_;
     const Stage stage(run.interrupter, "symmetry");
     if (wanted == CageSymmetry::automatic) {
-        symmetry_ = *findSymmetry(model_, std::numeric_limits<double>::infinity(), run.interrupter);
+        constexpr double any =
+            std::numeric_limits<double>::infinity(); // of a model too large for doubles there is none
+        symmetry_ = findSymmetry(model_, any, run.interrupter).value_or(Symmetry{{}, any});
     } else {
         const int axis = wanted == CageSymmetry::x ? 0 : wanted == CageSymmetry::y ? 1 : 2;
         symmetry_ = bestSymmetry(model_, axis, run.interrupter);
