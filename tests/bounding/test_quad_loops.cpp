@@ -14,13 +14,11 @@
 #include <tbb/global_control.h>
 #include <vdbcage/bounding/detail/face_queries.h>
 #include <vdbcage/bounding/detail/loop_collapse.h>
-#include <vdbcage/bounding/detail/loop_decimation.h>
 #include <vdbcage/bounding/detail/loop_split.h>
 #include <vdbcage/bounding/detail/quad_shape_term.h>
 #include <vdbcage/bounding/quad_loops.h>
 #include <vdbcage/check/check.h>
 #include <vdbcage/core/error.h>
-#include <vdbcage/mesh/topology.h>
 #include <vdbcage/volume/extract.h>
 
 #include "support/manifold.h"
@@ -143,6 +141,20 @@ struct Working {
     QuadTable table;
     VertexQuadrics quadrics;
 };
+
+/// Whether the surface has two faces for each quad of the table, on both sides of one of its diagonals.
+bool twoFacesMakeEach(const Working& now)
+{
+    for (const Vec4I& q : now.quads()) {
+        const std::uint32_t f = faceAt(now.surface, q[0], q[1]), g = faceAt(now.surface, q[2], q[3]);
+        if (f == GuardedMesh::none || g == GuardedMesh::none || f == g) return false;
+        const std::uint32_t tip = cornerOpposite(now.surface, f, q[0], q[1]),
+                            other = cornerOpposite(now.surface, g, q[2], q[3]);
+        const bool isFirst = tip == q[2] && other == q[0], isSecond = tip == q[3] && other == q[1];
+        if (!isFirst && !isSecond) return false;
+    }
+    return true;
+}
 
 bool same(const Quadric& a, const Quadric& b)
 {
@@ -392,19 +404,7 @@ BOOST_AUTO_TEST_CASE(what_is_collapsed_is_what_the_rungs_join)
             BOOST_TEST(now.surface.liveFaces() == 2 * now.table.count());
             BOOST_TEST(checkCage(now.surface.mesh(), lump.model).bounding());
             BOOST_TEST(treeIsRight(now.surface));
-            for (std::uint32_t q = 0; q < now.table.quads(); ++q) { // two triangles make each quad
-                if (!now.table.isQuad(q)) continue;
-                const Vec4I& ids = now.table.corners(q);
-                int halves = 0;
-                for (const std::uint32_t f : now.surface.facesOf(ids[0])) {
-                    const auto& t = now.surface.face(f);
-                    int inside = 0;
-                    for (int i = 0; i < 3; ++i)
-                        inside += t[i] == ids[0] || t[i] == ids[1] || t[i] == ids[2] || t[i] == ids[3];
-                    halves += inside == 3;
-                }
-                BOOST_TEST((halves == 1 || halves == 2));
-            }
+            BOOST_TEST(twoFacesMakeEach(now));
         }
     }
     BOOST_TEST(collapsed > 30);
@@ -485,12 +485,7 @@ BOOST_AUTO_TEST_CASE(a_loop_that_is_split_is_two_loops)
             quads.quads = now.quads();
             BOOST_TEST(isOfQuads(quads));
             BOOST_TEST(loopsByUnion(quads).size() == loopsByUnion(lump.surface).size() + 1);
-            for (const Vec4I& q : quads.quads) { // two faces make each
-                const std::uint32_t f = faceAt(now.surface, q[0], q[1]), g = faceAt(now.surface, q[2], q[3]);
-                BOOST_TEST(f != g);
-                const std::uint32_t tip = cornerOpposite(now.surface, f, q[0], q[1]);
-                BOOST_TEST((tip == q[2] || tip == q[3]));
-            }
+            BOOST_TEST(twoFacesMakeEach(now));
             BOOST_TEST(checkCage(now.surface.mesh(), lump.model).bounding());
         }
     }
@@ -582,7 +577,7 @@ BOOST_AUTO_TEST_CASE(progress_grows)
         int last = 0, times = 0;
     } watcher;
     const BoundingGuard guard(test::sphere({0, 0, 0}, 0.4, 8));
-    quadLoops(test::ball(14), guard, to(60), &watcher);
+    quadLoops(test::ball(16), guard, to(200), &watcher); // loops are exchanged, too
     BOOST_TEST(watcher.grows);
     BOOST_TEST(watcher.times > 5);
     BOOST_TEST(watcher.last >= 70);
@@ -609,6 +604,10 @@ BOOST_AUTO_TEST_CASE(bad_options_and_surfaces_are_refused)
     }
     const Mesh withTriangles = test::sphere({0, 0, 0}, 0.6, 8);
     BOOST_CHECK_THROW(quadLoops(withTriangles, guard, to(40)), InputError);
+    Mesh inPairs = test::ball(); // which might be taken for quads
+    inPairs.triangles = triangulate(inPairs);
+    inPairs.quads.clear();
+    BOOST_CHECK_THROW(quadLoops(inPairs, guard, to(40)), InputError);
     Mesh open = test::ball();
     open.quads.pop_back();
     BOOST_CHECK_THROW(quadLoops(open, guard, to(40)), InputError);

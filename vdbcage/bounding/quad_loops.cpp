@@ -1,6 +1,5 @@
 #include <vdbcage/bounding/quad_loops.h>
 
-#include <algorithm>
 #include <string>
 #include <utility>
 #include <vector>
@@ -52,12 +51,7 @@ std::vector<std::uint32_t> pairAll(GuardedMesh& surface, const QuadTable& table,
 void splitAround(GuardedMesh& surface, const std::vector<std::uint32_t>& vertices)
 {
     for (const std::uint32_t v : vertices) {
-        const GuardedMesh::FaceList around = surface.facesOf(v);
-        for (const std::uint32_t f : around) {
-            if (surface.isInQuad(f)) surface.splitQuad(f);
-        }
-        const GuardedMesh::FaceList alternates = surface.alternatesOf(v);
-        for (const std::uint32_t f : alternates) {
+        for (const std::uint32_t f : surface.facesOf(v)) {
             if (surface.isInQuad(f)) surface.splitQuad(f);
         }
     }
@@ -97,8 +91,7 @@ void tightenSquarely(GuardedMesh& surface, const QuadTable& table, const QuadLoo
     const double sample = areaPerSample(surface, surface.liveFaces(), tightening.samples);
     double corners = first, bad = firstBad;
     for (int round = 0; round < rounds; ++round) {
-        const double perQuad = distancePerQuad(surface, table, sample);
-        const QuadShapeTerm shape(table, {corners * perQuad, free, bad * perQuad, 0, 0});
+        const QuadShapeTerm shape = shapeTerm(surface, table, {corners, free, bad, 0, 0}, sample, interrupter);
         tighten(surface, tightening.sweeps, sample, interrupter, &shape);
         if (round == 0) perturb(surface, tightening.perturbations, tightening.sweeps, sample, interrupter, &shape);
         const CornerAngles angles = cornerAngles(surface, table);
@@ -123,10 +116,12 @@ Mesh quadLoops(const Mesh& surface, const BoundingGuard& guard, const QuadLoopsO
     requireWithin(QuadLoopsOptions::angles, options.mostAngleDegrees, "most angle");
     requireWithin(QuadLoopsOptions::exchangeCounts, options.exchanges, "exchanges");
     requireValid(options.tightening);
+    if (!surface.triangles.empty()) throw InputError("surface: it has triangles; it must be of quads only");
     GuardedMesh guarded(surface, modelOf(guard), GuardedMesh::Quads::split);
     QuadTable table(guarded);
     if (table.count() == 0) return guarded.mesh();
-    collapseLoops(guarded, table, options.faces / guarded.copies(), interrupter);
+    constexpr int mostPercent = 70; // the rest comes after
+    collapseLoops(guarded, table, options.faces / guarded.copies(), mostPercent, interrupter);
     exchangeLoops(guarded, table, options.faces / guarded.copies(), options.exchanges, interrupter);
     // Where a quad cannot be made, the loops through it go.
     constexpr int attempts = 10;

@@ -74,8 +74,9 @@ public:
     ///
     /// Stages reported to `interrupter`, some more than once: symmetry, guard, voxelize, close, surface, decimate,
     /// tighten, quads or loops, smooth, coplanar, certify. The cage can have fewer faces than asked. It has more only
-    /// where the topology of the closing does not allow fewer and `bounding` is off. \throw InputError what
-    /// requireValid, voxelize or closeMask refuses \throw DeviceError the voxelizer asked for is missing or fails
+    /// where the topology of the closing does not allow fewer and `bounding` is off.
+    /// \throw InputError what requireValid, voxelize or closeMask refuses
+    /// \throw DeviceError the voxelizer asked for is missing or fails
     /// \throw Error the cage could not be certified, which is a defect of vdbcage
     /// \throw Cancelled
     const Mesh& run(const CageOptions& options, Interrupter* interrupter = nullptr);
@@ -86,7 +87,8 @@ public:
     openvdb::MaskGrid::ConstPtr closed() const; ///< its closing, cavities filled
     const Mesh& surface() const;                ///< what the cage was made from, quads
     const Mesh& smoothed() const;               ///< bounding off: the surface smoothed; else the surface
-    const Mesh& decimated() const; ///< triangles: about twice the faces where pairs become quads; of loops the cage
+    const Mesh&
+    decimated() const; ///< triangles: about twice the faces where pairs become quads; loops: before smoothing
     const Mesh& cage() const;
     const CageReport& report() const;
 

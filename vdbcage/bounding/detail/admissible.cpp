@@ -305,4 +305,17 @@ bool Batch::apply(const StarChange& star, const Vec3d& p)
     return true;
 }
 
+bool applyNear(GuardedMesh& mesh, const StarChange& star, const Vec3d& place, double length,
+               const std::array<double, 4>& heights)
+{
+    const Vec3d up = length * outward(mesh, star);
+    for (const double height : heights) {
+        const Vec3d target = rounded(mesh, star, place + height * up);
+        if (!allows(mesh, star, target)) continue;
+        mesh.apply(star, target);
+        return true;
+    }
+    return false;
+}
+
 } // namespace vdbcage::detail

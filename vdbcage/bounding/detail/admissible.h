@@ -26,6 +26,10 @@ struct Obstacle {
 /// \pre `p` is rounded as the guard asks
 bool allows(const GuardedMesh& mesh, const StarChange& star, const Vec3d& p, Obstacle* obstacle = nullptr);
 
+/// Makes the change at the first place that is allowed: `place`, raised by each of these heights, in parts of `length`.
+bool applyNear(GuardedMesh& mesh, const StarChange& star, const Vec3d& place, double length,
+               const std::array<double, 4>& heights);
+
 /// The half-spaces that keep the star's centre, allowed at `from`, off what forbids it at `to`.
 /// \pre `obstacle` is what allows() gave at `to`
 void contacts(const GuardedMesh& mesh, const StarChange& star, const Vec3d& from, const Vec3d& to, Obstacle obstacle,

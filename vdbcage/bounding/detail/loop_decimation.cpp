@@ -21,12 +21,13 @@ namespace vdbcage::detail {
 namespace {
 
 constexpr double irregularWeight = 0.4; // 0 makes slanted limbs more irregular, 0.8 puts off loops that should go
+
 struct Ranked {
     double cost; // by quadrics, for each quad that goes
     std::size_t loop;
 };
 
-/// How much more irregular the vertices become for each rung that goes, by |valence - 4|: -1 to 2.
+/// How much more irregular the vertices become for each rung that goes, by |valence - 4|: -2 to 0.
 double irregularityGrowth(const GuardedMesh& surface, const QuadTable& table, const QuadLoop& loop)
 {
     const auto irregularity = [](std::size_t edges) { return std::abs(static_cast<double>(edges) - 4); };
@@ -40,10 +41,11 @@ double irregularityGrowth(const GuardedMesh& surface, const QuadTable& table, co
 
 /// Best first. No more quads than `tooMany` count.
 std::vector<Ranked> ranked(const GuardedMesh& surface, const QuadTable& table, const VertexQuadrics& quadrics,
-                           const std::vector<QuadLoop>& loops, std::size_t tooMany)
+                           const std::vector<QuadLoop>& loops, std::size_t tooMany, Interrupter* interrupter)
 {
     std::vector<Ranked> ranking(loops.size());
     parallelFor(std::size_t(0), loops.size(), [&](std::size_t i) {
+        throwIfInterrupted(interrupter);
         const std::size_t gone = std::min(loops[i].quads.size(), tooMany);
         const double ragged = irregularWeight * irregularityGrowth(surface, table, loops[i]);
         ranking[i] = {collapseCost(quadrics, loops[i]) * (1 + ragged) / static_cast<double>(gone), i};
@@ -57,12 +59,11 @@ class LoopDecimator {
 public:
     LoopDecimator(GuardedMesh& surface, QuadTable& table) : surface_(surface), table_(table) {}
 
-    void run(std::size_t quads, Interrupter* interrupter)
+    void run(std::size_t quads, int mostPercent, Interrupter* interrupter)
     {
         constexpr double relaxAfter = 0.75; // of the quads
         constexpr int firstSweeps = 4, relaxSweeps = 3;
         constexpr int mostPushes = 3;
-        constexpr std::size_t mostPercent = 70; // tightening comes after
         int pushes = 0;
         double maxLoss = firstLoss;
         if (table_.count() <= quads) return;
@@ -77,10 +78,12 @@ public:
             while (table_.count() > relaxAt &&
                    collapseRound(quadrics, straightLoops(table_), relaxAt, quads, maxLoss, interrupter)) {
                 const std::size_t left = std::max(table_.count(), quads) - quads;
-                throwIfInterrupted(interrupter, static_cast<int>(mostPercent * (start - left) / start));
+                const auto percent = static_cast<int>(static_cast<std::size_t>(mostPercent) * (start - left) / start);
+                throwIfInterrupted(interrupter, mostPercent > 0 ? percent : -1);
             }
-            if (table_.count() == before)
+            if (table_.count() == before) {
                 collapseRound(quadrics, turningLoops(surface_, table_), relaxAt, quads, maxLoss, interrupter);
+            }
             if (table_.count() < before) continue;
             if (maxLoss < lastLoss) {
                 maxLoss *= 2;
@@ -97,23 +100,24 @@ private:
     static constexpr std::size_t mostRefused = 24;         // in one round: those after cost more still
     static constexpr int settleSweeps = 2;
 
-    /// Collapses loops that do not touch, until `quads` or a tenth are left out. Returns whether any went.
+    /// Collapses loops that do not touch, until `quads` are left or a twentieth are gone, but one at least. Returns
+    /// whether any went.
     bool collapseRound(VertexQuadrics& quadrics, const std::vector<QuadLoop>& loops, std::size_t quads,
                        std::size_t target, double maxLoss, Interrupter* interrupter)
     {
         throwIfInterrupted(interrupter);
         const double sample = areaPerSample(surface_);
-        const double perQuad = distancePerQuad(surface_, table_, sample);
+        const double perQuad = distancePerQuad(surface_, table_, sample, interrupter);
         const DistanceMeasure measure(surface_.guard(), sample);
         const QuadShapeTerm term(table_, scaled(usualShape, perQuad));
         const std::size_t most = table_.count() / 20, tooMany = table_.count() - target;
         std::size_t removed = 0, refused = 0;
         std::vector<char> isTouched(surface_.vertices(), 0);
-        for (const Ranked& next : ranked(surface_, table_, quadrics, loops, tooMany)) {
+        for (const Ranked& next : ranked(surface_, table_, quadrics, loops, tooMany, interrupter)) {
             const QuadLoop& loop = loops[next.loop];
             if (table_.count() <= quads || (removed > 0 && removed + loop.quads.size() > most)) break;
-            if (touches(loop, isTouched) || !leavesQuads(surface_, table_, loop)) continue;
             throwIfInterrupted(interrupter);
+            if (touches(loop, isTouched) || !leavesQuads(surface_, table_, loop)) continue;
             const double limit =
                 lossAround(measure, loop, perQuad) + maxLoss * perQuad * static_cast<double>(loop.quads.size());
             const bool isDone = collapseLoop(surface_, table_, quadrics, loop, [&](const auto& kept) {
@@ -186,18 +190,18 @@ bool collapseLoopThrough(GuardedMesh& surface, QuadTable& table, const std::vect
     VertexQuadrics quadrics(surface);
     const auto isAmong = [&](std::uint32_t q) { return std::find(quads.begin(), quads.end(), q) != quads.end(); };
     const std::vector<QuadLoop> loops = straightLoops(table);
-    for (const Ranked& next : ranked(surface, table, quadrics, loops, table.count())) {
+    for (const Ranked& next : ranked(surface, table, quadrics, loops, table.count(), interrupter)) {
         const QuadLoop& loop = loops[next.loop];
-        if (std::none_of(loop.quads.begin(), loop.quads.end(), isAmong) || !leavesQuads(surface, table, loop)) continue;
         throwIfInterrupted(interrupter);
+        if (std::none_of(loop.quads.begin(), loop.quads.end(), isAmong) || !leavesQuads(surface, table, loop)) continue;
         if (collapseLoop(surface, table, quadrics, loop, [](const auto&) { return true; })) return true;
     }
     return false;
 }
 
-void collapseLoops(GuardedMesh& surface, QuadTable& table, std::size_t quads, Interrupter* interrupter)
+void collapseLoops(GuardedMesh& surface, QuadTable& table, std::size_t quads, int mostPercent, Interrupter* interrupter)
 {
-    LoopDecimator(surface, table).run(quads, interrupter);
+    LoopDecimator(surface, table).run(quads, mostPercent, interrupter);
 }
 
 } // namespace vdbcage::detail

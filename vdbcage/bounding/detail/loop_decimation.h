@@ -17,12 +17,13 @@ bool collapseLoopThrough(GuardedMesh& surface, QuadTable& table, const std::vect
 ///
 /// Those that cost least by quadrics for each quad that goes are first. A collapse that brings the surface much farther
 /// from the model than a quad less does on average is put off. In between all vertices are moved to where the distance
-/// is less and corners are near square. Where no whole polychord may go, loops of parts of two do. Serial, but for the
-/// moves.
+/// is less and corners are near square. Where no whole polychord may go, loops of parts of two do. What is measured and
+/// moved is so in parallel. It reports 0 to `mostPercent` of a stage, or nothing if that is 0.
 /// \pre `table` is that of `surface`
 /// \throw Cancelled
 /// Cost: O(n sqrt(n) log m) for n quads and m faces of the model.
 /// Based on: Daniels, Silva, Shepherd, Cohen, Quadrilateral Mesh Simplification, 2008.
-void collapseLoops(GuardedMesh& surface, QuadTable& table, std::size_t quads, Interrupter* interrupter);
+void collapseLoops(GuardedMesh& surface, QuadTable& table, std::size_t quads, int mostPercent,
+                   Interrupter* interrupter);
 
 } // namespace vdbcage::detail

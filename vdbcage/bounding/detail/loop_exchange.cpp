@@ -5,7 +5,6 @@
 #include <vdbcage/bounding/detail/loop_exchange.h>
 
 #include <algorithm>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -27,15 +26,16 @@ struct Quads {
 };
 
 /// `areaPerSample` is the same for all that are compared.
-double distanceOf(const GuardedMesh& surface, const QuadTable& table, double areaPerSample)
+double distanceOf(const GuardedMesh& surface, const QuadTable& table, double areaPerSample, Interrupter* interrupter)
 {
-    const double sum = integratedDistance(surface, areaPerSample);
+    const double sum = integratedDistance(surface, areaPerSample, interrupter);
     return sum +
            sum / static_cast<double>(table.count()) * unfitWeight * static_cast<double>(countUnfit(surface, table));
 }
 
 /// The loops with the most distance for each of their quads, of those with at most `most` quads.
-std::vector<QuadLoop> candidates(const Quads& now, std::size_t most, std::size_t count, double areaPerSample)
+std::vector<QuadLoop> candidates(const Quads& now, std::size_t most, std::size_t count, double areaPerSample,
+                                 Interrupter* interrupter)
 {
     std::vector<QuadLoop> loops = straightLoops(now.table);
     const auto isTooLong = [&](const QuadLoop& loop) { return loop.quads.size() > most; };
@@ -43,6 +43,7 @@ std::vector<QuadLoop> candidates(const Quads& now, std::size_t most, std::size_t
     const DistanceMeasure measure(now.surface.guard(), areaPerSample);
     std::vector<std::pair<double, std::size_t>> ranking(loops.size());
     parallelFor(std::size_t(0), loops.size(), [&](std::size_t i) {
+        throwIfInterrupted(interrupter);
         double sum = 0;
         std::uint32_t seed = TriangleBvh::none;
         for (const std::uint32_t q : loops[i].quads) {
@@ -64,7 +65,8 @@ void refill(Quads& now, std::size_t quads, double areaPerSample, Interrupter* in
     constexpr int sweeps = 3;
     while (now.table.count() < quads) {
         throwIfInterrupted(interrupter);
-        const std::vector<QuadLoop> loops = candidates(now, quads - now.table.count(), tries, areaPerSample);
+        const std::vector<QuadLoop> loops =
+            candidates(now, quads - now.table.count(), tries, areaPerSample, interrupter);
         std::vector<Quads> made(loops.size(), now);
         std::vector<double> gain(loops.size(), 0); // for each quad
         parallelFor(std::size_t(0), loops.size(), [&](std::size_t i) {
@@ -74,7 +76,7 @@ void refill(Quads& now, std::size_t quads, double areaPerSample, Interrupter* in
             std::sort(moving.begin(), moving.end());
             moving.erase(std::unique(moving.begin(), moving.end()), moving.end());
             relaxQuads(made[i].surface, made[i].table, moving, sweeps, interrupter);
-            made[i].distance = distanceOf(made[i].surface, made[i].table, areaPerSample);
+            made[i].distance = distanceOf(made[i].surface, made[i].table, areaPerSample, interrupter);
             gain[i] = (now.distance - made[i].distance) / static_cast<double>(loops[i].quads.size());
         });
         const auto best = std::max_element(gain.begin(), gain.end());
@@ -92,7 +94,7 @@ void exchangeLoops(GuardedMesh& surface, QuadTable& table, std::size_t quads, in
     const double perSample = areaPerSample(surface);
     const auto relax = [&](Quads& now) {
         relaxQuads(now.surface, now.table, sweeps, interrupter);
-        now.distance = distanceOf(now.surface, now.table, perSample);
+        now.distance = distanceOf(now.surface, now.table, perSample, interrupter);
     };
     Quads best{surface, table, 0};
     relax(best);
@@ -103,7 +105,7 @@ void exchangeLoops(GuardedMesh& surface, QuadTable& table, std::size_t quads, in
         Quads now = best;
         const auto gone = static_cast<std::size_t>(share * static_cast<double>(now.table.count()));
         if (gone == 0) break;
-        collapseLoops(now.surface, now.table, now.table.count() - gone, interrupter);
+        collapseLoops(now.surface, now.table, now.table.count() - gone, 0, interrupter);
         relax(now);
         refill(now, quads, perSample, interrupter);
         relax(now);

@@ -7,7 +7,8 @@
 
 namespace vdbcage::detail {
 
-/// Takes loops from where they bring little to where they bring more, in rounds. At most `quads` are left.
+/// Takes loops from where they bring little to where they bring more, in rounds. At most `quads` are left, or as many
+/// as there were if these were more.
 ///
 /// Some loops are collapsed, cheapest first. Then loops are split, as many as fit: those whose split brings the surface
 /// nearest to the model. A round that did not bring it nearer is undone, and fewer loops go in the next.

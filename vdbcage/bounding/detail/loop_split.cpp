@@ -1,5 +1,7 @@
 #include <vdbcage/bounding/detail/loop_split.h>
 
+#include <array>
+
 #include <vdbcage/bounding/detail/admissible.h>
 #include <vdbcage/bounding/detail/face_queries.h>
 
@@ -7,18 +9,7 @@ namespace vdbcage::detail {
 
 namespace {
 
-/// Makes a change at a place, or a little above it, where rounding brought it too near.
-bool applyAt(GuardedMesh& surface, const StarChange& star, const Vec3d& place, double length)
-{
-    const Vec3d up = length * outward(surface, star);
-    for (const double height : {0.0, 0.01, 0.05, 0.15}) {
-        const Vec3d target = rounded(surface, star, place + height * up);
-        if (!allows(surface, star, target)) continue;
-        surface.apply(star, target);
-        return true;
-    }
-    return false;
-}
+constexpr std::array heights{0.0, 0.01, 0.05, 0.15}; // where rounding brought a place too near
 
 /// Joins the new vertices of two rungs across what was the diagonal of their quad, from corner to corner.
 bool join(GuardedMesh& surface, std::uint32_t v, std::uint32_t from, std::uint32_t to)
@@ -26,7 +17,7 @@ bool join(GuardedMesh& surface, std::uint32_t v, std::uint32_t from, std::uint32
     StarChange star;
     if (!starOfFlip(surface, v, from, to, star)) return false;
     const Vec3d place = surface.point(v);
-    return applyAt(surface, star, place, (surface.point(from) - place).length());
+    return applyNear(surface, star, place, (surface.point(from) - place).length(), heights);
 }
 
 } // namespace
@@ -37,7 +28,7 @@ std::vector<std::uint32_t> splitLoop(GuardedMesh& surface, QuadTable& table, con
     for (const auto& [a, b] : loop.rungs) {
         const Vec3d p = surface.point(a), q = surface.point(b);
         middle.push_back(surface.vertices());
-        if (!applyAt(surface, starOfSplit(surface, a, b), 0.5 * (p + q), (p - q).length())) return {};
+        if (!applyNear(surface, starOfSplit(surface, a, b), 0.5 * (p + q), (p - q).length(), heights)) return {};
     }
     for (std::size_t i = 0; i < loop.quads.size(); ++i) {
         const std::size_t next = (i + 1) % loop.rungs.size();

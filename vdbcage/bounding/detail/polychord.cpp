@@ -27,18 +27,7 @@ Vec3d asideOf(const GuardedMesh& surface, std::uint32_t f, std::uint32_t next, s
     return 0.5 * along.length() * direction;
 }
 
-/// Makes the change near a place, as little above it as the guard allows, in parts of `length`.
-bool applyNear(GuardedMesh& surface, const StarChange& star, const Vec3d& at, double length)
-{
-    const Vec3d up = length * outward(surface, star);
-    for (const double height : {0.0, 0.03, 0.1, 0.3}) {
-        const Vec3d target = rounded(surface, star, at + height * up);
-        if (!allows(surface, star, target)) continue;
-        surface.apply(star, target);
-        return true;
-    }
-    return false;
-}
+constexpr std::array heights{0.0, 0.03, 0.1, 0.3}; // of places that may be too near, in parts of a side
 
 /// Splits side i and merges what is before it. \pre the quads are split, and the sides before this one
 bool splitSide(GuardedMesh& surface, const Polychord& polychord, std::size_t i, double push)
@@ -62,7 +51,7 @@ bool splitSide(GuardedMesh& surface, const Polychord& polychord, std::size_t i, 
     const std::uint32_t last = onPlane ? GuardedMesh::none : cornerOpposite(surface, ahead, b, a);
     StarChange star;
     if (!starOfFaces(surface, faces, onPlane, star)) return false;
-    if (!applyNear(surface, star, middle, (surface.point(a) - surface.point(b)).length())) return false;
+    if (!applyNear(surface, star, middle, (surface.point(a) - surface.point(b)).length(), heights)) return false;
     if (isFirst) {
         if (!merge(at(b, first), at(first, a))) return false;
     } else {

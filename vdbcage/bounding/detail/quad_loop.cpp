@@ -25,6 +25,14 @@ Rung sideOf(const QuadTable& table, const Entry& at)
     return {ids[at.side], ids[(at.side + 1) % 4]};
 }
 
+/// Whether it passes no quad twice.
+bool isSimple(const QuadLoop& loop)
+{
+    std::vector<std::uint32_t> sorted = loop.quads;
+    std::sort(sorted.begin(), sorted.end());
+    return std::adjacent_find(sorted.begin(), sorted.end()) == sorted.end();
+}
+
 /// Straight on.
 Entry next(const QuadTable& table, const Entry& at)
 {
@@ -57,15 +65,15 @@ std::vector<QuadLoop> straightLoops(const QuadTable& table)
                 }
             }
             QuadLoop loop;
-            for (at = first; at.quad != none && !seen(at); at = next(table, at)) {
+            for (at = first; at.quad != none && !seen(at);) {
                 seen(at) = true;
                 loop.rungs.push_back(sideOf(table, at));
                 loop.quads.push_back(at.quad);
-                if (next(table, at).quad == none) loop.rungs.push_back(sideOf(table, {at.quad, (at.side + 2) % 4}));
+                const Entry on = next(table, at);
+                if (on.quad == none) loop.rungs.push_back(sideOf(table, {at.quad, (at.side + 2) % 4}));
+                at = on;
             }
-            std::vector<std::uint32_t> sorted = loop.quads;
-            std::sort(sorted.begin(), sorted.end());
-            if (std::adjacent_find(sorted.begin(), sorted.end()) == sorted.end()) loops.push_back(std::move(loop));
+            if (isSimple(loop)) loops.push_back(std::move(loop));
         }
     }
     return loops;
@@ -144,15 +152,14 @@ std::vector<QuadLoop> turningLoops(const GuardedMesh& surface, const QuadTable& 
             0)
             return;
         QuadLoop loop = joined(a, b, isBackward);
-        std::vector<std::uint32_t> sorted = loop.quads;
-        std::sort(sorted.begin(), sorted.end());
-        if (std::adjacent_find(sorted.begin(), sorted.end()) == sorted.end()) loops.push_back(std::move(loop));
+        if (isSimple(loop)) loops.push_back(std::move(loop));
     };
     for (std::size_t l = 0; l < straight.size(); ++l) {
+        if (!straight[l].isClosed()) continue;
         std::map<std::size_t, std::vector<std::array<std::size_t, 2>>> crossings; // by the other loop: where on both
         for (std::size_t i = 0; i < straight[l].quads.size(); ++i) {
             for (const Place& place : placesOf[straight[l].quads[i]]) {
-                if (place.loop > l && straight[l].isClosed()) crossings[place.loop].push_back({i, place.at});
+                if (place.loop > l) crossings[place.loop].push_back({i, place.at});
             }
         }
         for (const auto& [other, at] : crossings) {

@@ -17,16 +17,23 @@ double areaPerSample(const GuardedMesh& surface)
     return areaPerSample(surface, surface.liveFaces(), samplesPerTriangle);
 }
 
-double distancePerQuad(const GuardedMesh& surface, const QuadTable& table, double areaPerSample)
+double distancePerQuad(const GuardedMesh& surface, const QuadTable& table, double areaPerSample,
+                       Interrupter* interrupter)
 {
-    return integratedDistance(surface, areaPerSample) / static_cast<double>(table.count());
+    return integratedDistance(surface, areaPerSample, interrupter) / static_cast<double>(table.count());
+}
+
+QuadShapeTerm shapeTerm(const GuardedMesh& surface, const QuadTable& table, const ShapeWeights& weights,
+                        double areaPerSample, Interrupter* interrupter)
+{
+    return {table, scaled(weights, distancePerQuad(surface, table, areaPerSample, interrupter))};
 }
 
 void relaxQuads(GuardedMesh& surface, const QuadTable& table, const ShapeWeights& weights, int sweeps,
                 Interrupter* interrupter)
 {
-    const double sample = areaPerSample(surface), perQuad = distancePerQuad(surface, table, sample);
-    const QuadShapeTerm term(table, scaled(weights, perQuad));
+    const double sample = areaPerSample(surface);
+    const QuadShapeTerm term = shapeTerm(surface, table, weights, sample, interrupter);
     tighten(surface, sweeps, sample, interrupter, &term);
 }
 
@@ -39,7 +46,7 @@ void relaxQuads(GuardedMesh& surface, const QuadTable& table, const std::vector<
                 Interrupter* interrupter)
 {
     const double sample = areaPerSample(surface);
-    const QuadShapeTerm term(table, scaled(usualShape, distancePerQuad(surface, table, sample)));
+    const QuadShapeTerm term = shapeTerm(surface, table, usualShape, sample, interrupter);
     tighten(surface, vertices, sweeps, sample, interrupter, &term);
 }
 

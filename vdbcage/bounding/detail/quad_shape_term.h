@@ -16,7 +16,7 @@ struct ShapeWeights {
     double unfit;   ///< of a quad that cannot bound under both diagonals, wherever the model is
 };
 
-/// Whether a quad is convex, and both its splits have only angles that the guard allows.
+/// Whether a quad is convex, and both its splits have only angles that the guard allows, of at least 5 degrees.
 bool isFit(const GuardModel& guard, const std::array<Vec3d, 4>& corners);
 
 /// How far quads are from flat ones with square corners, as a term beside the integral of the distance.

@@ -79,7 +79,7 @@ std::vector<double> startScales(const CageOptions& options);
 /// Whether the resolution depends on how large the surface is, which the longest side tells little of.
 bool dependsOnSurface(const CageOptions& options);
 /// The resolution of `voxels`, or a coarser one where their surface of `quads` quads is larger than the cage gains
-/// from. \pre dependsOnSurface()
+/// from; of loops that which gives the quads they begin with, which may be finer. \pre dependsOnSurface()
 int affordableResolution(const CageOptions& options, const Voxels& voxels, std::size_t quads);
 
 /// Whether parts and handles leave faces enough for the shape.
