@@ -34,7 +34,7 @@ std::vector<std::string> stagesOf(const std::string& text)
 {
     std::vector<std::string> stages;
     std::istringstream lines(text);
-    const std::regex pattern("(  0| [ 1-9][0-9]|100) %  ([a-z]+) +[0-9]+\\.[0-9] s");
+    const std::regex pattern("(  0| [ 1-9][0-9]|100) %  ([a-z]+) +[0-9]+\\.[0-9] s(, [1-9][0-9]* s left)?");
     for (std::string line; std::getline(lines, line);) {
         std::smatch match;
         if (!std::regex_match(line, match, pattern)) break; // the words about the result begin

@@ -56,9 +56,8 @@ BOOST_AUTO_TEST_CASE(help_fits_a_screen)
 
 BOOST_AUTO_TEST_CASE(help_tells_range_and_default_of_every_option)
 {
-    const std::string text = runCommand({command, "make", "--help"}).out;
+    const auto lines = linesOf(runCommand({command, "make", "--help-all"}).out);
     for (const OptionText& option : describeOptions()) {
-        const auto lines = linesOf(text);
         const auto line = std::find_if(lines.begin(), lines.end(), [&](const std::string& candidate) {
             return candidate.find("--" + option.name + " ") != std::string::npos;
         });
@@ -69,10 +68,22 @@ BOOST_AUTO_TEST_CASE(help_tells_range_and_default_of_every_option)
     }
 }
 
+BOOST_AUTO_TEST_CASE(the_short_help_leaves_out_rare_options_only_and_names_the_full_one)
+{
+    const auto lines = linesOf(runCommand({command, "make", "--help"}).out);
+    auto flags = flagsOf(lines, "  ");
+    BOOST_TEST(flags.erase("--help-all") == 1U);
+    const auto all = flagsOf(linesOf(runCommand({command, "make", "--help-all"}).out), "  ");
+    for (const OptionText& option : describeOptions()) {
+        BOOST_TEST((flags.count("--" + option.name) == 0) == option.isRare, option.name);
+    }
+    BOOST_TEST(std::includes(all.begin(), all.end(), flags.begin(), flags.end()));
+}
+
 BOOST_AUTO_TEST_CASE(the_readme_lists_the_same_options_with_the_same_defaults)
 {
     const auto readme = linesOf(test::readText(VDBCAGE_SOURCE_DIR "/README.md"));
-    const auto help = linesOf(runCommand({command, "make", "--help"}).out);
+    const auto help = linesOf(runCommand({command, "make", "--help-all"}).out);
     auto inHelp = flagsOf(help, "  ");
     inHelp.erase("--help");
     BOOST_TEST(inHelp.size() > 10U);

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include <openvdb/math/Mat3.h>
 #include <tbb/global_control.h>
 #include <vdbcage/core/error.h>
 #include <vdbcage/mesh/symmetry.h>
@@ -86,6 +87,34 @@ BOOST_AUTO_TEST_CASE(of_equally_good_planes_the_first)
     BOOST_TEST(found->plane.axis == 0);
 }
 
+BOOST_AUTO_TEST_CASE(a_plane_of_any_direction_is_found)
+{
+    for (int i = 0; i < 12; ++i) {
+        const Vec3d axis = Vec3d(std::cos(2.0 * i), std::sin(1.0 + 3 * i), std::cos(5.0 * i + 2)).unit();
+        const auto turn = openvdb::math::rotation<openvdb::Mat3d>(axis, 1.0 + 0.7 * i);
+        const Vec3d normal = turn * Vec3d(1, 0, 0);
+        Mesh model = wedge(0);
+        const double scale = std::pow(10.0, 3 * (i % 3) - 3);
+        for (Vec3d& p : model.points) p = scale * (turn * p + Vec3d(4, -2, i));
+        const TiltedSymmetry found = bestTiltedSymmetry(model);
+        BOOST_TEST(std::abs(found.normal.dot(normal)) > 1 - 1e-12);
+        BOOST_TEST(found.normal.length() == 1, boost::test_tools::tolerance(1e-12));
+        const int largest = static_cast<int>(openvdb::math::MaxIndex(openvdb::math::Abs(found.normal)));
+        BOOST_TEST(found.normal[largest] > 0);
+        BOOST_TEST(std::abs(found.offset - scale * found.normal.dot(Vec3d(4, -2, i))) < 1e-6 * scale);
+        BOOST_TEST(found.deviation < 1e-6);
+    }
+}
+
+BOOST_AUTO_TEST_CASE(no_plane_of_another_direction_is_worse_than_those_of_the_axes)
+{
+    const Mesh twisted = test::joined(turned(wedge(0), 20), test::box({1.4, 0.2, 0.2}, {1.9, 0.5, 0.3}));
+    for (const Mesh& model : {wedge(1), twisted, turned(wedge(0), 37), test::torus(1, 0.3, 40, 16)}) {
+        const TiltedSymmetry found = bestTiltedSymmetry(model);
+        for (const int axis : {0, 1, 2}) BOOST_TEST(found.deviation <= bestSymmetry(model, axis).deviation + 1e-6);
+    }
+}
+
 BOOST_AUTO_TEST_CASE(any_soup_will_do)
 {
     Mesh triangle;
@@ -98,17 +127,23 @@ BOOST_AUTO_TEST_CASE(any_soup_will_do)
     thin.points[2] = {0.5, 1e-320, 0};
     BOOST_TEST(bestSymmetry(thin, 1).deviation < 1e-6);
     BOOST_CHECK_THROW(findSymmetry(Mesh(), 0.1), InputError);
+    BOOST_TEST(bestTiltedSymmetry(triangle).deviation < 1e-6);
+    BOOST_TEST(bestTiltedSymmetry(thin).deviation < 1e-6);
+    BOOST_CHECK_THROW(bestTiltedSymmetry(Mesh()), InputError);
     for (const int axis : {-1, 3}) BOOST_CHECK_THROW(bestSymmetry(triangle, axis), InputError);
     test::StopAt stop(0);
     BOOST_CHECK_THROW(findSymmetry(triangle, 0.1, &stop), Cancelled);
+    BOOST_CHECK_THROW(bestTiltedSymmetry(triangle, &stop), Cancelled);
 }
 
 BOOST_AUTO_TEST_CASE(threads_do_not_matter)
 {
     const Mesh model = turned(wedge(0), 3);
     const auto many = findSymmetry(model, 1);
+    const TiltedSymmetry manyTilted = bestTiltedSymmetry(model);
     const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
     const auto single = findSymmetry(model, 1);
+    BOOST_TEST(bestTiltedSymmetry(model).normal == manyTilted.normal);
     BOOST_REQUIRE((many && single));
     BOOST_TEST(many->plane.offset == single->plane.offset);
     BOOST_TEST(many->deviation == single->deviation);

@@ -460,7 +460,7 @@ BOOST_AUTO_TEST_CASE(a_plane_that_is_asked_for_is_obeyed)
     BOOST_CHECK(!made.report().symmetry);
     const std::string reason = made.report().noSymmetry;
     BOOST_TEST(reason.rfind("the model misses ", 0) == 0U, reason);
-    BOOST_TEST(reason.find(" % of its longest side, which is more than 0.5 %: --symmetry ") != std::string::npos,
+    BOOST_TEST(reason.find(" % of its longest side, which is more than 0.5 %: --symmetry") != std::string::npos,
                reason);
     options.symmetry = CageSymmetry::off;
     BOOST_CHECK(sameMesh(found, makeCage(model, options)));
@@ -471,6 +471,76 @@ BOOST_AUTO_TEST_CASE(a_plane_that_is_asked_for_is_obeyed)
     made.run(options);
     BOOST_TEST(made.report().noSymmetry == "bounding is off");
     options.symmetry = CageSymmetry::x;
+    BOOST_CHECK_THROW(made.run(options), InputError);
+}
+
+BOOST_AUTO_TEST_CASE(a_model_that_stands_askew_gets_a_symmetric_cage)
+{
+    const auto turn = openvdb::math::rotation<openvdb::Mat3d>(openvdb::Vec3d(0.6, 0.5, -0.3).unit(), 0.9);
+    const openvdb::Vec3d normal = turn * openvdb::Vec3d(1, 0, 0), place(7.1, -3, 0.25);
+    Mesh model = test::joined(test::torus(1, 0.3, 40, 16), test::sphere({0, 0.2, 1.5}, 0.7, 10));
+    for (openvdb::Vec3d& p : model.points) p = turn * p + place;
+    CageOptions options = coarse();
+    options.symmetry = CageSymmetry::automatic;
+    for (const CageFaces kind : {CageFaces::triangles, CageFaces::quads}) {
+        options.mesh = kind;
+        Pipeline made(model);
+        const Mesh& cage = made.run(options);
+        BOOST_CHECK(!made.report().symmetry);
+        BOOST_REQUIRE(made.report().tiltedSymmetry);
+        const TiltedSymmetry found = *made.report().tiltedSymmetry;
+        BOOST_TEST(std::abs(found.normal.dot(normal)) > 1 - 1e-6);
+        BOOST_TEST(std::abs(found.offset - found.normal.dot(place)) < 1e-4);
+        BOOST_TEST(found.deviation < 1e-3);
+        BOOST_TEST(checkCage(cage, model).bounding());
+        BOOST_TEST(made.report().floatSafe);
+        BOOST_TEST(faceCount(cage) <= 200U);
+        // Each point has its image, but for rounding.
+        double farthest = 0;
+        for (const openvdb::Vec3d& p : cage.points) {
+            const openvdb::Vec3d image = p - 2 * (found.normal.dot(p) - found.offset) * found.normal;
+            double nearest = 1;
+            for (const openvdb::Vec3d& q : cage.points) nearest = std::min(nearest, (q - image).length());
+            farthest = std::max(farthest, nearest);
+        }
+        BOOST_TEST(farthest < 1e-5);
+        // What it was made from is where the model is.
+        BOOST_TEST(checkCage(made.surface(), model).bounding());
+        BOOST_TEST(checkCage(made.decimated(), model).bounding());
+        for (const openvdb::Vec3d& p : model.points) {
+            for (const auto& mask : {made.solid(), made.closed()}) {
+                const openvdb::Coord voxel = mask->transform().worldToIndexCellCentered(p);
+                BOOST_REQUIRE(mask->tree().isValueOn(voxel));
+            }
+        }
+        BOOST_CHECK(sameMesh(cage, makeCage(model, options)));
+    }
+    // A field that varies in space is laid out along the axes.
+    options.scale = readScaleField("sphere:7,-3,0,1,2");
+    Pipeline made(model);
+    made.run(options);
+    BOOST_CHECK(!made.report().tiltedSymmetry);
+}
+
+BOOST_AUTO_TEST_CASE(models_are_taken_for_symmetric_up_to_the_tolerance)
+{
+    Mesh model = test::torus(1, 0.3, 40, 16);
+    for (openvdb::Vec3d& p : model.points) {
+        if (p[0] > 0) p[2] += 0.05 * p[0] * p[1] + 0.02 * p[0]; // misses every plane
+        p[1] += 0.04 * p[0] * p[0] * p[0];
+    }
+    CageOptions options = coarse();
+    options.symmetry = CageSymmetry::automatic;
+    options.symmetryTolerance = 0.001;
+    Pipeline made(model);
+    made.run(options);
+    BOOST_CHECK(!made.report().symmetry);
+    BOOST_CHECK(!made.report().tiltedSymmetry);
+    BOOST_TEST(made.report().noSymmetry.find("which is more than 0.1 %") != std::string::npos);
+    options.symmetryTolerance = 0.3;
+    made.run(options);
+    BOOST_CHECK(made.report().symmetry);
+    options.symmetryTolerance = 0.4;
     BOOST_CHECK_THROW(made.run(options), InputError);
 }
 

@@ -43,14 +43,26 @@ Json toJson(const CageCheck& check)
             {"median_angle_degrees", check.medianAngleDegrees}};
 }
 
-std::string nameOf(Voxelizer voxelizer)
+/// An option's value as one writes it.
+std::string textOf(const CageOptions& options, const char* name)
 {
-    CageOptions options;
-    options.voxelizer = voxelizer;
     for (const auto& option : optionValues(options)) {
-        if (option.first == "voxelizer") return option.second;
+        if (option.first == name) return option.second;
     }
     return {};
+}
+
+/// What was taken for the inside of an open model, where others might have taken the other; else empty.
+std::string remarkOnInterior(const VoxelizeReport& report)
+{
+    constexpr double surelySheet = 0.15, surelySolid = 0.95;
+    if (!report.agreement || *report.agreement < surelySheet || *report.agreement > surelySolid) return "";
+    std::ostringstream out;
+    out << "the model is open: " << std::fixed << std::setprecision(0) << 100 * *report.agreement
+        << " % of rays agree on its inside, so it was taken for a "
+        << (report.interior == Interior::shell ? "shell; --interior solid fills it"
+                                               : "solid; --interior shell keeps to its walls");
+    return out.str();
 }
 
 Json toJson(const CageReport& report)
@@ -63,14 +75,26 @@ Json toJson(const CageReport& report)
         symmetry = {{"axis", std::string(1, "xyz"[report.symmetry->plane.axis])},
                     {"offset", report.symmetry->plane.offset},
                     {"deviation", report.symmetry->deviation}};
+    } else if (report.tiltedSymmetry) {
+        const openvdb::Vec3d& normal = report.tiltedSymmetry->normal;
+        symmetry = {{"axis", nullptr},
+                    {"normal", {normal[0], normal[1], normal[2]}},
+                    {"offset", report.tiltedSymmetry->offset},
+                    {"deviation", report.tiltedSymmetry->deviation}};
     }
+    CageOptions voxels;
+    voxels.voxelizer = report.voxels.voxelizer;
+    voxels.interior = report.voxels.interior;
+    const Json agreement = report.voxels.agreement ? Json(*report.voxels.agreement) : Json(nullptr);
     return {{"float_safe", report.floatSafe},
             {"symmetry", symmetry},
             {"no_symmetry", report.noSymmetry},
             {"offset_voxels", report.offsetVoxels},
             {"resolution", report.resolution},
-            {"voxelizer", nameOf(report.voxels.voxelizer)},
+            {"voxelizer", textOf(voxels, "voxelizer")},
             {"voxelizer_fallback", report.voxels.fallback},
+            {"interior", textOf(voxels, "interior")},
+            {"ray_agreement", agreement},
             {"close_radius", report.closeRadius},
             {"start", start},
             {"repaired", report.repaired},
@@ -151,9 +175,18 @@ std::vector<std::string> remarks(const CageReport& report, const CageOptions& op
             << "; the model is, within " << std::fixed << std::setprecision(2) << 100 * report.symmetry->deviation
             << " % of its longest side";
         lines.push_back(out.str());
+    } else if (report.tiltedSymmetry) {
+        const TiltedSymmetry& plane = *report.tiltedSymmetry;
+        std::ostringstream out;
+        out << "symmetric in the plane across (" << std::setprecision(4) << plane.normal[0] << ", " << plane.normal[1]
+            << ", " << plane.normal[2] << ") at " << plane.offset << ", found; the model is, within " << std::fixed
+            << std::setprecision(2) << 100 * plane.deviation << " % of its longest side";
+        lines.push_back(out.str());
     } else if (!report.noSymmetry.empty()) {
         lines.push_back("not symmetric: " + report.noSymmetry);
     }
+    const std::string interior = remarkOnInterior(report.voxels);
+    if (!interior.empty()) lines.push_back(interior);
     if (!report.voxels.fallback.empty()) {
         lines.push_back("voxels by the CPU: " + detail::printable(report.voxels.fallback));
     }

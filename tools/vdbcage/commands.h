@@ -28,6 +28,9 @@ int runBind(std::vector<std::string> arguments);
 int runDeform(std::vector<std::string> arguments);
 int runRepair(std::vector<std::string> arguments);
 
+/// The group of options that only --help-all lists, where a command has it.
+constexpr const char* rareOptions = "Rare";
+
 /// Reads `arguments` into `app`, whose help is laid out one option a line. Returns false if help was asked for (and
 /// printed). \throw CLI::ParseError
 bool parse(CLI::App& app, std::vector<std::string> arguments);

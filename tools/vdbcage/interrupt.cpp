@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <cmath>
 #include <csignal>
 #include <cstdio>
 #include <string_view>
@@ -38,6 +39,8 @@ extern "C" void onSignal(int signal, siginfo_t* info, void* /*context*/)
 }
 
 constexpr std::size_t barWidth = 24;
+constexpr int leastPercent = 5; // below, and in the first second, what is left is a guess
+constexpr double leastSeconds = 1;
 
 } // namespace
 
@@ -110,6 +113,7 @@ void Progress::start(const char* name)
 {
     const std::lock_guard lock(mutex_);
     stage_ = name ? name : "";
+    stageBegan_ = Clock::now();
     percent_ = 0;
     draw();
 }
@@ -139,14 +143,21 @@ void Progress::draw()
     drawn_ = Clock::now();
     const double seconds = std::chrono::duration<double>(drawn_ - began_).count();
     const int done = std::clamp(percent_, 0, 100);
+    std::array<char, 24> left{};
+    const double inStage = std::chrono::duration<double>(drawn_ - stageBegan_).count();
+    if (done >= leastPercent && done < 100 && inStage >= leastSeconds) {
+        std::snprintf(left.data(), left.size(), ", %.0f s left", std::ceil(inStage * (100 - done) / done));
+    }
     if (form_ == Form::lines) {
-        if (!stage_.empty()) std::fprintf(stderr, "%3d %%  %-10s %6.1f s\n", done, stage_.c_str(), seconds);
+        if (stage_.empty()) return;
+        std::fprintf(stderr, "%3d %%  %-10s %6.1f s%s\n", done, stage_.c_str(), seconds, left.data());
         return;
     }
     std::array<char, barWidth + 1> bar{};
     std::fill_n(bar.begin(), barWidth, '.');
     std::fill_n(bar.begin(), barWidth * static_cast<std::size_t>(done) / 100, '#');
-    std::fprintf(stderr, "\r\033[K[%s] %3d %%  %-10s %6.1f s", bar.data(), done, stage_.c_str(), seconds);
+    std::fprintf(stderr, "\r\033[K[%s] %3d %%  %-10s %6.1f s%s", bar.data(), done, stage_.c_str(), seconds,
+                 left.data());
     std::fflush(stderr);
     lineOnScreen = true;
 }

@@ -41,7 +41,8 @@ constexpr Verbosity verbosityOf(bool quiet, bool verbose = false)
 
 /// Shows how far the work is, on standard error, and passes a signal on to it. On a terminal it is one line that is
 /// redrawn at most ten times a second. Elsewhere it is nothing, or if verbose a line for every stage and every second
-/// of it, `PERCENT % STAGE SECONDS s`, for logs and for programs that show it.
+/// of it, `PERCENT % STAGE SECONDS s`, for logs and for programs that show it. Where a stage says how far it is, `, N s
+/// left` follows: of the stage, as fast as it went so far.
 class Progress : public Interrupter {
 public:
     explicit Progress(Verbosity verbosity);
@@ -62,7 +63,7 @@ private:
     std::mutex mutex_; // guards what follows: wasInterrupted is called from many threads
     std::string stage_;
     int percent_ = 0; // of the stage, as far as it says
-    Clock::time_point drawn_;
+    Clock::time_point drawn_, stageBegan_;
 };
 
 } // namespace vdbcage::tool

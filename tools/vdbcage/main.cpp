@@ -52,11 +52,14 @@ void printHelp(std::ostream& out)
 
 class HelpFormatter : public CLI::Formatter {
 public:
-    std::string make_help(const CLI::App* app, std::string /*name*/, CLI::AppFormatMode /*mode*/) const override
+    std::string make_help(const CLI::App* app, std::string /*name*/, CLI::AppFormatMode mode) const override
     {
         std::string text = app->get_description() + "\n\n";
         for (const CLI::Option* option : app->get_options()) {
             if (option == app->get_help_ptr()) continue; // whoever reads this has found it
+            if (mode == CLI::AppFormatMode::All ? option == app->get_help_all_ptr()
+                                                : option->get_group() == rareOptions)
+                continue;
             std::string left;
             for (const std::string& name : option->get_snames()) left += "-" + name + " ";
             for (const std::string& name : option->get_lnames()) left += "--" + name + " ";
@@ -232,6 +235,9 @@ bool parse(CLI::App& app, std::vector<std::string> arguments)
         app.parse(std::move(arguments));
     } catch (const CLI::CallForHelp&) {
         std::cout << app.help();
+        return false;
+    } catch (const CLI::CallForAllHelp&) {
+        std::cout << app.help("", CLI::AppFormatMode::All);
         return false;
     }
     return true;

@@ -143,13 +143,15 @@ int runMake(std::vector<std::string> words)
                    setOption(arguments.options, name, value);
                },
                option.help + (option.range.empty() ? "" : ", " + option.range) + " [" + option.defaultValue + "]")
-            ->type_name(option.value);
+            ->type_name(option.value)
+            ->group(option.isRare ? rareOptions : "Options");
     }
     app.add_option("--stages", arguments.stages, "leave every stage there (.vdb, .obj)")->type_name("DIR");
     app.add_option("--report", arguments.report, "options, times, memory, verdict as JSON")->type_name("FILE.json");
     app.add_option("--picture", arguments.picture, "the model with its cage")->type_name("FILE.png");
     app.add_flag("-q,--quiet", arguments.quiet, "print nothing but errors");
     app.add_flag("-v,--verbose", arguments.verbose, "print progress, stage times, the whole verdict");
+    app.set_help_all_flag("--help-all", "print this and the rarer options");
     if (!parse(app, std::move(words))) return exitGood;
     Outputs outputs;
     announce(arguments, outputs);

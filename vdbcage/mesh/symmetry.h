@@ -34,6 +34,24 @@ struct Symmetry {
 /// Based on: Besl and McKay, A Method for Registration of 3-D Shapes, 1992 (nearest points as counterparts).
 VDBCAGE_API Symmetry bestSymmetry(const Mesh& model, int axis, Interrupter* interrupter = nullptr);
 
+/// How well a model agrees with its mirror image in a plane of any direction.
+struct TiltedSymmetry {
+    openvdb::Vec3d normal{1, 0, 0}; ///< of length 1; its largest component is positive
+    double offset = 0;              ///< of the plane's points along the normal, world units
+    double deviation = 0;           ///< as Symmetry
+};
+
+/// The plane of any direction in which the model agrees best with its mirror image. Any soup will do.
+///
+/// Planes through the centroid of the surface, in 500 directions and across its principal axes, are compared by a few
+/// samples. Those that agree best are moved and turned to where mirrored samples lie on the surface as well as can be.
+/// \throw InputError what requireUsable refuses
+/// \throw Cancelled
+/// Cost: O(faces log faces), in parallel; some ten times bestSymmetry.
+/// Based on: Besl and McKay, 1992. Podolak, Shilane, Golovinskiy, Rusinkiewicz, Funkhouser, A Planar-Reflective
+/// Symmetry Transform for 3D Shapes, 2006 (a look at all directions, then refinement).
+VDBCAGE_API TiltedSymmetry bestTiltedSymmetry(const Mesh& model, Interrupter* interrupter = nullptr);
+
 /// The best plane of the three axes, if its deviation is at most `tolerance`.
 /// \throw InputError what requireUsable refuses
 /// \throw Cancelled

@@ -29,6 +29,13 @@ const std::vector<std::pair<const char*, CageFaces>>& names(CageFaces /*type*/)
     return list;
 }
 
+const std::vector<std::pair<const char*, Interior>>& names(Interior /*type*/)
+{
+    static const std::vector<std::pair<const char*, Interior>> list{
+        {"auto", Interior::automatic}, {"solid", Interior::solid}, {"shell", Interior::shell}};
+    return list;
+}
+
 const std::vector<std::pair<const char*, Voxelizer>>& names(Voxelizer /*type*/)
 {
     static const std::vector<std::pair<const char*, Voxelizer>> list{
@@ -201,8 +208,8 @@ std::vector<OptionText> describeOptions()
     const CageOptions defaults;
     visitOptions(defaults, [&](const OptionInfo& info, const auto& field) {
         const bool isNumber = info.range.least < info.range.most;
-        list.push_back(
-            {info.name, Placeholder{info}(field), info.help, isNumber ? toText(info.range) : "", ToText{}(field)});
+        list.push_back({info.name, Placeholder{info}(field), info.help, isNumber ? toText(info.range) : "",
+                        ToText{}(field), info.isRare});
     });
     return list;
 }

@@ -55,16 +55,19 @@ struct CageOptions {
     CageFaces mesh = CageFaces::triangles;       ///< triangles only, or quads too
     std::optional<double> mergeAngle;            ///< degrees: flatter pairs become quads; unset: as the faces ask
     CageSymmetry symmetry = CageSymmetry::off;   ///< exactly symmetric cages; bounding only
+    double symmetryTolerance = 0.005;            ///< that a plane may be missed by, where one is looked for
+    Interior interior = Interior::automatic;     ///< what is inside of a model with holes
     Voxelizer voxelizer = Voxelizer::automatic;  ///< what turns the model into voxels
     bool bounding = true;                        ///< only ever give a cage certified to bound the model
 };
 
 /// What is known of an option beside its value: one entry serves flags, help, range checks, README and metadata.
 struct OptionInfo {
-    const char* name;   ///< lower case with dashes: the flag without its leading dashes
-    const char* symbol; ///< stands for a number in the help ("N"); empty for names out of a list
-    const char* help;   ///< one line
-    Range range = {};   ///< allowed for a number
+    const char* name;    ///< lower case with dashes: the flag without its leading dashes
+    const char* symbol;  ///< stands for a number in the help ("N"); empty for names out of a list
+    const char* help;    ///< one line
+    Range range = {};    ///< allowed for a number
+    bool isRare = false; ///< most users never need it: it is in the full help only
 };
 
 /// Calls `visit(info, field)` for every option, in the order of the help. `Options` is CageOptions, const or not.
@@ -74,20 +77,22 @@ void visitOptions(Options& options, Visit&& visit)
     visit(OptionInfo{"faces", "N", "faces of the cage, at most", {6, 1000000}}, options.faces);
     visit(OptionInfo{"resolution", "N", "voxels along the longest side", {8, 2048}}, options.resolution);
     visit(OptionInfo{"close-radius", "F", "bridges gaps up to twice it", {0, 0.25}}, options.closeRadius);
-    visit(OptionInfo{"erode-radius", "F", "if less, leaves an offset", {0, 0.25}}, options.erodeRadius);
-    visit(OptionInfo{"element", "", "shape of the closing"}, options.element);
+    visit(OptionInfo{"erode-radius", "F", "if less, leaves an offset", {0, 0.25}, true}, options.erodeRadius);
+    visit(OptionInfo{"element", "", "shape of the closing", {}, true}, options.element);
     visit(OptionInfo{"scale-field", "FILE.vdb|REGION", "multiplies the close radius in places"}, options.scale);
     visit(OptionInfo{"smooth", "K", "rounds it off: 0 is tightest", BoundingSmoothOptions::sweepCounts},
           options.smooth);
-    visit(OptionInfo{"parts", "", "separate parts of the closing"}, options.parts);
+    visit(OptionInfo{"parts", "", "separate parts of the closing", {}, true}, options.parts);
     visit(OptionInfo{"mesh", "", "faces of the cage"}, options.mesh);
-    visit(OptionInfo{"merge-angle", "DEG", "largest fold of a quad", BoundingTriquadOptions::mergeAngles},
+    visit(OptionInfo{"merge-angle", "DEG", "largest fold of a quad", BoundingTriquadOptions::mergeAngles, true},
           options.mergeAngle);
     visit(OptionInfo{"symmetry", "", "symmetric cages of symmetric models"}, options.symmetry);
-    visit(OptionInfo{"voxelizer", "", "what makes the voxels"}, options.voxelizer);
-    visit(OptionInfo{"bounding", "", "only ever a certified cage"}, options.bounding);
-    visit(OptionInfo{"clearance", "F", "least distance to model", GuardOptions::clearances}, options.clearance);
-    visit(OptionInfo{"min-angle", "DEG", "floor for triangle angles", GuardOptions::minAngles}, options.minAngle);
+    visit(OptionInfo{"symmetry-tolerance", "F", "how symmetric models are", {0, 0.3}, true}, options.symmetryTolerance);
+    visit(OptionInfo{"interior", "", "what is inside of open models"}, options.interior);
+    visit(OptionInfo{"voxelizer", "", "what makes the voxels", {}, true}, options.voxelizer);
+    visit(OptionInfo{"bounding", "", "only ever a certified cage", {}, true}, options.bounding);
+    visit(OptionInfo{"clearance", "F", "least distance to model", GuardOptions::clearances, true}, options.clearance);
+    visit(OptionInfo{"min-angle", "DEG", "floor for triangle angles", GuardOptions::minAngles, true}, options.minAngle);
     visit(OptionInfo{"effort", "", "time against tightness"}, options.effort);
 }
 
@@ -98,6 +103,7 @@ struct OptionText {
     std::string help;         ///< as OptionInfo
     std::string range;        ///< "12 to 1000000"; empty for names out of a list
     std::string defaultValue; ///< "400"
+    bool isRare = false;      ///< as OptionInfo
 };
 
 /// All options in words, in the order of visitOptions.

@@ -51,6 +51,7 @@ CageReport reportOf(const Candidate& made, const CageOptions& options, bool fits
     report.offsetVoxels = made.offsetVoxels;
     report.start = made.start;
     report.symmetry = made.symmetry;
+    report.tiltedSymmetry = made.tiltedSymmetry;
     report.noSymmetry = made.noSymmetry;
     report.repaired = made.repaired;
     report.cavitiesFilled = closing.cavitiesFilled;

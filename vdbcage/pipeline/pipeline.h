@@ -33,12 +33,14 @@ struct CageReport {
     double offsetVoxels = 0; ///< by how much all of the closing was grown to keep the clearance
     CageStart start = CageStart::closing;
     std::optional<Symmetry> symmetry; ///< the plane in which the cage is exactly symmetric, and how far the model is
-    std::string noSymmetry;           ///< why there is none; empty if there is, or it was not asked for
-    bool repaired = false;            ///< an unguarded cage was not valid and went through repair()
-    std::size_t cavitiesFilled = 0;   ///< hollows inside the closing that were filled
-    std::size_t solidParts = 0;       ///< separate surfaces of the model's voxels, inner ones too
-    std::int64_t solidHandles = 0;    ///< and handles, tunnels through them, of all of them
-    std::size_t parts = 0;            ///< the same of what the cage was made from: the closing, grown a little
+    /// If the plane lies across no axis: the cage is symmetric in it but for the rounding of its coordinates.
+    std::optional<TiltedSymmetry> tiltedSymmetry;
+    std::string noSymmetry;         ///< why there is none; empty if there is, or it was not asked for
+    bool repaired = false;          ///< an unguarded cage was not valid and went through repair()
+    std::size_t cavitiesFilled = 0; ///< hollows inside the closing that were filled
+    std::size_t solidParts = 0;     ///< separate surfaces of the model's voxels, inner ones too
+    std::int64_t solidHandles = 0;  ///< and handles, tunnels through them, of all of them
+    std::size_t parts = 0;          ///< the same of what the cage was made from: the closing, grown a little
     std::int64_t handles = 0;
     std::size_t solidVoxels = 0, closedVoxels = 0;
 };

@@ -15,7 +15,7 @@ std::pair<BitGrid, VoxelizeReport> voxelizeAutomatically(const Mesh& model, cons
     VoxelizeReport report;
     if (frame.resolution >= leastResolutionForDevice) {
         try {
-            return {device(model, frame, interrupter), VoxelizeReport{Voxelizer::gl, {}}};
+            return {device(model, frame, interrupter), VoxelizeReport{Voxelizer::gl}};
         } catch (const DeviceError& error) {
             report.fallback = error.what();
         }
@@ -25,25 +25,51 @@ std::pair<BitGrid, VoxelizeReport> voxelizeAutomatically(const Mesh& model, cons
 
 } // namespace detail
 
+namespace {
+
+/// Rays cross every face twice, so that none holds anything to be inside.
+Mesh withEveryFaceTwice(const Mesh& model)
+{
+    Mesh doubled = model;
+    doubled.triangles.insert(doubled.triangles.end(), model.triangles.begin(), model.triangles.end());
+    doubled.quads.insert(doubled.quads.end(), model.quads.begin(), model.quads.end());
+    return doubled;
+}
+
+std::pair<detail::BitGrid, VoxelizeReport> voxelizeBy(Voxelizer voxelizer, const Mesh& model,
+                                                      const detail::Frame& frame, Interrupter* interrupter)
+{
+    switch (voxelizer) {
+    case Voxelizer::gl:
+        return {detail::voxelizeGl(model, frame, interrupter), VoxelizeReport{Voxelizer::gl}};
+    case Voxelizer::cgal:
+        return {detail::voxelizeCgal(model, frame, interrupter), VoxelizeReport{Voxelizer::cgal}};
+    case Voxelizer::cpu:
+        return {detail::voxelizeCpu(model, frame, interrupter), VoxelizeReport{Voxelizer::cpu}};
+    case Voxelizer::automatic:
+        break;
+    }
+    return detail::voxelizeAutomatically(model, frame, detail::voxelizeGlHardware, interrupter);
+}
+
+} // namespace
+
 Voxelization voxelize(const Mesh& model, const VoxelizeOptions& options, Interrupter* interrupter)
 {
     requireWithin(VoxelizeOptions::resolutions, options.resolution, "resolution");
     requireUsable(model, "model");
     const detail::Frame frame = detail::makeFrame(model, options.resolution, options.box);
-    const auto run = [&]() -> std::pair<detail::BitGrid, VoxelizeReport> {
-        switch (options.voxelizer) {
-        case Voxelizer::gl:
-            return {detail::voxelizeGl(model, frame, interrupter), VoxelizeReport{Voxelizer::gl, {}}};
-        case Voxelizer::cgal:
-            return {detail::voxelizeCgal(model, frame, interrupter), VoxelizeReport{Voxelizer::cgal, {}}};
-        case Voxelizer::cpu:
-            return {detail::voxelizeCpu(model, frame, interrupter), VoxelizeReport{Voxelizer::cpu, {}}};
-        case Voxelizer::automatic:
-            break;
-        }
-        return detail::voxelizeAutomatically(model, frame, detail::voxelizeGlHardware, interrupter);
-    };
-    auto [bits, report] = run();
+    std::optional<double> agreement;
+    Interior interior = options.interior;
+    if (interior == Interior::automatic) {
+        agreement = rayAgreement(model, interrupter);
+        interior = *agreement < mostlySheet ? Interior::shell : Interior::solid;
+    }
+    const Mesh doubled = interior == Interior::shell ? withEveryFaceTwice(model) : Mesh();
+    const Mesh& counted = interior == Interior::shell ? doubled : model;
+    auto [bits, report] = voxelizeBy(options.voxelizer, counted, frame, interrupter);
+    report.interior = interior;
+    report.agreement = agreement;
     return {detail::toMask(std::move(bits), detail::makeTransform(frame), interrupter), std::move(report)};
 }
 

@@ -8,6 +8,7 @@
 #include <vdbcage/core/interrupter.h>
 #include <vdbcage/core/range.h>
 #include <vdbcage/mesh/mesh.h>
+#include <vdbcage/voxelize/interior.h>
 
 namespace vdbcage {
 
@@ -26,12 +27,15 @@ struct VoxelizeOptions {
     Voxelizer voxelizer = Voxelizer::automatic;
     /// The voxels are laid out as for a model with this bounding box, which must hold the model's own; unset: that one.
     std::optional<openvdb::BBoxd> box = {};
+    Interior interior = Interior::solid; ///< of a model with holes; closed models are the same whatever it is
 };
 
 /// How voxelize() did it.
 struct VoxelizeReport {
     Voxelizer voxelizer = Voxelizer::cpu; ///< whose voxels these are, never automatic
-    std::string fallback;                 ///< why automatic took cpu after it had tried gl; else empty
+    std::string fallback = {};            ///< why automatic took cpu after it had tried gl; else empty
+    Interior interior = Interior::solid;  ///< as asked for or found, never automatic
+    std::optional<double> agreement = {}; ///< rayAgreement() of the model, if it was automatic
 };
 
 struct Voxelization {
@@ -57,6 +61,7 @@ struct Voxelization {
 /// two of the three axes (a quad counts under its diagonal 0-2); and then every voxel that no path of face-connected
 /// voxels neither touched nor inside joins to the outside, so the solid has no cavities. Orientation plays no part.
 /// Open, self-intersecting and multi-part models become solids too: a bowl is filled to its rim; a sheet has no inside.
+/// With Interior::shell the rays have no say, so that a bowl is its wall.
 ///
 /// \throw InputError the resolution is out of range; what requireUsable() refuses; the box does not hold the model, or
 ///        its longest side is not in [1e-100, 1e100]; a voxel is smaller than 2^-37 (7e-12) of the largest absolute

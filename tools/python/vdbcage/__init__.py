@@ -619,12 +619,13 @@ class Mask:
         return f"<vdbcage.Mask: {len(self)} voxels>"
 
 
-def voxelize(model, resolution=128, *, voxelizer=None, box=None, progress=None):
+def voxelize(model, resolution=128, *, voxelizer=None, interior="solid", box=None, progress=None):
     """The voxels that a face of the model touches, and those inside, as a Mask. It has no cavities.
 
     model: a Mesh of any kind
     resolution: voxels along the model's longest side, 1 to 4096
     voxelizer: None (auto), "cpu", "gl" or "cgal"; all give the same voxels
+    interior: "solid", "shell" or None (auto), what counts as the inside of a model with holes
     box: array-like, shape (2, 3): lower and upper corner; the voxels are laid out as for a model with this bounding box
     Raises InputError, DeviceError, Cancelled.
     """
@@ -632,8 +633,10 @@ def voxelize(model, resolution=128, *, voxelizer=None, box=None, progress=None):
     if box is not None:
         box = _rows("box", box, (2, 3), "fiu", "two rows of three finite numbers").astype(float).ravel().tolist()
     voxelizer = _option_text("voxelizer", voxelizer, "auto")
+    interior = _option_text("interior", interior, "auto")
     with _names_of_python():
-        return Mask._of(_vdbcage.voxelize(_mesh("model", model), resolution, voxelizer, box, _callback(progress)))
+        return Mask._of(_vdbcage.voxelize(_mesh("model", model), resolution, voxelizer, interior, box,
+                                          _callback(progress)))
 
 
 def close_mask(mask, close_radius, erode_radius=None, *, element="sphere", scale_field=None, progress=None):

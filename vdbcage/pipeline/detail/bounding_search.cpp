@@ -12,10 +12,12 @@
 #include <vdbcage/bounding/smooth.h>
 #include <vdbcage/bounding/tighten.h>
 #include <vdbcage/bounding/triquad.h>
+#include <vdbcage/core/detail/number_text.h>
 #include <vdbcage/core/detail/parallel.h>
 #include <vdbcage/core/error.h>
 #include <vdbcage/pipeline/detail/starting_surface.h>
 #include <vdbcage/pipeline/detail/textbook.h>
+#include <vdbcage/pipeline/detail/tilted_search.h>
 
 namespace vdbcage::detail {
 
@@ -52,28 +54,39 @@ void keepAtMost(std::size_t most, const Mesh Candidate::*mesh, std::vector<Candi
     candidates.erase(std::remove_if(candidates.begin(), candidates.end(), hasTooMany), candidates.end());
 }
 
-/// Why there is to be no cage that is symmetric in the best plane; empty if there is. \throw InputError
-std::string againstSymmetry(const Symmetry& best, CageSymmetry wanted)
+/// "4.2 % of its longest side"
+std::string percentOfSide(double fraction)
 {
-    const double limit =
-        wanted == CageSymmetry::automatic ? policy::symmetryTolerance : policy::largestRequestedDeviation;
-    if (best.deviation <= limit) return "";
-    std::ostringstream percent, most;
-    percent << std::setprecision(3) << 100 * best.deviation << " % of its longest side";
-    most << 100 * limit << " %";
-    const std::string axis(1, "xyz"[best.plane.axis]);
-    const std::string finding = "the model misses " + axis + " by " + percent.str();
-    if (wanted != CageSymmetry::automatic) {
-        throw InputError("--symmetry: '" + axis + "' is not allowed: " + finding + "; it may be at most " + most.str());
-    }
-    std::string advice = finding + ", which is more than " + most.str();
-    if (best.deviation <= policy::largestRequestedDeviation) {
-        advice += ": --symmetry " + axis + " takes it all the same";
-    }
-    return advice;
+    std::ostringstream text;
+    text << std::setprecision(3) << 100 * fraction << " % of its longest side";
+    return text.str();
+}
+
+std::string nameOf(const SymmetryPlane& plane)
+{
+    return std::string(1, "xyz"[plane.axis]);
+}
+
+/// Fractions of the longest side so that a user may give them back: rounded up.
+std::string tolerance(double deviation)
+{
+    std::ostringstream text;
+    text << std::ceil(deviation * 1e4) / 1e4;
+    return text.str();
 }
 
 } // namespace
+
+BoundingSearch::BoundingSearch(const Mesh& model, Volumes& volumes, Certifier& certifier,
+                               const std::optional<Symmetry>& acrossX)
+    : model_(model), volumes_(volumes), certifier_(certifier)
+{
+    if (!acrossX) return;
+    soughtSymmetry_ = CageSymmetry::x;
+    symmetry_ = *acrossX;
+}
+
+BoundingSearch::~BoundingSearch() = default;
 
 Candidate BoundingSearch::run(const CageOptions& options, const ScaleVersion& scale, Interrupter* interrupter)
 {
@@ -88,6 +101,7 @@ Candidate BoundingSearch::run(const CageOptions& options, const ScaleVersion& sc
         throw; // asked for between two steps: what was recorded of the decimations is right
     } catch (...) {
         starts_.clear(); // a step may be half done
+        tilted_.reset();
         throw;
     }
 }
@@ -97,23 +111,70 @@ Candidate BoundingSearch::find(const Run& run)
 {
     std::string noSymmetry;
     if (run.options.symmetry != CageSymmetry::off) {
-        Symmetry symmetry = planeFor(run);
-        noSymmetry = againstSymmetry(symmetry, run.options.symmetry);
-        if (noSymmetry.empty()) {
-            const BoundingGuard& guard = guardFor(run, symmetry.plane);
-            if (auto candidate = climb(run, guard)) {
-                symmetry.plane = *guard.symmetry();
-                candidate->symmetry = symmetry;
-                return *std::move(candidate);
-            }
-            noSymmetry = "no symmetric cage with so few faces was certified";
-        }
+        if (auto candidate = findSymmetric(run, noSymmetry)) return *std::move(candidate);
     }
     const BoundingGuard& guard = guardFor(run, std::nullopt);
     std::optional<Candidate> found = climb(run, guard);
     Candidate candidate = found ? *std::move(found) : box(run, guard);
     candidate.noSymmetry = noSymmetry;
     return candidate;
+}
+
+/// In a plane across an axis, or where any may be taken in another; else `objection` says why there is none.
+/// \throw InputError the plane that is asked for is absurd
+std::optional<Candidate> BoundingSearch::findSymmetric(const Run& run, std::string& objection)
+{
+    Symmetry best = planeFor(run);
+    const bool isAnyAllowed = run.options.symmetry == CageSymmetry::automatic;
+    const double limit = isAnyAllowed ? run.options.symmetryTolerance : policy::largestRequestedDeviation;
+    const std::string finding = "the model misses " + nameOf(best.plane) + " by " + percentOfSide(best.deviation);
+    if (!isAnyAllowed && best.deviation > limit) {
+        throw InputError("--symmetry: '" + nameOf(best.plane) + "' is not allowed: " + finding +
+                         "; it may be at most " + detail::numberText(100 * limit) + " %");
+    }
+    if (best.deviation <= limit) {
+        const BoundingGuard& guard = guardFor(run, best.plane);
+        if (auto candidate = climb(run, guard)) {
+            best.plane = *guard.symmetry();
+            candidate->symmetry = best;
+            return candidate;
+        }
+        objection = "no symmetric cage with so few faces was certified";
+        return std::nullopt;
+    }
+    if (auto candidate = findTilted(run, objection)) return candidate;
+    if (!objection.empty()) return std::nullopt;
+    objection = finding + ", which is more than " + detail::numberText(100 * limit) + " %";
+    if (best.deviation <= policy::largestRequestedDeviation) {
+        objection += ": --symmetry " + nameOf(best.plane) + " takes it all the same";
+    }
+    return std::nullopt;
+}
+
+/// In a plane of any direction that is not missed by more than the tolerance. `objection` is set if there is such a
+/// plane but no such cage, or if a greater tolerance would do and no axis is as good.
+std::optional<Candidate> BoundingSearch::findTilted(const Run& run, std::string& objection)
+{
+    const bool varies = run.options.scale.grid || !run.options.scale.regions.empty();
+    if (varies || longestSide(boundingBox(model_)) < policy::leastTurnedSide) return std::nullopt;
+    if (!tilted_) {
+        const Stage stage(run.interrupter, "symmetry");
+        tilted_ = std::make_unique<TiltedSearch>(model_, bestTiltedSymmetry(model_, run.interrupter), certifier_);
+    }
+    const double deviation = tilted_->plane().deviation;
+    if (deviation <= run.options.symmetryTolerance) {
+        if (auto candidate = tilted_->run(run.options, run.interrupter)) return candidate;
+        objection = "no symmetric cage with so few faces was certified";
+    } else if (deviation < 0.5 * symmetry_.deviation && deviation <= policy::largestRequestedDeviation) {
+        const openvdb::Vec3d& n = tilted_->plane().normal;
+        std::ostringstream text;
+        text << "the model misses the plane across (" << std::setprecision(2) << n[0] << ", " << n[1] << ", " << n[2]
+             << ") by " << percentOfSide(deviation) << ", which is more than "
+             << detail::numberText(100 * run.options.symmetryTolerance) << " %: --symmetry-tolerance "
+             << tolerance(deviation) << " takes it all the same";
+        objection = text.str();
+    }
+    return std::nullopt;
 }
 
 /// The best plane of those that are asked for; the model has the same one in every run.

@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include <vdbcage/bounding/bounding_guard.h>
@@ -10,17 +11,18 @@
 
 namespace vdbcage::detail {
 
+class TiltedSearch;
+
 /// Looks for the bounding cage: shrinks surfaces under the guard, in the order of search.h, until one is certified.
 ///
 /// What several runs share is kept between them: the guard, the plane of symmetry, and starting surfaces with their
 /// decimations.
 class BoundingSearch {
 public:
-    /// The arguments must outlive this.
-    BoundingSearch(const Mesh& model, Volumes& volumes, Certifier& certifier)
-        : model_(model), volumes_(volumes), certifier_(certifier)
-    {
-    }
+    /// The first three must outlive this. `acrossX` is the best plane across x, where it is known.
+    BoundingSearch(const Mesh& model, Volumes& volumes, Certifier& certifier,
+                   const std::optional<Symmetry>& acrossX = {});
+    ~BoundingSearch();
 
     /// A certified cage, or the model's bounding box with its verdict. It can be called again after any exception.
     /// \throw InputError as Pipeline::run
@@ -38,6 +40,8 @@ private:
     using Candidates = std::vector<Candidate>;
 
     Candidate find(const Run& run);
+    std::optional<Candidate> findSymmetric(const Run& run, std::string& objection);
+    std::optional<Candidate> findTilted(const Run& run, std::string& objection);
     const Symmetry& planeFor(const Run& run);
     const BoundingGuard& guardFor(const Run& run, const std::optional<SymmetryPlane>& plane);
     std::optional<Candidate> climb(const Run& run, const BoundingGuard& guard);
@@ -55,6 +59,7 @@ private:
     Certifier& certifier_;
     CageSymmetry soughtSymmetry_ = CageSymmetry::off; // what was asked for `symmetry_`; off: nothing yet
     Symmetry symmetry_;
+    std::unique_ptr<TiltedSearch> tilted_;       // once a plane in another direction was looked for
     std::unique_ptr<const BoundingGuard> guard_; // of the last run
     GuardOptions guardOptions_;                  // that it was made with
     struct Counted {

@@ -38,6 +38,7 @@ struct Candidate {
     bool boundsAsFloats = false;
     bool repaired = false;
     std::optional<Symmetry> symmetry = {};
+    std::optional<TiltedSymmetry> tiltedSymmetry = {};
     std::string noSymmetry = {};
 };
 

@@ -54,10 +54,10 @@ constexpr double wideAngle = 10, usualAngle = 6; ///< degrees; the wide one cost
 constexpr double loopsAngle = 1; ///< degrees; with more, half collapsed loops are stopped by their slender triangles
 constexpr double mostlyQuads = 0.875;
 ///< of the faces; more cost a third of the tightness on models with edges
-constexpr std::size_t trianglesPerQuad = 3; ///< to begin with: two a quad, and some that vanish; 2 to 4 are alike
-constexpr int symmetricPerturbations = 3;   ///< times as many, in the time that half a surface saves
-constexpr double symmetryTolerance = 0.005; ///< of the longest side: below the distance of tight cages of some hundred
+constexpr std::size_t trianglesPerQuad = 3;       ///< to begin with: two a quad, and some that vanish; 2 to 4 are alike
+constexpr int symmetricPerturbations = 3;         ///< times as many, in the time that half a surface saves
 constexpr double largestRequestedDeviation = 0.3; ///< of a plane across a given axis: more is no symmetry
+constexpr double leastTurnedSide = 0.05;          ///< world units: OpenVDB has no turned voxels below 1.44e-5
 constexpr double boxMargin = 0.01;                ///< of the longest side, between the model and its box
 constexpr int stepSmoothing = 3; ///< sweeps that take the steps of the voxels away, where no guard does
 

@@ -94,7 +94,8 @@ bool ScaleVersion::operator==(const ScaleVersion& other) const
 
 bool SolidKey::operator==(const SolidKey& other) const
 {
-    return resolution == other.resolution && voxelizer == other.voxelizer && plane == other.plane;
+    return resolution == other.resolution && voxelizer == other.voxelizer && interior == other.interior &&
+           plane == other.plane;
 }
 
 bool ClosingKey::operator==(const ClosingKey& other) const
@@ -105,7 +106,7 @@ bool ClosingKey::operator==(const ClosingKey& other) const
 
 ClosingKey closingKey(const CageOptions& options, const ScaleVersion& scale, const Voxels& voxels)
 {
-    return {{voxels.resolution, options.voxelizer, voxels.plane},
+    return {{voxels.resolution, options.voxelizer, options.interior, voxels.plane},
             voxels.closeRadius,
             options.erodeRadius.value_or(voxels.closeRadius),
             options.element,
@@ -135,6 +136,7 @@ std::shared_ptr<const Solid> Volumes::solid(const SolidKey& key, Interrupter* in
     VoxelizeOptions voxelization;
     voxelization.resolution = key.resolution;
     voxelization.voxelizer = key.voxelizer;
+    voxelization.interior = key.interior;
     if (key.plane) voxelization.box = boxWithMirrorImage(boundingBox(model_), *key.plane);
     auto made = std::make_shared<Solid>();
     made->key = key;

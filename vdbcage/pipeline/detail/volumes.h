@@ -30,6 +30,7 @@ struct ScaleVersion {
 struct SolidKey {
     int resolution = 0;
     Voxelizer voxelizer = Voxelizer::automatic;
+    Interior interior = Interior::automatic;
     std::optional<SymmetryPlane> plane;
 
     bool operator==(const SolidKey& other) const;

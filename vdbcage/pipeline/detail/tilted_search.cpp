@@ -1,0 +1,100 @@
+#include <vdbcage/pipeline/detail/tilted_search.h>
+
+#include <memory>
+#include <utility>
+
+#include <vdbcage/core/detail/parallel.h>
+
+namespace vdbcage::detail {
+
+namespace {
+
+using openvdb::Mat3d;
+using openvdb::Vec3d;
+
+/// Turns `normal`, of length 1, to x.
+Mat3d rotationToX(const Vec3d& normal)
+{
+    Vec3d least(0.0);
+    least[static_cast<int>(openvdb::math::MinIndex(openvdb::math::Abs(normal)))] = 1;
+    Vec3d up = normal.cross(least);
+    up.normalize();
+    return {normal, up, normal.cross(up), /*rows=*/true};
+}
+
+Mesh turnedMesh(const Mesh& model, const Mat3d& rotation, const Vec3d& centre)
+{
+    Mesh turned = model;
+    for (Vec3d& p : turned.points) p = rotation * (p - centre);
+    return turned;
+}
+
+Vec3d centreOf(const Mesh& model)
+{
+    const openvdb::BBoxd box = boundingBox(model);
+    return 0.5 * box.min() + 0.5 * box.max();
+}
+
+} // namespace
+
+TiltedSearch::TiltedSearch(const Mesh& model, const TiltedSymmetry& plane, Certifier& certifier)
+    : plane_(plane), certifier_(certifier), centre_(centreOf(model)), rotation_(rotationToX(plane.normal)),
+      turned_(turnedMesh(model, rotation_, centre_)),
+      search_(turned_, volumes_, turnedCertifier_,
+              Symmetry{{0, plane.offset - plane.normal.dot(centre_)}, plane.deviation})
+{
+}
+
+std::optional<Candidate> TiltedSearch::run(const CageOptions& options, Interrupter* interrupter)
+{
+    CageOptions acrossX = options;
+    acrossX.symmetry = CageSymmetry::x;
+    Candidate candidate = search_.run(acrossX, {}, interrupter);
+    if (!candidate.symmetry) return std::nullopt;
+    candidate.cage = certifier_.rounded(turnedBack(std::move(candidate.cage)));
+    candidate.check = certifier_.check(candidate.cage, interrupter);
+    candidate.boundsAsFloats = certifier_.boundsAsFloats(candidate.cage, interrupter);
+    if (!candidate.check.bounding() || !candidate.boundsAsFloats) return std::nullopt;
+
+    candidate.symmetry.reset();
+    candidate.tiltedSymmetry = plane_;
+    candidate.decimated = turnedBack(std::move(candidate.decimated));
+    const bool isSmoothed = candidate.smoothed != candidate.surface;
+    candidate.surface = std::make_shared<const Mesh>(turnedBack(*candidate.surface));
+    candidate.smoothed = isSmoothed ? std::make_shared<const Mesh>(turnedBack(*candidate.smoothed)) : candidate.surface;
+    auto closing = std::make_shared<Closing>(*candidate.closing);
+    auto solid = std::make_shared<Solid>(*closing->solid);
+    isolated([&] {
+        solid->mask = turnedBack(*solid->mask);
+        closing->mask = turnedBack(*closing->mask);
+    });
+    closing->solid = std::move(solid);
+    candidate.closing = std::move(closing);
+    return candidate;
+}
+
+Mesh TiltedSearch::turnedBack(Mesh mesh) const
+{
+    const Mat3d back = rotation_.transpose();
+    for (Vec3d& p : mesh.points) p = back * p + centre_;
+    return mesh;
+}
+
+/// With the voxels that it has, and another transform.
+openvdb::MaskGrid::ConstPtr TiltedSearch::turnedBack(const openvdb::MaskGrid& mask) const
+{
+    const openvdb::math::Transform& now = mask.transform();
+    const Vec3d origin = now.indexToWorld(Vec3d(0.0));
+    openvdb::Mat4d matrix = openvdb::Mat4d::identity(); // its rows are the images of the axes
+    for (int axis = 0; axis < 3; ++axis) {
+        Vec3d unit(0.0);
+        unit[axis] = 1;
+        const Vec3d step = rotation_.transpose() * (now.indexToWorld(unit) - origin);
+        for (int i = 0; i < 3; ++i) matrix(axis, i) = step[i];
+    }
+    const Vec3d place = rotation_.transpose() * origin + centre_;
+    for (int i = 0; i < 3; ++i) matrix(3, i) = place[i];
+    return mask.copyReplacingTransform(openvdb::math::Transform::createLinearTransform(matrix));
+}
+
+} // namespace vdbcage::detail

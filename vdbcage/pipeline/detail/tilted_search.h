@@ -1,0 +1,42 @@
+#pragma once
+
+#include <optional>
+
+#include <vdbcage/mesh/symmetry.h>
+#include <vdbcage/pipeline/detail/bounding_search.h>
+
+namespace vdbcage::detail {
+
+/// Looks for a cage that is symmetric in a plane of any direction: that of the model, turned so that the plane lies
+/// across x, turned back.
+///
+/// Turning rounds, so that the cage is symmetric but for the rounding of its coordinates.
+class TiltedSearch {
+public:
+    /// `certifier` is of `model` as it is, and must outlive this.
+    TiltedSearch(const Mesh& model, const TiltedSymmetry& plane, Certifier& certifier);
+
+    /// A symmetric cage that is certified where it is; nothing if there is none with so few faces.
+    /// \pre the options have no field that varies in space
+    /// \throw InputError as Pipeline::run
+    /// \throw DeviceError
+    /// \throw Cancelled
+    std::optional<Candidate> run(const CageOptions& options, Interrupter* interrupter);
+
+    const TiltedSymmetry& plane() const { return plane_; }
+
+private:
+    Mesh turnedBack(Mesh mesh) const;
+    openvdb::MaskGrid::ConstPtr turnedBack(const openvdb::MaskGrid& mask) const;
+
+    const TiltedSymmetry plane_;
+    Certifier& certifier_;
+    openvdb::Vec3d centre_; // of the model's box: the origin of what is turned
+    openvdb::Mat3d rotation_;
+    Mesh turned_;
+    Volumes volumes_{turned_};
+    Certifier turnedCertifier_{turned_};
+    BoundingSearch search_;
+};
+
+} // namespace vdbcage::detail
