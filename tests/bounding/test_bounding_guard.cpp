@@ -279,6 +279,19 @@ BOOST_AUTO_TEST_CASE(the_rest_of_the_surface_is_not_touched)
     const Mesh withSmall = test::joined(bipyramid({0, 0, 0}, 1), bipyramid({0, 0, 1.31}, 0.01));
     BOOST_TEST(topMayGo(withSmall, guard, {0, 0, 1.3 - 0.0008}));
     BOOST_TEST(!topMayGo(withSmall, guard, {0, 0, 1.3 - 0.0006}));
+    // With a quarter of the spacing it is a quarter of each.
+    GuardOptions narrow = GuardOptions{};
+    narrow.minAngleDegrees = 0;
+    narrow.spacing = 0.0005;
+    const BoundingGuard nearer(model, narrow);
+    BOOST_TEST(topMayGo(surface, nearer, {0, 0, 1.3 - 0.0013}));
+    BOOST_TEST(!topMayGo(surface, nearer, {0, 0, 1.3 - 0.0012}));
+    BOOST_TEST(topMayGo(withSmall, nearer, {0, 0, 1.3 - 0.0002}));
+    BOOST_TEST(!topMayGo(withSmall, nearer, {0, 0, 1.3 - 0.00015}));
+    for (const double spacing : {0.0, 5e-5, 0.02, std::nan("")}) {
+        narrow.spacing = spacing;
+        BOOST_CHECK_THROW(BoundingGuard(model, narrow), InputError);
+    }
 }
 
 BOOST_AUTO_TEST_CASE(triangles_do_not_fold_onto_each_other)

@@ -1,5 +1,8 @@
 #include <boost/test/unit_test.hpp>
 
+#include <vector>
+
+#include <vdbcage/core/detail/stage_parts.h>
 #include <vdbcage/core/error.h>
 #include <vdbcage/core/interrupter.h>
 
@@ -68,6 +71,38 @@ BOOST_AUTO_TEST_CASE(the_clock_counts_work_as_cpu_time)
     }
     BOOST_REQUIRE(clock.stages().size() == 1U);
     BOOST_TEST(clock.stages()[0].cpuSeconds >= 2 * least);
+}
+
+BOOST_AUTO_TEST_CASE(parts_of_a_stage_say_how_far_the_whole_is)
+{
+    struct Watcher : Interrupter {
+        bool wasInterrupted(int percent) override
+        {
+            said.push_back(percent);
+            return stop;
+        }
+        std::vector<int> said;
+        bool stop = false;
+    } watcher;
+    detail::StagePart part(&watcher, 40, 60);
+    for (const int percent : {0, 50, -1, 100, 200}) throwIfInterrupted(part.interrupter(), percent);
+    BOOST_TEST(watcher.said == (std::vector<int>{40, 50, -1, 60, 60}), boost::test_tools::per_element());
+    watcher.stop = true;
+    BOOST_CHECK_THROW(throwIfInterrupted(part.interrupter()), Cancelled);
+    BOOST_TEST(detail::StagePart(nullptr, 0, 50).interrupter() == nullptr);
+
+    watcher = {};
+    detail::StagesSideBySide both(&watcher, 2);
+    throwIfInterrupted(both.interrupter(0), 50);
+    throwIfInterrupted(both.interrupter(1), 20);
+    throwIfInterrupted(both.interrupter(0), 30); // it does not go back
+    throwIfInterrupted(both.interrupter(1), -1);
+    throwIfInterrupted(both.interrupter(0), 100);
+    throwIfInterrupted(both.interrupter(1), 101);
+    BOOST_TEST(watcher.said == (std::vector<int>{25, 35, 35, -1, 60, 100}), boost::test_tools::per_element());
+    watcher.stop = true;
+    BOOST_CHECK_THROW(throwIfInterrupted(both.interrupter(1)), Cancelled);
+    BOOST_TEST(detail::StagesSideBySide(nullptr, 2).interrupter(1) == nullptr);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -544,6 +544,28 @@ BOOST_AUTO_TEST_CASE(models_are_taken_for_symmetric_up_to_the_tolerance)
     BOOST_CHECK_THROW(made.run(options), InputError);
 }
 
+BOOST_AUTO_TEST_CASE(cages_of_sheets_are_flat)
+{
+    Mesh sheet; // an L that lies askew
+    const auto turn = openvdb::math::rotation<openvdb::Mat3d>(openvdb::Vec3d(0.6, 0.5, -0.3).unit(), 0.9);
+    for (const openvdb::Vec3d& p :
+         {openvdb::Vec3d(0, 0, 0), {2, 0, 0}, {2, 0.6, 0}, {0.6, 0.6, 0}, {0.6, 3, 0}, {0, 3, 0}}) {
+        sheet.points.push_back(turn * p);
+    }
+    sheet.quads = {{0, 1, 2, 3}, {0, 3, 4, 5}};
+    CageOptions options;
+    options.effort = Effort::fast;
+    const auto distance = [&] {
+        Pipeline made(sheet);
+        made.run(options);
+        BOOST_TEST(made.report().check.bounding());
+        return made.report().check.meanDistance;
+    };
+    BOOST_TEST(distance() < 7e-4);
+    options.minAngle = 6; // as other models have
+    BOOST_TEST(distance() > 7e-4);
+}
+
 BOOST_AUTO_TEST_CASE(a_plane_that_is_absurd_is_refused_with_its_figure)
 {
     Mesh flag = test::box({0, 0, 0}, {0.2, 0.2, 4});

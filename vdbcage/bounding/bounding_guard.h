@@ -21,13 +21,16 @@ const GuardModel& modelOf(const BoundingGuard& guard);
 } // namespace detail
 
 struct GuardOptions {
-    static constexpr Range clearances{1e-7, 0.1}, minAngles{0, 30};
+    static constexpr Range clearances{1e-7, 0.1}, minAngles{0, 30}, spacings{1e-4, 0.01};
 
     /// Least distance from model to surface, fraction of the model's longest side. Where float holds the model, at
     /// least four times the rounding of its largest coordinate. Models of a quarter of a million quads and more may get
     /// up to a quarter more, in less time.
     double clearance = 3e-5;
     double minAngleDegrees = 6; ///< no move makes a triangle angle smaller than this (or than it was)
+    /// Least distance between triangles of a surface without a common corner, fraction of the model's longest side. The
+    /// default is wide enough for every mesh generator; TetGen fills cages of sheets down to an eighth of it, too.
+    double spacing = 0.002;
     /// If set, surfaces are exactly symmetric in it and stay so, and bound the model and its mirror image.
     std::optional<SymmetryPlane> symmetry = {};
 };
@@ -35,8 +38,9 @@ struct GuardOptions {
 /// Keeps a surface bounding while it is changed. Built once from a model, any polygon soup. It lets smooth, decimate,
 /// tighten and triquad replace one star of triangles by another only if the new one
 /// - keeps its clearance to every face of the model,
-/// - keeps off the rest of the surface: triangles without a common corner by 0.002 of the model's longest side,
-///   or a twentieth of their longest edge (the smaller triangle's) if that is less, others by an angle of one degree,
+/// - keeps off the rest of the surface: triangles without a common corner by the spacing, 0.002 of the model's longest
+///   side, or a twentieth of their longest edge (the smaller triangle's) if that is less, others by an angle of one
+///   degree; with less spacing these two are less in proportion,
 /// - sweeps, together with the old one, over no part of the model,
 /// - has no degenerate triangle and none with a smaller angle than allowed.
 /// So a surface that bounds the model with that clearance at the start does at the end. Where it comes nearer to itself

@@ -88,6 +88,7 @@ GuardModel::GuardModel(const Mesh& model, const GuardOptions& options, Interrupt
     requireUsable(model, "model");
     requireWithin(GuardOptions::clearances, options.clearance, "clearance");
     requireWithin(GuardOptions::minAngles, options.minAngleDegrees, "min angle");
+    requireWithin(GuardOptions::spacings, options.spacing, "spacing");
     openvdb::BBoxd box = boundingBox(model);
     if (options.symmetry) {
         const int axis = options.symmetry->axis;
@@ -107,7 +108,8 @@ GuardModel::GuardModel(const Mesh& model, const GuardOptions& options, Interrupt
     minSine_ = std::max(1e-6, std::sin(options.minAngleDegrees * pi / 180));
     roundsToFloat_ = fitsFloat(box);
     if (roundsToFloat_) clearance_ = std::max(clearance_, 4 * floatRounding(box) * scale_);
-    spacing_ = {2e-3 * side * scale_, 0.05, std::sin(1 * pi / 180)};
+    const double narrowness = options.spacing / GuardOptions{}.spacing; // of triangles to each other
+    spacing_ = {options.spacing * side * scale_, 0.05 * narrowness, std::sin(narrowness * pi / 180)};
     std::vector<Vec3d> points;
     points.reserve(model.points.size());
     for (const Vec3d& p : model.points) points.push_back(scaled(p));

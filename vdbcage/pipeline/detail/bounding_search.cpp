@@ -92,7 +92,11 @@ Candidate BoundingSearch::run(const CageOptions& options, const ScaleVersion& sc
 {
     for (const auto& start : starts_) start->isUsed = false;
     try {
-        Candidate best = find({options, scale, interrupter});
+        Run run{options, scale, interrupter};
+        const ClosingKey key = closingKey(options, scale, ladder(options).front());
+        const auto solid = volumes_.solid(key.solid, interrupter);
+        run.isSheet = isSheet(solid->voxels, solid->inner);
+        Candidate best = find(run);
         best.from.reset();
         const auto isUnused = [](const auto& start) { return !start->isUsed; };
         starts_.erase(std::remove_if(starts_.begin(), starts_.end(), isUnused), starts_.end());
@@ -197,10 +201,11 @@ const Symmetry& BoundingSearch::planeFor(const Run& run)
 
 const BoundingGuard& BoundingSearch::guardFor(const Run& run, const std::optional<SymmetryPlane>& plane)
 {
-    GuardOptions options = guardOptions(run.options);
+    GuardOptions options = guardOptions(run.options, run.isSheet);
     options.symmetry = plane;
     if (!guard_ || options.clearance != guardOptions_.clearance ||
-        options.minAngleDegrees != guardOptions_.minAngleDegrees || !(plane == guardOptions_.symmetry)) {
+        options.minAngleDegrees != guardOptions_.minAngleDegrees || options.spacing != guardOptions_.spacing ||
+        !(plane == guardOptions_.symmetry)) {
         const Stage stage(run.interrupter, "guard");
         starts_.clear(); // they are under the guard
         guard_.reset();

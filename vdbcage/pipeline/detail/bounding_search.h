@@ -36,6 +36,7 @@ private:
         const CageOptions& options;
         const ScaleVersion& scale;
         Interrupter* interrupter;
+        bool isSheet = false; ///< the model
     };
     using Candidates = std::vector<Candidate>;
 

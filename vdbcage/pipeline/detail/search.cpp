@@ -97,14 +97,21 @@ double mergeAngle(const CageOptions& options)
     return options.mergeAngle.value_or(automatic);
 }
 
-GuardOptions guardOptions(const CageOptions& options)
+bool isSheet(std::size_t voxels, std::size_t inner)
+{
+    return static_cast<double>(inner) <= sheetInside * static_cast<double>(voxels);
+}
+
+GuardOptions guardOptions(const CageOptions& options, bool ofSheet)
 {
     const bool isWide = options.mesh == CageFaces::triangles && options.effort == Effort::fair;
     GuardOptions guarding;
     guarding.clearance = options.clearance;
-    guarding.minAngleDegrees = options.minAngle.value_or(options.mesh == CageFaces::loops ? loopsAngle
-                                                         : isWide                         ? wideAngle
-                                                                                          : usualAngle);
+    const bool areSlenderAllowed = ofSheet || options.mesh == CageFaces::loops;
+    guarding.minAngleDegrees = options.minAngle.value_or(!areSlenderAllowed ? (isWide ? wideAngle : usualAngle)
+                                                         : ofSheet          ? sheetAngle
+                                                                            : loopsAngle);
+    if (ofSheet) guarding.spacing = sheetSpacing;
     return guarding;
 }
 

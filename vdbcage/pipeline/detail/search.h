@@ -52,6 +52,11 @@ constexpr double fewStarts[] = {1.0, 0.85, 0.7, 0.6}, fewestStarts[] = {0.65, 0.
 constexpr double mergeAnyFold = 90, mergeFlat = 10, mergeUsual = 30; ///< degrees: quads, no guard, triquad
 constexpr double wideAngle = 10, usualAngle = 6; ///< degrees; the wide one costs up to 5 % of the tightness
 constexpr double loopsAngle = 1; ///< degrees; with more, half collapsed loops are stopped by their slender triangles
+// Sheets, which have no inside. Their cages are flat, and as loose as their two sides keep apart: three times as loose
+// with what others keep.
+constexpr double sheetInside = 0.01; ///< of the voxels, at most
+constexpr double sheetAngle = 1;     ///< degrees: slender triangles along the rim
+constexpr double sheetSpacing = 2.5e-4;
 constexpr double mostlyQuads = 0.875;
 ///< of the faces; more cost a third of the tightness on models with edges
 constexpr std::size_t trianglesPerQuad = 3;       ///< to begin with: two a quad, and some that vanish; 2 to 4 are alike
@@ -91,7 +96,10 @@ int loopExchanges(Effort effort);
 /// Degrees. \pre the options ask for quads
 double mergeAngle(const CageOptions& options);
 
-/// Without a plane of symmetry.
-GuardOptions guardOptions(const CageOptions& options);
+/// Whether a solid of so many voxels is a sheet, a few of them with others all around.
+bool isSheet(std::size_t voxels, std::size_t inner);
+
+/// Without a plane of symmetry. `ofSheet`: of a model that isSheet.
+GuardOptions guardOptions(const CageOptions& options, bool ofSheet);
 
 } // namespace vdbcage::detail

@@ -51,6 +51,7 @@ struct Solid {
     openvdb::MaskGrid::ConstPtr mask;
     VoxelizeReport report;
     std::size_t voxels = 0; ///< active ones
+    std::size_t inner = 0;  ///< those with all 26 voxels around them
     BoundaryTopology boundary;
 };
 
@@ -81,9 +82,13 @@ public:
     std::shared_ptr<Closing> closing(const CageOptions& options, const ScaleVersion& scale, const Voxels& voxels,
                                      Interrupter* interrupter);
 
-private:
+    /// The model's voxels.
+    /// \throw InputError as voxelize
+    /// \throw DeviceError
+    /// \throw Cancelled
     std::shared_ptr<const Solid> solid(const SolidKey& key, Interrupter* interrupter);
 
+private:
     const Mesh& model_;
     std::shared_ptr<const Solid> solid_;
     std::shared_ptr<Closing> closing_;

@@ -1,0 +1,70 @@
+#pragma once
+
+#include <algorithm>
+#include <atomic>
+#include <cstddef>
+#include <deque>
+
+#include <vdbcage/core/interrupter.h>
+
+/// Progress of work that is a part of a stage. Null stands for nobody who watches, as everywhere.
+namespace vdbcage::detail {
+
+/// One of several steps, one after another: 0 to 100 % of it are `from` to `to` of the whole.
+class StagePart : public Interrupter {
+public:
+    StagePart(Interrupter* whole, int from, int to) : whole_(whole), from_(from), to_(to) {}
+
+    /// To be passed on to the work.
+    Interrupter* interrupter() { return whole_ ? this : nullptr; }
+
+    bool wasInterrupted(int percent) override
+    {
+        return whole_->wasInterrupted(percent < 0 ? -1 : from_ + (to_ - from_) * std::min(percent, 100) / 100);
+    }
+
+private:
+    Interrupter* whole_;
+    int from_, to_;
+};
+
+/// Several pieces of work side by side, each of which says how far it is: together they are as far as the mean.
+class StagesSideBySide {
+public:
+    StagesSideBySide(Interrupter* whole, std::size_t count) : whole_(whole)
+    {
+        for (std::size_t i = 0; i < count; ++i) pieces_.emplace_back(*this);
+    }
+    StagesSideBySide(const StagesSideBySide&) = delete;
+    StagesSideBySide& operator=(const StagesSideBySide&) = delete;
+
+    /// To be passed on to the i-th piece of work. Any thread may ask it.
+    Interrupter* interrupter(std::size_t i) { return whole_ ? &pieces_[i] : nullptr; }
+
+private:
+    class Piece : public Interrupter {
+    public:
+        explicit Piece(StagesSideBySide& all) : all_(all) {}
+
+        bool wasInterrupted(int percent) override
+        {
+            if (percent < 0) return all_.whole_->wasInterrupted(-1);
+            const int now = std::min(percent, 100);
+            int before = percent_.load();
+            while (before < now && !percent_.compare_exchange_weak(before, now)) {
+            }
+            if (before < now) all_.sum_ += now - before;
+            return all_.whole_->wasInterrupted(all_.sum_ / static_cast<int>(all_.pieces_.size()));
+        }
+
+    private:
+        StagesSideBySide& all_;
+        std::atomic<int> percent_{0}; // never goes back
+    };
+
+    Interrupter* whole_;
+    std::atomic<int> sum_{0};
+    std::deque<Piece> pieces_; // they cannot be moved
+};
+
+} // namespace vdbcage::detail
