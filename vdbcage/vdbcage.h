@@ -37,4 +37,5 @@
 #include <vdbcage/volume/morphology.h>
 #include <vdbcage/volume/scale_field.h>
 #include <vdbcage/volume/vdb_io.h>
+#include <vdbcage/voxelize/interior.h>
 #include <vdbcage/voxelize/voxelize.h>
