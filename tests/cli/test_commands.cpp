@@ -131,6 +131,31 @@ BOOST_AUTO_TEST_CASE(every_voxelizer_leads_to_the_same_cage_and_is_reported)
     }
 }
 
+BOOST_AUTO_TEST_CASE(what_was_taken_for_the_inside_of_an_open_model_is_said)
+{
+    const TemporaryFolder folder;
+    const std::string model = folder / "bowl.obj", report = folder / "report.json";
+    Mesh bowl = test::sphere({0, 0, 0}, 1, 16);
+    bowl.quads.resize(bowl.quads.size() / 2);
+    writeMesh(bowl, model);
+    const auto make = [&](const std::string& interior) {
+        const auto run = runCommand({command, "make", model, "-o", folder / "cage.obj", "--interior", interior,
+                                     "--faces", "50", "--report", report, "--resolution", "30"});
+        BOOST_TEST(run.status == 0, run.err);
+        return run.err.find("the model is open: ") != std::string::npos;
+    };
+    BOOST_TEST(make("auto"));
+    const json found = readJson(report)["result"];
+    BOOST_TEST(found["interior"] == "solid");
+    BOOST_TEST(found["ray_agreement"].get<double>() > 0.3);
+    BOOST_TEST(found["ray_agreement"].get<double>() < 0.9);
+    for (const std::string asked : {"solid", "shell"}) {
+        BOOST_TEST(!make(asked));
+        BOOST_TEST(readJson(report)["result"]["interior"] == asked);
+        BOOST_TEST(readJson(report)["result"]["ray_agreement"].is_null());
+    }
+}
+
 BOOST_AUTO_TEST_CASE(a_device_that_fails_is_replaced_by_the_cpu_and_reported)
 {
     const TemporaryFolder folder;

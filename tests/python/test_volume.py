@@ -52,6 +52,16 @@ class VolumeTest(Case):
         self.same(close_mask(solid, 4), pipeline.closed)  # which has no cavities to fill
         self.same(voxelize(model, 40, voxelizer="cpu", box=[model.points.min(0), model.points.max(0)]), solid)
 
+    def test_a_bowl_is_filled_or_its_wall(self):
+        bowl = Mesh([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0, 0, 1], [1, 0, 1], [1, 1, 1], [0, 1, 1]],
+                    quads=[[0, 3, 2, 1], [0, 1, 5, 4], [1, 2, 6, 5], [2, 3, 7, 6], [3, 0, 4, 7]])
+        solid, shell = voxelize(bowl, 20), voxelize(bowl, 20, interior="shell")
+        self.same(voxelize(bowl, 20, interior="solid"), solid)
+        self.same(voxelize(bowl, 20, interior=None), solid)
+        self.assertLess(len(shell), len(solid) / 2)
+        self.refuses("interior: 'hollow' is not allowed; it must be one of auto|solid|shell", voxelize, bowl,
+                     interior="hollow")
+
     def test_closing_takes_its_options(self):
         two = Mask([[0, 0, 0], [0, 0, 6]])
         self.assertEqual(len(close_mask(two, 2)), 2)
