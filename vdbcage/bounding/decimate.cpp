@@ -4,6 +4,7 @@
 #include <vdbcage/bounding/detail/redistribute.h>
 #include <vdbcage/bounding/detail/relax.h>
 #include <vdbcage/bounding/detail/tightening.h>
+#include <vdbcage/core/detail/stage_parts.h>
 
 namespace vdbcage {
 
@@ -22,14 +23,19 @@ GuardedMesh shrunk(const Mesh& surface, const BoundingGuard& guard, Interrupter*
 void redistributeAndPerturb(GuardedMesh& surface, Interrupter* interrupter)
 {
     constexpr int turns = 2, firstRounds = 3, rounds = 2, perturbations = 2, redistributeSweeps = 6;
+    constexpr int first = 40, turn = 30; // percent
     const TightenOptions tightening = tightenOptions(Effort::best);
     const double perSample = areaPerSample(surface, surface.liveFaces(), tightening.samples);
     tighten(surface, tightening.sweeps, perSample, interrupter);
-    redistribute(surface, firstRounds, redistributeSweeps, interrupter);
+    StagePart beginning(interrupter, 10, first);
+    redistribute(surface, firstRounds, redistributeSweeps, beginning.interrupter());
     flipEdges(surface, redistributeSweeps, interrupter);
     for (int i = 0; i < turns; ++i) {
-        perturb(surface, perturbations, tightening.sweeps, perSample, interrupter);
-        redistribute(surface, rounds, redistributeSweeps, interrupter);
+        const int from = first + i * turn;
+        StagePart perturbing(interrupter, from, from + turn / 2);
+        perturb(surface, perturbations, tightening.sweeps, perSample, perturbing.interrupter());
+        StagePart redistributing(interrupter, from + turn / 2, from + turn);
+        redistribute(surface, rounds, redistributeSweeps, redistributing.interrupter());
         flipEdges(surface, redistributeSweeps, interrupter);
     }
 }
@@ -51,9 +57,12 @@ Mesh RecordedDecimation::to(const BoundingDecimateOptions& options, Interrupter*
     const int samples = tightenOptions(effort).samples;
     // Quadrics know the surface that they were made from: one that was pulled onto the model on the way is better.
     const auto facesAtStop = static_cast<std::size_t>(stop * static_cast<double>(faces));
-    GuardedMesh guarded = sequence_.at(facesAtStop, interrupter);
+    const int collapsed = effort == Effort::fast ? 80 : effort == Effort::fair ? 40 : 20; // percent
+    StagePart collapsing(interrupter, 0, collapsed);
+    GuardedMesh guarded = sequence_.at(facesAtStop, collapsing.interrupter());
     tighten(guarded, sweepsAtStop, areaPerSample(guarded, 2 * faces, samples), interrupter);
     collapseByQuadrics(guarded, faces, interrupter);
+    throwIfInterrupted(interrupter, collapsed);
     // Where the model is in the way of every collapse, there is room farther out (the model's
     // longest side is 1 to 2).
     for (double push = 0.02; guarded.liveFaces() > faces && push < 1; push *= 2) {
@@ -62,9 +71,11 @@ Mesh RecordedDecimation::to(const BoundingDecimateOptions& options, Interrupter*
     }
     if (effort == Effort::fair) {
         tighten(guarded, 2, areaPerSample(guarded, faces, samples), interrupter);
-        redistribute(guarded, 2, 3, interrupter);
+        StagePart redistributing(interrupter, 50, 100);
+        redistribute(guarded, 2, 3, redistributing.interrupter());
     } else if (effort == Effort::best) {
-        redistributeAndPerturb(guarded, interrupter);
+        StagePart redistributing(interrupter, collapsed, 100);
+        redistributeAndPerturb(guarded, redistributing.interrupter());
     }
     return guarded.mesh();
 }

@@ -210,8 +210,9 @@ public:
 
     GuardedMesh at(std::size_t faces, Interrupter* interrupter)
     {
+        const std::size_t first = start_.liveFaces();
         while (end_.liveFaces() > faces) {
-            throwIfInterrupted(interrupter);
+            throwIfInterrupted(interrupter, static_cast<int>(100 * (first - end_.liveFaces()) / (first - faces)));
             const bool goesOn = collapser_.runBatch([&](const StarChange& star, const Vec3d& place) {
                 collapses_.push_back({star.centre, star.removed, place});
             });

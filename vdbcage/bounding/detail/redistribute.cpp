@@ -113,11 +113,16 @@ void redistribute(GuardedMesh& surface, int rounds, int sweeps, Interrupter* int
     double share = 1; // of the faces that are added, as far as that goes, and taken away again
     double distance = integratedDistance(surface, perSample, interrupter);
     for (int i = 0; i < rounds; ++i) {
+        const auto say = [&](int share) { throwIfInterrupted(interrupter, (100 * i + share) / rounds); };
+        say(0);
         GuardedMesh changed = surface;
         const auto added = static_cast<std::size_t>(share * static_cast<double>(faces));
         splitBest(changed, faces + added, perSample, interrupter);
+        say(25);
         tighten(changed, sweeps, perSample, interrupter);
+        say(50);
         collapseByQuadrics(changed, faces, interrupter);
+        say(75);
         tighten(changed, sweeps, perSample, interrupter);
         const double after = integratedDistance(changed, perSample, interrupter);
         if (changed.liveFaces() <= faces && after < distance) {

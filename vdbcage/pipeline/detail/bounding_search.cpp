@@ -14,6 +14,7 @@
 #include <vdbcage/bounding/triquad.h>
 #include <vdbcage/core/detail/number_text.h>
 #include <vdbcage/core/detail/parallel.h>
+#include <vdbcage/core/detail/stage_parts.h>
 #include <vdbcage/core/error.h>
 #include <vdbcage/pipeline/detail/starting_surface.h>
 #include <vdbcage/pipeline/detail/textbook.h>
@@ -45,7 +46,9 @@ template <typename Change>
 void forEach(std::vector<Candidate>& candidates, Interrupter* interrupter, const char* name, const Change& change)
 {
     const Stage stage(interrupter, name);
-    parallelFor(std::size_t(0), candidates.size(), [&](std::size_t i) { change(candidates[i]); });
+    StagesSideBySide pieces(interrupter, candidates.size());
+    parallelFor(std::size_t(0), candidates.size(),
+                [&](std::size_t i) { change(candidates[i], pieces.interrupter(i)); });
 }
 
 void keepAtMost(std::size_t most, const Mesh Candidate::*mesh, std::vector<Candidate>& candidates)
@@ -294,8 +297,8 @@ std::optional<Candidate> BoundingSearch::shrinkOnto(const Run& run, Candidates s
     }
     keepAtMost(static_cast<std::size_t>(options.faces), &Candidate::cage, starts);
     if (options.smooth > 0) {
-        forEach(starts, run.interrupter, "smooth", [&](Candidate& candidate) {
-            candidate.cage = smooth(candidate.cage, guard, {options.smooth}, run.interrupter);
+        forEach(starts, run.interrupter, "smooth", [&](Candidate& candidate, Interrupter* piece) {
+            candidate.cage = smooth(candidate.cage, guard, {options.smooth}, piece);
         });
     }
     if (options.mesh == CageFaces::triangles) {
@@ -314,8 +317,8 @@ void BoundingSearch::collapseLoops(const Run& run, Candidates& starts, const Bou
     options.faces = static_cast<std::size_t>(run.options.faces);
     options.tightening = tightenOptions(run.options.effort);
     options.exchanges = loopExchanges(run.options.effort);
-    forEach(starts, run.interrupter, "loops", [&](Candidate& candidate) {
-        candidate.cage = quadLoops(*candidate.surface, guard, options, run.interrupter);
+    forEach(starts, run.interrupter, "loops", [&](Candidate& candidate, Interrupter* piece) {
+        candidate.cage = quadLoops(*candidate.surface, guard, options, piece);
         candidate.decimated = candidate.cage;
     });
     const auto hasTriangles = [](const Candidate& candidate) { return !candidate.cage.triangles.empty(); };
@@ -332,18 +335,18 @@ void BoundingSearch::decimateAndTighten(const Run& run, Candidates& starts, cons
     BoundingDecimateOptions decimation;
     decimation.faces = onlyTriangles ? faces : policy::trianglesPerQuad * faces;
     decimation.effort = options.effort;
-    forEach(starts, interrupter, "decimate", [&](Candidate& candidate) {
+    forEach(starts, interrupter, "decimate", [&](Candidate& candidate, Interrupter* piece) {
         auto& known = candidate.from->decimation;
-        if (!known) known.emplace(*candidate.surface, guard, interrupter);
-        candidate.decimated = known->to(decimation, interrupter);
+        if (!known) known.emplace(*candidate.surface, guard, piece);
+        candidate.decimated = known->to(decimation, piece);
     });
     keepAtMost(decimation.faces, &Candidate::decimated, starts);
 
     TightenOptions tightening = tightenOptions(options.effort);
     if (guard.symmetry()) tightening.perturbations *= policy::symmetricPerturbations;
     if (onlyTriangles) {
-        forEach(starts, interrupter, "tighten", [&](Candidate& candidate) {
-            candidate.cage = tighten(candidate.decimated, guard, tightening, interrupter);
+        forEach(starts, interrupter, "tighten", [&](Candidate& candidate, Interrupter* piece) {
+            candidate.cage = tighten(candidate.decimated, guard, tightening, piece);
         });
     } else {
         BoundingTriquadOptions pairing;
@@ -351,8 +354,8 @@ void BoundingSearch::decimateAndTighten(const Run& run, Candidates& starts, cons
         pairing.faces = faces;
         if (options.mesh == CageFaces::quads) pairing.quads = policy::mostlyQuads;
         pairing.tightening = tightening;
-        forEach(starts, interrupter, "quads", [&](Candidate& candidate) {
-            candidate.cage = triquad(candidate.decimated, guard, pairing, interrupter);
+        forEach(starts, interrupter, "quads", [&](Candidate& candidate, Interrupter* piece) {
+            candidate.cage = triquad(candidate.decimated, guard, pairing, piece);
         });
     }
 }
