@@ -10,6 +10,7 @@
 #include <vdbcage/core/range.h>
 #include <vdbcage/mesh/mesh.h>
 #include <vdbcage/mesh/symmetry.h>
+#include <vdbcage/volume/scale_field.h>
 
 namespace vdbcage {
 
@@ -30,6 +31,11 @@ struct GuardOptions {
     double minAngleDegrees = 6; ///< no move makes a triangle angle smaller than this (or than it was)
     /// If set, surfaces are exactly symmetric in it and stay so, and bound the model and its mirror image.
     std::optional<SymmetryPlane> symmetry = {};
+    /// Where faces go: the operators give a part of the model about as many times the faces as this says, at the cost
+    /// of the others. It counts at the nearest point of the model, at least 1/8. With a plane of symmetry that side
+    /// counts which is farther from 1. They do so by what they count as distance: a density of d makes it d^2 times as
+    /// much.
+    ScaleField density = {};
 };
 
 /// Keeps a surface bounding while it is changed. Built once from a model, any polygon soup. It lets smooth, decimate,

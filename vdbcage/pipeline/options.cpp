@@ -141,7 +141,8 @@ struct FromText {
     void operator()(ScaleField& field) const
     {
         try {
-            field = readScaleField(text);
+            const std::string name = info.name;
+            field = readScaleField(text, name == "scale-field" ? "scale" : name);
         } catch (const InputError& error) {
             throw InputError("--" + std::string(info.name) + ": " + error.what());
         }
@@ -256,6 +257,10 @@ void requireValid(const CageOptions& options)
     }
     if (!options.bounding && options.mesh == CageFaces::loops) {
         throw InputError("--mesh: 'loops' is not allowed with --bounding off; it must be triangles, triquad or quads");
+    }
+    if (!options.bounding && ToText{}(options.density) != "none") {
+        throw InputError("--density: '" + ToText{}(options.density) +
+                         "' is not allowed with --bounding off; it must be none");
     }
     if (options.element != StructuringElement::sphere && ToText{}(options.scale) != "none") {
         throw InputError("--scale-field: '" + ToText{}(options.scale) +

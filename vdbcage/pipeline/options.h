@@ -47,6 +47,7 @@ struct CageOptions {
     std::optional<double> erodeRadius; ///< at most the close radius, which must be set; unset: equal to it
     StructuringElement element = StructuringElement::sphere; ///< structuring element of the closing
     ScaleField scale;                            ///< what the close radius is multiplied by in places; for the sphere
+    ScaleField density;                          ///< how many times the faces places of the model get; bounding only
     int smooth = 0;                              ///< sweeps of smoothing at the end: rounder, and less tight, with more
     CageParts parts = CageParts::keep;           ///< what becomes of separate parts of the closing
     double clearance = GuardOptions{}.clearance; ///< least distance from model to cage
@@ -77,6 +78,7 @@ void visitOptions(Options& options, Visit&& visit)
     visit(OptionInfo{"erode-radius", "F", "if less, leaves an offset", {0, 0.25}}, options.erodeRadius);
     visit(OptionInfo{"element", "", "shape of the closing"}, options.element);
     visit(OptionInfo{"scale-field", "FILE.vdb|REGION", "multiplies the close radius in places"}, options.scale);
+    visit(OptionInfo{"density", "FILE.vdb|REGION", "more faces in places, fewer in others"}, options.density);
     visit(OptionInfo{"smooth", "K", "rounds it off: 0 is tightest", BoundingSmoothOptions::sweepCounts},
           options.smooth);
     visit(OptionInfo{"parts", "", "separate parts of the closing"}, options.parts);

@@ -75,11 +75,12 @@ std::string againstSymmetry(const Symmetry& best, CageSymmetry wanted)
 
 } // namespace
 
-Candidate BoundingSearch::run(const CageOptions& options, const ScaleVersion& scale, Interrupter* interrupter)
+Candidate BoundingSearch::run(const CageOptions& options, const ScaleVersion& scale, const ScaleVersion& density,
+                              Interrupter* interrupter)
 {
     for (const auto& start : starts_) start->isUsed = false;
     try {
-        Candidate best = find({options, scale, interrupter});
+        Candidate best = find({options, scale, density, interrupter});
         best.from.reset();
         const auto isUnused = [](const auto& start) { return !start->isUsed; };
         starts_.erase(std::remove_if(starts_.begin(), starts_.end(), isUnused), starts_.end());
@@ -139,12 +140,13 @@ const BoundingGuard& BoundingSearch::guardFor(const Run& run, const std::optiona
     GuardOptions options = guardOptions(run.options);
     options.symmetry = plane;
     if (!guard_ || options.clearance != guardOptions_.clearance ||
-        options.minAngleDegrees != guardOptions_.minAngleDegrees || !(plane == guardOptions_.symmetry)) {
+        options.minAngleDegrees != guardOptions_.minAngleDegrees || !(run.density == density_) || !(plane == guardOptions_.symmetry)) {
         const Stage stage(run.interrupter, "guard");
         starts_.clear(); // they are under the guard
         guard_.reset();
         guard_ = std::make_unique<const BoundingGuard>(model_, options, run.interrupter);
         guardOptions_ = options;
+        density_ = run.density;
     }
     return *guard_;
 }

@@ -26,13 +26,14 @@ public:
     /// \throw InputError as Pipeline::run
     /// \throw DeviceError
     /// \throw Cancelled
-    Candidate run(const CageOptions& options, const ScaleVersion& scale, Interrupter* interrupter);
+    Candidate run(const CageOptions& options, const ScaleVersion& scale, const ScaleVersion& density,
+                  Interrupter* interrupter);
 
 private:
     /// What stays the same in one run.
     struct Run {
         const CageOptions& options;
-        const ScaleVersion& scale;
+        const ScaleVersion &scale, &density;
         Interrupter* interrupter;
     };
     using Candidates = std::vector<Candidate>;
@@ -57,6 +58,7 @@ private:
     Symmetry symmetry_;
     std::unique_ptr<const BoundingGuard> guard_; // of the last run
     GuardOptions guardOptions_;                  // that it was made with
+    ScaleVersion density_;                       // the same
     struct Counted {
         ClosingKey key;
         std::size_t quads = 0;

@@ -102,6 +102,7 @@ GuardOptions guardOptions(const CageOptions& options)
     const bool isWide = options.mesh == CageFaces::triangles && options.effort == Effort::fair;
     GuardOptions guarding;
     guarding.clearance = options.clearance;
+    guarding.density = options.density;
     guarding.minAngleDegrees = options.minAngle.value_or(options.mesh == CageFaces::loops ? loopsAngle
                                                          : isWide                         ? wideAngle
                                                                                           : usualAngle);
