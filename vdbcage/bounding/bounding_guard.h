@@ -33,8 +33,7 @@ struct GuardOptions {
     std::optional<SymmetryPlane> symmetry = {};
     /// Where faces go: the operators give a part of the model about as many times the faces as this says, at the cost
     /// of the others. It counts at the nearest point of the model, at least 1/8. With a plane of symmetry that side
-    /// counts which is farther from 1. They do so by what they count as distance: a density of d makes it d^2 times as
-    /// much.
+    /// counts which is farther from 1. They do so by counting distance for more, or for less.
     ScaleField density = {};
 };
 

@@ -191,14 +191,13 @@ double GuardModel::distanceWeight(const Vec3d& onModel) const
 {
     if (!hasDensity()) return 1;
     const double d = density(onModel);
-    return d * d;
+    return d * d * d;
 }
 
 double GuardModel::quadricWeight(const Vec3d& onModel) const
 {
     if (!hasDensity()) return 1;
-    const double d = density(onModel);
-    return d * d * d;
+    return std::pow(density(onModel), 5);
 }
 
 bool GuardModel::clear(const Corners& triangle, std::uint32_t hint, std::uint32_t* blocker) const

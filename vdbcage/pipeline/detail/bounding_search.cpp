@@ -7,6 +7,8 @@
 #include <sstream>
 #include <utility>
 
+#include <vdbcage/bounding/detail/guard_model.h>
+#include <vdbcage/bounding/detail/tightening.h>
 #include <vdbcage/bounding/near_coplanar.h>
 #include <vdbcage/bounding/quad_loops.h>
 #include <vdbcage/bounding/smooth.h>
@@ -240,7 +242,7 @@ std::optional<Candidate> BoundingSearch::shrinkOnto(const Run& run, Candidates s
             candidate.cage = bendNearCoplanarEdges(candidate.cage, guard, run.interrupter);
         }
     }
-    return tightestCertified(run, std::move(starts));
+    return tightestCertified(run, std::move(starts), guard);
 }
 
 /// Cages of quads in loops; what is not of quads only is left out.
@@ -293,12 +295,17 @@ void BoundingSearch::decimateAndTighten(const Run& run, Candidates& starts, cons
     }
 }
 
-std::optional<Candidate> BoundingSearch::tightestCertified(const Run& run, Candidates candidates)
+std::optional<Candidate> BoundingSearch::tightestCertified(const Run& run, Candidates candidates,
+                                                           const BoundingGuard& guard)
 {
-    for (Candidate& candidate : candidates) candidate.check = certifier_.check(candidate.cage, run.interrupter);
-    std::stable_sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
-        return a.check.meanDistance < b.check.meanDistance;
-    });
+    const bool isWeighted = modelOf(guard).hasDensity();
+    for (Candidate& candidate : candidates) {
+        candidate.check = certifier_.check(candidate.cage, run.interrupter);
+        candidate.looseness =
+            isWeighted ? meanDistance(candidate.cage, guard, run.interrupter) : candidate.check.meanDistance;
+    }
+    std::stable_sort(candidates.begin(), candidates.end(),
+                     [](const Candidate& a, const Candidate& b) { return a.looseness < b.looseness; });
     for (Candidate& candidate : candidates) {
         if (!candidate.check.bounding()) continue;
         candidate.boundsAsFloats = certifier_.boundsAsFloats(candidate.cage, run.interrupter);

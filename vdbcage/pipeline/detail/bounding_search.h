@@ -48,7 +48,7 @@ private:
     std::optional<Candidate> shrinkOnto(const Run& run, Candidates starts, const BoundingGuard& guard);
     static void collapseLoops(const Run& run, Candidates& starts, const BoundingGuard& guard);
     static void decimateAndTighten(const Run& run, Candidates& starts, const BoundingGuard& guard);
-    std::optional<Candidate> tightestCertified(const Run& run, Candidates candidates);
+    std::optional<Candidate> tightestCertified(const Run& run, Candidates candidates, const BoundingGuard& guard);
     Candidate box(const Run& run, const BoundingGuard& guard);
 
     const Mesh& model_;
