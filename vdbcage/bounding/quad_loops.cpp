@@ -121,13 +121,19 @@ Mesh quadLoops(const Mesh& surface, const BoundingGuard& guard, const QuadLoopsO
     QuadTable table(guarded);
     if (table.count() == 0) return guarded.mesh();
     constexpr int mostPercent = 70; // the rest comes after
-    collapseLoops(guarded, table, options.faces / guarded.copies(), mostPercent, interrupter);
-    exchangeLoops(guarded, table, options.faces / guarded.copies(), options.exchanges, interrupter);
+    const std::size_t faces = options.faces / guarded.copies();
+    const JointRings rings(options.joints, modelOf(guard));
+    addRings(guarded, table, rings, interrupter);
+    collapseLoops(guarded, table, rings, faces, mostPercent, interrupter);
+    addRings(guarded, table, rings, interrupter);
+    collapseLoops(guarded, table, rings, faces, 0, interrupter);
+    exchangeLoops(guarded, table, rings, faces, options.exchanges, interrupter);
     // Where a quad cannot be made, the loops through it go.
     constexpr int attempts = 10;
     GuardedMesh paired = guarded;
     std::vector<std::uint32_t> left = makeQuads(paired, table, interrupter);
-    for (int i = 0; i < attempts && !left.empty() && collapseLoopThrough(guarded, table, left, interrupter); ++i) {
+    for (int i = 0; i < attempts && !left.empty() && collapseLoopThrough(guarded, table, rings, left, interrupter);
+         ++i) {
         paired = guarded;
         left = makeQuads(paired, table, interrupter);
     }

@@ -35,9 +35,8 @@ void require(bool isRight, const char* name, double value, const char* allowed)
 
 [[noreturn]] void refuse(const std::string& part, const std::string& name)
 {
-    throw InputError(
-        "'" + part + "' is not a " + name +
-        " field; it must be a .vdb file, sphere:X,Y,Z,RADIUS,SCALE or box:X,Y,Z,X,Y,Z,SCALE");
+    throw InputError("'" + part + "' is not a " + name +
+                     " field; it must be a .vdb file, sphere:X,Y,Z,RADIUS,SCALE or box:X,Y,Z,X,Y,Z,SCALE");
 }
 
 // The numbers after the colon, separated by commas.

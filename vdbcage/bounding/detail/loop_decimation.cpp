@@ -57,7 +57,10 @@ std::vector<Ranked> ranked(const GuardedMesh& surface, const QuadTable& table, c
 
 class LoopDecimator {
 public:
-    LoopDecimator(GuardedMesh& surface, QuadTable& table) : surface_(surface), table_(table) {}
+    LoopDecimator(GuardedMesh& surface, QuadTable& table, const JointRings& rings)
+        : surface_(surface), table_(table), rings_(rings)
+    {
+    }
 
     void run(std::size_t quads, int mostPercent, Interrupter* interrupter)
     {
@@ -113,6 +116,7 @@ private:
         const std::size_t most = table_.count() / 20, tooMany = table_.count() - target;
         std::size_t removed = 0, refused = 0;
         std::vector<char> isTouched(surface_.vertices(), 0);
+        std::vector<std::size_t> ringsNow = rings_.count(surface_, table_);
         for (const Ranked& next : ranked(surface_, table_, quadrics, loops, tooMany, interrupter)) {
             const QuadLoop& loop = loops[next.loop];
             if (table_.count() <= quads || (removed > 0 && removed + loop.quads.size() > most)) break;
@@ -122,7 +126,7 @@ private:
                 lossAround(measure, loop, perQuad) + maxLoss * perQuad * static_cast<double>(loop.quads.size());
             const bool isDone = collapseLoop(surface_, table_, quadrics, loop, [&](const auto& kept) {
                 tighten(surface_, kept, settleSweeps, sample, interrupter, &term);
-                return lossAround(measure, loop, perQuad) <= limit;
+                return lossAround(measure, loop, perQuad) <= limit && keepsRings(ringsNow);
             });
             if (!isDone && ++refused == mostRefused) break;
             if (!isDone) continue;
@@ -130,6 +134,16 @@ private:
             touch(loop, isTouched);
         }
         return removed > 0;
+    }
+
+    /// Counts the rings anew if they are kept.
+    bool keepsRings(std::vector<std::size_t>& before) const
+    {
+        if (rings_.empty()) return true;
+        std::vector<std::size_t> now = rings_.count(surface_, table_);
+        if (!JointRings::areKept(before, now)) return false;
+        before = std::move(now);
+        return true;
     }
 
     static bool touches(const QuadLoop& loop, const std::vector<char>& isTouched)
@@ -180,28 +194,32 @@ private:
 
     GuardedMesh& surface_;
     QuadTable& table_;
+    const JointRings& rings_;
 };
 
 } // namespace
 
-bool collapseLoopThrough(GuardedMesh& surface, QuadTable& table, const std::vector<std::uint32_t>& quads,
-                         Interrupter* interrupter)
+bool collapseLoopThrough(GuardedMesh& surface, QuadTable& table, const JointRings& rings,
+                         const std::vector<std::uint32_t>& quads, Interrupter* interrupter)
 {
     VertexQuadrics quadrics(surface);
     const auto isAmong = [&](std::uint32_t q) { return std::find(quads.begin(), quads.end(), q) != quads.end(); };
     const std::vector<QuadLoop> loops = straightLoops(table);
+    const std::vector<std::size_t> before = rings.count(surface, table);
+    const auto keepsRings = [&](const auto&) { return JointRings::areKept(before, rings.count(surface, table)); };
     for (const Ranked& next : ranked(surface, table, quadrics, loops, table.count(), interrupter)) {
         const QuadLoop& loop = loops[next.loop];
         throwIfInterrupted(interrupter);
         if (std::none_of(loop.quads.begin(), loop.quads.end(), isAmong) || !leavesQuads(surface, table, loop)) continue;
-        if (collapseLoop(surface, table, quadrics, loop, [](const auto&) { return true; })) return true;
+        if (collapseLoop(surface, table, quadrics, loop, keepsRings)) return true;
     }
     return false;
 }
 
-void collapseLoops(GuardedMesh& surface, QuadTable& table, std::size_t quads, int mostPercent, Interrupter* interrupter)
+void collapseLoops(GuardedMesh& surface, QuadTable& table, const JointRings& rings, std::size_t quads, int mostPercent,
+                   Interrupter* interrupter)
 {
-    LoopDecimator(surface, table).run(quads, mostPercent, interrupter);
+    LoopDecimator(surface, table, rings).run(quads, mostPercent, interrupter);
 }
 
 } // namespace vdbcage::detail

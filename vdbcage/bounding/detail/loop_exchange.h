@@ -2,6 +2,7 @@
 
 #include <cstddef>
 
+#include <vdbcage/bounding/detail/joint_rings.h>
 #include <vdbcage/bounding/detail/quad_table.h>
 #include <vdbcage/core/interrupter.h>
 
@@ -11,10 +12,12 @@ namespace vdbcage::detail {
 /// as there were if these were more.
 ///
 /// Some loops are collapsed, cheapest first. Then loops are split, as many as fit: those whose split brings the surface
-/// nearest to the model. A round that did not bring it nearer is undone, and fewer loops go in the next.
+/// nearest to the model. A round that did not bring it nearer is undone, and fewer loops go in the next. Joints
+/// keep their rings.
 /// \pre no quad is paired in the surface
 /// \throw Cancelled
 /// Based on: Hoppe, DeRose, Duchamp, McDonald, Stuetzle, Mesh Optimization, 1993.
-void exchangeLoops(GuardedMesh& surface, QuadTable& table, std::size_t quads, int rounds, Interrupter* interrupter);
+void exchangeLoops(GuardedMesh& surface, QuadTable& table, const JointRings& rings, std::size_t quads, int rounds,
+                   Interrupter* interrupter);
 
 } // namespace vdbcage::detail
