@@ -16,6 +16,7 @@ struct Joint {
     std::optional<openvdb::Vec3d> axis; ///< along the limb, of any length above 0; unset: across the shortest ring
 
     bool operator==(const Joint& other) const { return place == other.place && axis == other.axis; }
+    bool operator!=(const Joint& other) const { return !(*this == other); }
 };
 
 /// Joints, and where they were read from.

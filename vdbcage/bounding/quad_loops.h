@@ -1,10 +1,8 @@
 #pragma once
 
 #include <cstddef>
-#include <vector>
 
 #include <vdbcage/bounding/bounding_guard.h>
-#include <vdbcage/bounding/joints.h>
 #include <vdbcage/bounding/tighten.h>
 #include <vdbcage/core/export.h>
 #include <vdbcage/core/interrupter.h>
@@ -22,7 +20,6 @@ struct QuadLoopsOptions {
     double meanAngleDegrees = 16, mostAngleDegrees = 42;
     int exchanges = 4; ///< times that loops go where they bring little, and come where they bring more
     TightenOptions tightening = {};
-    std::vector<Joint> joints = {}; ///< each gets three rings across it, as far as the guard allows
 };
 
 /// Makes a cage as drawn by hand of a surface that bounds the guard's model and keeps it so: quads only, in closed

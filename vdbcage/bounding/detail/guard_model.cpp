@@ -125,7 +125,23 @@ GuardModel::GuardModel(const Mesh& model, const GuardOptions& options, Interrupt
         symmetry_ = SymmetryPlane{options.symmetry->axis, offset};
         addMirrorImage(*symmetry_, points, triangles);
     }
+    for (Joint joint : options.joints) {
+        joint.place = scaled(joint.place);
+        if (joint.axis) joint.axis->normalize(0);
+        if (symmetry_ && joint.place[symmetry_->axis] < symmetry_->offset) {
+            joint.place = mirrored(joint.place);
+            if (joint.axis) (*joint.axis)[symmetry_->axis] *= -1;
+        }
+        joints_.push_back(joint);
+    }
     tree_ = TriangleBvh(points, triangles, interrupter, TriangleBvh::Copies::drop);
+
+    for (const Joint& joint : joints_) {
+        constexpr double spread = 1.5, density = 2;
+        const double limb = std::sqrt(tree_.closest(joint.place).squaredDistance) / scale_;
+        density_.regions.push_back(
+            {ScaleRegion::Shape::sphere, unscaled(joint.place), Vec3d(0), spread * limb, density});
+    }
 
     UnionFind sets(points.size());
     Asker ask(interrupter);

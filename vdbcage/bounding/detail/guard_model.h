@@ -56,6 +56,9 @@ public:
     /// The same for squared distance: the fifth power.
     double quadricWeight(const Vec3d& onModel) const;
 
+    /// In these units, beyond the plane of symmetry; axes of length 1.
+    const std::vector<Joint>& joints() const { return joints_; }
+
     const TriangleBvh& tree() const { return tree_; }
     double clearance() const { return clearance_; }
     double minSine() const { return minSine_; }
@@ -77,6 +80,7 @@ private:
     bool roundsToFloat_ = false;
     Spacing spacing_;
     ScaleField density_; // in the world's units
+    std::vector<Joint> joints_;
 };
 
 const GuardModel& modelOf(const BoundingGuard& guard);

@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
+#include <map>
+#include <utility>
 
 #include <vdbcage/bounding/detail/loop_split.h>
 #include <vdbcage/bounding/detail/quad_relax.h>
@@ -13,6 +14,7 @@ namespace {
 
 constexpr double pi = 3.14159265358979323846;
 constexpr double leastCosine = 0.5; // of a ring's normal and the limb
+constexpr double ringWidth = 0.5;   // of the limb's radius: three are near the joint
 
 /// A loop as a polygon: the middles of its rungs.
 std::vector<Vec3d> polygonOf(const GuardedMesh& surface, const QuadLoop& loop)
@@ -52,35 +54,21 @@ std::optional<Winding> windingAround(const std::vector<Vec3d>& polygon, const Ve
         angle += std::atan2(winding.normal.dot(p.cross(q)), p.dot(q));
     }
     if (!(std::abs(angle - 2 * pi) < 1)) return std::nullopt;
-    winding.height = std::abs(middle.dot(winding.normal));
+    winding.height = middle.dot(winding.normal);
     return winding;
 }
 
 } // namespace
 
-JointRings::JointRings(const std::vector<Joint>& joints, const GuardModel& guard)
-{
-    for (const Joint& joint : joints) {
-        Joint here{guard.scaled(joint.place), joint.axis};
-        if (here.axis) here.axis->normalize(0);
-        if (const auto& plane = guard.symmetry(); plane && here.place[plane->axis] < plane->offset) {
-            here.place = guard.mirrored(here.place);
-            if (here.axis) (*here.axis)[plane->axis] *= -1;
-        }
-        joints_.push_back(here);
-    }
-}
-
-std::vector<JointRings::Ring> JointRings::ringsAround(const GuardedMesh& surface, const QuadTable& table,
-                                                      const std::vector<QuadLoop>& loops, const Joint& joint,
+std::vector<JointRings::Ring> JointRings::ringsAround(const std::vector<QuadLoop>& loops, const Joint& joint,
                                                       double reach) const
 {
-    const double longest = 4 * std::sqrt(static_cast<double>(table.count()));
+    const double longest = 4 * std::sqrt(static_cast<double>(surface_.copies() * table_.count()));
     std::vector<std::pair<const QuadLoop*, Winding>> around;
     for (const QuadLoop& loop : loops) {
         if (static_cast<double>(loop.quads.size()) > longest) continue;
-        const auto winding = windingAround(polygonOf(surface, loop), joint.place);
-        if (!winding || winding->height > std::max(1.0, reach) * winding->radius) continue;
+        const auto winding = windingAround(polygonOf(surface_, loop), joint.place);
+        if (!winding || std::abs(winding->height) > std::max(1.0, reach) * winding->radius) continue;
         if (joint.axis && std::abs(winding->normal.dot(*joint.axis)) < leastCosine) continue;
         around.emplace_back(&loop, *winding);
     }
@@ -88,18 +76,23 @@ std::vector<JointRings::Ring> JointRings::ringsAround(const GuardedMesh& surface
     const auto shortest = std::min_element(
         around.begin(), around.end(), [](const auto& a, const auto& b) { return a.second.length < b.second.length; });
     for (const auto& [loop, winding] : around) {
-        if (winding.height > reach * winding.radius || winding.radius > 2 * shortest->second.radius) continue;
-        if (std::abs(winding.normal.dot(shortest->second.normal)) < leastCosine) continue;
-        rings.push_back({loop, winding.height, winding.radius});
+        const Vec3d axis = shortest->second.normal;
+        const double cosine = winding.normal.dot(axis);
+        if (std::abs(winding.height) > reach * winding.radius || std::abs(cosine) < leastCosine) continue;
+        if (winding.radius > 2 * shortest->second.radius) continue;
+        rings.push_back({loop, cosine > 0 ? winding.height : -winding.height, winding.radius, axis});
     }
+    std::stable_sort(rings.begin(), rings.end(),
+                     [](const Ring& a, const Ring& b) { return std::abs(a.height) < std::abs(b.height); });
     return rings;
 }
 
-std::vector<std::size_t> JointRings::count(const GuardedMesh& surface, const QuadTable& table, double reach) const
+std::vector<std::size_t> JointRings::count() const
 {
-    const std::vector<QuadLoop> loops = straightLoops(table);
     std::vector<std::size_t> counts;
-    for (const Joint& joint : joints_) counts.push_back(ringsAround(surface, table, loops, joint, reach).size());
+    if (surface_.guard().joints().empty()) return counts;
+    const std::vector<QuadLoop> loops = straightLoops(table_);
+    for (const Joint& joint : surface_.guard().joints()) counts.push_back(ringsAround(loops, joint, 1).size());
     return counts;
 }
 
@@ -111,25 +104,61 @@ bool JointRings::areKept(const std::vector<std::size_t>& before, const std::vect
     return true;
 }
 
-const QuadLoop* JointRings::nextToSplit(const GuardedMesh& surface, const QuadTable& table,
-                                        const std::vector<QuadLoop>& loops, std::size_t joint) const
+std::vector<JointRings::Hold> JointRings::holds() const
 {
-    constexpr double near = 0.8, far = 3; // nearer than is asked: vertices still move
-    if (ringsAround(surface, table, loops, joints_[joint], near).size() >= wanted) return nullptr;
-    const std::vector<Ring> rings = ringsAround(surface, table, loops, joints_[joint], far);
-    const auto next =
-        std::min_element(rings.begin(), rings.end(), [](const Ring& a, const Ring& b) { return a.height < b.height; });
-    return next == rings.end() ? nullptr : next->loop;
+    std::vector<Hold> holds;
+    if (surface_.guard().joints().empty()) return holds;
+    const std::vector<QuadLoop> loops = straightLoops(table_);
+    std::map<std::uint32_t, std::pair<Hold, int>> sums; // and of how many
+    for (const Joint& joint : surface_.guard().joints()) {
+        std::vector<Ring> rings = ringsAround(loops, joint, 1);
+        if (rings.empty()) continue;
+        if (rings.size() > wanted) rings.erase(rings.begin() + wanted, rings.end());
+        std::stable_sort(rings.begin(), rings.end(), [](const Ring& a, const Ring& b) { return a.height < b.height; });
+        const Vec3d& axis = rings[0].axis;
+        double radius = rings[0].radius;
+        for (const Ring& ring : rings) radius = std::min(radius, ring.radius);
+        const double width = ringWidth * radius;
+        for (std::size_t i = 0; i < rings.size(); ++i) {
+            const double place = static_cast<double>(i) - 0.5 * static_cast<double>(rings.size() - 1);
+            const double middle = axis.dot(joint.place) + place * width;
+            for (const Rung& rung : rings[i].loop->rungs) {
+                const bool isUp = axis.dot(surface_.point(rung[0])) > axis.dot(surface_.point(rung[1]));
+                for (const std::size_t end : {0U, 1U}) {
+                    const double offset = (end == 0) == isUp ? middle + 0.5 * width : middle - 0.5 * width;
+                    auto& [hold, count] =
+                        sums.try_emplace(rung[end], Hold{rung[end], axis, 0, radius}, 0).first->second;
+                    if (hold.normal != axis) continue; // another joint's
+                    hold.offset += offset;
+                    ++count;
+                }
+            }
+        }
+    }
+    for (auto& [vertex, sum] : sums) {
+        sum.first.offset /= sum.second;
+        holds.push_back(sum.first);
+    }
+    return holds;
 }
 
-void addRings(GuardedMesh& surface, QuadTable& table, const JointRings& rings, Interrupter* interrupter)
+std::optional<QuadLoop> JointRings::nextToSplit(const Joint& joint) const
+{
+    constexpr double near = 0.9, far = 3; // nearer than is asked: vertices still move
+    const std::vector<QuadLoop> loops = straightLoops(table_);
+    if (ringsAround(loops, joint, near).size() >= wanted) return std::nullopt;
+    const std::vector<Ring> rings = ringsAround(loops, joint, far);
+    if (rings.empty()) return std::nullopt;
+    return *rings.front().loop;
+}
+
+void addRings(GuardedMesh& surface, QuadTable& table, Interrupter* interrupter)
 {
     constexpr int mostSplits = 4, sweeps = 2; // of one joint
-    for (std::size_t joint = 0; joint < rings.joints(); ++joint) {
+    for (const Joint& joint : surface.guard().joints()) {
         for (int i = 0; i < mostSplits; ++i) {
             throwIfInterrupted(interrupter);
-            const std::vector<QuadLoop> loops = straightLoops(table);
-            const QuadLoop* const loop = rings.nextToSplit(surface, table, loops, joint);
+            const std::optional<QuadLoop> loop = JointRings(surface, table).nextToSplit(joint);
             if (!loop) break;
             GuardedMesh changed = surface;
             QuadTable changedTable = table;

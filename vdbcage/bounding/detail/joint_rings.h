@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <optional>
 #include <vector>
 
 #include <vdbcage/bounding/detail/quad_loop.h>
@@ -19,37 +21,44 @@ class JointRings {
 public:
     static constexpr std::size_t wanted = 3; ///< across each joint
 
-    JointRings(const std::vector<Joint>& joints, const GuardModel& guard);
+    /// At the joints that its guard knows. The arguments must outlive this.
+    JointRings(const GuardedMesh& surface, const QuadTable& table) : surface_(surface), table_(table) {}
 
-    bool empty() const { return joints_.empty(); }
-
-    /// How many rings each joint has. `reach` is how far planes may be from it, in parts of the ring's radius.
-    /// Cost: O(quads + loops joints).
-    std::vector<std::size_t> count(const GuardedMesh& surface, const QuadTable& table, double reach = 1) const;
+    /// How many rings each joint has now.
+    /// Cost: O(quads + joints rungs).
+    std::vector<std::size_t> count() const;
 
     /// Whether each joint has as many rings as before, or as are wanted.
     static bool areKept(const std::vector<std::size_t>& before, const std::vector<std::size_t>& after);
 
-    /// The loop next to the `joint`-th joint that may be split for another ring there; null if it has enough, or there
-    /// is none.
-    const QuadLoop* nextToSplit(const GuardedMesh& surface, const QuadTable& table, const std::vector<QuadLoop>& loops,
-                                std::size_t joint) const;
+    /// A vertex that is to stay near a plane.
+    struct Hold {
+        std::uint32_t vertex;
+        Vec3d normal;
+        double offset, width; ///< normal . place is to be `offset`; a deviation is measured in widths
+    };
+    /// What holds up to three rings of each joint, by vertex, ascending: without it relaxation would make all rings of
+    /// a limb alike.
+    std::vector<Hold> holds() const;
 
-    std::size_t joints() const { return joints_.size(); }
+    /// A loop that may be split for another ring at a joint; nothing if it has enough, or there is none.
+    std::optional<QuadLoop> nextToSplit(const Joint& joint) const;
 
 private:
     struct Ring {
         const QuadLoop* loop;
-        double height, radius; ///< of the joint over its plane, without sign
+        double height, radius; ///< of its middle over the joint, along the axis; of a circle of its area
+        Vec3d axis;            ///< of the limb, the same for all rings of a joint
     };
-    std::vector<Ring> ringsAround(const GuardedMesh& surface, const QuadTable& table,
-                                  const std::vector<QuadLoop>& loops, const Joint& joint, double reach) const;
+    /// Those whose planes are within `reach` radii, nearest first.
+    std::vector<Ring> ringsAround(const std::vector<QuadLoop>& loops, const Joint& joint, double reach) const;
 
-    std::vector<Joint> joints_; // in the guard's units, beyond the plane of symmetry; axes of length 1
+    const GuardedMesh& surface_;
+    const QuadTable& table_;
 };
 
 /// Splits loops until each joint has the rings that are wanted, as far as the guard allows.
 /// \throw Cancelled
-void addRings(GuardedMesh& surface, QuadTable& table, const JointRings& rings, Interrupter* interrupter);
+void addRings(GuardedMesh& surface, QuadTable& table, Interrupter* interrupter);
 
 } // namespace vdbcage::detail

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include <vdbcage/bounding/detail/face_queries.h>
+#include <vdbcage/bounding/detail/joint_rings.h>
 #include <vdbcage/bounding/detail/loop_collapse.h>
 #include <vdbcage/bounding/detail/quad_relax.h>
 #include <vdbcage/bounding/detail/relax.h>
@@ -57,10 +58,7 @@ std::vector<Ranked> ranked(const GuardedMesh& surface, const QuadTable& table, c
 
 class LoopDecimator {
 public:
-    LoopDecimator(GuardedMesh& surface, QuadTable& table, const JointRings& rings)
-        : surface_(surface), table_(table), rings_(rings)
-    {
-    }
+    LoopDecimator(GuardedMesh& surface, QuadTable& table) : surface_(surface), table_(table) {}
 
     void run(std::size_t quads, int mostPercent, Interrupter* interrupter)
     {
@@ -112,11 +110,11 @@ private:
         const double sample = areaPerSample(surface_);
         const double perQuad = distancePerQuad(surface_, table_, sample, interrupter);
         const DistanceMeasure measure(surface_.guard(), sample);
-        const QuadShapeTerm term(table_, scaled(usualShape, perQuad));
+        const QuadShapeTerm term(table_, scaled(usualShape, perQuad), JointRings(surface_, table_).holds());
         const std::size_t most = table_.count() / 20, tooMany = table_.count() - target;
         std::size_t removed = 0, refused = 0;
         std::vector<char> isTouched(surface_.vertices(), 0);
-        std::vector<std::size_t> ringsNow = rings_.count(surface_, table_);
+        std::vector<std::size_t> ringsNow = JointRings(surface_, table_).count();
         for (const Ranked& next : ranked(surface_, table_, quadrics, loops, tooMany, interrupter)) {
             const QuadLoop& loop = loops[next.loop];
             if (table_.count() <= quads || (removed > 0 && removed + loop.quads.size() > most)) break;
@@ -139,8 +137,7 @@ private:
     /// Counts the rings anew if they are kept.
     bool keepsRings(std::vector<std::size_t>& before) const
     {
-        if (rings_.empty()) return true;
-        std::vector<std::size_t> now = rings_.count(surface_, table_);
+        std::vector<std::size_t> now = JointRings(surface_, table_).count();
         if (!JointRings::areKept(before, now)) return false;
         before = std::move(now);
         return true;
@@ -194,19 +191,20 @@ private:
 
     GuardedMesh& surface_;
     QuadTable& table_;
-    const JointRings& rings_;
 };
 
 } // namespace
 
-bool collapseLoopThrough(GuardedMesh& surface, QuadTable& table, const JointRings& rings,
-                         const std::vector<std::uint32_t>& quads, Interrupter* interrupter)
+bool collapseLoopThrough(GuardedMesh& surface, QuadTable& table, const std::vector<std::uint32_t>& quads,
+                         Interrupter* interrupter)
 {
     VertexQuadrics quadrics(surface);
     const auto isAmong = [&](std::uint32_t q) { return std::find(quads.begin(), quads.end(), q) != quads.end(); };
     const std::vector<QuadLoop> loops = straightLoops(table);
-    const std::vector<std::size_t> before = rings.count(surface, table);
-    const auto keepsRings = [&](const auto&) { return JointRings::areKept(before, rings.count(surface, table)); };
+    const std::vector<std::size_t> before = JointRings(surface, table).count();
+    const auto keepsRings = [&](const auto&) {
+        return JointRings::areKept(before, JointRings(surface, table).count());
+    };
     for (const Ranked& next : ranked(surface, table, quadrics, loops, table.count(), interrupter)) {
         const QuadLoop& loop = loops[next.loop];
         throwIfInterrupted(interrupter);
@@ -216,10 +214,9 @@ bool collapseLoopThrough(GuardedMesh& surface, QuadTable& table, const JointRing
     return false;
 }
 
-void collapseLoops(GuardedMesh& surface, QuadTable& table, const JointRings& rings, std::size_t quads, int mostPercent,
-                   Interrupter* interrupter)
+void collapseLoops(GuardedMesh& surface, QuadTable& table, std::size_t quads, int mostPercent, Interrupter* interrupter)
 {
-    LoopDecimator(surface, table, rings).run(quads, mostPercent, interrupter);
+    LoopDecimator(surface, table).run(quads, mostPercent, interrupter);
 }
 
 } // namespace vdbcage::detail

@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <vector>
 
-#include <vdbcage/bounding/detail/joint_rings.h>
 #include <vdbcage/bounding/detail/quad_table.h>
 #include <vdbcage/core/interrupter.h>
 
@@ -12,8 +11,8 @@ namespace vdbcage::detail {
 
 /// Collapses the cheapest of the loops that pass one of these quads and may go. Returns whether there was one. Joints
 /// keep their rings.
-bool collapseLoopThrough(GuardedMesh& surface, QuadTable& table, const JointRings& rings,
-                         const std::vector<std::uint32_t>& quads, Interrupter* interrupter);
+bool collapseLoopThrough(GuardedMesh& surface, QuadTable& table, const std::vector<std::uint32_t>& quads,
+                         Interrupter* interrupter);
 
 /// Collapses loops until at most `quads` are left, or none may go.
 ///
@@ -26,7 +25,7 @@ bool collapseLoopThrough(GuardedMesh& surface, QuadTable& table, const JointRing
 /// \throw Cancelled
 /// Cost: O(n sqrt(n) log m) for n quads and m faces of the model.
 /// Based on: Daniels, Silva, Shepherd, Cohen, Quadrilateral Mesh Simplification, 2008.
-void collapseLoops(GuardedMesh& surface, QuadTable& table, const JointRings& rings, std::size_t quads, int mostPercent,
+void collapseLoops(GuardedMesh& surface, QuadTable& table, std::size_t quads, int mostPercent,
                    Interrupter* interrupter);
 
 } // namespace vdbcage::detail

@@ -87,8 +87,7 @@ void refill(Quads& now, std::size_t quads, double areaPerSample, Interrupter* in
 
 } // namespace
 
-void exchangeLoops(GuardedMesh& surface, QuadTable& table, const JointRings& rings, std::size_t quads, int rounds,
-                   Interrupter* interrupter)
+void exchangeLoops(GuardedMesh& surface, QuadTable& table, std::size_t quads, int rounds, Interrupter* interrupter)
 {
     constexpr double firstShare = 0.1;
     constexpr int sweeps = 4;
@@ -106,7 +105,7 @@ void exchangeLoops(GuardedMesh& surface, QuadTable& table, const JointRings& rin
         Quads now = best;
         const auto gone = static_cast<std::size_t>(share * static_cast<double>(now.table.count()));
         if (gone == 0) break;
-        collapseLoops(now.surface, now.table, rings, now.table.count() - gone, 0, interrupter);
+        collapseLoops(now.surface, now.table, now.table.count() - gone, 0, interrupter);
         relax(now);
         refill(now, quads, perSample, interrupter);
         relax(now);

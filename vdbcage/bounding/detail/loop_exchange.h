@@ -2,7 +2,6 @@
 
 #include <cstddef>
 
-#include <vdbcage/bounding/detail/joint_rings.h>
 #include <vdbcage/bounding/detail/quad_table.h>
 #include <vdbcage/core/interrupter.h>
 
@@ -17,7 +16,6 @@ namespace vdbcage::detail {
 /// \pre no quad is paired in the surface
 /// \throw Cancelled
 /// Based on: Hoppe, DeRose, Duchamp, McDonald, Stuetzle, Mesh Optimization, 1993.
-void exchangeLoops(GuardedMesh& surface, QuadTable& table, const JointRings& rings, std::size_t quads, int rounds,
-                   Interrupter* interrupter);
+void exchangeLoops(GuardedMesh& surface, QuadTable& table, std::size_t quads, int rounds, Interrupter* interrupter);
 
 } // namespace vdbcage::detail

@@ -143,7 +143,7 @@ const BoundingGuard& BoundingSearch::guardFor(const Run& run, const std::optiona
     options.symmetry = plane;
     if (!guard_ || options.clearance != guardOptions_.clearance ||
         options.minAngleDegrees != guardOptions_.minAngleDegrees || !(run.density == density_) ||
-        !(plane == guardOptions_.symmetry)) {
+        options.joints != guardOptions_.joints || !(plane == guardOptions_.symmetry)) {
         const Stage stage(run.interrupter, "guard");
         starts_.clear(); // they are under the guard
         guard_.reset();
@@ -253,7 +253,6 @@ void BoundingSearch::collapseLoops(const Run& run, Candidates& starts, const Bou
     options.faces = static_cast<std::size_t>(run.options.faces);
     options.tightening = tightenOptions(run.options.effort);
     options.exchanges = loopExchanges(run.options.effort);
-    options.joints = run.options.joints.list;
     forEach(starts, run.interrupter, "loops", [&](Candidate& candidate) {
         candidate.cage = quadLoops(*candidate.surface, guard, options, run.interrupter);
         candidate.decimated = candidate.cage;

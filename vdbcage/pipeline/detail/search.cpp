@@ -103,6 +103,7 @@ GuardOptions guardOptions(const CageOptions& options)
     GuardOptions guarding;
     guarding.clearance = options.clearance;
     guarding.density = options.density;
+    guarding.joints = options.joints.list;
     guarding.minAngleDegrees = options.minAngle.value_or(options.mesh == CageFaces::loops ? loopsAngle
                                                          : isWide                         ? wideAngle
                                                                                           : usualAngle);
