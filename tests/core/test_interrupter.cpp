@@ -85,24 +85,24 @@ BOOST_AUTO_TEST_CASE(parts_of_a_stage_say_how_far_the_whole_is)
         bool stop = false;
     } watcher;
     detail::StagePart part(&watcher, 40, 60);
-    for (const int percent : {0, 50, -1, 100, 200}) throwIfInterrupted(part.interrupter(), percent);
+    for (const int percent : {0, 50, -1, 100, 200}) throwIfInterrupted(part.passedOn(), percent);
     BOOST_TEST(watcher.said == (std::vector<int>{40, 50, -1, 60, 60}), boost::test_tools::per_element());
     watcher.stop = true;
-    BOOST_CHECK_THROW(throwIfInterrupted(part.interrupter()), Cancelled);
-    BOOST_TEST(detail::StagePart(nullptr, 0, 50).interrupter() == nullptr);
+    BOOST_CHECK_THROW(throwIfInterrupted(part.passedOn()), Cancelled);
+    BOOST_TEST(detail::StagePart(nullptr, 0, 50).passedOn() == nullptr);
 
     watcher = {};
     detail::StagesSideBySide both(&watcher, 2);
-    throwIfInterrupted(both.interrupter(0), 50);
-    throwIfInterrupted(both.interrupter(1), 20);
-    throwIfInterrupted(both.interrupter(0), 30); // it does not go back
-    throwIfInterrupted(both.interrupter(1), -1);
-    throwIfInterrupted(both.interrupter(0), 100);
-    throwIfInterrupted(both.interrupter(1), 101);
+    throwIfInterrupted(both.passedOn(0), 50);
+    throwIfInterrupted(both.passedOn(1), 20);
+    throwIfInterrupted(both.passedOn(0), 30); // it does not go back
+    throwIfInterrupted(both.passedOn(1), -1);
+    throwIfInterrupted(both.passedOn(0), 100);
+    throwIfInterrupted(both.passedOn(1), 101);
     BOOST_TEST(watcher.said == (std::vector<int>{25, 35, 35, -1, 60, 100}), boost::test_tools::per_element());
     watcher.stop = true;
-    BOOST_CHECK_THROW(throwIfInterrupted(both.interrupter(1)), Cancelled);
-    BOOST_TEST(detail::StagesSideBySide(nullptr, 2).interrupter(1) == nullptr);
+    BOOST_CHECK_THROW(throwIfInterrupted(both.passedOn(1)), Cancelled);
+    BOOST_TEST(detail::StagesSideBySide(nullptr, 2).passedOn(1) == nullptr);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

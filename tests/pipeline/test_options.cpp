@@ -2,6 +2,8 @@
 
 #include <limits>
 
+#include <filesystem>
+#include <fstream>
 #include <vdbcage/core/error.h>
 #include <vdbcage/pipeline/options.h>
 
@@ -9,7 +11,7 @@ using namespace vdbcage;
 
 namespace {
 
-bool names(const InputError& error, const std::string& text)
+bool names(const Error& error, const std::string& text)
 {
     return std::string(error.what()).find(text) != std::string::npos;
 }
@@ -35,11 +37,16 @@ BOOST_AUTO_TEST_CASE(text_goes_in_and_comes_out)
 {
     CageOptions options;
     const std::vector<std::pair<std::string, std::string>> wanted{
-        {"faces", "100"},      {"resolution", "64"},    {"close-radius", "0.125"}, {"erode-radius", "0.0625"},
-        {"element", "cube"},   {"scale-field", "none"}, {"smooth", "7"},           {"parts", "merge"},
-        {"mesh", "triquad"},   {"merge-angle", "22.5"}, {"symmetry", "auto"},      {"symmetry-tolerance", "0.01"},
-        {"interior", "shell"}, {"voxelizer", "cpu"},    {"bounding", "off"},       {"clearance", "0.001"},
-        {"min-angle", "2"},    {"effort", "best"}};
+        {"faces", "100"},          {"resolution", "64"},
+        {"close-radius", "0.125"}, {"erode-radius", "0.0625"},
+        {"element", "cube"},       {"scale-field", "none"},
+        {"density", "none"},       {"joints", "none"},
+        {"smooth", "7"},           {"parts", "merge"},
+        {"mesh", "triquad"},       {"merge-angle", "22.5"},
+        {"symmetry", "auto"},      {"symmetry-tolerance", "0.01"},
+        {"interior", "shell"},     {"voxelizer", "cpu"},
+        {"bounding", "off"},       {"clearance", "0.001"},
+        {"min-angle", "2"},        {"effort", "best"}};
     for (const auto& option : wanted) setOption(options, option.first, option.second);
     BOOST_CHECK(optionValues(options) == wanted);
     BOOST_CHECK(optionValues(CageOptions{}) != wanted);
@@ -86,6 +93,51 @@ BOOST_AUTO_TEST_CASE(a_scale_field_is_given_as_text)
         BOOST_CHECK_EXCEPTION(setOption(options, "scale-field", bad), InputError,
                               [](const InputError& error) { return names(error, "--scale-field"); });
     }
+}
+
+BOOST_AUTO_TEST_CASE(a_density_is_given_as_text_and_needs_the_guard)
+{
+    CageOptions options;
+    setOption(options, "density", "sphere:0,1,-2.5,0.5,2");
+    BOOST_REQUIRE(options.density.regions.size() == 1U);
+    BOOST_TEST(options.density.regions[0].scale == 2);
+    BOOST_TEST(options.scale.regions.empty());
+    BOOST_CHECK_NO_THROW(requireValid(options));
+    options.bounding = false;
+    BOOST_CHECK_EXCEPTION(requireValid(options), InputError,
+                          [](const InputError& error) { return names(error, "--density"); });
+    BOOST_CHECK_EXCEPTION(setOption(options, "density", "sphere:1"), InputError, [](const InputError& error) {
+        return names(error, "--density") && names(error, "is not a density field");
+    });
+}
+
+BOOST_AUTO_TEST_CASE(joints_are_read_from_a_file_whose_errors_name_the_line)
+{
+    const std::filesystem::path file = std::filesystem::temp_directory_path() / "vdbcage_test_options.joints";
+    const auto write = [&](const std::string& text) { std::ofstream(file) << text; };
+    write("# knees\n1 2 3\n\n 0 0 0  0 -2 0 # a bone\n");
+    CageOptions options;
+    setOption(options, "joints", file.string());
+    BOOST_REQUIRE(options.joints.list.size() == 2U);
+    BOOST_TEST(options.joints.list[0].place == openvdb::Vec3d(1, 2, 3));
+    BOOST_TEST(!options.joints.list[0].axis);
+    BOOST_TEST(options.joints.list[1].axis.value() == openvdb::Vec3d(0, -2, 0));
+    options.bounding = false;
+    BOOST_CHECK_EXCEPTION(requireValid(options), InputError,
+                          [](const InputError& error) { return names(error, "--joints"); });
+    setOption(options, "joints", "none");
+    BOOST_TEST(options.joints.list.empty());
+    for (const char* bad : {"1 2 3\n1 2\n", "1 2 3\n1 2 3 1 2 3\n", "1 2 3\n1 2 3 4 5 6 7\n", "1 2 3\nknee 1 2 3\n",
+                            "1 2 3\n1 2 nan\n", "1 2 3\n1 2 3 4\n"}) {
+        write(bad);
+        BOOST_CHECK_EXCEPTION(readJoints(file), IoError, [&](const IoError& error) {
+            return names(error, file.string()) && names(error, "line 2");
+        });
+    }
+    write("# nothing\n");
+    BOOST_CHECK_THROW(readJoints(file), IoError);
+    std::filesystem::remove(file);
+    BOOST_CHECK_THROW(readJoints(file), IoError);
 }
 
 BOOST_AUTO_TEST_CASE(what_is_not_allowed_is_refused_by_name_value_and_range)

@@ -7,9 +7,12 @@
 #include <string>
 
 #include "runs.h"
+#include <filesystem>
+#include <fstream>
 #include <openvdb/tools/ChangeBackground.h>
 #include <support/cancelled_host.h>
 #include <support/shapes.h>
+#include <tbb/global_control.h>
 #include <vdbcage/check/check.h>
 #include <vdbcage/core/error.h>
 #include <vdbcage/pipeline/pipeline.h>
@@ -232,7 +235,11 @@ BOOST_AUTO_TEST_CASE(a_stop_that_only_one_of_several_starts_sees_stops_them_all)
 
 BOOST_AUTO_TEST_CASE(every_option_counts)
 {
-    const std::map<std::string, std::string> others{{"faces", "150"},
+    const std::filesystem::path joints = std::filesystem::temp_directory_path() / "vdbcage_test_reruns.joints";
+    std::ofstream(joints) << "0 0 0.5\n";
+    const std::map<std::string, std::string> others{{"density", "sphere:0,0,1,0.7,8"},
+                                                    {"joints", joints.string()},
+                                                    {"faces", "150"},
                                                     {"resolution", "20"},
                                                     {"close-radius", "0.2"},
                                                     {"erode-radius", "0.02"},
@@ -271,6 +278,33 @@ BOOST_AUTO_TEST_CASE(every_option_counts)
         BOOST_CHECK(sameMesh(again, makeCage(model, changed)));
         BOOST_TEST(sameMesh(again, cage) == (idle.count(option.name) > 0), option.name << " changes nothing here");
         made.run(options);
+    }
+}
+
+BOOST_AUTO_TEST_CASE(a_density_puts_faces_where_it_is_above_1)
+{
+    const Mesh model = test::sphere({0, 0, 0}, 1, 32);
+    const auto facesAbove = [](const Mesh& cage) {
+        const std::vector<openvdb::Vec3I> faces = triangulate(cage);
+        return std::count_if(faces.begin(), faces.end(), [&](const openvdb::Vec3I& t) {
+            return cage.points[t[0]].z() + cage.points[t[1]].z() + cage.points[t[2]].z() > 3 * 0.6;
+        });
+    };
+    for (const CageFaces mesh : {CageFaces::triangles, CageFaces::quads, CageFaces::loops}) {
+        CageOptions options;
+        options.faces = 120;
+        options.effort = Effort::fast;
+        options.mesh = mesh;
+        Pipeline made(model);
+        const long before = facesAbove(made.run(options));
+        options.density = readScaleField("box:-2,-2,0.6,2,2,2,2", "density");
+        const Mesh denser = made.run(options);
+        BOOST_TEST(10 * facesAbove(denser) >= 14 * before);
+        BOOST_TEST(faceCount(denser) <= 120U);
+        BOOST_TEST(checkCage(denser, model).bounding());
+        BOOST_CHECK(sameMesh(denser, makeCage(model, options)));
+        tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
+        BOOST_CHECK(sameMesh(denser, makeCage(model, options)));
     }
 }
 

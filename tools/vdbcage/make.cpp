@@ -37,7 +37,10 @@ void announce(const MakeArguments& arguments, Outputs& outputs)
     if (!arguments.picture.empty()) requirePngExtension(arguments.picture);
     requireValid(arguments.options);
     for (const fs::path& model : arguments.models) outputs.reads(model);
-    if (!arguments.options.scale.file.empty()) outputs.reads(arguments.options.scale.file);
+    const CageOptions& options = arguments.options;
+    for (const fs::path& file : {options.scale.file, options.density.file, options.joints.file}) {
+        if (!file.empty()) outputs.reads(file);
+    }
     if (!arguments.stages.empty()) outputs.writesInto(arguments.stages); // the others may go there too
     outputs.writes(arguments.cage);
     if (!arguments.report.empty()) outputs.writes(arguments.report);

@@ -5,11 +5,13 @@
 #include <optional>
 #include <vector>
 
+#include <vdbcage/bounding/joints.h>
 #include <vdbcage/core/export.h>
 #include <vdbcage/core/interrupter.h>
 #include <vdbcage/core/range.h>
 #include <vdbcage/mesh/mesh.h>
 #include <vdbcage/mesh/symmetry.h>
+#include <vdbcage/volume/scale_field.h>
 
 namespace vdbcage {
 
@@ -33,6 +35,13 @@ struct GuardOptions {
     double spacing = 0.002;
     /// If set, surfaces are exactly symmetric in it and stay so, and bound the model and its mirror image.
     std::optional<SymmetryPlane> symmetry = {};
+    /// Where faces go: the operators give a part of the model about as many times the faces as this says, at the cost
+    /// of the others. It counts at the nearest point of the model, at least 1/8. With a plane of symmetry that side
+    /// counts which is farther from 1. They do so by counting distance for more, or for less.
+    ScaleField density = {};
+    /// Where the model is to bend. Each counts as a density of 2 within 1.5 times its distance from the model's
+    /// surface, and quadLoops() makes three rings across the limb there, as far as the guard allows.
+    std::vector<Joint> joints = {};
 };
 
 /// Keeps a surface bounding while it is changed. Built once from a model, any polygon soup. It lets smooth, decimate,

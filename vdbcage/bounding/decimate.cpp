@@ -28,14 +28,14 @@ void redistributeAndPerturb(GuardedMesh& surface, Interrupter* interrupter)
     const double perSample = areaPerSample(surface, surface.liveFaces(), tightening.samples);
     tighten(surface, tightening.sweeps, perSample, interrupter);
     StagePart beginning(interrupter, 10, first);
-    redistribute(surface, firstRounds, redistributeSweeps, beginning.interrupter());
+    redistribute(surface, firstRounds, redistributeSweeps, beginning.passedOn());
     flipEdges(surface, redistributeSweeps, interrupter);
     for (int i = 0; i < turns; ++i) {
         const int from = first + i * turn;
         StagePart perturbing(interrupter, from, from + turn / 2);
-        perturb(surface, perturbations, tightening.sweeps, perSample, perturbing.interrupter());
+        perturb(surface, perturbations, tightening.sweeps, perSample, perturbing.passedOn());
         StagePart redistributing(interrupter, from + turn / 2, from + turn);
-        redistribute(surface, rounds, redistributeSweeps, redistributing.interrupter());
+        redistribute(surface, rounds, redistributeSweeps, redistributing.passedOn());
         flipEdges(surface, redistributeSweeps, interrupter);
     }
 }
@@ -59,7 +59,7 @@ Mesh RecordedDecimation::to(const BoundingDecimateOptions& options, Interrupter*
     const auto facesAtStop = static_cast<std::size_t>(stop * static_cast<double>(faces));
     const int collapsed = effort == Effort::fast ? 80 : effort == Effort::fair ? 40 : 20; // percent
     StagePart collapsing(interrupter, 0, collapsed);
-    GuardedMesh guarded = sequence_.at(facesAtStop, collapsing.interrupter());
+    GuardedMesh guarded = sequence_.at(facesAtStop, collapsing.passedOn());
     tighten(guarded, sweepsAtStop, areaPerSample(guarded, 2 * faces, samples), interrupter);
     collapseByQuadrics(guarded, faces, interrupter);
     throwIfInterrupted(interrupter, collapsed);
@@ -72,10 +72,10 @@ Mesh RecordedDecimation::to(const BoundingDecimateOptions& options, Interrupter*
     if (effort == Effort::fair) {
         tighten(guarded, 2, areaPerSample(guarded, faces, samples), interrupter);
         StagePart redistributing(interrupter, 50, 100);
-        redistribute(guarded, 2, 3, redistributing.interrupter());
+        redistribute(guarded, 2, 3, redistributing.passedOn());
     } else if (effort == Effort::best) {
         StagePart redistributing(interrupter, collapsed, 100);
-        redistributeAndPerturb(guarded, redistributing.interrupter());
+        redistributeAndPerturb(guarded, redistributing.passedOn());
     }
     return guarded.mesh();
 }

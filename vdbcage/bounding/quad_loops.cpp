@@ -1,10 +1,12 @@
 #include <vdbcage/bounding/quad_loops.h>
 
+#include <algorithm>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include <vdbcage/bounding/detail/face_queries.h>
+#include <vdbcage/bounding/detail/joint_rings.h>
 #include <vdbcage/bounding/detail/loop_decimation.h>
 #include <vdbcage/bounding/detail/loop_exchange.h>
 #include <vdbcage/bounding/detail/merge_triangles.h>
@@ -26,6 +28,31 @@ std::vector<std::uint32_t> allQuads(const QuadTable& table)
         if (table.isQuad(q)) quads.push_back(q);
     }
     return quads;
+}
+
+/// Adds the rings that joints lack, and takes as many other quads away, in rounds: the one with most rings is kept.
+void completeRings(GuardedMesh& surface, QuadTable& table, std::size_t quads, Interrupter* interrupter)
+{
+    constexpr int rounds = 4;
+    const auto lacking = [](const GuardedMesh& of, const QuadTable& quadsOf) {
+        std::size_t sum = 0;
+        for (const std::size_t count : JointRings(of, quadsOf).count()) {
+            sum += JointRings::wanted - std::min(count, JointRings::wanted);
+        }
+        return sum;
+    };
+    std::size_t least = lacking(surface, table);
+    GuardedMesh now = surface;
+    QuadTable nowTable = table;
+    for (int i = 0; i < rounds && least > 0; ++i) {
+        addRings(now, nowTable, interrupter);
+        collapseLoops(now, nowTable, quads, 0, interrupter);
+        const std::size_t left = lacking(now, nowTable);
+        if (left >= least || nowTable.count() > std::max(quads, table.count())) continue;
+        least = left;
+        surface = now;
+        table = nowTable;
+    }
 }
 
 /// Makes quads of the pairs of triangles that are one in the table, `first` before others. Returns those that it could
@@ -121,8 +148,11 @@ Mesh quadLoops(const Mesh& surface, const BoundingGuard& guard, const QuadLoopsO
     QuadTable table(guarded);
     if (table.count() == 0) return guarded.mesh();
     constexpr int mostPercent = 70; // the rest comes after
-    collapseLoops(guarded, table, options.faces / guarded.copies(), mostPercent, interrupter);
-    exchangeLoops(guarded, table, options.faces / guarded.copies(), options.exchanges, interrupter);
+    const std::size_t faces = options.faces / guarded.copies();
+    addRings(guarded, table, interrupter);
+    collapseLoops(guarded, table, faces, mostPercent, interrupter);
+    exchangeLoops(guarded, table, faces, options.exchanges, interrupter);
+    completeRings(guarded, table, faces, interrupter);
     // Where a quad cannot be made, the loops through it go.
     constexpr int attempts = 10;
     GuardedMesh paired = guarded;

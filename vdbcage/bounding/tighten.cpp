@@ -21,6 +21,14 @@ void requireValid(const TightenOptions& options)
     requireWithin(TightenOptions::sampleCounts, options.samples, "samples");
 }
 
+double meanDistance(const Mesh& cage, const BoundingGuard& guard, Interrupter* interrupter)
+{
+    constexpr int samples = 8;
+    const GuardedMesh surface(cage, modelOf(guard), GuardedMesh::Quads::split);
+    const double perSample = areaPerSample(surface, surface.liveFaces(), samples);
+    return integratedDistance(surface, perSample, interrupter) / area(surface);
+}
+
 void tightenAndPerturb(GuardedMesh& surface, const TightenOptions& options, Interrupter* interrupter)
 {
     const auto perSample = [&] { return areaPerSample(surface, surface.liveFaces(), options.samples); };

@@ -95,6 +95,11 @@ struct ToText {
         if (!value.source.empty()) return value.source;
         return value.grid || !value.regions.empty() ? "given" : "none";
     }
+    std::string operator()(const Joints& value) const
+    {
+        if (!value.file.empty()) return value.file.string();
+        return value.list.empty() ? "none" : "given";
+    }
     template <typename Name>
     std::string operator()(Name value) const
     {
@@ -148,11 +153,13 @@ struct FromText {
     void operator()(ScaleField& field) const
     {
         try {
-            field = readScaleField(text);
+            const std::string name = info.name;
+            field = readScaleField(text, name == "scale-field" ? "scale" : name);
         } catch (const InputError& error) {
             throw InputError("--" + std::string(info.name) + ": " + error.what());
         }
     }
+    void operator()(Joints& field) const { field = text == "none" ? Joints{} : readJoints(text); }
     template <typename Name>
     void operator()(Name& field) const
     {
@@ -193,6 +200,7 @@ struct Placeholder {
         return "auto|" + std::string(info.symbol);
     }
     std::string operator()(const ScaleField& /*value*/) const { return info.symbol; }
+    std::string operator()(const Joints& /*value*/) const { return info.symbol; }
     template <typename Name>
     std::string operator()(Name /*value*/) const
     {
@@ -263,6 +271,14 @@ void requireValid(const CageOptions& options)
     }
     if (!options.bounding && options.mesh == CageFaces::loops) {
         throw InputError("--mesh: 'loops' is not allowed with --bounding off; it must be triangles, triquad or quads");
+    }
+    if (!options.bounding && ToText{}(options.density) != "none") {
+        throw InputError("--density: '" + ToText{}(options.density) +
+                         "' is not allowed with --bounding off; it must be none");
+    }
+    if (!options.bounding && !options.joints.list.empty()) {
+        throw InputError("--joints: '" + ToText{}(options.joints) +
+                         "' is not allowed with --bounding off; it must be none");
     }
     if (options.element != StructuringElement::sphere && ToText{}(options.scale) != "none") {
         throw InputError("--scale-field: '" + ToText{}(options.scale) +

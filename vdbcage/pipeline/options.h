@@ -6,6 +6,7 @@
 
 #include <vdbcage/bounding/bounding_guard.h>
 #include <vdbcage/bounding/effort.h>
+#include <vdbcage/bounding/joints.h>
 #include <vdbcage/bounding/smooth.h>
 #include <vdbcage/bounding/triquad.h>
 #include <vdbcage/core/export.h>
@@ -47,6 +48,8 @@ struct CageOptions {
     std::optional<double> erodeRadius; ///< at most the close radius, which must be set; unset: equal to it
     StructuringElement element = StructuringElement::sphere; ///< structuring element of the closing
     ScaleField scale;                            ///< what the close radius is multiplied by in places; for the sphere
+    ScaleField density;                          ///< how many times the faces places of the model get; bounding only
+    Joints joints;                               ///< where it is to bend: more faces, rings of loops; bounding only
     int smooth = 0;                              ///< sweeps of smoothing at the end: rounder, and less tight, with more
     CageParts parts = CageParts::keep;           ///< what becomes of separate parts of the closing
     double clearance = GuardOptions{}.clearance; ///< least distance from model to cage
@@ -80,6 +83,8 @@ void visitOptions(Options& options, Visit&& visit)
     visit(OptionInfo{"erode-radius", "F", "if less, leaves an offset", {0, 0.25}, true}, options.erodeRadius);
     visit(OptionInfo{"element", "", "shape of the closing", {}, true}, options.element);
     visit(OptionInfo{"scale-field", "FILE.vdb|REGION", "multiplies the close radius in places"}, options.scale);
+    visit(OptionInfo{"density", "FILE.vdb|REGION", "more faces in places, fewer in others"}, options.density);
+    visit(OptionInfo{"joints", "FILE", "rings of quads where it is to bend"}, options.joints);
     visit(OptionInfo{"smooth", "K", "rounds it off: 0 is tightest", BoundingSmoothOptions::sweepCounts},
           options.smooth);
     visit(OptionInfo{"parts", "", "separate parts of the closing", {}, true}, options.parts);

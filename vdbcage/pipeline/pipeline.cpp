@@ -22,7 +22,7 @@ using detail::ScaleVersion;
 
 namespace {
 
-/// Whether two sets of options are equal, but for the scale field, which counts by its version.
+/// Whether two sets of options are equal, but for fields, which count by their versions.
 bool areEqual(const CageOptions& a, const CageOptions& b)
 {
     bool equal = true;
@@ -73,17 +73,17 @@ public:
     void run(const CageOptions& options, Interrupter* interrupter)
     {
         requireValid(options);
-        ScaleVersion scale(options.scale);
-        if (last_ && scale == last_->scale && areEqual(options, last_->options)) return;
-        Candidate made = options.bounding ? search_.run(options, scale, interrupter)
+        ScaleVersion scale(options.scale), density(options.density);
+        if (last_ && scale == last_->scale && density == last_->density && areEqual(options, last_->options)) return;
+        Candidate made = options.bounding ? search_.run(options, scale, density, interrupter)
                                           : detail::textbookCage(options, scale, volumes_, certifier_, interrupter);
         if (options.bounding && !made.check.bounding()) {
             throw Error("the cage could not be certified; this is a defect of vdbcage, please report the model");
         }
         report_ = reportOf(made, options, certifier_.fitsFloat());
         made_ = std::move(made);
-        last_ = Last{options, std::move(scale)};
-        last_->options.scale = {};
+        last_ = Last{options, std::move(scale), std::move(density)};
+        last_->options.scale = last_->options.density = {};
     }
 
     const Mesh& model() const { return model_; }
@@ -94,7 +94,7 @@ private:
     /// What the cage was made with.
     struct Last {
         CageOptions options;
-        ScaleVersion scale;
+        ScaleVersion scale, density;
     };
 
     static Candidate nothing()

@@ -12,6 +12,7 @@
 #include <vdbcage/core/error.h>
 #include <vdbcage/volume/detail/close_options.h>
 #include <vdbcage/volume/detail/radius_field.h>
+#include <vdbcage/volume/detail/scale_at.h>
 #include <vdbcage/volume/detail/sphere_pass.h>
 #include <vdbcage/volume/vdb_io.h>
 
@@ -32,28 +33,27 @@ void require(bool isRight, const char* name, double value, const char* allowed)
     throw InputError(text.str());
 }
 
-[[noreturn]] void refuse(const std::string& part)
+[[noreturn]] void refuse(const std::string& part, const std::string& name)
 {
-    throw InputError(
-        "'" + part +
-        "' is not a scale field; it must be a .vdb file, sphere:X,Y,Z,RADIUS,SCALE or box:X,Y,Z,X,Y,Z,SCALE");
+    throw InputError("'" + part + "' is not a " + name +
+                     " field; it must be a .vdb file, sphere:X,Y,Z,RADIUS,SCALE or box:X,Y,Z,X,Y,Z,SCALE");
 }
 
 // The numbers after the colon, separated by commas.
-std::vector<double> numbers(const std::string& part, std::size_t count)
+std::vector<double> numbers(const std::string& part, const std::string& name, std::size_t count)
 {
     std::vector<double> list;
     const char *begin = part.data() + part.find(':') + 1, *const end = part.data() + part.size();
     for (;;) {
         double value = 0;
         const auto parsed = std::from_chars(begin, end, value);
-        if (parsed.ec != std::errc() || !std::isfinite(value)) refuse(part);
+        if (parsed.ec != std::errc() || !std::isfinite(value)) refuse(part, name);
         list.push_back(value);
         if (parsed.ptr == end) break;
-        if (*parsed.ptr != ',') refuse(part);
+        if (*parsed.ptr != ',') refuse(part, name);
         begin = parsed.ptr + 1;
     }
-    if (list.size() != count) refuse(part);
+    if (list.size() != count) refuse(part, name);
     return list;
 }
 
@@ -102,7 +102,7 @@ FloatGrid::Ptr scaleFromPoints(const std::vector<Vec3d>& points, const std::vect
     return scale;
 }
 
-ScaleField readScaleField(const std::string& text)
+ScaleField readScaleField(const std::string& text, const std::string& name)
 {
     ScaleField field;
     if (text == "none") return field;
@@ -112,19 +112,19 @@ ScaleField readScaleField(const std::string& text)
         const std::string part = text.substr(begin, end - begin);
         begin = end + 1;
         if (part.rfind("sphere:", 0) == 0) {
-            const auto n = numbers(part, 5);
+            const auto n = numbers(part, name, 5);
             field.regions.push_back({ScaleRegion::Shape::sphere, Vec3d(n[0], n[1], n[2]), Vec3d(0), n[3], n[4]});
         } else if (part.rfind("box:", 0) == 0) {
-            const auto n = numbers(part, 7);
+            const auto n = numbers(part, name, 7);
             field.regions.push_back({ScaleRegion::Shape::box,
                                      Vec3d(std::min(n[0], n[3]), std::min(n[1], n[4]), std::min(n[2], n[5])),
                                      Vec3d(std::max(n[0], n[3]), std::max(n[1], n[4]), std::max(n[2], n[5])), 0, n[6]});
         } else if (std::filesystem::path(part).extension() == ".vdb") {
-            if (field.grid) throw InputError("'" + part + "' is a second .vdb file; a scale field can have one");
-            field.grid = readFloatGrid(part, "scale");
+            if (field.grid) throw InputError("'" + part + "' is a second .vdb file; a " + name + " field can have one");
+            field.grid = readFloatGrid(part, name);
             field.file = part;
         } else {
-            refuse(part);
+            refuse(part, name);
         }
         if (!field.regions.empty()) detail::requireValid(field.regions.back());
     }

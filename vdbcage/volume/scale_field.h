@@ -34,10 +34,10 @@ struct ScaleField {
 /// A field from text; "none" is no field.
 ///
 /// The text is parts separated by semicolons: `sphere:X,Y,Z,RADIUS,SCALE`, `box:X,Y,Z,X,Y,Z,SCALE` (two corners) or a
-/// .vdb file. Of a file its first grid named `scale` counts, or else its only grid; it must be a FloatGrid.
+/// .vdb file. Of a file its first grid called `name` counts, or else its only grid; it must be a FloatGrid.
 /// \throw InputError naming the part
 /// \throw IoError naming the file
-VDBCAGE_API ScaleField readScaleField(const std::string& text);
+VDBCAGE_API ScaleField readScaleField(const std::string& text, const std::string& name = "scale");
 
 /// A grid for ScaleField::grid from values at points, such as the vertices of a mesh.
 ///

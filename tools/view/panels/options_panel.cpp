@@ -78,6 +78,7 @@ public:
         buildNumber(shown, std::is_integral_v<Number>, Auto{!number.has_value(), came});
     }
     void build(const ScaleField&, const std::optional<double>&) const { buildText(); }
+    void build(const Joints&, const std::optional<double>&) const { buildText(); }
     template <class Name>
     void build(Name, const std::optional<double>&) const
     {

@@ -9,6 +9,7 @@
 #include <vdbcage/core/detail/nearest_float.h>
 #include <vdbcage/core/error.h>
 #include <vdbcage/geometry/union_find.h>
+#include <vdbcage/volume/detail/scale_at.h>
 
 namespace vdbcage::detail {
 
@@ -84,8 +85,10 @@ Faces facesOf(const Mesh& model, const std::vector<Vec3d>& points, double maxDis
 } // namespace
 
 GuardModel::GuardModel(const Mesh& model, const GuardOptions& options, Interrupter* interrupter)
+    : density_(options.density)
 {
     requireUsable(model, "model");
+    requireValid(density_, interrupter);
     requireWithin(GuardOptions::clearances, options.clearance, "clearance");
     requireWithin(GuardOptions::minAngles, options.minAngleDegrees, "min angle");
     requireWithin(GuardOptions::spacings, options.spacing, "spacing");
@@ -124,7 +127,23 @@ GuardModel::GuardModel(const Mesh& model, const GuardOptions& options, Interrupt
         symmetry_ = SymmetryPlane{options.symmetry->axis, offset};
         addMirrorImage(*symmetry_, points, triangles);
     }
+    for (Joint joint : options.joints) {
+        joint.place = scaled(joint.place);
+        if (joint.axis) joint.axis->normalize(0);
+        if (symmetry_ && joint.place[symmetry_->axis] < symmetry_->offset) {
+            joint.place = mirrored(joint.place);
+            if (joint.axis) (*joint.axis)[symmetry_->axis] *= -1;
+        }
+        joints_.push_back(joint);
+    }
     tree_ = TriangleBvh(points, triangles, interrupter, TriangleBvh::Copies::drop);
+
+    for (const Joint& joint : joints_) {
+        constexpr double spread = 1.5, density = 2;
+        const double limb = std::sqrt(tree_.closest(joint.place).squaredDistance) / scale_;
+        density_.regions.push_back(
+            {ScaleRegion::Shape::sphere, unscaled(joint.place), Vec3d(0), spread * limb, density});
+    }
 
     UnionFind sets(points.size());
     Asker ask(interrupter);
@@ -171,6 +190,32 @@ Vec3d GuardModel::mirrored(Vec3d p) const
 {
     p[symmetry_->axis] = 2 * symmetry_->offset - p[symmetry_->axis];
     return p;
+}
+
+double GuardModel::density(const Vec3d& onModel) const
+{
+    constexpr double least = 1.0 / 8;
+    const auto at = [&](const Vec3d& p) {
+        const openvdb::FloatTree* const tree = density_.grid ? &density_.grid->constTree() : nullptr;
+        return std::max(least, scaleAt(density_, tree, unscaled(p)));
+    };
+    const double here = at(onModel);
+    if (!symmetry_) return here;
+    const double there = at(mirrored(onModel));
+    return std::abs(std::log(there)) > std::abs(std::log(here)) ? there : here;
+}
+
+double GuardModel::distanceWeight(const Vec3d& onModel) const
+{
+    if (!hasDensity()) return 1;
+    const double d = density(onModel);
+    return d * d * d;
+}
+
+double GuardModel::quadricWeight(const Vec3d& onModel) const
+{
+    if (!hasDensity()) return 1;
+    return std::pow(density(onModel), 5);
 }
 
 bool GuardModel::clear(const Corners& triangle, std::uint32_t hint, std::uint32_t* blocker) const

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include <vdbcage/bounding/detail/face_queries.h>
+#include <vdbcage/bounding/detail/joint_rings.h>
 #include <vdbcage/bounding/detail/loop_collapse.h>
 #include <vdbcage/bounding/detail/quad_relax.h>
 #include <vdbcage/bounding/detail/relax.h>
@@ -109,10 +110,11 @@ private:
         const double sample = areaPerSample(surface_);
         const double perQuad = distancePerQuad(surface_, table_, sample, interrupter);
         const DistanceMeasure measure(surface_.guard(), sample);
-        const QuadShapeTerm term(table_, scaled(usualShape, perQuad));
+        const QuadShapeTerm term(table_, scaled(usualShape, perQuad), JointRings(surface_, table_).holds());
         const std::size_t most = table_.count() / 20, tooMany = table_.count() - target;
         std::size_t removed = 0, refused = 0;
         std::vector<char> isTouched(surface_.vertices(), 0);
+        std::vector<std::size_t> ringsNow = JointRings(surface_, table_).count();
         for (const Ranked& next : ranked(surface_, table_, quadrics, loops, tooMany, interrupter)) {
             const QuadLoop& loop = loops[next.loop];
             if (table_.count() <= quads || (removed > 0 && removed + loop.quads.size() > most)) break;
@@ -122,7 +124,7 @@ private:
                 lossAround(measure, loop, perQuad) + maxLoss * perQuad * static_cast<double>(loop.quads.size());
             const bool isDone = collapseLoop(surface_, table_, quadrics, loop, [&](const auto& kept) {
                 tighten(surface_, kept, settleSweeps, sample, interrupter, &term);
-                return lossAround(measure, loop, perQuad) <= limit;
+                return lossAround(measure, loop, perQuad) <= limit && keepsRings(ringsNow);
             });
             if (!isDone && ++refused == mostRefused) break;
             if (!isDone) continue;
@@ -130,6 +132,15 @@ private:
             touch(loop, isTouched);
         }
         return removed > 0;
+    }
+
+    /// Counts the rings anew if they are kept.
+    bool keepsRings(std::vector<std::size_t>& before) const
+    {
+        std::vector<std::size_t> now = JointRings(surface_, table_).count();
+        if (!JointRings::areKept(before, now)) return false;
+        before = std::move(now);
+        return true;
     }
 
     static bool touches(const QuadLoop& loop, const std::vector<char>& isTouched)
@@ -190,11 +201,15 @@ bool collapseLoopThrough(GuardedMesh& surface, QuadTable& table, const std::vect
     VertexQuadrics quadrics(surface);
     const auto isAmong = [&](std::uint32_t q) { return std::find(quads.begin(), quads.end(), q) != quads.end(); };
     const std::vector<QuadLoop> loops = straightLoops(table);
+    const std::vector<std::size_t> before = JointRings(surface, table).count();
+    const auto keepsRings = [&](const auto&) {
+        return JointRings::areKept(before, JointRings(surface, table).count());
+    };
     for (const Ranked& next : ranked(surface, table, quadrics, loops, table.count(), interrupter)) {
         const QuadLoop& loop = loops[next.loop];
         throwIfInterrupted(interrupter);
         if (std::none_of(loop.quads.begin(), loop.quads.end(), isAmong) || !leavesQuads(surface, table, loop)) continue;
-        if (collapseLoop(surface, table, quadrics, loop, [](const auto&) { return true; })) return true;
+        if (collapseLoop(surface, table, quadrics, loop, keepsRings)) return true;
     }
     return false;
 }

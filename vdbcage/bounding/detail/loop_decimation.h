@@ -9,7 +9,8 @@
 
 namespace vdbcage::detail {
 
-/// Collapses the cheapest of the loops that pass one of these quads and may go. Returns whether there was one.
+/// Collapses the cheapest of the loops that pass one of these quads and may go. Returns whether there was one. Joints
+/// keep their rings.
 bool collapseLoopThrough(GuardedMesh& surface, QuadTable& table, const std::vector<std::uint32_t>& quads,
                          Interrupter* interrupter);
 
@@ -17,7 +18,8 @@ bool collapseLoopThrough(GuardedMesh& surface, QuadTable& table, const std::vect
 ///
 /// Those that cost least by quadrics for each quad that goes are first. A collapse that brings the surface much farther
 /// from the model than a quad less does on average is put off. In between all vertices are moved to where the distance
-/// is less and corners are near square. Where no whole polychord may go, loops of parts of two do. What is measured and
+/// is less and corners are near square. Where no whole polychord may go, loops of parts of two do. No
+/// collapse takes a ring away that a joint needs. What is measured and
 /// moved is so in parallel. It reports 0 to `mostPercent` of a stage, or nothing if that is 0.
 /// \pre `table` is that of `surface`
 /// \throw Cancelled

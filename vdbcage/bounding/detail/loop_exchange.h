@@ -11,7 +11,8 @@ namespace vdbcage::detail {
 /// as there were if these were more.
 ///
 /// Some loops are collapsed, cheapest first. Then loops are split, as many as fit: those whose split brings the surface
-/// nearest to the model. A round that did not bring it nearer is undone, and fewer loops go in the next.
+/// nearest to the model. A round that did not bring it nearer is undone, and fewer loops go in the next. Joints
+/// keep their rings.
 /// \pre no quad is paired in the surface
 /// \throw Cancelled
 /// Based on: Hoppe, DeRose, Duchamp, McDonald, Stuetzle, Mesh Optimization, 1993.

@@ -1,14 +1,16 @@
 #include <vdbcage/bounding/detail/quad_relax.h>
 
 #include <vdbcage/bounding/detail/face_queries.h>
+#include <vdbcage/bounding/detail/joint_rings.h>
 #include <vdbcage/bounding/detail/relax.h>
 
 namespace vdbcage::detail {
 
 ShapeWeights scaled(const ShapeWeights& weights, double distancePerQuad)
 {
-    return {weights.corners * distancePerQuad, weights.free, weights.bad * distancePerQuad,
-            weights.flat * distancePerQuad, weights.unfit * distancePerQuad};
+    return {weights.corners * distancePerQuad, weights.free,
+            weights.bad * distancePerQuad,     weights.flat * distancePerQuad,
+            weights.unfit * distancePerQuad,   weights.hold * distancePerQuad};
 }
 
 double areaPerSample(const GuardedMesh& surface)
@@ -26,7 +28,8 @@ double distancePerQuad(const GuardedMesh& surface, const QuadTable& table, doubl
 QuadShapeTerm shapeTerm(const GuardedMesh& surface, const QuadTable& table, const ShapeWeights& weights,
                         double areaPerSample, Interrupter* interrupter)
 {
-    return {table, scaled(weights, distancePerQuad(surface, table, areaPerSample, interrupter))};
+    return {table, scaled(weights, distancePerQuad(surface, table, areaPerSample, interrupter)),
+            JointRings(surface, table).holds()};
 }
 
 void relaxQuads(GuardedMesh& surface, const QuadTable& table, const ShapeWeights& weights, int sweeps,

@@ -88,6 +88,12 @@ double QuadShapeTerm::add(const GuardedMesh& surface, const StarChange& star, co
         addFold(weights_, {centre, next, across, last}, sum);
         if (weights_.unfit > 0 && !isFit(surface.guard(), {centre, next, across, last})) sum.sum += weights_.unfit;
     }
+    const auto hold =
+        std::lower_bound(holds_.begin(), holds_.end(), star.centre,
+                         [](const JointRings::Hold& entry, std::uint32_t vertex) { return entry.vertex < vertex; });
+    if (hold != holds_.end() && hold->vertex == star.centre) {
+        sum.add(weights_.hold, (hold->normal.dot(centre) - hold->offset) / hold->width, hold->normal / hold->width);
+    }
     if (star.onPlane) {
         const int across = surface.guard().symmetry()->axis;
         for (int i = 0; i < 3; ++i) own.curvature[i][across] = own.curvature[across][i] = 0;

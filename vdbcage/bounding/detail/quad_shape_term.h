@@ -1,7 +1,10 @@
 #pragma once
 
 #include <array>
+#include <utility>
+#include <vector>
 
+#include <vdbcage/bounding/detail/joint_rings.h>
 #include <vdbcage/bounding/detail/quad_table.h>
 #include <vdbcage/bounding/detail/vertex_placement.h>
 
@@ -9,11 +12,12 @@ namespace vdbcage::detail {
 
 /// What a quad's shape may cost beside the integral of the distance.
 struct ShapeWeights {
-    double corners; ///< of a corner with a cosine of 1, squared
-    double free;    ///< up to this |cos| a corner costs nothing, so that distance is spent on bad corners only
-    double bad;     ///< the same again of corners beyond a |cos| of 0.6
-    double flat;    ///< of diagonals that pass each other at half a side's length, squared
-    double unfit;   ///< of a quad that cannot bound under both diagonals, wherever the model is
+    double corners;   ///< of a corner with a cosine of 1, squared
+    double free;      ///< up to this |cos| a corner costs nothing, so that distance is spent on bad corners only
+    double bad;       ///< the same again of corners beyond a |cos| of 0.6
+    double flat;      ///< of diagonals that pass each other at half a side's length, squared
+    double unfit;     ///< of a quad that cannot bound under both diagonals, wherever the model is
+    double hold = 30; ///< of a vertex of a joint's ring that is a limb's radius away from its plane, squared
 };
 
 /// Whether a quad is convex, and both its splits have only angles that the guard allows, of at least 5 degrees.
@@ -23,7 +27,10 @@ bool isFit(const GuardModel& guard, const std::array<Vec3d, 4>& corners);
 class QuadShapeTerm {
 public:
     /// `table` must outlive this.
-    QuadShapeTerm(const QuadTable& table, const ShapeWeights& weights) : table_(table), weights_(weights) {}
+    QuadShapeTerm(const QuadTable& table, const ShapeWeights& weights, std::vector<JointRings::Hold> holds = {})
+        : table_(table), weights_(weights), holds_(std::move(holds))
+    {
+    }
 
     /// The sum over what changes when the star's centre moves, with the centre at `centre`. How it changes
     /// is added to `change` (Gauss-Newton).
@@ -34,6 +41,7 @@ public:
 private:
     const QuadTable& table_;
     ShapeWeights weights_;
+    std::vector<JointRings::Hold> holds_;
 };
 
 /// How far the corners of all quads are from square, in degrees.

@@ -113,7 +113,7 @@ void redistribute(GuardedMesh& surface, int rounds, int sweeps, Interrupter* int
     double share = 1; // of the faces that are added, as far as that goes, and taken away again
     double distance = integratedDistance(surface, perSample, interrupter);
     for (int i = 0; i < rounds; ++i) {
-        const auto say = [&](int share) { throwIfInterrupted(interrupter, (100 * i + share) / rounds); };
+        const auto say = [&](int percent) { throwIfInterrupted(interrupter, (100 * i + percent) / rounds); };
         say(0);
         GuardedMesh changed = surface;
         const auto added = static_cast<std::size_t>(share * static_cast<double>(faces));

@@ -13,6 +13,10 @@ void requireFaces(std::size_t faces);
 /// \throw InputError an option out of range
 void requireValid(const TightenOptions& options);
 
+/// The mean distance of a cage from the model, as the guard's density counts it.
+/// \throw Cancelled
+double meanDistance(const Mesh& cage, const BoundingGuard& guard, Interrupter* interrupter);
+
 /// What vdbcage::tighten() does.
 /// \throw Cancelled
 void tightenAndPerturb(GuardedMesh& surface, const TightenOptions& options, Interrupter* interrupter);

@@ -142,7 +142,7 @@ void DistanceMeasure::forEachSample(const Corners& t, std::uint32_t& seed, const
         const Vec3d s = b0 * t[0] + b1 * t[1] + b2 * t[2];
         const TriangleBvh::Closest closest = guard_.tree().closest(s, seed, slack);
         if (closest.item != TriangleBvh::none) seed = closest.item;
-        visit(weight, b0, s - closest.point, std::sqrt(closest.squaredDistance));
+        visit(weight * guard_.distanceWeight(closest.point), b0, s - closest.point, std::sqrt(closest.squaredDistance));
     };
     for (int i = 0; i < k; ++i) {
         for (int j = 0; i + j < k; ++j) {

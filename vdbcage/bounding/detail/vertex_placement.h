@@ -31,7 +31,8 @@ struct StepLimit {
 bool descend(const GuardedMesh& surface, const StarChange& star, Vec3d& p, const Quadratic& change,
              const StepLimit& limit, const std::function<bool(const Vec3d&)>& accepts);
 
-/// How far a surface is from the model: the integral of the distance over triangles, by sampling.
+/// How far a surface is from the model: the integral of the distance over triangles, by sampling. Where the guard has a
+/// density, distance counts for more or less.
 ///
 /// A triangle is cut into k x k equal ones, each counted at its centroid. k grows with the triangle's size.
 class DistanceMeasure {

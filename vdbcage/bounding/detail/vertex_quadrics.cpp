@@ -9,6 +9,10 @@ VertexQuadrics::VertexQuadrics(const GuardedMesh& surface) : surface_(surface), 
 {
     if (surface.vertices() > 0) origin_ = surface.point(0);
     if (surface.guard().symmetry()) origin_ = surface.ontoPlane(origin_);
+    const GuardModel& guard = surface.guard();
+    const auto weightAt = [&](const Vec3d& p) {
+        return guard.hasDensity() ? guard.quadricWeight(guard.tree().closest(p).point) : 1;
+    };
     for (std::uint32_t v = 0; v < surface.vertices(); ++v) {
         for (const std::uint32_t f : surface.facesOf(v)) {
             const Corners t = surface.corners(f);
@@ -16,8 +20,10 @@ VertexQuadrics::VertexQuadrics(const GuardedMesh& surface) : surface_(surface), 
             const double twiceArea = normal.length();
             if (!(twiceArea > 0)) continue;
             normal /= twiceArea;
-            quadrics_[v].addPlane(normal, t[0] - origin_, twiceArea / 6);
-            quadrics_[v].addSpread((t[0] + t[1] + t[2]) / 3.0 - origin_, twiceArea / 6);
+            const Vec3d middle = (t[0] + t[1] + t[2]) / 3.0;
+            const double weight = twiceArea / 6 * weightAt(middle);
+            quadrics_[v].addPlane(normal, t[0] - origin_, weight);
+            quadrics_[v].addSpread(middle - origin_, weight);
         }
     }
 }

@@ -16,7 +16,7 @@ public:
     StagePart(Interrupter* whole, int from, int to) : whole_(whole), from_(from), to_(to) {}
 
     /// To be passed on to the work.
-    Interrupter* interrupter() { return whole_ ? this : nullptr; }
+    Interrupter* passedOn() { return whole_ ? this : nullptr; }
 
     bool wasInterrupted(int percent) override
     {
@@ -39,7 +39,7 @@ public:
     StagesSideBySide& operator=(const StagesSideBySide&) = delete;
 
     /// To be passed on to the i-th piece of work. Any thread may ask it.
-    Interrupter* interrupter(std::size_t i) { return whole_ ? &pieces_[i] : nullptr; }
+    Interrupter* passedOn(std::size_t i) { return whole_ ? &pieces_[i] : nullptr; }
 
 private:
     class Piece : public Interrupter {

@@ -7,6 +7,8 @@
 #include <sstream>
 #include <utility>
 
+#include <vdbcage/bounding/detail/guard_model.h>
+#include <vdbcage/bounding/detail/tightening.h>
 #include <vdbcage/bounding/near_coplanar.h>
 #include <vdbcage/bounding/quad_loops.h>
 #include <vdbcage/bounding/smooth.h>
@@ -47,8 +49,7 @@ void forEach(std::vector<Candidate>& candidates, Interrupter* interrupter, const
 {
     const Stage stage(interrupter, name);
     StagesSideBySide pieces(interrupter, candidates.size());
-    parallelFor(std::size_t(0), candidates.size(),
-                [&](std::size_t i) { change(candidates[i], pieces.interrupter(i)); });
+    parallelFor(std::size_t(0), candidates.size(), [&](std::size_t i) { change(candidates[i], pieces.passedOn(i)); });
 }
 
 void keepAtMost(std::size_t most, const Mesh Candidate::*mesh, std::vector<Candidate>& candidates)
@@ -91,11 +92,12 @@ BoundingSearch::BoundingSearch(const Mesh& model, Volumes& volumes, Certifier& c
 
 BoundingSearch::~BoundingSearch() = default;
 
-Candidate BoundingSearch::run(const CageOptions& options, const ScaleVersion& scale, Interrupter* interrupter)
+Candidate BoundingSearch::run(const CageOptions& options, const ScaleVersion& scale, const ScaleVersion& density,
+                              Interrupter* interrupter)
 {
     for (const auto& start : starts_) start->isUsed = false;
     try {
-        Run run{options, scale, interrupter};
+        Run run{options, scale, density, interrupter};
         const ClosingKey key = closingKey(options, scale, ladder(options).front());
         const auto solid = volumes_.solid(key.solid, interrupter);
         run.isSheet = isSheet(solid->voxels, solid->inner);
@@ -162,8 +164,10 @@ std::optional<Candidate> BoundingSearch::findSymmetric(const Run& run, std::stri
 /// plane but no such cage, or if a greater tolerance would do and no axis is as good.
 std::optional<Candidate> BoundingSearch::findTilted(const Run& run, std::string& objection)
 {
-    const bool varies = run.options.scale.grid || !run.options.scale.regions.empty();
-    if (varies || longestSide(boundingBox(model_)) < policy::leastTurnedSide) return std::nullopt;
+    const auto varies = [](const ScaleField& field) { return field.grid || !field.regions.empty(); };
+    const CageOptions& options = run.options;
+    const bool isPlaced = varies(options.scale) || varies(options.density) || !options.joints.list.empty();
+    if (isPlaced || longestSide(boundingBox(model_)) < policy::leastTurnedSide) return std::nullopt;
     if (!tilted_) {
         const Stage stage(run.interrupter, "symmetry");
         tilted_ = std::make_unique<TiltedSearch>(model_, bestTiltedSymmetry(model_, run.interrupter), certifier_);
@@ -208,12 +212,13 @@ const BoundingGuard& BoundingSearch::guardFor(const Run& run, const std::optiona
     options.symmetry = plane;
     if (!guard_ || options.clearance != guardOptions_.clearance ||
         options.minAngleDegrees != guardOptions_.minAngleDegrees || options.spacing != guardOptions_.spacing ||
-        !(plane == guardOptions_.symmetry)) {
+        !(run.density == density_) || options.joints != guardOptions_.joints || !(plane == guardOptions_.symmetry)) {
         const Stage stage(run.interrupter, "guard");
         starts_.clear(); // they are under the guard
         guard_.reset();
         guard_ = std::make_unique<const BoundingGuard>(model_, options, run.interrupter);
         guardOptions_ = options;
+        density_ = run.density;
     }
     return *guard_;
 }
@@ -307,7 +312,7 @@ std::optional<Candidate> BoundingSearch::shrinkOnto(const Run& run, Candidates s
             candidate.cage = bendNearCoplanarEdges(candidate.cage, guard, run.interrupter);
         }
     }
-    return tightestCertified(run, std::move(starts));
+    return tightestCertified(run, std::move(starts), guard);
 }
 
 /// Cages of quads in loops; what is not of quads only is left out.
@@ -360,12 +365,17 @@ void BoundingSearch::decimateAndTighten(const Run& run, Candidates& starts, cons
     }
 }
 
-std::optional<Candidate> BoundingSearch::tightestCertified(const Run& run, Candidates candidates)
+std::optional<Candidate> BoundingSearch::tightestCertified(const Run& run, Candidates candidates,
+                                                           const BoundingGuard& guard)
 {
-    for (Candidate& candidate : candidates) candidate.check = certifier_.check(candidate.cage, run.interrupter);
-    std::stable_sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
-        return a.check.meanDistance < b.check.meanDistance;
-    });
+    const bool isWeighted = modelOf(guard).hasDensity();
+    for (Candidate& candidate : candidates) {
+        candidate.check = certifier_.check(candidate.cage, run.interrupter);
+        candidate.looseness =
+            isWeighted ? meanDistance(candidate.cage, guard, run.interrupter) : candidate.check.meanDistance;
+    }
+    std::stable_sort(candidates.begin(), candidates.end(),
+                     [](const Candidate& a, const Candidate& b) { return a.looseness < b.looseness; });
     for (Candidate& candidate : candidates) {
         if (!candidate.check.bounding()) continue;
         candidate.boundsAsFloats = certifier_.boundsAsFloats(candidate.cage, run.interrupter);

@@ -28,13 +28,14 @@ public:
     /// \throw InputError as Pipeline::run
     /// \throw DeviceError
     /// \throw Cancelled
-    Candidate run(const CageOptions& options, const ScaleVersion& scale, Interrupter* interrupter);
+    Candidate run(const CageOptions& options, const ScaleVersion& scale, const ScaleVersion& density,
+                  Interrupter* interrupter);
 
 private:
     /// What stays the same in one run.
     struct Run {
         const CageOptions& options;
-        const ScaleVersion& scale;
+        const ScaleVersion &scale, &density;
         Interrupter* interrupter;
         bool isSheet = false; ///< the model
     };
@@ -52,7 +53,7 @@ private:
     std::optional<Candidate> shrinkOnto(const Run& run, Candidates starts, const BoundingGuard& guard);
     static void collapseLoops(const Run& run, Candidates& starts, const BoundingGuard& guard);
     static void decimateAndTighten(const Run& run, Candidates& starts, const BoundingGuard& guard);
-    std::optional<Candidate> tightestCertified(const Run& run, Candidates candidates);
+    std::optional<Candidate> tightestCertified(const Run& run, Candidates candidates, const BoundingGuard& guard);
     Candidate box(const Run& run, const BoundingGuard& guard);
 
     const Mesh& model_;
@@ -63,6 +64,7 @@ private:
     std::unique_ptr<TiltedSearch> tilted_;       // once a plane in another direction was looked for
     std::unique_ptr<const BoundingGuard> guard_; // of the last run
     GuardOptions guardOptions_;                  // that it was made with
+    ScaleVersion density_;                       // the same
     struct Counted {
         ClosingKey key;
         std::size_t quads = 0;

@@ -35,6 +35,7 @@ struct Candidate {
     MeshTopology topology; ///< of the surface
     Mesh decimated, cage;
     CageCheck check;
+    double looseness = 0; ///< its mean distance, as the density counts it
     bool boundsAsFloats = false;
     bool repaired = false;
     std::optional<Symmetry> symmetry = {};

@@ -107,6 +107,8 @@ GuardOptions guardOptions(const CageOptions& options, bool ofSheet)
     const bool isWide = options.mesh == CageFaces::triangles && options.effort == Effort::fair;
     GuardOptions guarding;
     guarding.clearance = options.clearance;
+    guarding.density = options.density;
+    guarding.joints = options.joints.list;
     const bool areSlenderAllowed = ofSheet || options.mesh == CageFaces::loops;
     guarding.minAngleDegrees = options.minAngle.value_or(!areSlenderAllowed ? (isWide ? wideAngle : usualAngle)
                                                          : ofSheet          ? sheetAngle

@@ -49,7 +49,7 @@ std::optional<Candidate> TiltedSearch::run(const CageOptions& options, Interrupt
 {
     CageOptions acrossX = options;
     acrossX.symmetry = CageSymmetry::x;
-    Candidate candidate = search_.run(acrossX, {}, interrupter);
+    Candidate candidate = search_.run(acrossX, {}, {}, interrupter);
     if (!candidate.symmetry) return std::nullopt;
     candidate.cage = certifier_.rounded(turnedBack(std::move(candidate.cage)));
     candidate.check = certifier_.check(candidate.cage, interrupter);

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <sstream>
 
-#include <openvdb/tools/Interpolation.h>
 #include <vdbcage/core/detail/parallel.h>
 #include <vdbcage/core/error.h>
 #include <vdbcage/volume/detail/mask_blocks.h>
+#include <vdbcage/volume/detail/scale_at.h>
 
 namespace vdbcage::detail {
 
@@ -17,7 +17,7 @@ using openvdb::BBoxd;
 using openvdb::CoordBBox;
 using openvdb::Vec3d;
 
-constexpr double largestScale = 8, largestRadius = 512;
+constexpr double largestRadius = 512;
 // Less than the half voxel a step that leastRadii() counts on, by more than the rounding of floats.
 constexpr double steepest = 0.499;
 
@@ -103,44 +103,7 @@ BBoxd extentOf(const ScaleField& scale, const openvdb::math::Transform& voxels)
     return box;
 }
 
-/// The background where there can be no voxels.
-float sampleAt(const openvdb::FloatGrid::ConstAccessor& field, const Vec3d& index)
-{
-    for (int axis = 0; axis < 3; ++axis) {
-        if (!(std::abs(index[axis]) < 0x1p31 - 2)) return field.tree().background();
-    }
-    return openvdb::tools::BoxSampler::sample(field, index);
-}
-
-bool contains(const ScaleRegion& region, const Vec3d& point)
-{
-    if (region.shape == ScaleRegion::Shape::sphere) {
-        return (point - region.lower).lengthSqr() <= region.radius * region.radius;
-    }
-    for (int axis = 0; axis < 3; ++axis) {
-        if (point[axis] < region.lower[axis] || point[axis] > region.upper[axis]) return false;
-    }
-    return true;
-}
-
 } // namespace
-
-void requireValid(const ScaleRegion& region)
-{
-    const auto require = [](bool isRight, const char* name, const auto& value, const auto&... allowed) {
-        if (isRight) return;
-        std::ostringstream text;
-        text << name << " of a region is " << value << "; it must be ";
-        (text << ... << allowed);
-        throw InputError(text.str());
-    };
-    // NaN is refused by every comparison.
-    require(region.scale >= 0 && region.scale <= largestScale, "the scale", region.scale, "between 0 and ",
-            largestScale);
-    require(region.radius >= 0 && std::isfinite(region.radius), "the radius", region.radius, "at least 0");
-    require(region.lower.isFinite(), "the place", region.lower, "finite");
-    require(region.upper.isFinite(), "the upper corner", region.upper, "finite");
-}
 
 RadiusField::RadiusField(const ScaleField& scale, const openvdb::math::Transform& voxels, double radius,
                          const CoordBBox& box, const Progress& progress)
@@ -209,13 +172,7 @@ void RadiusField::sample(const ScaleField& scale, const openvdb::math::Transform
             for (int z = 0; z < size_.z(); ++z) {
                 const Coord c = first_ + Coord(x, y, z);
                 const Vec3d world = voxels.indexToWorld(c.asVec3d() * static_cast<double>(1 << shift_));
-                double value = 1;
-                if (scale.grid)
-                    value = static_cast<double>(sampleAt(accessor, scale.grid->transform().worldToIndex(world)));
-                for (const ScaleRegion& region : scale.regions) {
-                    if (contains(region, world)) value *= region.scale;
-                }
-                nodes_[node({x, y, z})] = static_cast<float>(radius * std::clamp(value, 0.0, largestScale));
+                nodes_[node({x, y, z})] = static_cast<float>(radius * scaleAt(scale, &accessor, world));
             }
         }
     });

@@ -9,9 +9,6 @@
 
 namespace vdbcage::detail {
 
-/// \throw InputError a scale or a radius out of range; a coordinate that is not finite
-void requireValid(const ScaleRegion& region);
-
 /// A radius for each voxel, as its square, a whole number.
 ///
 /// A scatter erosion removes all g with a voxel q outside such that |g - q|^2 <= square(q). The squares are chosen so

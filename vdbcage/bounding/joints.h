@@ -1,0 +1,37 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <openvdb/openvdb.h>
+#include <vdbcage/core/export.h>
+
+namespace vdbcage {
+
+/// A place where the model is to bend: an elbow, a knee.
+struct Joint {
+    openvdb::Vec3d place{0};            ///< inside the limb, world units
+    std::optional<openvdb::Vec3d> axis; ///< along the limb, of any length above 0; unset: across the shortest ring
+
+    bool operator==(const Joint& other) const { return place == other.place && axis == other.axis; }
+    bool operator!=(const Joint& other) const { return !(*this == other); }
+};
+
+/// Joints, and where they were read from.
+struct Joints {
+    std::vector<Joint> list;
+    std::filesystem::path file = {}; ///< empty if they were not read
+
+    bool operator==(const Joints& other) const { return list == other.list; }
+};
+
+/// Joints from a text file: one a line, blank lines and what follows a # left out.
+///
+/// `X Y Z` is a joint. `X Y Z X Y Z` is a bone, from its head to its tail, in the model's coordinates. It turns about
+/// its head: the joint is there, and the axis goes to the tail.
+/// \throw IoError naming file and line: something else; a bone without length; no joint at all; the file
+VDBCAGE_API Joints readJoints(const std::filesystem::path& path);
+
+} // namespace vdbcage

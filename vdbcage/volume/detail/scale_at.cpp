@@ -1,0 +1,54 @@
+#include <vdbcage/volume/detail/scale_at.h>
+
+#include <sstream>
+
+#include <vdbcage/core/detail/asker.h>
+#include <vdbcage/core/detail/parallel.h>
+#include <vdbcage/core/error.h>
+
+namespace vdbcage::detail {
+
+void requireValid(const ScaleRegion& region)
+{
+    const auto require = [](bool isRight, const char* name, const auto& value, const auto&... allowed) {
+        if (isRight) return;
+        std::ostringstream text;
+        text << name << " of a region is " << value << "; it must be ";
+        (text << ... << allowed);
+        throw InputError(text.str());
+    };
+    // NaN is refused by every comparison.
+    require(region.scale >= 0 && region.scale <= largestScale, "the scale", region.scale, "between 0 and ",
+            largestScale);
+    require(region.radius >= 0 && std::isfinite(region.radius), "the radius", region.radius, "at least 0");
+    require(region.lower.isFinite(), "the place", region.lower, "finite");
+    require(region.upper.isFinite(), "the upper corner", region.upper, "finite");
+}
+
+void requireValid(const ScaleField& field, Interrupter* interrupter)
+{
+    for (const ScaleRegion& region : field.regions) requireValid(region);
+    if (!field.grid) return;
+    if (!field.grid->transform().isLinear()) throw InputError("the transform of the scale field must be linear");
+    Asker ask(interrupter);
+    for (auto value = field.grid->cbeginValueAll(); value; ++value) {
+        ask();
+        if (!std::isfinite(*value)) throw InputError("the scale field has a value that is not finite");
+    }
+    if (!std::isfinite(field.grid->background())) {
+        throw InputError("the background of the scale field is not finite");
+    }
+}
+
+bool contains(const ScaleRegion& region, const openvdb::Vec3d& point)
+{
+    if (region.shape == ScaleRegion::Shape::sphere) {
+        return (point - region.lower).lengthSqr() <= region.radius * region.radius;
+    }
+    for (int axis = 0; axis < 3; ++axis) {
+        if (point[axis] < region.lower[axis] || point[axis] > region.upper[axis]) return false;
+    }
+    return true;
+}
+
+} // namespace vdbcage::detail

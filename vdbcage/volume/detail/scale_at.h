@@ -1,0 +1,45 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include <openvdb/openvdb.h>
+#include <openvdb/tools/Interpolation.h>
+#include <vdbcage/core/interrupter.h>
+#include <vdbcage/volume/scale_field.h>
+
+/// What a scale field says at a place.
+namespace vdbcage::detail {
+
+constexpr double largestScale = 8;
+
+/// \throw InputError a scale or a radius out of range; a coordinate that is not finite
+void requireValid(const ScaleRegion& region);
+
+/// \throw InputError the same of a region; a value of the grid that is not finite; a transform that is not linear
+/// \throw Cancelled
+/// Cost: O(values of the grid).
+void requireValid(const ScaleField& field, Interrupter* interrupter);
+
+bool contains(const ScaleRegion& region, const openvdb::Vec3d& point);
+
+/// The field at a point of world space, cut to 0 to 8. `values` is the tree of the grid or an accessor of it; without a
+/// grid it does not count.
+template <typename Values>
+double scaleAt(const ScaleField& field, const Values* values, const openvdb::Vec3d& world)
+{
+    double value = 1;
+    if (field.grid) {
+        const openvdb::Vec3d index = field.grid->transform().worldToIndex(world);
+        bool mayBeVoxel = true;
+        for (int axis = 0; axis < 3; ++axis) mayBeVoxel = mayBeVoxel && std::abs(index[axis]) < 0x1p31 - 2;
+        value = static_cast<double>(mayBeVoxel ? openvdb::tools::BoxSampler::sample(*values, index)
+                                               : field.grid->background());
+    }
+    for (const ScaleRegion& region : field.regions) {
+        if (contains(region, world)) value *= region.scale;
+    }
+    return std::clamp(value, 0.0, largestScale);
+}
+
+} // namespace vdbcage::detail
