@@ -21,12 +21,13 @@ void requireValid(const TightenOptions& options)
     requireWithin(TightenOptions::sampleCounts, options.samples, "samples");
 }
 
-void tightenAndPerturb(GuardedMesh& surface, const TightenOptions& options, Interrupter* interrupter)
+void tightenAndPerturb(GuardedMesh& surface, const TightenOptions& options, Interrupter* interrupter,
+                       const QuadShapeTerm* shape)
 {
     const auto perSample = [&] { return areaPerSample(surface, surface.liveFaces(), options.samples); };
-    tighten(surface, options.sweeps, perSample(), interrupter);
-    perturb(surface, options.perturbations, options.sweeps, perSample(), interrupter);
-    if (options.perturbations > 0) relaxFinally(surface, perSample(), interrupter);
+    tighten(surface, options.sweeps, perSample(), interrupter, shape);
+    perturb(surface, options.perturbations, options.sweeps, perSample(), interrupter, shape);
+    if (options.perturbations > 0) relaxFinally(surface, perSample(), interrupter, shape);
 }
 
 } // namespace detail

@@ -12,12 +12,15 @@
 namespace vdbcage {
 
 struct BoundingTriquadOptions {
-    static constexpr Range mergeAngles{0, 180}, quadShares{0, 1};
+    static constexpr Range mergeAngles{0, 180}, quadShares{0, 1}, quadShapes{0, 1};
 
     /// Largest angle between the triangles of a quad in the end, under either diagonal; 90 allows most.
     double mergeAngleDegrees = 30;
     std::size_t faces = 400; ///< to end with, at most; a quad counts once; at least 4
     double quads = 0.62;     ///< the part of the faces to be quads; more where they cost no distance
+    /// 0: faces are where the distance is least; above, vertices come to have four edges, and corners to be square, at
+    /// ever more distance.
+    double quadShape = 0.5;
     TightenOptions tightening = {};
 };
 

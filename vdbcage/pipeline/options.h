@@ -53,6 +53,7 @@ struct CageOptions {
     std::optional<double> minAngle;              ///< degrees: no triangle angle gets smaller; unset: by the effort
     Effort effort = Effort::fair;                ///< time against tightness
     CageFaces mesh = CageFaces::triangles;       ///< triangles only, or quads too
+    double quadShape = BoundingTriquadOptions{}.quadShape; ///< 0: tightest, 1: squarest corners; triquad and quads
     std::optional<double> mergeAngle;            ///< degrees: flatter pairs become quads; unset: as the faces ask
     CageSymmetry symmetry = CageSymmetry::off;   ///< exactly symmetric cages; bounding only
     Voxelizer voxelizer = Voxelizer::automatic;  ///< what turns the model into voxels
@@ -83,6 +84,8 @@ void visitOptions(Options& options, Visit&& visit)
     visit(OptionInfo{"mesh", "", "faces of the cage"}, options.mesh);
     visit(OptionInfo{"merge-angle", "DEG", "largest fold of a quad", BoundingTriquadOptions::mergeAngles},
           options.mergeAngle);
+    visit(OptionInfo{"quad-shape", "F", "0: tightest, 1: squarest quads", BoundingTriquadOptions::quadShapes},
+          options.quadShape);
     visit(OptionInfo{"symmetry", "", "symmetric cages of symmetric models"}, options.symmetry);
     visit(OptionInfo{"voxelizer", "", "what makes the voxels"}, options.voxelizer);
     visit(OptionInfo{"bounding", "", "only ever a certified cage"}, options.bounding);

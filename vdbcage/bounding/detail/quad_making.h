@@ -1,0 +1,18 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <vdbcage/bounding/detail/quad_table.h>
+#include <vdbcage/core/interrupter.h>
+
+namespace vdbcage::detail {
+
+/// Makes quads of all pairs of triangles that are one in the table, under the guard.
+///
+/// The surface is given the room that the other diagonals need. Where some do not go they get more room, and are made
+/// flatter. Returns those that do not go either.
+/// \throw Cancelled
+std::vector<std::uint32_t> makeQuads(GuardedMesh& surface, const QuadTable& table, Interrupter* interrupter);
+
+} // namespace vdbcage::detail
