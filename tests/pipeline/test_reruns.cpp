@@ -235,9 +235,9 @@ BOOST_AUTO_TEST_CASE(every_option_counts)
         {"faces", "150"},         {"resolution", "20"},  {"close-radius", "0.2"},
         {"erode-radius", "0.02"}, {"element", "cube"},   {"scale-field", "sphere:0,0,0,5,3"},
         {"smooth", "2"},          {"parts", "merge"},    {"mesh", "triangles"},
-        {"merge-angle", "60"},    {"symmetry", "x"},     {"voxelizer", "cpu"},
-        {"bounding", "off"},      {"clearance", "0.01"}, {"min-angle", "12"},
-        {"effort", "fair"}};
+        {"quad-shape", "0"},      {"merge-angle", "60"}, {"symmetry", "x"},
+        {"voxelizer", "cpu"},     {"bounding", "off"},   {"clearance", "0.01"},
+        {"min-angle", "12"},      {"effort", "fair"}};
     const Mesh model = test::joined(test::sphere({0, 0, 0}, 1, 16), test::torus(3, 0.3, 48, 12)); // apart when closed
     CageOptions options = coarse();
     options.resolution = 16;

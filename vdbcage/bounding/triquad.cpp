@@ -62,7 +62,7 @@ bool cleanUpPairs(detail::GuardedMesh& surface, std::size_t faces, double share,
     for (int i = 0; i < attempts; ++i) {
         detail::cleanUp(surface, table, room, interrupter);
         detail::GuardedMesh paired = surface;
-        detail::makeQuads(paired, table, interrupter);
+        detail::makeQuadsInPlace(paired, table, interrupter);
         const std::size_t count = paired.liveFaces() - paired.quads();
         if (count <= faces && detail::quadShare(paired) >= share) {
             surface = std::move(paired);
@@ -81,7 +81,7 @@ void tightenSquarely(detail::GuardedMesh& surface, double shape, const TightenOp
                      Interrupter* interrupter)
 {
     constexpr int sweepsBefore = 6;
-    constexpr double usualCorners = 0.2, usualBad = 2, free = 0.15, range = 8;
+    constexpr double usualCorners = 0.25, usualBad = 3.5, free = 0.15, range = 8;
     const detail::QuadTable table = detail::QuadTable::ofPairs(surface);
     const double sample = detail::areaPerSample(surface, surface.liveFaces(), options.samples);
     const auto term = [&](double share) {

@@ -54,10 +54,10 @@ struct CageOptions {
     Effort effort = Effort::fair;                ///< time against tightness
     CageFaces mesh = CageFaces::triangles;       ///< triangles only, or quads too
     double quadShape = BoundingTriquadOptions{}.quadShape; ///< 0: tightest, 1: squarest corners; triquad and quads
-    std::optional<double> mergeAngle;            ///< degrees: flatter pairs become quads; unset: as the faces ask
-    CageSymmetry symmetry = CageSymmetry::off;   ///< exactly symmetric cages; bounding only
-    Voxelizer voxelizer = Voxelizer::automatic;  ///< what turns the model into voxels
-    bool bounding = true;                        ///< only ever give a cage certified to bound the model
+    std::optional<double> mergeAngle;           ///< degrees: flatter pairs become quads; unset: as the faces ask
+    CageSymmetry symmetry = CageSymmetry::off;  ///< exactly symmetric cages; bounding only
+    Voxelizer voxelizer = Voxelizer::automatic; ///< what turns the model into voxels
+    bool bounding = true;                       ///< only ever give a cage certified to bound the model
 };
 
 /// What is known of an option beside its value: one entry serves flags, help, range checks, README and metadata.
@@ -82,10 +82,10 @@ void visitOptions(Options& options, Visit&& visit)
           options.smooth);
     visit(OptionInfo{"parts", "", "separate parts of the closing"}, options.parts);
     visit(OptionInfo{"mesh", "", "faces of the cage"}, options.mesh);
-    visit(OptionInfo{"merge-angle", "DEG", "largest fold of a quad", BoundingTriquadOptions::mergeAngles},
-          options.mergeAngle);
     visit(OptionInfo{"quad-shape", "F", "0: tightest, 1: squarest quads", BoundingTriquadOptions::quadShapes},
           options.quadShape);
+    visit(OptionInfo{"merge-angle", "DEG", "largest fold of a quad", BoundingTriquadOptions::mergeAngles},
+          options.mergeAngle);
     visit(OptionInfo{"symmetry", "", "symmetric cages of symmetric models"}, options.symmetry);
     visit(OptionInfo{"voxelizer", "", "what makes the voxels"}, options.voxelizer);
     visit(OptionInfo{"bounding", "", "only ever a certified cage"}, options.bounding);

@@ -39,8 +39,8 @@ bool hasDiagonalAt(const GuardedMesh& surface, const Vec4I& ids, int i)
     return cornerOpposite(surface, faceAt(surface, a, b), a, b) == ids[(i + 2) % 4];
 }
 
-/// The neighbours of v along edges of polygons, each with the polygon after it around v; they go round, or from plane to
-/// plane.
+/// The neighbours of v along edges of polygons, each with the polygon after it around v; they go round, or from plane
+/// to plane.
 std::vector<Ring> polygonsAround(const GuardedMesh& surface, const QuadTable& table, std::uint32_t v)
 {
     std::vector<Ring> polygons;
@@ -75,7 +75,10 @@ public:
 
     int operator[](std::uint32_t v) const { return of_[v]; }
     /// What `edges` more off the plane, or polygons on it, gain at v.
-    double gain(std::uint32_t v, int edges) const { return gainTo(v, of_[v] + (surface_.isOnPlane(v) ? 2 : 1) * edges); }
+    double gain(std::uint32_t v, int edges) const
+    {
+        return gainTo(v, of_[v] + (surface_.isOnPlane(v) ? 2 : 1) * edges);
+    }
     double gainTo(std::uint32_t v, int valence) const { return weigh(v, of_[v]) - weigh(v, valence); }
     /// That of a vertex like v.
     double weigh(std::uint32_t v, int valence) const
@@ -172,8 +175,8 @@ private:
         for (std::size_t i = 0; i < n; ++i) {
             for (std::size_t k = 2; k <= n - 2; ++k) {
                 const std::uint32_t x = polygons[i][1], y = polygons[(i + k) % n][1];
-                const double gain = valences_.gainTo(v, static_cast<int>(n - k + 1)) -
-                                    irregularity(k + 1) + valences_.gain(x, 1) + valences_.gain(y, 1);
+                const double gain = valences_.gainTo(v, static_cast<int>(n - k + 1)) - irregularity(k + 1) +
+                                    valences_.gain(x, 1) + valences_.gain(y, 1);
                 add(QuadChange::Kind::split, {v, x, y, 0}, gain);
             }
         }
@@ -292,7 +295,8 @@ std::optional<PlannedChange> plannedSplit(const GuardedMesh& surface, const Quad
     const std::vector<Ring> polygons = polygonsAround(surface, table, v);
     const auto at = [&](std::uint32_t w) {
         return static_cast<std::size_t>(
-            std::find_if(polygons.begin(), polygons.end(), [&](const Ring& p) { return p[1] == w; }) - polygons.begin());
+            std::find_if(polygons.begin(), polygons.end(), [&](const Ring& p) { return p[1] == w; }) -
+            polygons.begin());
     };
     const std::size_t n = polygons.size(), from = at(x), to = at(y);
     if (from == n || to == n) return std::nullopt;

@@ -97,9 +97,8 @@ private:
         if (change.gain <= alike && !(more < 0 && hasTooMany())) return false;
         const auto key = std::make_pair(change.kind, change.vertices);
         const auto known = failedAt_.find(key);
-        if (known != failedAt_.end() &&
-            std::all_of(change.vertices.begin(), change.vertices.end(),
-                        [&](std::uint32_t v) { return lastChange(v) < known->second; })) {
+        if (known != failedAt_.end() && std::all_of(change.vertices.begin(), change.vertices.end(),
+                                                    [&](std::uint32_t v) { return lastChange(v) < known->second; })) {
             return false;
         }
         std::optional<PlannedChange> plan = planned(surface_, table_, change);

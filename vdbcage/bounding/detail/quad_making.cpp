@@ -49,6 +49,27 @@ void splitAround(GuardedMesh& surface, const std::vector<std::uint32_t>& vertice
 
 } // namespace
 
+std::vector<std::uint32_t> makeQuadsInPlace(GuardedMesh& surface, const QuadTable& table, Interrupter* interrupter)
+{
+    constexpr int rounds = 10, vainRounds = 4, sweeps = 2;
+    const double sample = areaPerSample(surface);
+    const QuadShapeTerm fit(table, {}), flat = shapeTerm(surface, table, {2, 0.1, 0, 8, 8}, sample, interrupter);
+    double room = 0.5 * medianDistance(surface);
+    std::vector<std::uint32_t> left = pairAll(surface, table, {}, interrupter);
+    for (int round = 0, vain = 0; round < rounds && vain < vainRounds && !left.empty(); ++round) {
+        const std::vector<std::uint32_t> corners = cornersOf(table, left);
+        splitAround(surface, corners);
+        inflate(surface, corners, room, interrupter, &fit);
+        tighten(surface, corners, sweeps, sample, interrupter, &flat);
+        inflate(surface, corners, room, interrupter, &fit);
+        const std::size_t before = left.size();
+        left = pairAll(surface, table, left, interrupter);
+        vain = left.size() < before ? 0 : vain + 1;
+        room *= 1.5;
+    }
+    return left;
+}
+
 std::vector<std::uint32_t> makeQuads(GuardedMesh& surface, const QuadTable& table, Interrupter* interrupter)
 {
     constexpr int rounds = 10, vainRounds = 5, sweeps = 2;

@@ -15,4 +15,7 @@ namespace vdbcage::detail {
 /// \throw Cancelled
 std::vector<std::uint32_t> makeQuads(GuardedMesh& surface, const QuadTable& table, Interrupter* interrupter);
 
+/// The same, but vertices are only moved where a quad does not go.
+std::vector<std::uint32_t> makeQuadsInPlace(GuardedMesh& surface, const QuadTable& table, Interrupter* interrupter);
+
 } // namespace vdbcage::detail

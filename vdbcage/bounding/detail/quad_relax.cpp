@@ -7,8 +7,8 @@ namespace vdbcage::detail {
 
 ShapeWeights scaled(const ShapeWeights& weights, double distance)
 {
-    return {weights.corners * distance, weights.free, weights.bad * distance,
-            weights.flat * distance, weights.unfit * distance};
+    return {weights.corners * distance, weights.free, weights.bad * distance, weights.flat * distance,
+            weights.unfit * distance};
 }
 
 double areaPerSample(const GuardedMesh& surface)
