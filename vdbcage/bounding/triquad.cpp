@@ -61,12 +61,15 @@ bool cleanUpPairs(detail::GuardedMesh& surface, std::size_t faces, double share,
     std::size_t room = faces;
     for (int i = 0; i < attempts; ++i) {
         detail::cleanUp(surface, table, room, interrupter);
-        detail::GuardedMesh paired = surface;
-        detail::makeQuadsInPlace(paired, table, interrupter);
-        const std::size_t count = paired.liveFaces() - paired.quads();
-        if (count <= faces && detail::quadShare(paired) >= share) {
-            surface = std::move(paired);
-            return true;
+        std::size_t count = 0;
+        for (const auto pair : {detail::makeQuadsInPlace, detail::makeQuads}) {
+            detail::GuardedMesh paired = surface;
+            pair(paired, table, interrupter);
+            count = paired.liveFaces() - paired.quads();
+            if (count <= faces && detail::quadShare(paired) >= share) {
+                surface = std::move(paired);
+                return true;
+            }
         }
         // Quads that could not be paired are two faces each.
         const std::size_t less = count > faces ? count - faces : 1;
@@ -81,7 +84,7 @@ void tightenSquarely(detail::GuardedMesh& surface, double shape, const TightenOp
                      Interrupter* interrupter)
 {
     constexpr int sweepsBefore = 6;
-    constexpr double usualCorners = 0.25, usualBad = 3.5, free = 0.15, range = 8;
+    constexpr double usualCorners = 0.35, usualBad = 4, free = 0.15, range = 8;
     const detail::QuadTable table = detail::QuadTable::ofPairs(surface);
     const double sample = detail::areaPerSample(surface, surface.liveFaces(), options.samples);
     const auto term = [&](double share) {

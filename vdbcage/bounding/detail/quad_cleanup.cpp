@@ -57,7 +57,7 @@ public:
           meanDistance_(perFace_ * static_cast<double>(faceCount()) / area(surface)),
           rough_(table, scaled({2, 0.1, 0, 2, unfitWeight}, perFace_)),
           fine_(table, scaled({0.5, 0.15, 0, 0.35, unfitWeight}, perFace_)), measure_(surface.guard(), sample_),
-          triesLeft_(faceCount() + faceCount() / 2)
+          least_(std::min(faceCount(), most_ - most_ / 20)), triesLeft_(faceCount() + faceCount() / 2)
     {
     }
 
@@ -92,7 +92,7 @@ private:
         const std::uint32_t named = change.vertices[0];
         const int more = moreFaces(change.kind);
         if (isTouched(named) || tries_[named] >= mostTries) return false;
-        if (more > 0 && faceCount() >= most_) return false;
+        if (more > 0 ? faceCount() >= most_ : more < 0 && faceCount() <= least_) return false;
         if (hasTooMany() ? triesLeft_ == 0 && more >= 0 : triesLeft_ == 0) return false;
         if (change.gain <= alike && !(more < 0 && hasTooMany())) return false;
         const auto key = std::make_pair(change.kind, change.vertices);
@@ -214,6 +214,7 @@ private:
     const double sample_, perFace_, meanDistance_;
     const QuadShapeTerm rough_, fine_;
     const DistanceMeasure measure_;
+    const std::size_t least_; // faces
     std::size_t triesLeft_, time_ = 0;
     std::vector<char> touched_; // by vertex: changed in this pass
     std::vector<int> tries_;    // by vertex: in this pass

@@ -47,20 +47,20 @@ void splitAround(GuardedMesh& surface, const std::vector<std::uint32_t>& vertice
     }
 }
 
-} // namespace
-
-std::vector<std::uint32_t> makeQuadsInPlace(GuardedMesh& surface, const QuadTable& table, Interrupter* interrupter)
+/// Makes all quads. Where some do not go they get ever more room than `room`, and flatten(corners) makes them flatter.
+/// Returns those that do not go either.
+template <typename Flatten>
+std::vector<std::uint32_t> pairInRounds(GuardedMesh& surface, const QuadTable& table, double room,
+                                        Interrupter* interrupter, const Flatten& flatten)
 {
-    constexpr int rounds = 10, vainRounds = 4, sweeps = 2;
-    const double sample = areaPerSample(surface);
-    const QuadShapeTerm fit(table, {}), flat = shapeTerm(surface, table, {2, 0.1, 0, 8, 8}, sample, interrupter);
-    double room = 0.5 * medianDistance(surface);
+    constexpr int rounds = 10, vainRounds = 5;
+    const QuadShapeTerm fit(table, {});
     std::vector<std::uint32_t> left = pairAll(surface, table, {}, interrupter);
     for (int round = 0, vain = 0; round < rounds && vain < vainRounds && !left.empty(); ++round) {
         const std::vector<std::uint32_t> corners = cornersOf(table, left);
         splitAround(surface, corners);
         inflate(surface, corners, room, interrupter, &fit);
-        tighten(surface, corners, sweeps, sample, interrupter, &flat);
+        flatten(corners);
         inflate(surface, corners, room, interrupter, &fit);
         const std::size_t before = left.size();
         left = pairAll(surface, table, left, interrupter);
@@ -70,26 +70,30 @@ std::vector<std::uint32_t> makeQuadsInPlace(GuardedMesh& surface, const QuadTabl
     return left;
 }
 
+constexpr int sweeps = 2;
+constexpr ShapeWeights flat{2, 0.1, 0, 8, 8};
+
+} // namespace
+
 std::vector<std::uint32_t> makeQuads(GuardedMesh& surface, const QuadTable& table, Interrupter* interrupter)
 {
-    constexpr int rounds = 10, vainRounds = 5, sweeps = 2;
-    constexpr ShapeWeights shape{2, 0.1, 0, 8, 8};
-    double room = medianDistance(surface);
+    const double room = medianDistance(surface);
     const QuadShapeTerm fit(table, {});
     inflate(surface, cornersOf(table, allQuads(table)), room, interrupter, &fit);
-    std::vector<std::uint32_t> left = pairAll(surface, table, {}, interrupter);
-    for (int round = 0, vain = 0; round < rounds && vain < vainRounds && !left.empty(); ++round) {
-        const std::vector<std::uint32_t> corners = cornersOf(table, left);
-        splitAround(surface, corners);
-        inflate(surface, corners, room, interrupter, &fit);
-        relaxQuads(surface, table, shape, sweeps, interrupter);
-        inflate(surface, corners, room, interrupter, &fit);
-        const std::size_t before = left.size();
-        left = pairAll(surface, table, left, interrupter);
-        vain = left.size() < before ? 0 : vain + 1;
-        room *= 1.5;
-    }
-    return left;
+    return pairInRounds(surface, table, room, interrupter, [&](const std::vector<std::uint32_t>& /*corners*/) {
+        relaxQuads(surface, table, flat, sweeps, interrupter);
+    });
+}
+
+std::vector<std::uint32_t> makeQuadsInPlace(GuardedMesh& surface, const QuadTable& table, Interrupter* interrupter)
+{
+    constexpr double share = 0.5; // of the median distance
+    const double sample = areaPerSample(surface);
+    const QuadShapeTerm term = shapeTerm(surface, table, flat, sample, interrupter);
+    return pairInRounds(surface, table, share * medianDistance(surface), interrupter,
+                        [&](const std::vector<std::uint32_t>& corners) {
+                            tighten(surface, corners, sweeps, sample, interrupter, &term);
+                        });
 }
 
 } // namespace vdbcage::detail

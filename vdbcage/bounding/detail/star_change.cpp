@@ -105,7 +105,7 @@ bool starOfFlip(const GuardedMesh& mesh, std::uint32_t c, std::uint32_t a, std::
 namespace {
 
 /// Makes the rim of the star's old faces its link. Returns false unless it goes through each corner once, and through
-/// two on the plane if the centre is there; `inside` sides of the rim are more than faces.
+/// two on the plane if the centre is there, and has so many more sides than there are faces.
 bool takeRim(const GuardedMesh& mesh, int more, StarChange& star)
 {
     const auto& faces = star.oldFaces;
