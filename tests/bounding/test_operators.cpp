@@ -426,6 +426,9 @@ BOOST_AUTO_TEST_CASE(bad_options_are_refused)
         BoundingTriquadOptions wrong = quads(30, 30);
         wrong.quads = share;
         BOOST_CHECK_THROW(triquad(start, guard, wrong), InputError);
+        wrong = quads(30, 30);
+        wrong.quadShape = share;
+        BOOST_CHECK_THROW(triquad(start, guard, wrong), InputError);
     }
     BoundingTriquadOptions bad;
     bad.tightening = options;

@@ -37,16 +37,13 @@ BOOST_AUTO_TEST_CASE(text_goes_in_and_comes_out)
 {
     CageOptions options;
     const std::vector<std::pair<std::string, std::string>> wanted{
-        {"faces", "100"},          {"resolution", "64"},
-        {"close-radius", "0.125"}, {"erode-radius", "0.0625"},
-        {"element", "cube"},       {"scale-field", "none"},
-        {"density", "none"},       {"joints", "none"},
-        {"smooth", "7"},           {"parts", "merge"},
-        {"mesh", "triquad"},       {"merge-angle", "22.5"},
-        {"symmetry", "auto"},      {"symmetry-tolerance", "0.01"},
-        {"interior", "shell"},     {"voxelizer", "cpu"},
-        {"bounding", "off"},       {"clearance", "0.001"},
-        {"min-angle", "2"},        {"effort", "best"}};
+        {"faces", "100"},           {"resolution", "64"}, {"close-radius", "0.125"},
+        {"erode-radius", "0.0625"}, {"element", "cube"},  {"scale-field", "none"},
+        {"density", "none"},        {"joints", "none"},   {"smooth", "7"},
+        {"parts", "merge"},         {"mesh", "triquad"},  {"quad-shape", "0.25"},
+        {"merge-angle", "22.5"},    {"symmetry", "auto"}, {"symmetry-tolerance", "0.01"},
+        {"interior", "shell"},      {"voxelizer", "cpu"}, {"bounding", "off"},
+        {"clearance", "0.001"},     {"min-angle", "2"},   {"effort", "best"}};
     for (const auto& option : wanted) setOption(options, option.first, option.second);
     BOOST_CHECK(optionValues(options) == wanted);
     BOOST_CHECK(optionValues(CageOptions{}) != wanted);
@@ -143,12 +140,13 @@ BOOST_AUTO_TEST_CASE(joints_are_read_from_a_file_whose_errors_name_the_line)
 BOOST_AUTO_TEST_CASE(what_is_not_allowed_is_refused_by_name_value_and_range)
 {
     const std::vector<std::pair<std::string, std::string>> bad{
-        {"faces", "5"},         {"faces", "1000001"},    {"faces", "4.5"},          {"faces", ""},
-        {"faces", "12x"},       {"faces", " 12"},        {"resolution", "7"},       {"resolution", "2049"},
-        {"close-radius", "-1"}, {"close-radius", "nan"}, {"close-radius", "inf"},   {"close-radius", "0,03"},
-        {"erode-radius", "x"},  {"element", "Cube"},     {"mesh", "quads!"},        {"merge-angle", "181"},
-        {"voxelizer", ""},      {"bounding", "maybe"},   {"smooth", "99999999999"}, {"clearance", "0"},
-        {"effort", "worst"},    {"parts", ""},           {"resolution", "64.5"},    {"min-angle", "31"}};
+        {"faces", "5"},         {"faces", "1000001"},    {"faces", "4.5"},        {"faces", ""},
+        {"faces", "12x"},       {"faces", " 12"},        {"resolution", "7"},     {"resolution", "2049"},
+        {"close-radius", "-1"}, {"close-radius", "nan"}, {"close-radius", "inf"}, {"close-radius", "0,03"},
+        {"erode-radius", "x"},  {"element", "Cube"},     {"mesh", "quads!"},      {"quad-shape", "1.1"},
+        {"merge-angle", "181"}, {"voxelizer", ""},       {"bounding", "maybe"},   {"smooth", "99999999999"},
+        {"clearance", "0"},     {"effort", "worst"},     {"parts", ""},           {"resolution", "64.5"},
+        {"min-angle", "31"}};
     for (const auto& entry : bad) {
         CageOptions options;
         BOOST_CHECK_EXCEPTION(setOption(options, entry.first, entry.second), InputError, [&](const InputError& error) {

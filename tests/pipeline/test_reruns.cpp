@@ -248,6 +248,7 @@ BOOST_AUTO_TEST_CASE(every_option_counts)
                                                     {"smooth", "2"},
                                                     {"parts", "merge"},
                                                     {"mesh", "triangles"},
+                                                    {"quad-shape", "0"},
                                                     {"merge-angle", "60"},
                                                     {"symmetry", "x"},
                                                     {"voxelizer", "cpu"},

@@ -5,11 +5,10 @@
 #include <utility>
 #include <vector>
 
-#include <vdbcage/bounding/detail/face_queries.h>
 #include <vdbcage/bounding/detail/joint_rings.h>
 #include <vdbcage/bounding/detail/loop_decimation.h>
 #include <vdbcage/bounding/detail/loop_exchange.h>
-#include <vdbcage/bounding/detail/merge_triangles.h>
+#include <vdbcage/bounding/detail/quad_making.h>
 #include <vdbcage/bounding/detail/quad_relax.h>
 #include <vdbcage/bounding/detail/relax.h>
 #include <vdbcage/bounding/detail/tightening.h>
@@ -20,15 +19,6 @@ namespace vdbcage {
 using namespace detail;
 
 namespace {
-
-std::vector<std::uint32_t> allQuads(const QuadTable& table)
-{
-    std::vector<std::uint32_t> quads;
-    for (std::uint32_t q = 0; q < table.quads(); ++q) {
-        if (table.isQuad(q)) quads.push_back(q);
-    }
-    return quads;
-}
 
 /// Adds the rings that joints lack, and takes as many other quads away, in rounds: the one with most rings is kept.
 void completeRings(GuardedMesh& surface, QuadTable& table, std::size_t quads, Interrupter* interrupter)
@@ -53,59 +43,6 @@ void completeRings(GuardedMesh& surface, QuadTable& table, std::size_t quads, In
         surface = now;
         table = nowTable;
     }
-}
-
-/// Makes quads of the pairs of triangles that are one in the table, `first` before others. Returns those that it could
-/// not make.
-std::vector<std::uint32_t> pairAll(GuardedMesh& surface, const QuadTable& table,
-                                   const std::vector<std::uint32_t>& first, Interrupter* interrupter)
-{
-    std::vector<std::uint32_t> left;
-    const std::vector<std::uint32_t> all = allQuads(table);
-    for (const auto* list : {&first, &all}) {
-        for (const std::uint32_t q : *list) {
-            throwIfInterrupted(interrupter);
-            const Vec4I& ids = table.corners(q);
-            const std::uint32_t f = faceAt(surface, ids[0], ids[1]), g = faceAt(surface, ids[2], ids[3]);
-            if (surface.isInQuad(f) || mergeTriangles(surface, f, g)) continue;
-            if (list == &all) left.push_back(q);
-        }
-    }
-    return left;
-}
-
-/// The quads around some vertices are triangles again: so these can move more freely.
-void splitAround(GuardedMesh& surface, const std::vector<std::uint32_t>& vertices)
-{
-    for (const std::uint32_t v : vertices) {
-        for (const std::uint32_t f : surface.facesOf(v)) {
-            if (surface.isInQuad(f)) surface.splitQuad(f);
-        }
-    }
-}
-
-/// Makes all quads. Where some do not go they get more room, and are made flatter. Returns those that do not go
-/// either.
-std::vector<std::uint32_t> makeQuads(GuardedMesh& surface, const QuadTable& table, Interrupter* interrupter)
-{
-    constexpr int rounds = 10, vainRounds = 5, sweeps = 2;
-    constexpr ShapeWeights shape{2, 0.1, 0, 8, 8};
-    double room = medianDistance(surface);
-    const QuadShapeTerm fit(table, {});
-    inflate(surface, cornersOf(table, allQuads(table)), room, interrupter, &fit);
-    std::vector<std::uint32_t> left = pairAll(surface, table, {}, interrupter);
-    for (int round = 0, vain = 0; round < rounds && vain < vainRounds && !left.empty(); ++round) {
-        const std::vector<std::uint32_t> corners = cornersOf(table, left);
-        splitAround(surface, corners);
-        inflate(surface, corners, room, interrupter, &fit);
-        relaxQuads(surface, table, shape, sweeps, interrupter);
-        inflate(surface, corners, room, interrupter, &fit);
-        const std::size_t before = left.size();
-        left = pairAll(surface, table, left, interrupter);
-        vain = left.size() < before ? 0 : vain + 1;
-        room *= 1.5;
-    }
-    return left;
 }
 
 /// Tightens with the least weights of the shape that make the corners as square as asked.

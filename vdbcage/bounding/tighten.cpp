@@ -29,12 +29,13 @@ double meanDistance(const Mesh& cage, const BoundingGuard& guard, Interrupter* i
     return integratedDistance(surface, perSample, interrupter) / area(surface);
 }
 
-void tightenAndPerturb(GuardedMesh& surface, const TightenOptions& options, Interrupter* interrupter)
+void tightenAndPerturb(GuardedMesh& surface, const TightenOptions& options, Interrupter* interrupter,
+                       const QuadShapeTerm* shape)
 {
     const auto perSample = [&] { return areaPerSample(surface, surface.liveFaces(), options.samples); };
-    tighten(surface, options.sweeps, perSample(), interrupter);
-    perturb(surface, options.perturbations, options.sweeps, perSample(), interrupter);
-    if (options.perturbations > 0) relaxFinally(surface, perSample(), interrupter);
+    tighten(surface, options.sweeps, perSample(), interrupter, shape);
+    perturb(surface, options.perturbations, options.sweeps, perSample(), interrupter, shape);
+    if (options.perturbations > 0) relaxFinally(surface, perSample(), interrupter, shape);
 }
 
 } // namespace detail

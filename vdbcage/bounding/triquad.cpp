@@ -6,7 +6,11 @@
 #include <utility>
 
 #include <vdbcage/bounding/detail/collapse.h>
+#include <vdbcage/bounding/detail/quad_cleanup.h>
+#include <vdbcage/bounding/detail/quad_making.h>
 #include <vdbcage/bounding/detail/quad_pairing.h>
+#include <vdbcage/bounding/detail/quad_relax.h>
+#include <vdbcage/bounding/detail/quad_table.h>
 #include <vdbcage/bounding/detail/relax.h>
 #include <vdbcage/bounding/detail/tightening.h>
 #include <vdbcage/geometry/quad_shape.h>
@@ -43,6 +47,58 @@ void makeQuads(detail::GuardedMesh& surface, const BoundingTriquadOptions& optio
     }
 }
 
+/// Cleans up the quads of a paired surface. Returns whether so many of its faces are quads again, or `share`, and there
+/// are no more of them than `faces`.
+bool cleanUpPairs(detail::GuardedMesh& surface, std::size_t faces, double share, Interrupter* interrupter)
+{
+    constexpr int sweepsBefore = 6, attempts = 3;
+    share = std::min(share, detail::quadShare(surface));
+    detail::QuadTable table = detail::QuadTable::ofPairs(surface);
+    for (std::uint32_t f = 0; f < surface.faces(); ++f) {
+        if (surface.isFace(f) && surface.isInQuad(f)) surface.splitQuad(f);
+    }
+    detail::relaxQuads(surface, table, sweepsBefore, interrupter);
+    std::size_t room = faces;
+    for (int i = 0; i < attempts; ++i) {
+        detail::cleanUp(surface, table, room, interrupter);
+        std::size_t count = 0;
+        for (const auto pair : {detail::makeQuadsInPlace, detail::makeQuads}) {
+            detail::GuardedMesh paired = surface;
+            pair(paired, table, interrupter);
+            count = paired.liveFaces() - paired.quads();
+            if (count <= faces && detail::quadShare(paired) >= share) {
+                surface = std::move(paired);
+                return true;
+            }
+        }
+        // Quads that could not be paired are two faces each.
+        const std::size_t less = count > faces ? count - faces : 1;
+        if (room <= less) return false;
+        room -= less;
+    }
+    return false;
+}
+
+/// Tightens a paired surface so that corners of quads come to be square, more so for a `shape` nearer to 1.
+void tightenSquarely(detail::GuardedMesh& surface, double shape, const TightenOptions& options,
+                     Interrupter* interrupter)
+{
+    constexpr int sweepsBefore = 6;
+    constexpr double usualCorners = 0.35, usualBad = 4, free = 0.15, range = 8;
+    const detail::QuadTable table = detail::QuadTable::ofPairs(surface);
+    const double sample = detail::areaPerSample(surface, surface.liveFaces(), options.samples);
+    const auto term = [&](double share) {
+        const double weight = share * std::pow(range, 2 * shape - 1);
+        return detail::shapeTerm(surface, table, {weight * usualCorners, free, weight * usualBad, 0, 0}, sample,
+                                 interrupter);
+    };
+    // Its weights are parts of the distance, which room for pairing has about doubled.
+    const detail::QuadShapeTerm first = term(0.5);
+    detail::tighten(surface, sweepsBefore, sample, interrupter, &first);
+    const detail::QuadShapeTerm rest = term(1);
+    detail::tightenAndPerturb(surface, options, interrupter, &rest);
+}
+
 } // namespace
 
 Mesh triquad(const Mesh& surface, const BoundingGuard& guard, const BoundingTriquadOptions& options,
@@ -53,6 +109,7 @@ Mesh triquad(const Mesh& surface, const BoundingGuard& guard, const BoundingTriq
     detail::requireFaces(options.faces);
     requireWithin(BoundingTriquadOptions::mergeAngles, options.mergeAngleDegrees, "merge angle");
     requireWithin(BoundingTriquadOptions::quadShares, options.quads, "quads");
+    requireWithin(BoundingTriquadOptions::quadShapes, options.quadShape, "quad shape");
     detail::requireValid(options.tightening);
     const detail::GuardedMesh fine(surface, detail::modelOf(guard), detail::GuardedMesh::Quads::split);
     if (fine.liveFaces() == 0) return fine.mesh();
@@ -89,7 +146,13 @@ Mesh triquad(const Mesh& surface, const BoundingGuard& guard, const BoundingTriq
         best = fine;
         detail::collapseByQuadrics(*best, most, interrupter);
     }
-    detail::tightenAndPerturb(*best, options.tightening, interrupter);
+    if (options.quadShape == 0 || best->quads() == 0) {
+        detail::tightenAndPerturb(*best, options.tightening, interrupter);
+        return best->mesh();
+    }
+    detail::GuardedMesh cleaned = *best;
+    if (cleanUpPairs(cleaned, most, options.quads, interrupter)) best = std::move(cleaned);
+    tightenSquarely(*best, options.quadShape, options.tightening, interrupter);
     return best->mesh();
 }
 

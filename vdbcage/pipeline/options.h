@@ -56,12 +56,13 @@ struct CageOptions {
     std::optional<double> minAngle;              ///< degrees: no triangle angle gets smaller; unset: by the effort
     Effort effort = Effort::fair;                ///< time against tightness
     CageFaces mesh = CageFaces::triangles;       ///< triangles only, or quads too
-    std::optional<double> mergeAngle;            ///< degrees: flatter pairs become quads; unset: as the faces ask
-    CageSymmetry symmetry = CageSymmetry::off;   ///< exactly symmetric cages; bounding only
-    double symmetryTolerance = 0.005;            ///< that a plane may be missed by, where one is looked for
-    Interior interior = Interior::automatic;     ///< what is inside of a model with holes
-    Voxelizer voxelizer = Voxelizer::automatic;  ///< what turns the model into voxels
-    bool bounding = true;                        ///< only ever give a cage certified to bound the model
+    double quadShape = BoundingTriquadOptions{}.quadShape; ///< 0: tightest, 1: squarest corners; triquad and quads
+    std::optional<double> mergeAngle;           ///< degrees: flatter pairs become quads; unset: as the faces ask
+    CageSymmetry symmetry = CageSymmetry::off;  ///< exactly symmetric cages; bounding only
+    double symmetryTolerance = 0.005;           ///< that a plane may be missed by, where one is looked for
+    Interior interior = Interior::automatic;    ///< what is inside of a model with holes
+    Voxelizer voxelizer = Voxelizer::automatic; ///< what turns the model into voxels
+    bool bounding = true;                       ///< only ever give a cage certified to bound the model
 };
 
 /// What is known of an option beside its value: one entry serves flags, help, range checks, README and metadata.
@@ -89,6 +90,8 @@ void visitOptions(Options& options, Visit&& visit)
           options.smooth);
     visit(OptionInfo{"parts", "", "separate parts of the closing", {}, true}, options.parts);
     visit(OptionInfo{"mesh", "", "faces of the cage"}, options.mesh);
+    visit(OptionInfo{"quad-shape", "F", "0: tightest, 1: squarest quads", BoundingTriquadOptions::quadShapes},
+          options.quadShape);
     visit(OptionInfo{"merge-angle", "DEG", "largest fold of a quad", BoundingTriquadOptions::mergeAngles, true},
           options.mergeAngle);
     visit(OptionInfo{"symmetry", "", "symmetric cages of symmetric models"}, options.symmetry);

@@ -15,6 +15,7 @@ bool shareStages(const Order& a, const Order& b)
     early.faces = a.options.faces;
     early.smooth = a.options.smooth;
     early.mesh = a.options.mesh;
+    early.quadShape = a.options.quadShape;
     early.mergeAngle = a.options.mergeAngle;
     return areEqual(early, a.options);
 }

@@ -184,7 +184,7 @@ void GuardedMesh::change(const StarChange& star, const Vec3d& p)
 
 GuardedMesh::Saved GuardedMesh::saved(const StarChange& star) const
 {
-    Saved saved;
+    Saved saved{faces(), vertices(), {}, {}, {}};
     std::vector<std::uint32_t> touched;
     for (const std::uint32_t f : star.oldFaces) {
         saved.faces.emplace_back(f, faces_[f]);
@@ -193,12 +193,19 @@ GuardedMesh::Saved GuardedMesh::saved(const StarChange& star) const
     std::sort(touched.begin(), touched.end());
     touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
     for (const std::uint32_t v : touched) saved.facesOf.emplace_back(v, facesOf_[v]);
-    saved.points.emplace_back(star.centre, points_[star.centre]);
+    if (star.centre < vertices()) saved.points.emplace_back(star.centre, points_[star.centre]);
     return saved;
 }
 
 void GuardedMesh::restore(const Saved& saved)
 {
+    for (std::uint32_t f = saved.faceCount; f < faces(); ++f) {
+        if (life_[f] != live) continue;
+        life_[f] = dead;
+        --liveFaces_;
+        tree_.remove(f);
+    }
+    for (std::uint32_t v = saved.vertexCount; v < vertices(); ++v) facesOf_[v].clear();
     for (const auto& [v, p] : saved.points) points_[v] = p;
     for (const auto& [v, list] : saved.facesOf) facesOf_[v] = list;
     for (const auto& [f, t] : saved.faces) {

@@ -108,7 +108,7 @@ private:
     {
         throwIfInterrupted(interrupter);
         const double sample = areaPerSample(surface_);
-        const double perQuad = distancePerQuad(surface_, table_, sample, interrupter);
+        const double perQuad = distancePerPolygon(surface_, table_, sample, interrupter);
         const DistanceMeasure measure(surface_.guard(), sample);
         const QuadShapeTerm term(table_, scaled(usualShape, perQuad), JointRings(surface_, table_).holds());
         const std::size_t most = table_.count() / 20, tooMany = table_.count() - target;
@@ -184,7 +184,7 @@ private:
             sum += measure.integral(surface_.corners(f), seed);
         for (const std::uint32_t q : gathered(
                  loop, [&](std::uint32_t v) -> auto& { return table_.quadsOf(v); })) {
-            if (!isFit(surface_.guard(), pointsOf(surface_, table_.corners(q)))) sum += unfitWeight * perQuad;
+            if (!isFit(surface_, pointsOf(surface_, table_.corners(q)))) sum += unfitWeight * perQuad;
         }
         return sum;
     }

@@ -6,11 +6,10 @@
 
 namespace vdbcage::detail {
 
-ShapeWeights scaled(const ShapeWeights& weights, double distancePerQuad)
+ShapeWeights scaled(const ShapeWeights& weights, double distance)
 {
-    return {weights.corners * distancePerQuad, weights.free,
-            weights.bad * distancePerQuad,     weights.flat * distancePerQuad,
-            weights.unfit * distancePerQuad,   weights.hold * distancePerQuad};
+    return {weights.corners * distance, weights.free,           weights.bad * distance, weights.flat * distance,
+            weights.unfit * distance,   weights.hold * distance};
 }
 
 double areaPerSample(const GuardedMesh& surface)
@@ -19,16 +18,17 @@ double areaPerSample(const GuardedMesh& surface)
     return areaPerSample(surface, surface.liveFaces(), samplesPerTriangle);
 }
 
-double distancePerQuad(const GuardedMesh& surface, const QuadTable& table, double areaPerSample,
-                       Interrupter* interrupter)
+double distancePerPolygon(const GuardedMesh& surface, const QuadTable& table, double areaPerSample,
+                          Interrupter* interrupter)
 {
-    return integratedDistance(surface, areaPerSample, interrupter) / static_cast<double>(table.count());
+    return integratedDistance(surface, areaPerSample, interrupter) /
+           static_cast<double>(surface.liveFaces() - table.count());
 }
 
 QuadShapeTerm shapeTerm(const GuardedMesh& surface, const QuadTable& table, const ShapeWeights& weights,
                         double areaPerSample, Interrupter* interrupter)
 {
-    return {table, scaled(weights, distancePerQuad(surface, table, areaPerSample, interrupter)),
+    return {table, scaled(weights, distancePerPolygon(surface, table, areaPerSample, interrupter)),
             JointRings(surface, table).holds()};
 }
 
@@ -57,7 +57,7 @@ std::size_t countUnfit(const GuardedMesh& surface, const QuadTable& table)
 {
     std::size_t count = 0;
     for (std::uint32_t q = 0; q < table.quads(); ++q)
-        count += table.isQuad(q) && !isFit(surface.guard(), pointsOf(surface, table.corners(q)));
+        count += table.isQuad(q) && !isFit(surface, pointsOf(surface, table.corners(q)));
     return count;
 }
 

@@ -10,9 +10,9 @@
 /// Moving the vertices of quads to where both distance and shape are better, while the guard holds their triangles.
 namespace vdbcage::detail {
 
-/// The distance of a mean quad: what the weights of shapes are parts of.
-double distancePerQuad(const GuardedMesh& surface, const QuadTable& table, double areaPerSample,
-                       Interrupter* interrupter);
+/// The integral of the distance over a mean face, a quad counted once: what the weights of shapes are parts of.
+double distancePerPolygon(const GuardedMesh& surface, const QuadTable& table, double areaPerSample,
+                          Interrupter* interrupter);
 
 /// How many quads are not fit, and what one counts for in parts of the distance of a mean quad.
 std::size_t countUnfit(const GuardedMesh& surface, const QuadTable& table);
@@ -20,7 +20,7 @@ constexpr double unfitWeight = 8;
 
 /// The weights of the shape while loops come and go, in parts of the distance of a mean quad; and those of a surface.
 constexpr ShapeWeights usualShape{0.35, 0.15, 0, 0.35, unfitWeight};
-ShapeWeights scaled(const ShapeWeights& weights, double distancePerQuad);
+ShapeWeights scaled(const ShapeWeights& weights, double distance);
 /// The term of the surface as it is now, with weights that are parts of the distance of a mean quad.
 QuadShapeTerm shapeTerm(const GuardedMesh& surface, const QuadTable& table, const ShapeWeights& weights,
                         double areaPerSample, Interrupter* interrupter);

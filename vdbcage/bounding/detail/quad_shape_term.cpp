@@ -61,14 +61,14 @@ void addFold(const ShapeWeights& weights, const std::array<Vec3d, 4>& p, SquareS
 
 } // namespace
 
-bool isFit(const GuardModel& guard, const std::array<Vec3d, 4>& p)
+bool isFit(const GuardedMesh& surface, const std::array<Vec3d, 4>& p)
 {
     double deviation;
-    if (!isConvexQuad(p, 0, deviation)) return false;
+    if (!isConvexQuad(p, surface.leastQuadCosine(), deviation)) return false;
     const double least = std::min({minSine({p[0], p[1], p[2]}), minSine({p[0], p[2], p[3]}),
                                    minSine({p[0], p[1], p[3]}), minSine({p[1], p[2], p[3]})});
     constexpr double leastSine = 0.087; // of 5 degrees
-    return least >= std::max(guard.minSine(), leastSine);
+    return least >= std::max(surface.guard().minSine(), leastSine);
 }
 
 double QuadShapeTerm::add(const GuardedMesh& surface, const StarChange& star, const Vec3d& centre,
@@ -86,7 +86,7 @@ double QuadShapeTerm::add(const GuardedMesh& surface, const StarChange& star, co
         addCorner(weights_, {next, centre, across}, 1, sum);
         addCorner(weights_, {last, centre, across}, 1, sum);
         addFold(weights_, {centre, next, across, last}, sum);
-        if (weights_.unfit > 0 && !isFit(surface.guard(), {centre, next, across, last})) sum.sum += weights_.unfit;
+        if (weights_.unfit > 0 && !isFit(surface, {centre, next, across, last})) sum.sum += weights_.unfit;
     }
     const auto hold =
         std::lower_bound(holds_.begin(), holds_.end(), star.centre,
@@ -104,16 +104,27 @@ double QuadShapeTerm::add(const GuardedMesh& surface, const StarChange& star, co
     return sum.sum;
 }
 
+double QuadShapeTerm::of(const GuardedMesh& surface, std::uint32_t quad) const
+{
+    Quadratic change;
+    SquareSum sum{change};
+    const std::array<Vec3d, 4> p = pointsOf(surface, table_.corners(quad));
+    for (std::size_t i = 0; i < 4; ++i) addCorner(weights_, {p[i], p[(i + 1) % 4], p[(i + 3) % 4]}, 0, sum);
+    addFold(weights_, p, sum);
+    if (weights_.unfit > 0 && !isFit(surface, p)) sum.sum += weights_.unfit;
+    return sum.sum;
+}
+
 bool QuadShapeTerm::keepsFit(const GuardedMesh& surface, const StarChange& star, const Vec3d& centre) const
 {
     for (const std::uint32_t q : table_.quadsOf(star.centre)) {
         const Vec4I& ids = table_.corners(q);
         std::array<Vec3d, 4> corners = pointsOf(surface, ids);
-        const bool wasFit = isFit(surface.guard(), corners);
+        const bool wasFit = isFit(surface, corners);
         int i = 0;
         while (ids[i] != star.centre) ++i;
         corners[static_cast<std::size_t>(i)] = centre;
-        if (wasFit && !isFit(surface.guard(), corners)) return false;
+        if (wasFit && !isFit(surface, corners)) return false;
     }
     return true;
 }

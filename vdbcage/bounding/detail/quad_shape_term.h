@@ -20,8 +20,9 @@ struct ShapeWeights {
     double hold = 30; ///< of a vertex of a joint's ring that is a limb's radius away from its plane, squared
 };
 
-/// Whether a quad is convex, and both its splits have only angles that the guard allows, of at least 5 degrees.
-bool isFit(const GuardModel& guard, const std::array<Vec3d, 4>& corners);
+/// Whether a quad is convex, folded no more than the surface allows, and both its splits have only angles that the
+/// guard allows, of at least 5 degrees.
+bool isFit(const GuardedMesh& surface, const std::array<Vec3d, 4>& corners);
 
 /// How far quads are from flat ones with square corners, as a term beside the integral of the distance.
 class QuadShapeTerm {
@@ -35,6 +36,8 @@ public:
     /// The sum over what changes when the star's centre moves, with the centre at `centre`. How it changes
     /// is added to `change` (Gauss-Newton).
     double add(const GuardedMesh& surface, const StarChange& star, const Vec3d& centre, Quadratic& change) const;
+    /// What it is for one quad.
+    double of(const GuardedMesh& surface, std::uint32_t quad) const;
     /// Whether quads that are fit stay so when the star's centre moves there.
     bool keepsFit(const GuardedMesh& surface, const StarChange& star, const Vec3d& centre) const;
 

@@ -18,6 +18,16 @@ QuadTable::QuadTable(const GuardedMesh& surface) : quadsOf_(surface.vertices())
     count_ = corners_.size();
 }
 
+QuadTable QuadTable::ofPairs(const GuardedMesh& surface)
+{
+    QuadTable table;
+    table.quadsOf_.resize(surface.vertices());
+    for (std::uint32_t f = 0; f < surface.faces(); ++f) {
+        if (surface.isFace(f) && surface.isInQuad(f) && f < surface.partnerOf(f)) table.add(surface.quadOf(f));
+    }
+    return table;
+}
+
 int QuadTable::sideOf(std::uint32_t q, std::uint32_t a, std::uint32_t b) const
 {
     const Vec4I& ids = corners_[q];
@@ -79,7 +89,7 @@ void QuadTable::replace(std::uint32_t q, const Vec4I& corners)
 
 QuadTable::Saved QuadTable::saved(const std::vector<std::uint32_t>& vertices) const
 {
-    Saved saved{{}, {}, count_};
+    Saved saved{{}, {}, count_, quads(), quadsOf_.size()};
     for (const std::uint32_t v : vertices) {
         saved.quadsOf.emplace_back(v, quadsOf_[v]);
         for (const std::uint32_t q : quadsOf_[v]) saved.corners.emplace_back(q, corners_[q]);
@@ -89,6 +99,8 @@ QuadTable::Saved QuadTable::saved(const std::vector<std::uint32_t>& vertices) co
 
 void QuadTable::restore(const Saved& saved)
 {
+    corners_.resize(saved.quads, Vec4I(none));
+    quadsOf_.resize(saved.vertices);
     for (const auto& [v, list] : saved.quadsOf) quadsOf_[v] = list;
     for (const auto& [q, ids] : saved.corners) corners_[q] = ids;
     count_ = saved.count;

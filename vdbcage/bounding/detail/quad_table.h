@@ -14,7 +14,7 @@ namespace vdbcage::detail {
 /// An edge by its ends.
 using Rung = std::array<std::uint32_t, 2>;
 
-/// The quads of a surface that is made of nothing else, kept beside its triangles.
+/// The quads of a surface, kept beside its triangles.
 ///
 /// A guard that held both diagonals of every quad would allow hardly a collapse. Here it holds the triangles, and this
 /// says which two of them are a quad.
@@ -26,6 +26,8 @@ public:
     /// Of a surface that was just made of a mesh of quads only.
     /// \throw InputError a triangle
     explicit QuadTable(const GuardedMesh& surface);
+    /// Of the quads that the guard holds both diagonals of. Other faces are in no quad.
+    static QuadTable ofPairs(const GuardedMesh& surface);
 
     std::size_t count() const { return count_; }
     std::uint32_t quads() const { return static_cast<std::uint32_t>(corners_.size()); } ///< ever, numbers below
@@ -50,12 +52,16 @@ public:
         std::vector<std::pair<std::uint32_t, Vec4I>> corners;
         std::vector<std::pair<std::uint32_t, Quads>> quadsOf;
         std::size_t count;
+        std::uint32_t quads;
+        std::size_t vertices;
     };
     Saved saved(const std::vector<std::uint32_t>& vertices) const;
-    /// Takes back what was merged and removed among saved vertices and quads: all is as before.
+    /// Takes back what was merged, removed, replaced and added among saved vertices and new ones: all is as before.
     void restore(const Saved& saved);
 
 private:
+    QuadTable() = default;
+
     std::vector<Vec4I> corners_; // {none, ...}: gone
     std::vector<Quads> quadsOf_; // by vertex
     std::size_t count_ = 0;

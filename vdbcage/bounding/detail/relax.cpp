@@ -252,6 +252,30 @@ void inflateTriangles(GuardedMesh& surface, double by, Interrupter* interrupter)
     inflate(surface, vertices, by, interrupter);
 }
 
+void straighten(GuardedMesh& surface, const QuadTable& table, const std::vector<std::uint32_t>& vertices,
+                Interrupter* interrupter)
+{
+    sweep(
+        surface, vertices, interrupter,
+        [&](std::uint32_t v, const StarChange& star) -> std::optional<Vec3d> {
+            const auto& quads = table.quadsOf(v);
+            if (quads.empty()) return std::nullopt;
+            Vec3d by(0.0);
+            for (const std::uint32_t q : quads) {
+                const Vec4I& ids = table.corners(q);
+                int i = 0;
+                while (ids[i] != v) ++i;
+                const auto corner = [&](int k) { return surface.point(ids[(i + k) % 4]); };
+                by += corner(1) - corner(2) + corner(3) - corner(0);
+            }
+            by /= static_cast<double>(quads.size());
+            const Vec3d up = outward(surface, star);
+            by -= by.dot(up) * up;
+            return towards(surface, star, surface.point(v) + by, {0.5, 0.25, 0.1});
+        },
+        [](std::uint32_t, const StarChange&, bool) {});
+}
+
 void roundOff(GuardedMesh& surface, int sweeps, Interrupter* interrupter)
 {
     constexpr double outwardShare = 0.02; // of the edges' length: a tight surface has no room to move in
@@ -342,13 +366,13 @@ void tighten(GuardedMesh& surface, const std::vector<std::uint32_t>& vertices, i
     }
 }
 
-void relaxFinally(GuardedMesh& surface, double areaPerSample, Interrupter* interrupter)
+void relaxFinally(GuardedMesh& surface, double areaPerSample, Interrupter* interrupter, const QuadShapeTerm* shape)
 {
     constexpr int sweeps = 2;
     DistanceMeasure::Pace pace;
     pace.least = 1e-5;
     pace.gain = 1e-4;
-    const DistanceMeasure measure(surface.guard(), areaPerSample);
+    const DistanceMeasure measure(surface.guard(), areaPerSample, shape);
     std::vector<std::uint32_t> seed(surface.vertices(), TriangleBvh::none);
     for (int i = 0; i < sweeps; ++i) {
         sweep(

@@ -12,6 +12,7 @@
 namespace vdbcage::detail {
 
 class QuadShapeTerm;
+class QuadTable;
 
 /// Moves every vertex once, half way between the average of its neighbours and the model.
 void shrink(GuardedMesh& surface, Interrupter* interrupter);
@@ -31,8 +32,9 @@ void tighten(GuardedMesh& surface, const std::vector<std::uint32_t>& vertices, i
 /// Moves every vertex of a tightened surface twice more, by steps and for gains too small for tighten().
 ///
 /// It becomes half a percent tighter. It becomes flatter over flat parts of the model, where such steps are all that
-/// there is.
-void relaxFinally(GuardedMesh& surface, double areaPerSample, Interrupter* interrupter);
+/// there is. `shape` is as in tighten().
+void relaxFinally(GuardedMesh& surface, double areaPerSample, Interrupter* interrupter,
+                  const QuadShapeTerm* shape = nullptr);
 
 void inflate(GuardedMesh& surface, double by, Interrupter* interrupter);
 
@@ -49,6 +51,11 @@ void inflateTriangles(GuardedMesh& surface, double by, Interrupter* interrupter)
 /// whole, it is undone everywhere, and the next push is smaller. `shape` is as in tighten().
 void perturb(GuardedMesh& surface, int times, int sweeps, double areaPerSample, Interrupter* interrupter,
              const QuadShapeTerm* shape = nullptr);
+
+/// Moves some vertices, each once, along the surface to where the quads of a table around them are nearer to
+/// parallelograms. That gets quads convex that are not, which no small step does.
+void straighten(GuardedMesh& surface, const QuadTable& table, const std::vector<std::uint32_t>& vertices,
+                Interrupter* interrupter);
 
 /// Sweeps of HC Laplacian smoothing: towards the average of the neighbours, less what that would shrink the surface.
 /// Based on: Vollmer, Mencl, Muller, Improved Laplacian Smoothing of Noisy Surface Meshes, 1999.

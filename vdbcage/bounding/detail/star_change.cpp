@@ -102,18 +102,19 @@ bool starOfFlip(const GuardedMesh& mesh, std::uint32_t c, std::uint32_t a, std::
     return true;
 }
 
-bool starOfFaces(const GuardedMesh& mesh, const StarChange::Faces& faces, bool onPlane, StarChange& star)
+namespace {
+
+/// Makes the rim of the star's old faces its link. Returns false unless it goes through each corner once, and through
+/// two on the plane if the centre is there, and has so many more sides than there are faces.
+bool takeRim(const GuardedMesh& mesh, int more, StarChange& star)
 {
-    star = StarChange{};
-    star.centre = mesh.vertices();
-    star.onPlane = onPlane;
-    star.oldFaces = faces;
+    const auto& faces = star.oldFaces;
     StarChange::Faces begins, ends;
     std::size_t ofPlane = 0;
     for (const std::uint32_t f : faces) {
         for (int i = 0; i < 3; ++i) {
             const std::uint32_t a = mesh.face(f)[i], b = mesh.face(f)[(i + 1) % 3];
-            if (onPlane && mesh.isOnPlane(a) && mesh.isOnPlane(b)) continue;
+            if (star.onPlane && mesh.isOnPlane(a) && mesh.isOnPlane(b)) continue;
             const auto isAcross = [&](std::uint32_t g) { return sideOf(mesh, g, b, a) >= 0; };
             if (std::any_of(faces.begin(), faces.end(), isAcross)) continue;
             star.keptFaces.push_back(star.link.size() < faces.size() ? faces[star.link.size()] : StarChange::none);
@@ -123,13 +124,36 @@ bool starOfFaces(const GuardedMesh& mesh, const StarChange::Faces& faces, bool o
             ofPlane += std::size_t(mesh.isOnPlane(a)) + std::size_t(mesh.isOnPlane(b));
         }
     }
-    // A disk without a vertex inside has two sides more than faces, and goes through each corner once; where it ends on
-    // the plane one of them is left out, and no other side ends there.
     for (StarChange::Faces* corners : {&begins, &ends}) {
         std::sort(corners->begin(), corners->end());
         if (std::adjacent_find(corners->begin(), corners->end()) != corners->end()) return false;
     }
-    return star.link.size() == faces.size() + (onPlane ? 1 : 2) && (!onPlane || ofPlane == 2);
+    return static_cast<int>(star.link.size()) == static_cast<int>(faces.size()) + more &&
+           (!star.onPlane || ofPlane == 2);
+}
+
+} // namespace
+
+bool starOfFaces(const GuardedMesh& mesh, const StarChange::Faces& faces, bool onPlane, StarChange& star)
+{
+    star = StarChange{};
+    star.centre = mesh.vertices();
+    star.onPlane = onPlane;
+    star.oldFaces = faces;
+    // A disk without a vertex inside has two sides more than faces; where it ends on the plane one of them is left out.
+    return takeRim(mesh, onPlane ? 1 : 2, star);
+}
+
+bool starOfPatch(const GuardedMesh& mesh, std::uint32_t centre, std::uint32_t removed, const StarChange::Faces& faces,
+                 StarChange& star)
+{
+    star = StarChange{};
+    star.centre = centre;
+    star.removed = removed;
+    star.onPlane = mesh.isOnPlane(centre);
+    star.oldFaces = faces;
+    // Every vertex inside, and a centre on the plane, makes two sides less.
+    return takeRim(mesh, removed == StarChange::none ? 0 : -2, star);
 }
 
 Vec3d outward(const GuardedMesh& mesh, const StarChange& star)

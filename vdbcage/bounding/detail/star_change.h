@@ -49,6 +49,13 @@ bool starOfFlip(const GuardedMesh& mesh, std::uint32_t c, std::uint32_t a, std::
 /// \pre they are in no quad
 bool starOfFaces(const GuardedMesh& mesh, const StarChange::Faces& faces, bool onPlane, StarChange& star);
 
+/// The star around `centre` that takes the place of some faces, all around it among them; if `removed` is a vertex, all
+/// around that one too, and it goes. Returns false unless they are one disk without another vertex inside, or half of
+/// one that ends on the plane of symmetry.
+/// \pre they are in no quad
+bool starOfPatch(const GuardedMesh& mesh, std::uint32_t centre, std::uint32_t removed, const StarChange::Faces& faces,
+                 StarChange& star);
+
 /// The mean normal of what gives way, of unit length or zero.
 Vec3d outward(const GuardedMesh& mesh, const StarChange& star);
 /// `p` as a place of the centre: on the plane of symmetry if `star.onPlane`, and rounded as the guard asks.

@@ -8,6 +8,8 @@
 /// What several operators under the guard have in common.
 namespace vdbcage::detail {
 
+class QuadShapeTerm;
+
 /// \throw InputError fewer than 4
 void requireFaces(std::size_t faces);
 /// \throw InputError an option out of range
@@ -17,8 +19,9 @@ void requireValid(const TightenOptions& options);
 /// \throw Cancelled
 double meanDistance(const Mesh& cage, const BoundingGuard& guard, Interrupter* interrupter);
 
-/// What vdbcage::tighten() does.
+/// What vdbcage::tighten() does. If `shape` is given, it is part of what is to be less.
 /// \throw Cancelled
-void tightenAndPerturb(GuardedMesh& surface, const TightenOptions& options, Interrupter* interrupter);
+void tightenAndPerturb(GuardedMesh& surface, const TightenOptions& options, Interrupter* interrupter,
+                       const QuadShapeTerm* shape = nullptr);
 
 } // namespace vdbcage::detail

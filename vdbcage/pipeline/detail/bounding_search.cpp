@@ -357,6 +357,7 @@ void BoundingSearch::decimateAndTighten(const Run& run, Candidates& starts, cons
         BoundingTriquadOptions pairing;
         pairing.mergeAngleDegrees = mergeAngle(options);
         pairing.faces = faces;
+        pairing.quadShape = options.quadShape;
         if (options.mesh == CageFaces::quads) pairing.quads = policy::mostlyQuads;
         pairing.tightening = tightening;
         forEach(starts, interrupter, "quads", [&](Candidate& candidate, Interrupter* piece) {
