@@ -2,9 +2,11 @@
 
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include <vdbcage/bounding/bounding_guard.h>
+#include <vdbcage/mesh/detail/aligned_axes.h>
 #include <vdbcage/pipeline/detail/candidate.h>
 #include <vdbcage/pipeline/detail/certifier.h>
 
@@ -36,13 +38,23 @@ private:
         Interrupter* interrupter;
     };
     using Candidates = std::vector<Candidate>;
+    /// The model along its own axes.
+    struct Turned {
+        explicit Turned(Mesh mesh) : model(std::move(mesh)), volumes(model) {}
+        const Mesh model;
+        Volumes volumes;
+    };
 
     Candidate find(const Run& run);
     const Symmetry& planeFor(const Run& run);
     const BoundingGuard& guardFor(const Run& run, const std::optional<SymmetryPlane>& plane);
+    std::optional<Candidate> tightest(const Run& run, const BoundingGuard& guard);
     std::optional<Candidate> climb(const Run& run, const BoundingGuard& guard);
+    const AlignedAxes& axesFor(const Run& run, const BoundingGuard& guard);
+    Turned& turnedModel();
     Candidates startsFrom(const Run& run, const Voxels& voxels, const BoundingGuard& guard);
     int resolutionFor(const Run& run, const Voxels& voxels);
+    Candidates simpleSolids(const Run& run, const BoundingGuard& guard);
     Candidate begin(const Run& run, const Voxels& voxels, CageStart kind, const BoundingGuard& guard);
     std::optional<Candidate> shrinkOnto(const Run& run, Candidates starts, const BoundingGuard& guard);
     static void collapseLoops(const Run& run, Candidates& starts, const BoundingGuard& guard);
@@ -57,6 +69,8 @@ private:
     Symmetry symmetry_;
     std::unique_ptr<const BoundingGuard> guard_; // of the last run
     GuardOptions guardOptions_;                  // that it was made with
+    std::optional<AlignedAxes> axes_;            // the model's own, under the guard's plane, once they were asked for
+    std::unique_ptr<Turned> turned_;             // once it was asked for
     struct Counted {
         ClosingKey key;
         std::size_t quads = 0;
