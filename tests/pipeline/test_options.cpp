@@ -140,7 +140,7 @@ BOOST_AUTO_TEST_CASE(joints_are_read_from_a_file_whose_errors_name_the_line)
 BOOST_AUTO_TEST_CASE(what_is_not_allowed_is_refused_by_name_value_and_range)
 {
     const std::vector<std::pair<std::string, std::string>> bad{
-        {"faces", "5"},         {"faces", "1000001"},    {"faces", "4.5"},        {"faces", ""},
+        {"faces", "3"},         {"faces", "1000001"},    {"faces", "4.5"},        {"faces", ""},
         {"faces", "12x"},       {"faces", " 12"},        {"resolution", "7"},     {"resolution", "2049"},
         {"close-radius", "-1"}, {"close-radius", "nan"}, {"close-radius", "inf"}, {"close-radius", "0,03"},
         {"erode-radius", "x"},  {"element", "Cube"},     {"mesh", "quads!"},      {"quad-shape", "1.1"},
@@ -172,13 +172,17 @@ BOOST_AUTO_TEST_CASE(fields_set_directly_are_checked_too)
     options = {};
     options.faces = 0;
     BOOST_CHECK_THROW(requireValid(options), InputError);
-    options.faces = 11; // triangles need 12
-    BOOST_CHECK_EXCEPTION(requireValid(options), InputError,
-                          [](const InputError& error) { return names(error, "'11'") && names(error, "mesh"); });
-    options.mesh = CageFaces::loops;
-    BOOST_CHECK_NO_THROW(requireValid(options));
+    for (const CageFaces mesh : {CageFaces::triangles, CageFaces::triquad, CageFaces::quads, CageFaces::loops}) {
+        options.mesh = mesh;
+        options.faces = leastFaces(mesh);
+        BOOST_TEST(options.faces == (mesh == CageFaces::triangles ? 4 : 6));
+        BOOST_CHECK_NO_THROW(requireValid(options));
+        const std::string less = std::to_string(--options.faces);
+        BOOST_CHECK_EXCEPTION(requireValid(options), InputError, [&](const InputError& error) {
+            return names(error, "--faces: '" + less + "'") && names(error, "must be");
+        });
+    }
     options.faces = 6;
-    BOOST_CHECK_NO_THROW(requireValid(options));
     options.bounding = false;
     BOOST_CHECK_EXCEPTION(requireValid(options), InputError,
                           [](const InputError& error) { return names(error, "loops") && names(error, "bounding"); });

@@ -106,7 +106,7 @@ class CageTest(Case):
             "face: there is no such option; did you mean faces?": {"face": 100},
             "colour: there is no such option; there are: faces, resolution, close_radius": {"colour": 1},
             "close-radius: there is no such option": {"close-radius": 0.1},
-            "faces: '4' is not allowed; it must be 6 to 1000000": {"faces": 4},
+            "faces: '3' is not allowed; it must be 4 to 1000000": {"faces": 3},
             "faces: 'True' is not allowed": {"faces": True},
             "faces: 'None' is not allowed": {"faces": None},
             "faces: '100.5' is not allowed": {"faces": 100.5},

@@ -153,7 +153,7 @@ BOOST_AUTO_TEST_CASE(what_changes_nothing_leaves_no_step_and_what_fails_changes_
     const std::vector<std::string> bad{"open " + quotedWord(files.folder.path().string()),
                                        "open none.obj",
                                        "open-cage none.obj",
-                                       "set faces 5",
+                                       "set faces 3",
                                        "set faces many",
                                        "set colour 3",
                                        "reset colour",

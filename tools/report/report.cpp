@@ -67,9 +67,11 @@ std::string remarkOnInterior(const VoxelizeReport& report)
 
 Json toJson(const CageReport& report)
 {
-    const char* start = report.start == CageStart::closing ? "closing"
-                        : report.start == CageStart::hull  ? "hull"
-                                                           : "box";
+    const char* start = report.start == CageStart::closing       ? "closing"
+                        : report.start == CageStart::hull        ? "hull"
+                        : report.start == CageStart::orientedBox ? "oriented_box"
+                        : report.start == CageStart::tetrahedron ? "tetrahedron"
+                                                                 : "box";
     Json symmetry = nullptr;
     if (report.symmetry) {
         symmetry = {{"axis", std::string(1, "xyz"[report.symmetry->plane.axis])},
@@ -164,7 +166,7 @@ std::vector<std::string> remarks(const CageReport& report, const CageOptions& op
     if (report.start == CageStart::hull) {
         lines.emplace_back("shrunk from the convex hull: the closing has too many parts or handles for so few faces");
     } else if (report.start == CageStart::box) {
-        lines.emplace_back("this is the model's bounding box: nothing tighter with so few faces was certified");
+        lines.emplace_back("this is a box around the model: nothing tighter with so few faces was certified");
     }
     if (report.symmetry) {
         const SymmetryPlane& plane = report.symmetry->plane;

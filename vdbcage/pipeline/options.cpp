@@ -248,7 +248,7 @@ void setOption(CageOptions& options, const std::string& name, const std::string&
 
 int leastFaces(CageFaces mesh)
 {
-    return mesh == CageFaces::loops ? 6 : 12;
+    return mesh == CageFaces::triangles ? 4 : 6;
 }
 
 void requireValid(const CageOptions& options)
@@ -267,7 +267,7 @@ void requireValid(const CageOptions& options)
     }
     if (options.faces < leastFaces(options.mesh)) {
         throw InputError("--faces: '" + ToText{}(options.faces) + "' is not allowed with --mesh " +
-                         ToText{}(options.mesh) + "; it must be 12 or more, or the mesh loops");
+                         ToText{}(options.mesh) + "; it must be 6 or more, or the mesh triangles");
     }
     if (!options.bounding && options.mesh == CageFaces::loops) {
         throw InputError("--mesh: 'loops' is not allowed with --bounding off; it must be triangles, triquad or quads");

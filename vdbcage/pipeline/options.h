@@ -78,7 +78,7 @@ struct OptionInfo {
 template <typename Options, typename Visit>
 void visitOptions(Options& options, Visit&& visit)
 {
-    visit(OptionInfo{"faces", "N", "faces of the cage, at most", {6, 1000000}}, options.faces);
+    visit(OptionInfo{"faces", "N", "faces of the cage, at most", {4, 1000000}}, options.faces);
     visit(OptionInfo{"resolution", "N", "voxels along the longest side", {8, 2048}}, options.resolution);
     visit(OptionInfo{"close-radius", "F", "bridges gaps up to twice it", {0, 0.25}}, options.closeRadius);
     visit(OptionInfo{"erode-radius", "F", "if less, leaves an offset", {0, 0.25}, true}, options.erodeRadius);
@@ -124,7 +124,7 @@ VDBCAGE_API std::vector<std::pair<std::string, std::string>> optionValues(const 
 /// \throw InputError naming the option, the value and what is allowed
 VDBCAGE_API void setOption(CageOptions& options, const std::string& name, const std::string& value);
 
-/// The fewest faces that may be asked for: a box of quads, or of triangles.
+/// The fewest faces that may be asked for: a box of quads, or a tetrahedron of triangles.
 VDBCAGE_API int leastFaces(CageFaces mesh);
 
 /// Checks every range and that options fit each other. \throw InputError

@@ -17,7 +17,7 @@ _automatic = "Off: vdbcage chooses it"
 class Options:
     """The options of `vdbcage make`, for the panel and for operators."""
 
-    faces: bpy.props.IntProperty(name="Faces", default=400, min=6, max=1000000, soft_max=5000,
+    faces: bpy.props.IntProperty(name="Faces", default=400, min=4, max=1000000, soft_max=5000,
                                  description="Faces of the cage, at most")
     mesh: bpy.props.EnumProperty(
         name="Mesh", default="triangles",

@@ -18,30 +18,13 @@
 #include <vdbcage/core/detail/parallel.h>
 #include <vdbcage/core/detail/stage_parts.h>
 #include <vdbcage/core/error.h>
+#include <vdbcage/pipeline/detail/simple_solids.h>
 #include <vdbcage/pipeline/detail/starting_surface.h>
-#include <vdbcage/pipeline/detail/textbook.h>
 #include <vdbcage/pipeline/detail/tilted_search.h>
 
 namespace vdbcage::detail {
 
 namespace {
-
-double longestSide(const openvdb::BBoxd& box)
-{
-    return box.extents()[static_cast<int>(box.maxExtent())];
-}
-
-/// The six faces of `box`, facing outward.
-Mesh boxMesh(const openvdb::BBoxd& box)
-{
-    Mesh mesh;
-    for (int corner = 0; corner < 8; ++corner) {
-        mesh.points.emplace_back((corner & 1 ? box.max() : box.min()).x(), (corner & 2 ? box.max() : box.min()).y(),
-                                 (corner & 4 ? box.max() : box.min()).z());
-    }
-    mesh.quads = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
-    return mesh;
-}
 
 /// Side by side. \throw Cancelled
 template <typename Change>
@@ -123,7 +106,7 @@ Candidate BoundingSearch::find(const Run& run)
         if (auto candidate = findSymmetric(run, noSymmetry)) return *std::move(candidate);
     }
     const BoundingGuard& guard = guardFor(run, std::nullopt);
-    std::optional<Candidate> found = climb(run, guard);
+    std::optional<Candidate> found = tightest(run, guard);
     Candidate candidate = found ? *std::move(found) : box(run, guard);
     candidate.noSymmetry = noSymmetry;
     return candidate;
@@ -143,7 +126,7 @@ std::optional<Candidate> BoundingSearch::findSymmetric(const Run& run, std::stri
     }
     if (best.deviation <= limit) {
         const BoundingGuard& guard = guardFor(run, best.plane);
-        if (auto candidate = climb(run, guard)) {
+        if (auto candidate = tightest(run, guard)) {
             best.plane = *guard.symmetry();
             candidate->symmetry = best;
             return candidate;
@@ -215,12 +198,31 @@ const BoundingGuard& BoundingSearch::guardFor(const Run& run, const std::optiona
         !(run.density == density_) || options.joints != guardOptions_.joints || !(plane == guardOptions_.symmetry)) {
         const Stage stage(run.interrupter, "guard");
         starts_.clear(); // they are under the guard
+        axes_.reset();
+        turned_.reset();
         guard_.reset();
         guard_ = std::make_unique<const BoundingGuard>(model_, options, run.interrupter);
         guardOptions_ = options;
         density_ = run.density;
     }
     return *guard_;
+}
+
+/// The tightest of the cages that compete; nothing if there is none.
+std::optional<Candidate> BoundingSearch::tightest(const Run& run, const BoundingGuard& guard)
+{
+    std::optional<Candidate> best;
+    const auto take = [&](std::optional<Candidate> candidate, double advance) {
+        const auto distance = [](const Candidate& of) { return of.check.meanDistance; };
+        if (candidate && !(best && distance(*best) <= distance(*candidate) - advance)) best = std::move(candidate);
+    };
+    for (const CageOptions& options : competitors(run.options)) {
+        const Run of{options, run.scale, run.interrupter};
+        take(climb(of, guard), 0);
+        // That a cage of more faces lies on the model more closely than a box is not worth them.
+        if (isOfFewFaces(options)) take(shrinkOnto(of, simpleSolids(of, guard), guard), options.clearance);
+    }
+    return best;
 }
 
 /// A cage from the first rung of the ladder that leads to few enough faces, or else from the convex hull; nothing if
@@ -245,13 +247,53 @@ BoundingSearch::Candidates BoundingSearch::startsFrom(const Run& run, const Voxe
 {
     const int resolution = resolutionFor(run, voxels);
     Candidates starts;
-    for (const double scale : startScales(run.options)) {
+    const auto beginWith = [&](double scale, bool isTurned) {
         Voxels scaled = voxels;
         scaled.resolution = static_cast<int>(std::lround(scale * resolution));
+        scaled.turned = isTurned;
         Candidate candidate = begin(run, scaled, CageStart::closing, guard);
         if (hasFewEnoughHandles(run.options, candidate.topology)) starts.push_back(std::move(candidate));
+    };
+    for (const double scale : startScales(run.options)) {
+        beginWith(scale, false);
         if (starts.empty()) break;
     }
+    if (mayBeTurned(run.options)) {
+        const AlignedAxes& axes = axesFor(run, guard);
+        // About as many quads as along x, y and z.
+        if (axes.share <= policy::worthTurning) {
+            const double sides = longestSide(boundingBox(turnedModel().model)) / longestSide(boundingBox(model_));
+            beginWith(sides / std::sqrt(axes.share), true);
+        }
+    }
+    return starts;
+}
+
+/// The model's own axes; in a symmetric run one is across the plane.
+const AlignedAxes& BoundingSearch::axesFor(const Run& run, const BoundingGuard& guard)
+{
+    if (!axes_) {
+        const auto plane = guard.symmetry();
+        axes_ = alignedAxes(model_, plane ? std::optional<int>(plane->axis) : std::nullopt, run.interrupter);
+    }
+    return *axes_;
+}
+
+/// \pre axesFor() was called
+BoundingSearch::Turned& BoundingSearch::turnedModel()
+{
+    if (!turned_) turned_ = std::make_unique<Turned>(turned(model_, axes_->rows));
+    return *turned_;
+}
+
+/// What cages of few faces may be shrunk from beside closings.
+BoundingSearch::Candidates BoundingSearch::simpleSolids(const Run& run, const BoundingGuard& guard)
+{
+    Voxels voxels = ladder(run.options).front();
+    voxels.plane = guard.symmetry();
+    Candidates starts{begin(run, voxels, CageStart::orientedBox, guard)};
+    const bool isBoxTooMuch = run.options.mesh == CageFaces::triangles && run.options.faces < policy::trianglesOfBox;
+    if (isBoxTooMuch && !guard.symmetry()) starts.push_back(begin(run, voxels, CageStart::tetrahedron, guard));
     return starts;
 }
 
@@ -270,12 +312,27 @@ int BoundingSearch::resolutionFor(const Run& run, const Voxels& voxels)
 Candidate BoundingSearch::begin(const Run& run, const Voxels& voxels, CageStart kind, const BoundingGuard& guard)
 {
     const ClosingKey key = closingKey(run.options, run.scale, voxels);
-    const auto isIt = [&](const auto& start) { return start->kind == kind && start->closing->key == key; };
+    const auto isIt = [&](const auto& start) {
+        return start->kind == kind && start->turned == voxels.turned && start->closing->key == key;
+    };
     auto known = std::find_if(starts_.begin(), starts_.end(), isIt);
     if (known == starts_.end()) {
-        auto closing = volumes_.closing(run.options, run.scale, voxels, run.interrupter);
-        auto start =
-            std::make_shared<StartingSurface>(startingSurface(std::move(closing), kind, guard, run.interrupter));
+        const auto closingOf = [&](Volumes& volumes) {
+            return volumes.closing(run.options, run.scale, voxels, run.interrupter);
+        };
+        auto closing = closingOf(volumes_);
+        auto start = std::make_shared<StartingSurface>();
+        if (kind == CageStart::orientedBox || kind == CageStart::tetrahedron) {
+            const openvdb::Mat3d& axes = axesFor(run, guard).rows;
+            *start =
+                simpleSolid(std::move(closing), kind, model_, axes, thinnestBox(guardOptions_), guard, run.interrupter);
+        } else if (voxels.turned) {
+            *start = startingSurface(closingOf(turnedModel().volumes), kind, axes_->rows, guard, run.interrupter);
+            start->closing = std::move(closing); // which is where the model is
+        } else {
+            *start = startingSurface(std::move(closing), kind, std::nullopt, guard, run.interrupter);
+        }
+        start->turned = voxels.turned;
         known = starts_.insert(starts_.end(), std::move(start));
     }
     const std::shared_ptr<StartingSurface>& start = *known;
@@ -340,9 +397,17 @@ void BoundingSearch::decimateAndTighten(const Run& run, Candidates& starts, cons
     BoundingDecimateOptions decimation;
     decimation.faces = onlyTriangles ? faces : policy::trianglesPerQuad * faces;
     decimation.effort = options.effort;
+    const auto hasFewEnough = [&](const Mesh& surface) { // as simple solids may
+        return (onlyTriangles ? triangulate(surface).size() : faceCount(surface)) <= faces;
+    };
     forEach(starts, interrupter, "decimate", [&](Candidate& candidate, Interrupter* piece) {
+        const Mesh& surface = *candidate.surface;
+        if (hasFewEnough(surface)) {
+            candidate.decimated = onlyTriangles ? triangulated(surface) : surface;
+            return;
+        }
         auto& known = candidate.from->decimation;
-        if (!known) known.emplace(*candidate.surface, guard, piece);
+        if (!known) known.emplace(surface, guard, piece);
         candidate.decimated = known->to(decimation, piece);
     });
     keepAtMost(decimation.faces, &Candidate::decimated, starts);
@@ -361,7 +426,9 @@ void BoundingSearch::decimateAndTighten(const Run& run, Candidates& starts, cons
         if (options.mesh == CageFaces::quads) pairing.quads = policy::mostlyQuads;
         pairing.tightening = tightening;
         forEach(starts, interrupter, "quads", [&](Candidate& candidate, Interrupter* piece) {
-            candidate.cage = triquad(candidate.decimated, guard, pairing, piece);
+            const Mesh& decimated = candidate.decimated;
+            candidate.cage = hasFewEnough(*candidate.surface) ? tighten(decimated, guard, tightening, piece)
+                                                              : triquad(decimated, guard, pairing, piece);
         });
     }
 }
@@ -394,16 +461,13 @@ Candidate BoundingSearch::box(const Run& run, const BoundingGuard& guard)
     candidate.voxels = ladder(run.options).back();
     candidate.start = CageStart::box;
     candidate.closing = volumes_.closing(run.options, run.scale, candidate.voxels, run.interrupter);
-    Mesh surface = boxMesh(box);
-    if (run.options.mesh != CageFaces::loops) {
-        surface.triangles = triangulate(surface);
-        surface.quads.clear();
-    }
+    const bool areTriangles = run.options.mesh == CageFaces::triangles;
+    const bool isBoxTooMuch = areTriangles && run.options.faces < policy::trianglesOfBox;
+    Mesh surface = isBoxTooMuch ? tetrahedronMesh(box) : boxMesh(box);
+    if (areTriangles) surface = triangulated(std::move(surface));
     candidate.surface = candidate.smoothed = std::make_shared<const Mesh>(std::move(surface));
     candidate.topology = analyzeTopology(*candidate.surface, nullptr);
-    candidate.decimated = certifier_.rounded(*candidate.surface);
-    candidate.cage =
-        run.options.mesh == CageFaces::loops ? candidate.decimated : merged(candidate.decimated, run.options);
+    candidate.decimated = candidate.cage = certifier_.rounded(*candidate.surface);
     candidate.check = certifier_.check(candidate.cage, run.interrupter);
     candidate.boundsAsFloats = certifier_.boundsAsFloats(candidate.cage, run.interrupter);
     return candidate;

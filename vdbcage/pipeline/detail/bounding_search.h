@@ -3,9 +3,11 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <vdbcage/bounding/bounding_guard.h>
+#include <vdbcage/mesh/detail/aligned_axes.h>
 #include <vdbcage/pipeline/detail/candidate.h>
 #include <vdbcage/pipeline/detail/certifier.h>
 
@@ -40,15 +42,25 @@ private:
         bool isSheet = false; ///< the model
     };
     using Candidates = std::vector<Candidate>;
+    /// The model along its own axes.
+    struct Turned {
+        explicit Turned(Mesh mesh) : model(std::move(mesh)), volumes(model) {}
+        const Mesh model;
+        Volumes volumes;
+    };
 
     Candidate find(const Run& run);
     std::optional<Candidate> findSymmetric(const Run& run, std::string& objection);
     std::optional<Candidate> findTilted(const Run& run, std::string& objection);
     const Symmetry& planeFor(const Run& run);
     const BoundingGuard& guardFor(const Run& run, const std::optional<SymmetryPlane>& plane);
+    std::optional<Candidate> tightest(const Run& run, const BoundingGuard& guard);
     std::optional<Candidate> climb(const Run& run, const BoundingGuard& guard);
+    const AlignedAxes& axesFor(const Run& run, const BoundingGuard& guard);
+    Turned& turnedModel();
     Candidates startsFrom(const Run& run, const Voxels& voxels, const BoundingGuard& guard);
     int resolutionFor(const Run& run, const Voxels& voxels);
+    Candidates simpleSolids(const Run& run, const BoundingGuard& guard);
     Candidate begin(const Run& run, const Voxels& voxels, CageStart kind, const BoundingGuard& guard);
     std::optional<Candidate> shrinkOnto(const Run& run, Candidates starts, const BoundingGuard& guard);
     static void collapseLoops(const Run& run, Candidates& starts, const BoundingGuard& guard);
@@ -65,6 +77,8 @@ private:
     std::unique_ptr<const BoundingGuard> guard_; // of the last run
     GuardOptions guardOptions_;                  // that it was made with
     ScaleVersion density_;                       // the same
+    std::optional<AlignedAxes> axes_;            // the model's own, under the guard's plane, once they were asked for
+    std::unique_ptr<Turned> turned_;             // once it was asked for
     struct Counted {
         ClosingKey key;
         std::size_t quads = 0;

@@ -13,10 +13,12 @@
 
 namespace vdbcage::detail {
 
-/// What bounding cages of any face count begin with: a surface around a closing or its convex hull.
+/// What bounding cages of any face count begin with: a surface around a closing or its convex hull, or a simple solid.
 struct StartingSurface {
     CageStart kind = CageStart::closing;
-    std::shared_ptr<Closing> closing;
+    std::shared_ptr<Closing>
+        closing; ///< of a simple solid that which it competes with; of a turned start as if it were not
+    bool turned = false;
     double offsetVoxels = 0; ///< by how much all of it was grown to keep the clearance
     std::shared_ptr<const Mesh> surface;
     MeshTopology topology;

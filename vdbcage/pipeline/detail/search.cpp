@@ -22,6 +22,29 @@ double growth(const CageOptions& options)
 
 } // namespace
 
+bool isOfFewFaces(const CageOptions& options)
+{
+    return options.faces <= competingFaces;
+}
+
+std::vector<CageOptions> competitors(const CageOptions& options)
+{
+    std::vector<CageOptions> list;
+    for (const Effort effort : {Effort::fast, Effort::fair, Effort::best}) {
+        const bool isLower = effort < options.effort;
+        if (effort != options.effort && !(isLower && isOfFewFaces(options))) continue;
+        list.push_back(options);
+        list.back().effort = effort;
+    }
+    const bool areOtherQuads = options.mesh == CageFaces::triquad || options.mesh == CageFaces::quads;
+    if (areOtherQuads && options.effort != Effort::fast && options.faces <= competingLoops) {
+        list.push_back(options);
+        list.back().effort = Effort::fast;
+        list.back().mesh = CageFaces::loops;
+    }
+    return list;
+}
+
 std::vector<Voxels> ladder(const CageOptions& options)
 {
     const double wanted = options.mesh == CageFaces::loops
@@ -57,6 +80,12 @@ std::vector<double> startScales(const CageOptions& options)
     if (options.effort == Effort::best && options.faces <= fewFaces)
         return {std::begin(fewStarts), std::end(fewStarts)};
     return {1.0};
+}
+
+bool mayBeTurned(const CageOptions& options)
+{
+    const bool isScaled = options.scale.grid || !options.scale.regions.empty(); // in places along x, y and z
+    return options.mesh == CageFaces::loops && !options.resolution && !isScaled;
 }
 
 bool dependsOnSurface(const CageOptions& options)
@@ -97,6 +126,12 @@ double mergeAngle(const CageOptions& options)
     return options.mergeAngle.value_or(automatic);
 }
 
+double thinnestBox(const GuardOptions& guarding)
+{
+    constexpr double degree = 0.01745329251994329577, room = 1.001;
+    return std::max(leastThickness, room * std::tan(degree * guarding.minAngleDegrees));
+}
+
 bool isSheet(std::size_t voxels, std::size_t inner)
 {
     return static_cast<double>(inner) <= sheetInside * static_cast<double>(voxels);
@@ -104,7 +139,9 @@ bool isSheet(std::size_t voxels, std::size_t inner)
 
 GuardOptions guardOptions(const CageOptions& options, bool ofSheet)
 {
-    const bool isWide = options.mesh == CageFaces::triangles && options.effort == Effort::fair;
+    // Cages that compete are made under one guard.
+    const bool isWide =
+        options.mesh == CageFaces::triangles && options.effort == Effort::fair && !isOfFewFaces(options);
     GuardOptions guarding;
     guarding.clearance = options.clearance;
     guarding.density = options.density;

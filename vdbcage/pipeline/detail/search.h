@@ -35,6 +35,7 @@ constexpr double loopsResolution =
 constexpr double quadsPerLoopsFace = 3;
 constexpr int coarsestLoops = 8;                                                   ///< voxels along the longest side
 constexpr int loopExchangesFast = 1, loopExchangesFair = 4, loopExchangesBest = 8; ///< 4 gain 3 %, in a third more time
+constexpr double worthTurning = 0.95; ///< of the surface of voxels, that along other axes: loops begin along these too
 constexpr double loopsStarts[] = {1.0, 1.35}, bestLoopsStarts[] = {0.85, 1.0, 1.2, 1.4}; ///< shares of the resolution
 
 // Surfaces.
@@ -46,6 +47,8 @@ constexpr double facesPerPart = 8, facesPerHandle = 12; ///< that one takes at l
 // Starts. Among few faces the order of the collapses is luck, so that several starts pay. For the fewest, voxels of up
 // to twice the width are as good, and two starts with these take hardly more time than one without.
 constexpr int fewFaces = 200, fewestFaces = 60;
+constexpr int competingFaces = 150; ///< up to these, lower efforts' cages and tightened boxes compete
+constexpr int competingLoops = 24;  ///< up to so many faces, loops with other quads; they take longer
 constexpr double fewStarts[] = {1.0, 0.85, 0.7, 0.6}, fewestStarts[] = {0.65, 0.5}; ///< shares of the resolution
 
 // Shape of the cage.
@@ -63,8 +66,10 @@ constexpr std::size_t trianglesPerQuad = 3;       ///< to begin with: two a quad
 constexpr int symmetricPerturbations = 3;         ///< times as many, in the time that half a surface saves
 constexpr double largestRequestedDeviation = 0.3; ///< of a plane across a given axis: more is no symmetry
 constexpr double leastTurnedSide = 0.05;          ///< world units: OpenVDB has no turned voxels below 1.44e-5
-constexpr double boxMargin = 0.01;                ///< of the longest side, between the model and its box
-constexpr int stepSmoothing = 3; ///< sweeps that take the steps of the voxels away, where no guard does
+constexpr int trianglesOfBox = 12;
+constexpr double boxMargin = 0.01;       ///< of the longest side, between the model and its box
+constexpr double leastThickness = 0.005; ///< of its longest side, of a box: the guard keeps surfaces 0.002 apart
+constexpr int stepSmoothing = 3;         ///< sweeps that take the steps of the voxels away, where no guard does
 
 } // namespace policy
 
@@ -73,13 +78,25 @@ struct Voxels {
     int resolution = 0;
     double closeRadius = 0;
     std::optional<SymmetryPlane> plane = {}; ///< across the middle of the voxels: the index resolution / 2
+    bool turned = false;                     ///< along the model's own axes
 };
+
+/// The options whose cages compete for the tightest. Among few faces the order of the collapses is luck: there they are
+/// those of all lower efforts, too, so that no effort gives looser cages than a lower one. Among the fewest, loops
+/// compete with other quads from Effort::fair on.
+std::vector<CageOptions> competitors(const CageOptions& options);
 
 /// The voxels to try, finest first. Options that are not `auto` are obeyed.
 std::vector<Voxels> ladder(const CageOptions& options);
 
+/// Whether cages of other kinds compete with those from closings: a box's, and those of lower efforts.
+bool isOfFewFaces(const CageOptions& options);
+
 /// The shares of a resolution that cages are begun with, to take the tightest.
 std::vector<double> startScales(const CageOptions& options);
+
+/// Whether cages are also begun with voxels along the model's own axes, where these are better.
+bool mayBeTurned(const CageOptions& options);
 
 /// Whether the resolution depends on how large the surface is, which the longest side tells little of.
 bool dependsOnSurface(const CageOptions& options);
@@ -95,6 +112,10 @@ int loopExchanges(Effort effort);
 
 /// Degrees. \pre the options ask for quads
 double mergeAngle(const CageOptions& options);
+
+/// The shortest side that a box may have, fraction of its longest: for the smallest angle, and since surfaces keep off
+/// themselves.
+double thinnestBox(const GuardOptions& guarding);
 
 /// Whether a solid of so many voxels is a sheet, a few of them with others all around.
 bool isSheet(std::size_t voxels, std::size_t inner);

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
+#include <openvdb/math/Mat3.h>
 #include <vdbcage/bounding/bounding_guard.h>
 #include <vdbcage/pipeline/detail/candidate.h>
 
@@ -10,9 +12,18 @@ namespace vdbcage::detail {
 /// The surface of a closing or of its convex hull, grown to keep the guard's clearance.
 ///
 /// All of it grows by as many whole voxels as the clearance has. Then places where that is not enough grow until it is.
-/// The surface is symmetric where the guard has a plane.
+/// The surface is symmetric where the guard has a plane. A closing of the model turned by `axes` is turned back.
 /// \throw Cancelled
-StartingSurface startingSurface(std::shared_ptr<Closing> closing, CageStart kind, const BoundingGuard& guard,
+StartingSurface startingSurface(std::shared_ptr<Closing> closing, CageStart kind,
+                                const std::optional<openvdb::Mat3d>& axes, const BoundingGuard& guard,
                                 Interrupter* interrupter);
+
+/// The box around the model along `axes`, six quads, or a tetrahedron around that. As near as the clearance allows, but
+/// no side is shorter than `thinnest`, a fraction of the longest. The box is symmetric where the guard has a plane, to
+/// which one of the axes is square.
+/// \pre `kind` is orientedBox or tetrahedron
+StartingSurface simpleSolid(std::shared_ptr<Closing> closing, CageStart kind, const Mesh& model,
+                            const openvdb::Mat3d& axes, double thinnest, const BoundingGuard& guard,
+                            Interrupter* interrupter);
 
 } // namespace vdbcage::detail

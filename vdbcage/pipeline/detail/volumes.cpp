@@ -5,6 +5,7 @@
 #include <utility>
 
 #include <vdbcage/core/detail/parallel.h>
+#include <vdbcage/pipeline/detail/simple_solids.h>
 #include <vdbcage/volume/cavities.h>
 #include <vdbcage/volume/extract.h>
 #include <vdbcage/volume/mirror.h>
@@ -61,18 +62,6 @@ std::uint64_t digestOf(const openvdb::FloatGrid& grid)
         for (openvdb::Index i = 0; i < openvdb::FloatTree::LeafNodeType::SIZE; ++i) digest.add(values[i]);
     }
     return digest.value();
-}
-
-/// The box of a box and its mirror image.
-openvdb::BBoxd boxWithMirrorImage(const openvdb::BBoxd& box, const SymmetryPlane& plane)
-{
-    openvdb::Vec3d low = box.min(), high = box.max();
-    const double farther = std::max(high[plane.axis] - plane.offset, plane.offset - low[plane.axis]);
-    low[plane.axis] = plane.offset - farther;
-    high[plane.axis] = plane.offset + farther;
-    openvdb::BBoxd both = box; // rounding must not make it smaller
-    both.expand(openvdb::BBoxd(low, high));
-    return both;
 }
 
 } // namespace
