@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <mutex>
 #include <set>
 
 #include "runs.h"
@@ -681,6 +682,51 @@ BOOST_AUTO_TEST_CASE(models_are_taken_for_symmetric_up_to_the_tolerance)
     BOOST_CHECK(made.report().symmetry);
     options.symmetryTolerance = 0.4;
     BOOST_CHECK_THROW(made.run(options), InputError);
+}
+
+BOOST_AUTO_TEST_CASE(progress_grows_in_every_long_stage)
+{
+    struct Recorder : Interrupter {
+        void start(const char* name) override
+        {
+            stage = name;
+            last = 0;
+        }
+        bool wasInterrupted(int percent) override
+        {
+            if (percent < 0) return false;
+            const std::lock_guard lock(mutex);
+            grows = grows && percent >= last && percent <= 100;
+            last = std::max(last, percent);
+            farthest[stage] = std::max(farthest[stage], percent);
+            ++times[stage];
+            return false;
+        }
+        std::mutex mutex;
+        std::string stage;
+        int last = 0;
+        bool grows = true;
+        std::map<std::string, int> farthest, times;
+    };
+    const Mesh model = test::torus(1, 0.3, 40, 16);
+    const std::vector<std::pair<CageFaces, std::vector<std::string>>> kinds{
+        {CageFaces::triangles, {"decimate", "tighten"}},
+        {CageFaces::quads, {"decimate", "quads"}},
+        {CageFaces::loops, {"loops"}}};
+    for (const Effort effort : {Effort::fair, Effort::best}) {
+        for (const auto& [kind, stages] : kinds) {
+            CageOptions options = coarse();
+            options.mesh = kind;
+            options.effort = effort;
+            Recorder recorder;
+            makeCage(model, options, &recorder);
+            BOOST_TEST(recorder.grows);
+            for (const std::string& stage : stages) {
+                BOOST_TEST(recorder.farthest[stage] >= 50, stage);
+                BOOST_TEST(recorder.times[stage] >= 3, stage);
+            }
+        }
+    }
 }
 
 BOOST_AUTO_TEST_CASE(cages_of_sheets_are_flat)

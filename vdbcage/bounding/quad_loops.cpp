@@ -12,6 +12,7 @@
 #include <vdbcage/bounding/detail/quad_relax.h>
 #include <vdbcage/bounding/detail/relax.h>
 #include <vdbcage/bounding/detail/tightening.h>
+#include <vdbcage/core/detail/stage_parts.h>
 #include <vdbcage/core/error.h>
 
 namespace vdbcage {
@@ -50,14 +51,17 @@ void tightenSquarely(GuardedMesh& surface, const QuadTable& table, const QuadLoo
                      Interrupter* interrupter)
 {
     constexpr double first = 0.05, firstBad = 0.2, growth = 1.7, free = 0.15;
-    constexpr int rounds = 8;
+    constexpr int rounds = 8, begun = 80; // percent of the time, about
     const TightenOptions& tightening = options.tightening;
     const double sample = areaPerSample(surface, surface.liveFaces(), tightening.samples);
     double corners = first, bad = firstBad;
     for (int round = 0; round < rounds; ++round) {
         const QuadShapeTerm shape = shapeTerm(surface, table, {corners, free, bad, 0, 0}, sample, interrupter);
         tighten(surface, tightening.sweeps, sample, interrupter, &shape);
-        if (round == 0) perturb(surface, tightening.perturbations, tightening.sweeps, sample, interrupter, &shape);
+        if (round == 0) {
+            StagePart perturbing(interrupter, begun, 100);
+            perturb(surface, tightening.perturbations, tightening.sweeps, sample, perturbing.passedOn(), &shape);
+        }
         const CornerAngles angles = cornerAngles(surface, table);
         const bool isMean = angles.mean <= options.meanAngleDegrees,
                    isMost = angles.mostOf95 <= options.mostAngleDegrees;

@@ -2,6 +2,7 @@
 
 #include <vdbcage/bounding/detail/relax.h>
 #include <vdbcage/bounding/detail/tightening.h>
+#include <vdbcage/core/detail/stage_parts.h>
 #include <vdbcage/core/error.h>
 
 namespace vdbcage {
@@ -33,8 +34,10 @@ void tightenAndPerturb(GuardedMesh& surface, const TightenOptions& options, Inte
                        const QuadShapeTerm* shape)
 {
     const auto perSample = [&] { return areaPerSample(surface, surface.liveFaces(), options.samples); };
+    const int tightened = 100 / (1 + 2 * options.perturbations); // percent: a perturbation is tightened twice
     tighten(surface, options.sweeps, perSample(), interrupter, shape);
-    perturb(surface, options.perturbations, options.sweeps, perSample(), interrupter, shape);
+    StagePart perturbing(interrupter, tightened, 100);
+    perturb(surface, options.perturbations, options.sweeps, perSample(), perturbing.passedOn(), shape);
     if (options.perturbations > 0) relaxFinally(surface, perSample(), interrupter, shape);
 }
 

@@ -13,6 +13,7 @@
 #include <vdbcage/bounding/detail/quad_table.h>
 #include <vdbcage/bounding/detail/relax.h>
 #include <vdbcage/bounding/detail/tightening.h>
+#include <vdbcage/core/detail/stage_parts.h>
 #include <vdbcage/geometry/quad_shape.h>
 
 namespace vdbcage {
@@ -80,24 +81,50 @@ bool cleanUpPairs(detail::GuardedMesh& surface, std::size_t faces, double share,
 }
 
 /// Tightens a paired surface so that corners of quads come to be square, more so for a `shape` nearer to 1.
-void tightenSquarely(detail::GuardedMesh& surface, double shape, const TightenOptions& options,
-                     Interrupter* interrupter)
-{
-    constexpr int sweepsBefore = 6;
-    constexpr double usualCorners = 0.35, usualBad = 4, free = 0.15, range = 8;
-    const detail::QuadTable table = detail::QuadTable::ofPairs(surface);
-    const double sample = detail::areaPerSample(surface, surface.liveFaces(), options.samples);
-    const auto term = [&](double share) {
-        const double weight = share * std::pow(range, 2 * shape - 1);
-        return detail::shapeTerm(surface, table, {weight * usualCorners, free, weight * usualBad, 0, 0}, sample,
-                                 interrupter);
-    };
-    // Its weights are parts of the distance, which room for pairing has about doubled.
-    const detail::QuadShapeTerm first = term(0.5);
-    detail::tighten(surface, sweepsBefore, sample, interrupter, &first);
-    const detail::QuadShapeTerm rest = term(1);
-    detail::tightenAndPerturb(surface, options, interrupter, &rest);
-}
+class SquareTightening {
+public:
+    SquareTightening(double shape, const TightenOptions& options, Interrupter* interrupter)
+        : shape_(shape), options_(options), interrupter_(interrupter)
+    {
+    }
+
+    /// The first sweeps, in the room that pairing took. Returns the integral of the distance that is left.
+    double begin(detail::GuardedMesh& surface) const
+    {
+        constexpr int sweeps = 6;
+        constexpr double share = 0.5; // weights are parts of the distance, which room for pairing has about doubled
+        const double sample = samplesOf(surface);
+        const detail::QuadTable table = detail::QuadTable::ofPairs(surface);
+        const detail::QuadShapeTerm term = termOf(surface, table, share);
+        detail::tighten(surface, sweeps, sample, interrupter_, &term);
+        return detail::integratedDistance(surface, sample, interrupter_);
+    }
+
+    /// `interrupter` is of this part of the stage.
+    void finish(detail::GuardedMesh& surface, Interrupter* interrupter) const
+    {
+        const detail::QuadTable table = detail::QuadTable::ofPairs(surface);
+        const detail::QuadShapeTerm term = termOf(surface, table, 1);
+        detail::tightenAndPerturb(surface, options_, interrupter, &term);
+    }
+
+private:
+    double samplesOf(const detail::GuardedMesh& surface) const
+    {
+        return detail::areaPerSample(surface, surface.liveFaces(), options_.samples);
+    }
+    detail::QuadShapeTerm termOf(const detail::GuardedMesh& surface, const detail::QuadTable& table, double share) const
+    {
+        constexpr double usualCorners = 0.35, usualBad = 4, free = 0.15, range = 8;
+        const double weight = share * std::pow(range, 2 * shape_ - 1);
+        return detail::shapeTerm(surface, table, {weight * usualCorners, free, weight * usualBad, 0, 0},
+                                 samplesOf(surface), interrupter_);
+    }
+
+    double shape_;
+    const TightenOptions& options_;
+    Interrupter* interrupter_;
+};
 
 } // namespace
 
@@ -105,7 +132,8 @@ Mesh triquad(const Mesh& surface, const BoundingGuard& guard, const BoundingTriq
              Interrupter* interrupter)
 {
     constexpr int attempts = 8;
-    constexpr double aim = 0.99, goodEnough = 0.97; // of the faces
+    constexpr double aim = 0.99, goodEnough = 0.97;        // of the faces
+    constexpr int attempt = 8, cleanedUp = 70, begun = 75; // percent of the time, about; few attempts are usual
     detail::requireFaces(options.faces);
     requireWithin(BoundingTriquadOptions::mergeAngles, options.mergeAngleDegrees, "merge angle");
     requireWithin(BoundingTriquadOptions::quadShares, options.quads, "quads");
@@ -122,6 +150,7 @@ Mesh triquad(const Mesh& surface, const BoundingGuard& guard, const BoundingTriq
     std::optional<detail::GuardedMesh> best;
     double bestCount = 0; // faces, counted as fewer where they have too few quads
     for (int i = 0; i < attempts; ++i) {
+        throwIfInterrupted(interrupter, i * attempt);
         detail::GuardedMesh paired = fine;
         const auto triangles = static_cast<std::size_t>(target);
         detail::collapseByQuadrics(paired, triangles, interrupter);
@@ -147,12 +176,19 @@ Mesh triquad(const Mesh& surface, const BoundingGuard& guard, const BoundingTriq
         detail::collapseByQuadrics(*best, most, interrupter);
     }
     if (options.quadShape == 0 || best->quads() == 0) {
-        detail::tightenAndPerturb(*best, options.tightening, interrupter);
+        detail::StagePart tightening(interrupter, cleanedUp, 100);
+        detail::tightenAndPerturb(*best, options.tightening, tightening.passedOn());
         return best->mesh();
     }
+    constexpr double mostLoss = 1.1; // of the distance: what a clean-up may cost
+    const SquareTightening square(options.quadShape, options.tightening, interrupter);
     detail::GuardedMesh cleaned = *best;
-    if (cleanUpPairs(cleaned, most, options.quads, interrupter)) best = std::move(cleaned);
-    tightenSquarely(*best, options.quadShape, options.tightening, interrupter);
+    const bool isClean = cleanUpPairs(cleaned, most, options.quads, interrupter);
+    throwIfInterrupted(interrupter, cleanedUp);
+    const double before = square.begin(*best);
+    if (isClean && square.begin(cleaned) <= mostLoss * before) best = std::move(cleaned);
+    detail::StagePart tightening(interrupter, begun, 100);
+    square.finish(*best, tightening.passedOn());
     return best->mesh();
 }
 

@@ -394,12 +394,15 @@ void perturb(GuardedMesh& surface, int times, int sweeps, double areaPerSample, 
     std::vector<double> now = distances(surface, areaPerSample, interrupter);
     double push = 0.3; // of the mean distance
     for (int i = 0; i < times; ++i) {
+        const auto say = [&](int percent) { throwIfInterrupted(interrupter, (100 * i + percent) / times); };
+        say(0);
         GuardedMesh perturbed = surface;
         inflate(perturbed, push * sum(now) / area(surface), interrupter);
         tighten(perturbed, sweeps, areaPerSample, interrupter, shape);
         std::vector<double> growth = distances(perturbed, areaPerSample, interrupter);
         std::transform(growth.begin(), growth.end(), now.begin(), growth.begin(), std::minus<>());
         undoWhereGrown(perturbed, surface, growth, interrupter);
+        say(50);
         tighten(perturbed, sweeps, areaPerSample, interrupter, shape);
         std::vector<double> after = distances(perturbed, areaPerSample, interrupter);
         if (sum(after) < sum(now)) {

@@ -48,7 +48,8 @@ void inflateTriangles(GuardedMesh& surface, double by, Interrupter* interrupter)
 /// Pushes all vertices outward a little and tightens again, `times` times. That frees vertices that hold each other.
 ///
 /// Where the surface did not come nearer to the model it is undone, as far as the guard allows. If it did not on the
-/// whole, it is undone everywhere, and the next push is smaller. `shape` is as in tighten().
+/// whole, it is undone everywhere, and the next push is smaller. `shape` is as in tighten(). It
+/// reports 0 to 100 % of a stage.
 void perturb(GuardedMesh& surface, int times, int sweeps, double areaPerSample, Interrupter* interrupter,
              const QuadShapeTerm* shape = nullptr);
 

@@ -19,8 +19,8 @@ void requireValid(const TightenOptions& options);
 /// \throw Cancelled
 double meanDistance(const Mesh& cage, const BoundingGuard& guard, Interrupter* interrupter);
 
-/// What vdbcage::tighten() does. If `shape` is given, it is part of what is to be less.
-/// \throw Cancelled
+/// What vdbcage::tighten() does; it reports 0 to 100 % of a stage. If `shape` is given, it is part of what is to be
+/// less. \throw Cancelled
 void tightenAndPerturb(GuardedMesh& surface, const TightenOptions& options, Interrupter* interrupter,
                        const QuadShapeTerm* shape = nullptr);
 

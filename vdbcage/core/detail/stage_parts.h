@@ -1,9 +1,9 @@
 #pragma once
 
 #include <algorithm>
-#include <atomic>
 #include <cstddef>
 #include <deque>
+#include <mutex>
 
 #include <vdbcage/core/interrupter.h>
 
@@ -28,7 +28,8 @@ private:
     int from_, to_;
 };
 
-/// Several pieces of work side by side, each of which says how far it is: together they are as far as the mean.
+/// Several pieces of work side by side, each of which says how far it is: together they are as far as the mean, and
+/// never go back.
 class StagesSideBySide {
 public:
     StagesSideBySide(Interrupter* whole, std::size_t count) : whole_(whole)
@@ -49,21 +50,21 @@ private:
         bool wasInterrupted(int percent) override
         {
             if (percent < 0) return all_.whole_->wasInterrupted(-1);
-            const int now = std::min(percent, 100);
-            int before = percent_.load();
-            while (before < now && !percent_.compare_exchange_weak(before, now)) {
-            }
-            if (before < now) all_.sum_ += now - before;
+            const std::lock_guard lock(all_.mutex_);
+            const int now = std::max(percent_, std::min(percent, 100));
+            all_.sum_ += now - percent_;
+            percent_ = now;
             return all_.whole_->wasInterrupted(all_.sum_ / static_cast<int>(all_.pieces_.size()));
         }
 
     private:
         StagesSideBySide& all_;
-        std::atomic<int> percent_{0}; // never goes back
+        int percent_ = 0; // guarded by mutex_
     };
 
     Interrupter* whole_;
-    std::atomic<int> sum_{0};
+    std::mutex mutex_; // held while the whole is told, so that nothing older is told later
+    int sum_ = 0;
     std::deque<Piece> pieces_; // they cannot be moved
 };
 

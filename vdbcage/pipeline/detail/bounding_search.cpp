@@ -213,11 +213,11 @@ std::optional<Candidate> BoundingSearch::tightest(const Run& run, const Bounding
 {
     std::optional<Candidate> best;
     const auto take = [&](std::optional<Candidate> candidate, double advance) {
-        const auto distance = [](const Candidate& of) { return of.check.meanDistance; };
-        if (candidate && !(best && distance(*best) <= distance(*candidate) - advance)) best = std::move(candidate);
+        if (!candidate || (best && best->looseness <= candidate->looseness - advance)) return;
+        best = std::move(candidate);
     };
     for (const CageOptions& options : competitors(run.options)) {
-        const Run of{options, run.scale, run.interrupter};
+        const Run of{options, run.scale, run.density, run.interrupter, run.isSheet};
         take(climb(of, guard), 0);
         // That a cage of more faces lies on the model more closely than a box is not worth them.
         if (isOfFewFaces(options)) take(shrinkOnto(of, simpleSolids(of, guard), guard), options.clearance);
