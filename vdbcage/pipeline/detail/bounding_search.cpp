@@ -81,9 +81,7 @@ Candidate BoundingSearch::run(const CageOptions& options, const ScaleVersion& sc
     for (const auto& start : starts_) start->isUsed = false;
     try {
         Run run{options, scale, density, interrupter};
-        const ClosingKey key = closingKey(options, scale, ladder(options).front());
-        const auto solid = volumes_.solid(key.solid, interrupter);
-        run.isSheet = isSheet(solid->voxels, solid->inner);
+        run.isSheet = isModelSheet(run);
         Candidate best = find(run);
         best.from.reset();
         const auto isUnused = [](const auto& start) { return !start->isUsed; };
@@ -96,6 +94,17 @@ Candidate BoundingSearch::run(const CageOptions& options, const ScaleVersion& sc
         tilted_.reset();
         throw;
     }
+}
+
+/// Whether the model is a sheet, in the finest voxels that are tried.
+bool BoundingSearch::isModelSheet(const Run& run)
+{
+    const SolidKey key = closingKey(run.options, run.scale, ladder(run.options).front()).solid;
+    if (!sheet_ || !(sheet_->key == key)) {
+        const auto solid = volumes_.solid(key, run.interrupter);
+        sheet_ = Sheet{key, isSheet(solid->voxels, solid->inner, key.resolution)};
+    }
+    return sheet_->isOne;
 }
 
 /// A symmetric cage where there is a plane, or else one that is not.

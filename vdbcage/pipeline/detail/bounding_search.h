@@ -49,6 +49,7 @@ private:
         Volumes volumes;
     };
 
+    bool isModelSheet(const Run& run);
     Candidate find(const Run& run);
     std::optional<Candidate> findSymmetric(const Run& run, std::string& objection);
     std::optional<Candidate> findTilted(const Run& run, std::string& objection);
@@ -79,6 +80,11 @@ private:
     ScaleVersion density_;                       // the same
     std::optional<AlignedAxes> axes_;            // the model's own, under the guard's plane, once they were asked for
     std::unique_ptr<Turned> turned_;             // once it was asked for
+    struct Sheet {
+        SolidKey key;
+        bool isOne = false;
+    };
+    std::optional<Sheet> sheet_; // whether the model is one, in the voxels that were last asked about
     struct Counted {
         ClosingKey key;
         std::size_t quads = 0;

@@ -132,9 +132,10 @@ double thinnestBox(const GuardOptions& guarding)
     return std::max(leastThickness, room * std::tan(degree * guarding.minAngleDegrees));
 }
 
-bool isSheet(std::size_t voxels, std::size_t inner)
+bool isSheet(std::size_t voxels, std::size_t inner, int resolution)
 {
-    return static_cast<double>(inner) <= sheetInside * static_cast<double>(voxels);
+    const auto all = static_cast<double>(voxels);
+    return static_cast<double>(inner) <= sheetInside * all && all >= sheetWidth * resolution;
 }
 
 GuardOptions guardOptions(const CageOptions& options, bool ofSheet)

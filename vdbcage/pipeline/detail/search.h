@@ -58,6 +58,7 @@ constexpr double loopsAngle = 1; ///< degrees; with more, half collapsed loops a
 // Sheets, which have no inside. Their cages are flat, and as loose as their two sides keep apart: three times as loose
 // with what others keep.
 constexpr double sheetInside = 0.01; ///< of the voxels, at most
+constexpr double sheetWidth = 20;    ///< voxels for each along the longest side, at least; a rod as thin has up to 12
 constexpr double sheetAngle = 1;     ///< degrees: slender triangles along the rim
 constexpr double sheetSpacing = 2.5e-4;
 constexpr double mostlyQuads = 0.875;
@@ -117,8 +118,9 @@ double mergeAngle(const CageOptions& options);
 /// themselves.
 double thinnestBox(const GuardOptions& guarding);
 
-/// Whether a solid of so many voxels is a sheet, a few of them with others all around.
-bool isSheet(std::size_t voxels, std::size_t inner);
+/// Whether a solid of so many voxels is a sheet: hardly any of them have others all around, and they are too many for a
+/// rod. `resolution` is the number of voxels along the longest side.
+bool isSheet(std::size_t voxels, std::size_t inner, int resolution);
 
 /// Without a plane of symmetry. `ofSheet`: of a model that isSheet.
 GuardOptions guardOptions(const CageOptions& options, bool ofSheet);
