@@ -29,7 +29,7 @@ Joints readJoints(const std::filesystem::path& path)
         Joint joint{place(in), {}};
         if (!in.atLineEnd()) {
             joint.axis = place(in) - joint.place;
-            if (!(joint.axis->lengthSqr() > 0)) in.fail(line, "the bone has no length");
+            if (!(joint.axis->isFinite() && joint.axis->lengthSqr() > 0)) in.fail(line, "the bone has no length");
         }
         if (!in.atLineEnd()) {
             in.fail(in.quoted(in.position()) + " is not understood; a line has X Y Z, or X Y Z X Y Z for a bone");

@@ -14,7 +14,6 @@
 #include <vdbcage/bounding/detail/relax.h>
 #include <vdbcage/bounding/detail/tightening.h>
 #include <vdbcage/core/detail/stage_parts.h>
-#include <vdbcage/geometry/quad_shape.h>
 
 namespace vdbcage {
 

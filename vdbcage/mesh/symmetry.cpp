@@ -281,6 +281,7 @@ private:
             }
             system(i, i) += damping;
         }
+        if (!(std::abs(system.det()) > 0)) return {};
         const Vec3d shift = system.inverse(0) * Vec3d(pull[0], pull[1], pull[2]) / stiffest;
         return {shift[0], shift[1], shift[2]};
     }

@@ -109,7 +109,7 @@ struct OptionText {
     std::string name;         ///< as OptionInfo
     std::string value;        ///< "N", "F", "sphere|cube"
     std::string help;         ///< as OptionInfo
-    std::string range;        ///< "12 to 1000000"; empty for names out of a list
+    std::string range;        ///< "4 to 1000000"; empty for names out of a list
     std::string defaultValue; ///< "400"
     bool isRare = false;      ///< as OptionInfo
 };

@@ -75,12 +75,15 @@ public:
         requireValid(options);
         ScaleVersion scale(options.scale), density(options.density);
         if (last_ && scale == last_->scale && density == last_->density && areEqual(options, last_->options)) return;
-        Candidate made = options.bounding ? search_.run(options, scale, density, interrupter)
-                                          : detail::textbookCage(options, scale, volumes_, certifier_, interrupter);
+        CageOptions decided = options;
+        if (options.interior == Interior::automatic) decided.interior = interiorOf(interrupter);
+        Candidate made = options.bounding ? search_.run(decided, scale, density, interrupter)
+                                          : detail::textbookCage(decided, scale, volumes_, certifier_, interrupter);
         if (options.bounding && !made.check.bounding()) {
             throw Error("the cage could not be certified; this is a defect of vdbcage, please report the model");
         }
         report_ = reportOf(made, options, certifier_.fitsFloat());
+        if (options.interior == Interior::automatic) report_.voxels.agreement = agreement_;
         made_ = std::move(made);
         last_ = Last{options, std::move(scale), std::move(density)};
         last_->options.scale = last_->options.density = {};
@@ -91,6 +94,16 @@ public:
     const CageReport& report() const { return report_; }
 
 private:
+    /// The same for every copy of the model that voxels are made of, also for those that are turned.
+    Interior interiorOf(Interrupter* interrupter)
+    {
+        if (!agreement_) {
+            const Stage stage(interrupter, "interior");
+            agreement_ = rayAgreement(model_, interrupter);
+        }
+        return *agreement_ < mostlySheet ? Interior::shell : Interior::solid;
+    }
+
     /// What the cage was made with.
     struct Last {
         CageOptions options;
@@ -111,6 +124,7 @@ private:
     Candidate made_ = nothing();
     CageReport report_;
     std::optional<Last> last_;
+    std::optional<double> agreement_; // of rays about the model's inside, once it was asked for
 };
 
 Pipeline::Pipeline(Mesh model) : impl_(std::make_unique<Impl>(std::move(model)))

@@ -162,7 +162,7 @@ def _option_text(name, value, allowed):
     """An option's value as the command takes it. `allowed` is as in its help: "auto|N", "on|off"."""
     names = allowed.split("|")
     if value is None:
-        return "auto" if "auto" in names else "none" if name == "scale_field" else "None"
+        return "auto" if "auto" in names else "none" if name in ("scale_field", "density", "joints") else "None"
     if isinstance(value, (bool, numpy.bool_)):
         return ("on" if value else "off") if "on" in names else str(value)
     if isinstance(value, numbers.Integral):

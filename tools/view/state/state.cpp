@@ -52,8 +52,9 @@ std::array<LayerLook, layerCount> ViewState::defaultLayers()
 
 bool areEqual(const CageOptions& a, const CageOptions& b)
 {
-    // A field that was read anew from a changed file has the same text and another grid.
-    return a.scale.grid == b.scale.grid && optionValues(a) == optionValues(b);
+    // What was read anew from a changed file has the same text.
+    return a.scale.grid == b.scale.grid && a.density.grid == b.density.grid && a.joints == b.joints &&
+           optionValues(a) == optionValues(b);
 }
 
 bool operator==(const Document& a, const Document& b)

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 #include <string>
 #include <utility>
 
@@ -82,6 +83,21 @@ Faces facesOf(const Mesh& model, const std::vector<Vec3d>& points, double maxDis
     return faces;
 }
 
+constexpr double densityAroundJoints = 2;
+
+/// \throw InputError
+void requireValid(const Joint& joint, const openvdb::BBoxd& box)
+{
+    const auto refuse = [&](const char* why) {
+        std::ostringstream text;
+        text << "joints: the one at " << joint.place << ' ' << why;
+        throw InputError(text.str());
+    };
+    if (!joint.place.isFinite()) refuse("is not at a finite place");
+    if (!box.isInside(joint.place)) refuse("is outside of the model's bounding box; it must be inside of a limb");
+    if (joint.axis && !(joint.axis->isFinite() && joint.axis->lengthSqr() > 0)) refuse("has an axis without length");
+}
+
 } // namespace
 
 GuardModel::GuardModel(const Mesh& model, const GuardOptions& options, Interrupter* interrupter)
@@ -128,6 +144,7 @@ GuardModel::GuardModel(const Mesh& model, const GuardOptions& options, Interrupt
         addMirrorImage(*symmetry_, points, triangles);
     }
     for (Joint joint : options.joints) {
+        requireValid(joint, box);
         joint.place = scaled(joint.place);
         if (joint.axis) joint.axis->normalize(0);
         if (symmetry_ && joint.place[symmetry_->axis] < symmetry_->offset) {
@@ -139,10 +156,10 @@ GuardModel::GuardModel(const Mesh& model, const GuardOptions& options, Interrupt
     tree_ = TriangleBvh(points, triangles, interrupter, TriangleBvh::Copies::drop);
 
     for (const Joint& joint : joints_) {
-        constexpr double spread = 1.5, density = 2;
+        constexpr double spread = 1.5;
         const double limb = std::sqrt(tree_.closest(joint.place).squaredDistance) / scale_;
-        density_.regions.push_back(
-            {ScaleRegion::Shape::sphere, unscaled(joint.place), Vec3d(0), spread * limb, density});
+        aroundJoints_.push_back(
+            {ScaleRegion::Shape::sphere, unscaled(joint.place), Vec3d(0), spread * limb, densityAroundJoints});
     }
 
     UnionFind sets(points.size());
@@ -197,7 +214,10 @@ double GuardModel::density(const Vec3d& onModel) const
     constexpr double least = 1.0 / 8;
     const auto at = [&](const Vec3d& p) {
         const openvdb::FloatTree* const tree = density_.grid ? &density_.grid->constTree() : nullptr;
-        return std::max(least, scaleAt(density_, tree, unscaled(p)));
+        const Vec3d world = unscaled(p);
+        const bool isAtJoint = std::any_of(aroundJoints_.begin(), aroundJoints_.end(),
+                                           [&](const ScaleRegion& region) { return contains(region, world); });
+        return std::clamp((isAtJoint ? densityAroundJoints : 1) * scaleAt(density_, tree, world), least, largestScale);
     };
     const double here = at(onModel);
     if (!symmetry_) return here;

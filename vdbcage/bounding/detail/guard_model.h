@@ -45,7 +45,7 @@ public:
     bool swept(const std::vector<Corners>& surface, const Box& box) const;
 
     /// Whether distance counts more in some places than in others.
-    bool hasDensity() const { return density_.grid || !density_.regions.empty(); }
+    bool hasDensity() const { return density_.grid || !density_.regions.empty() || !aroundJoints_.empty(); }
     /// What distance counts for at a point of the model: the third power of the density.
     ///
     /// Of faces of the size h the distance is about h^2. Its integral is least where h^4 times the weight is the same
@@ -79,7 +79,8 @@ private:
     double step_ = 0; // across the plane coordinates are rounded to multiples of it
     bool roundsToFloat_ = false;
     Spacing spacing_;
-    ScaleField density_; // in the world's units
+    ScaleField density_;                    // in the world's units
+    std::vector<ScaleRegion> aroundJoints_; // the same; where they overlap they count once
     std::vector<Joint> joints_;
 };
 

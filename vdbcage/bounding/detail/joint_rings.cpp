@@ -90,7 +90,7 @@ std::vector<JointRings::Ring> JointRings::ringsAround(const std::vector<QuadLoop
 std::vector<std::size_t> JointRings::count() const
 {
     std::vector<std::size_t> counts;
-    if (surface_.guard().joints().empty()) return counts;
+    if (!mayHaveRings()) return counts;
     const std::vector<QuadLoop> loops = straightLoops(table_);
     for (const Joint& joint : surface_.guard().joints()) counts.push_back(ringsAround(loops, joint, 1).size());
     return counts;
@@ -107,7 +107,7 @@ bool JointRings::areKept(const std::vector<std::size_t>& before, const std::vect
 std::vector<JointRings::Hold> JointRings::holds() const
 {
     std::vector<Hold> holds;
-    if (surface_.guard().joints().empty()) return holds;
+    if (!mayHaveRings()) return holds;
     const std::vector<QuadLoop> loops = straightLoops(table_);
     std::map<std::uint32_t, std::pair<Hold, int>> sums; // and of how many
     for (const Joint& joint : surface_.guard().joints()) {

@@ -16,7 +16,8 @@ namespace vdbcage::detail {
 /// A ring is a loop that closes, is short, and goes around the joint once, seen along its normal. Its plane comes as
 /// near to the joint as it is wide (the radius of a circle of the same area). The shortest loop that goes around the
 /// joint tells the direction of the limb, if no axis is given: the normals of all rings are within 60 degrees of it,
-/// and none is more than twice as wide. On the plane of symmetry half a ring counts with its mirror image.
+/// and none is more than twice as wide. On the plane of symmetry half a ring counts with its mirror image. A surface
+/// that is not of quads only has no rings.
 class JointRings {
 public:
     static constexpr std::size_t wanted = 3; ///< across each joint
@@ -45,6 +46,12 @@ public:
     std::optional<QuadLoop> nextToSplit(const Joint& joint) const;
 
 private:
+    /// There are joints, and nothing but quads: the ends of other loops are at the plane of symmetry.
+    bool mayHaveRings() const
+    {
+        return !surface_.guard().joints().empty() && surface_.liveFaces() == 2 * table_.count();
+    }
+
     struct Ring {
         const QuadLoop* loop;
         double height, radius; ///< of its middle over the joint, along the axis; of a circle of its area

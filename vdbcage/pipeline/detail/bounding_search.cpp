@@ -96,13 +96,14 @@ Candidate BoundingSearch::run(const CageOptions& options, const ScaleVersion& sc
     }
 }
 
-/// Whether the model is a sheet, in the finest voxels that are tried.
+/// Whether the model is a sheet, in voxels that depend on no option but the interior.
 bool BoundingSearch::isModelSheet(const Run& run)
 {
-    const SolidKey key = closingKey(run.options, run.scale, ladder(run.options).front()).solid;
+    const SolidKey key{policy::sheetResolution, run.options.voxelizer, run.options.interior, std::nullopt};
     if (!sheet_ || !(sheet_->key == key)) {
         const auto solid = volumes_.solid(key, run.interrupter);
-        sheet_ = Sheet{key, isSheet(solid->voxels, solid->inner, key.resolution)};
+        const std::size_t inner = countOf(*erode(*solid->mask, 1, StructuringElement::cube, run.interrupter));
+        sheet_ = Sheet{key, isSheet(solid->voxels, inner, key.resolution)};
     }
     return sheet_->isOne;
 }
@@ -406,12 +407,15 @@ void BoundingSearch::decimateAndTighten(const Run& run, Candidates& starts, cons
     BoundingDecimateOptions decimation;
     decimation.faces = onlyTriangles ? faces : policy::trianglesPerQuad * faces;
     decimation.effort = options.effort;
-    const auto hasFewEnough = [&](const Mesh& surface) { // as simple solids may
-        return (onlyTriangles ? triangulate(surface).size() : faceCount(surface)) <= faces;
+    // Simple solids are cages as they are.
+    const auto isCage = [&](const Candidate& candidate) {
+        const Mesh& surface = *candidate.surface;
+        const bool isSimple = candidate.start == CageStart::orientedBox || candidate.start == CageStart::tetrahedron;
+        return isSimple && surface.triangles.size() + (onlyTriangles ? 2 : 1) * surface.quads.size() <= faces;
     };
     forEach(starts, interrupter, "decimate", [&](Candidate& candidate, Interrupter* piece) {
         const Mesh& surface = *candidate.surface;
-        if (hasFewEnough(surface)) {
+        if (isCage(candidate)) {
             candidate.decimated = onlyTriangles ? triangulated(surface) : surface;
             return;
         }
@@ -436,8 +440,8 @@ void BoundingSearch::decimateAndTighten(const Run& run, Candidates& starts, cons
         pairing.tightening = tightening;
         forEach(starts, interrupter, "quads", [&](Candidate& candidate, Interrupter* piece) {
             const Mesh& decimated = candidate.decimated;
-            candidate.cage = hasFewEnough(*candidate.surface) ? tighten(decimated, guard, tightening, piece)
-                                                              : triquad(decimated, guard, pairing, piece);
+            candidate.cage = isCage(candidate) ? tighten(decimated, guard, tightening, piece)
+                                               : triquad(decimated, guard, pairing, piece);
         });
     }
 }

@@ -57,6 +57,7 @@ constexpr double wideAngle = 10, usualAngle = 6; ///< degrees; the wide one cost
 constexpr double loopsAngle = 1; ///< degrees; with more, half collapsed loops are stopped by their slender triangles
 // Sheets, which have no inside. Their cages are flat, and as loose as their two sides keep apart: three times as loose
 // with what others keep.
+constexpr int sheetResolution = 54;  ///< voxels along the longest side, to tell: as usual with Effort::fair
 constexpr double sheetInside = 0.01; ///< of the voxels, at most
 constexpr double sheetWidth = 20;    ///< voxels for each along the longest side, at least; a rod as thin has up to 12
 constexpr double sheetAngle = 1;     ///< degrees: slender triangles along the rim

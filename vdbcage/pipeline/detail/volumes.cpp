@@ -133,7 +133,6 @@ std::shared_ptr<const Solid> Volumes::solid(const SolidKey& key, Interrupter* in
     made->report = std::move(report);
     if (key.plane) mask = withMirrorImage(*mask, key.plane->axis, key.resolution, interrupter);
     made->voxels = countOf(*mask);
-    made->inner = countOf(*erode(*mask, 1, StructuringElement::cube, interrupter));
     made->boundary = boundaryTopology(*mask, interrupter);
     made->mask = std::move(mask);
     solid_ = std::move(made);

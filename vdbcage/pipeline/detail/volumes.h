@@ -51,7 +51,6 @@ struct Solid {
     openvdb::MaskGrid::ConstPtr mask;
     VoxelizeReport report;
     std::size_t voxels = 0; ///< active ones
-    std::size_t inner = 0;  ///< those with all 26 voxels around them
     BoundaryTopology boundary;
 };
 

@@ -3,7 +3,6 @@
 #include <sstream>
 
 #include <vdbcage/core/detail/asker.h>
-#include <vdbcage/core/detail/parallel.h>
 #include <vdbcage/core/error.h>
 
 namespace vdbcage::detail {
