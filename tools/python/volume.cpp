@@ -107,19 +107,21 @@ void defineVolume(py::module_& module)
              })
         .def("matrix", [](const VolumeMask& mask) { return toArray(matrixOf(mask.grid->transform())); });
 
-    module.def("voxelize", [](const MeshPtr& model, int resolution, const std::string& voxelizer, const std::string& interior,
-                              const std::optional<std::array<double, 6>>& box, const py::object& progress) {
-        VoxelizeOptions options;
-        options.resolution = resolution;
-        options.voxelizer = optionsWith("voxelizer", voxelizer).voxelizer;
-        options.interior = optionsWith("interior", interior).interior;
-        if (box) {
-            const std::array<double, 6>& b = *box;
-            options.box = openvdb::BBoxd(openvdb::Vec3d(b[0], b[1], b[2]), openvdb::Vec3d(b[3], b[4], b[5]));
-        }
-        return VolumeMask{resultOfJob(
-            progress, [&](Interrupter* interrupter) { return voxelize(*model, options, interrupter).mask; })};
-    });
+    module.def("voxelize",
+               [](const MeshPtr& model, int resolution, const std::string& voxelizer, const std::string& interior,
+                  const std::optional<std::array<double, 6>>& box, const py::object& progress) {
+                   VoxelizeOptions options;
+                   options.resolution = resolution;
+                   options.voxelizer = optionsWith("voxelizer", voxelizer).voxelizer;
+                   options.interior = optionsWith("interior", interior).interior;
+                   if (box) {
+                       const std::array<double, 6>& b = *box;
+                       options.box = openvdb::BBoxd(openvdb::Vec3d(b[0], b[1], b[2]), openvdb::Vec3d(b[3], b[4], b[5]));
+                   }
+                   return VolumeMask{resultOfJob(progress, [&](Interrupter* interrupter) {
+                       return voxelize(*model, options, interrupter).mask;
+                   })};
+               });
     module.def("close_mask", [](const VolumeMask& mask, double closeRadius, double erodeRadius,
                                 const std::string& element, const std::string& scale, const py::object& progress) {
         CloseOptions options;

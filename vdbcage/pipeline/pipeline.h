@@ -94,12 +94,15 @@ public:
 
     const Mesh& model() const;
     /// The intermediates of the last run; null or empty before the first.
-    openvdb::MaskGrid::ConstPtr solid() const;  ///< the voxelized model
-    openvdb::MaskGrid::ConstPtr closed() const; ///< its closing, cavities filled; along x, y and z
-    const Mesh& surface() const;                ///< what the cage was made from, quads
+    /// The voxelized model. Its voxels lie along x, y and z, or along a plane of symmetry that lies across none of
+    /// them.
+    openvdb::MaskGrid::ConstPtr solid() const;
+    openvdb::MaskGrid::ConstPtr closed() const; ///< its closing, cavities filled
+    const Mesh& surface() const;                ///< what the cage was made from: quads, or a tetrahedron
     const Mesh& smoothed() const;               ///< bounding off: the surface smoothed; else the surface
-    const Mesh&
-    decimated() const; ///< triangles: about twice the faces where pairs become quads; loops: before smoothing
+    /// Triangles, about twice the faces where pairs become quads; of loops the cage before smoothing; of a box its
+    /// quads.
+    const Mesh& decimated() const;
     const Mesh& cage() const;
     const CageReport& report() const;
 
