@@ -27,13 +27,6 @@ Mesh wedge(int axis)
     return mesh;
 }
 
-Mesh turned(Mesh mesh, double degrees)
-{
-    const double angle = degrees * 3.14159265358979323846 / 180, c = std::cos(angle), s = std::sin(angle);
-    for (Vec3d& p : mesh.points) p = Vec3d(c * p[0] - s * p[1], s * p[0] + c * p[1], p[2]);
-    return mesh;
-}
-
 } // namespace
 
 BOOST_AUTO_TEST_SUITE(symmetry)
@@ -59,13 +52,13 @@ BOOST_AUTO_TEST_CASE(the_plane_is_found_wherever_it_is)
 
 BOOST_AUTO_TEST_CASE(what_is_not_symmetric_has_no_plane)
 {
-    BOOST_CHECK(!findSymmetry(turned(wedge(0), 20), 0.01));
-    BOOST_TEST(findSymmetry(turned(wedge(0), 20), 0.5).has_value());
-    BOOST_TEST(findSymmetry(turned(wedge(2), 20), 1e-6).has_value()); // in its plane
+    BOOST_CHECK(!findSymmetry(test::turnedAboutZ(wedge(0), 20), 0.01));
+    BOOST_TEST(findSymmetry(test::turnedAboutZ(wedge(0), 20), 0.5).has_value());
+    BOOST_TEST(findSymmetry(test::turnedAboutZ(wedge(2), 20), 1e-6).has_value()); // in its plane
     // The deviation grows as it is turned out of the plane.
     double last = -1;
     for (const double degrees : {0.0, 0.5, 1.0, 2.0, 4.0}) {
-        const double deviation = bestSymmetry(turned(wedge(0), degrees), 0).deviation;
+        const double deviation = bestSymmetry(test::turnedAboutZ(wedge(0), degrees), 0).deviation;
         BOOST_TEST(deviation > last);
         last = deviation;
     }
@@ -108,8 +101,8 @@ BOOST_AUTO_TEST_CASE(a_plane_of_any_direction_is_found)
 
 BOOST_AUTO_TEST_CASE(no_plane_of_another_direction_is_worse_than_those_of_the_axes)
 {
-    const Mesh twisted = test::joined(turned(wedge(0), 20), test::box({1.4, 0.2, 0.2}, {1.9, 0.5, 0.3}));
-    for (const Mesh& model : {wedge(1), twisted, turned(wedge(0), 37), test::torus(1, 0.3, 40, 16)}) {
+    const Mesh twisted = test::joined(test::turnedAboutZ(wedge(0), 20), test::box({1.4, 0.2, 0.2}, {1.9, 0.5, 0.3}));
+    for (const Mesh& model : {wedge(1), twisted, test::turnedAboutZ(wedge(0), 37), test::torus(1, 0.3, 40, 16)}) {
         const TiltedSymmetry found = bestTiltedSymmetry(model);
         for (const int axis : {0, 1, 2}) BOOST_TEST(found.deviation <= bestSymmetry(model, axis).deviation + 1e-6);
     }
@@ -138,7 +131,7 @@ BOOST_AUTO_TEST_CASE(any_soup_will_do)
 
 BOOST_AUTO_TEST_CASE(threads_do_not_matter)
 {
-    const Mesh model = turned(wedge(0), 3);
+    const Mesh model = test::turnedAboutZ(wedge(0), 3);
     const auto many = findSymmetry(model, 1);
     const TiltedSymmetry manyTilted = bestTiltedSymmetry(model);
     const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);

@@ -68,6 +68,14 @@ inline Mesh torus(double radius, double tube, int around, int across)
     return mesh;
 }
 
+/// `mesh`, turned about the z axis through the origin.
+inline Mesh turnedAboutZ(Mesh mesh, double degrees)
+{
+    const double angle = degrees * 3.14159265358979323846 / 180, c = std::cos(angle), s = std::sin(angle);
+    for (openvdb::Vec3d& p : mesh.points) p = openvdb::Vec3d(c * p[0] - s * p[1], s * p[0] + c * p[1], p[2]);
+    return mesh;
+}
+
 /// `mesh` with every point scaled, then moved.
 inline Mesh transformed(Mesh mesh, double scale, const openvdb::Vec3d& move)
 {
