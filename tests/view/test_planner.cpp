@@ -342,7 +342,7 @@ BOOST_AUTO_TEST_CASE(steps_of_faces_stay_within_the_range)
 {
     BOOST_TEST(steppedFaces(400, 1, CageFaces::quads) == 420);
     BOOST_TEST(steppedFaces(400, -1, CageFaces::quads) == 380);
-    BOOST_TEST(steppedFaces(12, -1, CageFaces::quads) == 12);
+    BOOST_TEST(steppedFaces(6, -1, CageFaces::quads) == 6);
     BOOST_TEST(steppedFaces(12, -1, CageFaces::loops) == 11);
     BOOST_TEST(steppedFaces(6, -1, CageFaces::loops) == 6);
     BOOST_TEST(steppedFaces(12, 1, CageFaces::quads) == 13);
