@@ -164,8 +164,8 @@ BOOST_AUTO_TEST_CASE(what_the_reference_does_is_done_here_and_as_the_command_doe
     const auto file = [&](const std::string& name) { return (folder / "build" / name).string(); };
     for (const std::string& name : names) BOOST_TEST(fs::exists(file(name)), name);
     const std::string model = source + "/data/creature.obj", cage = file("reference_cage.obj");
-    must({VDBCAGE_COMMAND, "make", model, "-o", file("made.obj"), "--resolution", "128", "--mesh", "triquad", "--faces",
-          "150"});
+    must({VDBCAGE_COMMAND, "make", model, "-o", file("made.obj"), "--resolution", "128", "--mesh", "triquad",
+          "--quad-shape", "0", "--faces", "150"});
     BOOST_TEST((test::readText(file("made.obj")) == test::readText(cage)));
     must({VDBCAGE_COMMAND, "deform", cage, file("reference_cage.%02d.obj"), model, "-o", file("deformed.%02d.obj")});
     for (int frame = 0; frame < 12; ++frame) {
@@ -182,7 +182,7 @@ BOOST_AUTO_TEST_CASE(a_walk_opened_as_a_sequence_gives_the_frames_of_deform)
     const test::TemporaryFolder folder;
     const std::string model = source + "/data/creature.obj", cage = (folder / "cage.obj").string();
     const auto file = [&](const std::string& name) { return (folder / name).string(); };
-    must({VDBCAGE_COMMAND, "make", model, "-o", cage, "--mesh", "triquad"});
+    must({VDBCAGE_COMMAND, "make", model, "-o", cage, "--mesh", "triquad", "--quad-shape", "0"});
     fs::create_directory(folder / "walk");
     must({VDBCAGE_WALK, cage, file("walk")});
     test::writeText(file("s.view"), "open " + model + "\nset mesh triquad\nwait\nmode pose\ncoordinates green\n" +
