@@ -18,6 +18,7 @@
 #include <vdbcage/check/check.h>
 #include <vdbcage/volume/extract.h>
 
+#include "lump.h"
 #include "support/manifold.h"
 #include "support/shapes.h"
 #include "support/solids.h"
@@ -32,35 +33,17 @@ using openvdb::Vec4I;
 
 namespace {
 
-/// A surface of voxels around a speck, some of its quads two triangles.
+/// The surface of a lump, some of its quads two triangles.
 struct Patchwork {
-    explicit Patchwork(unsigned seed)
-        : model(test::box({0.45, 0.45, 0.45}, {0.55, 0.55, 0.55})), guard(model, close()),
-          surface(extractSurface(*solid(seed)), modelOf(guard)), table(surface)
+    explicit Patchwork(unsigned seed) : lump(seed), surface(lump.surface, modelOf(lump.guard)), table(surface)
     {
         std::mt19937 random(seed);
         for (std::uint32_t q = 0; q < table.quads(); ++q) {
             if (random() % 5 == 0) table.remove(q);
         }
     }
-    static GuardOptions close()
-    {
-        GuardOptions options;
-        options.clearance = 1e-6;
-        options.minAngleDegrees = 1;
-        return options;
-    }
-    static openvdb::MaskGrid::Ptr solid(unsigned seed)
-    {
-        auto grid = test::randomSolid(seed, 4, 0.6, openvdb::Coord(-1));
-        grid->tree().setValueOn(openvdb::Coord(0));
-        grid->setTransform(openvdb::math::Transform::createLinearTransform(1.0));
-        grid->transform().postTranslate(Vec3d(0.5));
-        return grid;
-    }
 
-    Mesh model;
-    BoundingGuard guard;
+    test::Lump lump;
     GuardedMesh surface;
     QuadTable table;
 };
@@ -218,7 +201,7 @@ BOOST_AUTO_TEST_CASE(valences_get_better_and_the_surface_still_bounds)
         BOOST_TEST(irregularityOf(now.surface, now.table) < 0.9 * before);
         BOOST_TEST(polygonsOf(now.surface, now.table).size() <= most);
         BOOST_CHECK(test::isClosedManifold(mesh));
-        BOOST_TEST(checkCage(mesh, now.model).bounding());
+        BOOST_TEST(checkCage(mesh, now.lump.model).bounding());
         for (const auto& entry : valencesOf(polygonsOf(now.surface, now.table))) BOOST_TEST(entry.second >= 3U);
     }
 }

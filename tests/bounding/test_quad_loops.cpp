@@ -21,6 +21,7 @@
 #include <vdbcage/core/error.h>
 #include <vdbcage/volume/extract.h>
 
+#include "lump.h"
 #include "support/manifold.h"
 #include "support/shapes.h"
 #include "support/solids.h"
@@ -93,34 +94,6 @@ double loopShare(const Mesh& mesh)
     }
     return double(on.size()) / double(mesh.quads.size());
 }
-
-/// The surface of a random solid, and a guard that it bounds a speck in.
-struct Lump {
-    explicit Lump(unsigned seed)
-        : model(test::box({0.45, 0.45, 0.45}, {0.55, 0.55, 0.55})), guard(model, close()),
-          surface(extractSurface(*solid(seed)))
-    {
-    }
-    static GuardOptions close()
-    {
-        GuardOptions options;
-        options.clearance = 1e-6;
-        options.minAngleDegrees = 1;
-        return options;
-    }
-    static openvdb::MaskGrid::Ptr solid(unsigned seed)
-    {
-        auto grid = test::randomSolid(seed, 4, 0.6, openvdb::Coord(-1));
-        grid->tree().setValueOn(openvdb::Coord(0));
-        grid->setTransform(openvdb::math::Transform::createLinearTransform(1.0));
-        grid->transform().postTranslate(Vec3d(0.5));
-        return grid;
-    }
-
-    Mesh model;
-    BoundingGuard guard;
-    Mesh surface;
-};
 
 /// A surface with its table and quadrics.
 struct Working {
@@ -323,7 +296,7 @@ BOOST_AUTO_TEST_CASE(symmetric_cages_stay_symmetric)
 BOOST_AUTO_TEST_CASE(loops_are_those_that_the_sides_join)
 {
     for (unsigned seed = 1; seed <= 30; ++seed) {
-        const Lump lump(seed);
+        const test::Lump lump(seed);
         const Working now(lump.surface, lump.guard);
         std::multiset<std::set<std::size_t>> expected, found;
         for (const auto& loop : loopsByUnion(lump.surface)) {
@@ -351,7 +324,7 @@ BOOST_AUTO_TEST_CASE(a_loop_may_go_if_quads_are_left)
 {
     int mayGo = 0, mayNot = 0;
     for (unsigned seed = 1; seed <= 30; ++seed) {
-        const Lump lump(seed);
+        const test::Lump lump(seed);
         const Working now(lump.surface, lump.guard);
         for (const QuadLoop& loop : straightLoops(now.table)) {
             const bool may = leavesQuads(now.surface, now.table, loop);
@@ -363,7 +336,7 @@ BOOST_AUTO_TEST_CASE(a_loop_may_go_if_quads_are_left)
     BOOST_TEST(mayNot > 50);
     int turning = 0;
     for (unsigned seed = 1; seed <= 30; ++seed) {
-        const Lump lump(seed);
+        const test::Lump lump(seed);
         const Working now(lump.surface, lump.guard);
         for (const QuadLoop& loop : turningLoops(now.surface, now.table)) {
             if (!leavesQuads(now.surface, now.table, loop)) continue;
@@ -393,7 +366,7 @@ BOOST_AUTO_TEST_CASE(what_is_collapsed_is_what_the_rungs_join)
 {
     int collapsed = 0;
     for (unsigned seed = 1; seed <= 12; ++seed) {
-        const Lump lump(seed);
+        const test::Lump lump(seed);
         const Working before(lump.surface, lump.guard);
         for (const QuadLoop& loop : straightLoops(before.table)) {
             if (!leavesQuads(before.surface, before.table, loop)) continue;
@@ -414,7 +387,7 @@ BOOST_AUTO_TEST_CASE(a_collapse_that_is_not_accepted_leaves_no_trace)
 {
     int refused = 0;
     for (unsigned seed = 1; seed <= 12; ++seed) {
-        const Lump lump(seed);
+        const test::Lump lump(seed);
         const Working before(lump.surface, lump.guard);
         Working now(lump.surface, lump.guard);
         for (const QuadLoop& loop : straightLoops(before.table)) {
@@ -436,11 +409,11 @@ BOOST_AUTO_TEST_CASE(a_collapse_that_the_guard_stops_leaves_no_trace)
     // Specks in the corners of the voxels hold the surface: some rungs may go, others not.
     int stopped = 0;
     for (unsigned seed = 1; seed <= 12; ++seed) {
-        const Lump lump(seed);
+        const test::Lump lump(seed);
         std::mt19937 random(seed);
         std::uniform_real_distribution<double> unit(0, 1);
         Mesh specks = lump.model;
-        const auto grid = Lump::solid(seed);
+        const auto grid = test::Lump::solid(seed);
         for (auto voxel = grid->cbeginValueOn(); voxel; ++voxel) {
             const Vec3d centre = grid->indexToWorld(voxel.getCoord());
             for (int i = 0; i < 6; ++i) {
@@ -448,7 +421,7 @@ BOOST_AUTO_TEST_CASE(a_collapse_that_the_guard_stops_leaves_no_trace)
                 specks = test::joined(specks, test::box(p - Vec3d(0.02), p + Vec3d(0.02)));
             }
         }
-        const BoundingGuard guard(specks, Lump::close());
+        const BoundingGuard guard(specks, test::Lump::close());
         if (!guard.facesTooNear(lump.surface).empty()) continue;
         const Working before(lump.surface, guard);
         Working now(lump.surface, guard);
@@ -470,7 +443,7 @@ BOOST_AUTO_TEST_CASE(a_loop_that_is_split_is_two_loops)
 {
     int split = 0;
     for (unsigned seed = 1; seed <= 12; ++seed) {
-        const Lump lump(seed);
+        const test::Lump lump(seed);
         const Working before(lump.surface, lump.guard);
         for (const QuadLoop& loop : straightLoops(before.table)) {
             Working now(lump.surface, lump.guard);
@@ -510,7 +483,7 @@ BOOST_AUTO_TEST_CASE(exchanged_loops_bring_a_surface_nearer)
 
 BOOST_AUTO_TEST_CASE(the_shape_s_slope_is_that_of_its_sum)
 {
-    const Lump lump(3);
+    const test::Lump lump(3);
     GuardedMesh surface(lump.surface, modelOf(lump.guard));
     const QuadTable table(surface);
     std::mt19937 random(1);

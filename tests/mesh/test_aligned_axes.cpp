@@ -77,6 +77,18 @@ BOOST_AUTO_TEST_CASE(boxes_are_square_to_their_axes)
     }
 }
 
+BOOST_AUTO_TEST_CASE(axes_of_slivers_are_axes)
+{
+    std::mt19937 random(4);
+    for (const double width : {1e-6, 1e-12, 1e-30, 1e-200}) { // their areas are smaller still
+        Mesh sliver;
+        sliver.points = {{0, 0, 0}, {1, 0, 0}, {0.5, width, 0}};
+        sliver.triangles = {{0, 1, 2}};
+        const AlignedAxes axes = alignedAxes(rotated(sliver, randomRotation(random)));
+        BOOST_CHECK((axes.rows * axes.rows.transpose()).eq(Mat3d::identity(), 1e-9));
+    }
+}
+
 BOOST_AUTO_TEST_CASE(an_axis_that_is_kept_stays)
 {
     std::mt19937 random(3);

@@ -182,7 +182,7 @@ BOOST_AUTO_TEST_CASE(a_walk_opened_as_a_sequence_gives_the_frames_of_deform)
     const test::TemporaryFolder folder;
     const std::string model = source + "/data/creature.obj", cage = (folder / "cage.obj").string();
     const auto file = [&](const std::string& name) { return (folder / name).string(); };
-    must({VDBCAGE_COMMAND, "make", model, "-o", cage, "--mesh", "triquad", "--quad-shape", "0"});
+    must({VDBCAGE_COMMAND, "make", model, "-o", cage, "--mesh", "triquad"});
     fs::create_directory(folder / "walk");
     must({VDBCAGE_WALK, cage, file("walk")});
     test::writeText(file("s.view"), "open " + model + "\nset mesh triquad\nwait\nmode pose\ncoordinates green\n" +

@@ -33,6 +33,7 @@ void completeRings(GuardedMesh& surface, QuadTable& table, std::size_t quads, In
         return sum;
     };
     std::size_t least = lacking(surface, table);
+    if (least == 0) return;
     GuardedMesh now = surface;
     QuadTable nowTable = table;
     for (int i = 0; i < rounds && least > 0; ++i) {

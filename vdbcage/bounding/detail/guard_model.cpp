@@ -104,7 +104,7 @@ GuardModel::GuardModel(const Mesh& model, const GuardOptions& options, Interrupt
     : density_(options.density)
 {
     requireUsable(model, "model");
-    requireValid(density_, interrupter);
+    requireValidDensity(density_, interrupter);
     requireWithin(GuardOptions::clearances, options.clearance, "clearance");
     requireWithin(GuardOptions::minAngles, options.minAngleDegrees, "min angle");
     requireWithin(GuardOptions::spacings, options.spacing, "spacing");

@@ -109,7 +109,12 @@ std::vector<JointRings::Hold> JointRings::holds() const
     std::vector<Hold> holds;
     if (!mayHaveRings()) return holds;
     const std::vector<QuadLoop> loops = straightLoops(table_);
-    std::map<std::uint32_t, std::pair<Hold, int>> sums; // and of how many
+    struct Sum {
+        Hold hold;
+        const Joint* of;
+        int count;
+    };
+    std::map<std::uint32_t, Sum> sums;
     for (const Joint& joint : surface_.guard().joints()) {
         std::vector<Ring> rings = ringsAround(loops, joint, 1);
         if (rings.empty()) continue;
@@ -126,18 +131,18 @@ std::vector<JointRings::Hold> JointRings::holds() const
                 const bool isUp = axis.dot(surface_.point(rung[0])) > axis.dot(surface_.point(rung[1]));
                 for (const std::size_t end : {0U, 1U}) {
                     const double offset = (end == 0) == isUp ? middle + 0.5 * width : middle - 0.5 * width;
-                    auto& [hold, count] =
-                        sums.try_emplace(rung[end], Hold{rung[end], axis, 0, radius}, 0).first->second;
-                    if (hold.normal != axis) continue; // another joint's
-                    hold.offset += offset;
-                    ++count;
+                    const Sum first{Hold{rung[end], axis, 0, radius}, &joint, 0};
+                    Sum& sum = sums.try_emplace(rung[end], first).first->second;
+                    if (sum.of != &joint) continue; // another one holds it
+                    sum.hold.offset += offset;
+                    ++sum.count;
                 }
             }
         }
     }
     for (auto& [vertex, sum] : sums) {
-        sum.first.offset /= sum.second;
-        holds.push_back(sum.first);
+        sum.hold.offset /= sum.count;
+        holds.push_back(sum.hold);
     }
     return holds;
 }

@@ -95,9 +95,10 @@ void turnAbout(int third, const std::vector<Vec3d>& vectors, Mat3d& axes)
     axes.setRow((third + 2) % 3, std::cos(bestAngle) * v - std::sin(bestAngle) * u);
 }
 
-/// Right-handed axes, the last one along `direction`.
+/// Right-handed axes, the last one along `direction`, which may be of any length above 0.
 Mat3d axesWith(Vec3d direction)
 {
+    direction /= openvdb::math::Abs(direction)[openvdb::math::MaxIndex(openvdb::math::Abs(direction))];
     direction.normalize();
     const auto least = static_cast<int>(openvdb::math::MinIndex(openvdb::math::Abs(direction)));
     Vec3d other(0, 0, 0);

@@ -449,12 +449,6 @@ void BoundingSearch::decimateAndTighten(const Run& run, Candidates& starts, cons
 std::optional<Candidate> BoundingSearch::tightestCertified(const Run& run, Candidates candidates,
                                                            const BoundingGuard& guard)
 {
-    // A tetrahedron around a model near the largest float reaches beyond it.
-    const auto isBeyondFloat = [](const Candidate& candidate) {
-        const auto& points = candidate.cage.points;
-        return !std::all_of(points.begin(), points.end(), [](const openvdb::Vec3d& p) { return p.isFinite(); });
-    };
-    candidates.erase(std::remove_if(candidates.begin(), candidates.end(), isBeyondFloat), candidates.end());
     const bool isWeighted = modelOf(guard).hasDensity();
     for (Candidate& candidate : candidates) {
         candidate.check = certifier_.check(candidate.cage, run.interrupter);

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include <vdbcage/core/detail/parallel.h>
+#include <vdbcage/pipeline/detail/simple_solids.h>
 
 namespace vdbcage::detail {
 
@@ -22,26 +23,11 @@ Mat3d rotationToX(const Vec3d& normal)
     return {normal, up, normal.cross(up), /*rows=*/true};
 }
 
-Mesh turnedMesh(const Mesh& model, const Mat3d& rotation, const Vec3d& centre)
-{
-    Mesh turned = model;
-    for (Vec3d& p : turned.points) p = rotation * (p - centre);
-    return turned;
-}
-
-Vec3d centreOf(const Mesh& model)
-{
-    const openvdb::BBoxd box = boundingBox(model);
-    return 0.5 * box.min() + 0.5 * box.max();
-}
-
 } // namespace
 
 TiltedSearch::TiltedSearch(const Mesh& model, const TiltedSymmetry& plane, Certifier& certifier)
-    : plane_(plane), certifier_(certifier), centre_(centreOf(model)), rotation_(rotationToX(plane.normal)),
-      turned_(turnedMesh(model, rotation_, centre_)),
-      search_(turned_, volumes_, turnedCertifier_,
-              Symmetry{{0, plane.offset - plane.normal.dot(centre_)}, plane.deviation})
+    : plane_(plane), certifier_(certifier), rotation_(rotationToX(plane.normal)), turned_(turned(model, rotation_)),
+      search_(turned_, volumes_, turnedCertifier_, Symmetry{{0, plane.offset}, plane.deviation})
 {
 }
 
@@ -75,9 +61,7 @@ std::optional<Candidate> TiltedSearch::run(const CageOptions& options, Interrupt
 
 Mesh TiltedSearch::turnedBack(Mesh mesh) const
 {
-    const Mat3d back = rotation_.transpose();
-    for (Vec3d& p : mesh.points) p = back * p + centre_;
-    return mesh;
+    return turned(std::move(mesh), rotation_.transpose());
 }
 
 /// With the voxels that it has, and another transform.
@@ -92,7 +76,7 @@ openvdb::MaskGrid::ConstPtr TiltedSearch::turnedBack(const openvdb::MaskGrid& ma
         const Vec3d step = rotation_.transpose() * (now.indexToWorld(unit) - origin);
         for (int i = 0; i < 3; ++i) matrix(axis, i) = step[i];
     }
-    const Vec3d place = rotation_.transpose() * origin + centre_;
+    const Vec3d place = rotation_.transpose() * origin;
     for (int i = 0; i < 3; ++i) matrix(3, i) = place[i];
     return mask.copyReplacingTransform(openvdb::math::Transform::createLinearTransform(matrix));
 }

@@ -31,7 +31,6 @@ private:
 
     const TiltedSymmetry plane_;
     Certifier& certifier_;
-    openvdb::Vec3d centre_; // of the model's box: the origin of what is turned
     openvdb::Mat3d rotation_;
     Mesh turned_;
     Volumes volumes_{turned_};

@@ -24,18 +24,18 @@ void requireValid(const ScaleRegion& region)
     require(region.upper.isFinite(), "the upper corner", region.upper, "finite");
 }
 
-void requireValid(const ScaleField& field, Interrupter* interrupter)
+void requireValidDensity(const ScaleField& field, Interrupter* interrupter)
 {
     for (const ScaleRegion& region : field.regions) requireValid(region);
     if (!field.grid) return;
-    if (!field.grid->transform().isLinear()) throw InputError("the transform of the scale field must be linear");
+    if (!field.grid->transform().isLinear()) throw InputError("the transform of the density must be linear");
     Asker ask(interrupter);
     for (auto value = field.grid->cbeginValueAll(); value; ++value) {
         ask();
-        if (!std::isfinite(*value)) throw InputError("the scale field has a value that is not finite");
+        if (!std::isfinite(*value)) throw InputError("the density has a value that is not finite");
     }
     if (!std::isfinite(field.grid->background())) {
-        throw InputError("the background of the scale field is not finite");
+        throw InputError("the background of the density is not finite");
     }
 }
 

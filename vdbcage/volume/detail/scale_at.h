@@ -19,7 +19,7 @@ void requireValid(const ScaleRegion& region);
 /// \throw InputError the same of a region; a value of the grid that is not finite; a transform that is not linear
 /// \throw Cancelled
 /// Cost: O(values of the grid).
-void requireValid(const ScaleField& field, Interrupter* interrupter);
+void requireValidDensity(const ScaleField& field, Interrupter* interrupter);
 
 bool contains(const ScaleRegion& region, const openvdb::Vec3d& point);
 
