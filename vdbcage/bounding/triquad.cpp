@@ -179,7 +179,7 @@ Mesh triquad(const Mesh& surface, const BoundingGuard& guard, const BoundingTriq
         detail::tightenAndPerturb(*best, options.tightening, tightening.passedOn());
         return best->mesh();
     }
-    constexpr double mostLoss = 1.1; // of the distance: what a clean-up may cost
+    constexpr double mostLoss = 1.2; // of the distance before it is tightened: what a clean-up may cost
     const SquareTightening square(options.quadShape, options.tightening, interrupter);
     detail::GuardedMesh cleaned = *best;
     const bool isClean = cleanUpPairs(cleaned, most, options.quads, interrupter);
