@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <support/temporary_folder.h>
 #include <vdbcage/core/error.h>
 #include <vdbcage/pipeline/options.h>
 
@@ -110,7 +111,8 @@ BOOST_AUTO_TEST_CASE(a_density_is_given_as_text_and_needs_the_guard)
 
 BOOST_AUTO_TEST_CASE(joints_are_read_from_a_file_whose_errors_name_the_line)
 {
-    const std::filesystem::path file = std::filesystem::temp_directory_path() / "vdbcage_test_options.joints";
+    const test::TemporaryFolder folder;
+    const std::filesystem::path file = folder / "knees.joints";
     const auto write = [&](const std::string& text) { std::ofstream(file) << text; };
     write("# knees\n1 2 3\n\n 0 0 0  0 -2 0 # a bone\n");
     CageOptions options;

@@ -12,6 +12,7 @@
 #include <openvdb/tools/ChangeBackground.h>
 #include <support/cancelled_host.h>
 #include <support/shapes.h>
+#include <support/temporary_folder.h>
 #include <tbb/global_control.h>
 #include <vdbcage/check/check.h>
 #include <vdbcage/core/error.h>
@@ -235,10 +236,11 @@ BOOST_AUTO_TEST_CASE(a_stop_that_only_one_of_several_starts_sees_stops_them_all)
 
 BOOST_AUTO_TEST_CASE(every_option_counts)
 {
-    const std::filesystem::path joints = std::filesystem::temp_directory_path() / "vdbcage_test_reruns.joints";
+    const test::TemporaryFolder folder;
+    const std::string joints = folder / "knee.joints";
     std::ofstream(joints) << "0 0 0.5\n";
     const std::map<std::string, std::string> others{{"density", "sphere:0,0,1,0.7,8"},
-                                                    {"joints", joints.string()},
+                                                    {"joints", joints},
                                                     {"faces", "150"},
                                                     {"resolution", "20"},
                                                     {"close-radius", "0.2"},

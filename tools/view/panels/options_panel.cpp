@@ -13,7 +13,7 @@ namespace vdbcage::view {
 namespace {
 
 // Widths on an ordinary screen.
-constexpr float labelWidth = 92, fieldWidth = 70, autoWidth = 44, resetWidth = 24;
+constexpr float labelWidth = 128, fieldWidth = 70, autoWidth = 44, resetWidth = 24;
 
 /// A number between its ends as a place of a slider, 0 to 1. Ranges of more than a factor of 100 are by their
 /// logarithm, those from 0 are finer near 0.
