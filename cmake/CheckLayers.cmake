@@ -37,6 +37,8 @@ set(confined
     "Python\\.h|^tools/python/.*$"
     "CGAL/|^(vdbcage/.*\\.cpp|tests/.*)$")
 
+set(ofInstructionSets "^vdbcage/deform/detail/(lanes\\.h|packed_cage\\.h|row_kernels\\.h|row_kernels_.*)$")
+
 set(problems "")
 set(checked 0)
 file(GLOB_RECURSE files RELATIVE ${root} ${root}/vdbcage/*.h ${root}/vdbcage/*.cpp ${root}/tools/*.h ${root}/tools/*.cpp
@@ -57,6 +59,11 @@ foreach(file IN LISTS files)
             continue()
         endif()
         set(header ${CMAKE_MATCH_1})
+        # A function that a header defines could be the linker's choice for sources of all instruction sets.
+        if(file MATCHES "${ofInstructionSets}" AND
+           NOT header MATCHES "^(cstddef|cstdint|immintrin\\.h|vdbcage/deform/detail/(lanes|packed_cage|row_kernels(_of_set)?)\\.h)$")
+            list(APPEND problems "${file}: it is compiled for several instruction sets and must not include ${header}")
+        endif()
         if(room AND header STREQUAL "vdbcage/vdbcage.h")
             list(APPEND problems "${file}: ${header} is for users: it has the rooms of all floors")
         endif()

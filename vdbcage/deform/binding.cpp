@@ -7,7 +7,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <utility>
 
 #include <tbb/blocked_range.h>
@@ -15,9 +17,11 @@
 #include <vdbcage/core/detail/parallel.h>
 #include <vdbcage/core/error.h>
 #include <vdbcage/deform/detail/bound_cage.h>
+#include <vdbcage/deform/detail/cage_pack.h>
 #include <vdbcage/deform/detail/green.h>
 #include <vdbcage/deform/detail/likelihood.h>
 #include <vdbcage/deform/detail/mean_value.h>
+#include <vdbcage/deform/detail/row_kernels.h>
 #include <vdbcage/deform/detail/weight_blocks.h>
 #include <vdbcage/deform/detail/weight_matrix.h>
 
@@ -31,13 +35,17 @@ struct Family {
     Coordinates family;
     const char* name;
     const char* nameOnQuads;
-    bool (*row)(const detail::BoundCage&, const Vec3d&, double*); ///< null for what cannot be computed
+    /// The row of a point; false where the family is not defined. Null for what cannot be computed.
+    bool (*row)(const detail::BoundCage&, const Vec3d&, double*);
+    detail::RowKernels::Rows* detail::RowKernels::*rows; ///< of several points, but for those that are near the cage
 };
 
-constexpr std::array<Family, 4> families{{{Coordinates::meanValue, "mvc", "qmvc", detail::meanValueRow},
-                                          {Coordinates::green, "green", "qgc", detail::greenRow},
-                                          {Coordinates::maximumLikelihood, "mlc", "mlc", detail::likelihoodRow},
-                                          {Coordinates::given, "given", "given", nullptr}}};
+using detail::RowKernels;
+constexpr std::array<Family, 4> families{
+    {{Coordinates::meanValue, "mvc", "qmvc", detail::meanValueRow, &RowKernels::meanValue},
+     {Coordinates::green, "green", "qgc", detail::greenRow, &RowKernels::green},
+     {Coordinates::maximumLikelihood, "mlc", "mlc", detail::likelihoodRow, &RowKernels::likelihood},
+     {Coordinates::given, "given", "given", nullptr, nullptr}}};
 
 const Family& entry(Coordinates family)
 {
@@ -111,29 +119,20 @@ class RowMaker {
 public:
     RowMaker(const Mesh& mesh, const std::vector<Vec3d>& points, Coordinates family, Interrupter* interrupter)
         : points_(points), family_(requireComputable(family)), interrupter_(interrupter),
-          columns_(handleCount(mesh, family)), cage_(mesh), undefined_(points.size(), 0)
+          columns_(handleCount(mesh, family)), cage_(mesh), pack_(cage_), undefined_(points.size(), 0)
     {
         requireFinite(points, "points");
     }
 
-    /// Computes `count` rows in parallel, in pieces: those of the points `pointOf` 0, 1 and so on. `take` gets the
-    /// number and the row of those that are defined, in any order.
-    template <typename PointOf, typename Take>
-    void make(std::size_t count, const PointOf& pointOf, const Take& take)
+    /// Computes `count` rows in parallel, in pieces: those of the points `pointOf` 0, 1 and so on, one after the other.
+    template <typename PointOf, typename Number>
+    void make(std::size_t count, const PointOf& pointOf, Number* rows)
     {
-        detail::parallelFor(tbb::blocked_range<std::size_t>(0, count, 16), [&](const auto& range) {
-            std::vector<double> row(columns_);
-            for (std::size_t i = range.begin(); i < range.end(); ++i) {
-                throwIfInterrupted(interrupter_);
-                const std::size_t point = pointOf(i);
-                const Vec3d x = cage_.scaled(points_[point]);
-                const bool defined = isFinite(x) && entry(family_).row(cage_, x, row.data()) &&
-                                     std::all_of(row.begin(), row.end(), [](double w) { return std::isfinite(w); });
-                if (defined) {
-                    take(i, row);
-                } else {
-                    undefined_[point] = 1;
-                }
+        constexpr std::size_t grain = 8 * detail::packetSize; // its buffers are worth it
+        detail::parallelFor(tbb::blocked_range<std::size_t>(0, count, grain), [&](const auto& range) {
+            const Buffers buffers{std::make_unique<Packet[]>(columns_), scratch()};
+            for (std::size_t i = range.begin(); i < range.end(); i += detail::packetSize) {
+                makePacket(i, std::min<std::size_t>(range.end() - i, detail::packetSize), pointOf, buffers, rows);
             }
         });
     }
@@ -151,11 +150,61 @@ public:
     }
 
 private:
+    using Packet = double[detail::packetSize]; // a number of each point
+    struct alignas(64) Chunk {
+        std::byte bytes[64];
+    };
+    struct Buffers {
+        std::unique_ptr<Packet[]> rows;
+        std::unique_ptr<Chunk[]> scratch;
+    };
+
+    std::unique_ptr<Chunk[]> scratch() const // not set to zero: it is large
+    {
+        return std::unique_ptr<Chunk[]>(new Chunk[detail::scratchSize(pack_.packed()) / sizeof(Chunk) + 1]);
+    }
+
+    template <typename PointOf, typename Number>
+    void makePacket(std::size_t first, std::size_t count, const PointOf& pointOf, const Buffers& buffers, Number* rows)
+    {
+        Packet x[3] = {};
+        for (std::size_t lane = 0; lane < count; ++lane) {
+            throwIfInterrupted(interrupter_);
+            const Vec3d at = cage_.scaled(points_[pointOf(first + lane)]);
+            for (int a = 0; isFinite(at) && a < 3; ++a) x[a][lane] = at[a];
+        }
+        const auto kernel = detail::rowKernels().*entry(family_).rows;
+        const unsigned leftOut = kernel(pack_.packed(), x, buffers.scratch.get(), buffers.rows.get());
+        std::vector<double> row;
+        Packet probe = {}; // not zero where a number is not finite
+        for (std::size_t lane = 0; lane < count; ++lane) {
+            const std::size_t point = pointOf(first + lane);
+            const Vec3d at = cage_.scaled(points_[point]);
+            if (!isFinite(at)) probe[lane] = 1;
+            if ((leftOut >> lane & 1) == 0) continue;
+            row.resize(columns_);
+            if (!isFinite(at) || !entry(family_).row(cage_, at, row.data())) probe[lane] = 1;
+            for (std::size_t k = 0; k < columns_; ++k) buffers.rows[k][lane] = row[k];
+        }
+        Number* const to = rows + first * columns_;
+        for (std::size_t k = 0; k < columns_; ++k) {
+            for (std::size_t lane = 0; lane < count; ++lane) {
+                const double weight = buffers.rows[k][lane];
+                probe[lane] += 0 * weight;
+                to[lane * columns_ + k] = static_cast<Number>(weight);
+            }
+        }
+        for (std::size_t lane = 0; lane < count; ++lane) {
+            if (probe[lane] != 0) undefined_[pointOf(first + lane)] = 1;
+        }
+    }
+
     const std::vector<Vec3d>& points_;
     Coordinates family_;
     Interrupter* interrupter_;
     std::size_t columns_;
     detail::BoundCage cage_;
+    detail::CagePack pack_;
     std::vector<char> undefined_;
 };
 
@@ -173,11 +222,7 @@ std::vector<Number> computeRows(const Mesh& cage, const std::vector<Vec3d>& poin
         rows.resize(std::min(count, rows.size() + (1U << 22)));
     }
     maker.make(
-        points.size(), [](std::size_t i) { return i; },
-        [&](std::size_t i, const std::vector<double>& row) {
-            std::transform(row.begin(), row.end(), rows.begin() + static_cast<std::ptrdiff_t>(i * row.size()),
-                           [](double weight) { return static_cast<Number>(weight); });
-        });
+        points.size(), [](std::size_t i) { return i; }, rows.data());
     maker.requireDefined();
     return rows;
 }
@@ -257,11 +302,7 @@ Binding::Binding(const Mesh& cage, std::vector<Vec3d> points, Coordinates family
         points_, maxDistancesOf(cage_, family_),
         [&](const std::vector<std::uint32_t>& block, std::vector<float>& rows) {
             maker.make(
-                block.size(), [&](std::size_t i) { return block[i]; },
-                [&](std::size_t i, const std::vector<double>& row) {
-                    float* const to = rows.data() + i * row.size();
-                    for (std::size_t k = 0; k < row.size(); ++k) to[k] = static_cast<float>(row[k]);
-                });
+                block.size(), [&](std::size_t i) { return block[i]; }, rows.data());
         },
         interrupter);
     maker.requireDefined();

@@ -59,12 +59,11 @@ VDBCAGE_API std::vector<openvdb::Vec3d> cageHandles(const Mesh& cage, const std:
 /// Point i is the sum over the handles at rest, each times its weight, to 1e-12 of the cage's size. The weights of the
 /// cage's points have sum 1; those of points that no face uses are 0. The weights are accurate to 1e-7, less where
 /// faces meet at a distance below 1e-7 of the cage's size. Points at less than 1e-12 of it count as on the cage.
-/// Self-intersections are not looked for. Degenerate faces are allowed. The same for any number of threads.
-/// \pre `cage` is closed and faces outward
-/// \throw InputError a cage that is not closed, faces inward or is flat; a point not finite; a point for which the
-/// family is not defined (the message has the first and how many); the family is `given`
-/// \throw Cancelled
-/// Cost: O(points x faces), in parallel. Quads cost several times what triangles do.
+/// Self-intersections are not looked for. Degenerate faces are allowed. The same bits for any number of threads and for
+/// all instruction sets of a processor. \pre `cage` is closed and faces outward \throw InputError a cage that is not
+/// closed, faces inward or is flat; a point not finite; a point for which the family is not defined (the message has
+/// the first and how many); the family is `given` \throw Cancelled Cost: O(points x faces), in parallel. Quads cost
+/// several times what triangles do.
 VDBCAGE_API std::vector<double> computeCoordinates(const Mesh& cage, const std::vector<openvdb::Vec3d>& points,
                                                    Coordinates family, Interrupter* interrupter = nullptr);
 

@@ -51,13 +51,15 @@ public:
     /// The sum of the weights stays. The change is the least in the sum of squares. Weights that were rounded or
     /// integrated reproduce affine maps after it.
     void restore(const openvdb::Vec3d& missing, double* weights) const;
+    /// By point: its weight's change for each missing unit.
+    const std::vector<openvdb::Vec3d>& restoring() const { return restoring_; }
 
 private:
     openvdb::Vec3d centre_{0};
     double size_ = 1;
     std::vector<openvdb::Vec3d> points_;
     std::vector<Face> faces_;
-    std::vector<openvdb::Vec3d> restoring_; // by point: its weight's change for each missing unit
+    std::vector<openvdb::Vec3d> restoring_;
 };
 
 /// The centre of the box of the cage's faces and its longest side.

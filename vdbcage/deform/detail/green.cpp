@@ -12,6 +12,7 @@
 #include <cmath>
 
 #include <vdbcage/deform/detail/patch_quadrature.h>
+#include <vdbcage/deform/detail/row_kernels.h>
 
 namespace vdbcage::detail {
 
@@ -114,6 +115,16 @@ Vec3d stretchedNormal(const Vec3d& a, const Vec3d& b, const Vec3d& posedA, const
     double square = 0;
     for (int i = 0; i < 3; ++i) square += (posedA[i] * b - posedB[i] * a).lengthSqr();
     return std::sqrt(0.5 * square) / length * normal;
+}
+
+bool exactGreen(const BoundCage& cage, std::size_t face, const double (&x)[3], double (&positions)[3], double& normal)
+{
+    const Vec3d from(x);
+    if (cage.nearestOf(face, from).distance < tooNear) return false;
+    const FacePart part = facePart(cage.cornersFrom(cage.faces()[face], from), false, false);
+    std::copy_n(part.positions.begin(), 3, positions);
+    normal = part.normals[0];
+    return true;
 }
 
 bool greenRow(const BoundCage& cage, const Vec3d& x, double* row)

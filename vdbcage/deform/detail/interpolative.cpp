@@ -10,34 +10,23 @@
 #include <limits>
 #include <numeric>
 
+#include <vdbcage/deform/detail/row_kernels.h>
+
 namespace vdbcage::detail {
 
 namespace {
 
-// Sums are made in as many parts, for vectors.
-constexpr std::size_t lanes = 16;
 // Rounding may bring what a row is off by to so many times the tolerance.
 constexpr double withRounding = 4;
 // Rounding costs about 2^-26 of what a combination adds up. Where that is less than so many times the row's size, it is
 // not looked at: of coordinates it is 10 to 20 times, and 65 at most (creature, cages of 400 and 1500 faces).
 constexpr double harmlessGrowth = 24;
 
-/// The sum of `term` of 0 to `count` - 1, a multiple of `lanes`.
-template <typename Term>
-float sumOf(std::size_t count, const Term& term)
-{
-    float sums[lanes] = {};
-    for (std::size_t k = 0; k < count; k += lanes) {
-        for (std::size_t i = 0; i < lanes; ++i) sums[i] += term(k + i);
-    }
-    return std::accumulate(sums, sums + lanes, 0.0F);
-}
-
 /// What is left of each row after its projection on the rows kept so far, by Gram and Schmidt.
 class Residuals {
 public:
     Residuals(const std::vector<float>& rows, const std::vector<float>& scale, float tolerance)
-        : width_((scale.size() + lanes - 1) / lanes * lanes), count_(rows.size() / scale.size()),
+        : width_((scale.size() + floatLanes - 1) / floatLanes * floatLanes), count_(rows.size() / scale.size()),
           entries_(count_ * width_, 0.0F), allowed_(count_), size_(count_), coefficients_(count_ * count_),
           asked_(count_, 0)
     {
@@ -62,25 +51,18 @@ public:
         return asked_[row] != 0 || std::isnan(excess) ? std::numeric_limits<float>::infinity() : excess;
     }
 
-    /// Takes the projection on row `pivot`, the `step`th kept, off `row`.
-    void project(std::size_t row, std::size_t pivot, float inverseSquare, std::size_t step)
+    /// Takes the projections on row `pivot`, the `step`th kept, off `rows`.
+    void project(const std::vector<std::uint32_t>& rows, std::uint32_t pivot, std::size_t step)
     {
-        float* const to = entries_.data() + row * width_;
-        const float* const from = entries_.data() + pivot * width_;
-        const float factor = inverseSquare * sumOf(width_, [&](std::size_t k) { return to[k] * from[k]; });
-        size_[row] = sumOf(width_, [&](std::size_t k) {
-            to[k] -= factor * from[k];
-            return std::abs(to[k]);
-        });
-        coefficients_[row * count_ + step] = factor;
-    }
-
-    /// One over the sum of squares; 0 where there is none.
-    float inverseSquare(std::size_t row) const
-    {
-        const float* const from = entries_.data() + row * width_;
-        const float square = sumOf(width_, [&](std::size_t k) { return from[k] * from[k]; });
-        return square > 0 ? 1 / square : 0;
+        std::vector<float*> places;
+        for (const std::uint32_t row : rows) places.push_back(entries_.data() + row * width_);
+        std::vector<float> factors(rows.size()), sizes(rows.size());
+        rowKernels().project(places.data(), rows.size(), entries_.data() + pivot * width_, inverseSquare(pivot), width_,
+                             factors.data(), sizes.data());
+        for (std::size_t i = 0; i < rows.size(); ++i) {
+            size_[rows[i]] = sizes[i];
+            coefficients_[rows[i] * count_ + step] = factors[i];
+        }
     }
 
     /// The size of the row less the first one.
@@ -91,10 +73,25 @@ public:
     float coefficient(std::size_t row, std::size_t step) const { return coefficients_[row * count_ + step]; }
 
 private:
+    /// The sum of `term` of each entry of the row, in parts for vectors.
+    template <typename Term>
+    float sumOf(std::size_t row, const Term& term) const
+    {
+        float sums[floatLanes] = {};
+        for (std::size_t k = 0; k < width_; k += floatLanes) {
+            for (std::size_t i = 0; i < floatLanes; ++i) sums[i] += term(entries_[row * width_ + k + i]);
+        }
+        return std::accumulate(sums, sums + floatLanes, 0.0F);
+    }
     float sizeOf(std::size_t row) const
     {
-        const float* const from = entries_.data() + row * width_;
-        return sumOf(width_, [&](std::size_t k) { return std::abs(from[k]); });
+        return sumOf(row, [](float entry) { return std::abs(entry); });
+    }
+    /// One over the sum of squares; 0 where there is none.
+    float inverseSquare(std::size_t row) const
+    {
+        const float square = sumOf(row, [](float entry) { return entry * entry; });
+        return square > 0 ? 1 / square : 0;
     }
 
     std::size_t width_, count_;
@@ -164,10 +161,8 @@ InterpolativeRows interpolativeRows(const std::vector<float>& rows, const std::v
             if (kept % unit == 0 && !(residuals.excess(*worst) > 0)) break;
             if (kept + 1 == count) return all;
             std::swap(order[kept], *worst);
-            const float inverseSquare = residuals.inverseSquare(order[kept]);
-            for (std::size_t i = kept + 1; i < count; ++i) {
-                residuals.project(order[i], order[kept], inverseSquare, kept - 1);
-            }
+            const std::vector<std::uint32_t> rest(order.begin() + static_cast<std::ptrdiff_t>(kept) + 1, order.end());
+            residuals.project(rest, order[kept], kept - 1);
         }
 
         std::vector<std::uint32_t> tooFarOff;

@@ -10,6 +10,7 @@
 #include <cmath>
 
 #include <vdbcage/deform/detail/patch_quadrature.h>
+#include <vdbcage/deform/detail/row_kernels.h>
 
 namespace vdbcage::detail {
 
@@ -65,6 +66,16 @@ std::array<double, 4> meanValueWeights(const PatchCorners& corners, bool quad)
         weights[3] = 0;
     }
     return weights;
+}
+
+bool exactMeanValue(const BoundCage& cage, std::size_t face, const double (&x)[3], double (&weights)[4])
+{
+    const Vec3d from(x);
+    if (cage.nearestOf(face, from).distance < tooNear) return false;
+    const BoundCage::Face& f = cage.faces()[face];
+    const std::array<double, 4> exact = meanValueWeights(cage.cornersFrom(f, from), f.quad);
+    std::copy(exact.begin(), exact.end(), weights);
+    return true;
 }
 
 bool meanValueRow(const BoundCage& cage, const Vec3d& x, double* row)

@@ -11,6 +11,7 @@
 #include <vdbcage/core/detail/parallel.h>
 #include <vdbcage/core/error.h>
 #include <vdbcage/deform/detail/interpolative.h>
+#include <vdbcage/deform/detail/row_kernels.h>
 
 namespace vdbcage::detail {
 
@@ -95,12 +96,12 @@ GroupSums sumUp(const float* weights, const Moves& moves)
 using Indices = std::vector<std::uint32_t>;
 
 /// Sorts indices of points, `blockSize` to a block, by halving the points across the longest side of their box until
-/// they are a block or less.
+/// they are a block or less; and blocks likewise, down to what is computed together.
 void sortIntoBlocks(const std::vector<Vec3d>& points, Indices::iterator begin, Indices::iterator end,
                     Interrupter* interrupter)
 {
     const auto count = static_cast<std::size_t>(end - begin);
-    if (count <= blockSize) {
+    if (count <= packetSize) {
         std::sort(begin, end);
         return;
     }
@@ -108,15 +109,22 @@ void sortIntoBlocks(const std::vector<Vec3d>& points, Indices::iterator begin, I
     openvdb::BBoxd box;
     std::for_each(begin, end, [&](std::uint32_t i) { box.expand(points[i]); });
     const auto axis = static_cast<int>(box.maxExtent());
-    const std::size_t blocksBefore = (count + blockSize - 1) / blockSize / 2;
-    const auto middle = begin + static_cast<std::ptrdiff_t>(blocksBefore * blockSize);
+    const std::size_t unit = count > blockSize ? blockSize : packetSize;
+    const std::size_t before = (count + unit - 1) / unit / 2 * unit;
+    const auto middle = begin + static_cast<std::ptrdiff_t>(before);
     Asker ask(interrupter);
     std::nth_element(begin, middle, end, [&](std::uint32_t a, std::uint32_t b) {
         ask();
         return std::pair(points[a][axis], a) < std::pair(points[b][axis], b);
     });
-    parallelInvoke([&] { sortIntoBlocks(points, begin, middle, interrupter); },
-                   [&] { sortIntoBlocks(points, middle, end, interrupter); });
+    const auto sortBefore = [&] { sortIntoBlocks(points, begin, middle, interrupter); };
+    const auto sortBehind = [&] { sortIntoBlocks(points, middle, end, interrupter); };
+    if (count > blockSize) {
+        parallelInvoke(sortBefore, sortBehind);
+    } else {
+        sortBefore();
+        sortBehind();
+    }
 }
 
 /// Rows, `row(i)` gives the `i`th, in groups of which each has them column by column.

@@ -24,8 +24,8 @@ struct HandleMove {
 /// A block holds the weights of as few of its points as it can. The weights of the others are combinations of these.
 class WeightBlocks {
 public:
-    /// Writes the weights of `points`, which are sorted indices, to `rows`, which has their size. Several threads call
-    /// it.
+    /// Writes the weights of `points`, which are indices, to `rows`, which has their size. Each `packetSize` of them
+    /// are close together. Several threads call it.
     using MakeRows = std::function<void(const std::vector<std::uint32_t>& points, std::vector<float>& rows)>;
 
     /// What combinations may be off by: four times what rounding to float costs.

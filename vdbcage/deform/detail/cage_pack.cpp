@@ -1,0 +1,103 @@
+#include <vdbcage/deform/detail/cage_pack.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include <vdbcage/deform/detail/gauss.h>
+
+namespace vdbcage::detail {
+
+using openvdb::Vec3d;
+
+namespace {
+
+void copy(const Vec3d& from, double (&to)[3])
+{
+    for (int a = 0; a < 3; ++a) to[a] = from[a];
+}
+
+PackedRules packedRules()
+{
+    constexpr double digits = 8 * 2.302585092994046; // of the tolerance, see samplePatch()
+    static_assert(PackedRules::most == mostGaussPoints);
+    PackedRules rules{};
+    for (int n = 1; n <= PackedRules::most; ++n) {
+        const GaussRule& rule = gaussRule(n);
+        std::copy(rule.at.begin(), rule.at.end(), rules.at[n]);
+        std::copy(rule.weight.begin(), rule.weight.end(), rules.weight[n]);
+        rules.leastDistance[n] = std::sinh(digits / (2 * n));
+    }
+    return rules;
+}
+
+PackedQuad packedQuad(const BoundCage::Face& face, const PatchCorners& c)
+{
+    PackedQuad quad{};
+    std::copy(face.at.begin(), face.at.end(), quad.corner);
+    const Vec3d middle = 0.25 * (c[0] + c[1] + c[2] + c[3]);
+    copy(middle, quad.extent.middle);
+    for (const Vec3d& corner : c) quad.extent.radius = std::max(quad.extent.radius, (corner - middle).length());
+    quad.extent.halfU = 0.5 * std::max((c[1] - c[0]).length(), (c[2] - c[3]).length());
+    quad.extent.halfV = 0.5 * std::max((c[3] - c[0]).length(), (c[2] - c[1]).length());
+    return quad;
+}
+
+} // namespace
+
+CagePack::CagePack(const BoundCage& cage) : rules_(packedRules())
+{
+    const auto places = [](const std::vector<Vec3d>& from) {
+        std::vector<Place> to(from.size());
+        for (std::size_t i = 0; i < from.size(); ++i) copy(from[i], to[i].at);
+        return to;
+    };
+    points_ = places(cage.points());
+    restoring_ = places(cage.restoring());
+    std::vector<Vec3d> normals;
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> edgeOf;
+    for (const BoundCage::Face& face : cage.faces()) {
+        const auto corner = [&](std::size_t k) { return cage.points()[face.at[k]]; };
+        if (face.quad) {
+            quads_.push_back(packedQuad(face, {corner(0), corner(1), corner(2), corner(3)}));
+            for (std::size_t k = 0; k < 4; ++k) {
+                normals.push_back((corner((k + 1) % 4) - corner(k)).cross(corner((k + 3) % 4) - corner(k)));
+            }
+            continue;
+        }
+        PackedTriangle t{};
+        const Vec3d areaNormal = (corner(1) - corner(0)).cross(corner(2) - corner(0));
+        t.area = areaNormal.length();
+        const Vec3d normal = t.area > 0 ? areaNormal / t.area : Vec3d(0);
+        double longest = 0;
+        Vec3d sides[3], along[3];
+        for (std::size_t k = 0; k < 3; ++k) {
+            const std::uint32_t from = face.at[(k + 1) % 3], to = face.at[(k + 2) % 3];
+            sides[k] = corner((k + 2) % 3) - corner((k + 1) % 3);
+            const double length = sides[k].length();
+            along[k] = length > 0 ? sides[k] / length : Vec3d(0);
+            longest = std::max(longest, length);
+            const auto [edge, isNew] =
+                edgeOf.try_emplace(std::minmax(from, to), static_cast<std::uint32_t>(edges_.size()));
+            if (isNew) edges_.push_back({edge->first.first, edge->first.second, length});
+            t.corner[k] = face.at[k];
+            t.edge[k] = edge->second;
+            t.sign[k] = from < to ? 1 : -1;
+            copy(along[k].cross(normal), t.outward[k]);
+        }
+        for (std::size_t i = 0; i < 3; ++i) {
+            for (std::size_t k = 0; k < 3; ++k) t.along[i][k] = along[k].dot(sides[i]) / t.area;
+        }
+        copy(normal, t.normal);
+        t.sliver = !(t.area > 1e-7 * longest * longest);
+        triangles_.push_back(t);
+        normals.push_back(areaNormal);
+    }
+    normals_ = places(normals);
+    const auto rows = [](const std::vector<Place>& from) { return from.empty() ? nullptr : &from.front().at; };
+    packed_ = {points_.size(),    edges_.size(), triangles_.size(), quads_.size(),  rows(points_), edges_.data(),
+               triangles_.data(), quads_.data(), rows(restoring_),  rows(normals_), &rules_,       &cage};
+}
+
+} // namespace vdbcage::detail

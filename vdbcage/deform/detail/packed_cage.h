@@ -1,0 +1,61 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+// Plain data only: sources that are compiled for one instruction set each read this, and must not leave a function of
+// theirs to the linker's choice.
+
+namespace vdbcage::detail {
+
+class BoundCage;
+
+struct PackedEdge {
+    std::uint32_t from, to;
+    double length;
+};
+
+struct PackedTriangle {
+    std::uint32_t corner[3];
+    std::uint32_t edge[3]; ///< opposite each corner
+    double sign[3];        ///< of that edge: -1 if it runs against the triangle
+    double normal[3];      ///< of length 1
+    double area;           ///< twice the triangle's
+    double outward[3][3];  ///< in the plane, square to the edge, of length 1
+    double along[3][3];    ///< of two edges, as the triangle runs: the one's direction dot the other, over `area`
+    bool sliver;           ///< normal and lengths have no digits
+};
+
+/// How large a part of a bilinear patch is.
+struct PatchExtent {
+    double middle[3]; ///< mean of the corners
+    double radius;    ///< of the corners, around it
+    double halfU, halfV;
+};
+
+struct PackedQuad {
+    std::uint32_t corner[4];
+    PatchExtent extent;
+};
+
+/// Gauss rules on [0, 1], and how far from a line of half length 1 each suffices.
+struct PackedRules {
+    static constexpr int fewest = 3, most = 12;
+    double at[most + 1][most], weight[most + 1][most];
+    double leastDistance[most + 1];
+};
+
+/// A cage as the row kernels read it. All points are in its frame.
+struct PackedCage {
+    std::size_t pointCount, edgeCount, triangleCount, quadCount; ///< edges of triangles only
+    const double (*points)[3];
+    const PackedEdge* edges;
+    const PackedTriangle* triangles;
+    const PackedQuad* quads;
+    const double (*restoring)[3]; ///< see BoundCage::restore
+    const double (*normals)[3];   ///< of Green coordinates: one a triangle, then four a quad; not of length 1
+    const PackedRules* rules;
+    const BoundCage* cage;
+};
+
+} // namespace vdbcage::detail
