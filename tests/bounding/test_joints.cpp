@@ -1,14 +1,15 @@
 #include <boost/test/unit_test.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
-#include <set>
 
 #include <support/shapes.h>
 #include <support/stop_at.h>
 #include <support/symmetric.h>
 #include <tbb/global_control.h>
 #include <vdbcage/bounding/detail/guard_model.h>
+#include <vdbcage/bounding/detail/joint_rings.h>
 #include <vdbcage/bounding/quad_loops.h>
 #include <vdbcage/bounding/triquad.h>
 #include <vdbcage/check/check.h>
@@ -48,21 +49,42 @@ QuadLoopsOptions to(std::size_t faces)
     return options;
 }
 
-/// How many rings of vertices around the x axis a cage of a bar has at this place: groups that lie about in one plane.
-std::size_t ringsOfVertices(const Mesh& cage, double from, double to)
+constexpr double radius = 2.4; // of the bar
+
+/// How many rings of quads a cage of a bar has at this place: between two rings of vertices, groups that lie about in
+/// one plane, that are at most twice as wide as the bar. The middle is at most its radius away.
+std::size_t ringsAt(const Mesh& cage, double place)
 {
-    std::vector<double> places;
-    for (const Vec3d& p : cage.points) {
-        if (p[0] > from && p[0] < to) places.push_back(p[0]);
+    struct Group {
+        double first, last, width;
+    };
+    std::vector<Vec3d> points = cage.points;
+    std::sort(points.begin(), points.end(), [](const Vec3d& a, const Vec3d& b) { return a[0] < b[0]; });
+    std::vector<Group> groups;
+    for (const Vec3d& p : points) {
+        if (groups.empty() || p[0] - groups.back().last > 0.4) groups.push_back({p[0], p[0], 0});
+        groups.back().last = p[0];
+        groups.back().width = std::max(groups.back().width, std::hypot(p[1], p[2]));
     }
-    std::sort(places.begin(), places.end());
-    std::size_t groups = 0;
-    double last = -std::numeric_limits<double>::infinity();
-    for (const double place : places) {
-        if (place - last > 0.4) ++groups;
-        last = place;
+    std::size_t rings = 0;
+    for (std::size_t i = 0; i + 1 < groups.size(); ++i) {
+        const Group &a = groups[i], &b = groups[i + 1];
+        const double middle = 0.25 * (a.first + a.last + b.first + b.last);
+        rings += std::abs(middle - place) <= radius && std::max(a.width, b.width) <= 2 * radius;
     }
-    return groups;
+    return rings;
+}
+
+/// The rings that are counted at a joint of a surface of voxels.
+std::size_t countedRings(const Bar& bar, const openvdb::CoordBBox& voxels, const Joint& joint)
+{
+    auto mask = openvdb::MaskGrid::create();
+    mask->fill(voxels, true);
+    mask->tree().voxelizeActiveTiles();
+    const BoundingGuard guard(bar.model, with({joint}));
+    const detail::GuardedMesh surface(extractSurface(*mask), detail::modelOf(guard));
+    const detail::QuadTable table(surface);
+    return detail::JointRings(surface, table).count().at(0);
 }
 
 } // namespace
@@ -81,11 +103,36 @@ BOOST_AUTO_TEST_CASE(loops_get_three_rings_at_a_joint)
             BOOST_TEST(cage.triangles.empty());
             BOOST_TEST(faceCount(cage) <= 60U);
             BOOST_TEST(checkCage(cage, bar.model).bounding());
-            // Three rings of quads have four rings of vertices; their radius is 3 or more.
-            BOOST_TEST(ringsOfVertices(cage, place - 3.5, place + 3.5) >= 4U, "at " << place);
-            BOOST_TEST(ringsOfVertices(other, place - 3.5, place + 3.5) < 4U, "without a joint at " << place);
+            BOOST_TEST(ringsAt(cage, place) >= 3U, "at " << place);
+            BOOST_TEST(ringsAt(other, place) < 3U, "without a joint at " << place);
         }
     }
+}
+
+BOOST_AUTO_TEST_CASE(rings_are_near_the_joint_and_about_as_wide_as_the_limb)
+{
+    const Bar bar;
+    const openvdb::CoordBBox narrow({-21, -3, -3}, {21, 3, 3}), wide({-21, -6, -6}, {21, 6, 6});
+    const Joint along{{0, 0, 0}, Vec3d(1, 0, 0)}, across{{0, 0, 0}, Vec3d(0.3, 1, 0)};
+    BOOST_TEST(countedRings(bar, narrow, {{0, 0, 0}, std::nullopt}) == 5U); // at -2 to 2
+    BOOST_TEST(countedRings(bar, narrow, along) == 5U);
+    BOOST_TEST(countedRings(bar, narrow, {{0.45, 0, 0}, Vec3d(1, 0, 0)}) == 4U); // at -1 to 2
+    BOOST_TEST(countedRings(bar, wide, along) == 0U);
+    BOOST_TEST(countedRings(bar, narrow, across) == 0U);
+}
+
+BOOST_AUTO_TEST_CASE(a_limb_is_as_wide_as_the_model_across_its_axis)
+{
+    const Bar bar;
+    const Vec3d slanted(3, 4, 0);
+    const BoundingGuard guard(bar.model, with({{{3, 0.5, 0}, std::nullopt}, {{3, 0, 0}, slanted}}));
+    const detail::GuardModel& model = detail::modelOf(guard);
+    const double unit = model.scaled({1, 0, 0})[0];
+    const detail::Limb &found = model.limbs().at(0), &given = model.limbs().at(1);
+    BOOST_TEST(std::abs(found.axis[0]) > 0.95);
+    BOOST_TEST(found.radius == radius * unit, boost::test_tools::tolerance(0.1));
+    BOOST_TEST((given.axis - 0.2 * slanted).length() < 1e-12);
+    BOOST_TEST(given.radius > 1.2 * radius * unit);
 }
 
 BOOST_AUTO_TEST_CASE(symmetric_loops_get_them_on_both_sides)
@@ -97,7 +144,7 @@ BOOST_AUTO_TEST_CASE(symmetric_loops_get_them_on_both_sides)
     const Mesh surface = guard.symmetrized(extractSurface(*bar.voxels), 0.25);
     const Mesh cage = quadLoops(surface, guard, to(80));
     BOOST_TEST(test::isSymmetric(cage, *guard.symmetry()));
-    for (const double place : {-8.0, 8.0}) BOOST_TEST(ringsOfVertices(cage, place - 3.5, place + 3.5) >= 4U);
+    for (const double place : {-8.0, 8.0}) BOOST_TEST(ringsAt(cage, place) >= 3U);
 }
 
 BOOST_AUTO_TEST_CASE(other_cages_have_no_rings_but_more_faces)
@@ -138,11 +185,16 @@ BOOST_AUTO_TEST_CASE(density_around_joints_counts_once_however_many_there_are)
                  far = model.distanceWeight(model.scaled({0, 2.4, 0}));
     BOOST_TEST(at == 8); // the cube of 2
     BOOST_TEST(far == 1);
+    options.jointDensity = 1;
+    BOOST_TEST(!detail::modelOf(BoundingGuard(bar.model, options)).hasDensity());
 }
 
 BOOST_AUTO_TEST_CASE(bad_joints_are_refused)
 {
     const Bar bar;
+    GuardOptions options;
+    options.jointDensity = 0.5;
+    BOOST_CHECK_THROW(BoundingGuard(bar.model, options), InputError);
     const double nan = std::nan(""), infinite = std::numeric_limits<double>::infinity();
     const Joint bad[] = {{{nan, 0, 0}, std::nullopt},
                          {{0, 30, 0}, std::nullopt},

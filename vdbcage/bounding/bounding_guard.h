@@ -23,7 +23,7 @@ const GuardModel& modelOf(const BoundingGuard& guard);
 } // namespace detail
 
 struct GuardOptions {
-    static constexpr Range clearances{1e-7, 0.1}, minAngles{0, 30}, spacings{1e-4, 0.01};
+    static constexpr Range clearances{1e-7, 0.1}, minAngles{0, 30}, spacings{1e-4, 0.01}, jointDensities{1, 8};
 
     /// Least distance from model to surface, fraction of the model's longest side. Where float holds the model, at
     /// least four times the rounding of its largest coordinate. Models of a quarter of a million quads and more may get
@@ -39,9 +39,11 @@ struct GuardOptions {
     /// of the others. It counts at the nearest point of the model, at least 1/8. With a plane of symmetry that side
     /// counts which is farther from 1. They do so by counting distance for more, or for less.
     ScaleField density = {};
-    /// Where the model is to bend. Each counts as a density of 2 within 1.5 times its distance from the model's
-    /// surface, and quadLoops() makes three rings across the limb there, as far as the guard allows.
+    /// Where the model is to bend: quadLoops() makes three rings across the limb there, as far as the guard allows.
     std::vector<Joint> joints = {};
+    /// The density within 1.5 times the distance of a joint from the model's surface. quadLoops() needs none: all it
+    /// would add are quads around the limb.
+    double jointDensity = 2;
 };
 
 /// Keeps a surface bounding while it is changed. Built once from a model, any polygon soup. It lets smooth, decimate,

@@ -13,7 +13,7 @@ namespace vdbcage {
 /// A place where the model is to bend: an elbow, a knee.
 struct Joint {
     openvdb::Vec3d place{0};            ///< inside the limb, world units
-    std::optional<openvdb::Vec3d> axis; ///< along the limb, of any length above 0; unset: across the shortest ring
+    std::optional<openvdb::Vec3d> axis; ///< along the limb, of any length above 0; unset: where it is thinnest across
 
     bool operator==(const Joint& other) const { return place == other.place && axis == other.axis; }
     bool operator!=(const Joint& other) const { return !(*this == other); }

@@ -38,7 +38,7 @@ void completeRings(GuardedMesh& surface, QuadTable& table, std::size_t quads, In
     QuadTable nowTable = table;
     for (int i = 0; i < rounds && least > 0; ++i) {
         addRings(now, nowTable, interrupter);
-        collapseLoops(now, nowTable, quads, 0, interrupter);
+        collapseLoops(now, nowTable, quads, AtJoints::keepRings, 0, interrupter);
         const std::size_t left = lacking(now, nowTable);
         if (left >= least || nowTable.count() > std::max(quads, table.count())) continue;
         least = left;
@@ -91,8 +91,8 @@ Mesh quadLoops(const Mesh& surface, const BoundingGuard& guard, const QuadLoopsO
     if (table.count() == 0) return guarded.mesh();
     constexpr int mostPercent = 70; // the rest comes after
     const std::size_t faces = options.faces / guarded.copies();
-    addRings(guarded, table, interrupter);
-    collapseLoops(guarded, table, faces, mostPercent, interrupter);
+    collapseLoops(guarded, table, faces, AtJoints::anything, mostPercent, interrupter);
+    completeRings(guarded, table, faces, interrupter);
     exchangeLoops(guarded, table, faces, options.exchanges, interrupter);
     completeRings(guarded, table, faces, interrupter);
     // Where a quad cannot be made, the loops through it go.

@@ -83,8 +83,6 @@ Faces facesOf(const Mesh& model, const std::vector<Vec3d>& points, double maxDis
     return faces;
 }
 
-constexpr double densityAroundJoints = 2;
-
 /// \throw InputError
 void requireValid(const Joint& joint, const openvdb::BBoxd& box)
 {
@@ -108,6 +106,7 @@ GuardModel::GuardModel(const Mesh& model, const GuardOptions& options, Interrupt
     requireWithin(GuardOptions::clearances, options.clearance, "clearance");
     requireWithin(GuardOptions::minAngles, options.minAngleDegrees, "min angle");
     requireWithin(GuardOptions::spacings, options.spacing, "spacing");
+    requireWithin(GuardOptions::jointDensities, options.jointDensity, "joint density");
     openvdb::BBoxd box = boundingBox(model);
     if (options.symmetry) {
         const int axis = options.symmetry->axis;
@@ -143,23 +142,22 @@ GuardModel::GuardModel(const Mesh& model, const GuardOptions& options, Interrupt
         symmetry_ = SymmetryPlane{options.symmetry->axis, offset};
         addMirrorImage(*symmetry_, points, triangles);
     }
+    tree_ = TriangleBvh(points, triangles, interrupter, TriangleBvh::Copies::drop);
     for (Joint joint : options.joints) {
+        constexpr double spread = 1.5;
         requireValid(joint, box);
+        throwIfInterrupted(interrupter);
         joint.place = scaled(joint.place);
         if (joint.axis) joint.axis->normalize(0);
         if (symmetry_ && joint.place[symmetry_->axis] < symmetry_->offset) {
             joint.place = mirrored(joint.place);
             if (joint.axis) (*joint.axis)[symmetry_->axis] *= -1;
         }
-        joints_.push_back(joint);
-    }
-    tree_ = TriangleBvh(points, triangles, interrupter, TriangleBvh::Copies::drop);
-
-    for (const Joint& joint : joints_) {
-        constexpr double spread = 1.5;
-        const double limb = std::sqrt(tree_.closest(joint.place).squaredDistance) / scale_;
+        limbs_.push_back(limbAt(tree_, joint));
+        if (options.jointDensity == 1) continue;
+        const double inside = std::sqrt(tree_.closest(joint.place).squaredDistance) / scale_;
         aroundJoints_.push_back(
-            {ScaleRegion::Shape::sphere, unscaled(joint.place), Vec3d(0), spread * limb, densityAroundJoints});
+            {ScaleRegion::Shape::sphere, unscaled(joint.place), Vec3d(0), spread * inside, options.jointDensity});
     }
 
     UnionFind sets(points.size());
@@ -215,9 +213,10 @@ double GuardModel::density(const Vec3d& onModel) const
     const auto at = [&](const Vec3d& p) {
         const openvdb::FloatTree* const tree = density_.grid ? &density_.grid->constTree() : nullptr;
         const Vec3d world = unscaled(p);
-        const bool isAtJoint = std::any_of(aroundJoints_.begin(), aroundJoints_.end(),
-                                           [&](const ScaleRegion& region) { return contains(region, world); });
-        return std::clamp((isAtJoint ? densityAroundJoints : 1) * scaleAt(density_, tree, world), least, largestScale);
+        const auto joint = std::find_if(aroundJoints_.begin(), aroundJoints_.end(),
+                                        [&](const ScaleRegion& region) { return contains(region, world); });
+        return std::clamp((joint == aroundJoints_.end() ? 1 : joint->scale) * scaleAt(density_, tree, world), least,
+                          largestScale);
     };
     const double here = at(onModel);
     if (!symmetry_) return here;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <vdbcage/bounding/bounding_guard.h>
+#include <vdbcage/bounding/detail/limb.h>
 #include <vdbcage/geometry/triangle_bvh.h>
 #include <vdbcage/geometry/triangle_distance.h>
 #include <vdbcage/geometry/triangle_pair.h>
@@ -56,8 +57,8 @@ public:
     /// The same for squared distance: the fifth power.
     double quadricWeight(const Vec3d& onModel) const;
 
-    /// In these units, beyond the plane of symmetry; axes of length 1.
-    const std::vector<Joint>& joints() const { return joints_; }
+    /// At the joints, in these units, beyond the plane of symmetry.
+    const std::vector<Limb>& limbs() const { return limbs_; }
 
     const TriangleBvh& tree() const { return tree_; }
     double clearance() const { return clearance_; }
@@ -81,7 +82,7 @@ private:
     Spacing spacing_;
     ScaleField density_;                    // in the world's units
     std::vector<ScaleRegion> aroundJoints_; // the same; where they overlap they count once
-    std::vector<Joint> joints_;
+    std::vector<Limb> limbs_;
 };
 
 const GuardModel& modelOf(const BoundingGuard& guard);

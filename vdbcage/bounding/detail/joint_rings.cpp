@@ -14,7 +14,10 @@ namespace {
 
 constexpr double pi = 3.14159265358979323846;
 constexpr double leastCosine = 0.5; // of a ring's normal and the limb
-constexpr double ringWidth = 0.5;   // of the limb's radius: three are near the joint
+// In radii of the limb:
+constexpr double widest = 2;         // of a ring
+constexpr double reach = 1, far = 3; // of a ring's plane from the joint; of what may become a ring
+constexpr double ringWidth = 0.6;    // three are near the joint
 
 /// A loop as a polygon: the middles of its rungs.
 std::vector<Vec3d> polygonOf(const GuardedMesh& surface, const QuadLoop& loop)
@@ -30,21 +33,19 @@ std::vector<Vec3d> polygonOf(const GuardedMesh& surface, const QuadLoop& loop)
 /// How a loop lies to a point that it goes around once, seen along its normal.
 struct Winding {
     Vec3d normal;
-    double height, radius, length;
+    double height, radius;
 };
 
 std::optional<Winding> windingAround(const std::vector<Vec3d>& polygon, const Vec3d& point)
 {
     Vec3d area(0.0), middle(0.0);
-    double length = 0;
     const std::size_t n = polygon.size();
     for (std::size_t i = 0; i < n; ++i) {
         const Vec3d p = polygon[i] - point, q = polygon[(i + 1) % n] - point;
         area += 0.5 * p.cross(q);
         middle += p / static_cast<double>(n);
-        length += (q - p).length();
     }
-    Winding winding{area, 0, std::sqrt(area.length() / pi), length};
+    Winding winding{area, 0, std::sqrt(area.length() / pi)};
     if (!winding.normal.normalize(0)) return std::nullopt;
     double angle = 0;
     for (std::size_t i = 0; i < n; ++i) {
@@ -60,27 +61,18 @@ std::optional<Winding> windingAround(const std::vector<Vec3d>& polygon, const Ve
 
 } // namespace
 
-std::vector<JointRings::Ring> JointRings::ringsAround(const std::vector<QuadLoop>& loops, const Joint& joint,
-                                                      double reach) const
+std::vector<JointRings::Ring> JointRings::ringsAround(const std::vector<QuadLoop>& loops, const Limb& limb,
+                                                      double radii) const
 {
     const double longest = 4 * std::sqrt(static_cast<double>(surface_.copies() * table_.count()));
-    std::vector<std::pair<const QuadLoop*, Winding>> around;
+    std::vector<Ring> rings;
     for (const QuadLoop& loop : loops) {
         if (static_cast<double>(loop.quads.size()) > longest) continue;
-        const auto winding = windingAround(polygonOf(surface_, loop), joint.place);
-        if (!winding || std::abs(winding->height) > std::max(1.0, reach) * winding->radius) continue;
-        if (joint.axis && std::abs(winding->normal.dot(*joint.axis)) < leastCosine) continue;
-        around.emplace_back(&loop, *winding);
-    }
-    std::vector<Ring> rings;
-    const auto shortest = std::min_element(
-        around.begin(), around.end(), [](const auto& a, const auto& b) { return a.second.length < b.second.length; });
-    for (const auto& [loop, winding] : around) {
-        const Vec3d axis = shortest->second.normal;
-        const double cosine = winding.normal.dot(axis);
-        if (std::abs(winding.height) > reach * winding.radius || std::abs(cosine) < leastCosine) continue;
-        if (winding.radius > 2 * shortest->second.radius) continue;
-        rings.push_back({loop, cosine > 0 ? winding.height : -winding.height, winding.radius, axis});
+        const auto winding = windingAround(polygonOf(surface_, loop), limb.place);
+        if (!winding || winding->radius > widest * limb.radius) continue;
+        const double cosine = winding->normal.dot(limb.axis);
+        if (std::abs(winding->height) > radii * limb.radius || std::abs(cosine) < leastCosine) continue;
+        rings.push_back({&loop, cosine > 0 ? winding->height : -winding->height});
     }
     std::stable_sort(rings.begin(), rings.end(),
                      [](const Ring& a, const Ring& b) { return std::abs(a.height) < std::abs(b.height); });
@@ -92,7 +84,7 @@ std::vector<std::size_t> JointRings::count() const
     std::vector<std::size_t> counts;
     if (!mayHaveRings()) return counts;
     const std::vector<QuadLoop> loops = straightLoops(table_);
-    for (const Joint& joint : surface_.guard().joints()) counts.push_back(ringsAround(loops, joint, 1).size());
+    for (const Limb& limb : surface_.guard().limbs()) counts.push_back(ringsAround(loops, limb, reach).size());
     return counts;
 }
 
@@ -111,29 +103,26 @@ std::vector<JointRings::Hold> JointRings::holds() const
     const std::vector<QuadLoop> loops = straightLoops(table_);
     struct Sum {
         Hold hold;
-        const Joint* of;
+        const Limb* of;
         int count;
     };
     std::map<std::uint32_t, Sum> sums;
-    for (const Joint& joint : surface_.guard().joints()) {
-        std::vector<Ring> rings = ringsAround(loops, joint, 1);
-        if (rings.empty()) continue;
+    for (const Limb& limb : surface_.guard().limbs()) {
+        std::vector<Ring> rings = ringsAround(loops, limb, far);
         if (rings.size() > wanted) rings.erase(rings.begin() + wanted, rings.end());
         std::stable_sort(rings.begin(), rings.end(), [](const Ring& a, const Ring& b) { return a.height < b.height; });
-        const Vec3d& axis = rings[0].axis;
-        double radius = rings[0].radius;
-        for (const Ring& ring : rings) radius = std::min(radius, ring.radius);
-        const double width = ringWidth * radius;
+        const Vec3d& axis = limb.axis;
+        const double width = ringWidth * limb.radius;
         for (std::size_t i = 0; i < rings.size(); ++i) {
             const double place = static_cast<double>(i) - 0.5 * static_cast<double>(rings.size() - 1);
-            const double middle = axis.dot(joint.place) + place * width;
+            const double middle = axis.dot(limb.place) + place * width;
             for (const Rung& rung : rings[i].loop->rungs) {
                 const bool isUp = axis.dot(surface_.point(rung[0])) > axis.dot(surface_.point(rung[1]));
                 for (const std::size_t end : {0U, 1U}) {
                     const double offset = (end == 0) == isUp ? middle + 0.5 * width : middle - 0.5 * width;
-                    const Sum first{Hold{rung[end], axis, 0, radius}, &joint, 0};
+                    const Sum first{Hold{rung[end], axis, 0, limb.radius}, &limb, 0};
                     Sum& sum = sums.try_emplace(rung[end], first).first->second;
-                    if (sum.of != &joint) continue; // another one holds it
+                    if (sum.of != &limb) continue; // another one holds it
                     sum.hold.offset += offset;
                     ++sum.count;
                 }
@@ -147,31 +136,44 @@ std::vector<JointRings::Hold> JointRings::holds() const
     return holds;
 }
 
-std::optional<QuadLoop> JointRings::nextToSplit(const Joint& joint) const
+std::vector<QuadLoop> JointRings::toSplit(const Limb& limb) const
 {
-    constexpr double near = 0.9, far = 3; // nearer than is asked: vertices still move
+    constexpr double near = 0.9 * reach; // vertices still move
     const std::vector<QuadLoop> loops = straightLoops(table_);
-    if (ringsAround(loops, joint, near).size() >= wanted) return std::nullopt;
-    const std::vector<Ring> rings = ringsAround(loops, joint, far);
-    if (rings.empty()) return std::nullopt;
-    return *rings.front().loop;
+    std::vector<QuadLoop> nearest;
+    if (ringsAround(loops, limb, near).size() >= wanted) return nearest;
+    for (const Ring& ring : ringsAround(loops, limb, far)) nearest.push_back(*ring.loop);
+    return nearest;
 }
+
+namespace {
+
+/// Splits the first of some loops that the guard allows to. Returns the new vertices; none if there is no such loop.
+std::vector<std::uint32_t> splitOneOf(const std::vector<QuadLoop>& loops, GuardedMesh& surface, QuadTable& table)
+{
+    for (const QuadLoop& loop : loops) {
+        GuardedMesh changed = surface;
+        QuadTable changedTable = table;
+        std::vector<std::uint32_t> middle = splitLoop(changed, changedTable, loop);
+        if (middle.empty()) continue;
+        surface = std::move(changed);
+        table = std::move(changedTable);
+        return middle;
+    }
+    return {};
+}
+
+} // namespace
 
 void addRings(GuardedMesh& surface, QuadTable& table, Interrupter* interrupter)
 {
     constexpr int mostSplits = 4, sweeps = 2; // of one joint
-    for (const Joint& joint : surface.guard().joints()) {
+    for (const Limb& limb : surface.guard().limbs()) {
         for (int i = 0; i < mostSplits; ++i) {
             throwIfInterrupted(interrupter);
-            const std::optional<QuadLoop> loop = JointRings(surface, table).nextToSplit(joint);
-            if (!loop) break;
-            GuardedMesh changed = surface;
-            QuadTable changedTable = table;
-            const std::vector<std::uint32_t> middle = splitLoop(changed, changedTable, *loop);
+            const auto middle = splitOneOf(JointRings(surface, table).toSplit(limb), surface, table);
             if (middle.empty()) break;
-            relaxQuads(changed, changedTable, middle, sweeps, interrupter);
-            surface = std::move(changed);
-            table = std::move(changedTable);
+            relaxQuads(surface, table, middle, sweeps, interrupter);
         }
     }
 }

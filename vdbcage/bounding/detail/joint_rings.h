@@ -2,27 +2,25 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <vector>
 
+#include <vdbcage/bounding/detail/limb.h>
 #include <vdbcage/bounding/detail/quad_loop.h>
-#include <vdbcage/bounding/joints.h>
 #include <vdbcage/core/interrupter.h>
 
 namespace vdbcage::detail {
 
 /// Which loops of quads are rings around a limb at its joints.
 ///
-/// A ring is a loop that closes, is short, and goes around the joint once, seen along its normal. Its plane comes as
-/// near to the joint as it is wide (the radius of a circle of the same area). The shortest loop that goes around the
-/// joint tells the direction of the limb, if no axis is given: the normals of all rings are within 60 degrees of it,
-/// and none is more than twice as wide. On the plane of symmetry half a ring counts with its mirror image. A surface
-/// that is not of quads only has no rings.
+/// A ring is a loop that closes, is short, and goes around the limb: once around the joint, seen along its normal,
+/// which is within 60 degrees of the limb's axis; it is at most twice as wide as the limb, and its plane at most the
+/// limb's radius away from the joint. Widths are of circles of the same area. On the plane of symmetry half a ring
+/// counts with its mirror image. A surface that is not of quads only has no rings.
 class JointRings {
 public:
     static constexpr std::size_t wanted = 3; ///< across each joint
 
-    /// At the joints that its guard knows. The arguments must outlive this.
+    /// At the joints of its guard. The arguments must outlive this.
     JointRings(const GuardedMesh& surface, const QuadTable& table) : surface_(surface), table_(table) {}
 
     /// How many rings each joint has now.
@@ -38,27 +36,26 @@ public:
         Vec3d normal;
         double offset, width; ///< normal . place is to be `offset`; a deviation is measured in widths
     };
-    /// What holds up to three rings of each joint, by vertex, ascending: without it relaxation would make all rings of
-    /// a limb alike.
+    /// What holds the nearest three rings of each joint, or brings them there, by vertex, ascending: without it
+    /// relaxation would make all rings of a limb alike.
     std::vector<Hold> holds() const;
 
-    /// A loop that may be split for another ring at a joint; nothing if it has enough, or there is none.
-    std::optional<QuadLoop> nextToSplit(const Joint& joint) const;
+    /// Loops that may be split for another ring at a joint, nearest first; none if it has enough.
+    std::vector<QuadLoop> toSplit(const Limb& limb) const;
 
 private:
     /// There are joints, and nothing but quads: the ends of other loops are at the plane of symmetry.
     bool mayHaveRings() const
     {
-        return !surface_.guard().joints().empty() && surface_.liveFaces() == 2 * table_.count();
+        return !surface_.guard().limbs().empty() && surface_.liveFaces() == 2 * table_.count();
     }
 
     struct Ring {
         const QuadLoop* loop;
-        double height, radius; ///< of its middle over the joint, along the axis; of a circle of its area
-        Vec3d axis;            ///< of the limb, the same for all rings of a joint
+        double height; ///< of its middle over the joint, along the axis of the limb
     };
-    /// Those whose planes are within `reach` radii, nearest first.
-    std::vector<Ring> ringsAround(const std::vector<QuadLoop>& loops, const Joint& joint, double reach) const;
+    /// What is a ring but that planes may be so many radii of the limb away, nearest first.
+    std::vector<Ring> ringsAround(const std::vector<QuadLoop>& loops, const Limb& limb, double radii) const;
 
     const GuardedMesh& surface_;
     const QuadTable& table_;

@@ -58,7 +58,11 @@ std::vector<Ranked> ranked(const GuardedMesh& surface, const QuadTable& table, c
 
 class LoopDecimator {
 public:
-    LoopDecimator(GuardedMesh& surface, QuadTable& table) : surface_(surface), table_(table) {}
+    LoopDecimator(GuardedMesh& surface, QuadTable& table, AtJoints atJoints)
+        : surface_(surface), table_(table), keepsRings_(atJoints == AtJoints::keepRings)
+    {
+        if (!keepsRings_) shape_.hold = 0;
+    }
 
     void run(std::size_t quads, int mostPercent, Interrupter* interrupter)
     {
@@ -69,9 +73,9 @@ public:
         double maxLoss = firstLoss;
         if (table_.count() <= quads) return;
         const std::size_t start = table_.count() - quads;
-        relaxQuads(surface_, table_, firstSweeps, interrupter);
+        relaxQuads(surface_, table_, shape_, firstSweeps, interrupter);
         while (table_.count() > quads) {
-            relaxQuads(surface_, table_, relaxSweeps, interrupter);
+            relaxQuads(surface_, table_, shape_, relaxSweeps, interrupter);
             VertexQuadrics quadrics(surface_);
             const auto relaxAt =
                 std::max(quads, static_cast<std::size_t>(relaxAfter * static_cast<double>(table_.count())));
@@ -110,11 +114,11 @@ private:
         const double sample = areaPerSample(surface_);
         const double perQuad = distancePerPolygon(surface_, table_, sample, interrupter);
         const DistanceMeasure measure(surface_.guard(), sample);
-        const QuadShapeTerm term(table_, scaled(usualShape, perQuad), JointRings(surface_, table_).holds());
+        const QuadShapeTerm term = shapeTerm(surface_, table_, shape_, sample, interrupter);
         const std::size_t most = table_.count() / 20, tooMany = table_.count() - target;
         std::size_t removed = 0, refused = 0;
         std::vector<char> isTouched(surface_.vertices(), 0);
-        std::vector<std::size_t> ringsNow = JointRings(surface_, table_).count();
+        std::vector<std::size_t> rings = ringsToKeep();
         for (const Ranked& next : ranked(surface_, table_, quadrics, loops, tooMany, interrupter)) {
             const QuadLoop& loop = loops[next.loop];
             if (table_.count() <= quads || (removed > 0 && removed + loop.quads.size() > most)) break;
@@ -124,7 +128,7 @@ private:
                 lossAround(measure, loop, perQuad) + maxLoss * perQuad * static_cast<double>(loop.quads.size());
             const bool isDone = collapseLoop(surface_, table_, quadrics, loop, [&](const auto& kept) {
                 tighten(surface_, kept, settleSweeps, sample, interrupter, &term);
-                return lossAround(measure, loop, perQuad) <= limit && keepsRings(ringsNow);
+                return lossAround(measure, loop, perQuad) <= limit && keep(rings);
             });
             if (!isDone && ++refused == mostRefused) break;
             if (!isDone) continue;
@@ -134,10 +138,15 @@ private:
         return removed > 0;
     }
 
-    /// Counts the rings anew if they are kept.
-    bool keepsRings(std::vector<std::size_t>& before) const
+    std::vector<std::size_t> ringsToKeep() const
     {
-        std::vector<std::size_t> now = JointRings(surface_, table_).count();
+        return keepsRings_ ? JointRings(surface_, table_).count() : std::vector<std::size_t>();
+    }
+
+    /// Whether the rings are kept; they are then counted anew.
+    bool keep(std::vector<std::size_t>& before) const
+    {
+        std::vector<std::size_t> now = ringsToKeep();
         if (!JointRings::areKept(before, now)) return false;
         before = std::move(now);
         return true;
@@ -191,6 +200,8 @@ private:
 
     GuardedMesh& surface_;
     QuadTable& table_;
+    bool keepsRings_;
+    ShapeWeights shape_ = usualShape;
 };
 
 } // namespace
@@ -214,9 +225,10 @@ bool collapseLoopThrough(GuardedMesh& surface, QuadTable& table, const std::vect
     return false;
 }
 
-void collapseLoops(GuardedMesh& surface, QuadTable& table, std::size_t quads, int mostPercent, Interrupter* interrupter)
+void collapseLoops(GuardedMesh& surface, QuadTable& table, std::size_t quads, AtJoints atJoints, int mostPercent,
+                   Interrupter* interrupter)
 {
-    LoopDecimator(surface, table).run(quads, mostPercent, interrupter);
+    LoopDecimator(surface, table, atJoints).run(quads, mostPercent, interrupter);
 }
 
 } // namespace vdbcage::detail

@@ -105,7 +105,7 @@ void exchangeLoops(GuardedMesh& surface, QuadTable& table, std::size_t quads, in
         Quads now = best;
         const auto gone = static_cast<std::size_t>(share * static_cast<double>(now.table.count()));
         if (gone == 0) break;
-        collapseLoops(now.surface, now.table, now.table.count() - gone, 0, interrupter);
+        collapseLoops(now.surface, now.table, now.table.count() - gone, AtJoints::keepRings, 0, interrupter);
         relax(now);
         refill(now, quads, perSample, interrupter);
         relax(now);

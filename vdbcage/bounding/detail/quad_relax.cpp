@@ -29,7 +29,7 @@ QuadShapeTerm shapeTerm(const GuardedMesh& surface, const QuadTable& table, cons
                         double areaPerSample, Interrupter* interrupter)
 {
     return {table, scaled(weights, distancePerPolygon(surface, table, areaPerSample, interrupter)),
-            JointRings(surface, table).holds()};
+            weights.hold > 0 ? JointRings(surface, table).holds() : std::vector<JointRings::Hold>()};
 }
 
 void relaxQuads(GuardedMesh& surface, const QuadTable& table, const ShapeWeights& weights, int sweeps,

@@ -17,7 +17,7 @@ struct ShapeWeights {
     double bad;       ///< the same again of corners beyond a |cos| of 0.6
     double flat;      ///< of diagonals that pass each other at half a side's length, squared
     double unfit;     ///< of a quad that cannot bound under both diagonals, wherever the model is
-    double hold = 30; ///< of a vertex of a joint's ring that is a limb's radius away from its plane, squared
+    double hold = 10; ///< of a vertex of a joint's ring that is a limb's radius away from its plane, squared
 };
 
 /// Whether a quad is convex, folded no more than the surface allows, and both its splits have only angles that the

@@ -205,7 +205,8 @@ const BoundingGuard& BoundingSearch::guardFor(const Run& run, const std::optiona
     options.symmetry = plane;
     if (!guard_ || options.clearance != guardOptions_.clearance ||
         options.minAngleDegrees != guardOptions_.minAngleDegrees || options.spacing != guardOptions_.spacing ||
-        !(run.density == density_) || options.joints != guardOptions_.joints || !(plane == guardOptions_.symmetry)) {
+        !(run.density == density_) || options.joints != guardOptions_.joints ||
+        options.jointDensity != guardOptions_.jointDensity || !(plane == guardOptions_.symmetry)) {
         const Stage stage(run.interrupter, "guard");
         starts_.clear(); // they are under the guard
         axes_.reset();

@@ -147,6 +147,7 @@ GuardOptions guardOptions(const CageOptions& options, bool ofSheet)
     guarding.clearance = options.clearance;
     guarding.density = options.density;
     guarding.joints = options.joints.list;
+    if (options.mesh == CageFaces::loops) guarding.jointDensity = 1;
     const bool areSlenderAllowed = ofSheet || options.mesh == CageFaces::loops;
     guarding.minAngleDegrees = options.minAngle.value_or(!areSlenderAllowed ? (isWide ? wideAngle : usualAngle)
                                                          : ofSheet          ? sheetAngle

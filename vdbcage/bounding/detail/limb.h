@@ -1,0 +1,19 @@
+#pragma once
+
+#include <vdbcage/bounding/joints.h>
+#include <vdbcage/geometry/triangle_bvh.h>
+
+namespace vdbcage::detail {
+
+/// What bends at a joint.
+struct Limb {
+    Vec3d place;   ///< of the joint
+    Vec3d axis;    ///< of length 1
+    double radius; ///< of the model across the axis: the median of the distances from the joint to it
+};
+
+/// The limb of a model at a joint. Where the joint has no axis, it is along the one that the radius is least across.
+/// Cost: O(log n) for n triangles, some thousand times.
+Limb limbAt(const TriangleBvh& model, const Joint& joint);
+
+} // namespace vdbcage::detail
