@@ -23,9 +23,11 @@ enum class AtJoints { anything, keepRings };
 /// from the model than a quad less does on average is put off. In between all vertices are moved to where the distance
 /// is less and corners are near square. Where no whole polychord may go, loops of parts of two do. Where rings are to
 /// be kept, no collapse takes one away that a joint needs. What is measured and moved is so in parallel. It reports 0
-/// to `mostPercent` of a stage, or nothing if that is 0. \pre `table` is that of `surface` \throw Cancelled Cost: O(n
-/// sqrt(n) log m) for n quads and m faces of the model. Based on: Daniels, Silva, Shepherd, Cohen, Quadrilateral Mesh
-/// Simplification, 2008.
+/// to `mostPercent` of a stage, or nothing if that is 0.
+/// \pre `table` is that of `surface`
+/// \throw Cancelled
+/// Cost: O(n sqrt(n) log m) for n quads and m faces of the model.
+/// Based on: Daniels, Silva, Shepherd, Cohen, Quadrilateral Mesh Simplification, 2008.
 void collapseLoops(GuardedMesh& surface, QuadTable& table, std::size_t quads, AtJoints atJoints, int mostPercent,
                    Interrupter* interrupter);
 
