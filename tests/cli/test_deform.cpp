@@ -68,7 +68,7 @@ BOOST_AUTO_TEST_CASE(bind_and_deform)
 {
     const Scene scene;
     const std::string cage = scene.at("cage.obj"), model = scene.at("model.obj"), posed = scene.at("posed.0010.obj");
-    for (const char* family : {"mvc", "qmvc", "green", "qgc", "mlc"}) {
+    for (const char* family : {"mvc", "qmvc", "green", "qgc", "mlc", "harmonic"}) {
         const std::string weights = scene.at("w.npy");
         const auto bound = runCommand({command, "bind", cage, model, "-o", weights, "--coordinates", family});
         BOOST_TEST(bound.status == 0, bound.err);
@@ -128,7 +128,7 @@ BOOST_AUTO_TEST_CASE(weights_that_were_made_elsewhere)
         BOOST_TEST(result.err.find("1 pose of 4 points") != std::string::npos, result.err);
         BOOST_TEST(difference(readMesh(out).points, expected) == 0);
         std::filesystem::remove(out);
-        for (const char* family : {"mvc", "mlc"}) {
+        for (const char* family : {"mvc", "mlc", "harmonic"}) {
             expectRefusal(scene, {"deform", cage, posed, model, "-o", out, "--weights", file, "--coordinates", family},
                           file + ": its weights were made elsewhere; they do not go with --coordinates " + family);
         }
@@ -142,9 +142,31 @@ BOOST_AUTO_TEST_CASE(weights_that_were_made_elsewhere)
     test::writeText(given, npy.substr(0, npy.size() - 1));
     expectRefusal(scene, {"deform", cage, posed, model, "-o", out, "--weights", given}, given + ": it is truncated");
     expectRefusal(scene, {"deform", cage, posed, model, "-o", out, "--coordinates", "given"},
-                  "there are mvc, green, mlc");
+                  "there are mvc, green, mlc, harmonic");
     expectRefusal(scene, {"bind", cage, model, "-o", scene.at("w.npy"), "--coordinates", "given"},
-                  "there are mvc, green, mlc");
+                  "there are mvc, green, mlc, harmonic");
+}
+
+BOOST_AUTO_TEST_CASE(resolutions)
+{
+    const Scene scene;
+    const std::string cage = scene.at("cage.obj"), model = scene.at("model.obj"), weights = scene.at("w.npy");
+    const auto bytesOf = [&](const std::vector<std::string>& options) {
+        std::vector<std::string> words{command, "bind", cage, model, "-o", weights, "--coordinates", "harmonic"};
+        words.insert(words.end(), options.begin(), options.end());
+        const auto bound = runCommand(words);
+        BOOST_TEST(bound.status == 0, bound.err);
+        return test::readText(weights);
+    };
+    const std::string usual = bytesOf({});
+    BOOST_TEST((bytesOf({"--resolution", "64"}) == usual));
+    BOOST_TEST((bytesOf({"--resolution", "5"}) != usual));
+    std::filesystem::remove(weights);
+    expectRefusal(scene, {"bind", cage, model, "-o", weights, "--coordinates", "harmonic", "--resolution", "3"},
+                  "resolution: 3 is not allowed; it must be 4 to 256");
+    expectRefusal(scene, {"bind", cage, model, "-o", weights, "--resolution", "64"},
+                  "resolution: only harmonic coordinates have one; --coordinates is mvc");
+    BOOST_TEST(!std::filesystem::exists(weights));
 }
 
 BOOST_AUTO_TEST_CASE(sequences)
@@ -226,11 +248,11 @@ BOOST_AUTO_TEST_CASE(wrong_pairs)
     expectRefusal(scene, {"deform", cage, scene.at("no.%d.obj"), model, "-o", scene.at("out.%d.obj")},
                   "no file of this");
     expectRefusal(scene, {"deform", cage, posed, model, "-o", out, "--coordinates", "best"},
-                  "there are mvc, green, mlc");
+                  "there are mvc, green, mlc, harmonic");
     expectRefusal(scene, {"bind", cage, model, "-o", scene.at("w.txt")}, ".npy");
     expectRefusal(scene, {"bind", model, model, "-o", scene.at("v.npy")}, "model.obj: it is not closed");
     writeMesh(test::box(Vec3d(1), Vec3d(3)), scene.at("outside.obj"));
-    for (const char* family : {"green", "mlc"}) {
+    for (const char* family : {"green", "mlc", "harmonic"}) {
         expectRefusal(scene, {"bind", cage, scene.at("outside.obj"), "-o", scene.at("v.npy"), "--coordinates", family},
                       "outside.obj: point ");
     }

@@ -21,6 +21,7 @@ using test::weighted;
 
 namespace {
 
+// Of which the formulas are exact. Those on a grid have tests of their own, see test_harmonic.cpp.
 constexpr Coordinates families[] = {Coordinates::meanValue, Coordinates::green, Coordinates::maximumLikelihood};
 
 Mesh moved(Mesh cage, const std::vector<Vec3d>& points)
@@ -519,11 +520,20 @@ BOOST_AUTO_TEST_CASE(can_be_cancelled)
 
 BOOST_AUTO_TEST_CASE(names)
 {
-    for (const Coordinates family : families) BOOST_TEST((coordinatesNamed(coordinatesName(family)) == family));
+    std::size_t value = 0;
+    for (const FamilyInfo& family : coordinateFamilies()) {
+        BOOST_TEST((family.family == static_cast<Coordinates>(value++)));
+        BOOST_TEST(std::string(family.name).size() <= 8); // of weights files
+        BOOST_TEST(coordinatesName(family.family) == std::string(family.name));
+        BOOST_TEST((coordinatesNamed(family.name) == family.family));
+        BOOST_TEST((coordinatesNamed(family.nameOnQuads) == family.family));
+    }
+    BOOST_TEST((static_cast<Coordinates>(value) == Coordinates::given));
     BOOST_TEST((coordinatesNamed("qmvc") == Coordinates::meanValue));
     BOOST_TEST((coordinatesNamed("qgc") == Coordinates::green));
-    BOOST_CHECK_EXCEPTION(coordinatesNamed("harmonic"), InputError, [](const InputError& error) {
-        return std::string(error.what()) == "coordinates: 'harmonic' is not a family; there are mvc, green, mlc";
+    BOOST_CHECK_EXCEPTION(coordinatesNamed("biharmonic"), InputError, [](const InputError& error) {
+        return std::string(error.what()) ==
+               "coordinates: 'biharmonic' is not a family; there are mvc, green, mlc, harmonic";
     });
 }
 

@@ -8,6 +8,7 @@
 #include <support/stop_at.h>
 #include <tbb/global_control.h>
 #include <vdbcage/core/error.h>
+#include <vdbcage/deform/binding.h>
 #include <vdbcage/deform/detail/harmonic.h>
 
 using namespace vdbcage;
@@ -331,6 +332,27 @@ BOOST_AUTO_TEST_CASE(can_be_cancelled)
         test::StopAt stop(k);
         BOOST_CHECK_THROW(rowsOf(cage, {}, 12, &stop), Cancelled);
     }
+}
+
+BOOST_AUTO_TEST_CASE(bindings_and_weights_are_of_the_grid_asked_for)
+{
+    const Mesh cage = randomCage(Kind::both, 16);
+    const std::vector<Vec3d> points = pointsInside(cage, 16, 40);
+    const CoordinateOptions coarse(Coordinates::harmonic, 8), usual(Coordinates::harmonic);
+    BOOST_TEST((computeCoordinates(cage, points, coarse) == rowsOf(cage, points, 8)));
+    BOOST_TEST((computeCoordinates(cage, points, usual) == rowsOf(cage, points, usual.resolution)));
+    BOOST_TEST((computeCoordinates(cage, points, usual) != rowsOf(cage, points, 8)));
+    std::vector<Vec3d> posed = cage.points;
+    for (Vec3d& p : posed) p *= 1 + 0.2 * p.x();
+    const Binding binding(cage, points, coarse);
+    BOOST_TEST(binding.options().resolution == 8);
+    const Binding read(cage, points, coarse, computeWeights(cage, points, coarse));
+    BOOST_TEST((binding.pose(posed) == read.pose(posed)));
+    BOOST_CHECK_EXCEPTION(Binding(cage, {Vec3d(0), Vec3d(3, 0, 0)}, coarse), InputError, [](const InputError& error) {
+        return std::string(error.what()) == "points: point 1 at (3, 0, 0) and 0 others have no harmonic coordinates in "
+                                            "this cage; all must be inside of it";
+    });
+    BOOST_CHECK_THROW(computeWeights(cage, points, {Coordinates::harmonic, 3}), InputError);
 }
 
 BOOST_AUTO_TEST_CASE(bad_resolutions)

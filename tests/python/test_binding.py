@@ -13,7 +13,7 @@ class BindingTest(Case):
 
     def test_weights_are_those_of_the_command(self):
         for mesh, cage in self.cages.items():
-            for family in ("mvc", "green", "mlc"):
+            for family in ("mvc", "green", "mlc", "harmonic"):
                 with self.subTest(f"{family} of {mesh}"):
                     cage.write(self.folder / "cage.ply")
                     command("bind", self.folder / "cage.ply", SHELL, "-q", "--coordinates", family, "-o",

@@ -61,7 +61,7 @@ BOOST_AUTO_TEST_CASE(it_is_posed_as_the_binding_poses_it_by_every_family)
     BOOST_TEST(!follower.model().bound()); // at rest
     BOOST_TEST(!follower.check());
     run("move 0.3 0.2 0.1");
-    for (const char* const family : {"mvc", "green", "mlc"}) {
+    for (const char* const family : {"mvc", "green", "mlc", "harmonic"}) {
         run(std::string("coordinates ") + family);
         follow();
         const Binding binding(*cage, model->mesh.points, coordinatesNamed(family));

@@ -66,7 +66,7 @@ int runDeform(int argc, char** argv)
 {
     std::string model;
     std::vector<int> faces{100, 400}, counts{10000, 100000};
-    std::vector<std::string> families{"mvc", "green", "mlc"}, meshes{"triangles", "triquad"};
+    std::vector<std::string> families{"mvc", "green", "mlc", "harmonic"}, meshes{"triangles", "triquad"};
     int threads = tbb::info::default_concurrency(), runs = 10;
     CLI::App app("vdbcage-bench deform: times and memory of binding and posing, least of several runs, as JSON lines.\n"
                  "The points are spread over the model, the cages made with --effort fast --merge-angle 60");
@@ -74,7 +74,7 @@ int runDeform(int argc, char** argv)
     addList(app, "--faces", faces, "list of cage sizes [100,400]")->type_name("N,N");
     addList(app, "--points", counts, "list of point counts [10000,100000]")->type_name("N,N");
     addList(app, "--mesh", meshes, "list of kinds of cages [triangles,triquad]")->type_name("KIND,KIND");
-    addList(app, "--coordinates", families, "list of families [mvc,green,mlc]")->type_name("F,F");
+    addList(app, "--coordinates", families, "list of families [all]")->type_name("F,F");
     app.add_option("--threads", threads, "[all]")->type_name("N");
     app.add_option("--runs", runs, "poses to take the least of [10]")->type_name("N");
     CLI11_PARSE(app, argc - 1, argv + 1);

@@ -161,7 +161,8 @@ Json measurePosing(App& app, double pass)
     runLine(app, "select-all");
     app.waitUntilSettled();
     Json list = Json::object();
-    for (const Coordinates family : {Coordinates::meanValue, Coordinates::green, Coordinates::maximumLikelihood}) {
+    for (const FamilyInfo& info : coordinateFamilies()) {
+        const Coordinates family = info.family;
         const State& state = app.session().state();
         const BindOrder order{state.document.model, state.cage, family};
         BoundModelPtr coarse;

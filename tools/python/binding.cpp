@@ -29,14 +29,14 @@ py::array toMatrix(std::vector<float> weights, std::size_t columns)
 void defineBinding(py::module_& module)
 {
     py::class_<Binding, std::shared_ptr<Binding>>(module, "Binding", py::module_local())
-        .def(py::init(
-            [](const MeshPtr& cage, const py::array& points, const std::string& family, const py::object& progress) {
-                const Coordinates coordinates = coordinatesNamed(family);
-                Points rows = toRows<openvdb::Vec3d>(points);
-                return resultOfJob(progress, [&](Interrupter* interrupter) {
-                    return std::make_shared<Binding>(*cage, std::move(rows), coordinates, interrupter);
-                });
-            }))
+        .def(py::init([](const MeshPtr& cage, const py::array& points, const std::string& family, int resolution,
+                         const py::object& progress) {
+            const CoordinateOptions coordinates(coordinatesNamed(family), resolution);
+            Points rows = toRows<openvdb::Vec3d>(points);
+            return resultOfJob(progress, [&](Interrupter* interrupter) {
+                return std::make_shared<Binding>(*cage, std::move(rows), coordinates, interrupter);
+            });
+        }))
         .def_property_readonly("coordinates", [](const Binding& binding) { return coordinatesName(binding.family()); })
         .def_property_readonly("handles", &Binding::handles)
         .def_property_readonly(
@@ -58,14 +58,14 @@ void defineBinding(py::module_& module)
                  return toMatrix(resultOfJob(progress,
                                              [&](Interrupter* interrupter) {
                                                  return computeWeights(binding.cage(), binding.points(),
-                                                                       binding.family(), interrupter);
+                                                                       binding.options(), interrupter);
                                              }),
                                  binding.handles());
              })
         .def("write", [](const Binding& binding, const std::string& path, const py::object& progress) {
             runJob(progress, [&](Interrupter* interrupter) {
                 const std::vector<float> weights =
-                    computeWeights(binding.cage(), binding.points(), binding.family(), interrupter);
+                    computeWeights(binding.cage(), binding.points(), binding.options(), interrupter);
                 writeWeights(binding.cage(), binding.points(), binding.family(), weights, std::filesystem::path(path));
             });
         });

@@ -12,6 +12,7 @@
 #include <vdbcage/mesh/mesh_io.h>
 
 #include "commands.h"
+#include "coordinate_arguments.h"
 #include "interrupt.h"
 #include "outputs.h"
 
@@ -20,8 +21,6 @@ namespace vdbcage::tool {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr const char* familyHelp = "mvc (qmvc), green (qgc) or mlc [mvc]";
 
 /// What `bind` returns; its objection to the points or the cage names their file.
 template <typename Bind>
@@ -87,7 +86,6 @@ int runBind(std::vector<std::string> words)
 {
     fs::path cagePath, output;
     std::vector<fs::path> modelPaths;
-    std::string family = "mvc";
     bool quiet = false, verbose = false;
     CLI::App app("vdbcage bind CAGE MODEL... -o WEIGHTS.npy [OPTIONS]\n"
                  "Computes the weights by which the cage moves the model's points. For several\n"
@@ -98,11 +96,11 @@ int runBind(std::vector<std::string> words)
     app.add_option("cage", cagePath)->required()->type_name("CAGE");
     app.add_option("models", modelPaths)->required()->type_name("MODEL...");
     app.add_option("-o,--output", output, "the weights to write")->required()->type_name("WEIGHTS");
-    app.add_option("--coordinates", family, familyHelp)->type_name("FAMILY");
+    const CoordinateArguments arguments(app);
     app.add_flag("-q,--quiet", quiet, "print nothing but errors");
     app.add_flag("-v,--verbose", verbose, "print the progress, also without a terminal");
     if (!parse(app, std::move(words))) return exitGood;
-    const Coordinates coordinates = coordinatesNamed(family);
+    const CoordinateOptions coordinates = arguments.options();
     const std::vector<fs::path> files = weightsFiles(output, modelPaths);
     Outputs outputs;
     outputs.reads(cagePath);
@@ -112,16 +110,17 @@ int runBind(std::vector<std::string> words)
 
     std::optional<Progress> progress(verbosityOf(quiet, verbose));
     const Mesh cage = readMesh(cagePath);
-    const std::size_t handles = cageHandles(cage, cage.points, coordinates).size();
+    const std::size_t handles = cageHandles(cage, cage.points, coordinates.family).size();
     std::string text;
     for (std::size_t i = 0; i < files.size(); ++i) {
         const Mesh model = readMesh(modelPaths[i]);
         const std::vector<float> weights = bindFiles(
             cagePath, modelPaths[i], [&] { return computeWeights(cage, model.points, coordinates, &*progress); });
-        outputs.add(files[i],
-                    [&](std::ostream& out) { writeWeights(cage, model.points, coordinates, weights, out, files[i]); });
+        outputs.add(files[i], [&](std::ostream& out) {
+            writeWeights(cage, model.points, coordinates.family, weights, out, files[i]);
+        });
         text += printable(files[i]) + ": " + std::to_string(model.points.size()) + " points, " +
-                std::to_string(handles) + " handles, " + coordinatesName(coordinates) + '\n';
+                std::to_string(handles) + " handles, " + coordinatesName(coordinates.family) + '\n';
     }
     outputs.commit();
     progress.reset();
@@ -132,7 +131,6 @@ int runBind(std::vector<std::string> words)
 int runDeform(std::vector<std::string> words)
 {
     fs::path cagePath, posedPath, modelPath, output, weights;
-    std::string family = "mvc";
     bool quiet = false, verbose = false, inversions = false;
     CLI::App app("vdbcage deform CAGE POSED_CAGE MODEL -o OUT [OPTIONS]\n"
                  "Moves the model as its cage moved. A sequence has the frame's number in the\n"
@@ -143,13 +141,13 @@ int runDeform(std::vector<std::string> words)
     app.add_option("posed", posedPath)->required()->type_name("POSED_CAGE");
     app.add_option("model", modelPath)->required()->type_name("MODEL");
     app.add_option("-o,--output", output, "the posed model to write")->required()->type_name("OUT");
-    CLI::Option* familyOption = app.add_option("--coordinates", family, familyHelp)->type_name("FAMILY");
+    const CoordinateArguments arguments(app);
     app.add_option("--weights", weights, "of bind, or a matrix (.npy, .dmat) [computed]")->type_name("WEIGHTS");
     app.add_flag("--inversions", inversions, "print how many triangles each pose inverts");
     app.add_flag("-q,--quiet", quiet, "print nothing but errors");
     app.add_flag("-v,--verbose", verbose, "print the progress, also without a terminal");
     if (!parse(app, std::move(words))) return exitGood;
-    coordinatesNamed(family);
+    const CoordinateOptions coordinates = arguments.options();
     detail::requireMeshExtension(output);
     if (isPattern(posedPath) != isPattern(output)) {
         throw InputError("POSED_CAGE and OUT: both or none must have a frame number, as in cage.%04d.obj");
@@ -165,20 +163,21 @@ int runDeform(std::vector<std::string> words)
     std::optional<Progress> progress(verbosityOf(quiet, verbose));
     const Mesh cage = readMesh(cagePath), model = readMesh(modelPath);
     const Binding binding =
-        weights.empty() ? bindFiles(cagePath, modelPath,
-                                    [&] { return Binding(cage, model.points, coordinatesNamed(family), &*progress); })
-                        : readWeights(weights, cage, model.points);
+        weights.empty()
+            ? bindFiles(cagePath, modelPath, [&] { return Binding(cage, model.points, coordinates, &*progress); })
+            : readWeights(weights, cage, model.points);
     if (binding.family() == Coordinates::given) {
         const std::string made = weights.string() + ": its weights were made elsewhere; ";
-        if (familyOption->count() > 0) throw InputError(made + "they do not go with --coordinates " + family);
+        if (arguments.familyIsGiven())
+            throw InputError(made + "they do not go with --coordinates " + arguments.familyName());
         if (inversions) {
             throw InputError(made + "--inversions needs coordinates that can be computed at other points, as those of "
                                     "vdbcage bind");
         }
     }
-    if (!weights.empty() && familyOption->count() > 0 && binding.family() != coordinatesNamed(family)) {
+    if (!weights.empty() && arguments.familyIsGiven() && binding.family() != coordinates.family) {
         throw InputError(weights.string() + ": has " + coordinatesName(binding.family()) +
-                         " coordinates; --coordinates asks for " + family);
+                         " coordinates; --coordinates asks for " + arguments.familyName());
     }
     std::vector<Mesh> posedCages; // kept for what is printed
     for (const Frame& frame : frames) {

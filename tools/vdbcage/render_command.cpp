@@ -11,6 +11,7 @@
 #include <vdbcage/volume/vdb_io.h>
 
 #include "commands.h"
+#include "coordinate_arguments.h"
 #include "drawing.h"
 #include "outputs.h"
 
@@ -40,7 +41,7 @@ Size parseSize(const std::string& text)
 }
 
 /// Colours the models of a panel by the weights of point `vertex` of the first cage.
-void colourByInfluence(std::vector<Layer>& panel, int vertex, Coordinates family)
+void colourByInfluence(std::vector<Layer>& panel, int vertex, const CoordinateOptions& coordinates)
 {
     const auto cageLayer = std::find_if(panel.begin(), panel.end(),
                                         [](const Layer& layer) { return layer.style == LayerStyle::wireframe; });
@@ -52,11 +53,11 @@ void colourByInfluence(std::vector<Layer>& panel, int vertex, Coordinates family
     }
     for (auto layer = panel.begin(); layer != cageLayer; ++layer) {
         const Mesh& model = *layer->mesh;
-        const std::vector<double> coordinates = computeCoordinates(cage, model.points, family);
-        const std::size_t handles = coordinates.size() / model.points.size();
+        const std::vector<double> rows = computeCoordinates(cage, model.points, coordinates);
+        const std::size_t handles = rows.size() / model.points.size();
         std::vector<double> weights;
         for (std::size_t i = 0; i < model.points.size(); ++i) {
-            weights.push_back(coordinates[i * handles + static_cast<std::size_t>(vertex)]);
+            weights.push_back(rows[i * handles + static_cast<std::size_t>(vertex)]);
         }
         layer->colour = {1, 1, 1};
         layer->pointColours = draw::divergingColours(weights);
@@ -138,10 +139,9 @@ int runRender(std::vector<std::string> words)
         ->type_name("DEG")
         ->check(inRange(-90, 90));
     int vertex = 0;
-    std::string family = "mvc";
     CLI::Option* influence =
         app.add_option("--influence", vertex, "colour models by a cage vertex's weight")->type_name("VERTEX");
-    app.add_option("--coordinates", family, "of the weight: mvc, green or mlc [mvc]")->type_name("FAMILY");
+    const CoordinateArguments arguments(app);
     app.add_flag("--same-view", scene.sameView, "one scale and place for all panels");
     if (!parse(app, std::move(words))) return exitGood;
     requirePngExtension(picture);
@@ -152,7 +152,7 @@ int runRender(std::vector<std::string> words)
     }
     outputs.writes(picture);
     const Size size = parseSize(sizeText);
-    const Coordinates coordinates = coordinatesNamed(family);
+    const CoordinateOptions coordinates = arguments.options();
 
     std::map<std::string, Mesh> meshes; // by file: many panels can show the same model; layers point at them
     for (const std::vector<PanelFile>& panelFiles : panels) {

@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include <tbb/blocked_range.h>
@@ -19,6 +20,7 @@
 #include <vdbcage/deform/detail/bound_cage.h>
 #include <vdbcage/deform/detail/cage_pack.h>
 #include <vdbcage/deform/detail/green.h>
+#include <vdbcage/deform/detail/harmonic.h>
 #include <vdbcage/deform/detail/likelihood.h>
 #include <vdbcage/deform/detail/mean_value.h>
 #include <vdbcage/deform/detail/row_kernels.h>
@@ -31,42 +33,51 @@ using openvdb::Vec3d;
 
 namespace {
 
-struct Family {
-    Coordinates family;
-    const char* name;
-    const char* nameOnQuads;
-    /// The row of a point; false where the family is not defined. Null for what cannot be computed.
+using detail::RowKernels;
+
+/// How the rows of a family are computed.
+struct RowFunctions {
+    /// The row of a point; false where the family is not defined. Null if it needs more than the cage.
     bool (*row)(const detail::BoundCage&, const Vec3d&, double*);
-    detail::RowKernels::Rows* detail::RowKernels::*rows; ///< of several points, but for those that are near the cage
+    RowKernels::Rows* RowKernels::*rows; ///< of several points, but for those that are near the cage; null: one by one
 };
 
-using detail::RowKernels;
+struct Family {
+    FamilyInfo info;
+    RowFunctions functions;
+};
+
 constexpr std::array<Family, 4> families{
-    {{Coordinates::meanValue, "mvc", "qmvc", detail::meanValueRow, &RowKernels::meanValue},
-     {Coordinates::green, "green", "qgc", detail::greenRow, &RowKernels::green},
-     {Coordinates::maximumLikelihood, "mlc", "mlc", detail::likelihoodRow, &RowKernels::likelihood},
-     {Coordinates::given, "given", "given", nullptr, nullptr}}};
+    {{{Coordinates::meanValue, "mvc", "qmvc", "Mean value", "smooth, and anywhere; can be negative",
+       "Ju, Schaefer, Warren 2005; Thiery, Memari, Boubekeur 2018", true},
+      {detail::meanValueRow, &RowKernels::meanValue}},
+     {{Coordinates::green, "green", "qgc", "Green", "keeps shapes, follows the faces' normals",
+       "Lipman, Levin, Cohen-Or 2008; Thiery, Boubekeur 2022", false},
+      {detail::greenRow, &RowKernels::green}},
+     {{Coordinates::maximumLikelihood, "mlc", "mlc", "Maximum likelihood", "never negative, most local",
+       "Chang, Deng, Hormann 2023", false},
+      {detail::likelihoodRow, &RowKernels::likelihood}},
+     {{Coordinates::harmonic, "harmonic", "harmonic", "Harmonic", "never negative, smooth, not through walls",
+       "Joshi, Meyer, DeRose, Green, Sanocki 2007", false},
+      {nullptr, nullptr}}}};
 
 const Family& entry(Coordinates family)
 {
     return families[static_cast<std::size_t>(family)];
 }
 
-/// The names of those that can be computed.
-std::string computableFamilies()
+std::string familyNames()
 {
     std::string names;
-    for (const Family& family : families) {
-        if (family.row) names += (names.empty() ? "" : ", ") + std::string(family.name);
-    }
+    for (const Family& family : families) names += (names.empty() ? "" : ", ") + std::string(family.info.name);
     return names;
 }
 
-Coordinates requireComputable(Coordinates family)
+const CoordinateOptions& requireComputable(const CoordinateOptions& options)
 {
-    if (entry(family).row) return family;
-    throw InputError(std::string("coordinates: '") + entry(family).name +
-                     "' weights were made elsewhere and cannot be computed; there are " + computableFamilies());
+    if (options.family != Coordinates::given) return options;
+    throw InputError("coordinates: 'given' weights were made elsewhere and cannot be computed; there are " +
+                     familyNames());
 }
 
 bool isFinite(const Vec3d& p)
@@ -117,11 +128,13 @@ void forEachNormal(const Mesh& cage, const Take& take)
 /// Computes rows of coordinates, from any number of threads.
 class RowMaker {
 public:
-    RowMaker(const Mesh& mesh, const std::vector<Vec3d>& points, Coordinates family, Interrupter* interrupter)
-        : points_(points), family_(requireComputable(family)), interrupter_(interrupter),
-          columns_(handleCount(mesh, family)), cage_(mesh), pack_(cage_), undefined_(points.size(), 0)
+    RowMaker(const Mesh& mesh, const std::vector<Vec3d>& points, const CoordinateOptions& options,
+             Interrupter* interrupter)
+        : points_(points), family_(entry(requireComputable(options).family)), interrupter_(interrupter),
+          columns_(handleCount(mesh, options.family)), cage_(mesh), pack_(cage_), undefined_(points.size(), 0)
     {
         requireFinite(points, "points");
+        if (options.family == Coordinates::harmonic) grid_.emplace(cage_, options.resolution, interrupter);
     }
 
     /// Computes `count` rows in parallel, in pieces: those of the points `pointOf` 0, 1 and so on, one after the other.
@@ -145,8 +158,8 @@ public:
         const auto index = static_cast<std::size_t>(first - undefined_.begin());
         throw InputError("points: point " + std::to_string(index) + " at " + text(points_[index]) + " and " +
                          std::to_string(std::count(first, undefined_.end(), 1) - 1) + " others have no " +
-                         entry(family_).name + " coordinates in this cage; " +
-                         (family_ == Coordinates::meanValue ? "they are too far away" : "all must be inside of it"));
+                         family_.info.name + " coordinates in this cage; " +
+                         (family_.info.isEverywhere ? "they are too far away" : "all must be inside of it"));
     }
 
 private:
@@ -173,8 +186,9 @@ private:
             const Vec3d at = cage_.scaled(points_[pointOf(first + lane)]);
             for (int a = 0; isFinite(at) && a < 3; ++a) x[a][lane] = at[a];
         }
-        const auto kernel = detail::rowKernels().*entry(family_).rows;
-        const unsigned leftOut = kernel(pack_.packed(), x, buffers.scratch.get(), buffers.rows.get());
+        const auto kernel = family_.functions.rows;
+        const unsigned leftOut =
+            kernel ? (detail::rowKernels().*kernel)(pack_.packed(), x, buffers.scratch.get(), buffers.rows.get()) : ~0U;
         std::vector<double> row;
         Packet probe = {}; // not zero where a number is not finite
         for (std::size_t lane = 0; lane < count; ++lane) {
@@ -183,7 +197,9 @@ private:
             if (!isFinite(at)) probe[lane] = 1;
             if ((leftOut >> lane & 1) == 0) continue;
             row.resize(columns_);
-            if (!isFinite(at) || !entry(family_).row(cage_, at, row.data())) probe[lane] = 1;
+            const bool isDefined =
+                isFinite(at) && (grid_ ? grid_->row(at, row.data()) : family_.functions.row(cage_, at, row.data()));
+            if (!isDefined) probe[lane] = 1;
             for (std::size_t k = 0; k < columns_; ++k) buffers.rows[k][lane] = row[k];
         }
         Number* const to = rows + first * columns_;
@@ -200,22 +216,23 @@ private:
     }
 
     const std::vector<Vec3d>& points_;
-    Coordinates family_;
+    const Family& family_;
     Interrupter* interrupter_;
     std::size_t columns_;
     detail::BoundCage cage_;
     detail::CagePack pack_;
+    std::optional<detail::HarmonicGrid> grid_; // of harmonic coordinates
     std::vector<char> undefined_;
 };
 
 template <typename Number>
-std::vector<Number> computeRows(const Mesh& cage, const std::vector<Vec3d>& points, Coordinates family,
+std::vector<Number> computeRows(const Mesh& cage, const std::vector<Vec3d>& points, const CoordinateOptions& options,
                                 Interrupter* interrupter)
 {
     const Stage stage(interrupter, "bind");
-    RowMaker maker(cage, points, family, interrupter);
+    RowMaker maker(cage, points, options, interrupter);
     std::vector<Number> rows;
-    const std::size_t count = points.size() * handleCount(cage, family);
+    const std::size_t count = points.size() * handleCount(cage, options.family);
     rows.reserve(count);
     while (rows.size() < count) { // getting gigabytes takes seconds
         throwIfInterrupted(interrupter);
@@ -248,17 +265,27 @@ std::vector<float> maxDistancesOf(const Mesh& cage, Coordinates family)
 
 } // namespace
 
+const std::vector<FamilyInfo>& coordinateFamilies()
+{
+    static const std::vector<FamilyInfo> all = [] {
+        std::vector<FamilyInfo> list;
+        for (const Family& family : families) list.push_back(family.info);
+        return list;
+    }();
+    return all;
+}
+
 const char* coordinatesName(Coordinates family)
 {
-    return entry(family).name;
+    return family == Coordinates::given ? "given" : entry(family).info.name;
 }
 
 Coordinates coordinatesNamed(const std::string& name)
 {
-    for (const Family& family : families) {
-        if (family.row && (name == family.name || name == family.nameOnQuads)) return family.family;
+    for (const FamilyInfo& family : coordinateFamilies()) {
+        if (name == family.name || name == family.nameOnQuads) return family.family;
     }
-    throw InputError("coordinates: '" + name + "' is not a family; there are " + computableFamilies());
+    throw InputError("coordinates: '" + name + "' is not a family; there are " + familyNames());
 }
 
 std::vector<Vec3d> cageHandles(const Mesh& cage, const std::vector<Vec3d>& posed, Coordinates family)
@@ -280,26 +307,27 @@ std::vector<Vec3d> cageHandles(const Mesh& cage, const std::vector<Vec3d>& posed
     return handles;
 }
 
-std::vector<double> computeCoordinates(const Mesh& cage, const std::vector<Vec3d>& points, Coordinates family,
-                                       Interrupter* interrupter)
+std::vector<double> computeCoordinates(const Mesh& cage, const std::vector<Vec3d>& points,
+                                       const CoordinateOptions& options, Interrupter* interrupter)
 {
-    return computeRows<double>(cage, points, family, interrupter);
+    return computeRows<double>(cage, points, options, interrupter);
 }
 
-std::vector<float> computeWeights(const Mesh& cage, const std::vector<Vec3d>& points, Coordinates family,
+std::vector<float> computeWeights(const Mesh& cage, const std::vector<Vec3d>& points, const CoordinateOptions& options,
                                   Interrupter* interrupter)
 {
-    return computeRows<float>(cage, points, family, interrupter);
+    return computeRows<float>(cage, points, options, interrupter);
 }
 
-Binding::Binding(const Mesh& cage, std::vector<Vec3d> points, Coordinates family, Interrupter* interrupter)
-    : cage_(cage), points_(std::move(points)), family_(family)
+Binding::Binding(const Mesh& cage, std::vector<Vec3d> points, const CoordinateOptions& options,
+                 Interrupter* interrupter)
+    : cage_(cage), points_(std::move(points)), options_(options)
 {
     const Stage stage(interrupter, "bind");
-    RowMaker maker(cage_, points_, family_, interrupter);
-    restHandles_ = cageHandles(cage_, cage_.points, family_);
+    RowMaker maker(cage_, points_, options_, interrupter);
+    restHandles_ = cageHandles(cage_, cage_.points, family());
     weights_ = std::make_shared<detail::WeightBlocks>(
-        points_, maxDistancesOf(cage_, family_),
+        points_, maxDistancesOf(cage_, family()),
         [&](const std::vector<std::uint32_t>& block, std::vector<float>& rows) {
             maker.make(
                 block.size(), [&](std::size_t i) { return block[i]; }, rows.data());
@@ -308,19 +336,20 @@ Binding::Binding(const Mesh& cage, std::vector<Vec3d> points, Coordinates family
     maker.requireDefined();
 }
 
-Binding::Binding(const Mesh& cage, std::vector<Vec3d> points, Coordinates family, const std::vector<float>& weights)
-    : cage_(cage), points_(std::move(points)), family_(family)
+Binding::Binding(const Mesh& cage, std::vector<Vec3d> points, const CoordinateOptions& options,
+                 const std::vector<float>& weights)
+    : cage_(cage), points_(std::move(points)), options_(options)
 {
     requireUsable(cage, "cage");
     requireFinite(points_, "points");
-    restHandles_ = cageHandles(cage, cage.points, family);
+    restHandles_ = cageHandles(cage, cage.points, family());
     detail::requireWeights(weights.size(), points_.size(), handles());
-    if (family == Coordinates::given) {
+    if (family() == Coordinates::given) {
         const std::string problem = detail::weightsProblem(weights, handles());
         if (!problem.empty()) throw InputError("weights: " + problem);
     }
     weights_ = std::make_shared<detail::WeightBlocks>(
-        points_, maxDistancesOf(cage_, family_),
+        points_, maxDistancesOf(cage_, family()),
         [&](const std::vector<std::uint32_t>& block, std::vector<float>& rows) {
             for (std::size_t i = 0; i < block.size(); ++i) {
                 std::copy_n(weights.begin() + static_cast<std::ptrdiff_t>(block[i] * handles()), handles(),
@@ -337,14 +366,14 @@ std::size_t Binding::weightBytes() const
 std::vector<Vec3d> Binding::pose(const std::vector<Vec3d>& cagePoints) const
 {
     std::vector<Vec3d> posed = points_;
-    add(restHandles_, cageHandles(cage_, cagePoints, family_), posed);
+    add(restHandles_, cageHandles(cage_, cagePoints, family()), posed);
     return posed;
 }
 
 void Binding::update(std::vector<Vec3d>& posed, const std::vector<Vec3d>& from, const std::vector<Vec3d>& to) const
 {
     requireCount("posed points", posed.size(), points_.size(), "the binding");
-    add(cageHandles(cage_, from, family_), cageHandles(cage_, to, family_), posed);
+    add(cageHandles(cage_, from, family()), cageHandles(cage_, to, family()), posed);
 }
 
 void Binding::add(const std::vector<Vec3d>& fromHandles, const std::vector<Vec3d>& toHandles,

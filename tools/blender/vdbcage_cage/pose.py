@@ -22,7 +22,9 @@ class Settings(bpy.types.PropertyGroup):
         name="Coordinates",
         items=(("green", "Green", "Keeps shapes: what is inside turns with the faces. The model must be inside"),
                ("mvc", "Mean Value", "Follows the cage's points exactly. The model may reach out of the cage"),
-               ("mlc", "Maximum Likelihood", "Follows the cage's points, most locally. The model must be inside")))
+               ("mlc", "Maximum Likelihood", "Follows the cage's points, most locally. The model must be inside"),
+               ("harmonic", "Harmonic", "Follows the cage's points, and none through a wall. The model must be "
+                                        "inside")))
     target: bpy.props.EnumProperty(
         name="Into",
         items=(("SHAPE_KEY", "Shape Key", "The cage as it is now poses the mesh, below all modifiers"),

@@ -433,17 +433,18 @@ class Binding:
 
     cage: a Mesh, closed and facing outward
     points: array-like, shape (n, 3): world space
-    coordinates: "mvc" (mean value), "green" or "mlc" (maximum likelihood); see docs/DEFORMING.md
+    coordinates: "mvc" (mean value), "green", "mlc" (maximum likelihood) or "harmonic"; see docs/DEFORMING.md
+    resolution: of harmonic ones, 4 to 256: voxels along the cage
     Raises InputError; Cancelled.
     """
 
     __slots__ = ("_binding", "_cage")
 
-    def __init__(self, cage, points, coordinates="mvc", *, progress=None):
+    def __init__(self, cage, points, coordinates="mvc", *, resolution=64, progress=None):
         if not isinstance(coordinates, str):
             raise InputError(f"coordinates: {coordinates!r} is not allowed; it must be a string")
         self._binding = _vdbcage.Binding(_mesh("cage", cage), _points("points", points), coordinates,
-                                         _callback(progress))
+                                         _whole("resolution", resolution, 4, 256), _callback(progress))
         self._cage = cage
 
     @classmethod
@@ -510,7 +511,7 @@ class Binding:
 
     @property
     def coordinates(self):
-        """The family: "mvc", "green", "mlc" or "given"."""
+        """The family: "mvc", "green", "mlc", "harmonic" or "given"."""
         return self._binding.coordinates
 
     @property

@@ -125,19 +125,18 @@ void buildCompare(const PanelContext& context)
     muted("Compare with");
     ImGui::SameLine();
     ImGui::SetNextItemWidth(-1);
-    const char* const now = compared ? familyTexts[static_cast<std::size_t>(*compared)].label : "nothing";
+    const char* const now = compared ? titleOf(*compared) : "nothing";
     const bool isOpen = ImGui::BeginCombo("##compare", now);
     context.name("compare");
     if (!isOpen) return help("a second picture has the model by another family of coordinates");
     if (ImGui::Selectable("nothing", !compared)) context.ask("compare off");
     context.name("compare.off");
-    for (std::size_t i = 0; i + 1 < familyTexts.size(); ++i) {
-        const auto family = static_cast<Coordinates>(i);
-        if (ImGui::Selectable(familyTexts[i].label, compared == family)) {
-            context.ask(std::string("compare ") + coordinatesName(family));
+    for (const FamilyInfo& family : coordinateFamilies()) {
+        if (ImGui::Selectable(family.title, compared == family.family)) {
+            context.ask(std::string("compare ") + family.name);
         }
-        context.name(std::string("compare.") + coordinatesName(family));
-        help(familyTexts[i].help);
+        context.name(std::string("compare.") + family.name);
+        help(family.what);
     }
     ImGui::EndCombo();
 }

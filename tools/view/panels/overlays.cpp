@@ -172,8 +172,7 @@ void drawPictures(ImDrawList& list, const PanelContent& content)
             const bool isFirst = &picture == &content.pictures.front();
             const Coordinates family =
                 isFirst ? state.document.coordinates : state.view.compared.value_or(state.document.coordinates);
-            list.AddText({low.x + length(12), low.y + length(10)}, packed(inkColour),
-                         familyTexts[static_cast<std::size_t>(family)].label);
+            list.AddText({low.x + length(12), low.y + length(10)}, packed(inkColour), titleOf(family));
             if (!isFirst) list.AddLine(low, {low.x, high.y}, packed(theme::line), length(2));
         }
         list.PopClipRect();

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <map>
 #include <optional>
 #include <string>
@@ -11,17 +10,8 @@
 /// The parts of the window; each is built once a layout. Those that remember something take it.
 namespace vdbcage::view {
 
-/// What users are told of a family of coordinates.
-struct FamilyText {
-    const char* label;
-    const char* help;
-};
-/// By their values in Coordinates.
-constexpr std::array<FamilyText, 4> familyTexts{
-    {{"Mean value", "mean value coordinates: smooth, defined everywhere, can be negative"},
-     {"Green", "Green coordinates: they keep shapes and follow the faces' normals"},
-     {"Likelihood", "maximum likelihood coordinates: local, never negative"},
-     {"Weights", "weights from a file (File > Open weights)"}}};
+/// What users know a family of coordinates by.
+const char* titleOf(Coordinates family);
 
 /// Below the menu: what is done in the picture.
 void buildToolbar(const PanelContext& context);

@@ -104,6 +104,11 @@ void buildSoft(const PanelContext& context, const ViewState& view)
 
 } // namespace
 
+const char* titleOf(Coordinates family)
+{
+    return family == Coordinates::given ? "Weights" : coordinateFamilies()[static_cast<std::size_t>(family)].title;
+}
+
 void buildToolbar(const PanelContext& context)
 {
     const State& state = context.content.session.state();
@@ -156,11 +161,12 @@ void buildToolbar(const PanelContext& context)
     if (isPose) {
         const Coordinates now = state.document.coordinates;
         std::vector<Entry> families;
-        for (std::size_t i = 0; i < familyTexts.size(); ++i) {
-            families.push_back(
-                {coordinatesName(static_cast<Coordinates>(i)), familyTexts[i].label, familyTexts[i].help});
+        for (const FamilyInfo& family : coordinateFamilies()) {
+            families.push_back({family.name, family.title, family.what});
         }
-        if (now != Coordinates::given) families.pop_back(); // they are chosen by their file
+        if (now == Coordinates::given) { // they are chosen by their file
+            families.push_back({coordinatesName(now), titleOf(now), "weights from a file (File > Open weights)"});
+        }
         list(context, "coordinates", families, static_cast<std::size_t>(now), length(112));
     } else {
         ImGui::NewLine();

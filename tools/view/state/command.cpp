@@ -230,7 +230,7 @@ const std::array<Syntax, std::variant_size_v<Command>>& syntaxes()
          [](const Words& w) -> Command { return ResetOptions{w}; }},
         {"preset", "NAME|FILE", 1, 1, "sets all options to those of a preset or of a file",
          [](const Words& w) -> Command { return ApplyPreset{w[0]}; }},
-        {"coordinates", "mvc|green|mlc", 1, 1, "chooses how the model follows the cage",
+        {"coordinates", "mvc|green|mlc|harmonic", 1, 1, "chooses how the model follows the cage",
          [](const Words& w) -> Command { return SetCoordinates{coordinatesNamed(w[0])}; }},
         {"open-weights", "FILE", 1, 1,
          "the model follows the cage by weights of vdbcage bind or of others (.npy, .dmat: points x points of the "
@@ -334,7 +334,8 @@ const std::array<Syntax, std::variant_size_v<Command>>& syntaxes()
          [](const Words& w) -> Command { return SetSoft{softRadiusOf(w[0])}; }},
         {"mirror", "off|x|y|z OFFSET", 1, 2, "does the same on the other side of a plane across an axis",
          [](const Words& w) -> Command { return SetMirror{mirrorOf(w)}; }},
-        {"compare", "off|mvc|green|mlc", 1, 1, "shows the model by another family of coordinates too, side by side",
+        {"compare", "off|mvc|green|mlc|harmonic", 1, 1,
+         "shows the model by another family of coordinates too, side by side",
          [](const Words& w) -> Command { return w[0] == "off" ? Compare{} : Compare{coordinatesNamed(w[0])}; }},
         {"time", "FRAME", 1, 1, "shows, and changes from now on, the pose at a frame",
          [](const Words& w) -> Command { return SetFrame{frameOf(w[0], "time")}; }},

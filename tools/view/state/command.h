@@ -34,7 +34,7 @@ struct ApplyPreset {
     std::string name; ///< of a preset of ours, or a file's path
 };
 
-/// coordinates mvc|green|mlc: by which the model follows the cage.
+/// coordinates mvc|green|mlc|harmonic: by which the model follows the cage.
 struct SetCoordinates {
     Coordinates family{};
 };
@@ -173,7 +173,7 @@ struct SetSeeThrough {
 struct SetSoft {
     double radius = 0; ///< a part of the model's longest side
 };
-/// compare off|mvc|green|mlc: a second picture beside the first has the model by another family, in mode pose.
+/// compare off|mvc|green|mlc|harmonic: a second picture beside the first has the model by another family, in mode pose.
 struct Compare {
     std::optional<Coordinates> family;
 };

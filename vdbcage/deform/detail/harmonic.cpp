@@ -12,6 +12,7 @@
 
 #include <tbb/blocked_range.h>
 #include <vdbcage/core/detail/parallel.h>
+#include <vdbcage/deform/binding.h>
 
 namespace vdbcage::detail {
 
@@ -208,7 +209,7 @@ void forEachCandidate(const PatchCorners& c, bool quad, int axis, const Take& ta
 HarmonicGrid::HarmonicGrid(const BoundCage& cage, int resolution, Interrupter* interrupter)
     : cage_(cage), scale_(resolution)
 {
-    requireWithin(resolutions, resolution, "resolution");
+    requireWithin(CoordinateOptions::resolutions, resolution, "resolution");
     openvdb::BBoxd box;
     for (const BoundCage::Face& face : cage.faces()) {
         for (const openvdb::Index32 i : face.at) box.expand(cage.points()[i]);

@@ -6,7 +6,6 @@
 
 #include <openvdb/Types.h>
 #include <vdbcage/core/interrupter.h>
-#include <vdbcage/core/range.h>
 #include <vdbcage/deform/detail/bound_cage.h>
 
 namespace vdbcage::detail {
@@ -27,13 +26,11 @@ namespace vdbcage::detail {
 /// but for jumps of that size where a line along an axis grazes the cage.
 class HarmonicGrid {
 public:
-    static constexpr Range resolutions{4, 256};
-
     /// `resolution` is in voxels along the cage's longest side. `cage` must outlive the grid.
     ///
     /// Memory: 8 bytes for each node inside and each point of the cage, and 4 for each node of the cage's box.
     /// Cost: O(resolution) or less for each node inside and each point of the cage, in parallel.
-    /// \throw InputError resolution out of range
+    /// \throw InputError resolution not in CoordinateOptions::resolutions
     /// \throw Cancelled
     HarmonicGrid(const BoundCage& cage, int resolution, Interrupter* interrupter = nullptr);
 
