@@ -18,6 +18,7 @@
 #include <vdbcage/core/range.h>
 #include <vdbcage/core/version.h>
 #include <vdbcage/deform/binding.h>
+#include <vdbcage/deform/distortion.h>
 #include <vdbcage/deform/inversions.h>
 #include <vdbcage/deform/weights_io.h>
 #include <vdbcage/mesh/mesh.h>

@@ -147,6 +147,46 @@ BOOST_AUTO_TEST_CASE(weights_that_were_made_elsewhere)
                   "there are mvc, green, mlc, harmonic");
 }
 
+BOOST_AUTO_TEST_CASE(families_compared)
+{
+    const Scene scene;
+    const std::string cage = scene.at("cage.obj"), model = scene.at("model.obj"), posed = scene.at("posed.0010.obj");
+    const std::string sheet = scene.at("sheet.png");
+    const auto compared = runCommand({command, "deform", cage, posed, model, "-o", sheet, "--compare"});
+    BOOST_TEST(compared.status == 0, compared.err);
+    BOOST_TEST(test::readText(sheet).substr(1, 3) == "PNG");
+    std::istringstream lines(compared.out);
+    std::string line;
+    std::getline(lines, line);
+    BOOST_TEST(line == "family     distortion   99th pct     volume   inverted");
+    for (const char* family : {"mvc", "green", "mlc", "harmonic"}) {
+        std::getline(lines, line);
+        BOOST_TEST(line.substr(0, line.find(' ')) == family);
+    }
+    BOOST_TEST(!std::getline(lines, line));
+    const auto atRest = runCommand({command, "deform", cage, cage, model, "-o", sheet, "--compare"});
+    BOOST_TEST(atRest.out.find("mlc             1.000      1.000    100.0 %          0\n") != std::string::npos,
+               atRest.out);
+
+    const std::string other = scene.at("other.png");
+    expectRefusal(scene, {"deform", cage, posed, model, "-o", scene.at("other.obj"), "--compare"}, "must end in .png");
+    for (const std::vector<std::string>& options :
+         {std::vector<std::string>{"--inversions"}, {"--weights", "w.npy"}, {"--coordinates", "mvc"}}) {
+        std::vector<std::string> words{"deform", cage, posed, model, "-o", other, "--compare"};
+        words.insert(words.end(), options.begin(), options.end());
+        expectRefusal(scene, words, "--compare shows all families");
+    }
+    expectRefusal(scene, {"deform", cage, scene.at("posed.%04d.obj"), model, "-o", other, "--compare"},
+                  "--compare is of one pose");
+    // What is far outside has mean value coordinates only.
+    const std::string outside = scene.at("outside.obj");
+    test::writeText(outside, "v 9 9 9\nv 9 8 9\nv 8 9 9\nf 1 2 3\n");
+    const auto far = runCommand({command, "deform", cage, posed, outside, "-o", other, "--compare"});
+    BOOST_TEST(far.status == 0, far.err);
+    BOOST_TEST(far.out.find("green: points: point 0 at (9, 9, 9) and 2 others have no") != std::string::npos, far.out);
+    BOOST_TEST(far.out.find("mvc ") != std::string::npos, far.out);
+}
+
 BOOST_AUTO_TEST_CASE(resolutions)
 {
     const Scene scene;

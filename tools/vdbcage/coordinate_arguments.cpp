@@ -30,12 +30,16 @@ CoordinateArguments::CoordinateArguments(CLI::App& app)
 {
 }
 
+int CoordinateArguments::resolution() const
+{
+    requireWithin(CoordinateOptions::resolutions, resolution_, "resolution");
+    return resolution_;
+}
+
 CoordinateOptions CoordinateArguments::options() const
 {
     const CoordinateOptions options(coordinatesNamed(family_), resolution_);
-    if (resolutionOption_->count() == 0) return options;
-    requireWithin(CoordinateOptions::resolutions, resolution_, "resolution");
-    if (options.family != Coordinates::harmonic) {
+    if (resolutionOption_->count() > 0 && resolution() > 0 && options.family != Coordinates::harmonic) {
         throw InputError("resolution: only harmonic coordinates have one; --coordinates is " + family_);
     }
     return options;

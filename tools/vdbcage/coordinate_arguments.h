@@ -15,6 +15,8 @@ public:
 
     bool familyIsGiven() const { return familyOption_->count() > 0; }
     const std::string& familyName() const { return family_; }
+    /// \throw InputError out of range
+    int resolution() const;
     /// \throw InputError no such family; a resolution out of range, or of a family that has none
     CoordinateOptions options() const;
 

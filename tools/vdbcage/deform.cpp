@@ -12,7 +12,9 @@
 #include <vdbcage/mesh/mesh_io.h>
 
 #include "commands.h"
+#include "compare_families.h"
 #include "coordinate_arguments.h"
+#include "drawing.h"
 #include "interrupt.h"
 #include "outputs.h"
 
@@ -80,6 +82,29 @@ std::vector<fs::path> weightsFiles(const fs::path& output, const std::vector<fs:
     return files;
 }
 
+/// What deform --compare does.
+int drawComparison(const fs::path& cagePath, const fs::path& posedPath, const fs::path& modelPath,
+                   const fs::path& picture, int resolution, Verbosity verbosity)
+{
+    requirePngExtension(picture);
+    if (isPattern(posedPath)) throw InputError("--compare is of one pose; POSED_CAGE must not have a frame number");
+    Outputs outputs;
+    for (const fs::path& input : {cagePath, posedPath, modelPath}) outputs.reads(input);
+    outputs.writes(picture);
+    std::optional<Progress> progress(verbosity);
+    const Mesh cage = readMesh(cagePath), posed = readMesh(posedPath), model = readMesh(modelPath);
+    requireSameFaces(posedPath, posed, "the cage " + cagePath.string(), cage);
+    const FamilyComparison comparison =
+        bindFiles(cagePath, modelPath, [&] { return compareFamilies(cage, posed, model, resolution, &*progress); });
+    const std::string bytes = encodePng(comparison.sheet);
+    outputs.add(picture, [&](std::ostream& out) { out << bytes; });
+    progress.reset();
+    std::cout << comparison.table;
+    flushOutput();
+    outputs.commit();
+    return exitGood;
+}
+
 } // namespace
 
 int runBind(std::vector<std::string> words)
@@ -131,11 +156,11 @@ int runBind(std::vector<std::string> words)
 int runDeform(std::vector<std::string> words)
 {
     fs::path cagePath, posedPath, modelPath, output, weights;
-    bool quiet = false, verbose = false, inversions = false;
+    bool quiet = false, verbose = false, inversions = false, compare = false;
     CLI::App app("vdbcage deform CAGE POSED_CAGE MODEL -o OUT [OPTIONS]\n"
                  "Moves the model as its cage moved. A sequence has the frame's number in the\n"
                  "names of POSED_CAGE and OUT: cage.%04d.obj. From OBJ to OBJ all stays as it\n"
-                 "was but positions and normals.",
+                 "was but positions and normals. With --compare OUT is a picture (.png).",
                  "deform");
     app.add_option("cage", cagePath)->required()->type_name("CAGE");
     app.add_option("posed", posedPath)->required()->type_name("POSED_CAGE");
@@ -144,9 +169,18 @@ int runDeform(std::vector<std::string> words)
     const CoordinateArguments arguments(app);
     app.add_option("--weights", weights, "of bind, or a matrix (.npy, .dmat) [computed]")->type_name("WEIGHTS");
     app.add_flag("--inversions", inversions, "print how many triangles each pose inverts");
+    app.add_flag("--compare", compare, "draw all families, and print what they distort");
     app.add_flag("-q,--quiet", quiet, "print nothing but errors");
     app.add_flag("-v,--verbose", verbose, "print the progress, also without a terminal");
     if (!parse(app, std::move(words))) return exitGood;
+    if (compare) {
+        if (!weights.empty() || arguments.familyIsGiven() || inversions) {
+            throw InputError("--compare shows all families, and inversions too; it does not go with --weights, "
+                             "--coordinates or --inversions");
+        }
+        return drawComparison(cagePath, posedPath, modelPath, output, arguments.resolution(),
+                              verbosityOf(quiet, verbose));
+    }
     const CoordinateOptions coordinates = arguments.options();
     detail::requireMeshExtension(output);
     if (isPattern(posedPath) != isPattern(output)) {
