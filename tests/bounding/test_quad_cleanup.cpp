@@ -14,6 +14,7 @@
 #include <vdbcage/bounding/detail/face_queries.h>
 #include <vdbcage/bounding/detail/quad_change.h>
 #include <vdbcage/bounding/detail/quad_cleanup.h>
+#include <vdbcage/bounding/detail/quad_making.h>
 #include <vdbcage/bounding/triquad.h>
 #include <vdbcage/check/check.h>
 #include <vdbcage/volume/extract.h>
@@ -188,6 +189,80 @@ BOOST_AUTO_TEST_CASE(a_change_that_is_taken_back_leaves_no_trace)
         }
     }
     BOOST_TEST(taken > 100);
+}
+
+BOOST_AUTO_TEST_CASE(what_was_found_before_another_change_is_planned_as_it_was_meant_or_not_at_all)
+{
+    std::map<QuadChange::Kind, int> made, refused;
+    for (unsigned seed = 1; seed <= 3; ++seed) {
+        const Patchwork before(seed);
+        const auto changes = quadChanges(before.surface, before.table, -1);
+        for (std::size_t i = seed; i < changes.size(); i += 7) {
+            const auto first = planned(before.surface, before.table, changes[i]);
+            if (!first) continue;
+            GuardedMesh changed = before.surface;
+            QuadTable changedTable = before.table;
+            if (!applyNear(changed, first->star, first->place, 1, {0.0, 0.05, 0.1, 0.2})) continue;
+            apply(changedTable, *first);
+            const std::set<std::uint32_t> near(first->vertices.begin(), first->vertices.end());
+            const std::size_t count = polygonsOf(changed, changedTable).size();
+            for (const QuadChange& change : changes) {
+                if (near.count(change.vertices[0]) + near.count(change.vertices[1]) < 2) continue;
+                const auto plan = planned(changed, changedTable, change);
+                if (!plan) ++refused[change.kind];
+                GuardedMesh surface = changed;
+                QuadTable table = changedTable;
+                if (!plan || !applyNear(surface, plan->star, plan->place, 1, {0.0, 0.05, 0.1, 0.2})) continue;
+                apply(table, *plan);
+                if (std::isinf(irregularityOf(surface, table))) continue; // what it would gain now says so
+                ++made[change.kind];
+                const std::size_t polygons = polygonsOf(surface, table).size();
+                BOOST_TEST(polygons == surface.liveFaces() - table.count()); // each quad is two of the faces
+                BOOST_TEST(int(polygons) - int(count) == (change.kind == QuadChange::Kind::rotation ? 0
+                                                          : change.kind == QuadChange::Kind::split  ? 1
+                                                                                                    : -1));
+            }
+        }
+    }
+    for (const auto kind :
+         {QuadChange::Kind::rotation, QuadChange::Kind::merge, QuadChange::Kind::collapse, QuadChange::Kind::split}) {
+        BOOST_TEST(made[kind] > 0);
+        BOOST_TEST(refused[kind] > 0);
+    }
+}
+
+BOOST_AUTO_TEST_CASE(quads_that_cannot_be_made_are_told)
+{
+    for (const auto make : {makeQuads, makeQuadsInPlace}) {
+        std::size_t told = 0, made = 0;
+        for (unsigned seed = 1; seed <= 4; ++seed) {
+            const test::Lump lump(seed);
+            GuardedMesh surface(lump.surface, modelOf(lump.guard));
+            QuadTable table = QuadTable::ofPairs(surface);
+            std::vector<char> isTaken(surface.faces(), 0);
+            for (std::uint32_t f = 0; f < surface.faces(); ++f) { // any two that share an edge
+                for (unsigned i = 0; i < 3 && !isTaken[f]; ++i) {
+                    const std::uint32_t g = faceAcross(surface, f, int((seed + f + i) % 3));
+                    if (isTaken[g]) continue;
+                    isTaken[f] = isTaken[g] = 1;
+                    table.add(surface.quadOf(f, g));
+                }
+            }
+            std::vector<std::uint32_t> left = make(surface, table, nullptr), lacking;
+            for (std::uint32_t q = 0; q < table.quads(); ++q) {
+                const Vec4I& ids = table.corners(q);
+                const std::uint32_t f = faceAt(surface, ids[0], ids[1]), g = faceAt(surface, ids[2], ids[3]);
+                if (!surface.isInQuad(f) || surface.partnerOf(f) != g) lacking.push_back(q);
+            }
+            std::sort(left.begin(), left.end());
+            BOOST_TEST(left == lacking);
+            BOOST_TEST(surface.quads() == table.count() - left.size());
+            told += left.size();
+            made += surface.quads();
+        }
+        BOOST_TEST(told > 0U);
+        BOOST_TEST(made > 0U);
+    }
 }
 
 BOOST_AUTO_TEST_CASE(valences_get_better_and_the_surface_still_bounds)

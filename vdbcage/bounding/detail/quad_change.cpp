@@ -241,6 +241,12 @@ std::optional<PlannedChange> plannedMerge(const GuardedMesh& surface, const Quad
 {
     const Ring ring = ringAround(surface, table, a, b);
     if (ring.size() != 4) return std::nullopt;
+    const auto& quads = table.quadsOf(a);
+    const bool isDiagonal = std::any_of(quads.begin(), quads.end(), [&](std::uint32_t q) {
+        const Vec4I& ids = table.corners(q);
+        return ids[0] == b || ids[1] == b || ids[2] == b || ids[3] == b;
+    });
+    if (isDiagonal) return std::nullopt; // they are a quad
     PlannedChange plan;
     plan.star = starOf(surface, a);
     plan.place = surface.point(a);

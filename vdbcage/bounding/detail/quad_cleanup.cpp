@@ -12,7 +12,6 @@
 #include <vector>
 
 #include <vdbcage/bounding/detail/admissible.h>
-#include <vdbcage/bounding/detail/face_queries.h>
 #include <vdbcage/bounding/detail/quad_change.h>
 #include <vdbcage/bounding/detail/quad_relax.h>
 #include <vdbcage/bounding/detail/relax.h>
@@ -27,20 +26,6 @@ void sortOut(Vertices& list)
 {
     std::sort(list.begin(), list.end());
     list.erase(std::unique(list.begin(), list.end()), list.end());
-}
-
-/// Whether the polygons around a quad are four.
-bool hasFourAround(const GuardedMesh& surface, const QuadTable& table, std::uint32_t q)
-{
-    constexpr std::uint64_t triangle = std::uint64_t(1) << 32;
-    const Vec4I& ids = table.corners(q);
-    std::array<std::uint64_t, 4> around{};
-    for (int i = 0; i < 4; ++i) {
-        const std::uint32_t a = ids[i], b = ids[(i + 1) % 4], other = table.quadAt(b, a);
-        around[static_cast<std::size_t>(i)] = other != QuadTable::none ? other : triangle + faceAt(surface, b, a);
-    }
-    std::sort(around.begin(), around.end());
-    return std::adjacent_find(around.begin(), around.end()) == around.end();
 }
 
 int moreFaces(QuadChange::Kind kind)
@@ -137,18 +122,16 @@ private:
         now.push_back(star.centre);
         now.erase(std::remove(now.begin(), now.end(), star.removed), now.end());
         sortOut(now);
-        if (isSound(now)) {
-            std::vector<GuardedMesh::Saved> places;
-            for (const std::uint32_t v : now) places.push_back(surface_.saved(starOf(surface_, v)));
-            if (relaxBelow(limit, now)) {
-                touched_.resize(surface_.vertices(), 1);
-                changedAt_.resize(surface_.vertices(), 0);
-                for (const std::uint32_t v : plan.vertices) touched_[v] = 1;
-                for (const std::uint32_t v : now) changedAt_[v] = time_;
-                return true;
-            }
-            for (const GuardedMesh::Saved& place : places) surface_.restore(place);
+        std::vector<GuardedMesh::Saved> places;
+        for (const std::uint32_t v : now) places.push_back(surface_.saved(starOf(surface_, v)));
+        if (relaxBelow(limit, now)) {
+            touched_.resize(surface_.vertices(), 1);
+            changedAt_.resize(surface_.vertices(), 0);
+            for (const std::uint32_t v : plan.vertices) touched_[v] = 1;
+            for (const std::uint32_t v : now) changedAt_[v] = time_;
+            return true;
         }
+        for (const GuardedMesh::Saved& place : places) surface_.restore(place);
         table_.restore(quads);
         surface_.restore(saved);
         return false;
@@ -176,18 +159,8 @@ private:
         return energy(vertices) < limit;
     }
 
-    /// Whether every vertex has three edges, and no two polygons share two.
-    bool isSound(const Vertices& vertices) const
-    {
-        return std::all_of(vertices.begin(), vertices.end(), [&](std::uint32_t v) {
-            const auto& quads = table_.quadsOf(v);
-            return polygonValence(surface_, table_, v) >= 3 &&
-                   std::all_of(quads.begin(), quads.end(),
-                               [&](std::uint32_t q) { return hasFourAround(surface_, table_, q); });
-        });
-    }
-
-    /// What is to be less, of all that changes when these vertices do.
+    /// What is to be less, of all that changes when these vertices do. Infinite where two polygons share two edges:
+    /// then a vertex has no third.
     double energy(const Vertices& vertices) const
     {
         constexpr double ofValences = 1.5;
