@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <sstream>
 
 #include <support/read_png.h>
 #include <support/run_command.h>
@@ -165,11 +166,12 @@ BOOST_AUTO_TEST_CASE(families_compared)
     }
     BOOST_TEST(!std::getline(lines, line));
     const auto atRest = runCommand({command, "deform", cage, cage, model, "-o", sheet, "--compare"});
-    BOOST_TEST(atRest.out.find("mlc             1.000      1.000    100.0 %          0\n") != std::string::npos,
+    BOOST_TEST(atRest.out.find("mlc             1.000      1.000          -          0\n") != std::string::npos,
                atRest.out);
 
     const std::string other = scene.at("other.png");
-    expectRefusal(scene, {"deform", cage, posed, model, "-o", scene.at("other.obj"), "--compare"}, "must end in .png");
+    expectRefusal(scene, {"deform", cage, posed, model, "-o", scene.at("other.obj"), "--compare"},
+                  "the name must end so");
     for (const std::vector<std::string>& options :
          {std::vector<std::string>{"--inversions"}, {"--weights", "w.npy"}, {"--coordinates", "mvc"}}) {
         std::vector<std::string> words{"deform", cage, posed, model, "-o", other, "--compare"};
