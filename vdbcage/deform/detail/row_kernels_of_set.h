@@ -274,7 +274,7 @@ Mask forEachMeanValue(const PackedCage& cage, Vector x, void* scratch, const Tak
         for (; bad != 0; bad &= bad - 1) {
             const int lane = __builtin_ctz(bad);
             const double place[3] = {x.x[lane], x.y[lane], x.z[lane]};
-            double exact[4];
+            double exact[4] = {};
             if (!exactMeanValue(*cage.cage, face, place, exact)) near[lane] = -1;
             for (int i = 0; i < 3; ++i) weights[i][lane] = exact[i];
         }
@@ -374,7 +374,7 @@ unsigned greenRows(const PackedCage& cage, const double (*x)[packetSize], void* 
             for (; badBits != 0; badBits &= badBits - 1) {
                 const int lane = __builtin_ctz(badBits);
                 const double from[3] = {place.x[lane], place.y[lane], place.z[lane]};
-                double exact[3], exactNormal = 0;
+                double exact[3] = {}, exactNormal = 0;
                 if (!exactGreen(*cage.cage, face, from, exact, exactNormal)) near[lane] = -1;
                 for (int i = 0; i < 3; ++i) positions[i][lane] = exact[i];
                 normal[lane] = exactNormal;
