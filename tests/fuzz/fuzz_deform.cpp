@@ -1,0 +1,122 @@
+// Random cages, also squeezed, folded, huge and tiny ones, and points in, on and near them: coordinates are one line of
+// objection, or finite weights that reproduce the points.
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <limits>
+#include <string_view>
+
+#include <deform/cages.h>
+#include <vdbcage/core/error.h>
+#include <vdbcage/deform/binding.h>
+
+using namespace vdbcage;
+using openvdb::Vec3d;
+
+namespace {
+
+void require(bool holds)
+{
+    if (!holds) std::abort();
+}
+
+/// What the bytes ask for; zero behind their end.
+class Choices {
+public:
+    Choices(const std::uint8_t* data, std::size_t size) : data_(data), size_(size) {}
+
+    int below(int count) { return next() % count; }
+    double share() { return (next() + 256 * next()) / 65535.0; }
+    /// Around 0, of any magnitude from 1e-16 on.
+    double small() { return (share() - 0.5) * std::pow(10.0, -below(17)); }
+    Vec3d direction() { return {2 * share() - 1, 2 * share() - 1, 2 * share() - 1}; }
+
+private:
+    int next() { return at_ < size_ ? data_[at_++] : 0; }
+
+    const std::uint8_t* data_;
+    std::size_t size_, at_ = 0;
+};
+
+Mesh cageOf(Choices& choices)
+{
+    Mesh cage = test::randomCage(test::kinds[choices.below(3)], static_cast<std::uint32_t>(choices.below(8)),
+                                 0.4 * choices.share());
+    const auto anyPoint = [&]() -> Vec3d& {
+        return cage.points[static_cast<std::size_t>(choices.below(static_cast<int>(cage.points.size())))];
+    };
+    for (int i = choices.below(5); i > 0; --i) {
+        Vec3d& point = anyPoint();
+        switch (choices.below(3)) {
+        case 0: // two points nearly at one place: edges and faces of no size
+            point = anyPoint() + choices.small() * choices.direction();
+            break;
+        case 1:
+            point += choices.small() * choices.direction();
+            break;
+        default: // flat, or nearly
+            point[choices.below(3)] = choices.small();
+        }
+    }
+    return cage;
+}
+
+Vec3d pointOf(Choices& choices, const Mesh& cage)
+{
+    if (choices.below(4) == 0) return 0.5 * choices.direction();
+    if (choices.below(32) == 0) return Vec3d(choices.below(2) ? std::numeric_limits<double>::quiet_NaN() : 1e300);
+    std::vector<openvdb::Vec3I> triangles = cage.triangles;
+    for (const openvdb::Vec4I& q : cage.quads) triangles.emplace_back(q[0], q[1], q[2]);
+    const openvdb::Vec3I& t = triangles[static_cast<std::size_t>(choices.below(static_cast<int>(triangles.size())))];
+    const double u = choices.below(3) == 0 ? 0 : choices.share(), v = choices.below(3) == 0 ? 0 : choices.share();
+    const Vec3d on = (1 - u) * cage.points[t[0]] + u * ((1 - v) * cage.points[t[1]] + v * cage.points[t[2]]);
+    return choices.below(4) == 0 ? on : on + choices.small() * choices.direction();
+}
+
+} // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
+{
+    Choices choices(data, size);
+    const auto families = static_cast<int>(coordinateFamilies().size());
+    const FamilyInfo& family = coordinateFamilies()[static_cast<std::size_t>(choices.below(families))];
+    const CoordinateOptions options(family.family, 4 + choices.below(9));
+    Mesh cage = cageOf(choices);
+    std::vector<Vec3d> points;
+    for (int i = 1 + choices.below(11); i > 0; --i) points.push_back(pointOf(choices, cage));
+    const double scale = choices.below(4) == 0 ? std::pow(10.0, 120 * choices.share() - 60) : 1;
+    for (Vec3d& p : cage.points) p *= scale;
+    for (Vec3d& p : points) p *= scale;
+
+    std::vector<double> rows;
+    try {
+        rows = computeCoordinates(cage, points, options);
+    } catch (const InputError& error) {
+        require(std::string_view(error.what()).find('\n') == std::string_view::npos);
+        return 0;
+    }
+    const openvdb::BBoxd box = boundingBox(cage);
+    const double longest = box.extents()[static_cast<int>(box.maxExtent())];
+    const std::vector<Vec3d> handles = cageHandles(cage, cage.points, family.family);
+    require(rows.size() == points.size() * handles.size());
+    const bool isPositive = family.family == Coordinates::maximumLikelihood || family.family == Coordinates::harmonic;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const double* const row = rows.data() + i * handles.size();
+        double sum = 0;
+        Vec3d place(0);
+        for (std::size_t k = 0; k < handles.size(); ++k) {
+            require(std::isfinite(row[k]) && (!isPositive || row[k] >= 0));
+            if (k < cage.points.size()) sum += row[k];
+            place += row[k] * handles[k];
+        }
+        require(std::abs(sum - 1) < 1e-9);
+        require((place - points[i]).length() < 1e-7 * longest);
+    }
+    // A row is of its own point only.
+    const std::vector<double> last = computeCoordinates(cage, {points.back()}, options);
+    require(std::equal(last.begin(), last.end(), rows.end() - static_cast<std::ptrdiff_t>(last.size())));
+    return 0;
+}
