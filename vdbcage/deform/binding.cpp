@@ -54,7 +54,7 @@ constexpr std::array<Family, 4> families{
      {{Coordinates::green, "green", "qgc", "Green", "keeps shapes, follows the faces' normals",
        "Lipman, Levin, Cohen-Or 2008; Thiery, Boubekeur 2022", false},
       {detail::greenRow, &RowKernels::green}},
-     {{Coordinates::maximumLikelihood, "mlc", "mlc", "Maximum likelihood", "never negative, most local",
+     {{Coordinates::maximumLikelihood, "mlc", "mlc", "Likelihood", "maximum likelihood: never negative, most local",
        "Chang, Deng, Hormann 2023", false},
       {detail::likelihoodRow, &RowKernels::likelihood}},
      {{Coordinates::harmonic, "harmonic", "harmonic", "Harmonic", "never negative, smooth, not through walls",

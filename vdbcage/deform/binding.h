@@ -44,7 +44,7 @@ struct FamilyInfo {
     Coordinates family;
     const char* name;        ///< at most 8 letters
     const char* nameOnQuads; ///< as its paper calls it on quads; `name` if it has no other there
-    const char* title;       ///< in words
+    const char* title;       ///< a word or two
     const char* what;        ///< what it does to the model, in a line
     const char* paper;       ///< authors and year
     bool isEverywhere;       ///< else inside the cage and on it only

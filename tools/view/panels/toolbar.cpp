@@ -167,7 +167,7 @@ void buildToolbar(const PanelContext& context)
         if (now == Coordinates::given) { // they are chosen by their file
             families.push_back({coordinatesName(now), titleOf(now), "weights from a file (File > Open weights)"});
         }
-        list(context, "coordinates", families, static_cast<std::size_t>(now), length(150));
+        list(context, "coordinates", families, static_cast<std::size_t>(now), length(112));
     } else {
         ImGui::NewLine();
     }
