@@ -469,6 +469,26 @@ BOOST_AUTO_TEST_CASE(points_outside)
     }
 }
 
+// Once vectors of such points were integrated without end.
+BOOST_AUTO_TEST_CASE(points_so_far_that_squares_overflow)
+{
+    for (const Kind kind : kinds) {
+        const Mesh cage = randomCage(kind, 18);
+        const std::vector<double> at = computeCoordinates(cage, {Vec3d(0.1, 0.2, 0)}, Coordinates::meanValue);
+        for (const double far : {1e4, 1e160, 1e300}) {
+            const std::vector<Vec3d> points{Vec3d(far), Vec3d(0.1, 0.2, 0), Vec3d(0, 0, -far)};
+            for (const Coordinates family : {Coordinates::green, Coordinates::maximumLikelihood}) {
+                BOOST_TEST(messageOf(cage, points, family).find("point 0") != std::string::npos);
+            }
+            const std::string message = messageOf(cage, points, Coordinates::meanValue);
+            BOOST_TEST((message.empty() || message.find("they are too far away") != std::string::npos), message);
+            if (!message.empty()) continue;
+            const std::vector<double> rows = computeCoordinates(cage, points, Coordinates::meanValue);
+            BOOST_TEST(std::equal(at.begin(), at.end(), rows.begin() + static_cast<std::ptrdiff_t>(at.size())));
+        }
+    }
+}
+
 BOOST_AUTO_TEST_CASE(bad_cages)
 {
     const std::vector<Vec3d> points{Vec3d(0)};

@@ -181,14 +181,18 @@ private:
     void makePacket(std::size_t first, std::size_t count, const PointOf& pointOf, const Buffers& buffers, Number* rows)
     {
         Packet x[3] = {};
+        unsigned leftOut = 0;
         for (std::size_t lane = 0; lane < count; ++lane) {
             throwIfInterrupted(interrupter_);
             const Vec3d at = cage_.scaled(points_[pointOf(first + lane)]);
-            for (int a = 0; isFinite(at) && a < 3; ++a) x[a][lane] = at[a];
+            if (!(at.length() < detail::tooFar)) leftOut |= 1U << lane;
+            for (int a = 0; (leftOut >> lane & 1) == 0 && a < 3; ++a) x[a][lane] = at[a];
         }
-        const auto kernel = family_.functions.rows;
-        const unsigned leftOut =
-            kernel ? (detail::rowKernels().*kernel)(pack_.packed(), x, buffers.scratch.get(), buffers.rows.get()) : ~0U;
+        if (const auto kernel = family_.functions.rows) {
+            leftOut |= (detail::rowKernels().*kernel)(pack_.packed(), x, buffers.scratch.get(), buffers.rows.get());
+        } else {
+            leftOut = ~0U;
+        }
         std::vector<double> row;
         Packet probe = {}; // not zero where a number is not finite
         for (std::size_t lane = 0; lane < count; ++lane) {

@@ -11,6 +11,8 @@ constexpr int packetSize = 8;
 constexpr std::size_t floatLanes = 16;
 /// Points at less than this from the cage, about, are for the scalar formulas.
 constexpr double tooNear = 1e-7;
+/// And those that are farther than this from the origin, whose squares might overflow.
+constexpr double tooFar = 1e3;
 
 /// What is computed in vectors of an instruction set.
 struct RowKernels {
@@ -20,7 +22,7 @@ struct RowKernels {
     ///
     /// Returns a bit for each point whose row is left out: it is too near the cage for this, or outside of it. A row
     /// depends on its own point only.
-    /// \pre `scratch` has scratchSize(cage)
+    /// \pre `scratch` has scratchSize(cage); no point is farther than `tooFar` from the origin
     using Rows = unsigned(const PackedCage& cage, const double (*x)[packetSize], void* scratch,
                           double (*rows)[packetSize]);
     Rows* meanValue;
