@@ -443,6 +443,21 @@ BOOST_AUTO_TEST_CASE(degenerate_faces)
     }
 }
 
+// Once they were integrated without end.
+BOOST_AUTO_TEST_CASE(points_in_line_with_the_corners_of_a_quad)
+{
+    Mesh cage = randomCage(Kind::quads, 19);
+    const openvdb::Vec4I q = cage.quads[2];
+    const Vec3d a = cage.points[q[0]], b = cage.points[q[1]];
+    cage.points[q[2]] = 0.7 * a + 0.3 * b;
+    cage.points[q[3]] = 0.2 * a + 0.8 * b;
+    const std::vector<Vec3d> points{Vec3d(0), 0.55 * a + 0.45 * b, 0.55 * a + 0.45 * b + Vec3d(1e-11, 0, 0)};
+    for (const Coordinates family : families) {
+        const std::string message = messageOf(cage, points, family);
+        BOOST_TEST((message.empty() || message.find("points: point") == 0), message);
+    }
+}
+
 BOOST_AUTO_TEST_CASE(far_from_the_origin_and_of_any_size)
 {
     for (const double size : {1e-60, 1.0, 1e60}) {

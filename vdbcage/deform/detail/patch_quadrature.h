@@ -42,9 +42,13 @@ void samplePatch(const PatchCorners& corners, double least, const Visit& visit)
     constexpr double digits = 9 * 2.302585092994046; // of the tolerance
     constexpr double caution = 0.8;                  // the function grows towards the ellipse
     constexpr int leastPoints = 4;                   // exact for what is polynomial in it
+    // Ten times what the nearest points of regular patches need. Where the corners are in line and so is the origin, a
+    // whole curve of u and v is at it; such a patch has no area, and weights next to none.
+    constexpr int mostSplits = 10000;
 
     std::array<Piece, 256> stack;
     std::size_t top = 0;
+    int splits = 0;
     stack[top++] = {corners, 0, 0, 1, 1};
     while (top > 0) {
         const Piece piece = stack[--top];
@@ -69,7 +73,8 @@ void samplePatch(const PatchCorners& corners, double least, const Visit& visit)
             return std::max(leastPoints, static_cast<int>(needed));
         };
         const int inU = points(halfU), inV = points(halfV);
-        if (std::max(inU, inV) > mostGaussPoints && top + 2 <= stack.size()) {
+        if (std::max(inU, inV) > mostGaussPoints && top + 2 <= stack.size() && splits < mostSplits) {
+            ++splits;
             Piece a = piece, b = piece;
             if (halfU > halfV) {
                 a.du = b.du = 0.5 * piece.du;
