@@ -91,12 +91,12 @@ void samplePatch(const PatchCorners& corners, double least, const Visit& visit)
             stack[top++] = b;
             continue;
         }
-        const GaussRule& ruleU = gaussRule(std::min(inU, mostGaussPoints));
-        const GaussRule& ruleV = gaussRule(std::min(inV, mostGaussPoints));
-        for (std::size_t j = 0; j < static_cast<std::size_t>(inV); ++j) {
+        const int pointsU = std::min(inU, mostGaussPoints), pointsV = std::min(inV, mostGaussPoints);
+        const GaussRule &ruleU = gaussRule(pointsU), &ruleV = gaussRule(pointsV);
+        for (std::size_t j = 0; j < static_cast<std::size_t>(pointsV); ++j) {
             const double t = ruleV.at[j], v = piece.v + t * piece.dv;
             const Vec3d from = c[0] + t * (c[3] - c[0]), along = c[1] + t * (c[2] - c[1]) - from;
-            for (std::size_t i = 0; i < static_cast<std::size_t>(inU); ++i) {
+            for (std::size_t i = 0; i < static_cast<std::size_t>(pointsU); ++i) {
                 const double s = ruleU.at[i], u = piece.u + s * piece.du;
                 const double weight = ruleU.weight[i] * ruleV.weight[j];
                 const Vec3d across = (1 - s) * (c[3] - c[0]) + s * (c[2] - c[1]);
