@@ -26,6 +26,12 @@ private:
     std::mt19937 engine_;
 };
 
+inline double longestSide(const Mesh& mesh)
+{
+    const openvdb::BBoxd box = boundingBox(mesh);
+    return box.extents()[static_cast<int>(box.maxExtent())];
+}
+
 enum class Kind { triangles, quads, both };
 constexpr Kind kinds[] = {Kind::triangles, Kind::quads, Kind::both};
 

@@ -14,6 +14,7 @@ using namespace vdbcage;
 using openvdb::Vec3d;
 using test::Kind;
 using test::kinds;
+using test::longestSide;
 using test::pointsInside;
 using test::Random;
 using test::randomCage;
@@ -35,12 +36,6 @@ std::vector<Vec3d> mapped(std::vector<Vec3d> points, const Map& map)
 {
     for (Vec3d& p : points) p = map(p);
     return points;
-}
-
-double longestSide(const Mesh& mesh)
-{
-    const openvdb::BBoxd box = boundingBox(mesh);
-    return box.extents()[static_cast<int>(box.maxExtent())];
 }
 
 openvdb::Mat3d rotation(std::uint32_t seed)

@@ -17,6 +17,7 @@ using detail::HarmonicGrid;
 using openvdb::Vec3d;
 using test::Kind;
 using test::kinds;
+using test::longestSide;
 using test::pointsInside;
 using test::Random;
 using test::randomCage;
@@ -44,12 +45,6 @@ double difference(const std::vector<double>& a, const std::vector<double>& b)
     double most = 0;
     for (std::size_t i = 0; i < a.size(); ++i) most = std::max(most, std::abs(a[i] - b[i]));
     return most;
-}
-
-double longestSide(const Mesh& mesh)
-{
-    const openvdb::BBoxd box = boundingBox(mesh);
-    return box.extents()[static_cast<int>(box.maxExtent())];
 }
 
 double rootMeanSquare(const std::vector<double>& a, const std::vector<double>& b)

@@ -74,12 +74,21 @@ class BindingTest(Case):
         self.refuses("weights: ", given.weights)
         self.refuses("weights: ", given.write, self.folder / "other.npy")
 
+    def test_harmonic_weights_are_of_the_resolution_asked_for(self):
+        inside = self.model.points[:4]
+        usual = Binding(self.cage, inside, "harmonic").weights()
+        for resolution, same in ((64, True), (8, False)):
+            weights = Binding(self.cage, inside, "harmonic", resolution=resolution).weights()
+            self.assertEqual(numpy.array_equal(weights, usual), same)
+
     def test_bad_arguments_are_refused(self):
         inside = self.model.points[:5]
         far = [[1e6, 0, 0]]
         self.refuses("coordinates: 'cotangent' is not a family", Binding, self.cage, inside, "cotangent")
         self.refuses("coordinates: 5 is not allowed", Binding, self.cage, inside, 5)
         self.refuses("cage: a str is not allowed", Binding, "cage.obj", inside)
+        self.refuses("resolution: 3 is not allowed", Binding, self.cage, inside, "harmonic", resolution=3)
+        self.refuses("resolution: only harmonic coordinates", Binding, self.cage, inside, "mvc", resolution=64)
         self.refuses("points: row 0 has the coordinate nan", Binding, self.cage, [[numpy.nan, 0, 0]])
         self.refuses("points: an array of shape (2, 2)", Binding, self.cage, [[1, 2], [3, 4]])
         self.refuses("points: point 0", Binding, self.cage, far, "green")

@@ -21,9 +21,9 @@ std::string familyHelp()
 
 } // namespace
 
-CoordinateArguments::CoordinateArguments(CLI::App& app)
+CoordinateArguments::CoordinateArguments(CLI::App& app, const std::string& purpose)
     : resolution_(CoordinateOptions(Coordinates::harmonic).resolution),
-      familyOption_(app.add_option("--coordinates", family_, familyHelp())->type_name("FAMILY")),
+      familyOption_(app.add_option("--coordinates", family_, purpose + familyHelp())->type_name("FAMILY")),
       resolutionOption_(app.add_option("--resolution", resolution_,
                                        "voxels along the cage, of harmonic [" + std::to_string(resolution_) + "]")
                             ->type_name("N"))
@@ -38,8 +38,8 @@ int CoordinateArguments::resolution() const
 
 CoordinateOptions CoordinateArguments::options() const
 {
-    const CoordinateOptions options(coordinatesNamed(family_), resolution_);
-    if (resolutionOption_->count() > 0 && resolution() > 0 && options.family != Coordinates::harmonic) {
+    const CoordinateOptions options(coordinatesNamed(family_), resolution());
+    if (resolutionOption_->count() > 0 && options.family != Coordinates::harmonic) {
         throw InputError("resolution: only harmonic coordinates have one; --coordinates is " + family_);
     }
     return options;

@@ -202,8 +202,9 @@ int runDeform(std::vector<std::string> words)
             : readWeights(weights, cage, model.points);
     if (binding.family() == Coordinates::given) {
         const std::string made = weights.string() + ": its weights were made elsewhere; ";
-        if (arguments.familyIsGiven())
+        if (arguments.familyIsGiven()) {
             throw InputError(made + "they do not go with --coordinates " + arguments.familyName());
+        }
         if (inversions) {
             throw InputError(made + "--inversions needs coordinates that can be computed at other points, as those of "
                                     "vdbcage bind");

@@ -177,16 +177,27 @@ private:
         return std::unique_ptr<Chunk[]>(new Chunk[detail::scratchSize(pack_.packed()) / sizeof(Chunk) + 1]);
     }
 
+    /// False where the family is not defined.
+    bool computeRow(const Vec3d& at, double* row) const
+    {
+        if (!isFinite(at)) return false;
+        return grid_ ? grid_->row(at, row) : family_.functions.row(cage_, at, row);
+    }
+
     template <typename PointOf, typename Number>
     void makePacket(std::size_t first, std::size_t count, const PointOf& pointOf, const Buffers& buffers, Number* rows)
     {
+        std::array<Vec3d, detail::packetSize> at;
         Packet x[3] = {};
         unsigned leftOut = 0;
         for (std::size_t lane = 0; lane < count; ++lane) {
             throwIfInterrupted(interrupter_);
-            const Vec3d at = cage_.scaled(points_[pointOf(first + lane)]);
-            if (!(at.length() < detail::tooFar)) leftOut |= 1U << lane;
-            for (int a = 0; (leftOut >> lane & 1) == 0 && a < 3; ++a) x[a][lane] = at[a];
+            at[lane] = cage_.scaled(points_[pointOf(first + lane)]);
+            if (!(at[lane].length() < detail::tooFar)) {
+                leftOut |= 1U << lane;
+                continue;
+            }
+            for (int a = 0; a < 3; ++a) x[a][lane] = at[lane][a];
         }
         if (const auto kernel = family_.functions.rows) {
             leftOut |= (detail::rowKernels().*kernel)(pack_.packed(), x, buffers.scratch.get(), buffers.rows.get());
@@ -194,16 +205,11 @@ private:
             leftOut = ~0U;
         }
         std::vector<double> row;
-        Packet probe = {}; // not zero where a number is not finite
+        Packet probe = {}; // not zero where the row is undefined, or a number of it not finite
         for (std::size_t lane = 0; lane < count; ++lane) {
-            const std::size_t point = pointOf(first + lane);
-            const Vec3d at = cage_.scaled(points_[point]);
-            if (!isFinite(at)) probe[lane] = 1;
             if ((leftOut >> lane & 1) == 0) continue;
             row.resize(columns_);
-            const bool isDefined =
-                isFinite(at) && (grid_ ? grid_->row(at, row.data()) : family_.functions.row(cage_, at, row.data()));
-            if (!isDefined) probe[lane] = 1;
+            if (!computeRow(at[lane], row.data())) probe[lane] = 1;
             for (std::size_t k = 0; k < columns_; ++k) buffers.rows[k][lane] = row[k];
         }
         Number* const to = rows + first * columns_;

@@ -434,15 +434,19 @@ class Binding:
     cage: a Mesh, closed and facing outward
     points: array-like, shape (n, 3): world space
     coordinates: "mvc" (mean value), "green", "mlc" (maximum likelihood) or "harmonic"; see docs/DEFORMING.md
-    resolution: of harmonic ones, 4 to 256: voxels along the cage
+    resolution: voxels along the cage, 4 to 256; only of harmonic coordinates [64]
     Raises InputError; Cancelled.
     """
 
     __slots__ = ("_binding", "_cage")
 
-    def __init__(self, cage, points, coordinates="mvc", *, resolution=64, progress=None):
+    def __init__(self, cage, points, coordinates="mvc", *, resolution=None, progress=None):
         if not isinstance(coordinates, str):
             raise InputError(f"coordinates: {coordinates!r} is not allowed; it must be a string")
+        if resolution is None:
+            resolution = 64
+        elif coordinates != "harmonic":
+            raise InputError(f"resolution: only harmonic coordinates have one; coordinates are {coordinates!r}")
         self._binding = _vdbcage.Binding(_mesh("cage", cage), _points("points", points), coordinates,
                                          _whole("resolution", resolution, 4, 256), _callback(progress))
         self._cage = cage

@@ -136,7 +136,7 @@ void buildCompare(const PanelContext& context)
             context.ask(std::string("compare ") + family.name);
         }
         context.name(std::string("compare.") + family.name);
-        help(family.what);
+        help(describe(family));
     }
     ImGui::EndCombo();
 }

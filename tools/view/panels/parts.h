@@ -12,6 +12,8 @@ namespace vdbcage::view {
 
 /// What users know a family of coordinates by.
 const char* titleOf(Coordinates family);
+/// What a family does, and its paper.
+std::string describe(const FamilyInfo& family);
 
 /// Below the menu: what is done in the picture.
 void buildToolbar(const PanelContext& context);

@@ -38,7 +38,7 @@ void gap()
 struct Entry {
     const char* name;
     const char* label;
-    const char* text;
+    std::string text;
     std::string argument = {}; ///< of its line; empty: the name
 };
 
@@ -104,6 +104,11 @@ void buildSoft(const PanelContext& context, const ViewState& view)
 
 } // namespace
 
+std::string describe(const FamilyInfo& family)
+{
+    return std::string(family.what) + " (" + family.paper + ")";
+}
+
 const char* titleOf(Coordinates family)
 {
     return family == Coordinates::given ? "Weights" : coordinateFamilies()[static_cast<std::size_t>(family)].title;
@@ -162,7 +167,7 @@ void buildToolbar(const PanelContext& context)
         const Coordinates now = state.document.coordinates;
         std::vector<Entry> families;
         for (const FamilyInfo& family : coordinateFamilies()) {
-            families.push_back({family.name, family.title, family.what});
+            families.push_back({family.name, family.title, describe(family)});
         }
         if (now == Coordinates::given) { // they are chosen by their file
             families.push_back({coordinatesName(now), titleOf(now), "weights from a file (File > Open weights)"});

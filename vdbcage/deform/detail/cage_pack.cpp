@@ -20,7 +20,9 @@ void copy(const Vec3d& from, double (&to)[3])
 
 PackedRules packedRules()
 {
-    constexpr double digits = 8 * 2.302585092994046; // of the tolerance, see samplePatch()
+    // Of the tolerance, see samplePatch(): one digit less than there keeps weights to 3e-9, and takes a fifth less
+    // time.
+    constexpr double digits = 8 * 2.302585092994046;
     static_assert(PackedRules::most == mostGaussPoints);
     PackedRules rules{};
     for (int n = 1; n <= PackedRules::most; ++n) {

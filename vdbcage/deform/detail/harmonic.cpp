@@ -21,6 +21,7 @@ using openvdb::Vec3d;
 
 namespace {
 
+constexpr double pi = 3.14159265358979323846;
 /// In voxels. What is that near is met, and no distance is taken for less.
 constexpr double nearest = 1e-10;
 
@@ -153,7 +154,7 @@ double angleOf(const Vec3d& a, const Vec3d& b, const Vec3d& c, double volume)
 {
     const double la = a.length(), lb = b.length(), lc = c.length();
     const double angle = std::atan2(volume, la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
-    return angle / (2 * M_PI);
+    return angle / (2 * pi);
 }
 
 /// A face's part of the winding number around the origin.
