@@ -6,28 +6,28 @@ namespace vdbcage::tool {
 
 namespace {
 
-/// "mvc (qmvc), green (qgc), mlc or harmonic [mvc]"
+/// "FAMILY is one of mvc (qmvc), green (qgc), mlc, harmonic"
 std::string familyHelp()
 {
-    const std::vector<FamilyInfo>& families = coordinateFamilies();
-    std::string text;
-    for (std::size_t i = 0; i < families.size(); ++i) {
-        const std::string name = families[i].name, onQuads = families[i].nameOnQuads;
-        text += (i == 0 ? "" : i + 1 < families.size() ? ", " : " or ") + name;
-        if (onQuads != name) text += " (" + onQuads + ")";
+    std::string text = "\nFAMILY is one of ";
+    for (const FamilyInfo& family : coordinateFamilies()) {
+        text += family.name;
+        if (family.nameOnQuads != std::string(family.name)) text += std::string(" (") + family.nameOnQuads + ")";
+        text += &family == &coordinateFamilies().back() ? "\n" : ", ";
     }
-    return text + " [mvc]";
+    return text;
 }
 
 } // namespace
 
 CoordinateArguments::CoordinateArguments(CLI::App& app, const std::string& purpose)
     : resolution_(CoordinateOptions(Coordinates::harmonic).resolution),
-      familyOption_(app.add_option("--coordinates", family_, purpose + familyHelp())->type_name("FAMILY")),
+      familyOption_(app.add_option("--coordinates", family_, purpose + " [mvc]")->type_name("FAMILY")),
       resolutionOption_(app.add_option("--resolution", resolution_,
                                        "voxels along the cage, of harmonic [" + std::to_string(resolution_) + "]")
                             ->type_name("N"))
 {
+    app.footer(familyHelp());
 }
 
 int CoordinateArguments::resolution() const

@@ -10,8 +10,8 @@ namespace vdbcage::tool {
 /// The options --coordinates and --resolution of the commands that bind.
 class CoordinateArguments {
 public:
-    /// `purpose` begins the help: what the coordinates are for. Must outlive parsing.
-    explicit CoordinateArguments(CLI::App& app, const std::string& purpose = "");
+    /// `purpose` is the help: what the coordinates are for. Must outlive parsing.
+    explicit CoordinateArguments(CLI::App& app, const std::string& purpose = "how the cage moves the model");
 
     bool familyIsGiven() const { return familyOption_->count() > 0; }
     const std::string& familyName() const { return family_; }
