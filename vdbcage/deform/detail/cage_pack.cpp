@@ -6,6 +6,7 @@
 #include <utility>
 
 #include <vdbcage/deform/detail/gauss.h>
+#include <vdbcage/deform/detail/triangle_potentials.h>
 
 namespace vdbcage::detail {
 
@@ -92,7 +93,7 @@ CagePack::CagePack(const BoundCage& cage) : rules_(packedRules())
             for (std::size_t k = 0; k < 3; ++k) t.along[i][k] = along[k].dot(sides[i]) / t.area;
         }
         copy(normal, t.normal);
-        t.sliver = !(t.area > 1e-7 * longest * longest);
+        t.sliver = !(t.area > sliverWidth * longest * longest);
         triangles_.push_back(t);
         normals.push_back(areaNormal);
     }

@@ -1,6 +1,5 @@
 // Based on: Lipman, Levin, Cohen-Or, "Green Coordinates", 2008; Thiery, Boubekeur, "Green Coordinates for Triquad Cages
-// in 3D", 2022; for the potentials of a triangle Wilton and others, "Potential Integrals for Uniform and Linear Source
-// Distributions on Polygonal and Polyhedral Domains", 1984.
+// in 3D", 2022.
 // Differs: the integrals over bilinear patches are integrated adaptively to a tolerance. All faces around an inner
 // point cover the whole sphere; what the computed solid angles lack of that (near edges rounding leaves 1e-16 over the
 // distance) belongs to the faces next to the point, so to the nearest place of the cage. This also defines points on
@@ -13,6 +12,7 @@
 
 #include <vdbcage/deform/detail/patch_quadrature.h>
 #include <vdbcage/deform/detail/row_kernels.h>
+#include <vdbcage/deform/detail/triangle_potentials.h>
 
 namespace vdbcage::detail {
 
@@ -43,51 +43,18 @@ FacePart integrated(const PatchCorners& corners)
     return part;
 }
 
-/// The integral of 1 / distance from the origin along the edge from `a` to `b`; 0 if it would be infinite.
-double edgePotential(const Vec3d& a, const Vec3d& b)
+FacePart closedForm(const PatchCorners& c, bool onFace)
 {
-    const Vec3d edge = b - a;
-    const double length = edge.length();
-    if (!(length > 0)) return 0;
-    const Vec3d along = edge / length;
-    const double square = along.cross(a).lengthSqr();
-    // |a| + |b| - length without cancellation: each distance minus its share of the edge.
-    const auto excess = [&](double distance, double share) {
-        return share > 0 ? square / (distance + share) : distance - share;
-    };
-    const double gap = excess(a.length(), -a.dot(along)) + excess(b.length(), b.dot(along));
-    return gap > 0 ? std::log1p(2 * length / gap) : 0;
-}
-
-/// The closed form; `onFace`: the origin lies on the triangle, whose solid angle is left out.
-FacePart closedForm(const PatchCorners& c, const Vec3d& areaNormal, bool onFace)
-{
-    const double area = areaNormal.length(); // twice the triangle's
-    const Vec3d normal = areaNormal / area;
-    double height = 0, solid = 0;
-    if (!onFace) {
-        height = normal.dot(c[0]);
-        const double la = c[0].length(), lb = c[1].length(), lc = c[2].length();
-        solid = 2 * std::atan2(c[0].dot(c[1].cross(c[2])),
-                               la * lb * lc + c[0].dot(c[1]) * lc + c[1].dot(c[2]) * la + c[2].dot(c[0]) * lb);
-    }
+    const TrianglePotentials t = trianglePotentials({c[0], c[1], c[2]}, onFace);
     FacePart part;
-    double single = -height * solid;
     Vec3d turned(0); // the sum over the edges of their unit vector times their potential
-    for (std::size_t i = 0; i < 3; ++i) {
-        const Vec3d &from = c[i], &to = c[(i + 1) % 3];
-        Vec3d along = to - from;
-        along /= along.length();
-        const double potential = edgePotential(from, to);
-        single += along.cross(normal).dot(from) * potential;
-        turned += potential * along;
-    }
+    for (std::size_t i = 0; i < 3; ++i) turned += t.edge[i] * t.along[i];
     for (std::size_t i = 0; i < 3; ++i) {
         const Vec3d &from = c[(i + 1) % 3], &to = c[(i + 2) % 3];
-        const double atFoot = normal.dot(from.cross(to)) / area;
-        part.positions[i] = (atFoot * solid + height * turned.dot(to - from) / area) / fourPi;
+        const double atFoot = t.normal.dot(from.cross(to)) / t.area;
+        part.positions[i] = (atFoot * t.solid + t.height * turned.dot(to - from) / t.area) / fourPi;
     }
-    part.normals[0] = single / (fourPi * area);
+    part.normals[0] = t.single / (fourPi * t.area);
     return part;
 }
 
@@ -97,7 +64,7 @@ FacePart facePart(const PatchCorners& corners, bool quad, bool onFace)
     const Vec3d a = corners[1] - corners[0], b = corners[2] - corners[0];
     const Vec3d areaNormal = a.cross(b);
     const double longest = std::max({a.lengthSqr(), b.lengthSqr(), (a - b).lengthSqr()});
-    if (areaNormal.length() > 1e-7 * longest) return closedForm(corners, areaNormal, onFace);
+    if (areaNormal.length() > sliverWidth * longest) return closedForm(corners, onFace);
     FacePart part = integrated(corners); // nearly degenerate
     part.positions[2] += part.positions[3];
     part.normals[0] += part.normals[1]; // the density of (u, v) on the triangle

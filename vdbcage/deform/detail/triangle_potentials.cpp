@@ -1,0 +1,54 @@
+#include <vdbcage/deform/detail/triangle_potentials.h>
+
+#include <cmath>
+
+namespace vdbcage::detail {
+
+using openvdb::Vec3d;
+
+namespace {
+
+/// The integral of 1 / distance from the origin along the edge from `a` to `b`; 0 if it would be infinite.
+double edgePotential(const Vec3d& a, const Vec3d& b)
+{
+    const Vec3d edge = b - a;
+    const double length = edge.length();
+    if (!(length > 0)) return 0;
+    const Vec3d along = edge / length;
+    const double square = along.cross(a).lengthSqr();
+    // |a| + |b| - length without cancellation: each distance minus its share of the edge.
+    const auto excess = [&](double distance, double share) {
+        return share > 0 ? square / (distance + share) : distance - share;
+    };
+    const double gap = excess(a.length(), -a.dot(along)) + excess(b.length(), b.dot(along));
+    return gap > 0 ? std::log1p(2 * length / gap) : 0;
+}
+
+} // namespace
+
+TrianglePotentials trianglePotentials(const std::array<Vec3d, 3>& c, bool onFace)
+{
+    TrianglePotentials t;
+    const Vec3d areaNormal = (c[1] - c[0]).cross(c[2] - c[0]);
+    t.area = areaNormal.length();
+    t.normal = areaNormal / t.area;
+    t.height = t.solid = 0;
+    if (!onFace) {
+        t.height = t.normal.dot(c[0]);
+        const double la = c[0].length(), lb = c[1].length(), lc = c[2].length();
+        t.solid = 2 * std::atan2(c[0].dot(c[1].cross(c[2])),
+                                 la * lb * lc + c[0].dot(c[1]) * lc + c[1].dot(c[2]) * la + c[2].dot(c[0]) * lb);
+    }
+    t.single = -t.height * t.solid;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const Vec3d &from = c[i], &to = c[(i + 1) % 3];
+        t.along[i] = to - from;
+        t.along[i] /= t.along[i].length();
+        t.edge[i] = edgePotential(from, to);
+        t.foot[i] = t.outward(i).dot(from);
+        t.single += t.foot[i] * t.edge[i];
+    }
+    return t;
+}
+
+} // namespace vdbcage::detail

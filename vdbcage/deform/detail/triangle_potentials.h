@@ -1,0 +1,34 @@
+#pragma once
+
+#include <array>
+
+#include <openvdb/Types.h>
+
+namespace vdbcage::detail {
+
+/// What the closed forms of integrals over a triangle are made of, for the origin: see Wilton and others, "Potential
+/// Integrals for Uniform and Linear Source Distributions on Polygonal and Polyhedral Domains", 1984.
+///
+/// Edge i begins at corner i.
+struct TrianglePotentials {
+    openvdb::Vec3d normal;               ///< of length 1
+    double area;                         ///< twice the triangle's
+    double height;                       ///< of its plane above the origin, along the normal
+    double solid;                        ///< the solid angle, with the sign of the height
+    double single;                       ///< the integral of 1 / distance
+    std::array<double, 3> edge;          ///< of 1 / distance along the edge; 0 where it would be infinite
+    std::array<openvdb::Vec3d, 3> along; ///< the edges' directions, of length 1
+    std::array<double, 3> foot;          ///< from the origin's foot on the plane to the edge's line, outward
+
+    /// The edge's outward direction in the plane, of length 1.
+    openvdb::Vec3d outward(std::size_t i) const { return along[i].cross(normal); }
+};
+
+/// `corners` are counter-clockwise, and not in line. `onFace`: the origin lies on the triangle, whose solid angle is
+/// left out then, as is its height.
+TrianglePotentials trianglePotentials(const std::array<openvdb::Vec3d, 3>& corners, bool onFace);
+
+/// A triangle that is narrower than this, over its longest side, has too few digits for closed forms.
+constexpr double sliverWidth = 1e-7;
+
+} // namespace vdbcage::detail
