@@ -3,6 +3,7 @@
 #include <random>
 
 #include <support/shapes.h>
+#include <vdbcage/deform/binding.h>
 #include <vdbcage/mesh/mesh.h>
 
 /// Cages around the origin, star-shaped from there, and points in them.
@@ -69,6 +70,12 @@ inline Mesh randomCage(Kind kind, std::uint32_t seed, double bumps = 0.2, int fi
     Random random(seed);
     for (Vec3d& p : mesh.points) p *= 1 + random(-bumps, bumps);
     return mesh;
+}
+
+/// Whose inside the family knows: for Somigliana coordinates quads are two triangles.
+inline Mesh cageFor(Coordinates family, const Mesh& cage)
+{
+    return family == Coordinates::somigliana ? Mesh{cage.points, triangulate(cage), {}} : cage;
 }
 
 /// Points of the cage's volume, the last ones at 1e-9 from faces, edges and vertices.

@@ -17,7 +17,8 @@ using test::randomCage;
 
 namespace {
 
-constexpr Coordinates families[] = {Coordinates::meanValue, Coordinates::green, Coordinates::maximumLikelihood};
+constexpr Coordinates families[] = {Coordinates::meanValue, Coordinates::green, Coordinates::maximumLikelihood,
+                                    Coordinates::somigliana};
 
 const Mesh model = test::sphere(Vec3d(0.1, 0, 0), 0.5, 12);
 
@@ -49,7 +50,7 @@ BOOST_AUTO_TEST_CASE(turning_inverts_nothing_mirroring_everything)
         for (const Coordinates family : families) {
             BOOST_TEST(inverted(cage, model, family, cage.points).empty());
             BOOST_TEST(inverted(cage, model, family, mapped(cage.points, turned)).empty());
-            if (family == Coordinates::green) continue; // does not reproduce mirroring
+            if (family == Coordinates::green || family == Coordinates::somigliana) continue; // no mirroring
             BOOST_TEST(inverted(cage, model, family, mapped(cage.points, mirrored)).size() ==
                        triangulate(model).size());
         }

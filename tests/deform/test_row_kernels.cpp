@@ -12,6 +12,7 @@
 #include <vdbcage/deform/detail/likelihood.h>
 #include <vdbcage/deform/detail/mean_value.h>
 #include <vdbcage/deform/detail/row_kernels.h>
+#include <vdbcage/deform/detail/somigliana.h>
 
 using namespace vdbcage;
 using namespace vdbcage::detail;
@@ -27,16 +28,27 @@ struct Family {
     const char* name;
     RowKernels::Rows* RowKernels::*rows;
     bool (*row)(const BoundCage&, const Vec3d&, double*);
-    bool hasNormals;
+    std::size_t perTriangle, perQuad; // columns beside those of the points
+    bool takesQuads;
 };
 
-const Family families[] = {{"mvc", &RowKernels::meanValue, meanValueRow, false},
-                           {"green", &RowKernels::green, greenRow, true},
-                           {"mlc", &RowKernels::likelihood, likelihoodRow, false}};
+const Family families[] = {{"mvc", &RowKernels::meanValue, meanValueRow, 0, 0, true},
+                           {"green", &RowKernels::green, greenRow, 1, 4, true},
+                           {"mlc", &RowKernels::likelihood, likelihoodRow, 0, 0, true},
+                           {"somigliana", &RowKernels::somigliana, somiglianaRow, somiglianaWeights, 0, false}};
+
+std::vector<Family> familiesFor(const PackedCage& cage)
+{
+    std::vector<Family> list;
+    for (const Family& family : families) {
+        if (family.takesQuads || cage.quadCount == 0) list.push_back(family);
+    }
+    return list;
+}
 
 std::size_t columnsOf(const PackedCage& cage, const Family& family)
 {
-    return cage.pointCount + (family.hasNormals ? cage.triangleCount + 4 * cage.quadCount : 0);
+    return cage.pointCount + family.perTriangle * cage.triangleCount + family.perQuad * cage.quadCount;
 }
 
 struct Result {
@@ -125,7 +137,7 @@ BOOST_AUTO_TEST_CASE(rows_are_those_of_the_scalar_formulas)
         const BoundCage cage(cages[index]);
         const CagePack pack(cage);
         const std::vector<Vec3d> points = placesFor(cage, static_cast<std::uint32_t>(index));
-        for (const Family& family : families) {
+        for (const Family& family : familiesFor(pack.packed())) {
             const std::size_t columns = columnsOf(pack.packed(), family);
             const Result result = rowsOf(rowKernels(), pack.packed(), family, points);
             std::vector<double> row(columns);
@@ -157,7 +169,7 @@ BOOST_AUTO_TEST_CASE(all_instruction_sets_give_the_same_bits)
         const BoundCage cage(randomCage(kind, 5, 0.2, 2));
         const CagePack pack(cage);
         const std::vector<Vec3d> points = placesFor(cage, 5);
-        for (const Family& family : families) {
+        for (const Family& family : familiesFor(pack.packed())) {
             const Result first = rowsOf(rowKernels(), pack.packed(), family, points);
             for (const RowKernels* const* set = allRowKernels(); *set; ++set) {
                 const Result other = rowsOf(**set, pack.packed(), family, points);
@@ -177,7 +189,7 @@ BOOST_AUTO_TEST_CASE(a_row_depends_on_its_own_point_only)
         const BoundCage cage(randomCage(kind, 6, 0.2, 2));
         const CagePack pack(cage);
         std::vector<Vec3d> points = placesFor(cage, 6);
-        for (const Family& family : families) {
+        for (const Family& family : familiesFor(pack.packed())) {
             const std::size_t columns = columnsOf(pack.packed(), family);
             const Result together = rowsOf(rowKernels(), pack.packed(), family, points);
             for (std::size_t i = 0; i < points.size(); i += 7) {

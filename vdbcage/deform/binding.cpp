@@ -24,6 +24,7 @@
 #include <vdbcage/deform/detail/likelihood.h>
 #include <vdbcage/deform/detail/mean_value.h>
 #include <vdbcage/deform/detail/row_kernels.h>
+#include <vdbcage/deform/detail/somigliana.h>
 #include <vdbcage/deform/detail/weight_blocks.h>
 #include <vdbcage/deform/detail/weight_matrix.h>
 
@@ -47,7 +48,7 @@ struct Family {
     RowFunctions functions;
 };
 
-constexpr std::array<Family, 4> families{
+constexpr std::array<Family, 5> families{
     {{{Coordinates::meanValue, "mvc", "qmvc", "Mean value", "smooth, and anywhere; can be negative",
        "Ju, Schaefer, Warren 2005; Thiery, Memari, Boubekeur 2018", true},
       {detail::meanValueRow, &RowKernels::meanValue}},
@@ -59,7 +60,10 @@ constexpr std::array<Family, 4> families{
       {detail::likelihoodRow, &RowKernels::likelihood}},
      {{Coordinates::harmonic, "harmonic", "harmonic", "Harmonic", "never negative, smooth, not through walls",
        "Joshi, Meyer, DeRose, Green, Sanocki 2007", false},
-      {nullptr, nullptr}}}};
+      {nullptr, nullptr}},
+     {{Coordinates::somigliana, "somigliana", "somigliana", "Somigliana", "elastic: stretches most evenly",
+       "Chen, de Goes, Desbrun 2023", false},
+      {detail::somiglianaRow, &RowKernels::somigliana}}}};
 
 const Family& entry(Coordinates family)
 {
@@ -110,8 +114,31 @@ void requireCount(const char* what, std::size_t count, std::size_t needed, const
 
 std::size_t handleCount(const Mesh& cage, Coordinates family)
 {
-    return cage.points.size() +
-           (family == Coordinates::green ? cage.triangles.size() + 4 * cage.quads.size() : std::size_t(0));
+    const std::size_t points = cage.points.size(), triangles = cage.triangles.size(), quads = cage.quads.size();
+    switch (family) {
+    case Coordinates::green:
+        return points + triangles + 4 * quads;
+    case Coordinates::somigliana:
+        return points + detail::somiglianaWeights * (triangles + 2 * quads);
+    default:
+        return points;
+    }
+}
+
+/// The cage whose coordinates these are.
+Mesh cageOf(const Mesh& cage, Coordinates family)
+{
+    return family == Coordinates::somigliana ? Mesh{cage.points, triangulate(cage), {}} : cage;
+}
+
+void requireElasticity(const Elasticity& elasticity)
+{
+    if (!(elasticity.nu > -1 && elasticity.nu < 0.5)) {
+        throw InputError("nu: " + detail::numberText(elasticity.nu) +
+                         " is not allowed; it must be above -1 and below 0.5");
+    }
+    requireWithin(Elasticity::bulgings, elasticity.localBulging, "local bulging");
+    requireWithin(Elasticity::bulgings, elasticity.globalBulging, "global bulging");
 }
 
 /// Calls `take` with what each normal of Green coordinates belongs to, in their order: the corner, the next and the one
@@ -131,7 +158,8 @@ public:
     RowMaker(const Mesh& mesh, const std::vector<Vec3d>& points, const CoordinateOptions& options,
              Interrupter* interrupter)
         : points_(points), family_(entry(requireComputable(options).family)), interrupter_(interrupter),
-          columns_(handleCount(mesh, options.family)), cage_(mesh), pack_(cage_), undefined_(points.size(), 0)
+          columns_(handleCount(mesh, options.family)), cage_(cageOf(mesh, options.family)), pack_(cage_),
+          undefined_(points.size(), 0)
     {
         requireFinite(points, "points");
         if (options.family == Coordinates::harmonic) grid_.emplace(cage_, options.resolution, interrupter);
@@ -259,6 +287,7 @@ std::vector<Number> computeRows(const Mesh& cage, const std::vector<Vec3d>& poin
 std::vector<float> maxDistancesOf(const Mesh& cage, Coordinates family)
 {
     std::vector<float> maxDistances(cage.points.size(), 1.0F);
+    if (family == Coordinates::somigliana) maxDistances.resize(handleCount(cage, family), 4.0F); // twice as at rest
     if (family != Coordinates::green) return maxDistances;
     const double size = detail::CageFrame(cage).size;
     const auto addNormal = [&](openvdb::Index32 corner, openvdb::Index32 next, openvdb::Index32 before) {
@@ -290,6 +319,12 @@ const char* coordinatesName(Coordinates family)
     return family == Coordinates::given ? "given" : entry(family).info.name;
 }
 
+bool Elasticity::operator==(const Elasticity& other) const
+{
+    return nu == other.nu && rotations == other.rotations && localBulging == other.localBulging &&
+           globalBulging == other.globalBulging;
+}
+
 Coordinates coordinatesNamed(const std::string& name)
 {
     for (const FamilyInfo& family : coordinateFamilies()) {
@@ -298,13 +333,17 @@ Coordinates coordinatesNamed(const std::string& name)
     throw InputError("coordinates: '" + name + "' is not a family; there are " + familyNames());
 }
 
-std::vector<Vec3d> cageHandles(const Mesh& cage, const std::vector<Vec3d>& posed, Coordinates family)
+std::vector<Vec3d> cageHandles(const Mesh& cage, const std::vector<Vec3d>& posed, const CoordinateOptions& options)
 {
     requireCount("posed cage", posed.size(), cage.points.size(), "the cage");
     requireFinite(posed, "posed cage");
     std::vector<Vec3d> handles = posed;
-    if (family != Coordinates::green) return handles;
-    handles.reserve(handleCount(cage, family));
+    handles.reserve(handleCount(cage, options.family));
+    if (options.family == Coordinates::somigliana) {
+        requireElasticity(options.elasticity);
+        detail::addSomiglianaHandles(cage, posed, options.elasticity, handles);
+    }
+    if (options.family != Coordinates::green) return handles;
     const double size = detail::CageFrame(cage).size;
     const auto addNormal = [&](openvdb::Index32 corner, openvdb::Index32 next, openvdb::Index32 before) {
         const auto edge = [&](const std::vector<Vec3d>& points, openvdb::Index32 to) {
@@ -335,7 +374,7 @@ Binding::Binding(const Mesh& cage, std::vector<Vec3d> points, const CoordinateOp
 {
     const Stage stage(interrupter, "bind");
     RowMaker maker(cage_, points_, options_, interrupter);
-    restHandles_ = cageHandles(cage_, cage_.points, family());
+    restHandles_ = cageHandles(cage_, cage_.points, options_);
     weights_ = std::make_shared<detail::WeightBlocks>(
         points_, maxDistancesOf(cage_, family()),
         [&](const std::vector<std::uint32_t>& block, std::vector<float>& rows) {
@@ -352,7 +391,7 @@ Binding::Binding(const Mesh& cage, std::vector<Vec3d> points, const CoordinateOp
 {
     requireUsable(cage, "cage");
     requireFinite(points_, "points");
-    restHandles_ = cageHandles(cage, cage.points, family());
+    restHandles_ = cageHandles(cage, cage.points, options_);
     detail::requireWeights(weights.size(), points_.size(), handles());
     if (family() == Coordinates::given) {
         const std::string problem = detail::weightsProblem(weights, handles());
@@ -368,6 +407,14 @@ Binding::Binding(const Mesh& cage, std::vector<Vec3d> points, const CoordinateOp
         });
 }
 
+Binding Binding::with(const Elasticity& elasticity) const
+{
+    Binding changed = *this;
+    changed.options_.elasticity = elasticity;
+    changed.restHandles_ = cageHandles(cage_, cage_.points, changed.options_);
+    return changed;
+}
+
 std::size_t Binding::weightBytes() const
 {
     return weights_->bytes();
@@ -376,14 +423,14 @@ std::size_t Binding::weightBytes() const
 std::vector<Vec3d> Binding::pose(const std::vector<Vec3d>& cagePoints) const
 {
     std::vector<Vec3d> posed = points_;
-    add(restHandles_, cageHandles(cage_, cagePoints, family()), posed);
+    add(restHandles_, cageHandles(cage_, cagePoints, options_), posed);
     return posed;
 }
 
 void Binding::update(std::vector<Vec3d>& posed, const std::vector<Vec3d>& from, const std::vector<Vec3d>& to) const
 {
     requireCount("posed points", posed.size(), points_.size(), "the binding");
-    add(cageHandles(cage_, from, family()), cageHandles(cage_, to, family()), posed);
+    add(cageHandles(cage_, from, options_), cageHandles(cage_, to, options_), posed);
 }
 
 void Binding::add(const std::vector<Vec3d>& fromHandles, const std::vector<Vec3d>& toHandles,

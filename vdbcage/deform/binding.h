@@ -16,7 +16,8 @@ namespace detail {
 class WeightBlocks;
 }
 
-/// How a cage moves what is in it. Quads are bilinear patches, never two triangles.
+/// How a cage moves what is in it. Quads are bilinear patches, but for Somigliana coordinates: there they are two
+/// triangles each, as triangulate() splits them.
 enum class Coordinates {
     /// Mean value coordinates: Ju, Schaefer, Warren 2005 on triangles; Thiery, Memari, Boubekeur 2018 on quads. Defined
     /// everywhere, also outside of the cage. Smooth but on the cage, where they interpolate it. Can be negative.
@@ -34,15 +35,41 @@ enum class Coordinates {
     /// acts through a wall of it, so they are local without being stiff. Solved for on a grid, see CoordinateOptions.
     /// Defined inside and on the cage, which they interpolate; an error outside.
     harmonic,
+    /// Somigliana coordinates: Chen, de Goes, Desbrun 2023. The inside moves as an elastic material does whose surface
+    /// is moved by the cage: stretched evenly, and not sheared where Green coordinates shear it. See Elasticity. Like
+    /// Green coordinates they do not interpolate the cage. Defined inside and, as the limit from inside, on the cage;
+    /// an error outside.
+    somigliana,
     /// Weights that were made elsewhere, of any family: one a cage point. They cannot be computed, nor be had at other
     /// points. See readWeights. The cage may be open.
     given,
 };
 
+/// The material of Somigliana coordinates. It acts in the pose, not in the weights.
+struct VDBCAGE_API Elasticity {
+    enum class Rotations {
+        global, ///< the elastic material turns as a whole. For parts that turn up to a quarter turn from the mean
+        local   ///< at each face as the face does. For parts that turn farther; stretches more
+    };
+    static constexpr Range bulgings{0, 100};
+
+    /// Poisson's ratio, above -1 and below 0.5: how much the material gets thinner where it is stretched. Near 0.5 the
+    /// pose reacts strongly to the cage.
+    double nu = 0;
+    Rotations rotations = Rotations::global;
+    /// How much the surface bulges where the cage's normals come to spread more, in `bulgings`.
+    double localBulging = 0;
+    /// How much it bulges where the cage moves outward, from its rest pose turned and scaled to fit, in `bulgings`.
+    double globalBulging = 0;
+
+    bool operator==(const Elasticity& other) const;
+    bool operator!=(const Elasticity& other) const { return !(*this == other); }
+};
+
 /// What there is to know of a family that can be computed.
 struct FamilyInfo {
     Coordinates family;
-    const char* name;        ///< at most 8 letters
+    const char* name;        ///< at most 10 letters
     const char* nameOnQuads; ///< as its paper calls it on quads; `name` if it has no other there
     const char* title;       ///< a word or two
     const char* what;        ///< what it does to the model, in a line
@@ -70,8 +97,11 @@ struct CoordinateOptions {
     /// sum of 2.4 % in 64 voxels and 0.7 % in 128 (cage of 400 faces), most near the cage. 8 bytes for each voxel
     /// inside and point of the cage.
     int resolution;
+    /// Of Somigliana coordinates. Weights do not depend on it.
+    Elasticity elasticity;
 
     CoordinateOptions(Coordinates of, int voxels = 64) : family(of), resolution(voxels) {}
+    CoordinateOptions(Coordinates of, const Elasticity& material) : CoordinateOptions(of) { elasticity = material; }
 };
 
 /// What coordinates are weights of, in the order of their columns. `posed` are the posed points of `cage`.
@@ -80,10 +110,15 @@ struct CoordinateOptions {
 /// its corners. A stretched normal belongs to two edges that meet in a corner. Its length is the area of their
 /// parallelogram at rest, times how much the pose stretches it, over the longest side of the cage at rest. The stretch
 /// is the root mean square of the two principal stretches.
-/// \throw InputError not as many points as `cage` has, or one not finite
+///
+/// For Somigliana coordinates six vectors a triangle follow, two triangles a quad. They are what the entries of the
+/// integral of r r^T / (4 pi |r|^3) over the triangle stand for, in the frame of its normal, its first edge and the
+/// normal cross that: nn, n1, n2, 11, 12, 22. Each is as long as what the point moves by for an entry of 1, in units
+/// of the longest side of the cage at rest.
+/// \throw InputError not as many points as `cage` has, or one not finite; an elasticity out of range
 /// Cost: O(cage).
 VDBCAGE_API std::vector<openvdb::Vec3d> cageHandles(const Mesh& cage, const std::vector<openvdb::Vec3d>& posed,
-                                                    Coordinates family);
+                                                    const CoordinateOptions& options);
 
 /// The coordinates of `points` in `cage`, in double: a row a point, row after row, of as many columns as there are
 /// handles.
@@ -131,6 +166,9 @@ public:
     Coordinates family() const { return options_.family; }
     /// The number of handles, which is the number of weights a point.
     std::size_t handles() const { return restHandles_.size(); }
+    /// The same with another material, of Somigliana coordinates: no weights are computed.
+    /// \throw InputError it is out of range
+    Binding with(const Elasticity& elasticity) const;
     /// The memory that the weights take: 4 bytes a point and handle, or less where points are close together for their
     /// distance from faces. A third where there are hundreds of points a face.
     std::size_t weightBytes() const;

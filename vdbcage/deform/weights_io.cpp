@@ -24,16 +24,14 @@ namespace {
 static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "reverse the bytes here");
 
 const std::string numpy = "\x93NUMPY", magic("\x93NUMPY\x01\x00", 8);
-const std::string beforeCounts = "{'descr': [('family', '|S8'), ('cage_hash', '<u8'), ('points_hash', '<u8'), "
-                                 "('weights', '<f4', (";
+constexpr std::size_t nameSizes[] = {8, 16}; // a family's name is written in the first that has room for it
 const std::string afterCounts = "))], 'fortran_order': False, 'shape': (), }";
 
 /// What comes before the weights.
-struct Record {
-    char family[8] = {};
-    std::uint64_t cageHash = 0, pointsHash = 0;
+struct Hashes {
+    std::uint64_t cage = 0, points = 0;
 };
-static_assert(sizeof(Record) == 24, "written as it is in memory");
+static_assert(sizeof(Hashes) == 16, "written as it is in memory");
 
 class Hash {
 public:
@@ -56,23 +54,27 @@ private:
     std::uint64_t value_ = 0xcbf29ce484222325U;
 };
 
-Record recordOf(const Mesh& cage, const std::vector<openvdb::Vec3d>& points)
+Hashes hashesOf(const Mesh& cage, const std::vector<openvdb::Vec3d>& points)
 {
     Hash ofCage, ofPoints;
     ofCage.add(cage.points);
     ofCage.add(cage.triangles);
     ofCage.add(cage.quads);
     ofPoints.add(points);
-    Record record;
-    record.cageHash = ofCage.value();
-    record.pointsHash = ofPoints.value();
-    return record;
+    return {ofCage.value(), ofPoints.value()};
+}
+
+/// The header's text up to the counts.
+std::string beforeCounts(std::size_t nameSize)
+{
+    return "{'descr': [('family', '|S" + std::to_string(nameSize) +
+           "'), ('cage_hash', '<u8'), ('points_hash', '<u8'), ('weights', '<f4', (";
 }
 
 /// Magic, length and text, padded as NumPy does so that the data are aligned.
-std::string headerOf(std::size_t points, std::size_t handles)
+std::string headerOf(std::size_t nameSize, std::size_t points, std::size_t handles)
 {
-    std::string text = beforeCounts + std::to_string(points) + ", " + std::to_string(handles) + afterCounts;
+    std::string text = beforeCounts(nameSize) + std::to_string(points) + ", " + std::to_string(handles) + afterCounts;
     text.append(63 - (magic.size() + 2 + text.size()) % 64, ' ');
     text += '\n';
     return magic + char(text.size() & 0xFFU) + char(text.size() >> 8U) + text;
@@ -86,10 +88,10 @@ bool isDmat(const std::filesystem::path& path)
     return extension == ".dmat";
 }
 
-/// The family of a record; `given` too, which coordinatesNamed does not take.
-Coordinates familyOf(const Record& record)
+/// The family of a name as a file has it; `given` too, which coordinatesNamed does not take.
+Coordinates familyOf(std::string name)
 {
-    const std::string name(record.family, ::strnlen(record.family, sizeof record.family));
+    name.resize(::strnlen(name.data(), name.size()));
     return name == coordinatesName(Coordinates::given) ? Coordinates::given : coordinatesNamed(name);
 }
 
@@ -106,17 +108,17 @@ void writeWeights(const Mesh& cage, const std::vector<openvdb::Vec3d>& points, C
 {
     const std::size_t handles = cageHandles(cage, cage.points, family).size();
     detail::requireWeights(weights.size(), points.size(), handles);
-    if (sizeof(Record) + weights.size() * sizeof(float) >= std::size_t(1) << 31U) {
+    std::string name = coordinatesName(family);
+    const std::size_t nameSize = *std::lower_bound(std::begin(nameSizes), std::end(nameSizes), name.size());
+    if (nameSize + sizeof(Hashes) + weights.size() * sizeof(float) >= std::size_t(1) << 31U) {
         throw InputError(path.string() + ": " + std::to_string(points.size()) + " points times " +
                          std::to_string(handles) +
                          " handles do not fit in a weights file, which must be smaller than 2 GiB");
     }
-    Record record = recordOf(cage, points);
-    const std::string name = coordinatesName(family);
-    std::memcpy(record.family, name.data(), name.size());
-    const std::string header = headerOf(points.size(), handles);
-    out.write(header.data(), static_cast<std::streamsize>(header.size()));
-    out.write(reinterpret_cast<const char*>(&record), sizeof record);
+    const Hashes hashes = hashesOf(cage, points);
+    name.resize(nameSize);
+    out << headerOf(nameSize, points.size(), handles) << name;
+    out.write(reinterpret_cast<const char*>(&hashes), sizeof hashes);
     out.write(reinterpret_cast<const char*>(weights.data()),
               static_cast<std::streamsize>(weights.size() * sizeof(float)));
 }
@@ -149,32 +151,40 @@ Binding readWeights(const std::filesystem::path& path, const Mesh& cage, std::ve
     const auto byteAt = [&](std::size_t i) { return static_cast<std::size_t>(static_cast<unsigned char>(start[i])); };
     std::string text(byteAt(magic.size()) + 256 * byteAt(magic.size() + 1), '\0');
     in.read(text.data(), static_cast<std::streamsize>(text.size()));
-    if (start.compare(0, magic.size(), magic) != 0 || text.compare(0, beforeCounts.size(), beforeCounts) != 0) {
+    std::size_t nameSize = 0;
+    for (const std::size_t candidate : nameSizes) {
+        if (text.rfind(beforeCounts(candidate), 0) == 0) nameSize = candidate;
+    }
+    if (start.compare(0, magic.size(), magic) != 0 || nameSize == 0) {
         const std::vector<float> weights =
             detail::parseNpy(detail::readFile(path), path.string(), points.size(), cage.points.size());
         return bindGiven(weights);
     }
     std::size_t rows = 0, columns = 0;
     const char* const end = text.data() + text.size();
-    const auto first = std::from_chars(text.data() + beforeCounts.size(), end, rows);
+    const auto first = std::from_chars(text.data() + beforeCounts(nameSize).size(), end, rows);
     if (end - first.ptr > 2) std::from_chars(first.ptr + 2, end, columns);
-    Record record;
-    in.read(reinterpret_cast<char*>(&record), sizeof record);
-    if (!in || start + text != headerOf(rows, columns)) fail("it is not a weights file of vdbcage, or truncated");
+    std::string name(nameSize, '\0');
+    in.read(name.data(), static_cast<std::streamsize>(nameSize));
+    Hashes hashes;
+    in.read(reinterpret_cast<char*>(&hashes), sizeof hashes);
+    if (!in || start + text != headerOf(nameSize, rows, columns))
+        fail("it is not a weights file of vdbcage, or truncated");
 
-    const Record expected = recordOf(cage, points);
-    if (record.cageHash != expected.cageHash) fail("it was made for another cage");
-    if (record.pointsHash != expected.pointsHash || rows != points.size()) fail("it was made for another model");
+    const Hashes expected = hashesOf(cage, points);
+    if (hashes.cage != expected.cage) fail("it was made for another cage");
+    if (hashes.points != expected.points || rows != points.size()) fail("it was made for another model");
     Coordinates family{};
     try {
-        family = familyOf(record);
+        family = familyOf(name);
     } catch (const InputError& error) {
         fail(error.what());
     }
     if (columns != cageHandles(cage, cage.points, family).size()) fail("it has another number of handles");
     // What the header says is bounded by the file's size before memory is taken for it. Neither sum can overflow: rows
     // and columns are those of a model and a cage in memory.
-    const std::uintmax_t expectedSize = start.size() + text.size() + sizeof record + rows * columns * sizeof(float);
+    const std::uintmax_t expectedSize =
+        start.size() + text.size() + nameSize + sizeof hashes + rows * columns * sizeof(float);
     if (size < expectedSize) fail("it is truncated");
     if (size > expectedSize) {
         fail("it has " + std::to_string(size - expectedSize) + " bytes behind the weights; it should end there");

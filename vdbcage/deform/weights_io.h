@@ -12,7 +12,7 @@ namespace vdbcage {
 /// Writes weights of computeWeights as a NumPy file (.npy, version 1.0, little endian).
 ///
 /// It holds nothing but one record, whose fields `numpy.load(path)[NAME]` gives:
-///   family       S8           coordinatesName()
+///   family       S8, or S16   coordinatesName(); S16 where it has more than 8 letters
 ///   cage_hash    uint64       of the cage's points and faces
 ///   points_hash  uint64       of the points
 ///   weights      float32      points x handles; see cageHandles for what the columns belong to

@@ -47,13 +47,7 @@ FacePart closedForm(const PatchCorners& c, bool onFace)
 {
     const TrianglePotentials t = trianglePotentials({c[0], c[1], c[2]}, onFace);
     FacePart part;
-    Vec3d turned(0); // the sum over the edges of their unit vector times their potential
-    for (std::size_t i = 0; i < 3; ++i) turned += t.edge[i] * t.along[i];
-    for (std::size_t i = 0; i < 3; ++i) {
-        const Vec3d &from = c[(i + 1) % 3], &to = c[(i + 2) % 3];
-        const double atFoot = t.normal.dot(from.cross(to)) / t.area;
-        part.positions[i] = (atFoot * t.solid + t.height * turned.dot(to - from) / t.area) / fourPi;
-    }
+    for (std::size_t i = 0; i < 3; ++i) part.positions[i] = t.hatSolid[i] / fourPi;
     part.normals[0] = t.single / (fourPi * t.area);
     return part;
 }

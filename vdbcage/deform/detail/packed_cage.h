@@ -22,6 +22,7 @@ struct PackedTriangle {
     double normal[3];      ///< of length 1
     double area;           ///< twice the triangle's
     double outward[3][3];  ///< in the plane, square to the edge, of length 1
+    double flat[3][2];     ///< the same by the last two vectors of faceFrame()
     double along[3][3];    ///< of two edges, as the triangle runs: the one's direction dot the other, over `area`
     bool sliver;           ///< normal and lengths have no digits
 };

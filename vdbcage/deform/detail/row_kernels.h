@@ -28,6 +28,7 @@ struct RowKernels {
     Rows* meanValue;
     Rows* green;
     Rows* likelihood;
+    Rows* somigliana; ///< of a cage that has triangles only
 
     /// Takes the projections on `pivot` off rows of `columns` numbers each, a multiple of `floatLanes`.
     ///
@@ -52,5 +53,8 @@ const RowKernels* const* allRowKernels();
 bool exactMeanValue(const BoundCage& cage, std::size_t face, const double (&x)[3], double (&weights)[4]);
 /// Of a triangle.
 bool exactGreen(const BoundCage& cage, std::size_t face, const double (&x)[3], double (&positions)[3], double& normal);
+/// Of a triangle.
+bool exactSomigliana(const BoundCage& cage, std::size_t face, const double (&x)[3], double (&positions)[3],
+                     double (&matrix)[6]);
 
 } // namespace vdbcage::detail

@@ -1,8 +1,8 @@
-// Based on: the papers of mean_value.h, green.h and likelihood.h, of which these are the formulas in vectors.
-// Differs: what belongs to an edge, its angle or potential, is computed once for both triangles. Determinants and feet
-// of perpendiculars come from the faces' planes. The damping of Newton's method is that of self-concordant functions
-// (Nesterov and Nemirovskii, "Interior-Point Polynomial Algorithms in Convex Programming", 1994): it needs no trials.
-// Where rounding or a singularity is near, the scalar formulas take over.
+// Based on: the papers of mean_value.h, green.h, likelihood.h and somigliana.h, of which these are the formulas in
+// vectors. Differs: what belongs to an edge, its angle or potential, is computed once for both triangles. Determinants
+// and feet of perpendiculars come from the faces' planes. The damping of Newton's method is that of self-concordant
+// functions (Nesterov and Nemirovskii, "Interior-Point Polynomial Algorithms in Convex Programming", 1994): it needs no
+// trials. Where rounding or a singularity is near, the scalar formulas take over.
 
 // Included once for each instruction set; see lanes.h. VDBCAGE_KERNELS is the name of the table, with
 // VDBCAGE_INSTRUCTIONS.
@@ -320,12 +320,84 @@ unsigned meanValueRows(const PackedCage& cage, const double (*x)[packetSize], vo
     return leftOut;
 }
 
-// --- Green coordinates
+// --- Green and Somigliana coordinates
 
-struct SeenGreenEdge {
+struct SeenPotential {
     Lanes potential; // -1 where it is for the scalar formula
     Lanes product;   // its ends' places, multiplied
 };
+
+void seePotentials(const PackedCage& cage, const Corner* corners, SeenPotential* edges)
+{
+    for (std::size_t i = 0; i < cage.edgeCount; ++i) {
+        const PackedEdge& edge = cage.edges[i];
+        const Corner &a = corners[edge.from], &b = corners[edge.to];
+        const Lanes sum = a.distance + b.distance;
+        const Mask far = edge.length < mostQuotient * sum;
+        const Lanes potential = 2 * areaTangent(select(far, all(edge.length), all(0)), sum);
+        edges[i] = {select(far, potential, all(-1)), dot(a.place, b.place)};
+    }
+}
+
+/// See TrianglePotentials; edge i is opposite corner i.
+struct SeenTriangle {
+    Lanes height, solid, single, potentials[3], feet[3], hatSolid[3];
+    Mask bad; // for the scalar formula
+};
+
+SeenTriangle seeTriangle(const PackedCage& cage, const PackedTriangle& t, const Corner* corners,
+                         const SeenPotential* edges)
+{
+    SeenTriangle seen;
+    const Corner &a = corners[t.corner[0]], &b = corners[t.corner[1]], &c = corners[t.corner[2]];
+    seen.height = dot(t.normal, a.place);
+    const Lanes below = a.distance * b.distance * c.distance + edges[t.edge[2]].product * c.distance +
+                        edges[t.edge[0]].product * a.distance + edges[t.edge[1]].product * b.distance;
+    seen.solid = signedBy(2 * angleOf(abs(seen.height) * t.area, below), seen.height);
+    seen.single = -seen.height * seen.solid;
+    seen.bad = t.sliver ? ~Mask{} : Mask{};
+    for (int i = 0; i < 3; ++i) {
+        seen.potentials[i] = edges[t.edge[i]].potential;
+        seen.bad |= seen.potentials[i] < 0;
+        seen.feet[i] = dot(t.outward[i], corners[t.corner[(i + 1) % 3]].place);
+        seen.single += seen.feet[i] * seen.potentials[i];
+    }
+    for (int i = 0; i < 3; ++i) {
+        const Lanes turned = t.along[i][0] * seen.potentials[0] + t.along[i][1] * seen.potentials[1] +
+                             t.along[i][2] * seen.potentials[2];
+        const double scale = cage.edges[t.edge[i]].length / t.area;
+        seen.hatSolid[i] = scale * seen.feet[i] * seen.solid + seen.height * turned;
+    }
+    return seen;
+}
+
+/// Calls `replace(lane, place)` for each lane that is for the scalar formula.
+template <typename Replace>
+void forEachBad(Mask bad, Vector x, const Replace& replace)
+{
+    for (unsigned left = bits(bad); left != 0; left &= left - 1) {
+        const int lane = __builtin_ctz(left);
+        const double place[3] = {x.x[lane], x.y[lane], x.z[lane]};
+        replace(lane, place);
+    }
+}
+
+/// Makes the points' weights reproduce affine maps; `normals` is what the normals add to the place at rest. Returns
+/// the lanes where the solid angles lack digits, or whose point is on the cage or outside.
+Mask restorePrecision(const PackedCage& cage, Vector x, double (*rows)[packetSize], int first, Vector normals)
+{
+    const auto at = [&](std::size_t column) { return &rows[column][first]; };
+    Lanes sum = all(0);
+    for (std::size_t i = 0; i < cage.pointCount; ++i) sum += load(at(i));
+    Vector missing = x + all(-1) * normals;
+    for (std::size_t i = 0; i < cage.pointCount; ++i) {
+        const Lanes weight = load(at(i)) / sum;
+        store(weight, at(i));
+        missing = missing + -weight * Vector{all(cage.points[i][0]), all(cage.points[i][1]), all(cage.points[i][2])};
+    }
+    for (std::size_t i = 0; i < cage.pointCount; ++i) add(dot(cage.restoring[i], missing), at(i));
+    return ~(abs(1 - sum) < 1e-8);
+}
 
 unsigned greenRows(const PackedCage& cage, const double (*x)[packetSize], void* scratch, double (*rows)[packetSize])
 {
@@ -333,54 +405,31 @@ unsigned greenRows(const PackedCage& cage, const double (*x)[packetSize], void* 
     for (int first = 0; first < packetSize; first += width) {
         const Vector place = placesOf(x, first);
         auto* const corners = static_cast<Corner*>(scratch);
-        auto* const edges = reinterpret_cast<SeenGreenEdge*>(corners + cage.pointCount);
-        const std::size_t columns = cage.pointCount + cage.triangleCount + 4 * cage.quadCount;
+        auto* const edges = reinterpret_cast<SeenPotential*>(corners + cage.pointCount);
         const auto at = [&](std::size_t column) { return &rows[column][first]; };
         Mask near = Mask{};
+        Vector normals{};
+        const auto storeNormal = [&](Lanes weight, std::size_t k) {
+            const double(&normal)[3] = cage.normals[k];
+            store(weight, at(cage.pointCount + k));
+            normals = normals + weight * Vector{all(normal[0]), all(normal[1]), all(normal[2])};
+        };
         seeCorners(cage, place, corners);
-        for (std::size_t i = 0; i < cage.edgeCount; ++i) {
-            const PackedEdge& edge = cage.edges[i];
-            const Corner &a = corners[edge.from], &b = corners[edge.to];
-            const Lanes sum = a.distance + b.distance;
-            const Mask far = edge.length < mostQuotient * sum;
-            const Lanes potential = 2 * areaTangent(select(far, all(edge.length), all(0)), sum);
-            edges[i] = {select(far, potential, all(-1)), dot(a.place, b.place)};
-        }
+        seePotentials(cage, corners, edges);
         for (std::size_t i = 0; i < cage.pointCount; ++i) store(all(0), at(i));
         for (std::size_t face = 0; face < cage.triangleCount; ++face) {
             const PackedTriangle& t = cage.triangles[face];
-            const Corner &a = corners[t.corner[0]], &b = corners[t.corner[1]], &c = corners[t.corner[2]];
-            const Lanes height = dot(t.normal, a.place);
-            const Lanes below = a.distance * b.distance * c.distance + edges[t.edge[2]].product * c.distance +
-                                edges[t.edge[0]].product * a.distance + edges[t.edge[1]].product * b.distance;
-            const Lanes solid = signedBy(2 * angleOf(abs(height) * t.area, below), height);
-            Lanes single = -height * solid, potentials[3], feet[3], positions[3];
-            Mask bad = Mask{};
-            for (int i = 0; i < 3; ++i) {
-                potentials[i] = edges[t.edge[i]].potential;
-                bad |= potentials[i] < 0;
-                // To the foot of the perpendicular from the edge, inward.
-                feet[i] = dot(t.outward[i], corners[t.corner[(i + 1) % 3]].place);
-                single += feet[i] * potentials[i];
-            }
-            for (int i = 0; i < 3; ++i) {
-                const Lanes turned =
-                    t.along[i][0] * potentials[0] + t.along[i][1] * potentials[1] + t.along[i][2] * potentials[2];
-                const double scale = cage.edges[t.edge[i]].length / t.area;
-                positions[i] = (scale * feet[i] * solid + height * turned) / fourPi;
-            }
-            Lanes normal = single / (fourPi * t.area);
-            unsigned badBits = t.sliver ? bits(~Mask{}) : bits(bad & ~near);
-            for (; badBits != 0; badBits &= badBits - 1) {
-                const int lane = __builtin_ctz(badBits);
-                const double from[3] = {place.x[lane], place.y[lane], place.z[lane]};
+            const SeenTriangle seen = seeTriangle(cage, t, corners, edges);
+            Lanes positions[3], normal = seen.single / (fourPi * t.area);
+            for (int i = 0; i < 3; ++i) positions[i] = seen.hatSolid[i] / fourPi;
+            forEachBad(seen.bad & ~near, place, [&](int lane, const double(&from)[3]) {
                 double exact[3] = {}, exactNormal = 0;
                 if (!exactGreen(*cage.cage, face, from, exact, exactNormal)) near[lane] = -1;
                 for (int i = 0; i < 3; ++i) positions[i][lane] = exact[i];
                 normal[lane] = exactNormal;
-            }
+            });
             for (int i = 0; i < 3; ++i) add(positions[i], at(t.corner[i]));
-            store(normal, at(cage.pointCount + face));
+            storeNormal(normal, face);
         }
         for (std::size_t q = 0; q < cage.quadCount; ++q) {
             const PackedQuad& quad = cage.quads[q];
@@ -392,22 +441,60 @@ unsigned greenRows(const PackedCage& cage, const double (*x)[packetSize], void* 
             });
             for (int k = 0; k < 4; ++k) {
                 add(sums[0][k] / fourPi, at(quad.corner[k]));
-                store(sums[1][k] / fourPi,
-                      at(cage.pointCount + cage.triangleCount + 4 * q + static_cast<std::size_t>(k)));
+                storeNormal(sums[1][k] / fourPi, cage.triangleCount + 4 * q + static_cast<std::size_t>(k));
             }
         }
-        Lanes sum = all(0);
-        for (std::size_t i = 0; i < cage.pointCount; ++i) sum += load(at(i));
-        near |= ~(abs(1 - sum) < 1e-8); // the solid angles lack digits, or the point is on the cage or outside
-        Vector missing = place;
-        for (std::size_t k = 0; k < columns; ++k) {
-            const bool isPoint = k < cage.pointCount;
-            const double(&handle)[3] = isPoint ? cage.points[k] : cage.normals[k - cage.pointCount];
-            const Lanes weight = isPoint ? load(at(k)) / sum : load(at(k));
-            store(weight, at(k));
-            missing = missing + -weight * Vector{all(handle[0]), all(handle[1]), all(handle[2])};
+        near |= restorePrecision(cage, place, rows, first, normals);
+        leftOut |= bits(near) << first;
+    }
+    return leftOut;
+}
+
+unsigned somiglianaRows(const PackedCage& cage, const double (*x)[packetSize], void* scratch,
+                        double (*rows)[packetSize])
+{
+    unsigned leftOut = 0;
+    for (int first = 0; first < packetSize; first += width) {
+        const Vector place = placesOf(x, first);
+        auto* const corners = static_cast<Corner*>(scratch);
+        auto* const edges = reinterpret_cast<SeenPotential*>(corners + cage.pointCount);
+        const auto at = [&](std::size_t column) { return &rows[column][first]; };
+        Mask near = Mask{};
+        Vector normals{};
+        seeCorners(cage, place, corners);
+        seePotentials(cage, corners, edges);
+        for (std::size_t i = 0; i < cage.pointCount; ++i) store(all(0), at(i));
+        for (std::size_t face = 0; face < cage.triangleCount; ++face) {
+            const PackedTriangle& t = cage.triangles[face];
+            const SeenTriangle seen = seeTriangle(cage, t, corners, edges);
+            Lanes m[6] = {seen.height * seen.solid, all(0), all(0), seen.single, all(0), seen.single};
+            for (int i = 0; i < 3; ++i) {
+                const double m1 = t.flat[i][0], m2 = t.flat[i][1];
+                const Lanes across = seen.feet[i] * seen.potentials[i];
+                const Lanes along = corners[t.corner[(i + 2) % 3]].distance - corners[t.corner[(i + 1) % 3]].distance;
+                const Lanes e1 = across * m1 - along * m2, e2 = across * m2 + along * m1;
+                const Lanes raised = seen.height * seen.potentials[i];
+                m[1] -= raised * m1;
+                m[2] -= raised * m2;
+                m[3] -= e1 * m1;
+                m[4] -= 0.5 * (e1 * m2 + e2 * m1);
+                m[5] -= e2 * m2;
+            }
+            Lanes positions[3];
+            for (int i = 0; i < 3; ++i) positions[i] = seen.hatSolid[i] / fourPi;
+            for (Lanes& entry : m) entry /= fourPi;
+            forEachBad(seen.bad & ~near, place, [&](int lane, const double(&from)[3]) {
+                double exact[3] = {}, matrix[6] = {};
+                if (!exactSomigliana(*cage.cage, face, from, exact, matrix)) near[lane] = -1;
+                for (int i = 0; i < 3; ++i) positions[i][lane] = exact[i];
+                for (int i = 0; i < 6; ++i) m[i][lane] = matrix[i];
+            });
+            for (int i = 0; i < 3; ++i) add(positions[i], at(t.corner[i]));
+            for (std::size_t i = 0; i < 6; ++i) store(m[i], at(cage.pointCount + 6 * face + i));
+            const Lanes trace = m[0] + m[3] + m[5];
+            normals = normals + trace * Vector{all(t.normal[0]), all(t.normal[1]), all(t.normal[2])};
         }
-        for (std::size_t i = 0; i < cage.pointCount; ++i) add(dot(cage.restoring[i], missing), at(i));
+        near |= restorePrecision(cage, place, rows, first, normals);
         leftOut |= bits(near) << first;
     }
     return leftOut;
@@ -577,6 +664,7 @@ static_assert(sizeof(Corner) == 4 * sizeof(Lanes) && sizeof(SeenEdge) == 5 * siz
 
 } // namespace
 
-const RowKernels VDBCAGE_KERNELS = {VDBCAGE_INSTRUCTIONS, meanValueRows, greenRows, likelihoodRows, projectRows};
+const RowKernels VDBCAGE_KERNELS = {VDBCAGE_INSTRUCTIONS, meanValueRows,  greenRows,
+                                    likelihoodRows,       somiglianaRows, projectRows};
 
 } // namespace vdbcage::detail

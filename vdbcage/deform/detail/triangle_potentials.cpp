@@ -48,6 +48,13 @@ TrianglePotentials trianglePotentials(const std::array<Vec3d, 3>& c, bool onFace
         t.foot[i] = t.outward(i).dot(from);
         t.single += t.foot[i] * t.edge[i];
     }
+    Vec3d turned(0);
+    for (std::size_t i = 0; i < 3; ++i) turned += t.edge[i] * t.along[i];
+    for (std::size_t i = 0; i < 3; ++i) {
+        const Vec3d &from = c[(i + 1) % 3], &to = c[(i + 2) % 3];
+        const double atFoot = t.normal.dot(from.cross(to)) / t.area;
+        t.hatSolid[i] = atFoot * t.solid + t.height * turned.dot(to - from) / t.area;
+    }
     return t;
 }
 

@@ -15,6 +15,7 @@ struct TrianglePotentials {
     double area;                         ///< twice the triangle's
     double height;                       ///< of its plane above the origin, along the normal
     double solid;                        ///< the solid angle, with the sign of the height
+    std::array<double, 3> hatSolid;      ///< the solid angle by each corner's barycentric coordinate
     double single;                       ///< the integral of 1 / distance
     std::array<double, 3> edge;          ///< of 1 / distance along the edge; 0 where it would be infinite
     std::array<openvdb::Vec3d, 3> along; ///< the edges' directions, of length 1
