@@ -69,7 +69,7 @@ BOOST_AUTO_TEST_CASE(bind_and_deform)
 {
     const Scene scene;
     const std::string cage = scene.at("cage.obj"), model = scene.at("model.obj"), posed = scene.at("posed.0010.obj");
-    for (const char* family : {"mvc", "qmvc", "green", "qgc", "mlc", "harmonic"}) {
+    for (const char* family : {"mvc", "qmvc", "green", "qgc", "mlc", "harmonic", "somigliana"}) {
         const std::string weights = scene.at("w.npy");
         const auto bound = runCommand({command, "bind", cage, model, "-o", weights, "--coordinates", family});
         BOOST_TEST(bound.status == 0, bound.err);
@@ -143,9 +143,9 @@ BOOST_AUTO_TEST_CASE(weights_that_were_made_elsewhere)
     test::writeText(given, npy.substr(0, npy.size() - 1));
     expectRefusal(scene, {"deform", cage, posed, model, "-o", out, "--weights", given}, given + ": it is truncated");
     expectRefusal(scene, {"deform", cage, posed, model, "-o", out, "--coordinates", "given"},
-                  "there are mvc, green, mlc, harmonic");
+                  "there are mvc, green, mlc, harmonic, somigliana");
     expectRefusal(scene, {"bind", cage, model, "-o", scene.at("w.npy"), "--coordinates", "given"},
-                  "there are mvc, green, mlc, harmonic");
+                  "there are mvc, green, mlc, harmonic, somigliana");
 }
 
 BOOST_AUTO_TEST_CASE(families_compared)
@@ -160,7 +160,7 @@ BOOST_AUTO_TEST_CASE(families_compared)
     std::string line;
     std::getline(lines, line);
     BOOST_TEST(line == "family     distortion   99th pct     volume   inverted");
-    for (const char* family : {"mvc", "green", "mlc", "harmonic"}) {
+    for (const char* family : {"mvc", "green", "mlc", "harmonic", "somigliana"}) {
         std::getline(lines, line);
         BOOST_TEST(line.substr(0, line.find(' ')) == family);
     }
@@ -207,8 +207,43 @@ BOOST_AUTO_TEST_CASE(resolutions)
     expectRefusal(scene, {"bind", cage, model, "-o", weights, "--coordinates", "harmonic", "--resolution", "3"},
                   "resolution: 3 is not allowed; it must be 4 to 256");
     expectRefusal(scene, {"bind", cage, model, "-o", weights, "--resolution", "64"},
-                  "resolution: only harmonic coordinates have one; --coordinates is mvc");
+                  "resolution: only harmonic coordinates have it; these are mvc");
     BOOST_TEST(!std::filesystem::exists(weights));
+}
+
+BOOST_AUTO_TEST_CASE(elasticities)
+{
+    const Scene scene;
+    const std::string cage = scene.at("cage.obj"), model = scene.at("model.obj"), posed = scene.at("posed.0010.obj"),
+                      weights = scene.at("w.npy"), out = scene.at("out.obj");
+    const auto posedBy = [&](const std::vector<std::string>& options) {
+        std::vector<std::string> words{command, "deform", cage, posed, model, "-o", out, "-q"};
+        words.insert(words.end(), options.begin(), options.end());
+        const auto result = runCommand(words);
+        BOOST_TEST(result.status == 0, result.err);
+        return test::readText(out);
+    };
+    const std::string usual = posedBy({"--coordinates", "somigliana"});
+    BOOST_TEST(runCommand({command, "bind", cage, model, "-o", weights, "--coordinates", "somigliana"}).status == 0);
+    const std::vector<std::pair<const char*, const char*>> options{
+        {"--nu", "-0.5"}, {"--rotations", "local"}, {"--local-bulging", "20"}, {"--global-bulging", "20"}};
+    for (const auto& [name, value] : options) {
+        const std::string other = posedBy({"--coordinates", "somigliana", name, value});
+        BOOST_TEST((other != usual), name);
+        BOOST_TEST((posedBy({"--weights", weights, name, value}) == other)); // the weights are the same
+        std::filesystem::remove(out);
+        expectRefusal(scene, {"deform", cage, posed, model, "-o", out, name, value},
+                      std::string(name).substr(2) + ": only somigliana coordinates have it; these are mvc");
+    }
+    expectRefusal(scene, {"deform", cage, posed, model, "-o", out, "--coordinates", "somigliana", "--nu", "0.5"},
+                  "nu: 0.5 is not allowed; it must be above -1 and below 0.5");
+    expectRefusal(scene, {"deform", cage, posed, model, "-o", scene.at("a.png"), "--compare", "--nu", "-1"},
+                  "nu: -1 is not allowed");
+    expectRefusal(scene, {"deform", cage, posed, model, "-o", out, "--coordinates", "somigliana", "--rotations", "x"},
+                  "rotations: 'x' is neither global nor local");
+    BOOST_TEST(runCommand({command, "bind", cage, model, "-o", weights}).status == 0);
+    expectRefusal(scene, {"deform", cage, posed, model, "-o", out, "--weights", weights, "--nu", "0.1"},
+                  "nu: only somigliana coordinates have it; these are mvc");
 }
 
 BOOST_AUTO_TEST_CASE(sequences)
@@ -290,11 +325,11 @@ BOOST_AUTO_TEST_CASE(wrong_pairs)
     expectRefusal(scene, {"deform", cage, scene.at("no.%d.obj"), model, "-o", scene.at("out.%d.obj")},
                   "no file of this");
     expectRefusal(scene, {"deform", cage, posed, model, "-o", out, "--coordinates", "best"},
-                  "there are mvc, green, mlc, harmonic");
+                  "there are mvc, green, mlc, harmonic, somigliana");
     expectRefusal(scene, {"bind", cage, model, "-o", scene.at("w.txt")}, ".npy");
     expectRefusal(scene, {"bind", model, model, "-o", scene.at("v.npy")}, "model.obj: it is not closed");
     writeMesh(test::box(Vec3d(1), Vec3d(3)), scene.at("outside.obj"));
-    for (const char* family : {"green", "mlc", "harmonic"}) {
+    for (const char* family : {"green", "mlc", "harmonic", "somigliana"}) {
         expectRefusal(scene, {"bind", cage, scene.at("outside.obj"), "-o", scene.at("v.npy"), "--coordinates", family},
                       "outside.obj: point ");
     }

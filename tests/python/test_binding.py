@@ -1,7 +1,7 @@
 import numpy
 
 from support import SHELL, Case, command
-from vdbcage import Binding, IoError, Mesh, make_cage
+from vdbcage import Binding, Elasticity, IoError, Mesh, coordinate_families, make_cage
 
 
 class BindingTest(Case):
@@ -13,7 +13,7 @@ class BindingTest(Case):
 
     def test_weights_are_those_of_the_command(self):
         for mesh, cage in self.cages.items():
-            for family in ("mvc", "green", "mlc", "harmonic"):
+            for family in [family.name for family in coordinate_families()]:
                 with self.subTest(f"{family} of {mesh}"):
                     cage.write(self.folder / "cage.ply")
                     command("bind", self.folder / "cage.ply", SHELL, "-q", "--coordinates", family, "-o",
@@ -80,6 +80,37 @@ class BindingTest(Case):
         for resolution, same in ((64, True), (8, False)):
             weights = Binding(self.cage, inside, "harmonic", resolution=resolution).weights()
             self.assertEqual(numpy.array_equal(weights, usual), same)
+
+    def test_families_are_those_of_the_library(self):
+        families = coordinate_families()
+        self.assertEqual(families[0].name, "mvc")
+        self.assertTrue(families[0].everywhere)
+        self.assertIn("Ju, Schaefer, Warren 2005", families[0].paper)
+        self.assertEqual([family.name for family in families if family.title == "Somigliana"], ["somigliana"])
+
+    def test_elasticity_acts_in_poses(self):
+        inside = self.model.points[::50]
+        posed = self.cage.points.copy()
+        posed[posed[:, 2] > posed[:, 2].mean()] *= [1.5, 1.2, 1.3]
+        usual = Binding(self.cage, inside, "somigliana")
+        self.assertEqual(usual.elasticity, Elasticity())
+        for elasticity in (Elasticity(nu=0.3), Elasticity(rotations="local"), Elasticity(local_bulging=50),
+                           Elasticity(global_bulging=50)):
+            with self.subTest(str(elasticity)):
+                other = usual.with_elasticity(elasticity)
+                self.assertEqual(other.elasticity, elasticity)
+                self.assertTrue(numpy.array_equal(other.pose(self.cage.points), inside))
+                self.assertFalse(numpy.allclose(other.pose(posed), usual.pose(posed), rtol=0, atol=1e-5))
+                anew = Binding(self.cage, inside, "somigliana", elasticity=elasticity)
+                self.assertTrue(numpy.array_equal(other.pose(posed), anew.pose(posed)))
+        self.refuses("nu: 0.5 is not allowed", usual.with_elasticity, Elasticity(nu=0.5))
+        self.refuses("nu: 'soft' is not allowed", usual.with_elasticity, Elasticity(nu="soft"))
+        self.refuses("rotations: 'both' is not allowed", usual.with_elasticity, Elasticity(rotations="both"))
+        self.refuses("global_bulging: -1 is not allowed", usual.with_elasticity, Elasticity(global_bulging=-1))
+        self.refuses("elasticity: 0.3 is not allowed", usual.with_elasticity, 0.3)
+        self.refuses("elasticity: only somigliana coordinates", Binding, self.cage, inside, elasticity=Elasticity())
+        self.refuses("elasticity: only somigliana coordinates", Binding(self.cage, inside).with_elasticity,
+                     Elasticity())
 
     def test_bad_arguments_are_refused(self):
         inside = self.model.points[:5]

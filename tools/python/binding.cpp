@@ -24,14 +24,42 @@ py::array toMatrix(std::vector<float> weights, std::size_t columns)
                               kept.data(), ownerOf(std::move(held)));
 }
 
+/// Of nu, rotations, local and global bulging.
+Elasticity toElasticity(const py::tuple& values)
+{
+    Elasticity elasticity;
+    elasticity.nu = values[0].cast<double>();
+    if (values[1].cast<std::string>() == "local") elasticity.rotations = Elasticity::Rotations::local;
+    elasticity.localBulging = values[2].cast<double>();
+    elasticity.globalBulging = values[3].cast<double>();
+    requireElasticity(elasticity);
+    return elasticity;
+}
+
+py::tuple fromElasticity(const Elasticity& elasticity)
+{
+    const bool isLocal = elasticity.rotations == Elasticity::Rotations::local;
+    return py::make_tuple(elasticity.nu, isLocal ? "local" : "global", elasticity.localBulging,
+                          elasticity.globalBulging);
+}
+
 } // namespace
 
 void defineBinding(py::module_& module)
 {
+    module.def("coordinate_families", [] {
+        py::list families;
+        for (const FamilyInfo& family : coordinateFamilies()) {
+            families.append(py::make_tuple(family.name, family.title, family.what, family.paper, family.isEverywhere));
+        }
+        return families;
+    });
+
     py::class_<Binding, std::shared_ptr<Binding>>(module, "Binding", py::module_local())
         .def(py::init([](const MeshPtr& cage, const py::array& points, const std::string& family, int resolution,
-                         const py::object& progress) {
-            const CoordinateOptions coordinates(coordinatesNamed(family), resolution);
+                         const py::tuple& elasticity, const py::object& progress) {
+            CoordinateOptions coordinates(coordinatesNamed(family), resolution);
+            coordinates.elasticity = toElasticity(elasticity);
             Points rows = toRows<openvdb::Vec3d>(points);
             return resultOfJob(progress, [&](Interrupter* interrupter) {
                 return std::make_shared<Binding>(*cage, std::move(rows), coordinates, interrupter);
@@ -39,6 +67,12 @@ void defineBinding(py::module_& module)
         }))
         .def_property_readonly("coordinates", [](const Binding& binding) { return coordinatesName(binding.family()); })
         .def_property_readonly("handles", &Binding::handles)
+        .def_property_readonly("elasticity",
+                               [](const Binding& binding) { return fromElasticity(binding.options().elasticity); })
+        .def("with_elasticity",
+             [](const Binding& binding, const py::tuple& elasticity) {
+                 return std::make_shared<Binding>(binding.with(toElasticity(elasticity)));
+             })
         .def_property_readonly(
             "points", [](const py::object& self) { return readOnly(self.cast<const Binding&>().points(), self); })
         .def("pose",

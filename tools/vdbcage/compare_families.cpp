@@ -41,7 +41,8 @@ std::string invertedText(const Binding& binding, const Mesh& model, const Mesh& 
 
 } // namespace
 
-FamilyComparison compareFamilies(const Mesh& cage, const Mesh& posed, const Mesh& model, int resolution,
+FamilyComparison compareFamilies(const Mesh& cage, const Mesh& posed, const Mesh& model,
+                                 const std::function<CoordinateOptions(Coordinates)>& optionsOf,
                                  Interrupter* interrupter)
 {
     FamilyComparison comparison;
@@ -52,7 +53,7 @@ FamilyComparison compareFamilies(const Mesh& cage, const Mesh& posed, const Mesh
     std::string objection;
     for (const FamilyInfo& family : coordinateFamilies()) {
         try {
-            const Binding binding(cage, model.points, {family.family, resolution}, interrupter);
+            const Binding binding(cage, model.points, optionsOf(family.family), interrupter);
             Mesh& moved = models.emplace_back(model);
             moved.points = binding.pose(posed.points);
             const Distortion distortion = poseDistortion(model, moved.points);

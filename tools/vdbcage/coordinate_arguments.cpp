@@ -1,5 +1,6 @@
 #include "coordinate_arguments.h"
 
+#include <vdbcage/core/detail/number_text.h>
 #include <vdbcage/core/error.h>
 
 namespace vdbcage::tool {
@@ -20,28 +21,54 @@ std::string familyHelp()
 
 } // namespace
 
-CoordinateArguments::CoordinateArguments(CLI::App& app, const std::string& purpose)
+CoordinateArguments::CoordinateArguments(CLI::App& app, For use, const std::string& purpose)
     : resolution_(CoordinateOptions(Coordinates::harmonic).resolution),
       familyOption_(app.add_option("--coordinates", family_, purpose + " [mvc]")->type_name("FAMILY")),
       resolutionOption_(app.add_option("--resolution", resolution_,
-                                       "voxels along the cage, of harmonic [" + std::to_string(resolution_) + "]")
+                                       "of harmonic: voxels along the cage [" + std::to_string(resolution_) + "]")
                             ->type_name("N"))
 {
     app.footer(familyHelp());
-}
-
-int CoordinateArguments::resolution() const
-{
-    requireWithin(CoordinateOptions::resolutions, resolution_, "resolution");
-    return resolution_;
+    if (use == For::weights) return;
+    const auto add = [&](const char* name, auto& value, const std::string& help, const char* type) {
+        elasticOptions_.push_back(app.add_option(name, value, "of somigliana: " + help)->type_name(type));
+    };
+    const std::string bulgings = ", " + toText(Elasticity::bulgings) + " [0]";
+    add("--nu", elasticity_.nu, "Poisson's ratio, -1 to 0.5 [0]", "NU");
+    add("--rotations", rotations_, "global, or local [global]", "WHICH");
+    add("--local-bulging", elasticity_.localBulging, "where it curves" + bulgings, "N");
+    add("--global-bulging", elasticity_.globalBulging, "where it moves out" + bulgings, "N");
 }
 
 CoordinateOptions CoordinateArguments::options() const
 {
-    const CoordinateOptions options(coordinatesNamed(family_), resolution());
-    if (resolutionOption_->count() > 0 && options.family != Coordinates::harmonic) {
-        throw InputError("resolution: only harmonic coordinates have one; --coordinates is " + family_);
+    return optionsOf(coordinatesNamed(family_));
+}
+
+CoordinateOptions CoordinateArguments::optionsOf(Coordinates family) const
+{
+    const CoordinateOptions options = optionsOfEach(family);
+    const auto requireFor = [&](const CLI::Option* option, Coordinates needed) {
+        if (option->count() == 0 || family == needed) return;
+        throw InputError(option->get_lnames().front() + ": only " + coordinatesName(needed) +
+                         " coordinates have it; these are " + coordinatesName(family));
+    };
+    requireFor(resolutionOption_, Coordinates::harmonic);
+    for (const CLI::Option* option : elasticOptions_) requireFor(option, Coordinates::somigliana);
+    return options;
+}
+
+CoordinateOptions CoordinateArguments::optionsOfEach(Coordinates family) const
+{
+    requireWithin(CoordinateOptions::resolutions, resolution_, "resolution");
+    CoordinateOptions options(family, resolution_);
+    options.elasticity = elasticity_;
+    if (rotations_ == "local") {
+        options.elasticity.rotations = Elasticity::Rotations::local;
+    } else if (rotations_ != "global") {
+        throw InputError("rotations: '" + rotations_ + "' is neither global nor local");
     }
+    requireElasticity(options.elasticity);
     return options;
 }
 

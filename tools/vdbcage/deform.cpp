@@ -84,9 +84,11 @@ std::vector<fs::path> weightsFiles(const fs::path& output, const std::vector<fs:
 
 /// What deform --compare does.
 int drawComparison(const fs::path& cagePath, const fs::path& posedPath, const fs::path& modelPath,
-                   const fs::path& picture, int resolution, Verbosity verbosity)
+                   const fs::path& picture, const CoordinateArguments& arguments, Verbosity verbosity)
 {
     requirePngExtension(picture);
+    const auto optionsOf = [&](Coordinates family) { return arguments.optionsOfEach(family); };
+    optionsOf(Coordinates::somigliana); // fails before anything is read
     if (isPattern(posedPath)) throw InputError("--compare is of one pose; POSED_CAGE must not have a frame number");
     Outputs outputs;
     for (const fs::path& input : {cagePath, posedPath, modelPath}) outputs.reads(input);
@@ -95,7 +97,7 @@ int drawComparison(const fs::path& cagePath, const fs::path& posedPath, const fs
     const Mesh cage = readMesh(cagePath), posed = readMesh(posedPath), model = readMesh(modelPath);
     requireSameFaces(posedPath, posed, "the cage " + cagePath.string(), cage);
     const FamilyComparison comparison =
-        bindFiles(cagePath, modelPath, [&] { return compareFamilies(cage, posed, model, resolution, &*progress); });
+        bindFiles(cagePath, modelPath, [&] { return compareFamilies(cage, posed, model, optionsOf, &*progress); });
     const std::string bytes = encodePng(comparison.sheet);
     outputs.add(picture, [&](std::ostream& out) { out << bytes; });
     progress.reset();
@@ -121,7 +123,7 @@ int runBind(std::vector<std::string> words)
     app.add_option("cage", cagePath)->required()->type_name("CAGE");
     app.add_option("models", modelPaths)->required()->type_name("MODEL...");
     app.add_option("-o,--output", output, "the weights to write")->required()->type_name("WEIGHTS");
-    const CoordinateArguments arguments(app);
+    const CoordinateArguments arguments(app, CoordinateArguments::For::weights);
     app.add_flag("-q,--quiet", quiet, "print nothing but errors");
     app.add_flag("-v,--verbose", verbose, "print the progress, also without a terminal");
     if (!parse(app, std::move(words))) return exitGood;
@@ -166,7 +168,7 @@ int runDeform(std::vector<std::string> words)
     app.add_option("posed", posedPath)->required()->type_name("POSED_CAGE");
     app.add_option("model", modelPath)->required()->type_name("MODEL");
     app.add_option("-o,--output", output, "the posed model to write")->required()->type_name("OUT");
-    const CoordinateArguments arguments(app);
+    const CoordinateArguments arguments(app, CoordinateArguments::For::poses);
     app.add_option("--weights", weights, "of bind, or a matrix (.npy, .dmat) [computed]")->type_name("WEIGHTS");
     app.add_flag("--inversions", inversions, "print how many triangles each pose inverts");
     app.add_flag("--compare", compare, "draw all families, and print what they distort");
@@ -178,10 +180,10 @@ int runDeform(std::vector<std::string> words)
             throw InputError("--compare shows all families, and inversions too; it does not go with --weights, "
                              "--coordinates or --inversions");
         }
-        return drawComparison(cagePath, posedPath, modelPath, output, arguments.resolution(),
-                              verbosityOf(quiet, verbose));
+        return drawComparison(cagePath, posedPath, modelPath, output, arguments, verbosityOf(quiet, verbose));
     }
-    const CoordinateOptions coordinates = arguments.options();
+    const Coordinates family = coordinatesNamed(arguments.familyName());
+    if (weights.empty()) arguments.options(); // fails before anything is read
     detail::requireMeshExtension(output);
     if (isPattern(posedPath) != isPattern(output)) {
         throw InputError("POSED_CAGE and OUT: both or none must have a frame number, as in cage.%04d.obj");
@@ -196,10 +198,10 @@ int runDeform(std::vector<std::string> words)
 
     std::optional<Progress> progress(verbosityOf(quiet, verbose));
     const Mesh cage = readMesh(cagePath), model = readMesh(modelPath);
-    const Binding binding =
-        weights.empty()
-            ? bindFiles(cagePath, modelPath, [&] { return Binding(cage, model.points, coordinates, &*progress); })
-            : readWeights(weights, cage, model.points);
+    Binding binding = weights.empty()
+                          ? bindFiles(cagePath, modelPath,
+                                      [&] { return Binding(cage, model.points, arguments.options(), &*progress); })
+                          : readWeights(weights, cage, model.points);
     if (binding.family() == Coordinates::given) {
         const std::string made = weights.string() + ": its weights were made elsewhere; ";
         if (arguments.familyIsGiven()) {
@@ -210,10 +212,11 @@ int runDeform(std::vector<std::string> words)
                                     "vdbcage bind");
         }
     }
-    if (!weights.empty() && arguments.familyIsGiven() && binding.family() != coordinates.family) {
+    if (!weights.empty() && arguments.familyIsGiven() && binding.family() != family) {
         throw InputError(weights.string() + ": has " + coordinatesName(binding.family()) +
                          " coordinates; --coordinates asks for " + arguments.familyName());
     }
+    if (!weights.empty()) binding = binding.with(arguments.optionsOf(binding.family()).elasticity);
     std::vector<Mesh> posedCages; // kept for what is printed
     for (const Frame& frame : frames) {
         const Mesh posed = readMesh(frame.path);

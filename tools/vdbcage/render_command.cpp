@@ -141,7 +141,7 @@ int runRender(std::vector<std::string> words)
     int vertex = 0;
     CLI::Option* influence =
         app.add_option("--influence", vertex, "colour models by a cage vertex's weight")->type_name("VERTEX");
-    const CoordinateArguments arguments(app, "of the weight");
+    const CoordinateArguments arguments(app, CoordinateArguments::For::weights, "of the weight");
     app.add_flag("--same-view", scene.sameView, "one scale and place for all panels");
     if (!parse(app, std::move(words))) return exitGood;
     requirePngExtension(picture);

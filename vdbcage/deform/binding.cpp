@@ -131,16 +131,6 @@ Mesh cageOf(const Mesh& cage, Coordinates family)
     return family == Coordinates::somigliana ? Mesh{cage.points, triangulate(cage), {}} : cage;
 }
 
-void requireElasticity(const Elasticity& elasticity)
-{
-    if (!(elasticity.nu > -1 && elasticity.nu < 0.5)) {
-        throw InputError("nu: " + detail::numberText(elasticity.nu) +
-                         " is not allowed; it must be above -1 and below 0.5");
-    }
-    requireWithin(Elasticity::bulgings, elasticity.localBulging, "local bulging");
-    requireWithin(Elasticity::bulgings, elasticity.globalBulging, "global bulging");
-}
-
 /// Calls `take` with what each normal of Green coordinates belongs to, in their order: the corner, the next and the one
 /// before.
 template <typename Take>
@@ -317,6 +307,16 @@ const std::vector<FamilyInfo>& coordinateFamilies()
 const char* coordinatesName(Coordinates family)
 {
     return family == Coordinates::given ? "given" : entry(family).info.name;
+}
+
+void requireElasticity(const Elasticity& elasticity)
+{
+    if (!(elasticity.nu > -1 && elasticity.nu < 0.5)) {
+        throw InputError("nu: " + detail::numberText(elasticity.nu) +
+                         " is not allowed; it must be above -1 and below 0.5");
+    }
+    requireWithin(Elasticity::bulgings, elasticity.localBulging, "local bulging");
+    requireWithin(Elasticity::bulgings, elasticity.globalBulging, "global bulging");
 }
 
 bool Elasticity::operator==(const Elasticity& other) const

@@ -66,6 +66,9 @@ struct VDBCAGE_API Elasticity {
     bool operator!=(const Elasticity& other) const { return !(*this == other); }
 };
 
+/// \throw InputError a number of it is out of range
+VDBCAGE_API void requireElasticity(const Elasticity& elasticity);
+
 /// What there is to know of a family that can be computed.
 struct FamilyInfo {
     Coordinates family;

@@ -23,8 +23,9 @@ import re
 
 import numpy
 
-__all__ = ["Binding", "Cage", "CageCheck", "Cancelled", "DeviceError", "Error", "InputError", "IoError", "Mask", "Mesh",
-           "Pipeline", "check_cage", "close_mask", "make_cage", "read_vdb", "voxelize", "write_vdb"]
+__all__ = ["Binding", "Cage", "CageCheck", "Cancelled", "DeviceError", "Elasticity", "Error", "Family", "InputError",
+           "IoError", "Mask", "Mesh", "Pipeline", "check_cage", "close_mask", "coordinate_families", "make_cage",
+           "read_vdb", "voxelize", "write_vdb"]
 
 
 class Error(Exception):
@@ -428,27 +429,74 @@ def check_cage(cage, model, *, as_floats=False, measure=True, samples=20000, pro
                                            samples, _callback(progress)))
 
 
+@dataclasses.dataclass(frozen=True)
+class Family:
+    """What there is to know of a family of coordinates: one of coordinate_families()."""
+
+    name: str  #: as Binding takes it
+    title: str
+    what: str  #: what it does to the model
+    paper: str
+    everywhere: bool  #: else the points must be inside the cage or on it
+
+
+def coordinate_families():
+    """The families of coordinates that can be computed: a list of Family."""
+    return [Family(*values) for values in _vdbcage.coordinate_families()]
+
+
+@dataclasses.dataclass(frozen=True)
+class Elasticity:
+    """The material of Somigliana coordinates. It acts in poses, not in weights.
+
+    nu: Poisson's ratio, above -1 and below 0.5: how much it gets thinner where it is stretched
+    rotations: "global", or "local" where parts turn by more than a quarter turn from the mean
+    local_bulging: how much it bulges where the cage's normals come to spread more, 0 to 100
+    global_bulging: how much it bulges where the cage moves outward, 0 to 100
+    """
+
+    nu: float = 0.0
+    rotations: str = "global"
+    local_bulging: float = 0.0
+    global_bulging: float = 0.0
+
+    def _values(self):
+        if self.rotations not in ("global", "local"):
+            raise InputError(f"rotations: {self.rotations!r} is not allowed; it must be 'global' or 'local'")
+        return (_number("nu", self.nu, -1, 0.5), self.rotations,
+                _number("local_bulging", self.local_bulging, 0, 100),
+                _number("global_bulging", self.global_bulging, 0, 100))
+
+
+def _elasticity(value):
+    if not isinstance(value, Elasticity):
+        raise InputError(f"elasticity: {value!r} is not allowed; it must be an Elasticity")
+    return value._values()
+
+
 class Binding:
     """Points bound to a cage, which moves them.
 
     cage: a Mesh, closed and facing outward
     points: array-like, shape (n, 3): world space
-    coordinates: "mvc" (mean value), "green", "mlc" (maximum likelihood) or "harmonic"; see docs/DEFORMING.md
+    coordinates: the name of one of coordinate_families(); see docs/DEFORMING.md
     resolution: voxels along the cage, 4 to 256; only of harmonic coordinates [64]
+    elasticity: an Elasticity; only of Somigliana coordinates
     Raises InputError; Cancelled.
     """
 
     __slots__ = ("_binding", "_cage")
 
-    def __init__(self, cage, points, coordinates="mvc", *, resolution=None, progress=None):
+    def __init__(self, cage, points, coordinates="mvc", *, resolution=None, elasticity=None, progress=None):
         if not isinstance(coordinates, str):
             raise InputError(f"coordinates: {coordinates!r} is not allowed; it must be a string")
-        if resolution is None:
-            resolution = 64
-        elif coordinates != "harmonic":
-            raise InputError(f"resolution: only harmonic coordinates have one; coordinates are {coordinates!r}")
+        for name, value, family in (("resolution", resolution, "harmonic"), ("elasticity", elasticity, "somigliana")):
+            if value is not None and coordinates != family:
+                raise InputError(f"{name}: only {family} coordinates have it; these are {coordinates}")
         self._binding = _vdbcage.Binding(_mesh("cage", cage), _points("points", points), coordinates,
-                                         _whole("resolution", resolution, 4, 256), _callback(progress))
+                                         _whole("resolution", 64 if resolution is None else resolution, 4, 256),
+                                         _elasticity(Elasticity() if elasticity is None else elasticity),
+                                         _callback(progress))
         self._cage = cage
 
     @classmethod
@@ -464,6 +512,18 @@ class Binding:
         self._cage = cage
         return self
 
+    def with_elasticity(self, elasticity):
+        """The same Binding with another material, of Somigliana coordinates: no weights are computed.
+
+        Raises InputError.
+        """
+        if self.coordinates != "somigliana":
+            raise InputError(f"elasticity: only somigliana coordinates have it; these are {self.coordinates}")
+        other = type(self).__new__(type(self))
+        other._binding = self._binding.with_elasticity(_elasticity(elasticity))
+        other._cage = self._cage
+        return other
+
     def write(self, path, *, progress=None):
         """Writes the file that `vdbcage bind` writes. The weights are computed for it, as by weights().
 
@@ -477,7 +537,8 @@ class Binding:
         """float32, shape (points, handles): how much each handle moves each point.
 
         The binding holds them compressed, so they are computed anew, which takes as long as binding. The handles are
-        the cage's points; for "green" normals follow, one a triangle and four a quad.
+        the cage's points; for "green" normals follow, one a triangle and four a quad, for "somigliana" six numbers a
+        triangle and twelve a quad.
         Raises InputError for given weights; Cancelled.
         """
         self._require_computed()
@@ -515,8 +576,13 @@ class Binding:
 
     @property
     def coordinates(self):
-        """The family: "mvc", "green", "mlc", "harmonic" or "given"."""
+        """The name of the family, one of coordinate_families() or "given"."""
         return self._binding.coordinates
+
+    @property
+    def elasticity(self):
+        """The Elasticity, which acts if the coordinates are Somigliana's."""
+        return Elasticity(*self._binding.elasticity)
 
     @property
     def handles(self):
