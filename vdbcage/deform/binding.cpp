@@ -17,8 +17,10 @@
 #include <vdbcage/core/detail/number_text.h>
 #include <vdbcage/core/detail/parallel.h>
 #include <vdbcage/core/error.h>
+#include <vdbcage/deform/detail/biharmonic.h>
 #include <vdbcage/deform/detail/bound_cage.h>
 #include <vdbcage/deform/detail/cage_pack.h>
+#include <vdbcage/deform/detail/cage_triangles.h>
 #include <vdbcage/deform/detail/green.h>
 #include <vdbcage/deform/detail/harmonic.h>
 #include <vdbcage/deform/detail/likelihood.h>
@@ -47,7 +49,7 @@ struct Family {
     RowFunctions functions;
 };
 
-constexpr std::array<Family, 4> families{
+constexpr std::array<Family, 5> families{
     {{{Coordinates::meanValue, "mvc", "qmvc", "Mean value", "smooth, and anywhere; can be negative",
        "Ju, Schaefer, Warren 2005; Thiery, Memari, Boubekeur 2018", true},
       {detail::meanValueRow, &RowKernels::meanValue}},
@@ -59,6 +61,9 @@ constexpr std::array<Family, 4> families{
       {detail::likelihoodRow, &RowKernels::likelihood}},
      {{Coordinates::harmonic, "harmonic", "harmonic", "Harmonic", "never negative, smooth, not through walls",
        "Joshi, Meyer, DeRose, Green, Sanocki 2007", false},
+      {nullptr, nullptr}},
+     {{Coordinates::biharmonic, "biharmonic", "biharmonic", "Biharmonic",
+       "follows normals as green, and nears the cage", "Thiery, Michel, Chen 2024", false},
       {nullptr, nullptr}}}};
 
 const Family& entry(Coordinates family)
@@ -110,15 +115,27 @@ void requireCount(const char* what, std::size_t count, std::size_t needed, const
 
 std::size_t handleCount(const Mesh& cage, Coordinates family)
 {
-    return cage.points.size() +
-           (family == Coordinates::green ? cage.triangles.size() + 4 * cage.quads.size() : std::size_t(0));
+    const std::size_t ofQuad = family == Coordinates::green ? 4 : family == Coordinates::biharmonic ? 2 : 0;
+    return cage.points.size() + (ofQuad > 0 ? cage.triangles.size() + ofQuad * cage.quads.size() : std::size_t(0));
 }
 
-/// Calls `take` with what each normal of Green coordinates belongs to, in their order: the corner, the next and the one
+/// The cage as a family takes it.
+Mesh cageOf(const Mesh& cage, Coordinates family)
+{
+    if (family != Coordinates::biharmonic) return cage;
+    requireUsable(cage, "cage");
+    return {cage.points, detail::cageTriangles(cage), {}};
+}
+
+/// Calls `take` with what each normal that is a handle belongs to, in their order: the corner, the next and the one
 /// before.
 template <typename Take>
-void forEachNormal(const Mesh& cage, const Take& take)
+void forEachNormal(const Mesh& cage, Coordinates family, const Take& take)
 {
+    if (family == Coordinates::biharmonic) {
+        for (const openvdb::Vec3I& t : detail::cageTriangles(cage)) take(t[0], t[1], t[2]);
+    }
+    if (family != Coordinates::green) return;
     for (const openvdb::Vec3I& t : cage.triangles) take(t[0], t[1], t[2]);
     for (const openvdb::Vec4I& q : cage.quads) {
         for (int k = 0; k < 4; ++k) take(q[k], q[(k + 1) % 4], q[(k + 3) % 4]);
@@ -131,10 +148,12 @@ public:
     RowMaker(const Mesh& mesh, const std::vector<Vec3d>& points, const CoordinateOptions& options,
              Interrupter* interrupter)
         : points_(points), family_(entry(requireComputable(options).family)), interrupter_(interrupter),
-          columns_(handleCount(mesh, options.family)), cage_(mesh), pack_(cage_), undefined_(points.size(), 0)
+          columns_(handleCount(mesh, options.family)), cage_(cageOf(mesh, options.family)), pack_(cage_),
+          undefined_(points.size(), 0)
     {
         requireFinite(points, "points");
         if (options.family == Coordinates::harmonic) grid_.emplace(cage_, options.resolution, interrupter);
+        if (options.family == Coordinates::biharmonic) biharmonic_.emplace(cage_, interrupter);
     }
 
     /// Computes `count` rows in parallel, in pieces: those of the points `pointOf` 0, 1 and so on, one after the other.
@@ -187,7 +206,7 @@ private:
     template <typename PointOf, typename Number>
     void makePacket(std::size_t first, std::size_t count, const PointOf& pointOf, const Buffers& buffers, Number* rows)
     {
-        std::array<Vec3d, detail::packetSize> at;
+        std::array<Vec3d, detail::packetSize> at{};
         Packet x[3] = {};
         unsigned leftOut = 0;
         for (std::size_t lane = 0; lane < count; ++lane) {
@@ -199,13 +218,17 @@ private:
             }
             for (int a = 0; a < 3; ++a) x[a][lane] = at[lane][a];
         }
-        if (const auto kernel = family_.functions.rows) {
+        Packet probe = {}; // not zero where the row is undefined, or a number of it not finite
+        if (biharmonic_) {
+            const unsigned outside = biharmonic_->rows(at.data(), count, buffers.rows.get());
+            for (std::size_t lane = 0; lane < count; ++lane) probe[lane] = outside >> lane & 1;
+            leftOut = 0;
+        } else if (const auto kernel = family_.functions.rows) {
             leftOut |= (detail::rowKernels().*kernel)(pack_.packed(), x, buffers.scratch.get(), buffers.rows.get());
         } else {
             leftOut = ~0U;
         }
         std::vector<double> row;
-        Packet probe = {}; // not zero where the row is undefined, or a number of it not finite
         for (std::size_t lane = 0; lane < count; ++lane) {
             if ((leftOut >> lane & 1) == 0) continue;
             row.resize(columns_);
@@ -231,7 +254,8 @@ private:
     std::size_t columns_;
     detail::BoundCage cage_;
     detail::CagePack pack_;
-    std::optional<detail::HarmonicGrid> grid_; // of harmonic coordinates
+    std::optional<detail::HarmonicGrid> grid_;         // of harmonic coordinates
+    std::optional<detail::BiharmonicCage> biharmonic_; // of biharmonic ones
     std::vector<char> undefined_;
 };
 
@@ -259,7 +283,6 @@ std::vector<Number> computeRows(const Mesh& cage, const std::vector<Vec3d>& poin
 std::vector<float> maxDistancesOf(const Mesh& cage, Coordinates family)
 {
     std::vector<float> maxDistances(cage.points.size(), 1.0F);
-    if (family != Coordinates::green) return maxDistances;
     const double size = detail::CageFrame(cage).size;
     const auto addNormal = [&](openvdb::Index32 corner, openvdb::Index32 next, openvdb::Index32 before) {
         const auto edge = [&](openvdb::Index32 to) {
@@ -269,7 +292,7 @@ std::vector<float> maxDistancesOf(const Mesh& cage, Coordinates family)
         const double mean = 0.5 * (edge(next) + edge(before));
         maxDistances.push_back(static_cast<float>(mean * mean));
     };
-    forEachNormal(cage, addNormal);
+    forEachNormal(cage, family, addNormal);
     return maxDistances;
 }
 
@@ -303,7 +326,6 @@ std::vector<Vec3d> cageHandles(const Mesh& cage, const std::vector<Vec3d>& posed
     requireCount("posed cage", posed.size(), cage.points.size(), "the cage");
     requireFinite(posed, "posed cage");
     std::vector<Vec3d> handles = posed;
-    if (family != Coordinates::green) return handles;
     handles.reserve(handleCount(cage, family));
     const double size = detail::CageFrame(cage).size;
     const auto addNormal = [&](openvdb::Index32 corner, openvdb::Index32 next, openvdb::Index32 before) {
@@ -313,7 +335,7 @@ std::vector<Vec3d> cageHandles(const Mesh& cage, const std::vector<Vec3d>& posed
         handles.push_back(size * detail::stretchedNormal(edge(cage.points, next), edge(cage.points, before),
                                                          edge(posed, next), edge(posed, before)));
     };
-    forEachNormal(cage, addNormal);
+    forEachNormal(cage, family, addNormal);
     return handles;
 }
 

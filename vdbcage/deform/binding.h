@@ -16,7 +16,7 @@ namespace detail {
 class WeightBlocks;
 }
 
-/// How a cage moves what is in it. Quads are bilinear patches, never two triangles.
+/// How a cage moves what is in it. Quads are bilinear patches, but for biharmonic coordinates two triangles.
 enum class Coordinates {
     /// Mean value coordinates: Ju, Schaefer, Warren 2005 on triangles; Thiery, Memari, Boubekeur 2018 on quads. Defined
     /// everywhere, also outside of the cage. Smooth but on the cage, where they interpolate it. Can be negative.
@@ -34,6 +34,10 @@ enum class Coordinates {
     /// acts through a wall of it, so they are local without being stiff. Solved for on a grid, see CoordinateOptions.
     /// Defined inside and on the cage, which they interpolate; an error outside.
     harmonic,
+    /// Biharmonic coordinates: Thiery, Michel, Chen 2024. As Green coordinates they follow the faces' normals, but come
+    /// closer to the cage: they nearly interpolate it. Of points and triangles together there can be 6000. Defined
+    /// inside and, as the limit from inside, on the cage; an error outside.
+    biharmonic,
     /// Weights that were made elsewhere, of any family: one a cage point. They cannot be computed, nor be had at other
     /// points. See readWeights. The cage may be open.
     given,
@@ -42,7 +46,7 @@ enum class Coordinates {
 /// What there is to know of a family that can be computed.
 struct FamilyInfo {
     Coordinates family;
-    const char* name;        ///< at most 8 letters
+    const char* name;        ///< its first 8 letters are like no other's
     const char* nameOnQuads; ///< as its paper calls it on quads; `name` if it has no other there
     const char* title;       ///< a word or two
     const char* what;        ///< what it does to the model, in a line
@@ -77,7 +81,8 @@ struct CoordinateOptions {
 /// What coordinates are weights of, in the order of their columns. `posed` are the posed points of `cage`.
 ///
 /// First come the posed points. For Green coordinates stretched normals follow: one a triangle, then four a quad, at
-/// its corners. A stretched normal belongs to two edges that meet in a corner. Its length is the area of their
+/// its corners. For biharmonic ones, too: one a triangle, then two a quad, of its halves along the diagonal that is
+/// shorter at rest. A stretched normal belongs to two edges that meet in a corner. Its length is the area of their
 /// parallelogram at rest, times how much the pose stretches it, over the longest side of the cage at rest. The stretch
 /// is the root mean square of the two principal stretches.
 /// \throw InputError not as many points as `cage` has, or one not finite

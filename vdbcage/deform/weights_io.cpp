@@ -90,6 +90,9 @@ bool isDmat(const std::filesystem::path& path)
 Coordinates familyOf(const Record& record)
 {
     const std::string name(record.family, ::strnlen(record.family, sizeof record.family));
+    for (const FamilyInfo& family : coordinateFamilies()) {
+        if (name == std::string(family.name).substr(0, sizeof record.family)) return family.family;
+    }
     return name == coordinatesName(Coordinates::given) ? Coordinates::given : coordinatesNamed(name);
 }
 
@@ -113,7 +116,7 @@ void writeWeights(const Mesh& cage, const std::vector<openvdb::Vec3d>& points, C
     }
     Record record = recordOf(cage, points);
     const std::string name = coordinatesName(family);
-    std::memcpy(record.family, name.data(), name.size());
+    std::memcpy(record.family, name.data(), std::min(name.size(), sizeof record.family)); // longer ones in part
     const std::string header = headerOf(points.size(), handles);
     out.write(header.data(), static_cast<std::streamsize>(header.size()));
     out.write(reinterpret_cast<const char*>(&record), sizeof record);
