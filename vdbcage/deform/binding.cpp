@@ -63,7 +63,7 @@ constexpr std::array<Family, 5> families{
        "Joshi, Meyer, DeRose, Green, Sanocki 2007", false},
       {nullptr, nullptr}},
      {{Coordinates::biharmonic, "biharmonic", "biharmonic", "Biharmonic",
-       "follows normals as green, and nears the cage", "Thiery, Michel, Chen 2024", false},
+       "follows normals as green, closer to the cage", "Thiery, Michel, Chen 2024", false},
       {nullptr, nullptr}}}};
 
 const Family& entry(Coordinates family)

@@ -34,9 +34,9 @@ enum class Coordinates {
     /// acts through a wall of it, so they are local without being stiff. Solved for on a grid, see CoordinateOptions.
     /// Defined inside and on the cage, which they interpolate; an error outside.
     harmonic,
-    /// Biharmonic coordinates: Thiery, Michel, Chen 2024. As Green coordinates they follow the faces' normals, but come
-    /// closer to the cage: they nearly interpolate it. Of points and triangles together there can be 6000. Defined
-    /// inside and, as the limit from inside, on the cage; an error outside.
+    /// Biharmonic coordinates: Thiery, Michel, Chen 2024. As Green coordinates they follow the faces' normals, but keep
+    /// closer to a bent cage. Of points and triangles together there can be 6000. Defined inside and, as the limit from
+    /// inside, on the cage; an error outside.
     biharmonic,
     /// Weights that were made elsewhere, of any family: one a cage point. They cannot be computed, nor be had at other
     /// points. See readWeights. The cage may be open.
