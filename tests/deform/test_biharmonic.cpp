@@ -488,6 +488,28 @@ BOOST_AUTO_TEST_CASE(slivers_and_unused_points)
     }
 }
 
+BOOST_AUTO_TEST_CASE(thin_cages)
+{
+    for (const Vec3d& scale : {Vec3d(1, 1, 1e-3), Vec3d(1, 1e-3, 1e-3), Vec3d(1, 1e-2, 1e-4)}) {
+        Mesh cage = randomCage(Kind::both, 12);
+        std::vector<Vec3d> points = pointsInside(trianglesOf(cage), 12, 30);
+        for (Vec3d& p : cage.points) p *= scale;
+        for (Vec3d& p : points) p *= scale;
+        const Rows rows = rowsOf(cage, points);
+        double most = 0;
+        for (const std::vector<double>& row : rows) {
+            for (std::size_t k = 0; k < cage.points.size(); ++k) most = std::max(most, std::abs(row[k]));
+        }
+        BOOST_TEST_MESSAGE("thin: weights up to " << most);
+        for (const Function& function : affine) {
+            const double off = error(cage, points, rows, function);
+            BOOST_TEST_MESSAGE("off " << off);
+            BOOST_TEST(off < 1e-10);
+        }
+        BOOST_TEST(most < 3);
+    }
+}
+
 BOOST_AUTO_TEST_CASE(quads_are_halved_along_the_shorter_diagonal)
 {
     Mesh mesh;

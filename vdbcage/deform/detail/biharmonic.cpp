@@ -305,42 +305,6 @@ std::vector<double> areasOf(const BoundCage& cage, const std::vector<Vec3d>& nor
     return areas;
 }
 
-/// Takes off the rows of `matrix` what they make of affine functions, which is nothing but for rounding.
-void clearAffine(const BoundCage& cage, const std::vector<Vec3d>& normals, Matrix& matrix)
-{
-    const std::size_t points = cage.points().size();
-    std::array<std::vector<double>, 4> affine; // their data, made orthonormal
-    for (std::size_t a = 0; a < 4; ++a) {
-        std::vector<double>& data = affine[a];
-        data.assign(matrix.size(), 0.0);
-        const int axis = static_cast<int>(a) - 1;
-        for (std::size_t i = 0; i < normals.size(); ++i) {
-            for (const openvdb::Index32 k : cage.faces()[i].at) data[k] = a == 0 ? 1 : cage.points()[k][axis];
-            if (a > 0) data[points + i] = normals[i][axis];
-        }
-        for (int round = 0; round < 2; ++round) {
-            for (std::size_t b = 0; b < a; ++b) {
-                double product = 0;
-                for (std::size_t k = 0; k < data.size(); ++k) product += data[k] * affine[b][k];
-                for (std::size_t k = 0; k < data.size(); ++k) data[k] -= product * affine[b][k];
-            }
-        }
-        double square = 0;
-        for (const double d : data) square += d * d;
-        for (double& d : data) d /= std::sqrt(square);
-    }
-    forEachTile(0, matrix.size(), [&](std::size_t first, std::size_t count) {
-        for (std::size_t i = first; i < first + count; ++i) {
-            double* row = matrix.row(i);
-            for (const std::vector<double>& data : affine) {
-                double product = 0;
-                for (std::size_t k = 0; k < data.size(); ++k) product += row[k] * data[k];
-                for (std::size_t k = 0; k < data.size(); ++k) row[k] -= product * data[k];
-            }
-        }
-    });
-}
-
 /// What the values and derivatives make of the Laplacian's: see Equations. The sum of the squares of all equations is
 /// the least, plus that of the Laplacian's data over the cage, times a little.
 ///
@@ -392,7 +356,6 @@ Matrix laplaciansOf(const BoundCage& cage, const std::vector<Vec3d>& normals, In
         double* row = right.row(i);
         for (std::size_t k = 0; k < size; ++k) row[k] *= scales[i];
     }
-    clearAffine(cage, normals, right);
     return right;
 }
 
