@@ -237,7 +237,7 @@ BOOST_AUTO_TEST_CASE(potentials_are_the_defining_integrals)
             const double off = offIntegral({t[0] - x, t[1] - x, t[2] - x}, largest);
             BOOST_TEST_CONTEXT(name << " seed " << seed)
             {
-                BOOST_TEST(off < 1e-8);
+                BOOST_TEST(off < 1e-10);
                 BOOST_TEST(largest > 1e-6);
             }
         }

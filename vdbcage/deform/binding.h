@@ -100,8 +100,9 @@ VDBCAGE_API std::vector<openvdb::Vec3d> cageHandles(const Mesh& cage, const std:
 /// Self-intersections are not looked for. Degenerate faces are allowed. The same bits for any number of threads and for
 /// all instruction sets of a processor. \pre `cage` is closed and faces outward \throw InputError a cage that is not
 /// closed, faces inward or is flat; a point not finite; a point for which the family is not defined (the message has
-/// the first and how many); the family is `given` \throw Cancelled Cost: O(points x faces), in parallel. Quads cost
-/// several times what triangles do.
+/// the first and how many); the family is `given`; a cage too large for biharmonic coordinates \throw Cancelled Cost:
+/// O(points x faces), in parallel. Quads cost several times what triangles do. Biharmonic coordinates: O(handles^3 +
+/// points x handles^2), in 8 bytes x handles^2.
 VDBCAGE_API std::vector<double> computeCoordinates(const Mesh& cage, const std::vector<openvdb::Vec3d>& points,
                                                    const CoordinateOptions& options,
                                                    Interrupter* interrupter = nullptr);

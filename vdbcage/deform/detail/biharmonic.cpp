@@ -127,35 +127,43 @@ struct View {
     Number* row(std::size_t i) const { return at + i * stride; }
 };
 
+/// Numbers of a view side by side, for the cache: `depth` rows of a tile's width, filled up with zeros.
+void pack(View<const double> from, std::size_t depth, std::size_t columns, double* to)
+{
+    for (std::size_t k = 0; k < depth; ++k, to += tile) {
+        std::fill(std::copy_n(from.row(k), columns, to), to + tile, 0.0);
+    }
+}
+
 /// Adds `factor` times the product of the transpose of `a`, which has `depth` rows of `rows` numbers, and `b`, of as
-/// many rows of `columns` numbers.
+/// many rows of `columns` numbers. Neither is wider than a tile.
 void addProduct(double factor, View<const double> a, View<const double> b, std::size_t depth, View<double> to,
                 std::size_t rows, std::size_t columns)
 {
+    typedef double Pair __attribute__((vector_size(16)));
     constexpr std::size_t side = 4; // what registers hold the sums of
-    for (std::size_t i = 0; i < rows; i += side) {
-        for (std::size_t j = 0; j < columns; j += side) {
-            if (i + side <= rows && j + side <= columns) {
-                typedef double Pair __attribute__((vector_size(16)));
-                Pair sums[side][side / 2] = {};
-                for (std::size_t k = 0; k < depth; ++k) {
-                    const double *left = a.row(k) + i, *right = b.row(k) + j;
+    constexpr std::size_t most = 128;
+    std::vector<double> packed(2 * most * tile);
+    for (std::size_t begin = 0; begin < depth; begin += most) {
+        const std::size_t count = std::min(most, depth - begin);
+        double *const lefts = packed.data(), *const rights = lefts + most * tile;
+        pack({a.row(begin), a.stride}, count, rows, lefts);
+        pack({b.row(begin), b.stride}, count, columns, rights);
+        for (std::size_t i = 0; i < rows; i += side) {
+            for (std::size_t j = 0; j < columns; j += side) {
+                Pair sums[side][2] = {};
+                const double *left = lefts + i, *right = rights + j;
+                for (std::size_t k = 0; k < count; ++k, left += tile, right += tile) {
                     const Pair low{right[0], right[1]}, high{right[2], right[3]};
                     for (std::size_t p = 0; p < side; ++p) {
                         sums[p][0] += left[p] * low;
                         sums[p][1] += left[p] * high;
                     }
                 }
-                for (std::size_t p = 0; p < side; ++p) {
-                    for (std::size_t q = 0; q < side; ++q) to.row(i + p)[j + q] += factor * sums[p][q / 2][q % 2];
-                }
-                continue;
-            }
-            for (std::size_t p = i; p < std::min(rows, i + side); ++p) {
-                for (std::size_t q = j; q < std::min(columns, j + side); ++q) {
-                    double sum = 0;
-                    for (std::size_t k = 0; k < depth; ++k) sum += a.row(k)[p] * b.row(k)[q];
-                    to.row(p)[q] += factor * sum;
+                for (std::size_t p = 0; p < std::min(side, rows - i); ++p) {
+                    for (std::size_t q = 0; q < std::min(side, columns - j); ++q) {
+                        to.row(i + p)[j + q] += factor * sums[p][q / 2][q % 2];
+                    }
                 }
             }
         }
