@@ -69,7 +69,7 @@ BOOST_AUTO_TEST_CASE(bind_and_deform)
 {
     const Scene scene;
     const std::string cage = scene.at("cage.obj"), model = scene.at("model.obj"), posed = scene.at("posed.0010.obj");
-    for (const char* family : {"mvc", "qmvc", "green", "qgc", "mlc", "harmonic"}) {
+    for (const char* family : {"mvc", "qmvc", "green", "qgc", "mlc", "harmonic", "biharmonic"}) {
         const std::string weights = scene.at("w.npy");
         const auto bound = runCommand({command, "bind", cage, model, "-o", weights, "--coordinates", family});
         BOOST_TEST(bound.status == 0, bound.err);
@@ -160,7 +160,7 @@ BOOST_AUTO_TEST_CASE(families_compared)
     std::string line;
     std::getline(lines, line);
     BOOST_TEST(line == "family     distortion   99th pct     volume   inverted");
-    for (const char* family : {"mvc", "green", "mlc", "harmonic"}) {
+    for (const char* family : {"mvc", "green", "mlc", "harmonic", "biharmonic"}) {
         std::getline(lines, line);
         BOOST_TEST(line.substr(0, line.find(' ')) == family);
     }
@@ -294,7 +294,7 @@ BOOST_AUTO_TEST_CASE(wrong_pairs)
     expectRefusal(scene, {"bind", cage, model, "-o", scene.at("w.txt")}, ".npy");
     expectRefusal(scene, {"bind", model, model, "-o", scene.at("v.npy")}, "model.obj: it is not closed");
     writeMesh(test::box(Vec3d(1), Vec3d(3)), scene.at("outside.obj"));
-    for (const char* family : {"green", "mlc", "harmonic"}) {
+    for (const char* family : {"green", "mlc", "harmonic", "biharmonic"}) {
         expectRefusal(scene, {"bind", cage, scene.at("outside.obj"), "-o", scene.at("v.npy"), "--coordinates", family},
                       "outside.obj: point ");
     }

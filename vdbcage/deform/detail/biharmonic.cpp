@@ -1,7 +1,7 @@
 // Based on: Thiery, Michel, Chen, "Biharmonic Coordinates and their Derivatives for Triangular 3D Cages", 2024; Weber,
 // Poranne, Gotsman, "Biharmonic Coordinates", 2012.
 // Differs: the Laplacian's data are found from both of its equations at all points of the cage and at the middles of
-// all faces, by regularised least squares, see `equations`. Points on the cage are the limit from inside: what the
+// all faces, by regularised least squares, see `laplaciansOf`. Points on the cage are the limit from inside: what the
 // solid angles lack of the whole sphere belongs to the nearest place of the cage, as in green.cpp.
 
 #include <vdbcage/deform/detail/biharmonic.h>
@@ -316,10 +316,10 @@ std::vector<double> areasOf(const BoundCage& cage, const std::vector<Vec3d>& nor
 /// What the values and derivatives make of the Laplacian's: see Equations. The sum of the squares of all equations is
 /// the least, plus that of the Laplacian's data over the cage, times a little.
 ///
-/// Why all equations: as many as there are data would do, too, say the first at the cage's points and the second at the
-/// faces. But their condition grows as the third power of the fineness (1e10 in a cage of 400 faces), where that of all
-/// grows as the first (1e4), and pieces of 400 faces had weights in the thousands. Errors fall with the square of the
-/// triangles' size in both. How the two weigh, from 0.01 to 10, matters little.
+/// Why all equations: as many as there are data would do, say the first at the cage's points and the second at the
+/// faces. But their condition grows as the third power of the fineness, and is 1e10 in a cage of 400 faces, whose
+/// weights are in the thousands then. That of all equations grows little faster than the fineness, and is 1e4 there.
+/// Errors fall with the square of the triangles' size in both. How the two kinds weigh, from 0.1 to 10, matters little.
 Matrix laplaciansOf(const BoundCage& cage, const std::vector<Vec3d>& normals, Interrupter* interrupter)
 {
     constexpr double little = 0.03; // so that smooth functions lose nothing, and what is as fine as the triangles does
