@@ -69,7 +69,7 @@ BOOST_AUTO_TEST_CASE(bind_and_deform)
 {
     const Scene scene;
     const std::string cage = scene.at("cage.obj"), model = scene.at("model.obj"), posed = scene.at("posed.0010.obj");
-    for (const char* family : {"mvc", "qmvc", "green", "qgc", "mlc", "harmonic", "somigliana"}) {
+    for (const char* family : {"mvc", "qmvc", "green", "qgc", "mlc", "harmonic", "biharmonic", "somigliana"}) {
         const std::string weights = scene.at("w.npy");
         const auto bound = runCommand({command, "bind", cage, model, "-o", weights, "--coordinates", family});
         BOOST_TEST(bound.status == 0, bound.err);
@@ -143,9 +143,9 @@ BOOST_AUTO_TEST_CASE(weights_that_were_made_elsewhere)
     test::writeText(given, npy.substr(0, npy.size() - 1));
     expectRefusal(scene, {"deform", cage, posed, model, "-o", out, "--weights", given}, given + ": it is truncated");
     expectRefusal(scene, {"deform", cage, posed, model, "-o", out, "--coordinates", "given"},
-                  "there are mvc, green, mlc, harmonic, somigliana");
+                  "there are mvc, green, mlc, harmonic, biharmonic, somigliana");
     expectRefusal(scene, {"bind", cage, model, "-o", scene.at("w.npy"), "--coordinates", "given"},
-                  "there are mvc, green, mlc, harmonic, somigliana");
+                  "there are mvc, green, mlc, harmonic, biharmonic, somigliana");
 }
 
 BOOST_AUTO_TEST_CASE(families_compared)
@@ -160,7 +160,7 @@ BOOST_AUTO_TEST_CASE(families_compared)
     std::string line;
     std::getline(lines, line);
     BOOST_TEST(line == "family     distortion   99th pct     volume   inverted");
-    for (const char* family : {"mvc", "green", "mlc", "harmonic", "somigliana"}) {
+    for (const char* family : {"mvc", "green", "mlc", "harmonic", "biharmonic", "somigliana"}) {
         std::getline(lines, line);
         BOOST_TEST(line.substr(0, line.find(' ')) == family);
     }
@@ -325,11 +325,11 @@ BOOST_AUTO_TEST_CASE(wrong_pairs)
     expectRefusal(scene, {"deform", cage, scene.at("no.%d.obj"), model, "-o", scene.at("out.%d.obj")},
                   "no file of this");
     expectRefusal(scene, {"deform", cage, posed, model, "-o", out, "--coordinates", "best"},
-                  "there are mvc, green, mlc, harmonic, somigliana");
+                  "there are mvc, green, mlc, harmonic, biharmonic, somigliana");
     expectRefusal(scene, {"bind", cage, model, "-o", scene.at("w.txt")}, ".npy");
     expectRefusal(scene, {"bind", model, model, "-o", scene.at("v.npy")}, "model.obj: it is not closed");
     writeMesh(test::box(Vec3d(1), Vec3d(3)), scene.at("outside.obj"));
-    for (const char* family : {"green", "mlc", "harmonic", "somigliana"}) {
+    for (const char* family : {"green", "mlc", "harmonic", "biharmonic", "somigliana"}) {
         expectRefusal(scene, {"bind", cage, scene.at("outside.obj"), "-o", scene.at("v.npy"), "--coordinates", family},
                       "outside.obj: point ");
     }

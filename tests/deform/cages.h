@@ -4,6 +4,7 @@
 
 #include <support/shapes.h>
 #include <vdbcage/deform/binding.h>
+#include <vdbcage/deform/detail/cage_triangles.h>
 #include <vdbcage/mesh/mesh.h>
 
 /// Cages around the origin, star-shaped from there, and points in them.
@@ -72,10 +73,11 @@ inline Mesh randomCage(Kind kind, std::uint32_t seed, double bumps = 0.2, int fi
     return mesh;
 }
 
-/// Whose inside the family knows: for Somigliana coordinates quads are two triangles.
+/// Whose inside the family knows: some split quads.
 inline Mesh cageFor(Coordinates family, const Mesh& cage)
 {
-    return family == Coordinates::somigliana ? Mesh{cage.points, triangulate(cage), {}} : cage;
+    const bool splits = coordinateFamilies()[static_cast<std::size_t>(family)].splitsQuads;
+    return splits ? Mesh{cage.points, detail::cageTriangles(cage), {}} : cage;
 }
 
 /// Points of the cage's volume, the last ones at 1e-9 from faces, edges and vertices.

@@ -2,6 +2,7 @@
 #include <boost/test/unit_test.hpp>
 
 #include <cmath>
+#include <string>
 
 #include <deform/cages.h>
 #include <openvdb/math/Mat3.h>
@@ -569,7 +570,7 @@ BOOST_AUTO_TEST_CASE(names)
     BOOST_TEST((coordinatesNamed("qgc") == Coordinates::green));
     BOOST_CHECK_EXCEPTION(coordinatesNamed("bounded"), InputError, [](const InputError& error) {
         return std::string(error.what()) ==
-               "coordinates: 'bounded' is not a family; there are mvc, green, mlc, harmonic, somigliana";
+               "coordinates: 'bounded' is not a family; there are mvc, green, mlc, harmonic, biharmonic, somigliana";
     });
 }
 

@@ -17,8 +17,10 @@
 #include <vdbcage/core/detail/number_text.h>
 #include <vdbcage/core/detail/parallel.h>
 #include <vdbcage/core/error.h>
+#include <vdbcage/deform/detail/biharmonic.h>
 #include <vdbcage/deform/detail/bound_cage.h>
 #include <vdbcage/deform/detail/cage_pack.h>
+#include <vdbcage/deform/detail/cage_triangles.h>
 #include <vdbcage/deform/detail/green.h>
 #include <vdbcage/deform/detail/harmonic.h>
 #include <vdbcage/deform/detail/likelihood.h>
@@ -48,21 +50,24 @@ struct Family {
     RowFunctions functions;
 };
 
-constexpr std::array<Family, 5> families{
+constexpr std::array<Family, 6> families{
     {{{Coordinates::meanValue, "mvc", "qmvc", "Mean value", "smooth, and anywhere; can be negative",
-       "Ju, Schaefer, Warren 2005; Thiery, Memari, Boubekeur 2018", true},
+       "Ju, Schaefer, Warren 2005; Thiery, Memari, Boubekeur 2018", true, false},
       {detail::meanValueRow, &RowKernels::meanValue}},
      {{Coordinates::green, "green", "qgc", "Green", "keeps shapes, follows the faces' normals",
-       "Lipman, Levin, Cohen-Or 2008; Thiery, Boubekeur 2022", false},
+       "Lipman, Levin, Cohen-Or 2008; Thiery, Boubekeur 2022", false, false},
       {detail::greenRow, &RowKernels::green}},
      {{Coordinates::maximumLikelihood, "mlc", "mlc", "Likelihood", "maximum likelihood: never negative, most local",
-       "Chang, Deng, Hormann 2023", false},
+       "Chang, Deng, Hormann 2023", false, false},
       {detail::likelihoodRow, &RowKernels::likelihood}},
      {{Coordinates::harmonic, "harmonic", "harmonic", "Harmonic", "never negative, smooth, not through walls",
-       "Joshi, Meyer, DeRose, Green, Sanocki 2007", false},
+       "Joshi, Meyer, DeRose, Green, Sanocki 2007", false, false},
+      {nullptr, nullptr}},
+     {{Coordinates::biharmonic, "biharmonic", "biharmonic", "Biharmonic",
+       "follows normals as green, closer to the cage", "Thiery, Michel, Chen 2024", false, true},
       {nullptr, nullptr}},
      {{Coordinates::somigliana, "somigliana", "somigliana", "Somigliana", "elastic: stretches most evenly",
-       "Chen, de Goes, Desbrun 2023", false},
+       "Chen, de Goes, Desbrun 2023", false, true},
       {detail::somiglianaRow, &RowKernels::somigliana}}}};
 
 const Family& entry(Coordinates family)
@@ -118,6 +123,8 @@ std::size_t handleCount(const Mesh& cage, Coordinates family)
     switch (family) {
     case Coordinates::green:
         return points + triangles + 4 * quads;
+    case Coordinates::biharmonic:
+        return points + triangles + 2 * quads;
     case Coordinates::somigliana:
         return points + detail::somiglianaWeights * (triangles + 2 * quads);
     default:
@@ -125,17 +132,23 @@ std::size_t handleCount(const Mesh& cage, Coordinates family)
     }
 }
 
-/// The cage whose coordinates these are.
+/// The cage as a family takes it.
 Mesh cageOf(const Mesh& cage, Coordinates family)
 {
-    return family == Coordinates::somigliana ? Mesh{cage.points, triangulate(cage), {}} : cage;
+    if (!entry(family).info.splitsQuads) return cage;
+    requireUsable(cage, "cage");
+    return {cage.points, detail::cageTriangles(cage), {}};
 }
 
-/// Calls `take` with what each normal of Green coordinates belongs to, in their order: the corner, the next and the one
+/// Calls `take` with what each normal that is a handle belongs to, in their order: the corner, the next and the one
 /// before.
 template <typename Take>
-void forEachNormal(const Mesh& cage, const Take& take)
+void forEachNormal(const Mesh& cage, Coordinates family, const Take& take)
 {
+    if (family == Coordinates::biharmonic) {
+        for (const openvdb::Vec3I& t : detail::cageTriangles(cage)) take(t[0], t[1], t[2]);
+    }
+    if (family != Coordinates::green) return;
     for (const openvdb::Vec3I& t : cage.triangles) take(t[0], t[1], t[2]);
     for (const openvdb::Vec4I& q : cage.quads) {
         for (int k = 0; k < 4; ++k) take(q[k], q[(k + 1) % 4], q[(k + 3) % 4]);
@@ -153,6 +166,7 @@ public:
     {
         requireFinite(points, "points");
         if (options.family == Coordinates::harmonic) grid_.emplace(cage_, options.resolution, interrupter);
+        if (options.family == Coordinates::biharmonic) biharmonic_.emplace(cage_, interrupter);
     }
 
     /// Computes `count` rows in parallel, in pieces: those of the points `pointOf` 0, 1 and so on, one after the other.
@@ -205,7 +219,7 @@ private:
     template <typename PointOf, typename Number>
     void makePacket(std::size_t first, std::size_t count, const PointOf& pointOf, const Buffers& buffers, Number* rows)
     {
-        std::array<Vec3d, detail::packetSize> at;
+        std::array<Vec3d, detail::packetSize> at{};
         Packet x[3] = {};
         unsigned leftOut = 0;
         for (std::size_t lane = 0; lane < count; ++lane) {
@@ -217,13 +231,17 @@ private:
             }
             for (int a = 0; a < 3; ++a) x[a][lane] = at[lane][a];
         }
-        if (const auto kernel = family_.functions.rows) {
+        Packet probe = {}; // not zero where the row is undefined, or a number of it not finite
+        if (biharmonic_) {
+            const unsigned outside = biharmonic_->rows(at.data(), count, buffers.rows.get());
+            for (std::size_t lane = 0; lane < count; ++lane) probe[lane] = outside >> lane & 1;
+            leftOut = 0;
+        } else if (const auto kernel = family_.functions.rows) {
             leftOut |= (detail::rowKernels().*kernel)(pack_.packed(), x, buffers.scratch.get(), buffers.rows.get());
         } else {
             leftOut = ~0U;
         }
         std::vector<double> row;
-        Packet probe = {}; // not zero where the row is undefined, or a number of it not finite
         for (std::size_t lane = 0; lane < count; ++lane) {
             if ((leftOut >> lane & 1) == 0) continue;
             row.resize(columns_);
@@ -249,7 +267,8 @@ private:
     std::size_t columns_;
     detail::BoundCage cage_;
     detail::CagePack pack_;
-    std::optional<detail::HarmonicGrid> grid_; // of harmonic coordinates
+    std::optional<detail::HarmonicGrid> grid_;         // of harmonic coordinates
+    std::optional<detail::BiharmonicCage> biharmonic_; // of biharmonic ones
     std::vector<char> undefined_;
 };
 
@@ -278,7 +297,6 @@ std::vector<float> maxDistancesOf(const Mesh& cage, Coordinates family)
 {
     std::vector<float> maxDistances(cage.points.size(), 1.0F);
     if (family == Coordinates::somigliana) maxDistances.resize(handleCount(cage, family), 4.0F); // twice as at rest
-    if (family != Coordinates::green) return maxDistances;
     const double size = detail::CageFrame(cage).size;
     const auto addNormal = [&](openvdb::Index32 corner, openvdb::Index32 next, openvdb::Index32 before) {
         const auto edge = [&](openvdb::Index32 to) {
@@ -288,7 +306,7 @@ std::vector<float> maxDistancesOf(const Mesh& cage, Coordinates family)
         const double mean = 0.5 * (edge(next) + edge(before));
         maxDistances.push_back(static_cast<float>(mean * mean));
     };
-    forEachNormal(cage, addNormal);
+    forEachNormal(cage, family, addNormal);
     return maxDistances;
 }
 
@@ -343,7 +361,6 @@ std::vector<Vec3d> cageHandles(const Mesh& cage, const std::vector<Vec3d>& posed
         requireElasticity(options.elasticity);
         detail::addSomiglianaHandles(cage, posed, options.elasticity, handles);
     }
-    if (options.family != Coordinates::green) return handles;
     const double size = detail::CageFrame(cage).size;
     const auto addNormal = [&](openvdb::Index32 corner, openvdb::Index32 next, openvdb::Index32 before) {
         const auto edge = [&](const std::vector<Vec3d>& points, openvdb::Index32 to) {
@@ -352,7 +369,7 @@ std::vector<Vec3d> cageHandles(const Mesh& cage, const std::vector<Vec3d>& posed
         handles.push_back(size * detail::stretchedNormal(edge(cage.points, next), edge(cage.points, before),
                                                          edge(posed, next), edge(posed, before)));
     };
-    forEachNormal(cage, addNormal);
+    forEachNormal(cage, options.family, addNormal);
     return handles;
 }
 

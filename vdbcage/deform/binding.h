@@ -16,8 +16,8 @@ namespace detail {
 class WeightBlocks;
 }
 
-/// How a cage moves what is in it. Quads are bilinear patches, but for Somigliana coordinates: there they are two
-/// triangles each, as triangulate() splits them.
+/// How a cage moves what is in it. Quads are bilinear patches, but for the families that split them: there they are two
+/// triangles each, along the diagonal that is shorter at rest.
 enum class Coordinates {
     /// Mean value coordinates: Ju, Schaefer, Warren 2005 on triangles; Thiery, Memari, Boubekeur 2018 on quads. Defined
     /// everywhere, also outside of the cage. Smooth but on the cage, where they interpolate it. Can be negative.
@@ -35,6 +35,10 @@ enum class Coordinates {
     /// acts through a wall of it, so they are local without being stiff. Solved for on a grid, see CoordinateOptions.
     /// Defined inside and on the cage, which they interpolate; an error outside.
     harmonic,
+    /// Biharmonic coordinates: Thiery, Michel, Chen 2024. As Green coordinates they follow the faces' normals, but keep
+    /// closer to a bent cage. Of points and triangles together there can be 6000. Defined inside and, as the limit from
+    /// inside, on the cage; an error outside.
+    biharmonic,
     /// Somigliana coordinates: Chen, de Goes, Desbrun 2023. The inside moves as an elastic material does whose surface
     /// is moved by the cage: stretched evenly, and not sheared where Green coordinates shear it. See Elasticity. Like
     /// Green coordinates they do not interpolate the cage. Defined inside and, as the limit from inside, on the cage;
@@ -78,6 +82,7 @@ struct FamilyInfo {
     const char* what;        ///< what it does to the model, in a line
     const char* paper;       ///< authors and year
     bool isEverywhere;       ///< else inside the cage and on it only
+    bool splitsQuads;        ///< takes quads as two triangles
 };
 
 /// All families that can be computed, in the order of Coordinates.
@@ -110,7 +115,8 @@ struct CoordinateOptions {
 /// What coordinates are weights of, in the order of their columns. `posed` are the posed points of `cage`.
 ///
 /// First come the posed points. For Green coordinates stretched normals follow: one a triangle, then four a quad, at
-/// its corners. A stretched normal belongs to two edges that meet in a corner. Its length is the area of their
+/// its corners. For biharmonic ones, too: one a triangle, then two a quad, of its halves along the diagonal that is
+/// shorter at rest. A stretched normal belongs to two edges that meet in a corner. Its length is the area of their
 /// parallelogram at rest, times how much the pose stretches it, over the longest side of the cage at rest. The stretch
 /// is the root mean square of the two principal stretches.
 ///
@@ -133,8 +139,9 @@ VDBCAGE_API std::vector<openvdb::Vec3d> cageHandles(const Mesh& cage, const std:
 /// Self-intersections are not looked for. Degenerate faces are allowed. The same bits for any number of threads and for
 /// all instruction sets of a processor. \pre `cage` is closed and faces outward \throw InputError a cage that is not
 /// closed, faces inward or is flat; a point not finite; a point for which the family is not defined (the message has
-/// the first and how many); the family is `given` \throw Cancelled Cost: O(points x faces), in parallel. Quads cost
-/// several times what triangles do.
+/// the first and how many); the family is `given`; a cage too large for biharmonic coordinates \throw Cancelled Cost:
+/// O(points x faces), in parallel. Quads cost several times what triangles do. Biharmonic coordinates: O(handles^3 +
+/// points x handles^2), in 8 bytes x handles^2.
 VDBCAGE_API std::vector<double> computeCoordinates(const Mesh& cage, const std::vector<openvdb::Vec3d>& points,
                                                    const CoordinateOptions& options,
                                                    Interrupter* interrupter = nullptr);

@@ -18,6 +18,7 @@
 #include <cmath>
 
 #include <openvdb/math/Mat3.h>
+#include <vdbcage/deform/detail/cage_triangles.h>
 #include <vdbcage/deform/detail/patch_quadrature.h>
 #include <vdbcage/deform/detail/row_kernels.h>
 #include <vdbcage/deform/detail/triangle_potentials.h>
@@ -160,7 +161,7 @@ double solidAngle(const Vec3d& a, const Vec3d& b, const Vec3d& c)
 class CagePose {
 public:
     CagePose(const Mesh& cage, const std::vector<Vec3d>& posed, const Elasticity& elasticity)
-        : triangles_(triangulate(cage)), elasticity_(elasticity), size_(CageFrame(cage).size)
+        : triangles_(cageTriangles(cage)), elasticity_(elasticity), size_(CageFrame(cage).size)
     {
         for (const Vec3d& p : cage.points) rest_.push_back(p / size_);
         for (const Vec3d& p : posed) posed_.push_back(p / size_);

@@ -19,7 +19,7 @@ using FaceFrame = std::array<openvdb::Vec3d, 3>;
 FaceFrame faceFrame(const openvdb::Vec3d& a, const openvdb::Vec3d& b);
 
 /// Appends what the six weights of each triangle are of, in the units of the points, to `handles`.
-/// \pre `posed` has the points of `cage`, whose quads count as triangulate() splits them; `elasticity` is in range
+/// \pre `posed` has the points of `cage`, whose quads count as cageTriangles() splits them; `elasticity` is in range
 void addSomiglianaHandles(const Mesh& cage, const std::vector<openvdb::Vec3d>& posed, const Elasticity& elasticity,
                           std::vector<openvdb::Vec3d>& handles);
 

@@ -1,0 +1,23 @@
+#include <vdbcage/deform/detail/cage_triangles.h>
+
+#include <algorithm>
+
+namespace vdbcage::detail {
+
+std::vector<openvdb::Vec3I> cageTriangles(const Mesh& cage)
+{
+    std::vector<openvdb::Vec3I> triangles = cage.triangles;
+    triangles.reserve(triangles.size() + 2 * cage.quads.size());
+    for (const openvdb::Vec4I& q : cage.quads) {
+        const auto diagonal = [&](int i) { return (cage.points[q[i]] - cage.points[q[i + 2]]).lengthSqr(); };
+        const double first = diagonal(0), second = diagonal(1);
+        const bool leastIsFirst = std::min(q[0], q[2]) < std::min(q[1], q[3]);
+        const int from = first < second || (first == second && leastIsFirst) ? 0 : 1;
+        const auto corner = [&](int i) { return q[(from + i) % 4]; };
+        triangles.emplace_back(corner(0), corner(1), corner(2));
+        triangles.emplace_back(corner(0), corner(2), corner(3));
+    }
+    return triangles;
+}
+
+} // namespace vdbcage::detail
