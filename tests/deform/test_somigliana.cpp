@@ -199,6 +199,29 @@ std::vector<Vec3d> mapped(std::vector<Vec3d> points, const Map& map)
     return points;
 }
 
+/// Of a triangle whose frame turns with it: its handles tell the stretch in the plane, and the traction over mu.
+struct Pull {
+    Vec3d normal;
+    double stretch, traction;
+};
+
+std::vector<Pull> pullsOf(const Mesh& cage, const std::vector<Vec3d>& posed, const Elasticity& material)
+{
+    BOOST_REQUIRE((material.rotations == Rotations::local));
+    const std::vector<Vec3d> handles = cageHandles(cage, posed, {Coordinates::somigliana, material});
+    const double size = test::longestSide(cage);
+    std::vector<Pull> pulls;
+    for (std::size_t face = 0; face < cage.triangles.size(); ++face) {
+        const openvdb::Vec3I t = cage.triangles[face];
+        const Vec3d normal = (posed[t[1]] - posed[t[0]]).cross(posed[t[2]] - posed[t[0]]).unit();
+        const std::size_t at = cage.points.size() + 6 * face;
+        const double trace = handles[at + 3].dot(normal) / size, alone = handles[at].dot(normal) / size - trace;
+        const double turning = trace - (3 - 4 * material.nu) * alone;
+        pulls.push_back({normal, -0.5 * turning, 4 * (1 - material.nu) * alone + 2 * turning});
+    }
+    return pulls;
+}
+
 const Elasticity materials[] = {{},
                                 {-0.6, Rotations::global, 0, 0},
                                 {0.4, Rotations::global, 5, 0},
@@ -462,6 +485,115 @@ BOOST_AUTO_TEST_CASE(bulging)
             BOOST_TEST(heightOf(dented, some) < heightOf(dented, none) - 1e-3);
         }
     }
+}
+
+// On a pose that is symmetric, whose tractions are in balance by themselves.
+BOOST_AUTO_TEST_CASE(what_bulging_is_measured_by)
+{
+    const auto octahedron = [](const Vec3d& a, const Vec3d& b, const Vec3d& c) {
+        Mesh mesh;
+        mesh.points = {a, b, c, -a, -b, -c};
+        mesh.triangles = {{0, 1, 2}, {1, 3, 2}, {3, 4, 2}, {4, 0, 2}, {1, 0, 5}, {3, 1, 5}, {4, 3, 5}, {0, 4, 5}};
+        return mesh;
+    };
+    const Mesh cage = octahedron(Vec3d(1, 0.2, 0), Vec3d(-0.1, 0.8, 0.1), Vec3d(0.1, 0, 1.2));
+    const std::vector<Vec3d> posed =
+        octahedron(Vec3d(0.9, 0.5, 0.1), Vec3d(-0.6, 1.3, 0.1), Vec3d(0.1, 0.3, 0.7)).points;
+    const double scale = std::cbrt(volumeOf(cage, posed) / volumeOf(cage, cage.points)), amount = 2;
+    const Mat3d turn = fitted(cage, posed);
+    const std::vector<Pull> none = pullsOf(cage, posed, {0, Rotations::local, 0, 0});
+    const std::vector<Pull> curved = pullsOf(cage, posed, {0, Rotations::local, amount, 0});
+    const std::vector<Pull> moved = pullsOf(cage, posed, {0, Rotations::local, 0, amount});
+    const auto normalsOf = [&](const std::vector<Vec3d>& points) {
+        std::vector<Vec3d> normals(points.size(), Vec3d(0));
+        for (const openvdb::Vec3I& t : cage.triangles) {
+            const Vec3d n = (points[t[1]] - points[t[0]]).cross(points[t[2]] - points[t[0]]);
+            for (int k = 0; k < 3; ++k) normals[t[k]] += n;
+        }
+        return normals;
+    };
+    const auto solidAngle = [](const Vec3d& a, const Vec3d& b, const Vec3d& c) { // by the angles of its sides
+        const auto corner = [](const Vec3d& p, const Vec3d& q, const Vec3d& r) {
+            const Vec3d u = p.cross(q), v = p.cross(r);
+            return std::atan2(u.cross(v).length(), u.dot(v));
+        };
+        const double excess = corner(a, b, c) + corner(b, c, a) + corner(c, a, b) - pi;
+        return a.dot(b.cross(c)) < 0 ? -excess : excess;
+    };
+    const std::vector<Vec3d> before = normalsOf(cage.points), after = normalsOf(posed);
+    double most = 0;
+    for (std::size_t face = 0; face < cage.triangles.size(); ++face) {
+        const openvdb::Vec3I t = cage.triangles[face];
+        BOOST_TEST(std::abs(none[face].traction - 2 * none[face].stretch) < 1e-9);
+        const double spread =
+            solidAngle(after[t[0]], after[t[1]], after[t[2]]) - solidAngle(before[t[0]], before[t[1]], before[t[2]]);
+        BOOST_TEST(std::abs(std::log(curved[face].traction / none[face].traction) - amount * spread / (4 * pi)) < 1e-9);
+        double swept = 0; // by steps in time
+        constexpr int steps = 200;
+        for (int step = 0; step < steps; ++step) {
+            const double time = (step + 0.5) / steps;
+            Vec3d at[3], motion(0);
+            for (int k = 0; k < 3; ++k) {
+                const Vec3d from = scale * (turn * cage.points[t[k]]);
+                at[k] = (1 - time) * from + time * posed[t[k]];
+                motion += (posed[t[k]] - from) / 3;
+            }
+            swept += motion.dot((at[1] - at[0]).cross(at[2] - at[0])) / 2 / steps;
+        }
+        const double expected = amount * swept / volumeOf(cage, posed);
+        BOOST_TEST(std::abs(std::log(moved[face].traction / none[face].traction) - expected) < 1e-5);
+        most = std::max(most, std::abs(expected));
+    }
+    BOOST_TEST(most > 0.05);
+}
+
+BOOST_AUTO_TEST_CASE(tractions_are_no_force)
+{
+    const Mesh cage = randomCage(Kind::triangles, 73);
+    const std::vector<Vec3d> posed = jittered(cage.points, 73, 0.4);
+    for (const Elasticity& material : materials) {
+        if (material.rotations == Rotations::global) continue;
+        Vec3d force(0);
+        double size = 0;
+        const std::vector<Pull> pulls = pullsOf(cage, posed, material);
+        for (std::size_t face = 0; face < pulls.size(); ++face) {
+            const openvdb::Vec3I t = cage.triangles[face];
+            const Vec3d& a = cage.points[t[0]];
+            const double area = (cage.points[t[1]] - a).cross(cage.points[t[2]] - a).length();
+            force += area * pulls[face].traction * pulls[face].normal;
+            size += area * std::abs(pulls[face].traction);
+        }
+        BOOST_TEST(force.length() < 1e-12 * size);
+    }
+}
+
+BOOST_AUTO_TEST_CASE(slivers_change_nothing)
+{
+    Mesh cage = randomCage(Kind::triangles, 74);
+    const std::vector<Vec3d> points = test::pointsInside(cage, 74);
+    std::vector<Vec3d> posed = jittered(cage.points, 74, 0.3);
+    const Elasticity material{0.2, Rotations::local, 0, 0};
+    const std::vector<Vec3d> expected = posedBy(cage, points, posed, material);
+    // One triangle at an edge is split at its middle; the other keeps the edge, and a sliver closes the gap.
+    const openvdb::Vec3I t = cage.triangles[4];
+    const auto other = std::find_if(cage.triangles.begin(), cage.triangles.end(), [&](const openvdb::Vec3I& s) {
+        for (int k = 0; k < 3; ++k) {
+            if (s[k] == t[1] && s[(k + 1) % 3] == t[0]) return true;
+        }
+        return false;
+    });
+    BOOST_REQUIRE(other != cage.triangles.end());
+    const auto middle = static_cast<openvdb::Index32>(cage.points.size());
+    cage.points.push_back(0.5 * (cage.points[t[0]] + cage.points[t[1]]));
+    posed.push_back(0.5 * (posed[t[0]] + posed[t[1]]));
+    openvdb::Index32 far = 0;
+    for (int k = 0; k < 3; ++k) {
+        if ((*other)[k] != t[0] && (*other)[k] != t[1]) far = (*other)[k];
+    }
+    *other = {t[1], middle, far};
+    cage.triangles.emplace_back(middle, t[0], far);
+    cage.triangles.emplace_back(t[1], t[0], middle);
+    BOOST_TEST(farthest(posedBy(cage, points, posed, material), expected) < 1e-7);
 }
 
 BOOST_AUTO_TEST_CASE(poses_that_have_no_volume)

@@ -122,7 +122,6 @@ Mat3d bestRotation(const std::vector<Vec3d>& from, const std::vector<Vec3d>& to,
     const Vec3d a = axes.col(order[0]), b = axes.col(order[1]), c = a.cross(b);
     const Vec3d turnedA = unit(product * a), rest = product * b;
     const Vec3d turnedB = unit(rest - rest.dot(turnedA) * turnedA), turnedC = turnedA.cross(turnedB);
-    if (turnedC.isZero()) return Mat3d::identity(); // all points are in line
     Mat3d rotation;
     for (int r = 0; r < 3; ++r) rotation.setRow(r, turnedA[r] * a + turnedB[r] * b + turnedC[r] * c);
     return rotation;
@@ -172,7 +171,7 @@ public:
         }
         rotation_ = bestRotation(rest_, posed_, areas);
         const double volume = volumeOf(rest_, triangles_);
-        scale_ = volume > 0 ? std::cbrt(std::max(0.0, volumeOf(posed_, triangles_) / volume)) : 1;
+        scale_ = volume > 0 ? std::cbrt(volumeOf(posed_, triangles_) / volume) : 1;
         for (const openvdb::Vec3I& t : triangles_) faces_.push_back(posedFace(t));
         const std::vector<double> bulges = bulging(volume, areas);
         for (std::size_t i = 0; i < faces_.size(); ++i) faces_[i].traction = traction(faces_[i].stretch, bulges[i]);
