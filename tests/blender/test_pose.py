@@ -44,7 +44,7 @@ class Pose(Case):
         bpy.ops.vdbcage.make_cage(faces=200, effort="fast")
         cage = model.vdbcage.cage
         rest = positions(cage, world=False)
-        for family in ("green", "mvc", "mlc", "harmonic"):
+        for family in ("green", "mvc", "mlc", "harmonic", "biharmonic", "somigliana"):
             if model.data.shape_keys:
                 model.data.shape_keys.key_blocks[-1].value = 0
             expected = self.by_hand(family, cage, model, rest, bent(rest))

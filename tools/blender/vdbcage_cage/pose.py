@@ -24,7 +24,10 @@ class Settings(bpy.types.PropertyGroup):
                ("mvc", "Mean Value", "Follows the cage's points exactly. The model may reach out of the cage"),
                ("mlc", "Maximum Likelihood", "Follows the cage's points, most locally. The model must be inside"),
                ("harmonic", "Harmonic", "Follows the cage's points, and none through a wall. The model must be "
-                                        "inside")))
+                                        "inside"),
+               ("biharmonic", "Biharmonic", "Keeps shapes, closer to the cage where it bends. The model must be inside"),
+               ("somigliana", "Somigliana", "Moves as an elastic material does, and keeps the volume where it bends. "
+                                            "The model must be inside")))
     target: bpy.props.EnumProperty(
         name="Into",
         items=(("SHAPE_KEY", "Shape Key", "The cage as it is now poses the mesh, below all modifiers"),

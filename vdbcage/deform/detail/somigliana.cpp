@@ -171,7 +171,7 @@ public:
         }
         rotation_ = bestRotation(rest_, posed_, areas);
         const double volume = volumeOf(rest_, triangles_);
-        scale_ = volume > 0 ? std::cbrt(volumeOf(posed_, triangles_) / volume) : 1;
+        scale_ = volume > 0 ? std::cbrt(std::max(0.0, volumeOf(posed_, triangles_) / volume)) : 1;
         for (const openvdb::Vec3I& t : triangles_) faces_.push_back(posedFace(t));
         const std::vector<double> bulges = bulging(volume, areas);
         for (std::size_t i = 0; i < faces_.size(); ++i) faces_[i].traction = traction(faces_[i].stretch, bulges[i]);
