@@ -83,7 +83,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     Choices choices(data, size);
     const auto families = static_cast<int>(coordinateFamilies().size());
     const FamilyInfo& family = coordinateFamilies()[static_cast<std::size_t>(choices.below(families))];
-    const CoordinateOptions options(family.family, 4 + choices.below(9));
+    CoordinateOptions options(family.family, 4 + choices.below(9));
+    options.elasticity.nu = 0.499 - 1.49 * choices.share();
+    if (choices.below(2) == 0) options.elasticity.rotations = Elasticity::Rotations::local;
+    if (choices.below(2) == 0) options.elasticity.localBulging = 100 * choices.share();
+    if (choices.below(2) == 0) options.elasticity.globalBulging = 100 * choices.share();
     Mesh cage = cageOf(choices);
     std::vector<Vec3d> points;
     for (int i = 1 + choices.below(11); i > 0; --i) points.push_back(pointOf(choices, cage));
@@ -98,7 +102,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         require(std::string_view(error.what()).find('\n') == std::string_view::npos);
         return 0;
     }
-    const std::vector<Vec3d> handles = cageHandles(cage, cage.points, family.family);
+    const std::vector<Vec3d> handles = cageHandles(cage, cage.points, options);
     require(rows.size() == points.size() * handles.size());
     const bool isPositive = family.family == Coordinates::maximumLikelihood || family.family == Coordinates::harmonic;
     for (std::size_t i = 0; i < points.size(); ++i) {
@@ -112,6 +116,19 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         }
         require(std::abs(sum - 1) < 1e-9);
         require((place - points[i]).length() < 1e-7 * test::longestSide(cage));
+    }
+    std::vector<Vec3d> posed = cage.points;
+    for (Vec3d& p : posed) {
+        if (choices.below(3) == 0) p += scale * choices.share() * choices.direction();
+        if (choices.below(16) == 0) p = posed.front();
+    }
+    for (const Vec3d& handle : cageHandles(cage, posed, options)) {
+        for (int axis = 0; axis < 3; ++axis) require(std::isfinite(handle[axis]));
+    }
+    const Binding binding(cage, points, options);
+    require(binding.pose(cage.points) == points);
+    for (const Vec3d& p : binding.pose(posed)) {
+        for (int axis = 0; axis < 3; ++axis) require(std::isfinite(p[axis]));
     }
     // A row is of its own point only.
     const std::vector<double> last = computeCoordinates(cage, {points.back()}, options);
