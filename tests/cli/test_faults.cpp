@@ -91,7 +91,12 @@ public:
     /// Whether all is as before the command, or all as after it, whose outputs are whole then: never something between.
     boost::test_tools::predicate_result isOldOrNew(const Contents& finished) const
     {
-        const Contents now = contents();
+        Contents now = contents();
+        for (auto& [name, text] : now) { // a report that tells of the failure is in order
+            const auto before = start_.find(name);
+            if (before != start_.end() && text.find("\n  \"exit_status\": ") != std::string::npos)
+                text = before->second;
+        }
         if (now == start_) return true;
         // What differs from run to run: times in reports, identifiers in .vdb files.
         const auto isSame = [&](const std::string& name, const std::string& text) {
@@ -226,12 +231,13 @@ BOOST_AUTO_TEST_CASE(signals_at_any_time)
             BOOST_TEST_CONTEXT(work.name << ", signal " << signal << " at " << (byFiles ? "file " : "tick ")
                                          << (byFiles ? static_cast<long>(files) : moment))
             {
-                BOOST_TEST((result.status == 130 || result.status == 0), result.status);
-                if (result.status == 130) BOOST_TEST(result.err == "vdbcage: error: cancelled\n");
+                const int status = signal == SIGTERM ? 143 : 130;
+                BOOST_TEST((result.status == status || result.status == 0), result.status);
+                if (result.status == status) BOOST_TEST(result.err == "vdbcage: error: cancelled\n");
                 BOOST_TEST(folder.isOldOrNew(finished));
                 BOOST_TEST((result.status != 0 || folder.contents().size() == finished.size()));
             }
-            cancelled += result.status == 130;
+            cancelled += result.status > 128;
         }
         folder.reset();
     }
@@ -288,7 +294,7 @@ BOOST_AUTO_TEST_CASE(an_allocation_that_fails)
                 // Some libraries can do without what they asked for. What fails before main is the loader's to tell.
                 const bool isLoader = result.status == 127 ||
                                       result.err.find("error while loading shared libraries") != std::string::npos;
-                BOOST_TEST((result.status == 0 || isLoader || (result.status == 1 && isOneErrorLine(result.err))));
+                BOOST_TEST((result.status == 0 || isLoader || (result.status == 75 && isOneErrorLine(result.err))));
             }
         }
         folder.reset();
@@ -301,16 +307,14 @@ BOOST_AUTO_TEST_CASE(threads_that_cannot_be_started)
     for (const int which : {0, 7}) {
         const Work work = works()[static_cast<std::size_t>(which)];
         const auto words = folder.words(work);
-        folder.reset();
-        const Contents before = folder.contents();
         for (int most = 0; most <= 24; most += most < 8 ? 1 : 4) {
             folder.reset();
             const auto result = runCommand(withFailing("MOST_THREADS=" + std::to_string(most), words));
             BOOST_TEST_CONTEXT(work.name << ", at most " << most << " threads"
                                          << ": " << result.status << " " << result.err)
             {
-                BOOST_TEST((result.status == 0 || (result.status == 1 && isOneErrorLine(result.err))));
-                if (result.status != 0) BOOST_CHECK(folder.contents() == before);
+                BOOST_TEST((result.status == 0 || (result.status == 75 && isOneErrorLine(result.err))));
+                if (result.status != 0) BOOST_TEST(folder.isOldOrNew({}));
             }
         }
     }

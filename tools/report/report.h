@@ -24,6 +24,7 @@ Json toJson(const CageOptions& options);
 /// A cage that was made, with all that `make --report` tells.
 struct CageMade {
     std::pair<std::string, Json> model; ///< "model" and toJson of its file; see models.h
+    std::string inputs;                 ///< fingerprint() of what it was made from; empty: not known
     std::filesystem::path cage;         ///< where it is, or will be, written
     const CageOptions& options;
     double seconds = 0; ///< wall clock

@@ -9,6 +9,7 @@
 #include "commands.h"
 #include "interrupt.h"
 #include "outputs.h"
+#include "talk_arguments.h"
 
 namespace vdbcage::tool {
 
@@ -16,7 +17,6 @@ int runCheck(std::vector<std::string> words)
 {
     std::filesystem::path cagePath, reportPath;
     std::vector<std::filesystem::path> modelPaths;
-    bool quiet = false;
     CLI::App app("vdbcage check CAGE MODEL... [OPTIONS]\n"
                  "Examines a cage against its models, together and each alone.\n"
                  "Exit status 2: it is not a valid cage, or does not bound them.",
@@ -24,14 +24,14 @@ int runCheck(std::vector<std::string> words)
     app.add_option("cage", cagePath)->required()->type_name("CAGE");
     app.add_option("models", modelPaths)->required()->type_name("MODEL...");
     app.add_option("--report", reportPath, "the verdict as JSON")->type_name("FILE.json");
-    app.add_flag("-q,--quiet", quiet, "print nothing, only exit");
+    const TalkArguments talk(app);
     if (!parse(app, std::move(words))) return exitGood;
     Outputs outputs;
     outputs.reads(cagePath);
     for (const std::filesystem::path& model : modelPaths) outputs.reads(model);
     if (!reportPath.empty()) outputs.writes(reportPath);
 
-    std::optional<Progress> progress(verbosityOf(quiet));
+    std::optional<Progress> progress(talk.progressForm());
     const Mesh cage = readMesh(cagePath);
     std::vector<ModelFile> models = readModels(modelPaths);
     const CageCheck check = checkCage(cage, takeMesh(models), {}, &*progress);
@@ -41,8 +41,9 @@ int runCheck(std::vector<std::string> words)
             {"vdbcage", VDBCAGE_VERSION}, {"cage", cagePath.string()}, entryOf(models), {"check", toJson(check)}};
         outputs.add(reportPath, [&](std::ostream& out) { out << toText(report); });
     }
+    progress->succeed();
     progress.reset();
-    if (!quiet) {
+    if (!talk.quiet()) {
         std::cout << printable(cagePath) << ": " << verdict(check) << '\n' << describe(models) << describe(check);
         flushOutput();
     }

@@ -6,6 +6,7 @@
 
 #include <CLI/CLI.hpp>
 #include <vdbcage/core/detail/printable.h>
+#include <vdbcage/pipeline/options.h>
 
 #include "exit_status.h"
 
@@ -27,9 +28,13 @@ int runRender(std::vector<std::string> arguments);
 int runBind(std::vector<std::string> arguments);
 int runDeform(std::vector<std::string> arguments);
 int runRepair(std::vector<std::string> arguments);
+int runJobs(std::vector<std::string> arguments);
 
 /// The group of options that only --help-all lists, where a command has it.
 constexpr const char* rareOptions = "Rare";
+
+/// Adds the options of cages, which set `options`. Must outlive parsing.
+void addCageOptions(CLI::App& app, CageOptions& options);
 
 /// Reads `arguments` into `app`, whose help is laid out one option a line. Returns false if help was asked for (and
 /// printed). \throw CLI::ParseError

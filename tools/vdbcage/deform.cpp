@@ -17,6 +17,7 @@
 #include "drawing.h"
 #include "interrupt.h"
 #include "outputs.h"
+#include "talk_arguments.h"
 
 namespace vdbcage::tool {
 
@@ -84,7 +85,7 @@ std::vector<fs::path> weightsFiles(const fs::path& output, const std::vector<fs:
 
 /// What deform --compare does.
 int drawComparison(const fs::path& cagePath, const fs::path& posedPath, const fs::path& modelPath,
-                   const fs::path& picture, const CoordinateArguments& arguments, Verbosity verbosity)
+                   const fs::path& picture, const CoordinateArguments& arguments, ProgressForm form)
 {
     requirePngExtension(picture);
     const auto optionsOf = [&](Coordinates family) { return arguments.optionsOfEach(family); };
@@ -93,13 +94,14 @@ int drawComparison(const fs::path& cagePath, const fs::path& posedPath, const fs
     Outputs outputs;
     for (const fs::path& input : {cagePath, posedPath, modelPath}) outputs.reads(input);
     outputs.writes(picture);
-    std::optional<Progress> progress(verbosity);
+    std::optional<Progress> progress(form);
     const Mesh cage = readMesh(cagePath), posed = readMesh(posedPath), model = readMesh(modelPath);
     requireSameFaces(posedPath, posed, "the cage " + cagePath.string(), cage);
     const FamilyComparison comparison =
         bindFiles(cagePath, modelPath, [&] { return compareFamilies(cage, posed, model, optionsOf, &*progress); });
     const std::string bytes = encodePng(comparison.sheet);
     outputs.add(picture, [&](std::ostream& out) { out << bytes; });
+    progress->succeed();
     progress.reset();
     std::cout << comparison.table;
     flushOutput();
@@ -113,7 +115,6 @@ int runBind(std::vector<std::string> words)
 {
     fs::path cagePath, output;
     std::vector<fs::path> modelPaths;
-    bool quiet = false, verbose = false;
     CLI::App app("vdbcage bind CAGE MODEL... -o WEIGHTS.npy [OPTIONS]\n"
                  "Computes the weights by which the cage moves the model's points. For several\n"
                  "models WEIGHTS is a folder, which gets a .npy for each, by its name.\n"
@@ -124,8 +125,7 @@ int runBind(std::vector<std::string> words)
     app.add_option("models", modelPaths)->required()->type_name("MODEL...");
     app.add_option("-o,--output", output, "the weights to write")->required()->type_name("WEIGHTS");
     const CoordinateArguments arguments(app, CoordinateArguments::For::weights);
-    app.add_flag("-q,--quiet", quiet, "print nothing but errors");
-    app.add_flag("-v,--verbose", verbose, "print the progress, also without a terminal");
+    const TalkArguments talk(app, "print the progress, also without a terminal");
     if (!parse(app, std::move(words))) return exitGood;
     const CoordinateOptions coordinates = arguments.options();
     const std::vector<fs::path> files = weightsFiles(output, modelPaths);
@@ -135,7 +135,7 @@ int runBind(std::vector<std::string> words)
     if (files.size() > 1) outputs.writesInto(output);
     for (const fs::path& file : files) outputs.writes(file);
 
-    std::optional<Progress> progress(verbosityOf(quiet, verbose));
+    std::optional<Progress> progress(talk.progressForm());
     const Mesh cage = readMesh(cagePath);
     const std::size_t handles = cageHandles(cage, cage.points, coordinates.family).size();
     std::string text;
@@ -150,15 +150,16 @@ int runBind(std::vector<std::string> words)
                 std::to_string(handles) + " handles, " + coordinatesName(coordinates.family) + '\n';
     }
     outputs.commit();
+    progress->succeed();
     progress.reset();
-    if (!quiet) std::cerr << text;
+    if (!talk.quiet()) std::cerr << text;
     return exitGood;
 }
 
 int runDeform(std::vector<std::string> words)
 {
     fs::path cagePath, posedPath, modelPath, output, weights;
-    bool quiet = false, verbose = false, inversions = false, compare = false;
+    bool inversions = false, compare = false;
     CLI::App app("vdbcage deform CAGE POSED_CAGE MODEL -o OUT [OPTIONS]\n"
                  "Moves the model as its cage moved. A sequence has the frame's number in the\n"
                  "names of POSED_CAGE and OUT: cage.%04d.obj. From OBJ to OBJ all stays as it\n"
@@ -172,15 +173,14 @@ int runDeform(std::vector<std::string> words)
     app.add_option("--weights", weights, "of bind, or a matrix (.npy, .dmat) [computed]")->type_name("WEIGHTS");
     app.add_flag("--inversions", inversions, "print how many triangles each pose inverts");
     app.add_flag("--compare", compare, "draw all families, and print what they distort");
-    app.add_flag("-q,--quiet", quiet, "print nothing but errors");
-    app.add_flag("-v,--verbose", verbose, "print the progress, also without a terminal");
+    const TalkArguments talk(app, "print the progress, also without a terminal");
     if (!parse(app, std::move(words))) return exitGood;
     if (compare) {
         if (!weights.empty() || arguments.familyIsGiven() || inversions) {
             throw InputError("--compare shows all families, and inversions too; it does not go with --weights, "
                              "--coordinates or --inversions");
         }
-        return drawComparison(cagePath, posedPath, modelPath, output, arguments, verbosityOf(quiet, verbose));
+        return drawComparison(cagePath, posedPath, modelPath, output, arguments, talk.progressForm());
     }
     const Coordinates family = coordinatesNamed(arguments.familyName());
     if (weights.empty()) arguments.options(); // fails before anything is read
@@ -196,7 +196,7 @@ int runDeform(std::vector<std::string> words)
     for (const Frame& frame : frames) outputs.reads(frame.path);
     for (const Frame& frame : frames) outputs.writes(framePath(output, frame.number));
 
-    std::optional<Progress> progress(verbosityOf(quiet, verbose));
+    std::optional<Progress> progress(talk.progressForm());
     const Mesh cage = readMesh(cagePath), model = readMesh(modelPath);
     Binding binding = weights.empty()
                           ? bindFiles(cagePath, modelPath,
@@ -227,13 +227,14 @@ int runDeform(std::vector<std::string> words)
         if (inversions) posedCages.push_back(posed);
     }
     const std::string report = inversions ? describeInversions(binding, model, frames, posedCages, &*progress) : "";
+    progress->succeed();
     progress.reset();
     std::cout << report;
     flushOutput();
-    const std::string text = quiet ? std::string()
-                                   : printable(output) + ": " + std::to_string(frames.size()) +
-                                         (frames.size() == 1 ? " pose" : " poses") + " of " +
-                                         std::to_string(model.points.size()) + " points\n";
+    const std::string text = talk.quiet() ? std::string()
+                                          : printable(output) + ": " + std::to_string(frames.size()) +
+                                                (frames.size() == 1 ? " pose" : " poses") + " of " +
+                                                std::to_string(model.points.size()) + " points\n";
     outputs.commit();
     std::cerr << text;
     return exitGood;

@@ -17,7 +17,7 @@ namespace vdbcage::tool {
 namespace {
 
 // A signal handler can use nothing but static storage. It runs on any thread.
-std::atomic<bool> signalCame{false};
+std::atomic<int> signalCame{0};
 std::atomic<bool> lineOnScreen{false};
 std::atomic<int> holds{0};
 static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<int>::is_always_lock_free,
@@ -32,10 +32,39 @@ extern "C" void onSignal(int signal, siginfo_t* info, void* /*context*/)
 {
     // One that a write of ours raised: the write fails, and whoever wrote says so.
     if (signal == SIGPIPE && info->si_pid == ::getpid()) return;
-    const bool isFirst = !signalCame.exchange(true); // before it looks for holds: see `signalled`
+    const bool isFirst = signalCame.exchange(signal) == 0; // before it looks for holds: see `signalled`
     if (holds > 0 || !isFirst) return;
     tool::sayCancelled();
-    ::_exit(exitCancelled);
+    ::_exit(cancelledStatus());
+}
+
+/// Where a stage begins and ends in its command, in percent, from how long they take in most.
+struct StageShare {
+    std::string_view name;
+    int from, to;
+};
+constexpr std::array<StageShare, 14> stageShares{{{"read", 0, 2},
+                                                  {"interior", 2, 3},
+                                                  {"voxelize", 3, 6},
+                                                  {"guard", 6, 8},
+                                                  {"close", 8, 10},
+                                                  {"surface", 10, 12},
+                                                  {"smooth", 12, 13},
+                                                  {"decimate", 13, 60},
+                                                  {"loops", 13, 92},
+                                                  {"tighten", 60, 90},
+                                                  {"quads", 60, 92},
+                                                  {"certify", 92, 98},
+                                                  {"bind", 2, 95},
+                                                  {"write", 98, 99}}};
+
+/// 0 for other stages.
+int percentOfAll(std::string_view stage, int percent)
+{
+    for (const StageShare& share : stageShares) {
+        if (share.name == stage) return share.from + (share.to - share.from) * percent / 100;
+    }
+    return 0;
 }
 
 constexpr std::size_t barWidth = 24;
@@ -77,7 +106,12 @@ SignalHold::~SignalHold()
 
 bool signalled() noexcept
 {
-    return signalCame;
+    return signalCame != 0;
+}
+
+int cancelledStatus() noexcept
+{
+    return signalCame == SIGTERM ? exitTerminated : exitCancelled;
 }
 
 void ignoreSignals() noexcept
@@ -93,20 +127,18 @@ void sayCancelled() noexcept
     write("vdbcage: error: cancelled\n");
 }
 
-Progress::Form Progress::formOf(Verbosity verbosity)
-{
-    if (verbosity == Verbosity::quiet) return Form::none;
-    if (::isatty(STDERR_FILENO) == 1) return Form::bar;
-    return verbosity == Verbosity::verbose ? Form::lines : Form::none;
-}
-
-Progress::Progress(Verbosity verbosity) : form_(formOf(verbosity))
+Progress::Progress(ProgressForm form) : form_(form)
 {
 }
 
 Progress::~Progress()
 {
     if (lineOnScreen.exchange(false)) std::fputs("\r\033[K", stderr);
+}
+
+void Progress::succeed()
+{
+    if (form_ == ProgressForm::farm) drawForFarm(100);
 }
 
 void Progress::start(const char* name)
@@ -122,14 +154,14 @@ void Progress::end()
 {
     const std::lock_guard lock(mutex_);
     percent_ = 100;
-    if (form_ == Form::bar) draw(); // in lines the next stage says as much
+    if (form_ != ProgressForm::lines) draw(); // there the next stage says as much
 }
 
 bool Progress::wasInterrupted(int percent)
 {
-    if (form_ != Form::none && mutex_.try_lock()) {
+    if (form_ != ProgressForm::none && mutex_.try_lock()) {
         const std::lock_guard lock(mutex_, std::adopt_lock);
-        const std::chrono::milliseconds pause(form_ == Form::bar ? 100 : 1000);
+        const std::chrono::milliseconds pause(form_ == ProgressForm::bar ? 100 : 1000);
         if (percent >= 0) percent_ = percent;
         if (Clock::now() - drawn_ >= pause) draw();
     }
@@ -139,16 +171,17 @@ bool Progress::wasInterrupted(int percent)
 /// Allocates nothing: it also runs while an exception is on its way.
 void Progress::draw()
 {
-    if (form_ == Form::none) return;
+    if (form_ == ProgressForm::none) return;
     drawn_ = Clock::now();
     const double seconds = std::chrono::duration<double>(drawn_ - began_).count();
     const int done = std::clamp(percent_, 0, 100);
+    if (form_ == ProgressForm::farm) return drawForFarm(percentOfAll(stage_, done));
     std::array<char, 24> left{};
     const double inStage = std::chrono::duration<double>(drawn_ - stageBegan_).count();
     if (done >= leastPercent && done < 100 && inStage >= leastSeconds) {
         std::snprintf(left.data(), left.size(), ", %.0f s left", std::ceil(inStage * (100 - done) / done));
     }
-    if (form_ == Form::lines) {
+    if (form_ == ProgressForm::lines) {
         if (stage_.empty()) return;
         std::fprintf(stderr, "%3d %%  %-10s %6.1f s%s\n", done, stage_.c_str(), seconds, left.data());
         return;
@@ -160,6 +193,14 @@ void Progress::draw()
                  left.data());
     std::fflush(stderr);
     lineOnScreen = true;
+}
+
+void Progress::drawForFarm(int percent)
+{
+    if (percent <= shownToFarm_) return;
+    shownToFarm_ = percent;
+    std::printf("Progress: %d%%\nALF_PROGRESS %d%%\n", percent, percent);
+    std::fflush(stdout);
 }
 
 } // namespace vdbcage::tool

@@ -8,9 +8,9 @@
 
 namespace vdbcage::tool {
 
-/// From here on SIGINT (Ctrl-C), SIGTERM, SIGHUP and SIGPIPE end the process at once with status 130 and a line on
-/// standard error, unless a SignalHold lives: then they ask for a clean stop. A write beyond a limit of size or into a
-/// pipe that nobody reads fails with a reason instead of a signal. SIGHUP that was ignored stays so (nohup).
+/// From here on SIGINT (Ctrl-C), SIGTERM, SIGHUP and SIGPIPE end the process at once with cancelledStatus() and
+/// a line on standard error, unless a SignalHold lives: then they ask for a clean stop. A write beyond a limit of size
+/// or into a pipe that nobody reads fails with a reason instead of a signal. SIGHUP that was ignored stays so (nohup).
 void catchSignals() noexcept;
 
 /// While one lives there is something to clean up, and a signal only sets `signalled`. One that came just before may be
@@ -26,43 +26,48 @@ public:
 /// Whether a signal has come that asks for a stop.
 bool signalled() noexcept;
 
+/// The exit status after a signal: exitTerminated after SIGTERM, else exitCancelled.
+int cancelledStatus() noexcept;
+
 /// From here on signals change nothing: the work is done, and only words are left.
 void ignoreSignals() noexcept;
 
 /// Prints that the command was cancelled, unless that was said before.
 void sayCancelled() noexcept;
 
-/// How much a command says of its progress.
-enum class Verbosity { quiet, normal, verbose };
-constexpr Verbosity verbosityOf(bool quiet, bool verbose = false)
-{
-    return quiet ? Verbosity::quiet : verbose ? Verbosity::verbose : Verbosity::normal;
-}
+/// How progress is told.
+enum class ProgressForm {
+    none,
+    bar,   ///< one line on standard error, redrawn at most ten times a second
+    lines, ///< on standard error a line for every stage and every second of it, `PERCENT % STAGE SECONDS s`, for logs
+    farm   ///< on standard output `Progress: 42%` and `ALF_PROGRESS 42%`, of the whole command, as it rises
+};
 
-/// Shows how far the work is, on standard error, and passes a signal on to it. On a terminal it is one line that is
-/// redrawn at most ten times a second. Elsewhere it is nothing, or if verbose a line for every stage and every second
-/// of it, `PERCENT % STAGE SECONDS s`, for logs and for programs that show it. Where a stage says how far it is, `, N s
-/// left` follows: of the stage, as fast as it went so far.
+/// Shows how far the work is, and passes a signal on to it. Where a stage says how far it is, bar and lines have `, N s
+/// left`: of the stage, as fast as it went so far.
 class Progress : public Interrupter {
 public:
-    explicit Progress(Verbosity verbosity);
+    explicit Progress(ProgressForm form);
     ~Progress() override;
+
+    /// The work is done: what has a percentage shows 100.
+    void succeed();
 
     void start(const char* name = nullptr) override;
     void end() override;
     bool wasInterrupted(int percent = -1) override;
 
 private:
-    enum class Form { none, bar, lines };
-    static Form formOf(Verbosity verbosity);
     void draw();
+    void drawForFarm(int percent);
 
     using Clock = std::chrono::steady_clock;
-    const Form form_;
+    const ProgressForm form_;
     const Clock::time_point began_ = Clock::now();
     std::mutex mutex_; // guards what follows: wasInterrupted is called from many threads
     std::string stage_;
     int percent_ = 0; // of the stage, as far as it says
+    int shownToFarm_ = -1;
     Clock::time_point drawn_, stageBegan_;
 };
 

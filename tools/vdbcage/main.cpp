@@ -14,11 +14,13 @@
 #include <unistd.h>
 
 #include <vdbcage/core/error.h>
+#include <vdbcage/core/range.h>
 #include <vdbcage/core/version.h>
 
 #include "commands.h"
 #include "interrupt.h"
 #include "outputs.h"
+#include "threads.h"
 
 namespace vdbcage::tool {
 
@@ -37,6 +39,7 @@ constexpr Command commands[] = {
     {"bind", "compute how a cage moves a model", runBind},
     {"deform", "move a model by its posed cage", runDeform},
     {"repair", "mend a cage that was made elsewhere", runRepair},
+    {"jobs", "print a command for each of many models, for farms", runJobs},
 };
 
 void printHelp(std::ostream& out)
@@ -147,18 +150,18 @@ void openStandardStreams()
 }
 
 /// Allocates nothing, as there may be no memory left. `text` is one printable line.
-int fail(const char* text) noexcept
+int fail(const char* text, int status) noexcept
 {
     std::fprintf(stderr, "vdbcage: error: %s\n", text);
-    return exitError;
+    return status;
 }
 
-int failWords(const char* text) noexcept
+int failWords(const char* text, int status) noexcept
 {
     try {
-        return fail(detail::printable(text).c_str());
+        return fail(detail::printable(text).c_str(), status);
     } catch (const std::bad_alloc&) {
-        return fail("not enough memory");
+        return fail("not enough memory", exitTryAgain);
     }
 }
 
@@ -168,20 +171,14 @@ int guarded(const Work& work) noexcept
 {
     try {
         return work();
-    } catch (const Cancelled&) {
-        sayCancelled();
-        return exitCancelled;
-    } catch (const Error& error) {
-        return fail(error.what());
-    } catch (const std::bad_alloc&) {
-        return fail("not enough memory");
-    } catch (const std::system_error& error) {
-        if (error.code() == std::errc::resource_unavailable_try_again) {
-            return fail("not enough threads can be started; look at limits on processes (ulimit -u)");
+    } catch (const std::exception& exception) {
+        const Failure failure = failureOf(exception);
+        if (dynamic_cast<const Cancelled*>(&exception)) {
+            sayCancelled();
+            return failure.status;
         }
-        return failWords(error.what());
-    } catch (const std::exception& error) {
-        return failWords(error.what());
+        const bool isPrintable = dynamic_cast<const Error*>(&exception) || failure.text != exception.what();
+        return isPrintable ? fail(failure.text, failure.status) : failWords(failure.text, failure.status);
     }
 }
 
@@ -210,6 +207,8 @@ bool parse(CLI::App& app, std::vector<std::string> arguments)
 {
     app.formatter(std::make_shared<HelpFormatter>());
     app.set_help_flag("-h,--help", "print this");
+    int threads = 0;
+    app.add_option("--threads", threads, "work with at most so many [all]")->type_name("N");
     std::vector<std::string> known;
     for (const CLI::Option* option : app.get_options()) {
         for (const std::string& name : option->get_lnames()) known.push_back("--" + name);
@@ -239,6 +238,10 @@ bool parse(CLI::App& app, std::vector<std::string> arguments)
     } catch (const CLI::CallForAllHelp&) {
         std::cout << app.help("", CLI::AppFormatMode::All);
         return false;
+    }
+    if (app.count("--threads") > 0) {
+        requireWithin({1, 1024}, threads, "threads");
+        limitThreads(threads);
     }
     return true;
 }

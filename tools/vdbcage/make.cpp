@@ -3,9 +3,11 @@
 #include <iostream>
 #include <optional>
 
+#include <tools/report/fingerprint.h>
 #include <tools/report/models.h>
 #include <tools/report/report.h>
 #include <tools/report/stages.h>
+#include <vdbcage/core/detail/read_file.h>
 #include <vdbcage/core/error.h>
 #include <vdbcage/core/version.h>
 #include <vdbcage/mesh/io/formats.h>
@@ -16,6 +18,7 @@
 #include "drawing.h"
 #include "interrupt.h"
 #include "outputs.h"
+#include "talk_arguments.h"
 
 namespace vdbcage::tool {
 
@@ -27,7 +30,7 @@ struct MakeArguments {
     std::vector<fs::path> models;
     fs::path cage, stages, report, picture;
     CageOptions options;
-    bool quiet = false, verbose = false;
+    bool skipsDone = false, isVerbose = false;
 };
 
 /// Refuses what cannot work before any work is done: formats, folders, permissions, one file under two names.
@@ -89,7 +92,7 @@ std::string summaryOf(const MakeArguments& arguments, const std::vector<ModelFil
         << ", mean distance " << 100 * check.meanDistance << " % of the longest side, " << seconds << " s\n";
     for (const std::string& remark : remarks(report, arguments.options)) out << "  " << remark << '\n';
     out << describe(models);
-    if (!arguments.verbose) return out.str();
+    if (!arguments.isVerbose) return out.str();
     for (const StageTime& stage : stages) {
         out << "  " << std::left << std::setw(10) << stage.name << std::right << std::setw(8) << stage.seconds
             << " s\n";
@@ -98,6 +101,47 @@ std::string summaryOf(const MakeArguments& arguments, const std::vector<ModelFil
         << peakMemory() << " MiB\n"
         << describe(check);
     return out.str();
+}
+
+/// Tells models, options and versions apart.
+std::string inputsOf(const MakeArguments& arguments)
+{
+    std::vector<fs::path> files = arguments.models;
+    const CageOptions& options = arguments.options;
+    for (const fs::path& file : {options.scale.file, options.density.file, options.joints.file}) {
+        if (!file.empty()) files.push_back(file);
+    }
+    return fingerprint(files, options);
+}
+
+/// Whether the report that there is tells of the same inputs, and the cage that it names is there.
+bool wasDone(const MakeArguments& arguments)
+{
+    std::error_code ignored;
+    if (!fs::is_regular_file(arguments.report, ignored) || !fs::is_regular_file(arguments.cage, ignored)) return false;
+    const Json report = Json::parse(detail::readFile(arguments.report), nullptr, false);
+    const auto has = [&](const char* name, const std::string& text) {
+        return report.is_object() && report.contains(name) && report[name] == Json(text);
+    };
+    return has("cage", arguments.cage.string()) && has("inputs", inputsOf(arguments));
+}
+
+/// Leaves a report of it, if one is wanted and can be written: what failed before is worth more than a failure of this.
+void reportFailure(const MakeArguments& arguments, const Failure& failure) noexcept
+{
+    if (arguments.report.empty()) return;
+    try {
+        Json names = Json::array();
+        for (const fs::path& model : arguments.models) names.push_back(model.string());
+        const Json report{{"vdbcage", VDBCAGE_VERSION},
+                          {"models", names},
+                          {"cage", arguments.cage.string()},
+                          {"options", toJson(arguments.options)},
+                          {"error", detail::printable(failure.text)},
+                          {"exit_status", failure.status}};
+        writeFileAtomically(arguments.report, [&](std::ostream& out) { out << toText(report); });
+    } catch (const std::exception&) {
+    }
 }
 
 /// Makes the cage, writes all files and returns what there is to say. All that it took is given back before the files
@@ -124,8 +168,8 @@ std::string makeFiles(const MakeArguments& arguments, Outputs& outputs, Interrup
     writing.reset();
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
     if (!arguments.report.empty()) {
-        const Json report = toJson(
-            CageMade{entryOf(models), arguments.cage, arguments.options, seconds, clock.stages(), pipeline.report()});
+        const Json report = toJson(CageMade{entryOf(models), inputsOf(arguments), arguments.cage, arguments.options,
+                                            seconds, clock.stages(), pipeline.report()});
         outputs.add(arguments.report, [&](std::ostream& out) { out << toText(report); });
     }
     return summaryOf(arguments, models, pipeline, clock.stages(), seconds);
@@ -133,37 +177,54 @@ std::string makeFiles(const MakeArguments& arguments, Outputs& outputs, Interrup
 
 } // namespace
 
+void addCageOptions(CLI::App& app, CageOptions& options)
+{
+    for (const OptionText& option : describeOptions()) {
+        app.add_option_function<std::string>(
+               "--" + option.name,
+               [&options, name = option.name](const std::string& value) { setOption(options, name, value); },
+               option.help + (option.range.empty() ? "" : ", " + option.range) + " [" + option.defaultValue + "]")
+            ->type_name(option.value)
+            ->group(option.isRare ? rareOptions : "Options");
+    }
+}
+
 int runMake(std::vector<std::string> words)
 {
     MakeArguments arguments;
     CLI::App app("vdbcage make MODEL... -o CAGE [OPTIONS]: bounds them (.obj .off .ply .stl)", "make");
     app.add_option("models", arguments.models)->required()->type_name("MODEL...");
     app.add_option("-o,--output", arguments.cage, "the cage to write")->required()->type_name("CAGE");
-    for (const OptionText& option : describeOptions()) {
-        app.add_option_function<std::string>(
-               "--" + option.name,
-               [&arguments, name = option.name](const std::string& value) {
-                   setOption(arguments.options, name, value);
-               },
-               option.help + (option.range.empty() ? "" : ", " + option.range) + " [" + option.defaultValue + "]")
-            ->type_name(option.value)
-            ->group(option.isRare ? rareOptions : "Options");
-    }
+    addCageOptions(app, arguments.options);
     app.add_option("--stages", arguments.stages, "leave every stage there (.vdb, .obj)")->type_name("DIR");
     app.add_option("--report", arguments.report, "options, times, memory, verdict as JSON")->type_name("FILE.json");
     app.add_option("--picture", arguments.picture, "the model with its cage")->type_name("FILE.png");
-    app.add_flag("-q,--quiet", arguments.quiet, "print nothing but errors");
-    app.add_flag("-v,--verbose", arguments.verbose, "print progress, stage times, the whole verdict");
+    app.add_flag("--skip-done", arguments.skipsDone, "nothing if the report tells that it was done");
+    const TalkArguments talk(app, "print progress, stage times, the whole verdict");
     app.set_help_all_flag("--help-all", "print this and the rarer options");
     if (!parse(app, std::move(words))) return exitGood;
-    Outputs outputs;
-    announce(arguments, outputs);
-
-    std::optional<Progress> progress(verbosityOf(arguments.quiet, arguments.verbose));
-    const std::string text = makeFiles(arguments, outputs, *progress);
-    outputs.commit();
-    progress.reset();
-    if (!arguments.quiet) std::cerr << text;
+    arguments.isVerbose = talk.verbose();
+    if (arguments.skipsDone && arguments.report.empty()) {
+        throw InputError("--skip-done needs --report FILE.json, which tells what was done");
+    }
+    std::optional<Outputs> outputs(std::in_place);
+    announce(arguments, *outputs);
+    std::optional<Progress> progress(talk.progressForm());
+    try {
+        const bool isDone = arguments.skipsDone && wasDone(arguments);
+        const std::string text =
+            isDone ? printable(arguments.cage) + ": was done before\n" : makeFiles(arguments, *outputs, *progress);
+        if (!isDone) outputs->commit();
+        progress->succeed();
+        progress.reset();
+        if (!talk.quiet()) std::cerr << text;
+    } catch (const Cancelled&) {
+        throw;
+    } catch (const std::exception& exception) {
+        outputs.reset(); // what was written goes, and makes room
+        reportFailure(arguments, failureOf(exception));
+        throw;
+    }
     return exitGood;
 }
 

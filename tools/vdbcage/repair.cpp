@@ -13,6 +13,7 @@
 #include "commands.h"
 #include "interrupt.h"
 #include "outputs.h"
+#include "talk_arguments.h"
 
 namespace vdbcage::tool {
 
@@ -36,7 +37,6 @@ Json toJson(const RepairReport& report)
 int runRepair(std::vector<std::string> words)
 {
     std::filesystem::path cagePath, outputPath, reportPath;
-    bool quiet = false;
     CLI::App app("vdbcage repair CAGE -o OUT [OPTIONS]\n"
                  "Stitches, orients, fills holes and removes self-intersections.\n"
                  "The result is triangles.",
@@ -44,7 +44,7 @@ int runRepair(std::vector<std::string> words)
     app.add_option("cage", cagePath)->required()->type_name("CAGE");
     app.add_option("-o,--output", outputPath, "the mended cage to write")->required()->type_name("OUT");
     app.add_option("--report", reportPath, "what was done and what could not be, as JSON")->type_name("FILE.json");
-    app.add_flag("-q,--quiet", quiet, "print nothing but errors");
+    const TalkArguments talk(app);
     if (!parse(app, std::move(words))) return exitGood;
     if (!hasRepair())
         throw InputError("this vdbcage was built without its GPL part (VDBCAGE_WITH_CGAL_GPL), and so without repair");
@@ -54,7 +54,7 @@ int runRepair(std::vector<std::string> words)
     outputs.writes(outputPath);
     if (!reportPath.empty()) outputs.writes(reportPath);
 
-    std::optional<Progress> progress(verbosityOf(quiet));
+    std::optional<Progress> progress(talk.progressForm());
     const auto [mended, report] = repair(readMesh(cagePath), &*progress);
     outputs.add(outputPath, [&](std::ostream& out) { writeMesh(mended, out, outputPath); });
     if (!reportPath.empty()) {
@@ -65,12 +65,13 @@ int runRepair(std::vector<std::string> words)
         outputs.add(reportPath, [&](std::ostream& out) { out << toText(facts); });
     }
     std::ostringstream lines;
-    if (!quiet) {
+    if (!talk.quiet()) {
         const Json facts = toJson(report);
         for (const auto& fact : facts.items()) lines << "  " << fact.key() << ": " << fact.value() << '\n';
     }
     const std::string text = lines.str();
     outputs.commit();
+    progress->succeed();
     progress.reset();
     std::cerr << text;
     return exitGood;

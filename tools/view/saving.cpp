@@ -55,6 +55,7 @@ void saveReport(const CageResult& result, const fs::path& path)
     const OpenedMesh& model = *result.order.model;
     const tool::CageMade made{{"model", tool::toJson(model.mesh, model.summary, model.path)},
                               {},
+                              {},
                               result.order.options,
                               result.seconds,
                               result.stages,

@@ -13,6 +13,7 @@ Error::Error(const std::string& text) : std::runtime_error(detail::printable(tex
 Error::~Error() = default;
 InputError::~InputError() = default;
 IoError::~IoError() = default;
+ResourceError::~ResourceError() = default;
 DeviceError::~DeviceError() = default;
 Cancelled::Cancelled() : Error("cancelled")
 {

@@ -30,6 +30,13 @@ public:
     ~IoError() override;
 };
 
+/// A file could not be read or written for lack of memory or of room on the disk. Another try or another machine may do.
+class VDBCAGE_API ResourceError : public IoError {
+public:
+    using IoError::IoError;
+    ~ResourceError() override;
+};
+
 /// A device, such as an OpenGL context, is missing or failed. The message carries the driver's own words.
 class VDBCAGE_API DeviceError : public Error {
 public:

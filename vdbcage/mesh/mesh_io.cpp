@@ -53,7 +53,7 @@ std::string readModel(const std::filesystem::path& path)
     try {
         return detail::readFile(path);
     } catch (const std::bad_alloc&) {
-        throw IoError(path.string() + ": there is not enough memory to read it");
+        throw ResourceError(path.string() + ": there is not enough memory to read it");
     }
 }
 
@@ -62,7 +62,7 @@ MeshFile parsed(const std::string& bytes, const std::filesystem::path& path)
     try {
         return formatOf(path).parse(bytes, path.string());
     } catch (const std::bad_alloc&) {
-        throw IoError(path.string() + ": there is not enough memory to read it");
+        throw ResourceError(path.string() + ": there is not enough memory to read it");
     }
 }
 

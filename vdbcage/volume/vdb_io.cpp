@@ -92,7 +92,7 @@ openvdb::GridBase::Ptr readGrid(const std::filesystem::path& path, const std::st
     try {
         return detail::parseVdb(detail::readFile(path), path.string(), wanted, values);
     } catch (const std::bad_alloc&) {
-        throw IoError(path.string() + ": there is not enough memory to read it");
+        throw ResourceError(path.string() + ": there is not enough memory to read it");
     }
 }
 

@@ -23,7 +23,9 @@ namespace fs = std::filesystem;
 
 [[noreturn]] void fail(const fs::path& target, int error)
 {
-    throw IoError(target.string() + ": cannot be written: " + std::generic_category().message(error));
+    const std::string text = target.string() + ": cannot be written: " + std::generic_category().message(error);
+    if (error == ENOSPC || error == EDQUOT || error == ENOMEM) throw ResourceError(text);
+    throw IoError(text);
 }
 
 fs::path folderOf(const fs::path& file)

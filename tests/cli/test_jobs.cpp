@@ -1,0 +1,225 @@
+#include <boost/test/unit_test.hpp>
+
+#include <algorithm>
+#include <csignal>
+#include <fstream>
+#include <map>
+#include <regex>
+#include <sstream>
+#include <thread>
+
+#include <support/read_json.h>
+#include <support/run_command.h>
+#include <vdbcage/mesh/mesh_io.h>
+
+using namespace vdbcage;
+using test::readJson;
+using test::readText;
+using test::runCommand;
+using test::TemporaryFolder;
+using test::writeText;
+
+namespace {
+
+const std::string command = VDBCAGE_COMMAND;
+const std::string bishop = VDBCAGE_MODELS "/bishop.obj";
+
+std::vector<std::string> linesOf(const std::string& text)
+{
+    std::vector<std::string> lines;
+    std::istringstream in(text);
+    for (std::string line; std::getline(in, line);) lines.push_back(line);
+    return lines;
+}
+
+void expectRefusal(const std::vector<std::string>& words, const std::string& mention)
+{
+    std::vector<std::string> all{command};
+    all.insert(all.end(), words.begin(), words.end());
+    const auto result = runCommand(all);
+    BOOST_TEST(result.status == 1);
+    BOOST_TEST(result.err.find(mention) != std::string::npos, result.err + " lacks " + mention);
+    BOOST_TEST(result.out.empty());
+}
+
+/// How many threads of a process have worked for longer than a moment, and its exit status. Libraries start some that
+/// only wait.
+std::pair<std::size_t, int> workingThreads(const std::vector<std::string>& words)
+{
+    constexpr long moment = 2; // in ticks of processor time, hundredths of a second
+    const TemporaryFolder own;
+    const pid_t child = test::startCommand(words, own / "out", own / "err");
+    std::map<std::string, long> ticks;
+    siginfo_t info{};
+    do {
+        std::error_code ignored;
+        for (const auto& task :
+             std::filesystem::directory_iterator("/proc/" + std::to_string(child) + "/task", ignored)) {
+            std::ifstream stat(task.path() / "stat");
+            std::string text;
+            std::getline(stat, text);
+            std::istringstream fields(text.substr(std::min(text.size(), text.rfind(')') + 1)));
+            std::string skipped;
+            for (int i = 0; i < 11; ++i) fields >> skipped;
+            long user = 0, system = 0;
+            if (fields >> user >> system) ticks[task.path().filename()] = user + system;
+        }
+        info.si_pid = 0;
+        ::waitid(P_PID, static_cast<id_t>(child), &info, WEXITED | WNOHANG | WNOWAIT);
+    } while (info.si_pid == 0);
+    std::size_t working = 0;
+    for (const auto& thread : ticks) working += thread.second > moment;
+    return {working, test::waitFor(child)};
+}
+
+} // namespace
+
+BOOST_AUTO_TEST_SUITE(jobs)
+
+BOOST_AUTO_TEST_CASE(a_line_for_each_model)
+{
+    const TemporaryFolder folder;
+    const std::string out = folder / "cages";
+    const auto result =
+        runCommand({command, "jobs", "a/body.obj", "it's a \"model\".ply", "./-x.stl", "-o", out, "--faces", "120",
+                    "--density", "box:0,0,0,1,1,1,2", "--format", "ply", "--pictures", "--threads", "2"});
+    BOOST_TEST(result.status == 0, result.err);
+    const std::string options = " --skip-done --faces 120 --density box:0,0,0,1,1,1,2 --threads 2";
+    const auto line = [&](const std::string& model, const std::string& name) {
+        const auto file = [&](const std::string& extension) {
+            const std::string path = out + "/" + name + extension;
+            return name == "-x" || name == "body" ? path : "'" + path + "'";
+        };
+        return "vdbcage make " + model + " -o " + file(".ply") + " --report " + file(".json") + " --picture " +
+               file(".png") + options;
+    };
+    const std::vector<std::string> expected{
+        line("a/body.obj", "body"), line("'it'\\''s a \"model\".ply'", "it'\\''s a \"model\""), line("./-x.stl", "-x")};
+    BOOST_TEST(linesOf(result.out) == expected, boost::test_tools::per_element());
+    BOOST_TEST(std::filesystem::is_directory(out));
+}
+
+BOOST_AUTO_TEST_CASE(what_is_no_job)
+{
+    const TemporaryFolder folder;
+    const std::string out = folder / "cages";
+    expectRefusal({"jobs", "a/x.obj", "b/x.obj", "-o", out}, "b/x.obj: another model has this name too");
+    expectRefusal({"jobs", "a\nb.obj", "-o", out}, "cannot have control characters");
+    expectRefusal({"jobs", "a.obj", "-o", out, "--faces", "3"}, "faces: '3' is not allowed");
+    expectRefusal({"jobs", "a.obj", "-o", out, "--format", "vdb"}, ".obj");
+    expectRefusal({"jobs", "a.obj", "-o", out, "--report", "x.json"}, "there is no option '--report'");
+    BOOST_TEST(!std::filesystem::exists(out));
+}
+
+// By the shell, as farms run them.
+BOOST_AUTO_TEST_CASE(jobs_run_once_and_failed_ones_again)
+{
+    const TemporaryFolder folder;
+    const std::string out = folder / "the cages", good = folder / "good.obj", bad = folder / "bad one.obj";
+    std::filesystem::copy_file(bishop, good);
+    writeText(bad, "v 0 0\n");
+    const auto listed =
+        runCommand({command, "jobs", good, bad, "-o", out, "--faces", "60", "--effort", "fast", "--command", command});
+    BOOST_REQUIRE(listed.status == 0);
+    const std::vector<std::string> lines = linesOf(listed.out);
+    BOOST_REQUIRE(lines.size() == 2U);
+    const auto run = [&](std::size_t i) { return runCommand({"sh", "-c", lines[i]}); };
+    BOOST_TEST(run(0).status == 0);
+    const std::string cage = readText(out + "/good.obj"), report = readText(out + "/good.json");
+    BOOST_TEST(readJson(out + "/good.json")["check"]["bounding"] == true);
+
+    const auto failed = run(1);
+    BOOST_TEST(failed.status == 1);
+    BOOST_TEST(!std::filesystem::exists(out + "/bad one.obj"));
+    const nlohmann::json failure = readJson(out + "/bad one.json");
+    BOOST_TEST(failure["exit_status"] == 1);
+    BOOST_TEST(failed.err == "vdbcage: error: " + failure["error"].get<std::string>() + "\n");
+    BOOST_TEST(failure["models"][0] == bad);
+    BOOST_TEST(failure["options"]["faces"] == "60");
+
+    const auto again = run(0);
+    BOOST_TEST(again.status == 0);
+    BOOST_TEST(again.err == out + "/good.obj: was done before\n");
+    BOOST_TEST((readText(out + "/good.json") == report));
+    BOOST_TEST(run(1).status == 1);
+    std::filesystem::copy_file(bishop, bad, std::filesystem::copy_options::overwrite_existing);
+    BOOST_TEST(run(1).status == 0);
+    BOOST_TEST(!readJson(out + "/bad one.json").contains("error"));
+
+    // Where anything is another, or gone, it is done anew.
+    const auto isDoneAnew = [&] { return run(0).err.find("certified bounding") != std::string::npos; };
+    BOOST_TEST(!isDoneAnew());
+    std::filesystem::remove(out + "/good.obj");
+    BOOST_TEST(isDoneAnew());
+    BOOST_TEST((readText(out + "/good.obj") == cage));
+    writeText(out + "/good.json", "{");
+    BOOST_TEST(isDoneAnew());
+    writeText(good, readText(good) + "# changed\n");
+    BOOST_TEST(isDoneAnew());
+    BOOST_TEST(!isDoneAnew());
+    const auto others = runCommand({"sh", "-c", lines[0] + " --smooth 1"});
+    BOOST_TEST(others.err.find("certified bounding") != std::string::npos, others.err);
+    expectRefusal({"make", good, "-o", folder / "x.obj", "--skip-done"}, "--skip-done needs --report");
+}
+
+BOOST_AUTO_TEST_CASE(progress_in_lines)
+{
+    const TemporaryFolder folder;
+    const auto result = runCommand({command, "make", bishop, "-o", folder / "cage.obj", "--faces", "100", "--effort",
+                                    "fast", "-q", "--progress", "lines"});
+    BOOST_TEST(result.status == 0);
+    BOOST_TEST(result.err.empty(), result.err);
+    const std::vector<std::string> lines = linesOf(result.out);
+    int last = -1;
+    BOOST_TEST(lines.size() > 10U);
+    for (std::size_t i = 0; i + 1 < lines.size(); i += 2) {
+        std::smatch match;
+        BOOST_REQUIRE(std::regex_match(lines[i], match, std::regex("Progress: ([0-9]+)%")));
+        const int percent = std::stoi(match[1]);
+        BOOST_TEST(percent > last);
+        BOOST_TEST(lines[i + 1] == "ALF_PROGRESS " + std::to_string(percent) + "%");
+        last = percent;
+    }
+    BOOST_TEST(last == 100);
+    writeText(folder / "bad.obj", "v 0 0\n");
+    const auto bad =
+        runCommand({command, "make", folder / "bad.obj", "-o", folder / "cage.obj", "--progress", "lines"});
+    BOOST_TEST(bad.status == 1);
+    BOOST_TEST(bad.out.find("100%") == std::string::npos, bad.out);
+    expectRefusal({"make", bishop, "-o", folder / "cage.obj", "--progress", "rarely"},
+                  "progress: 'rarely' is neither auto nor lines");
+}
+
+BOOST_AUTO_TEST_CASE(one_thread)
+{
+    const TemporaryFolder folder;
+    const auto words = [&](const std::string& name, const std::vector<std::string>& options) {
+        std::vector<std::string> all{command, "make",     bishop, "-o",        folder / (name + ".obj"), "--faces",
+                                     "100",   "--effort", "fast", "--picture", folder / (name + ".png")};
+        all.insert(all.end(), options.begin(), options.end());
+        return all;
+    };
+    for (const char* voxelizer : {"cpu", "gl"}) {
+        const auto [one, status] = workingThreads(words("one", {"--threads", "1", "--voxelizer", voxelizer}));
+        BOOST_TEST(status == 0);
+        BOOST_TEST(one == 1U, voxelizer << ": " << one << " threads");
+        const auto [two, statusOfTwo] = workingThreads(words("two", {"--threads", "2", "--voxelizer", voxelizer}));
+        BOOST_TEST(statusOfTwo == 0);
+        if (std::thread::hardware_concurrency() > 1) BOOST_TEST(two > 1U); // so more would be seen
+        BOOST_TEST((readText(folder / "one.obj") == readText(folder / "two.obj")));
+        BOOST_TEST((readText(folder / "one.png") == readText(folder / "two.png")));
+    }
+    expectRefusal({"check", bishop, bishop, "--threads", "0"}, "threads: 0 is not allowed; it must be 1 to 1024");
+}
+
+BOOST_AUTO_TEST_CASE(disks_that_are_full)
+{
+    const auto result = runCommand(
+        {"sh", "-c",
+         "ulimit -f 1; exec " + command + " make " + bishop + " -o /dev/shm/vdbcage_full.obj --effort fast -q"});
+    // A limit of size is none of the disk: another machine would not do either.
+    BOOST_TEST(result.status == 1);
+    BOOST_TEST(result.err.find("cannot be written") != std::string::npos, result.err);
+}
+
+BOOST_AUTO_TEST_SUITE_END()

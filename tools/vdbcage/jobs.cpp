@@ -1,0 +1,95 @@
+#include <iostream>
+#include <map>
+
+#include <vdbcage/core/error.h>
+#include <vdbcage/mesh/io/formats.h>
+
+#include "commands.h"
+
+namespace vdbcage::tool {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// As a word of a POSIX shell. \throw InputError it has a line break or the like, and would not stay in its line
+std::string shellWord(const std::string& word)
+{
+    constexpr const char* plain = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_@%+=:,./-";
+    if (detail::printable(word).size() != word.size()) {
+        throw InputError("'" + word + "': a job is a line, and cannot have control characters");
+    }
+    if (!word.empty() && word.find_first_not_of(plain) == std::string::npos) return word;
+    std::string text = "'";
+    for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    return text + "'";
+}
+
+/// A name that is no option.
+std::string asFile(const fs::path& path)
+{
+    const std::string name = path.string();
+    return name.rfind('-', 0) == 0 ? "./" + name : name;
+}
+
+} // namespace
+
+int runJobs(std::vector<std::string> words)
+{
+    std::vector<fs::path> models;
+    fs::path folder;
+    std::string program = "vdbcage", format = "obj";
+    CageOptions options;
+    bool pictures = false;
+    CLI::App app("vdbcage jobs MODEL... -o DIR [OPTIONS of make]\n"
+                 "Prints a command for each model, one a line: for GNU parallel, Slurm arrays and\n"
+                 "other farms. Each makes DIR/MODEL.obj with a report, and does nothing where that\n"
+                 "was done before. DIR is made if it is not there.",
+                 "jobs");
+    app.add_option("models", models)->required()->type_name("MODEL...");
+    app.add_option("-o,--output", folder, "where cages and reports go")->required()->type_name("DIR");
+    app.add_option("--format", format, "of cages: obj, off, ply or stl [obj]")->type_name("FORMAT");
+    app.add_flag("--pictures", pictures, "of each model with its cage, too");
+    app.add_option("--command", program, "how farms call vdbcage [vdbcage]")->type_name("WORD");
+    const std::size_t own = app.get_options().size();
+    addCageOptions(app, options);
+    const std::vector<CLI::Option*> all = app.get_options();
+    const std::vector<CLI::Option*> ofMake(all.begin() + static_cast<std::ptrdiff_t>(own), all.end());
+    app.set_help_all_flag("--help-all", "print this and the rarer options");
+    if (!parse(app, std::move(words))) return exitGood;
+    detail::requireMeshExtension("cage." + format);
+    requireValid(options);
+
+    std::string given;
+    for (const CLI::Option* option : ofMake) {
+        for (const std::string& value : option->results()) {
+            given += " --" + option->get_lnames().front() + ' ' + shellWord(value);
+        }
+    }
+    if (const CLI::Option* const threads = app.get_option("--threads"); threads->count() > 0) {
+        given += " --threads " + threads->results().front();
+    }
+    std::string text;
+    std::map<std::string, fs::path> modelOf;
+    for (const fs::path& model : models) {
+        const std::string name = model.stem().string();
+        const auto [first, isNew] = modelOf.try_emplace(name, model);
+        if (!isNew) {
+            throw InputError(model.string() + ": another model has this name too, and the cages of both would be " +
+                             (folder / name).string() + '.' + format + ": " + first->second.string());
+        }
+        const auto output = [&](const char* option, const std::string& extension) {
+            return std::string(" ") + option + ' ' + shellWord(asFile(folder / (name + extension)));
+        };
+        text += shellWord(program) + " make " + shellWord(asFile(model)) + output("-o", '.' + format) +
+                output("--report", ".json") + (pictures ? output("--picture", ".png") : "") + " --skip-done" + given +
+                '\n';
+    }
+    std::error_code problem;
+    fs::create_directories(folder, problem);
+    if (problem) throw IoError(folder.string() + ": the folder cannot be made: " + problem.message());
+    std::cout << text;
+    return exitGood;
+}
+
+} // namespace vdbcage::tool

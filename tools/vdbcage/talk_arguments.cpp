@@ -1,0 +1,25 @@
+#include "talk_arguments.h"
+
+#include <unistd.h>
+
+#include <vdbcage/core/error.h>
+
+namespace vdbcage::tool {
+
+TalkArguments::TalkArguments(CLI::App& app, const char* verboseHelp)
+{
+    app.add_option("--progress", progress_, "auto, or lines on standard output [auto]")->type_name("FORM");
+    app.add_flag("-q,--quiet", quiet_, "print nothing but errors");
+    if (verboseHelp) app.add_flag("-v,--verbose", verbose_, verboseHelp);
+}
+
+ProgressForm TalkArguments::progressForm() const
+{
+    if (progress_ == "lines") return ProgressForm::farm;
+    if (progress_ != "auto") throw InputError("progress: '" + progress_ + "' is neither auto nor lines");
+    if (quiet_) return ProgressForm::none;
+    if (::isatty(STDERR_FILENO) == 1) return ProgressForm::bar;
+    return verbose_ ? ProgressForm::lines : ProgressForm::none;
+}
+
+} // namespace vdbcage::tool

@@ -1,0 +1,21 @@
+#include "threads.h"
+
+#include <cstdlib>
+#include <string>
+
+#include <tbb/global_control.h>
+
+namespace vdbcage::tool {
+
+void limitThreads(int count)
+{
+    // TBB limits a process for as long as such an object lives. It never goes: in the end of the process that would
+    // start threads.
+    static const auto* const limit =
+        new tbb::global_control(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(count));
+    static_cast<void>(limit);
+    // Mesa's software driver draws with threads of its own beside the one that calls it, 0: with that one.
+    ::setenv("LP_NUM_THREADS", std::to_string(count - 1).c_str(), 1);
+}
+
+} // namespace vdbcage::tool
