@@ -90,7 +90,7 @@ BOOST_AUTO_TEST_CASE(another_material_poses_it_anew_but_binds_nothing)
 {
     run("coordinates somigliana");
     run("model-colours inverted");
-    run("move -1.5 0.4 0.3");
+    run("move -5 0.4 0.3");
     follow();
     const Binding binding(*cage, model->mesh.points, Coordinates::somigliana);
     const std::vector<Vec3d> before = follower.model().points();

@@ -194,7 +194,7 @@ void buildMaterial(const PanelContext& context)
               "the material turns at each face as the face does; for parts that turn farther, but it stretches more"};
     for (std::size_t i = 0; i < labels.size(); ++i) {
         const auto rotations = static_cast<Elasticity::Rotations>(i);
-        if (choice(labels[i], now.rotations == rotations, i == 0)) {
+        if (ImGui::RadioButton(labels[i], now.rotations == rotations)) {
             Elasticity changed = now;
             changed.rotations = rotations;
             ask(changed);
