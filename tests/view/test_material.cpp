@@ -21,7 +21,7 @@ struct Fixture : AppFixture {
 
     Fixture()
     {
-        app.resize(1280, 1100); // no panel is scrolled
+        app.resize(1280, 1300); // no panel is scrolled
         run(app,
             {"open " + quotedWord(files[0]), "wait", "mode pose", "select points 0 1 2 3", "move 0 0.5 0", "wait"});
     }
