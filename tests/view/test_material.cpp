@@ -47,12 +47,12 @@ BOOST_AUTO_TEST_CASE(what_is_saved_has_the_material)
     writeMesh(expected, folder / "expected.ply");
     BOOST_TEST(readMesh(folder / "seen.ply").points == readMesh(folder / "expected.ply").points,
                boost::test_tools::per_element());
-    BOOST_TEST(readText(folder / "m.0000.ply") == readText(folder / "seen.ply"));
-    BOOST_TEST(readText(folder / "plain.ply") != readText(folder / "seen.ply"));
+    BOOST_TEST((readText(folder / "m.0000.ply") == readText(folder / "seen.ply")));
+    BOOST_TEST((readText(folder / "plain.ply") != readText(folder / "seen.ply")));
     // Where nothing is bound yet.
     savePosedModels({bindOrder(state), nullptr, elasticity, state.document.poses, *state.carried, 0, 0},
                     folder / "bound.ply", nullptr);
-    BOOST_TEST(readText(folder / "bound.ply") == readText(folder / "seen.ply"));
+    BOOST_TEST((readText(folder / "bound.ply") == readText(folder / "seen.ply")));
 }
 
 BOOST_AUTO_TEST_CASE(the_material_is_there_where_it_acts)

@@ -152,7 +152,7 @@ BOOST_AUTO_TEST_CASE(the_material_is_of_the_document)
     session.beginDrag();
     for (int i = 1; i <= 10; ++i) session.execute(commandOf({"material", "0.3", "local", "0", std::to_string(5 + i)}));
     session.endDrag();
-    BOOST_TEST(session.documents().depth() == 2);
+    BOOST_TEST_REQUIRE(session.documents().depth() == 2);
     BOOST_TEST(session.documents().undone() == "material 0.3 local 0 15");
     session.undo();
     BOOST_TEST((session.state().document.elasticity == bulging));
