@@ -132,6 +132,8 @@ BOOST_AUTO_TEST_CASE(another_material_poses_it_anew_but_binds_nothing)
     run("coordinates green");
     follow();
     const std::uint64_t green = follower.model().version();
+    const Binding byGreen(*cage, model->mesh.points, Coordinates::green);
+    BOOST_TEST((*follower.check()->inverted == invertedTriangles(byGreen, model->mesh, {points()}).front()));
     run("material 0.3 global 0 5");
     follow();
     BOOST_TEST(follower.model().version() == green);
