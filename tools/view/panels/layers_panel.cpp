@@ -171,7 +171,7 @@ void buildMaterial(const PanelContext& context)
         Elasticity changed = now;
         auto value = static_cast<float>(now.*n.value);
         if (ImGui::SliderFloat("##value", &value, n.least, n.most, n.format, ImGuiSliderFlags_AlwaysClamp)) {
-            changed.*n.value = std::round(n.perUnit * double{value}) / n.perUnit;
+            changed.*n.value = std::round(n.perUnit * double{value}) / n.perUnit + 0.0; // not -0
             ask(changed);
         }
         context.followDrag();

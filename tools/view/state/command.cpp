@@ -216,8 +216,9 @@ Command materialOf(const Words& words)
 std::string familyWords()
 {
     std::string words;
-    for (const FamilyInfo& family : coordinateFamilies())
+    for (const FamilyInfo& family : coordinateFamilies()) {
         words += (words.empty() ? "" : "|") + std::string(family.name);
+    }
     return words;
 }
 
