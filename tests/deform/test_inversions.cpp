@@ -136,7 +136,8 @@ BOOST_AUTO_TEST_CASE(the_test_that_is_kept_finds_the_same)
     for (const Coordinates family : families) {
         std::optional<InversionTest> kept;
         std::vector<std::vector<Vec3d>> poses;
-        std::vector<std::vector<std::uint32_t>> expected;
+        const Elasticity bulging{0.4, Elasticity::Rotations::local, 3, 5};
+        std::vector<std::vector<std::uint32_t>> expected, expectedBulging;
         {
             const Mesh cage = randomCage(Kind::both, 43), mesh = test::sphere(Vec3d(0.1, 0, 0), 0.5, 12);
             const Binding binding(cage, mesh.points, family);
@@ -144,12 +145,22 @@ BOOST_AUTO_TEST_CASE(the_test_that_is_kept_finds_the_same)
             Random random(44);
             for (Vec3d& p : poses.back()) p += random(0, 1.5) * random.direction();
             expected = invertedTriangles(binding, mesh, poses);
+            expectedBulging = invertedTriangles(binding.with(bulging), mesh, poses);
             kept.emplace(binding, mesh);
         } // it outlives what it was made from
         const InversionTest copy = *kept;
         for (std::size_t i = 0; i < poses.size(); ++i) {
             BOOST_TEST((kept->inverted(poses[i]) == expected[i]));
             BOOST_TEST((copy.inverted(poses[i]) == expected[i]));
+        }
+        const InversionTest other = kept->with(bulging);
+        for (std::size_t i = 0; i < poses.size(); ++i) {
+            BOOST_TEST((other.inverted(poses[i]) == expectedBulging[i]));
+            BOOST_TEST((other.with(Elasticity()).inverted(poses[i]) == expected[i]));
+        }
+        BOOST_TEST((expectedBulging != expected) == (family == Coordinates::somigliana));
+        if (family == Coordinates::somigliana) {
+            BOOST_CHECK_THROW(kept->with({0.5, Elasticity::Rotations::global, 0, 0}), InputError);
         }
         BOOST_TEST(expected[0].empty());
         BOOST_TEST(!expected[1].empty());

@@ -9,6 +9,11 @@
 
 namespace vdbcage::test {
 
+inline Coordinates randomFamily(std::mt19937& random)
+{
+    return coordinateFamilies()[random() % coordinateFamilies().size()].family;
+}
+
 /// Any command that moves what is selected, or changes it otherwise. It may be refused where nothing is.
 inline view::Command randomMove(std::mt19937& random)
 {
@@ -46,7 +51,7 @@ inline view::Command randomMove(std::mt19937& random)
     case 5:
         return ResetPose{below(3) != 0};
     case 6:
-        return SetCoordinates{static_cast<Coordinates>(below(3))};
+        return SetCoordinates{randomFamily(random)};
     default:
         return EditCage{static_cast<CageEdit>(below(5))};
     }
@@ -91,6 +96,10 @@ inline view::Command randomCommand(std::mt19937& random, const std::vector<std::
         return SetOption{name, value};
     }
     case 5:
+        if (below(2) == 0) {
+            return SetMaterial{{real(-0.99, 0.49), static_cast<Elasticity::Rotations>(below(2)), real(0, 100),
+                                below(3) == 0 ? 0 : real(0, 100)}};
+        }
         return below(4) == 0 ? ResetOptions{} : ResetOptions{{"faces", "mesh"}};
     case 6:
         return ApplyPreset{presets()[random() % presets().size()].name};
@@ -127,7 +136,7 @@ inline view::Command randomCommand(std::mt19937& random, const std::vector<std::
         return below(2) == 0 ? Command(SetOrientation{static_cast<Orientation>(below(4))})
                              : Command(SetSeeThrough{below(2) == 0});
     case 20:
-        if (below(4) == 0) return Compare{static_cast<Coordinates>(below(3))};
+        if (below(4) == 0) return Compare{randomFamily(random)};
         if (below(6) == 0) return Compare{};
         return below(3) == 0   ? Command(SetFrame{below(200)})
                : below(2) == 0 ? Command(Play{below(2) == 0})

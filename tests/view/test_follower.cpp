@@ -1,6 +1,7 @@
 // The model as it follows a pose, and the verdict on it.
 #include <boost/test/unit_test.hpp>
 
+#include <atomic>
 #include <cmath>
 
 #include "orders.h"
@@ -27,7 +28,12 @@ struct Fixture {
     const MeshPtr cage = std::make_shared<const Mesh>(test::torus(2, 0.6, 16, 8));
     const OpenedMeshPtr model = test::opened(test::torus(2, 0.3, 48, 24));
     Session session;
-    Follower follower{bindingWork(), [] {}};
+    std::atomic<int> bindings{0}; ///< that were begun
+    Binder::Work work = [this](const BindOrder& order, Interrupter& interrupter, const auto& publish) {
+        ++bindings;
+        return bindingWork()(order, interrupter, publish);
+    };
+    Follower follower{work, [] {}};
 
     Fixture()
     {
@@ -61,10 +67,10 @@ BOOST_AUTO_TEST_CASE(it_is_posed_as_the_binding_poses_it_by_every_family)
     BOOST_TEST(!follower.model().bound()); // at rest
     BOOST_TEST(!follower.check());
     run("move 0.3 0.2 0.1");
-    for (const char* const family : {"mvc", "green", "mlc", "harmonic"}) {
-        run(std::string("coordinates ") + family);
+    for (const FamilyInfo& family : coordinateFamilies()) {
+        run(std::string("coordinates ") + family.name);
         follow();
-        const Binding binding(*cage, model->mesh.points, coordinatesNamed(family));
+        const Binding binding(*cage, model->mesh.points, family.family);
         BOOST_TEST(follower.model().points() == binding.pose(points()), boost::test_tools::per_element());
         BOOST_TEST_REQUIRE(follower.check());
         BOOST_TEST(!follower.check()->inverted);
@@ -78,6 +84,115 @@ BOOST_AUTO_TEST_CASE(it_is_posed_as_the_binding_poses_it_by_every_family)
         run("model-colours plain");
     }
     BOOST_TEST(follower.error().empty());
+}
+
+BOOST_AUTO_TEST_CASE(another_material_poses_it_anew_but_binds_nothing)
+{
+    run("coordinates somigliana");
+    run("model-colours inverted");
+    run("move -5 0.4 0.3");
+    follow();
+    const Binding binding(*cage, model->mesh.points, Coordinates::somigliana);
+    const std::vector<Vec3d> before = follower.model().points();
+    BOOST_TEST(before == binding.pose(points()), boost::test_tools::per_element());
+    std::size_t counts = 0;
+    for (const Elasticity& elasticity : {Elasticity{0.4, Elasticity::Rotations::global, 0, 20},
+                                         Elasticity{-0.5, Elasticity::Rotations::local, 10, 0}}) {
+        session.execute(SetMaterial{elasticity});
+        // At once, before anything is waited for.
+        follower.follow(session.state(), points(), {true, true, false});
+        const Binding other = binding.with(elasticity);
+        BOOST_TEST(follower.model().points() == other.pose(points()), boost::test_tools::per_element());
+        BOOST_TEST(follower.model().points() != before);
+        BOOST_TEST(follower.bindingOf(session.state())->pose(points()) == other.pose(points()),
+                   boost::test_tools::per_element());
+        follow();
+        const std::vector<std::uint32_t>& inverted = *follower.check()->inverted;
+        BOOST_TEST((inverted == invertedTriangles(other, model->mesh, {points()}).front()));
+        counts += inverted != invertedTriangles(binding, model->mesh, {points()}).front() ? 1 : 0;
+        run("model-colours stretch");
+        follow();
+        BOOST_TEST((*follower.values() == stretch(model->mesh, other.pose(points()))));
+        run("model-colours influence");
+        follow();
+        BOOST_TEST((*follower.values() == influence(other, selectedPoints(session.state()))));
+        run("model-colours inverted");
+    }
+    BOOST_TEST(counts > 0u); // the verdicts differ
+    // What does not change stays as it is.
+    follow();
+    const std::uint64_t version = follower.model().version();
+    follow();
+    BOOST_TEST(follower.model().version() == version);
+    run("material 0 global 0 0");
+    follow();
+    BOOST_TEST(follower.model().points() == before, boost::test_tools::per_element());
+    BOOST_TEST(bindings == 1);
+    // Other families have none.
+    run("coordinates green");
+    follow();
+    const std::uint64_t green = follower.model().version();
+    const Binding byGreen(*cage, model->mesh.points, Coordinates::green);
+    BOOST_TEST((*follower.check()->inverted == invertedTriangles(byGreen, model->mesh, {points()}).front()));
+    run("material 0.3 global 0 5");
+    follow();
+    BOOST_TEST(follower.model().version() == green);
+    BOOST_TEST(bindings == 2);
+}
+
+BOOST_AUTO_TEST_CASE(the_stand_in_has_the_material)
+{
+    run("move 0.3 0.2 0.1");
+    const Elasticity elasticity{0.4, Elasticity::Rotations::local, 3, 5};
+    const BindOrder order{model, cage, Coordinates::somigliana};
+    const BoundModelPtr coarse = boundCoarsely(order, nullptr), other = withMaterial(coarse, elasticity);
+    BOOST_TEST(other->coarse->pose(points()) == coarse->coarse->with(elasticity).pose(points()),
+               boost::test_tools::per_element());
+    BOOST_TEST(other->coarse->pose(points()) != coarse->coarse->pose(points()));
+    BOOST_TEST(withMaterial(coarse, Elasticity()) == coarse);
+    BOOST_TEST(!withMaterial(BoundModelPtr(), elasticity));
+}
+
+BOOST_AUTO_TEST_CASE(both_pictures_have_the_material)
+{
+    const auto posed = [&](const Posing& posing, const Follower& of) {
+        return of.model().isWhole() && posing.cagePoints() == points();
+    };
+    run("move 0.3 0.2 0.1");
+    run("compare somigliana");
+    run("material 0.4 local 3 5");
+    Planner planner;
+    State state = session.state();
+    OpenedMesh opened;
+    opened.mesh = *cage;
+    state.document.cage = std::make_shared<const OpenedMesh>(std::move(opened));
+    planner.want(Order{state.document.model, state.document.options, state.document.cage}, false);
+    planner.cancel(); // it is worth binding
+    BOOST_TEST_REQUIRE(planner.isHalted());
+    Posing posing(work, [] {});
+    const auto follow = [&] {
+        const CageResultPtr shown = posing.cageOf(state, planner);
+        if (!shown) return;
+        state.cage = MeshPtr(shown, &shown->cage);
+        state.carried = posing.carried();
+        posing.follow(state, planner, true);
+    };
+    for (follow(); !posing.compared() || !posing.isSettled(); follow()) {
+        posing.waitForNews(1);
+        posing.update();
+    }
+    follow();
+    BOOST_TEST_REQUIRE((posed(posing, posing.follower()) && posed(posing, *posing.compared())));
+    const Binding binding = Binding(*cage, model->mesh.points, Coordinates::somigliana).with(state.document.elasticity);
+    BOOST_TEST(posing.compared()->model().points() == binding.pose(points()), boost::test_tools::per_element());
+    BOOST_TEST(posing.hasMaterial(state));
+    state.view.compared.reset();
+    follow();
+    BOOST_TEST(!posing.hasMaterial(state));
+    state.document.coordinates = Coordinates::somigliana;
+    BOOST_TEST(posing.hasMaterial(state));
+    state.view.mode = Mode::shape;
+    BOOST_TEST(!posing.hasMaterial(state));
 }
 
 BOOST_AUTO_TEST_CASE(a_pose_through_itself_is_not_valid_and_turns_triangles_inside_out)

@@ -48,6 +48,7 @@ void checkSame(const State& a, const State& b)
     BOOST_TEST(test::sameMesh(a.document.model->mesh, b.document.model->mesh));
     BOOST_TEST_REQUIRE((a.document.cage == nullptr) == (b.document.cage == nullptr));
     if (a.document.cage) BOOST_TEST(a.document.cage->path == b.document.cage->path);
+    BOOST_TEST((a.document.elasticity == b.document.elasticity));
 }
 
 } // namespace
@@ -112,6 +113,10 @@ BOOST_AUTO_TEST_CASE(what_is_gone_or_changed_is_named)
                                                           {"\"ground on\"", "\"ground in\""},
                                                           {"\"ground on\"", "\"set faces 50\""},
                                                           {"\"digest\"", "\"digits\""},
+                                                          {"\"nu\": 0.0", "\"nu\": 0.5"},
+                                                          {"\"nu\": 0.0", "\"mu\": 0.0"},
+                                                          {"\"rotations\": \"global\"", "\"rotations\": \"both\""},
+                                                          {"\"local_bulging\": 0.0", "\"local_bulging\": -1"},
                                                           {"{", "["}}) {
         std::string bad = good;
         BOOST_TEST_REQUIRE(bad.find(from) != std::string::npos);
@@ -124,6 +129,20 @@ BOOST_AUTO_TEST_CASE(what_is_gone_or_changed_is_named)
         BOOST_CHECK_THROW(openScene(path), Error);
     }
     BOOST_CHECK_THROW(openScene(folder / "none.json"), IoError);
+}
+
+BOOST_AUTO_TEST_CASE(scenes_of_before_have_the_default_material)
+{
+    const fs::path path = folder / "scene.json";
+    State state = applied({}, OpenModel{files[0]});
+    state.document.elasticity = {0.3, Elasticity::Rotations::local, 1, 2};
+    saveScene(state, nullptr, path);
+    BOOST_TEST((openScene(path).document.elasticity == state.document.elasticity));
+    std::string text = test::readText(path);
+    const std::size_t begin = text.find("\"elasticity\""), end = text.find("\"view\"");
+    BOOST_TEST_REQUIRE((begin < end && end != std::string::npos));
+    test::writeText(path, text.erase(begin, end - begin));
+    BOOST_TEST((openScene(path).document.elasticity == Elasticity()));
 }
 
 BOOST_AUTO_TEST_CASE(what_cannot_be_saved_leaves_what_was_there)

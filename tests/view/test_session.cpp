@@ -142,6 +142,37 @@ BOOST_AUTO_TEST_CASE(a_drag_is_one_step)
     BOOST_CHECK(session.state() == before);
 }
 
+BOOST_AUTO_TEST_CASE(the_material_is_of_the_document)
+{
+    const Elasticity bulging{0.3, Elasticity::Rotations::local, 0, 5};
+    Session session;
+    session.execute(commandOf({"material", "0.3", "local", "0", "5"}));
+    BOOST_TEST((session.state().document.elasticity == bulging));
+    session.execute(SetMaterial{bulging}); // no step
+    session.beginDrag();
+    for (int i = 1; i <= 10; ++i) session.execute(commandOf({"material", "0.3", "local", "0", std::to_string(5 + i)}));
+    session.endDrag();
+    BOOST_TEST_REQUIRE(session.documents().depth() == 2);
+    BOOST_TEST(session.documents().undone() == "material 0.3 local 0 15");
+    session.undo();
+    BOOST_TEST((session.state().document.elasticity == bulging));
+    session.undo();
+    BOOST_TEST((session.state().document.elasticity == Elasticity()));
+    BOOST_CHECK_EXCEPTION(commandOf({"material", "0.5", "global", "0", "0"}), InputError, [](const InputError& error) {
+        return std::string(error.what()) == "nu: 0.5 is not allowed; it must be above -1 and below 0.5";
+    });
+}
+
+BOOST_AUTO_TEST_CASE(families_are_named_by_the_table)
+{
+    for (const auto& [usage, help] : describeCommands()) {
+        if (usage.rfind("coordinates ", 0) != 0 && usage.rfind("compare ", 0) != 0) continue;
+        for (const FamilyInfo& family : coordinateFamilies()) {
+            BOOST_TEST((usage + '|').find(std::string(family.name) + '|') != std::string::npos, usage);
+        }
+    }
+}
+
 BOOST_AUTO_TEST_CASE(what_changes_nothing_leaves_no_step_and_what_fails_changes_nothing)
 {
     const Files files;
@@ -217,7 +248,17 @@ BOOST_AUTO_TEST_CASE(a_line_that_is_no_command_is_refused)
                              "scale 1 1 1 0 0 0 1 0 0 1 1 0",
                              "edit-cage melt",
                              "reset-pose some",
-                             "coordinates best"}) {
+                             "coordinates best",
+                             "coordinates given",
+                             "compare given",
+                             "material",
+                             "material 0 global 0",
+                             "material 0 both 0 0",
+                             "material 0.5 global 0 0",
+                             "material -1 global 0 0",
+                             "material nan global 0 0",
+                             "material 0 global -1 0",
+                             "material 0 global 0 101"}) {
         BOOST_TEST_CONTEXT(line) BOOST_CHECK_THROW(commandOf(wordsOf(line)), InputError);
     }
 }

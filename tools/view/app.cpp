@@ -511,8 +511,8 @@ private:
         content.bindingError = posing_.error();
         content.isPoseChecked = posing_.follower().isChecking();
         content.poseCheck = posing_.follower().check();
-        content.isPosed = !posing_.cagePoints().empty() && session_.state().view.mode == Mode::pose &&
-                          session_.state().cage && posing_.cagePoints() != session_.state().cage->points;
+        content.isPosed = posing_.isPosed(session_.state());
+        content.hasMaterial = posing_.hasMaterial(session_.state());
         content.hasModelChanged = hasModelChanged_;
         content.asksToQuit = asksToQuit_;
         return content;

@@ -22,7 +22,8 @@ PosedScene posedScene(const Saver::Source& source, bool isSequence)
     const CarriedPoses carried = state.carried ? *state.carried : CarriedPoses(state.cage);
     const int first = isSequence ? poses.firstFrame() : state.view.frame;
     const int last = isSequence ? poses.finalFrame() : first;
-    return {bindOrder(state), source.posing.follower().bindingOf(state), poses, carried, first, last};
+    const auto binding = source.posing.follower().bindingOf(state);
+    return {bindOrder(state), binding, state.document.elasticity, poses, carried, first, last};
 }
 
 Write writePosed(const Saver::Source& source, const std::string& verb, const fs::path& file)

@@ -95,6 +95,7 @@ void savePosedModels(PosedScene scene, const fs::path& path, Interrupter* interr
 {
     detail::requireMeshExtension(path);
     if (!scene.binding) scene.binding = bindingOf(scene.order, interrupter);
+    scene.binding = withMaterial(scene.binding, scene.elasticity);
     saveFrames(scene, path, interrupter, [&](const Points& points, std::ostream& out, const fs::path& file) {
         writeMoved(scene.order.model->path, scene.binding->pose(points), out, file);
     });

@@ -24,6 +24,7 @@ void saveStages(const CageResult& result, const std::filesystem::path& folder);
 struct PosedScene {
     BindOrder order;
     std::shared_ptr<const Binding> binding; ///< null: it is computed when it is needed
+    Elasticity elasticity;
     TimeLine poses;
     CarriedPoses carried;    ///< for the cage of `order`
     int first = 0, last = 0; ///< frames

@@ -93,6 +93,10 @@ std::map<std::string, std::function<std::string()>> valuesOf(const ValueSource& 
     list["see-through"] = [&] { return state.view.seeThrough ? "on" : "off"; };
     list["mirror"] = [&] { return state.view.mirror ? std::string(1, "xyz"[state.view.mirror->axis]) : "off"; };
     list["coordinates"] = [&] { return coordinatesName(state.document.coordinates); };
+    list["material"] = [&] {
+        const std::string text = toText(SetMaterial{state.document.elasticity});
+        return text.substr(text.find(' ') + 1);
+    };
     list["weights"] = [&] {
         return state.document.weights ? state.document.weights->path.filename().string() : "none";
     };

@@ -133,6 +133,16 @@ InversionTest::InversionTest(const Binding& binding, const Mesh& model, Interrup
     bound_ = std::make_shared<const Bound>(std::move(bound));
 }
 
+InversionTest InversionTest::with(const Elasticity& elasticity) const
+{
+    InversionTest changed = *this;
+    if (bound_->binding.options().elasticity == elasticity) return changed;
+    Bound bound{bound_->binding.with(elasticity), bound_->triangles, {}};
+    for (const Piece& piece : bound_->pieces) bound.pieces.push_back({piece.indices, piece.beside.with(elasticity)});
+    changed.bound_ = std::make_shared<const Bound>(std::move(bound));
+    return changed;
+}
+
 std::vector<std::uint32_t> InversionTest::inverted(const std::vector<Vec3d>& cagePoints) const
 {
     const std::vector<Vec3d> posed = bound_->binding.pose(cagePoints);

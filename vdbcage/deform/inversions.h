@@ -35,6 +35,10 @@ public:
     /// Cost: binding two points a triangle. Their weights take the memory of a Binding of as many points.
     InversionTest(const Binding& binding, const Mesh& model, Interrupter* interrupter = nullptr);
 
+    /// The same with another material, of Somigliana coordinates: nothing is bound anew.
+    /// \throw InputError it is out of range
+    InversionTest with(const Elasticity& elasticity) const;
+
     /// The triangles that the pose `cagePoints` turns inside out, as invertedTriangles gives them.
     /// \throw InputError not as many points as the cage has, or one not finite
     /// Cost: posing the model's points and two a triangle.

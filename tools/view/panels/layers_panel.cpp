@@ -2,6 +2,7 @@
 #include <cstdio>
 
 #include <tools/view/panels/parts.h>
+#include <tools/view/state/command.h>
 #include <tools/view/state/words.h>
 #include <vdbcage/core/detail/number_text.h>
 #include <vdbcage/core/error.h>
@@ -139,6 +140,68 @@ void buildCompare(const PanelContext& context)
         help(describe(family));
     }
     ImGui::EndCombo();
+}
+
+/// What Somigliana coordinates move.
+void buildMaterial(const PanelContext& context)
+{
+    const Elasticity& now = context.content.session.state().document.elasticity;
+    const auto ask = [&](const Elasticity& elasticity) { context.ask(toText(SetMaterial{elasticity})); };
+    struct Number {
+        const char* label;
+        const char* name;
+        double Elasticity::*value;
+        float least, most;
+        double perUnit; ///< steps that a hand can set
+        const char* format;
+        const char* text;
+    };
+    for (const Number& n : {Number{"Poisson's ratio", "material.nu", &Elasticity::nu, -0.9F, 0.45F, 100, "%.2f",
+                                   "how much the model gets thinner where it is stretched; below 0 it gets thicker"},
+                            Number{"Local bulging", "material.local-bulging", &Elasticity::localBulging, 0, 30, 10,
+                                   "%.1f", "how much the model bulges where the cage's normals come to spread more"},
+                            Number{"Global bulging", "material.global-bulging", &Elasticity::globalBulging, 0, 30, 10,
+                                   "%.1f", "how much the model bulges where the cage moves outward"}}) {
+        ImGui::PushID(n.name);
+        ImGui::AlignTextToFramePadding();
+        ImGui::TextUnformatted(n.label);
+        help(n.text);
+        ImGui::SameLine(length(112));
+        ImGui::SetNextItemWidth(-length(28));
+        Elasticity changed = now;
+        auto value = static_cast<float>(now.*n.value);
+        if (ImGui::SliderFloat("##value", &value, n.least, n.most, n.format, ImGuiSliderFlags_AlwaysClamp)) {
+            changed.*n.value = std::round(n.perUnit * double{value}) / n.perUnit + 0.0; // not -0
+            ask(changed);
+        }
+        context.followDrag();
+        context.name(n.name);
+        help(n.text);
+        const double normal = Elasticity().*n.value;
+        if (now.*n.value != normal) {
+            ImGui::SameLine(0, length(4));
+            if (ImGui::Button("\xe2\x86\xba", {-1, 0})) {
+                changed.*n.value = normal;
+                ask(changed);
+            }
+            context.name(std::string(n.name) + ".reset");
+            help("back to " + detail::numberText(normal));
+        }
+        ImGui::PopID();
+    }
+    constexpr std::array<const char*, 2> labels{"Turns as a whole", "Turns with faces"},
+        helps{"the material turns as one; for parts that turn up to a quarter turn from the mean",
+              "the material turns at each face as the face does; for parts that turn farther, but it stretches more"};
+    for (std::size_t i = 0; i < labels.size(); ++i) {
+        const auto rotations = static_cast<Elasticity::Rotations>(i);
+        if (ImGui::RadioButton(labels[i], now.rotations == rotations)) {
+            Elasticity changed = now;
+            changed.rotations = rotations;
+            ask(changed);
+        }
+        context.name(std::string("material.") + rotationNames[i]);
+        help(helps[i]);
+    }
 }
 
 void buildSection(const PanelContext& context)
@@ -286,6 +349,11 @@ void buildLayers(const PanelContext& context, std::map<std::string, std::string>
         buildModelColours(context);
         buildCompare(context);
         ImGui::Dummy({0, length(4)});
+        if (context.content.hasMaterial) {
+            heading("Material");
+            buildMaterial(context);
+            ImGui::Dummy({0, length(4)});
+        }
     }
     buildSelected(context, typed);
     heading("View");

@@ -51,6 +51,7 @@ struct PanelContent {
     KeyMap keys{};                            ///< whose shortcuts these are
     std::optional<SelectionFrame> selected{}; ///< its axes are not used; none: nothing of the cage is
     bool isPosed = false;                     ///< the cage is not at rest
+    bool hasMaterial = false;                 ///< see Posing
     bool isPoseChecked = false;               ///< just now
     PoseCheckPtr poseCheck = {};              ///< null: the pose is not checked, or not yet
     std::optional<WorkProgress> saving = {};  ///< none: nothing is being written

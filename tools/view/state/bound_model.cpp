@@ -77,6 +77,24 @@ BoundModelPtr boundWhole(const BoundModel& coarse, Interrupter* interrupter)
     return std::make_shared<const BoundModel>(std::move(bound));
 }
 
+std::shared_ptr<const Binding> withMaterial(const std::shared_ptr<const Binding>& binding, const Elasticity& elasticity)
+{
+    if (!binding || binding->family() != Coordinates::somigliana || binding->options().elasticity == elasticity) {
+        return binding;
+    }
+    return std::make_shared<const Binding>(binding->with(elasticity));
+}
+
+BoundModelPtr withMaterial(const BoundModelPtr& bound, const Elasticity& elasticity)
+{
+    if (!bound) return bound;
+    BoundModel changed = *bound;
+    changed.coarse = withMaterial(bound->coarse, elasticity);
+    changed.whole = withMaterial(bound->whole, elasticity);
+    if (changed.coarse == bound->coarse && changed.whole == bound->whole) return bound;
+    return std::make_shared<const BoundModel>(std::move(changed));
+}
+
 std::vector<openvdb::Vec3d> posedStandIn(const draw::StandIn& standIn, const Mesh& model,
                                          const std::vector<openvdb::Vec3d>& posed)
 {

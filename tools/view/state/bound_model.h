@@ -23,8 +23,8 @@ using WeightsPtr = std::shared_ptr<const OpenedWeights>;
 /// \throw IoError there is no such file
 WeightsPtr openWeights(const std::filesystem::path& path);
 
-/// Everything that a binding depends on. Cages are compared by what they are: one that was made anew and came out the
-/// same is the same.
+/// Everything that weights depend on; the material is not of it. Cages are compared by what they are: one that was made
+/// anew and came out the same is the same.
 struct BindOrder {
     OpenedMeshPtr model;
     MeshPtr cage; ///< at rest; not null
@@ -59,6 +59,12 @@ std::shared_ptr<const Binding> bindingOf(const BindOrder& order, Interrupter* in
 BoundModelPtr boundCoarsely(const BindOrder& order, Interrupter* interrupter);
 /// Binds the rest. \throw as boundCoarsely
 BoundModelPtr boundWhole(const BoundModel& coarse, Interrupter* interrupter);
+
+/// The same with another material, where Somigliana coordinates were bound; else the same object.
+/// \throw InputError as Binding::with
+std::shared_ptr<const Binding> withMaterial(const std::shared_ptr<const Binding>& binding,
+                                            const Elasticity& elasticity);
+BoundModelPtr withMaterial(const BoundModelPtr& bound, const Elasticity& elasticity);
 
 /// Where the stand-in's points are when the model's points that they go with are at `posed` (one each): they keep their
 /// distance from these.

@@ -201,10 +201,31 @@ CageOptions withReset(CageOptions options, const ResetOptions& command)
     return options;
 }
 
+Command materialOf(const Words& words)
+{
+    Elasticity elasticity;
+    elasticity.nu = numberOf(words[0], "nu");
+    elasticity.rotations = named<Elasticity::Rotations>(rotationNames, words[1], "rotations");
+    elasticity.localBulging = numberOf(words[2], "local bulging");
+    elasticity.globalBulging = numberOf(words[3], "global bulging");
+    requireElasticity(elasticity);
+    return SetMaterial{elasticity};
+}
+
+/// The names of all families, with bars between them.
+std::string familyWords()
+{
+    std::string words;
+    for (const FamilyInfo& family : coordinateFamilies()) {
+        words += (words.empty() ? "" : "|") + std::string(family.name);
+    }
+    return words;
+}
+
 /// What is known of a command beside what it does.
 struct Syntax {
     const char* name;
-    const char* arguments;
+    std::string arguments;
     std::size_t least, most; ///< words that it takes
     const char* help;
     Command (*read)(const Words&);
@@ -230,12 +251,15 @@ const std::array<Syntax, std::variant_size_v<Command>>& syntaxes()
          [](const Words& w) -> Command { return ResetOptions{w}; }},
         {"preset", "NAME|FILE", 1, 1, "sets all options to those of a preset or of a file",
          [](const Words& w) -> Command { return ApplyPreset{w[0]}; }},
-        {"coordinates", "mvc|green|mlc|harmonic", 1, 1, "chooses how the model follows the cage",
+        {"coordinates", familyWords(), 1, 1, "chooses how the model follows the cage",
          [](const Words& w) -> Command { return SetCoordinates{coordinatesNamed(w[0])}; }},
         {"open-weights", "FILE", 1, 1,
          "the model follows the cage by weights of vdbcage bind or of others (.npy, .dmat: points x points of the "
          "cage)",
          [](const Words& w) -> Command { return OpenWeights{w[0]}; }},
+        {"material", "NU global|local LOCAL GLOBAL", 4, 4,
+         "chooses for somigliana: Poisson's ratio, what turns, local and global bulging",
+         [](const Words& w) { return materialOf(w); }},
         {"move", "X Y Z", 3, 3, "moves what is selected, in world units",
          [](const Words& w) -> Command { return MoveSelected{vectorOf(w, 0, "move")}; }},
         {"rotate", "X Y Z DEGREES PX PY PZ", 7, 7, "turns what is selected around X Y Z through PX PY PZ",
@@ -334,8 +358,7 @@ const std::array<Syntax, std::variant_size_v<Command>>& syntaxes()
          [](const Words& w) -> Command { return SetSoft{softRadiusOf(w[0])}; }},
         {"mirror", "off|x|y|z OFFSET", 1, 2, "does the same on the other side of a plane across an axis",
          [](const Words& w) -> Command { return SetMirror{mirrorOf(w)}; }},
-        {"compare", "off|mvc|green|mlc|harmonic", 1, 1,
-         "shows the model by another family of coordinates too, side by side",
+        {"compare", "off|" + familyWords(), 1, 1, "shows the model by another family of coordinates too, side by side",
          [](const Words& w) -> Command { return w[0] == "off" ? Compare{} : Compare{coordinatesNamed(w[0])}; }},
         {"time", "FRAME", 1, 1, "shows, and changes from now on, the pose at a frame",
          [](const Words& w) -> Command { return SetFrame{frameOf(w[0], "time")}; }},
@@ -361,6 +384,11 @@ struct ArgumentsOf {
     std::string operator()(const ApplyPreset& c) const { return ' ' + quotedWord(c.name); }
     std::string operator()(const SetCoordinates& c) const { return ' ' + std::string(coordinatesName(c.family)); }
     std::string operator()(const OpenWeights& c) const { return ' ' + quotedWord(c.path); }
+    std::string operator()(const SetMaterial& c) const
+    {
+        const Elasticity& e = c.elasticity;
+        return numbers({e.nu}) + named(rotationNames, e.rotations) + numbers({e.localBulging, e.globalBulging});
+    }
     std::string operator()(const MoveSelected& c) const { return numbers(c.by); }
     std::string operator()(const RotateSelected& c) const
     {
@@ -484,6 +512,7 @@ struct Apply {
         state.document.weights = openWeights(c.path);
         state.document.coordinates = Coordinates::given;
     }
+    void operator()(const SetMaterial& c) const { state.document.elasticity = c.elasticity; }
     void operator()(const MoveSelected& c) const { state.document = withMotion(state, edit::Move{c.by}); }
     void operator()(const RotateSelected& c) const
     {
@@ -594,7 +623,8 @@ std::vector<std::pair<std::string, std::string>> describeCommands()
 {
     std::vector<std::pair<std::string, std::string>> list;
     for (const Syntax& syntax : syntaxes()) {
-        list.emplace_back(syntax.name + std::string(*syntax.arguments ? " " : "") + syntax.arguments, syntax.help);
+        list.emplace_back(syntax.name + std::string(syntax.arguments.empty() ? "" : " ") + syntax.arguments,
+                          syntax.help);
     }
     return list;
 }

@@ -34,13 +34,17 @@ struct ApplyPreset {
     std::string name; ///< of a preset of ours, or a file's path
 };
 
-/// coordinates mvc|green|mlc|harmonic: by which the model follows the cage.
+/// coordinates FAMILY: by which the model follows the cage; one of coordinateFamilies().
 struct SetCoordinates {
     Coordinates family{};
 };
 /// open-weights FILE: the model follows the cage by weights from a file.
 struct OpenWeights {
     std::string path;
+};
+/// material NU global|local LOCAL GLOBAL: what Somigliana coordinates move (see Elasticity).
+struct SetMaterial {
+    Elasticity elasticity;
 };
 /// move X Y Z: what is selected, in world units.
 struct MoveSelected {
@@ -173,7 +177,7 @@ struct SetSeeThrough {
 struct SetSoft {
     double radius = 0; ///< a part of the model's longest side
 };
-/// compare off|mvc|green|mlc|harmonic: a second picture beside the first has the model by another family, in mode pose.
+/// compare off | compare FAMILY: a second picture beside the first has the model by another family, in mode pose.
 struct Compare {
     std::optional<Coordinates> family;
 };
@@ -196,11 +200,11 @@ struct SetMirror {
 };
 
 using Command = std::variant<OpenModel, OpenCage, CloseCage, SetOption, ResetOptions, ApplyPreset, SetCoordinates,
-                             OpenWeights, MoveSelected, RotateSelected, ScaleSelected, EditCage, ResetPose, OpenPose,
-                             OpenPoses, SetKey, DeleteKey, MoveKey, MakeInBetweens, ClearPoses, SetCamera, ShowLayer,
-                             FadeLayer, ColourLayer, SetCageColours, SetModelColours, SetSection, ShowGround, ShowAxes,
-                             SetTurntable, ShowTimes, Select, SetMode, SetTool, SetOrientation, SetPivot, SetSeeThrough,
-                             SetSoft, SetMirror, Compare, SetFrame, Play, SetRate>;
+                             OpenWeights, SetMaterial, MoveSelected, RotateSelected, ScaleSelected, EditCage, ResetPose,
+                             OpenPose, OpenPoses, SetKey, DeleteKey, MoveKey, MakeInBetweens, ClearPoses, SetCamera,
+                             ShowLayer, FadeLayer, ColourLayer, SetCageColours, SetModelColours, SetSection, ShowGround,
+                             ShowAxes, SetTurntable, ShowTimes, Select, SetMode, SetTool, SetOrientation, SetPivot,
+                             SetSeeThrough, SetSoft, SetMirror, Compare, SetFrame, Play, SetRate>;
 
 /// Whether it changes the document; else it changes the view.
 bool changesDocument(const Command& command);

@@ -12,14 +12,22 @@ void Follower::follow(const State& state, const std::vector<openvdb::Vec3d>& cag
     } else if (effort.isToStay) {
         binder_.want(bindOrder(state));
     }
-    const BoundModelPtr& bound = binder_.bound();
+    followMaterial(state.document.elasticity);
     if (!effort.isPosing || cagePoints == state.cage->points) {
         model_.update(nullptr, {});
-    } else if (bound && bound->order == bindOrder(state)) {
-        model_.update(bound, cagePoints);
+    } else if (bound_ && bound_->order == bindOrder(state)) {
+        model_.update(bound_, cagePoints);
     }
     followCheck(state, cagePoints, effort.isPosing && effort.standsStill);
     followValues(state);
+}
+
+void Follower::followMaterial(const Elasticity& elasticity)
+{
+    if (boundByBinder_ == binder_.bound() && elasticity_ == elasticity) return;
+    boundByBinder_ = binder_.bound();
+    elasticity_ = elasticity;
+    bound_ = withMaterial(boundByBinder_, elasticity);
 }
 
 void Follower::followCheck(const State& state, const std::vector<openvdb::Vec3d>& cagePoints, bool standsStill)
@@ -39,8 +47,7 @@ void Follower::followCheck(const State& state, const std::vector<openvdb::Vec3d>
 
 void Follower::followValues(const State& state)
 {
-    const BoundModelPtr& bound = binder_.bound();
-    const bool isBound = bound && bound->whole && bound->order == bindOrder(state);
+    const bool isBound = bound_ && bound_->whole && bound_->order == bindOrder(state);
     ModelColours colours = isBound && state.view.mode == Mode::pose ? state.view.modelColours : ModelColours::plain;
     if (colours == ModelColours::stretch && !model_.isWhole()) colours = ModelColours::plain; // it is at rest
     std::vector<openvdb::Index32> points;
@@ -49,22 +56,22 @@ void Follower::followValues(const State& state)
     const PoseCheckPtr check = colours == ModelColours::inverted ? checker_.result() : nullptr;
     // Until the next pose is checked the colours are those of the last one.
     if (colours == ModelColours::inverted && valuesOf_ == colours && model_.bound() && !check) return;
-    if (colours == valuesOf_ && bound == valuesBound_ && points == valuesPoints_ && version == valuesVersion_ &&
+    if (colours == valuesOf_ && bound_ == valuesBound_ && points == valuesPoints_ && version == valuesVersion_ &&
         check == valuesCheck_) {
         return;
     }
     valuesOf_ = colours;
-    valuesBound_ = bound;
+    valuesBound_ = bound_;
     valuesPoints_ = points;
     valuesVersion_ = version;
     valuesCheck_ = check;
     values_.reset();
     if (colours == ModelColours::influence) {
-        values_ = std::make_shared<const std::vector<double>>(influence(*bound->whole, points));
+        values_ = std::make_shared<const std::vector<double>>(influence(*bound_->whole, points));
     } else if (colours == ModelColours::stretch) {
-        values_ = std::make_shared<const std::vector<double>>(stretch(bound->order.model->mesh, model_.points()));
+        values_ = std::make_shared<const std::vector<double>>(stretch(bound_->order.model->mesh, model_.points()));
     } else if (check && check->inverted) {
-        values_ = std::make_shared<const std::vector<double>>(cornersOf(*check->inverted, bound->order.model->mesh));
+        values_ = std::make_shared<const std::vector<double>>(cornersOf(*check->inverted, bound_->order.model->mesh));
     }
 }
 
@@ -82,8 +89,7 @@ void Follower::waitForNews(double seconds)
 
 std::shared_ptr<const Binding> Follower::bindingOf(const State& state) const
 {
-    const BoundModelPtr& bound = binder_.bound();
-    return bound && bound->order == bindOrder(state) ? bound->whole : nullptr;
+    return bound_ && bound_->order == bindOrder(state) ? bound_->whole : nullptr;
 }
 
 } // namespace vdbcage::view

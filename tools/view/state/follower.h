@@ -36,7 +36,10 @@ public:
     const PoseCheckPtr& check() const { return checker_.result(); }
     /// The pose is being checked.
     bool isChecking() const { return !checker_.isSettled(); }
-    /// The whole binding of a state's model to its cage; null: it is not there yet.
+    /// What is bound of the state of the last follow(), with its material; null: nothing yet.
+    const BoundModelPtr& bound() const { return bound_; }
+    /// The whole binding of a state's model to its cage, with the material of the last follow(); null: it is not there
+    /// yet.
     std::shared_ptr<const Binding> bindingOf(const State& state) const;
 
     /// Takes what was done on other threads, and begins what is next.
@@ -52,10 +55,15 @@ public:
     const Binder& binder() const { return binder_; }
 
 private:
+    void followMaterial(const Elasticity& elasticity);
     void followCheck(const State& state, const std::vector<openvdb::Vec3d>& cagePoints, bool standsStill);
     void followValues(const State& state);
 
     Binder binder_;
+    BoundModelPtr bound_;
+    // What it was made of.
+    BoundModelPtr boundByBinder_;
+    Elasticity elasticity_;
     PoseChecker checker_;
     PosedModel model_;
     std::shared_ptr<const std::vector<double>> values_;

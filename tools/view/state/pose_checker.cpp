@@ -9,7 +9,7 @@ namespace vdbcage::view {
 
 namespace {
 
-/// Keeps what is the same for all poses of a binding.
+/// Keeps what is the same for all poses of a binding, by any material.
 class Checks {
 public:
     PoseCheckPtr operator()(const PoseCheckOrder& order, Interrupter& interrupter)
@@ -29,11 +29,12 @@ public:
         result.isValid = check.valid();
         result.selfIntersections = check.selfIntersections;
         if (order.binding) {
-            if (bound_ != order.binding) {
-                bound_.reset(); // it may be interrupted
+            if (!inversions_ || bind_ != order.bind) {
+                inversions_.reset(); // it may be interrupted
                 inversions_.emplace(*order.binding, model, &interrupter);
-                bound_ = order.binding;
+                bind_ = order.bind;
             }
+            inversions_ = inversions_->with(order.binding->options().elasticity);
             result.inverted = inversions_->inverted(order.cagePoints);
         }
         return std::make_shared<const PoseCheck>(std::move(result));
@@ -42,7 +43,7 @@ public:
 private:
     OpenedMeshPtr model_; // of the checker
     std::unique_ptr<CageChecker> checker_;
-    std::shared_ptr<const Binding> bound_; // of the test
+    BindOrder bind_; // of the test
     std::optional<InversionTest> inversions_;
 };
 

@@ -16,7 +16,8 @@ namespace vdbcage::view {
 struct PoseCheckOrder {
     BindOrder bind;
     std::vector<openvdb::Vec3d> cagePoints; ///< posed
-    /// The whole binding, where triangles that are inside out are to be counted; null: only the cage is checked.
+    /// The whole binding, with the material, where triangles that are inside out are to be counted; null: only the cage
+    /// is checked.
     std::shared_ptr<const Binding> binding;
 };
 bool operator==(const PoseCheckOrder& a, const PoseCheckOrder& b);

@@ -66,6 +66,19 @@ void Posing::follow(const State& state, const Planner& planner, bool standsStill
     compared_->follow(other, cagePoints_, effort);
 }
 
+bool Posing::isPosed(const State& state) const
+{
+    return !cagePoints_.empty() && state.view.mode == Mode::pose && state.cage && cagePoints_ != state.cage->points;
+}
+
+bool Posing::hasMaterial(const State& state) const
+{
+    if (state.view.mode != Mode::pose) return false;
+    const BoundModelPtr& bound = follower_.bound(); // weights from a file can be of the family
+    return state.document.coordinates == Coordinates::somigliana || state.view.compared == Coordinates::somigliana ||
+           (bound && bound->whole && bound->whole->family() == Coordinates::somigliana);
+}
+
 void Posing::update()
 {
     carrier_.update();

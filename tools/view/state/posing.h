@@ -38,6 +38,11 @@ public:
     /// The model by the family that is compared; null: none is.
     const Follower* compared() const { return compared_.get(); }
 
+    /// In mode pose, as of the last follow(): the cage is not at rest.
+    bool isPosed(const State& state) const;
+    /// In mode pose: the model follows by Somigliana coordinates, or is compared by them, so it has a material.
+    bool hasMaterial(const State& state) const;
+
     /// Takes what was done on other threads, and begins what is next.
     void update();
     /// Nothing that was wanted by the last follow() is left to do.

@@ -57,6 +57,27 @@ fs::path sameFile(const Json& file, const fs::path& scene)
     return path;
 }
 
+Json toJson(const Elasticity& elasticity)
+{
+    return {{"nu", elasticity.nu},
+            {"rotations", rotationNames[static_cast<std::size_t>(elasticity.rotations)]},
+            {"local_bulging", elasticity.localBulging},
+            {"global_bulging", elasticity.globalBulging}};
+}
+
+/// \throw InputError
+Elasticity elasticityOf(const Json& json)
+{
+    const auto rotations = json.at("rotations").get<std::string>();
+    const auto* const name = std::find(rotationNames.begin(), rotationNames.end(), rotations);
+    if (name == rotationNames.end()) refuse("rotations", rotations, "global or local");
+    const Elasticity elasticity{json.at("nu").get<double>(),
+                                static_cast<Elasticity::Rotations>(name - rotationNames.begin()),
+                                json.at("local_bulging").get<double>(), json.at("global_bulging").get<double>()};
+    requireElasticity(elasticity);
+    return elasticity;
+}
+
 /// A cage that was edited has no file of its own.
 OpenedMeshPtr editedCage(const fs::path& file)
 {
@@ -161,6 +182,7 @@ void saveScene(const State& state, const CageResult* current, const fs::path& pa
                      {"poses", poses},
                      {"coordinates", coordinatesName(document.coordinates)},
                      {"weights", document.weights ? fileOf(document.weights->path, path) : Json()},
+                     {"elasticity", toJson(document.elasticity)},
                      {"view", view}};
     std::string text;
     try {
@@ -222,6 +244,7 @@ State openScene(const fs::path& given)
         } else if (scene.contains("coordinates")) {
             state.document.coordinates = coordinatesNamed(scene["coordinates"].get<std::string>());
         }
+        if (scene.contains("elasticity")) state.document.elasticity = elasticityOf(scene["elasticity"]);
     } catch (const Json::exception& error) {
         throw InputError(path.string() + ": it is no scene: " + error.what());
     } catch (const InputError& error) {

@@ -60,7 +60,7 @@ bool areEqual(const CageOptions& a, const CageOptions& b)
 bool operator==(const Document& a, const Document& b)
 {
     return a.model == b.model && a.cage == b.cage && areEqual(a.options, b.options) && a.poses == b.poses &&
-           a.coordinates == b.coordinates && a.weights == b.weights;
+           a.coordinates == b.coordinates && a.weights == b.weights && a.elasticity == b.elasticity;
 }
 
 bool operator==(const ViewState& a, const ViewState& b)

@@ -26,6 +26,7 @@ struct Document {
     TimeLine poses;
     Coordinates coordinates = Coordinates::meanValue; ///< by which the model follows the pose
     WeightsPtr weights;                               ///< where the coordinates are given; else null
+    Elasticity elasticity;                            ///< of Somigliana coordinates; weights do not depend on it
 };
 
 /// What can be seen, each in a layer of its own.
@@ -100,6 +101,7 @@ enum class CageEdit : std::uint8_t {
 };
 constexpr std::array<const char*, 5> cageEditNames{"split", "collapse", "flip", "merge", "cut"};
 constexpr std::array<const char*, 2> modeNames{"shape", "pose"};
+constexpr std::array<const char*, 2> rotationNames{"global", "local"}; ///< of Elasticity::Rotations
 constexpr std::array<const char*, 4> toolNames{"select", "move", "rotate", "scale"};
 constexpr std::array<const char*, 4> orientationNames{"world", "local", "normal", "view"};
 
