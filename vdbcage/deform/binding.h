@@ -155,8 +155,9 @@ VDBCAGE_API std::vector<float> computeWeights(const Mesh& cage, const std::vecto
 ///
 /// Of points that are close together only some have their weights held; the others' are combinations of these. For that
 /// a posed point is off by at most 1e-6 of the cage's size, times the sum of its weights' absolute values. A normal's
-/// weight counts times the square of its edges' mean length. This holds where no point of the cage moves farther than
-/// its size and no edge gets more than twice as long. Rounding to floats adds about 1e-7 of the motion.
+/// weight counts times the square of its edges' mean length, one of the six of a triangle four times. This holds where
+/// no point of the cage moves farther than its size and no edge gets more than twice as long. Rounding to floats adds
+/// about 1e-7 of the motion.
 class VDBCAGE_API Binding {
 public:
     /// Computes the coordinates.

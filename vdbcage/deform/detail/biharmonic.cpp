@@ -22,8 +22,6 @@ using openvdb::Vec3d;
 
 namespace {
 
-constexpr double fourPi = 4 * 3.14159265358979323846;
-
 BiharmonicPart integrated(const std::array<Vec3d, 3>& c)
 {
     BiharmonicPart part;
@@ -49,7 +47,6 @@ BiharmonicPart closedForm(const std::array<Vec3d, 3>& c, bool onFace)
 {
     const TrianglePotentials t = trianglePotentials(c, onFace);
     BiharmonicPart part;
-    Vec3d turned(0);     // the sum over the edges of their direction times their potential
     Vec3d offset(0);     // the integral of the offset over r
     double distance = 0; // that of r
     for (std::size_t i = 0; i < 3; ++i) {
@@ -57,7 +54,6 @@ BiharmonicPart closedForm(const std::array<Vec3d, 3>& c, bool onFace)
         const double square = t.foot[i] * t.foot[i] + t.height * t.height; // of the distance to the edge's line
         const double ends = to.dot(t.along[i]) * to.length() - from.dot(t.along[i]) * from.length();
         const double alongEdge = 0.5 * (ends + square * t.edge[i]); // the integral of r
-        turned += t.edge[i] * t.along[i];
         offset += alongEdge * t.outward(i);
         distance += t.foot[i] * alongEdge;
     }
@@ -66,7 +62,7 @@ BiharmonicPart closedForm(const std::array<Vec3d, 3>& c, bool onFace)
         const Vec3d &from = c[(i + 1) % 3], &to = c[(i + 2) % 3];
         const double atFoot = t.normal.dot(from.cross(to)) / t.area; // the corner's hat function
         const Vec3d gradient = t.normal.cross(to - from) / t.area;   // of it
-        part.values[i] = (atFoot * t.solid + t.height * turned.dot(to - from) / t.area) / fourPi;
+        part.values[i] = t.hatSolid[i] / fourPi;
         part.laplacians[i] = -t.height * (atFoot * t.single + gradient.dot(offset)) / (2 * fourPi);
     }
     part.slope = t.single / (fourPi * t.area);

@@ -20,8 +20,6 @@ using openvdb::Vec3d;
 
 namespace {
 
-constexpr double fourPi = 4 * 3.14159265358979323846;
-
 /// Of a face: what its corners' positions and its normals (a triangle has one) weigh.
 struct FacePart {
     std::array<double, 4> positions{}, normals{};

@@ -30,8 +30,6 @@ using openvdb::Vec3d;
 
 namespace {
 
-constexpr double fourPi = 4 * 3.14159265358979323846;
-
 /// Of a triangle: what its corners weigh, and its matrix.
 struct FacePart {
     std::array<double, 3> positions{};

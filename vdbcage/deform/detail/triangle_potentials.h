@@ -29,6 +29,9 @@ struct TrianglePotentials {
 /// left out then, as is its height.
 TrianglePotentials trianglePotentials(const std::array<openvdb::Vec3d, 3>& corners, bool onFace);
 
+/// The solid angle of all directions.
+constexpr double fourPi = 4 * 3.14159265358979323846;
+
 /// A triangle that is narrower than this, over its longest side, has too few digits for closed forms.
 constexpr double sliverWidth = 1e-7;
 
