@@ -140,11 +140,16 @@ Json toJson(const CageOptions& options)
 
 Json toJson(const CageMade& made)
 {
-    return {{"vdbcage", VDBCAGE_VERSION},      made.model,
-            {"inputs", made.inputs.empty() ? Json() : Json(made.inputs)},           {"cage", made.cage.string()},
-            {"options", toJson(made.options)}, {"seconds", made.seconds},
-            {"stages", toJson(made.stages)},   {"memory_peak_mib", peakMemory()},
-            {"result", toJson(made.report)},   {"check", toJson(made.report.check)}};
+    return {{"vdbcage", VDBCAGE_VERSION},
+            made.model,
+            {"inputs", made.inputs.empty() ? Json() : Json(made.inputs)},
+            {"cage", made.cage.string()},
+            {"options", toJson(made.options)},
+            {"seconds", made.seconds},
+            {"stages", toJson(made.stages)},
+            {"memory_peak_mib", peakMemory()},
+            {"result", toJson(made.report)},
+            {"check", toJson(made.report.check)}};
 }
 
 double peakMemory()
