@@ -152,8 +152,10 @@ BOOST_AUTO_TEST_CASE(jobs_run_once_and_failed_ones_again)
     std::filesystem::remove(out + "/good.obj");
     BOOST_TEST(isDoneAnew());
     BOOST_TEST((readText(out + "/good.obj") == cage));
-    writeText(out + "/good.json", "{");
-    BOOST_TEST(isDoneAnew());
+    for (const char* broken : {"{", "", "[]", "{\"cage\": 5, \"inputs\": null}"}) {
+        writeText(out + "/good.json", broken);
+        BOOST_TEST(isDoneAnew(), broken);
+    }
     writeText(good, readText(good) + "# changed\n");
     BOOST_TEST(isDoneAnew());
     BOOST_TEST(!isDoneAnew());

@@ -119,6 +119,7 @@ bool wasDone(const MakeArguments& arguments)
 {
     std::error_code ignored;
     if (!fs::is_regular_file(arguments.report, ignored) || !fs::is_regular_file(arguments.cage, ignored)) return false;
+    if (fs::is_empty(arguments.report, ignored)) return false;
     const Json report = Json::parse(detail::readFile(arguments.report), nullptr, false);
     const auto has = [&](const char* name, const std::string& text) {
         return report.is_object() && report.contains(name) && report[name] == Json(text);
