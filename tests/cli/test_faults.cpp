@@ -301,6 +301,22 @@ BOOST_AUTO_TEST_CASE(an_allocation_that_fails)
     }
 }
 
+BOOST_AUTO_TEST_CASE(disks_that_are_full)
+{
+    const Folder folder;
+    for (const Work& work : works()) {
+        folder.reset();
+        const auto result = runCommand(withFailing("FULL_DISK=0", folder.words(work)));
+        BOOST_TEST_CONTEXT(work.name << ": " << result.status << " " << result.err)
+        {
+            BOOST_TEST((result.status == 75 && isOneErrorLine(result.err)));
+            BOOST_TEST(result.err.find("No space left on device") != std::string::npos);
+            BOOST_TEST(folder.isOldOrNew({}));
+        }
+    }
+    folder.reset();
+}
+
 BOOST_AUTO_TEST_CASE(threads_that_cannot_be_started)
 {
     const Folder folder;

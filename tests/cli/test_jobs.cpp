@@ -214,7 +214,7 @@ BOOST_AUTO_TEST_CASE(one_thread)
     expectRefusal({"check", bishop, bishop, "--threads", "0"}, "threads: 0 is not allowed; it must be 1 to 1024");
 }
 
-BOOST_AUTO_TEST_CASE(disks_that_are_full)
+BOOST_AUTO_TEST_CASE(limits_of_size_are_no_full_disk)
 {
     const auto result = runCommand(
         {"sh", "-c",

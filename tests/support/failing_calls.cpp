@@ -1,7 +1,9 @@
-// To be preloaded (LD_PRELOAD) into a command, glibc only: makes allocations or the start of threads fail. Environment:
+// To be preloaded (LD_PRELOAD) into a command, glibc only: makes allocations, the start of threads or writing
+// files fail. Environment:
 //   FAIL_ALLOCATION=N         the Nth allocation fails, counted from 1
 //   FAIL_ALLOCATIONS_FROM=N   so do all that follow
 //   MOST_THREADS=N            no more than N threads can live at a time beside the first one, as under ulimit -u
+//   FULL_DISK=N               after N writes the disk is full; not for standard output and error
 //   COUNT_ALLOCATIONS=FILE    their number is written there when the command ends
 
 #include <atomic>
@@ -12,6 +14,7 @@
 
 #include <dlfcn.h>
 #include <pthread.h>
+#include <unistd.h>
 
 extern "C" {
 void* __libc_malloc(std::size_t);
@@ -31,7 +34,8 @@ unsigned long fromEnvironment(const char* name)
 struct Plan {
     unsigned long one = fromEnvironment("FAIL_ALLOCATION"), from = fromEnvironment("FAIL_ALLOCATIONS_FROM"),
                   mostThreads = fromEnvironment("MOST_THREADS");
-    bool limitsThreads = std::getenv("MOST_THREADS") != nullptr;
+    unsigned long mostWrites = fromEnvironment("FULL_DISK");
+    bool limitsThreads = std::getenv("MOST_THREADS") != nullptr, limitsWrites = std::getenv("FULL_DISK") != nullptr;
 };
 
 const Plan& plan()
@@ -40,7 +44,7 @@ const Plan& plan()
     return known;
 }
 
-std::atomic<unsigned long> allocations{0}, threads{0}; // so far; living
+std::atomic<unsigned long> allocations{0}, writes{0}, threads{0}; // so far; so far; living
 
 bool fails()
 {
@@ -109,6 +113,17 @@ int posix_memalign(void** result, std::size_t alignment, std::size_t size)
 {
     *result = memalign(alignment, size);
     return *result ? 0 : ENOMEM;
+}
+
+ssize_t write(int descriptor, const void* bytes, std::size_t count)
+{
+    using Write = ssize_t (*)(int, const void*, std::size_t);
+    static const auto real = reinterpret_cast<Write>(::dlsym(RTLD_NEXT, "write"));
+    if (plan().limitsWrites && descriptor > STDERR_FILENO && ++writes > plan().mostWrites) {
+        errno = ENOSPC;
+        return -1;
+    }
+    return real(descriptor, bytes, count);
 }
 
 int pthread_create(pthread_t* thread, const pthread_attr_t* attributes, void* (*run)(void*), void* argument)
