@@ -43,7 +43,7 @@ BOOST_AUTO_TEST_SUITE(help)
 
 BOOST_AUTO_TEST_CASE(help_fits_a_screen)
 {
-    for (const char* name : {"make", "check", "render", "bind", "deform", "repair"}) {
+    for (const char* name : {"make", "check", "render", "bind", "deform", "repair", "jobs", "report"}) {
         const auto result = runCommand({command, name, "--help"});
         BOOST_TEST(result.status == 0);
         BOOST_TEST(result.err.empty());

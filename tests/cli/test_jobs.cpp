@@ -164,6 +164,65 @@ BOOST_AUTO_TEST_CASE(jobs_run_once_and_failed_ones_again)
     expectRefusal({"make", good, "-o", folder / "x.obj", "--skip-done"}, "--skip-done needs --report");
 }
 
+BOOST_AUTO_TEST_CASE(reports_of_many_jobs)
+{
+    const TemporaryFolder folder;
+    const std::string out = folder / "out", csv = folder / "all.csv", html = folder / "all.html";
+    std::filesystem::create_directory(out);
+    const auto make = [&](const std::string& name, const std::vector<std::string>& options) {
+        std::vector<std::string> words{
+            command,    "make", bishop, "-o", out + "/" + name + ".obj", "--report", out + "/" + name + ".json",
+            "--effort", "fast", "-q"};
+        words.insert(words.end(), options.begin(), options.end());
+        BOOST_TEST(runCommand(words).status == 0);
+    };
+    make("tight", {"--faces", "200", "--picture", out + "/tight.png"});
+    make("loose", {"--faces", "20"});
+    BOOST_TEST(runCommand({command, "report", out}).status == 0);
+    const std::string bad = folder / "a, \"b\" <c>.obj";
+    writeText(bad, "v 0 0\n");
+    runCommand({command, "make", bad, "-o", out + "/bad.obj", "--report", out + "/bad.json"});
+    writeText(out + "/other.json", "{\"vdbcage\": 1}");
+    writeText(out + "/empty.json", "");
+
+    const auto told = runCommand({command, "report", out, "--csv", csv, "--html", html});
+    BOOST_TEST(told.status == 2);
+    const std::vector<std::string> lines = linesOf(told.out);
+    BOOST_REQUIRE(lines.size() == 5U);
+    const std::string failure = readJson(out + "/bad.json")["error"];
+    BOOST_TEST(lines[1] == "bad    FAILED   1  " + failure);
+    BOOST_TEST(lines[2].find("loose  certified") == 0U);
+    BOOST_TEST(lines[3].find("tight  certified") == 0U);
+    BOOST_TEST(lines[4] == "3 jobs: 2 certified, 1 failed");
+
+    const std::vector<std::string> rows = linesOf(readText(csv));
+    BOOST_REQUIRE(rows.size() == 4U);
+    BOOST_TEST(std::count(rows[0].begin(), rows[0].end(), ',') == 13);
+    BOOST_TEST(rows[1].find(",\"" + folder.path().string() + "/a, \"\"b\"\" <c>.obj\",1,") != std::string::npos,
+               rows[1]);
+    BOOST_TEST(std::count(rows[3].begin(), rows[3].end(), ',') == 13);
+    BOOST_TEST(rows[3].find(",0,,true,") != std::string::npos, rows[3]);
+
+    const std::string page = readText(html);
+    BOOST_TEST(page.find("&lt;c&gt;.obj") != std::string::npos);
+    BOOST_TEST(page.find("<c>") == std::string::npos);
+    BOOST_TEST(page.find(">bad<") < page.find(">loose<"));
+    BOOST_TEST(page.find(">loose<") < page.find(">tight<"));
+    const auto picture = page.find("<img ");
+    BOOST_TEST(page.find("src=\"data:image/png;base64,iVBORw0KGgo") > picture); // how every PNG begins
+    BOOST_TEST(page.find("<img ", picture + 1) == std::string::npos);
+    BOOST_TEST(page.find("http") == std::string::npos); // it opens from a disk
+
+    BOOST_TEST(runCommand({command, "report", out + "/tight.json"}).status == 0);
+    expectRefusal({"report", out + "/other.json"}, "other.json: it is no report of vdbcage make");
+    expectRefusal({"report", folder / "none"}, "none: cannot be read");
+    std::filesystem::create_directory(folder / "nothing");
+    expectRefusal({"report", folder / "nothing"}, "there are no reports of vdbcage make");
+    writeText(out + "/tight.png", "PNG");
+    expectRefusal({"report", out, "--html", html}, "tight.png: it is no PNG picture");
+    BOOST_TEST((readText(html) == page));
+}
+
 BOOST_AUTO_TEST_CASE(progress_in_lines)
 {
     const TemporaryFolder folder;

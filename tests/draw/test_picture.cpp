@@ -1,5 +1,6 @@
 #include <boost/test/unit_test.hpp>
 
+#include <algorithm>
 #include <string>
 
 #include <support/read_png.h>
@@ -46,6 +47,44 @@ BOOST_AUTO_TEST_CASE(what_is_encoded_reads_back)
         BOOST_CHECK(back.rgb == picture.rgb);
         BOOST_CHECK(encodePng(picture) == bytes);
     }
+}
+
+BOOST_AUTO_TEST_CASE(what_is_encoded_is_decoded)
+{
+    const Picture picture = gradient(31, 17);
+    const std::string bytes = encodePng(picture);
+    const Picture back = decodePng(bytes, "a.png");
+    BOOST_TEST(back.width == 31);
+    BOOST_TEST(back.height == 17);
+    BOOST_CHECK(back.rgb == picture.rgb);
+    Picture clear = picture;
+    clear.alpha.assign(31 * 17, 0);
+    const Picture white = decodePng(encodePng(clear), "a.png");
+    BOOST_TEST(std::count(white.rgb.begin(), white.rgb.end(), 255) == 3 * 31 * 17);
+    for (const std::string& bad : {std::string(), std::string("PNG"), bytes.substr(0, bytes.size() / 2)}) {
+        BOOST_CHECK_EXCEPTION(decodePng(bad, "a.png"), IoError, [](const IoError& error) {
+            return std::string(error.what()).find("a.png: it is no PNG picture") == 0;
+        });
+    }
+}
+
+BOOST_AUTO_TEST_CASE(smaller_pictures_are_means)
+{
+    Picture picture{4, 2, {}};
+    for (int i = 0; i < 8; ++i) {
+        for (int channel = 0; channel < 3; ++channel)
+            picture.rgb.push_back(static_cast<std::uint8_t>(10 * i + channel));
+    }
+    const Picture half = smaller(picture, 2);
+    BOOST_TEST(half.width == 2);
+    BOOST_TEST(half.height == 1);
+    const std::vector<std::uint8_t> expected{25, 26, 27, 45, 46, 47}; // of 0 10 40 50, and of 20 30 60 70
+    BOOST_CHECK(half.rgb == expected);
+    BOOST_CHECK(smaller(picture, 4).rgb == picture.rgb);
+    BOOST_CHECK(smaller(picture, 9).width == 4);
+    const Picture line = smaller(gradient(300, 1), 100); // never without a row
+    BOOST_TEST(line.height == 1);
+    BOOST_TEST(line.rgb.size() == 300U);
 }
 
 BOOST_AUTO_TEST_CASE(pictures_without_the_pixels_they_claim_are_refused)

@@ -74,4 +74,47 @@ std::string encodePng(const Picture& picture)
     return bytes;
 }
 
+Picture decodePng(const std::string& bytes, const std::string& name)
+{
+    constexpr std::size_t mostPixels = std::size_t(1) << 26U; // small files can claim any size
+    png_image image{};
+    image.version = PNG_IMAGE_VERSION;
+    const auto fail = [&](const std::string& why) { throw IoError(name + ": it is no PNG picture: " + why); };
+    if (png_image_begin_read_from_memory(&image, bytes.data(), bytes.size()) == 0) fail(image.message);
+    if (std::size_t(image.width) * image.height > mostPixels) {
+        png_image_free(&image);
+        fail("it has " + std::to_string(image.width) + " x " + std::to_string(image.height) + " pixels");
+    }
+    image.format = PNG_FORMAT_RGB;
+    Picture picture{static_cast<int>(image.width), static_cast<int>(image.height),
+                    std::vector<std::uint8_t>(PNG_IMAGE_SIZE(image))};
+    const png_color white{255, 255, 255};
+    if (png_image_finish_read(&image, &white, picture.rgb.data(), 0, nullptr) == 0) fail(image.message);
+    return picture;
+}
+
+Picture smaller(const Picture& picture, int width)
+{
+    if (picture.width <= width) return {picture.width, picture.height, picture.rgb};
+    const auto from = static_cast<std::size_t>(picture.width), rows = static_cast<std::size_t>(picture.height);
+    const auto to = static_cast<std::size_t>(width), toRows = std::max<std::size_t>(1, rows * to / from);
+    Picture small{width, static_cast<int>(toRows), {}};
+    small.rgb.reserve(3 * to * toRows);
+    for (std::size_t y = 0; y < toRows; ++y) {
+        const std::size_t top = y * rows / toRows, bottom = std::max(top + 1, (y + 1) * rows / toRows);
+        for (std::size_t x = 0; x < to; ++x) {
+            const std::size_t left = x * from / to, right = std::max(left + 1, (x + 1) * from / to);
+            const std::size_t count = (bottom - top) * (right - left);
+            for (std::size_t channel = 0; channel < 3; ++channel) {
+                std::size_t sum = count / 2;
+                for (std::size_t j = top; j < bottom; ++j) {
+                    for (std::size_t i = left; i < right; ++i) sum += picture.rgb[3 * (j * from + i) + channel];
+                }
+                small.rgb.push_back(static_cast<std::uint8_t>(sum / count));
+            }
+        }
+    }
+    return small;
+}
+
 } // namespace vdbcage::draw

@@ -25,4 +25,12 @@ Picture fromPixels(const std::vector<std::uint8_t>& rgba, int width, int height,
 /// \throw InputError if the picture's size is not positive or not that of its bytes
 std::string encodePng(const Picture& picture);
 
+/// The colours of a PNG file, over white. `name` is that of the file.
+/// \throw IoError naming it: `bytes` are no PNG
+Picture decodePng(const std::string& bytes, const std::string& name);
+
+/// At most so many pixels wide, of the same shape: each pixel is the mean of those it stands for. Without alpha.
+/// \pre width is at least 1
+Picture smaller(const Picture& picture, int width);
+
 } // namespace vdbcage::draw

@@ -29,6 +29,7 @@ int runBind(std::vector<std::string> arguments);
 int runDeform(std::vector<std::string> arguments);
 int runRepair(std::vector<std::string> arguments);
 int runJobs(std::vector<std::string> arguments);
+int runReport(std::vector<std::string> arguments);
 
 /// The group of options that only --help-all lists, where a command has it.
 constexpr const char* rareOptions = "Rare";

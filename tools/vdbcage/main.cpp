@@ -40,6 +40,7 @@ constexpr Command commands[] = {
     {"deform", "move a model by its posed cage", runDeform},
     {"repair", "mend a cage that was made elsewhere", runRepair},
     {"jobs", "print a command for each of many models, for farms", runJobs},
+    {"report", "tell what became of many jobs", runReport},
 };
 
 void printHelp(std::ostream& out)

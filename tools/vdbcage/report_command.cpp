@@ -1,0 +1,40 @@
+#include <algorithm>
+#include <iostream>
+
+#include <tools/report/job_results.h>
+
+#include "commands.h"
+#include "outputs.h"
+#include "results_page.h"
+
+namespace vdbcage::tool {
+
+int runReport(std::vector<std::string> words)
+{
+    std::vector<std::filesystem::path> paths;
+    std::filesystem::path csv, html;
+    CLI::App app("vdbcage report DIR|FILE.json... [OPTIONS]\n"
+                 "Prints what reports of make tell: failures first, then the loosest cages.\n"
+                 "Exit status 2: a job failed, or a cage does not bound its model.",
+                 "report");
+    app.add_option("reports", paths)->required()->type_name("DIR|FILE.json...");
+    app.add_option("--csv", csv, "the same for spreadsheets")->type_name("FILE.csv");
+    app.add_option("--html", html, "the same with pictures (of jobs --pictures)")->type_name("FILE.html");
+    if (!parse(app, std::move(words))) return exitGood;
+    Outputs outputs;
+    if (!csv.empty()) outputs.writes(csv);
+    if (!html.empty()) outputs.writes(html);
+    const std::vector<JobResult> results = readJobResults(paths);
+    if (!csv.empty()) outputs.add(csv, [&](std::ostream& out) { out << csvOf(results); });
+    if (!html.empty()) {
+        const std::string page = pageOf(results);
+        outputs.add(html, [&](std::ostream& out) { out << page; });
+    }
+    std::cout << tableOf(results);
+    flushOutput();
+    outputs.commit();
+    const bool allGood = std::all_of(results.begin(), results.end(), [](const JobResult& r) { return r.isBounding; });
+    return allGood ? exitGood : exitNotBounding;
+}
+
+} // namespace vdbcage::tool
