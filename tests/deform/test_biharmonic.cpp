@@ -427,7 +427,8 @@ BOOST_AUTO_TEST_CASE(same_bytes_for_any_number_of_threads_and_neighbours)
     BOOST_TEST(all[0].size() > 200);
     const BoundCage bound(cage);
     const BiharmonicCage solved(bound);
-    for (const std::size_t together : {1, 3}) BOOST_TEST((rowsOf(bound, solved, points, together) == all));
+    for (const std::size_t together : {std::size_t(1), std::size_t(3)})
+        BOOST_TEST((rowsOf(bound, solved, points, together) == all));
     const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
     BOOST_TEST((rowsOf(cage, points) == all));
 }

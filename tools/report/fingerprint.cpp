@@ -15,7 +15,8 @@ std::string fingerprint(const std::vector<std::filesystem::path>& files, const C
     std::uint64_t hash = 0xcbf29ce484222325U;
     const auto add = [&](std::string_view bytes) {
         // With the length, so that what ends one text cannot begin the next.
-        for (const std::string_view part : {std::string_view(std::to_string(bytes.size()) + ' '), bytes}) {
+        const std::string length = std::to_string(bytes.size()) + ' ';
+        for (const std::string_view part : {std::string_view(length), bytes}) {
             for (const char byte : part) hash = (hash ^ static_cast<unsigned char>(byte)) * 0x100000001b3U;
         }
     };

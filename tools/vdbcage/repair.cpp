@@ -55,18 +55,18 @@ int runRepair(std::vector<std::string> words)
     if (!reportPath.empty()) outputs.writes(reportPath);
 
     std::optional<Progress> progress(talk.progressForm());
-    const auto [mended, report] = repair(readMesh(cagePath), &*progress);
-    outputs.add(outputPath, [&](std::ostream& out) { writeMesh(mended, out, outputPath); });
+    const RepairedCage mended = repair(readMesh(cagePath), &*progress);
+    outputs.add(outputPath, [&](std::ostream& out) { writeMesh(mended.cage, out, outputPath); });
     if (!reportPath.empty()) {
         const Json facts{{"vdbcage", VDBCAGE_VERSION},
                          {"cage", cagePath.string()},
                          {"repaired", outputPath.string()},
-                         {"repair", toJson(report)}};
+                         {"repair", toJson(mended.report)}};
         outputs.add(reportPath, [&](std::ostream& out) { out << toText(facts); });
     }
     std::ostringstream lines;
     if (!talk.quiet()) {
-        const Json facts = toJson(report);
+        const Json facts = toJson(mended.report);
         for (const auto& fact : facts.items()) lines << "  " << fact.key() << ": " << fact.value() << '\n';
     }
     const std::string text = lines.str();

@@ -104,7 +104,7 @@ private:
         for (std::size_t i = 0; i < rows_.size(); ++i) {
             const Row& row = rows_[i];
             Lanes sum{};
-            for (int a = 0; a < 3; ++a) {
+            for (std::size_t a = 0; a < 3; ++a) {
                 const Lanes &below = vector[row.below[a]], &above = vector[row.above[a]];
                 forEachLane([&](std::size_t l) { sum[l] += below[l] + above[l]; });
             }
@@ -277,7 +277,9 @@ bool HarmonicGrid::isInside(const Vec3d& at) const
 
 std::vector<Coord> HarmonicGrid::findNodesInside(Interrupter* interrupter)
 {
-    numbers_.assign(static_cast<std::size_t>(size_.x()) * size_.y() * size_.z(), none);
+    numbers_.assign(static_cast<std::size_t>(size_.x()) * static_cast<std::size_t>(size_.y()) *
+                        static_cast<std::size_t>(size_.z()),
+                    none);
     parallelFor(0, size_.y() * size_.z(), [&](int line) {
         throwIfInterrupted(interrupter);
         bool inside = false;
@@ -340,13 +342,13 @@ void HarmonicGrid::solve(const std::vector<Coord>& nodes, Interrupter* interrupt
         for (int axis = 0; axis < 3; ++axis) {
             for (const bool upward : {false, true}) {
                 Coord neighbour = nodes[i];
-                neighbour[axis] += upward ? 1 : -1;
+                neighbour[std::size_t(axis)] += upward ? 1 : -1;
                 const CellFaces faces = facesOf(upward ? nodes[i] : neighbour);
                 Crossing end = firstCrossing(faces, nodes[i].asVec3d(), axis, upward, 1);
                 if (end.face == none) {
                     const std::uint32_t number = numbers_[numberOf(neighbour)];
                     if (number != none) {
-                        (upward ? row.above : row.below)[axis] = number;
+                        (upward ? row.above : row.below)[std::size_t(axis)] = number;
                         row.diagonal += 1;
                         continue;
                     }
@@ -402,7 +404,8 @@ void HarmonicGrid::addMean(const Coord& cell, const CellFaces& faces, const Vec3
     for (int axis = 0; axis < 3; ++axis) {
         if (fixed >> axis & 1) continue;
         for (const bool upward : {false, true}) {
-            const double reach = std::max(upward ? cell[axis] + 1 - at[axis] : at[axis] - cell[axis], nearest);
+            const double reach =
+                std::max(upward ? cell[std::size_t(axis)] + 1 - at[axis] : at[axis] - cell[std::size_t(axis)], nearest);
             ends[axis][upward] = firstCrossing(faces, at, axis, upward, reach);
         }
         weights[axis] = 1 / (ends[axis][0].distance * ends[axis][1].distance);
@@ -419,7 +422,7 @@ void HarmonicGrid::addMean(const Coord& cell, const CellFaces& faces, const Vec3
                 continue;
             }
             Vec3d there = at;
-            there[axis] = cell[axis] + int(upward);
+            there[axis] = cell[std::size_t(axis)] + int(upward);
             addMean(cell, faces, there, fixed | 1U << axis, high | unsigned(upward) << axis, part, mean);
         }
     }
@@ -431,7 +434,7 @@ bool HarmonicGrid::row(const Vec3d& x, double* row) const
     std::fill(row, row + columns, 0.0);
     const Vec3d at = inVoxels(x);
     for (int a = 0; a < 3; ++a) {
-        if (!(at[a] >= 0 && at[a] < size_[a] - 1)) return false;
+        if (!(at[a] >= 0 && at[a] < size_[std::size_t(a)] - 1)) return false;
     }
     const Coord cell = Coord::floor(at);
     const CellFaces faces = facesOf(cell);
