@@ -30,7 +30,8 @@ public:
     ~IoError() override;
 };
 
-/// A file could not be read or written for lack of memory or of room on the disk. Another try or another machine may do.
+/// A file could not be read or written for lack of memory or of room on the disk. Another try or another machine may
+/// do.
 class VDBCAGE_API ResourceError : public IoError {
 public:
     using IoError::IoError;
