@@ -16,6 +16,7 @@ void limitThreads(int count)
     static_cast<void>(limit);
     // Mesa's software driver draws with threads of its own beside the one that calls it, 0: with that one.
     ::setenv("LP_NUM_THREADS", std::to_string(count - 1).c_str(), 1);
+    if (count == 1) ::setenv("MESA_SHADER_CACHE_DISABLE", "true", 1); // it has a thread that writes
 }
 
 } // namespace vdbcage::tool
