@@ -1,6 +1,7 @@
 #pragma once
 
 #include <random>
+#include <stdexcept>
 
 #include <support/shapes.h>
 #include <vdbcage/deform/binding.h>
@@ -78,6 +79,27 @@ inline Mesh cageFor(Coordinates family, const Mesh& cage)
 {
     const bool splits = coordinateFamilies()[static_cast<std::size_t>(family)].splitsQuads;
     return splits ? Mesh{cage.points, detail::cageTriangles(cage), {}} : cage;
+}
+
+/// The cage with one more point, the last: in the middle of the edge from corner 0 to 1 of triangle 4, times 1 +
+/// `height`. The other triangle at this edge is split there. Triangle 4 keeps the whole edge, and a sliver closes the
+/// gap, which has no area if `height` is 0.
+inline Mesh withSliver(Mesh cage, double height)
+{
+    const openvdb::Vec3I t = cage.triangles.at(4);
+    const auto middle = static_cast<openvdb::Index32>(cage.points.size());
+    cage.points.push_back(0.5 * (cage.points[t[0]] + cage.points[t[1]]) * (1 + height));
+    for (openvdb::Vec3I& other : cage.triangles) {
+        for (int k = 0; k < 3; ++k) {
+            if (other[k] != t[1] || other[(k + 1) % 3] != t[0]) continue;
+            const openvdb::Index32 far = other[(k + 2) % 3];
+            other = {t[1], middle, far};
+            cage.triangles.emplace_back(middle, t[0], far);
+            cage.triangles.emplace_back(t[1], t[0], middle);
+            return cage;
+        }
+    }
+    throw std::logic_error("the cage is not closed");
 }
 
 /// Points of the cage's volume, the last ones at 1e-9 from faces, edges and vertices.

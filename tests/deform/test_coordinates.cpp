@@ -414,26 +414,7 @@ BOOST_AUTO_TEST_CASE(degenerate_faces)
 {
     // An edge of the cage becomes a sliver, a face of no area, or nearly one.
     for (const double height : {0.0, 1e-14, 1e-9, 1e-5}) {
-        Mesh cage = randomCage(Kind::triangles, 10);
-        const openvdb::Vec3I t = cage.triangles[4];
-        const auto other = std::find_if(cage.triangles.begin(), cage.triangles.end(), [&](const openvdb::Vec3I& s) {
-            for (int k = 0; k < 3; ++k) {
-                if (s[k] == t[1] && s[(k + 1) % 3] == t[0]) return true;
-            }
-            return false;
-        });
-        BOOST_REQUIRE(other != cage.triangles.end());
-        // Split the other triangle at the middle of the edge: t keeps the whole edge, the gap becomes a sliver.
-        const auto middle = static_cast<openvdb::Index32>(cage.points.size());
-        const Vec3d a = cage.points[t[0]], b = cage.points[t[1]];
-        cage.points.push_back(0.5 * (a + b) * (1 + height));
-        openvdb::Index32 far = 0;
-        for (int k = 0; k < 3; ++k) {
-            if ((*other)[k] != t[0] && (*other)[k] != t[1]) far = (*other)[k];
-        }
-        *other = {t[1], middle, far};
-        cage.triangles.emplace_back(middle, t[0], far);
-        cage.triangles.emplace_back(t[1], t[0], middle);
+        const Mesh cage = test::withSliver(randomCage(Kind::triangles, 10), height);
         const std::vector<Vec3d> points = pointsInside(cage, 10);
         for (const Coordinates family : families) {
             BOOST_TEST_CONTEXT(coordinatesName(family) << " height " << height)

@@ -198,6 +198,17 @@ BoundCage::Place BoundCage::nearest(const Vec3d& x) const
     return best;
 }
 
+bool BoundCage::completeSolidAngles(const Place& nearest, Vec3d missing, double* weights) const
+{
+    double lacking = 1;
+    for (std::size_t i = 0; i < points_.size(); ++i) lacking -= weights[i];
+    if (nearest.distance > touching && std::abs(lacking) > 0.5) return false;
+    for (std::size_t k = 0; k < 4; ++k) weights[faces_[nearest.face].at[k]] += lacking * nearest.weights[k];
+    for (std::size_t i = 0; i < points_.size(); ++i) missing -= weights[i] * points_[i];
+    restore(missing, weights);
+    return true;
+}
+
 void BoundCage::restore(const Vec3d& missing, double* weights) const
 {
     for (std::size_t i = 0; i < restoring_.size(); ++i) weights[i] += restoring_[i].dot(missing);

@@ -46,6 +46,13 @@ public:
     /// The place of face `face` nearest to `x`.
     Place nearestOf(std::size_t face, const openvdb::Vec3d& x) const;
 
+    /// Completes weights that are solid angles over 4 pi, of `x`: all faces around an inner point cover the whole
+    /// sphere.
+    ///
+    /// What is lacking goes to `nearest`, the place nearest to `x`. Then the weights are restored; `missing` is `x`
+    /// less what is not the points'. Returns false, and changes nothing, if `x` is outside.
+    bool completeSolidAngles(const Place& nearest, openvdb::Vec3d missing, double* weights) const;
+
     /// Changes the points' weights so that the sum of the points times their weights grows by `missing`.
     ///
     /// The sum of the weights stays. The change is the least in the sum of squares. Weights that were rounded or

@@ -106,13 +106,7 @@ bool greenRow(const BoundCage& cage, const Vec3d& x, double* row)
             missing -= part.normals[k] * (c[next] - c[k]).cross(c[before] - c[k]);
         }
     }
-    double lacking = 1;
-    for (std::size_t i = 0; i < count; ++i) lacking -= row[i];
-    if (!touches && std::abs(lacking) > 0.5) return false;
-    for (std::size_t k = 0; k < 4; ++k) row[cage.faces()[nearest.face].at[k]] += lacking * nearest.weights[k];
-    for (std::size_t i = 0; i < count; ++i) missing -= row[i] * cage.points()[i];
-    cage.restore(missing, row);
-    return true;
+    return cage.completeSolidAngles(nearest, missing, row);
 }
 
 } // namespace vdbcage::detail

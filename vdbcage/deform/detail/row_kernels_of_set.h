@@ -399,105 +399,113 @@ Mask restorePrecision(const PackedCage& cage, Vector x, double (*rows)[packetSiz
     return ~(abs(1 - sum) < 1e-8);
 }
 
-unsigned greenRows(const PackedCage& cage, const double (*x)[packetSize], void* scratch, double (*rows)[packetSize])
+/// Rows that begin with the solid angles of the points' hat functions. `faces(x, first, corners, edges, near)` adds
+/// them and stores the other columns; it marks lanes that are too near, and returns what the normals add to the place
+/// at rest.
+template <typename Faces>
+unsigned solidAngleRows(const PackedCage& cage, const double (*x)[packetSize], void* scratch,
+                        double (*rows)[packetSize], const Faces& faces)
 {
     unsigned leftOut = 0;
     for (int first = 0; first < packetSize; first += width) {
         const Vector place = placesOf(x, first);
         auto* const corners = static_cast<Corner*>(scratch);
         auto* const edges = reinterpret_cast<SeenPotential*>(corners + cage.pointCount);
-        const auto at = [&](std::size_t column) { return &rows[column][first]; };
         Mask near = Mask{};
-        Vector normals{};
-        const auto storeNormal = [&](Lanes weight, std::size_t k) {
-            const double(&normal)[3] = cage.normals[k];
-            store(weight, at(cage.pointCount + k));
-            normals = normals + weight * Vector{all(normal[0]), all(normal[1]), all(normal[2])};
-        };
         seeCorners(cage, place, corners);
         seePotentials(cage, corners, edges);
-        for (std::size_t i = 0; i < cage.pointCount; ++i) store(all(0), at(i));
-        for (std::size_t face = 0; face < cage.triangleCount; ++face) {
-            const PackedTriangle& t = cage.triangles[face];
-            const SeenTriangle seen = seeTriangle(cage, t, corners, edges);
-            Lanes positions[3], normal = seen.single / (fourPi * t.area);
-            for (int i = 0; i < 3; ++i) positions[i] = seen.hatSolid[i] / fourPi;
-            forEachBad(seen.bad & ~near, place, [&](int lane, const double(&from)[3]) {
-                double exact[3] = {}, exactNormal = 0;
-                if (!exactGreen(*cage.cage, face, from, exact, exactNormal)) near[lane] = -1;
-                for (int i = 0; i < 3; ++i) positions[i][lane] = exact[i];
-                normal[lane] = exactNormal;
-            });
-            for (int i = 0; i < 3; ++i) add(positions[i], at(t.corner[i]));
-            storeNormal(normal, face);
-        }
-        for (std::size_t q = 0; q < cage.quadCount; ++q) {
-            const PackedQuad& quad = cage.quads[q];
-            Lanes sums[2][4];
-            near |= integratePatch(cage, quad, place, sums, [](Lanes product, Lanes square, Lanes* values) {
-                const Lanes inverse = 1 / (square * squareRoot(square));
-                values[0] = product * inverse;
-                values[1] = square * inverse;
-            });
-            for (int k = 0; k < 4; ++k) {
-                add(sums[0][k] / fourPi, at(quad.corner[k]));
-                storeNormal(sums[1][k] / fourPi, cage.triangleCount + 4 * q + static_cast<std::size_t>(k));
-            }
-        }
+        for (std::size_t i = 0; i < cage.pointCount; ++i) store(all(0), &rows[i][first]);
+        const Vector normals = faces(place, first, corners, edges, near);
         near |= restorePrecision(cage, place, rows, first, normals);
         leftOut |= bits(near) << first;
     }
     return leftOut;
 }
 
+unsigned greenRows(const PackedCage& cage, const double (*x)[packetSize], void* scratch, double (*rows)[packetSize])
+{
+    return solidAngleRows(
+        cage, x, scratch, rows,
+        [&](Vector place, int first, const Corner* corners, const SeenPotential* edges, Mask& near) {
+            const auto at = [&](std::size_t column) { return &rows[column][first]; };
+            Vector normals{};
+            const auto storeNormal = [&](Lanes weight, std::size_t k) {
+                const double(&normal)[3] = cage.normals[k];
+                store(weight, at(cage.pointCount + k));
+                normals = normals + weight * Vector{all(normal[0]), all(normal[1]), all(normal[2])};
+            };
+            for (std::size_t face = 0; face < cage.triangleCount; ++face) {
+                const PackedTriangle& t = cage.triangles[face];
+                const SeenTriangle seen = seeTriangle(cage, t, corners, edges);
+                Lanes positions[3], normal = seen.single / (fourPi * t.area);
+                for (int i = 0; i < 3; ++i) positions[i] = seen.hatSolid[i] / fourPi;
+                forEachBad(seen.bad & ~near, place, [&](int lane, const double(&from)[3]) {
+                    double exact[3] = {}, exactNormal = 0;
+                    if (!exactGreen(*cage.cage, face, from, exact, exactNormal)) near[lane] = -1;
+                    for (int i = 0; i < 3; ++i) positions[i][lane] = exact[i];
+                    normal[lane] = exactNormal;
+                });
+                for (int i = 0; i < 3; ++i) add(positions[i], at(t.corner[i]));
+                storeNormal(normal, face);
+            }
+            for (std::size_t q = 0; q < cage.quadCount; ++q) {
+                const PackedQuad& quad = cage.quads[q];
+                Lanes sums[2][4];
+                near |= integratePatch(cage, quad, place, sums, [](Lanes product, Lanes square, Lanes* values) {
+                    const Lanes inverse = 1 / (square * squareRoot(square));
+                    values[0] = product * inverse;
+                    values[1] = square * inverse;
+                });
+                for (int k = 0; k < 4; ++k) {
+                    add(sums[0][k] / fourPi, at(quad.corner[k]));
+                    storeNormal(sums[1][k] / fourPi, cage.triangleCount + 4 * q + static_cast<std::size_t>(k));
+                }
+            }
+            return normals;
+        });
+}
+
 unsigned somiglianaRows(const PackedCage& cage, const double (*x)[packetSize], void* scratch,
                         double (*rows)[packetSize])
 {
-    unsigned leftOut = 0;
-    for (int first = 0; first < packetSize; first += width) {
-        const Vector place = placesOf(x, first);
-        auto* const corners = static_cast<Corner*>(scratch);
-        auto* const edges = reinterpret_cast<SeenPotential*>(corners + cage.pointCount);
-        const auto at = [&](std::size_t column) { return &rows[column][first]; };
-        Mask near = Mask{};
-        Vector normals{};
-        seeCorners(cage, place, corners);
-        seePotentials(cage, corners, edges);
-        for (std::size_t i = 0; i < cage.pointCount; ++i) store(all(0), at(i));
-        for (std::size_t face = 0; face < cage.triangleCount; ++face) {
-            const PackedTriangle& t = cage.triangles[face];
-            const SeenTriangle seen = seeTriangle(cage, t, corners, edges);
-            Lanes m[6] = {seen.height * seen.solid, all(0), all(0), seen.single, all(0), seen.single};
-            for (int i = 0; i < 3; ++i) {
-                const double m1 = t.flat[i][0], m2 = t.flat[i][1];
-                const Lanes across = seen.feet[i] * seen.potentials[i];
-                const Lanes along = corners[t.corner[(i + 2) % 3]].distance - corners[t.corner[(i + 1) % 3]].distance;
-                const Lanes e1 = across * m1 - along * m2, e2 = across * m2 + along * m1;
-                const Lanes raised = seen.height * seen.potentials[i];
-                m[1] -= raised * m1;
-                m[2] -= raised * m2;
-                m[3] -= e1 * m1;
-                m[4] -= 0.5 * (e1 * m2 + e2 * m1);
-                m[5] -= e2 * m2;
+    return solidAngleRows(
+        cage, x, scratch, rows,
+        [&](Vector place, int first, const Corner* corners, const SeenPotential* edges, Mask& near) {
+            const auto at = [&](std::size_t column) { return &rows[column][first]; };
+            Vector normals{};
+            for (std::size_t face = 0; face < cage.triangleCount; ++face) {
+                const PackedTriangle& t = cage.triangles[face];
+                const SeenTriangle seen = seeTriangle(cage, t, corners, edges);
+                Lanes m[6] = {seen.height * seen.solid, all(0), all(0), seen.single, all(0), seen.single};
+                for (int i = 0; i < 3; ++i) {
+                    const double m1 = t.flat[i][0], m2 = t.flat[i][1];
+                    const Lanes across = seen.feet[i] * seen.potentials[i];
+                    const Lanes along =
+                        corners[t.corner[(i + 2) % 3]].distance - corners[t.corner[(i + 1) % 3]].distance;
+                    const Lanes e1 = across * m1 - along * m2, e2 = across * m2 + along * m1;
+                    const Lanes raised = seen.height * seen.potentials[i];
+                    m[1] -= raised * m1;
+                    m[2] -= raised * m2;
+                    m[3] -= e1 * m1;
+                    m[4] -= 0.5 * (e1 * m2 + e2 * m1);
+                    m[5] -= e2 * m2;
+                }
+                Lanes positions[3];
+                for (int i = 0; i < 3; ++i) positions[i] = seen.hatSolid[i] / fourPi;
+                for (Lanes& entry : m) entry /= fourPi;
+                forEachBad(seen.bad & ~near, place, [&](int lane, const double(&from)[3]) {
+                    double exact[3] = {}, matrix[6] = {};
+                    if (!exactSomigliana(*cage.cage, face, from, exact, matrix)) near[lane] = -1;
+                    for (int i = 0; i < 3; ++i) positions[i][lane] = exact[i];
+                    for (int i = 0; i < 6; ++i) m[i][lane] = matrix[i];
+                });
+                for (int i = 0; i < 3; ++i) add(positions[i], at(t.corner[i]));
+                for (std::size_t i = 0; i < 6; ++i) store(m[i], at(cage.pointCount + 6 * face + i));
+                const Lanes trace = m[0] + m[3] + m[5];
+                normals = normals + trace * Vector{all(t.normal[0]), all(t.normal[1]), all(t.normal[2])};
             }
-            Lanes positions[3];
-            for (int i = 0; i < 3; ++i) positions[i] = seen.hatSolid[i] / fourPi;
-            for (Lanes& entry : m) entry /= fourPi;
-            forEachBad(seen.bad & ~near, place, [&](int lane, const double(&from)[3]) {
-                double exact[3] = {}, matrix[6] = {};
-                if (!exactSomigliana(*cage.cage, face, from, exact, matrix)) near[lane] = -1;
-                for (int i = 0; i < 3; ++i) positions[i][lane] = exact[i];
-                for (int i = 0; i < 6; ++i) m[i][lane] = matrix[i];
-            });
-            for (int i = 0; i < 3; ++i) add(positions[i], at(t.corner[i]));
-            for (std::size_t i = 0; i < 6; ++i) store(m[i], at(cage.pointCount + 6 * face + i));
-            const Lanes trace = m[0] + m[3] + m[5];
-            normals = normals + trace * Vector{all(t.normal[0]), all(t.normal[1]), all(t.normal[2])};
-        }
-        near |= restorePrecision(cage, place, rows, first, normals);
-        leftOut |= bits(near) << first;
-    }
-    return leftOut;
+            return normals;
+        });
 }
 
 // --- Maximum likelihood coordinates
