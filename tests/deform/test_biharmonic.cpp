@@ -11,7 +11,6 @@
 #include <vdbcage/core/error.h>
 #include <vdbcage/deform/binding.h>
 #include <vdbcage/deform/detail/biharmonic.h>
-#include <vdbcage/deform/detail/cage_triangles.h>
 #include <vdbcage/deform/weights_io.h>
 
 using namespace vdbcage;
@@ -31,11 +30,6 @@ namespace {
 
 using Triangle = std::array<Vec3d, 3>;
 using Rows = std::vector<std::vector<double>>;
-
-Mesh trianglesOf(const Mesh& cage)
-{
-    return {cage.points, detail::cageTriangles(cage), {}};
-}
 
 /// The rows of points that must be inside, `together` at a time. `cage` has triangles only.
 Rows rowsOf(const BoundCage& bound, const BiharmonicCage& cage, const std::vector<Vec3d>& points,
@@ -58,7 +52,7 @@ Rows rowsOf(const BoundCage& bound, const BiharmonicCage& cage, const std::vecto
 
 Rows rowsOf(const Mesh& mesh, const std::vector<Vec3d>& points, std::size_t together = detail::packetSize)
 {
-    const BoundCage bound(trianglesOf(mesh));
+    const BoundCage bound(test::cageFor(Coordinates::biharmonic, mesh));
     return rowsOf(bound, BiharmonicCage(bound), points, together);
 }
 
@@ -198,20 +192,6 @@ Mesh splitBox(int fineness)
     return mesh;
 }
 
-/// `mesh` with a point put in the first edge of its first triangle, `off` from the edge, and a triangle of that width
-/// between the edge and its halves.
-Mesh withSliver(Mesh mesh, double off)
-{
-    const openvdb::Vec3I t = mesh.triangles[0];
-    const Vec3d a = mesh.points[t[0]], b = mesh.points[t[1]], c = mesh.points[t[2]];
-    const auto middle = static_cast<openvdb::Index32>(mesh.points.size());
-    mesh.points.push_back(0.5 * (a + b) + off * (c - a));
-    mesh.triangles[0] = {t[0], middle, t[2]};
-    mesh.triangles.emplace_back(middle, t[1], t[2]);
-    mesh.triangles.emplace_back(t[0], t[1], middle);
-    return mesh;
-}
-
 } // namespace
 
 BOOST_AUTO_TEST_SUITE(biharmonic)
@@ -271,7 +251,7 @@ BOOST_AUTO_TEST_CASE(affine_functions_are_exact)
     for (const Kind kind : kinds) {
         for (std::uint32_t seed = 0; seed < 4; ++seed) {
             const Mesh cage = randomCage(kind, seed);
-            const std::vector<Vec3d> points = pointsInside(trianglesOf(cage), seed, 50);
+            const std::vector<Vec3d> points = pointsInside(test::cageFor(Coordinates::biharmonic, cage), seed, 50);
             const Rows rows = rowsOf(cage, points);
             for (const Function& function : affine) BOOST_TEST(error(cage, points, rows, function) < 1e-12);
         }
@@ -282,7 +262,7 @@ BOOST_AUTO_TEST_CASE(handles_at_rest_and_similarities)
 {
     for (const Kind kind : kinds) {
         const Mesh cage = randomCage(kind, 7);
-        const std::vector<Vec3d> points = pointsInside(trianglesOf(cage), 7, 50);
+        const std::vector<Vec3d> points = pointsInside(test::cageFor(Coordinates::biharmonic, cage), 7, 50);
         const std::vector<double> coordinates = computeCoordinates(cage, points, Coordinates::biharmonic);
         Random random(7);
         openvdb::Mat3d turn;
@@ -340,7 +320,7 @@ BOOST_AUTO_TEST_CASE(weights_are_tame)
 {
     for (std::uint32_t seed = 0; seed < 4; ++seed) {
         const Mesh cage = randomCage(Kind::both, seed, 0.3);
-        const std::vector<Vec3d> points = pointsInside(trianglesOf(cage), seed, 50);
+        const std::vector<Vec3d> points = pointsInside(test::cageFor(Coordinates::biharmonic, cage), seed, 50);
         double most = 0;
         for (const std::vector<double>& row : rowsOf(cage, points)) {
             double sum = 0;
@@ -395,7 +375,7 @@ BOOST_AUTO_TEST_CASE(points_on_the_cage_are_the_limit_from_inside)
 
 BOOST_AUTO_TEST_CASE(smooth_across_the_planes_of_faces)
 {
-    const Mesh cage = trianglesOf(randomCage(Kind::both, 10, 0.3));
+    const Mesh cage = test::cageFor(Coordinates::biharmonic, randomCage(Kind::both, 10, 0.3));
     const BoundCage bound(cage);
     const BiharmonicCage solved(bound);
     constexpr double step = 1e-4;
@@ -421,7 +401,7 @@ BOOST_AUTO_TEST_CASE(smooth_across_the_planes_of_faces)
 
 BOOST_AUTO_TEST_CASE(same_bytes_for_any_number_of_threads_and_neighbours)
 {
-    const Mesh cage = trianglesOf(randomCage(Kind::both, 14, 0.2, 2)); // several tiles
+    const Mesh cage = test::cageFor(Coordinates::biharmonic, randomCage(Kind::both, 14, 0.2, 2)); // several tiles
     const std::vector<Vec3d> points = pointsInside(cage, 14, 40);
     const Rows all = rowsOf(cage, points);
     BOOST_TEST(all[0].size() > 200);
@@ -435,7 +415,7 @@ BOOST_AUTO_TEST_CASE(same_bytes_for_any_number_of_threads_and_neighbours)
 
 BOOST_AUTO_TEST_CASE(points_outside)
 {
-    const Mesh torus = trianglesOf(test::torus(3, 1, 12, 6));
+    const Mesh torus = test::cageFor(Coordinates::biharmonic, test::torus(3, 1, 12, 6));
     const BoundCage bound(torus);
     const BiharmonicCage cage(bound);
     const double nan = std::numeric_limits<double>::quiet_NaN();
@@ -472,7 +452,7 @@ BOOST_AUTO_TEST_CASE(slivers_and_unused_points)
     const Mesh plain = randomCage(Kind::triangles, 11);
     const std::vector<Vec3d> points = pointsInside(plain, 11, 30);
     for (const double off : {0.0, 1e-12, 1e-9, 1e-6, 1e-3}) {
-        Mesh cage = withSliver(plain, off);
+        Mesh cage = test::withSliver(plain, off);
         cage.points.emplace_back(0.5, 0.5, 7); // of no face
         const Rows rows = rowsOf(cage, points);
         BOOST_TEST_CONTEXT("sliver " << off)
@@ -493,7 +473,7 @@ BOOST_AUTO_TEST_CASE(thin_cages)
 {
     for (const Vec3d& scale : {Vec3d(1, 1, 1e-3), Vec3d(1, 1e-3, 1e-3), Vec3d(1, 1e-2, 1e-4)}) {
         Mesh cage = randomCage(Kind::both, 12);
-        std::vector<Vec3d> points = pointsInside(trianglesOf(cage), 12, 30);
+        std::vector<Vec3d> points = pointsInside(test::cageFor(Coordinates::biharmonic, cage), 12, 30);
         for (Vec3d& p : cage.points) p *= scale;
         for (Vec3d& p : points) p *= scale;
         const Rows rows = rowsOf(cage, points);
@@ -524,7 +504,7 @@ BOOST_AUTO_TEST_CASE(quads_are_halved_along_the_shorter_diagonal)
 
 BOOST_AUTO_TEST_CASE(can_be_cancelled)
 {
-    const BoundCage cage(trianglesOf(randomCage(Kind::both, 15)));
+    const BoundCage cage(test::cageFor(Coordinates::biharmonic, randomCage(Kind::both, 15)));
     test::StopAt never(1000000);
     const BiharmonicCage solved(cage, &never);
     const int asked = test::questions(never, 1000000);
@@ -538,7 +518,7 @@ BOOST_AUTO_TEST_CASE(can_be_cancelled)
 BOOST_AUTO_TEST_CASE(binding_and_weights_file)
 {
     const Mesh cage = randomCage(Kind::both, 16);
-    const std::vector<Vec3d> points = pointsInside(trianglesOf(cage), 16, 40);
+    const std::vector<Vec3d> points = pointsInside(test::cageFor(Coordinates::biharmonic, cage), 16, 40);
     std::vector<Vec3d> posed = cage.points;
     for (Vec3d& p : posed) p *= 1 + 0.2 * p.x();
     const std::vector<float> weights = computeWeights(cage, points, Coordinates::biharmonic);

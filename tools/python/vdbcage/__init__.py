@@ -48,97 +48,9 @@ class Cancelled(Error):
     """`progress` returned False. Nothing was written and there is no partial result."""
 
 
-from . import _vdbcage  # noqa: E402 (it raises the exceptions above)
+from . import _arguments, _vdbcage  # noqa: E402 (they raise the exceptions above)
 
 __version__ = _vdbcage.version
-
-
-def _array(name, value, columns, kinds, content):
-    """`value` as an array of shape (n, columns) whose dtype is of one of `kinds`; nothing at all is n = 0."""
-    try:
-        array = numpy.asarray(() if value is None else value)
-    except (TypeError, ValueError) as error:
-        raise InputError(f"{name}: {error}") from None
-    if array.ndim in (1, 2) and array.shape[0] == 0:
-        return numpy.empty((0, columns), numpy.float64 if "f" in kinds else numpy.uint32)
-    if array.ndim != 2 or array.shape[1] != columns:
-        raise InputError(f"{name}: an array of shape {array.shape} is not allowed; it must be (n, {columns})")
-    if array.dtype.kind not in kinds:
-        raise InputError(f"{name}: an array of {array.dtype} is not allowed; it must be {content}")
-    return array
-
-
-def _points(name, value, count=None, owner=""):
-    """Finite points as an array of shape (n, 3); n is `count`, which `owner` has, if that is given."""
-    array = _array(name, value, 3, "fiu", "numbers")
-    if count is not None and len(array) != count:
-        raise InputError(f"{name}: it has {len(array)} rows; {owner} has {count} points")
-    if array.dtype.kind == "f":
-        if array.dtype.itemsize > 8:
-            with numpy.errstate(over="ignore"):  # what is too large is infinite, and refused below
-                array = array.astype(numpy.float64)
-        finite = numpy.isfinite(array)
-        if not finite.all():
-            row, column = numpy.argwhere(~finite)[0]
-            raise InputError(f"{name}: row {row} has the coordinate {array[row, column]}; it must be finite")
-    return array
-
-
-def _indices(name, value, corners, count):
-    """Faces as an array of shape (n, corners) of indices below `count`."""
-    array = _array(name, value, corners, "iu", "whole numbers")
-    outside = (array < 0) | (array >= count)
-    if outside.any():
-        row, column = numpy.argwhere(outside)[0]
-        allowed = f"it must be 0 to {count - 1}" if count else "there are no points"
-        raise InputError(f"{name}: row {row} has the index {array[row, column]}; {allowed}")
-    return array
-
-
-def _path(value):
-    """The bytes of a path."""
-    try:
-        path = os.fsencode(value)
-    except (TypeError, UnicodeError):
-        raise InputError(f"path: {value!r} is not a path") from None
-    if b"\0" in path:
-        raise InputError(f"path: {value!r} has a null character")
-    return path
-
-
-def _number(name, value, least, most):
-    """A float within these bounds."""
-    if isinstance(value, numbers.Real) and not isinstance(value, (bool, numpy.bool_)) and least <= value <= most:
-        return float(value)
-    raise InputError(f"{name}: {value!r} is not allowed; it must be a number, {least:g} to {most:g}")
-
-
-def _whole(name, value, least, most):
-    """An int within these bounds."""
-    if isinstance(value, numbers.Integral) and not isinstance(value, bool) and least <= value <= most:
-        return operator.index(value)
-    raise InputError(f"{name}: {value!r} is not allowed; it must be a whole number, {least} to {most}")
-
-
-def _rows(name, value, shape, kinds, content):
-    """A small array of this shape and finite entries."""
-    try:
-        array = numpy.asarray(value)
-    except (TypeError, ValueError) as error:
-        raise InputError(f"{name}: {error}") from None
-    if array.shape != shape or array.dtype.kind not in kinds or not numpy.isfinite(array).all():
-        raise InputError(f"{name}: {value!r} is not allowed; it must be {content}")
-    return array
-
-
-def _voxels(name, value):
-    """Indices of voxels as an array of shape (n, 3)."""
-    array = _array(name, value, 3, "iu", "whole numbers")
-    outside = (array < -2**30) | (array >= 2**30)
-    if outside.any():
-        row, column = numpy.argwhere(outside)[0]
-        raise InputError(f"{name}: row {row} has the index {array[row, column]}; it must be -2**30 to 2**30 - 1")
-    return array
 
 
 def _mask(name, value):
@@ -151,12 +63,6 @@ def _mesh(name, value):
     if not isinstance(value, Mesh):
         raise InputError(f"{name}: a {type(value).__name__} is not allowed; it must be a vdbcage.Mesh")
     return value._mesh
-
-
-def _callback(value):
-    if value is not None and not callable(value):
-        raise InputError(f"progress: {value!r} is not allowed; it must be None or a function of (stage, percent)")
-    return value
 
 
 def _option_text(name, value, allowed):
@@ -209,9 +115,9 @@ class Mesh:
     __slots__ = ("_mesh",)
 
     def __init__(self, points, triangles=None, quads=None):
-        points = _points("points", points)
-        self._mesh = _vdbcage.Mesh(points, _indices("triangles", triangles, 3, len(points)),
-                                   _indices("quads", quads, 4, len(points)))
+        points = _arguments.points("points", points)
+        self._mesh = _vdbcage.Mesh(points, _arguments.indices("triangles", triangles, 3, len(points)),
+                                   _arguments.indices("quads", quads, 4, len(points)))
 
     @classmethod
     def _of(cls, mesh):
@@ -228,14 +134,14 @@ class Mesh:
         program splits them otherwise. A mesh that is made anew from these arrays does not know these other ways.
         Raises IoError.
         """
-        return Mesh._of(_vdbcage.read_mesh(_path(path)))
+        return Mesh._of(_vdbcage.read_mesh(_arguments.path(path)))
 
     def write(self, path):
         """Writes an OBJ, OFF, PLY or STL file; the extension says which. It appears whole or not at all.
 
         Raises IoError; InputError if the mesh has no usable face.
         """
-        _vdbcage.write_mesh(self._mesh, _path(path))
+        _vdbcage.write_mesh(self._mesh, _arguments.path(path))
 
     @property
     def points(self):
@@ -342,7 +248,7 @@ def make_cage(model, /, *, progress=None, **options):
         None stands for auto. Lengths are fractions of the model's longest side. docs/OPTIONS.md has all of them.
     Raises InputError, DeviceError, Cancelled.
     """
-    texts, progress = _option_texts(options), _callback(progress)
+    texts, progress = _option_texts(options), _arguments.callback(progress)
     return _run(_vdbcage.Pipeline(_mesh("model", model)), texts, progress)
 
 
@@ -373,7 +279,7 @@ class Pipeline:
 
         A run that raises leaves the surfaces and masks of the last one that did not.
         """
-        texts, progress = _option_texts(options), _callback(progress)
+        texts, progress = _option_texts(options), _arguments.callback(progress)
         return _run(self._pipeline, texts, progress)
 
     @property
@@ -424,9 +330,9 @@ def check_cage(cage, model, *, as_floats=False, measure=True, samples=20000, pro
     samples: points on the cage for the distances, 1 to 10**9
     Raises InputError, Cancelled.
     """
-    samples = _whole("samples", samples, 1, 10**9)
+    samples = _arguments.whole("samples", samples, 1, 10**9)
     return CageCheck(**_vdbcage.check_cage(_mesh("cage", cage), _mesh("model", model), bool(as_floats), bool(measure),
-                                           samples, _callback(progress)))
+                                           samples, _arguments.callback(progress)))
 
 
 @dataclasses.dataclass(frozen=True)
@@ -463,9 +369,9 @@ class Elasticity:
     def _values(self):
         if self.rotations not in ("global", "local"):
             raise InputError(f"rotations: {self.rotations!r} is not allowed; it must be 'global' or 'local'")
-        return (_number("nu", self.nu, -1, 0.5), self.rotations,
-                _number("local_bulging", self.local_bulging, 0, 100),
-                _number("global_bulging", self.global_bulging, 0, 100))
+        return (_arguments.number("nu", self.nu, -1, 0.5), self.rotations,
+                _arguments.number("local_bulging", self.local_bulging, 0, 100),
+                _arguments.number("global_bulging", self.global_bulging, 0, 100))
 
 
 def _elasticity(value):
@@ -493,10 +399,11 @@ class Binding:
         for name, value, family in (("resolution", resolution, "harmonic"), ("elasticity", elasticity, "somigliana")):
             if value is not None and coordinates != family:
                 raise InputError(f"{name}: only {family} coordinates have it; these are {coordinates}")
-        self._binding = _vdbcage.Binding(_mesh("cage", cage), _points("points", points), coordinates,
-                                         _whole("resolution", 64 if resolution is None else resolution, 4, 256),
+        self._binding = _vdbcage.Binding(_mesh("cage", cage), _arguments.points("points", points), coordinates,
+                                         _arguments.whole("resolution", 64 if resolution is None else resolution,
+                                                          4, 256),
                                          _elasticity(Elasticity() if elasticity is None else elasticity),
-                                         _callback(progress))
+                                         _arguments.callback(progress))
         self._cage = cage
 
     @classmethod
@@ -508,7 +415,8 @@ class Binding:
         Raises IoError, also where the file was made for another cage or other points.
         """
         self = cls.__new__(cls)
-        self._binding = _vdbcage.read_binding(_path(path), _mesh("cage", cage), _points("points", points))
+        self._binding = _vdbcage.read_binding(_arguments.path(path), _mesh("cage", cage),
+                                              _arguments.points("points", points))
         self._cage = cage
         return self
 
@@ -529,9 +437,9 @@ class Binding:
 
         Raises IoError; InputError for given weights; Cancelled.
         """
-        path = _path(path)
+        path = _arguments.path(path)
         self._require_computed()
-        self._binding.write(path, _callback(progress))
+        self._binding.write(path, _arguments.callback(progress))
 
     def weights(self, *, progress=None):
         """float32, shape (points, handles): how much each handle moves each point.
@@ -542,7 +450,7 @@ class Binding:
         Raises InputError for given weights; Cancelled.
         """
         self._require_computed()
-        return self._binding.weights(_callback(progress))
+        return self._binding.weights(_arguments.callback(progress))
 
     def pose(self, cage_points):
         """Where the points are when those of the cage are at `cage_points`: float64, shape (n, 3).
@@ -561,7 +469,7 @@ class Binding:
         before, after: array-likes, shape (points of the cage, 3)
         Raises InputError.
         """
-        return self._binding.update(_points("posed", posed, len(self.points), "the binding"),
+        return self._binding.update(_arguments.points("posed", posed, len(self.points), "the binding"),
                                     self._cage_points("before", before), self._cage_points("after", after))
 
     @property
@@ -590,7 +498,7 @@ class Binding:
         return self._binding.handles
 
     def _cage_points(self, name, value):
-        return _points(name, value, len(self._cage.points), "the cage")
+        return _arguments.points(name, value, len(self._cage.points), "the cage")
 
     def _require_computed(self):
         if self.coordinates == "given":
@@ -612,8 +520,9 @@ class Mask:
     __slots__ = ("_mask",)
 
     def __init__(self, voxels, voxel_size=1.0, origin=(0.0, 0.0, 0.0)):
-        self._mask = _vdbcage.Mask(_voxels("voxels", voxels), _number("voxel_size", voxel_size, 1e-100, 1e100),
-                                   _rows("origin", origin, (3,), "fiu", "three finite numbers").tolist())
+        self._mask = _vdbcage.Mask(_arguments.voxels("voxels", voxels),
+                                   _arguments.number("voxel_size", voxel_size, 1e-100, 1e100),
+                                   _arguments.rows("origin", origin, (3,), "fiu", "three finite numbers").tolist())
 
     @classmethod
     def _of(cls, mask):
@@ -636,7 +545,7 @@ class Mask:
         if array.ndim != 3 or array.dtype.kind not in "biu":
             raise InputError(f"array: shape {array.shape} of {array.dtype} is not allowed; it must be (x, y, z), of bool "
                              "or whole numbers")
-        corner = _voxels("corner", [_rows("corner", corner, (3,), "iu", "three whole numbers")])[0]
+        corner = _arguments.voxels("corner", [_arguments.rows("corner", corner, (3,), "iu", "three whole numbers")])[0]
         return Mask(numpy.argwhere(array) + corner.astype(numpy.int64), voxel_size, origin)
 
     def voxels(self):
@@ -700,14 +609,15 @@ def voxelize(model, resolution=128, *, voxelizer=None, interior="solid", box=Non
     box: array-like, shape (2, 3): lower and upper corner; the voxels are laid out as for a model with this bounding box
     Raises InputError, DeviceError, Cancelled.
     """
-    resolution = _whole("resolution", resolution, 1, 4096)
+    resolution = _arguments.whole("resolution", resolution, 1, 4096)
     if box is not None:
-        box = _rows("box", box, (2, 3), "fiu", "two rows of three finite numbers").astype(float).ravel().tolist()
+        box = _arguments.rows("box", box, (2, 3), "fiu", "two rows of three finite numbers")
+        box = box.astype(float).ravel().tolist()
     voxelizer = _option_text("voxelizer", voxelizer, "auto")
     interior = _option_text("interior", interior, "auto")
     with _names_of_python():
         return Mask._of(_vdbcage.voxelize(_mesh("model", model), resolution, voxelizer, interior, box,
-                                          _callback(progress)))
+                                          _arguments.callback(progress)))
 
 
 def close_mask(mask, close_radius, erode_radius=None, *, element="sphere", scale_field=None, progress=None):
@@ -720,13 +630,14 @@ def close_mask(mask, close_radius, erode_radius=None, *, element="sphere", scale
     Raises InputError, IoError for the file of a scale field, Cancelled.
     """
     mask = _mask("mask", mask)
-    close_radius = _number("close_radius", close_radius, 0, 512)
-    erode_radius = close_radius if erode_radius is None else _number("erode_radius", erode_radius, 0, close_radius)
+    close_radius = _arguments.number("close_radius", close_radius, 0, 512)
+    erode_radius = close_radius if erode_radius is None else erode_radius
+    erode_radius = _arguments.number("erode_radius", erode_radius, 0, close_radius)
     element = _option_text("element", element, "")
     scale_field = _option_text("scale_field", scale_field, "")
     with _names_of_python():
         return Mask._of(_vdbcage.close_mask(mask, close_radius, erode_radius, element, scale_field,
-                                            _callback(progress)))
+                                            _arguments.callback(progress)))
 
 
 def read_vdb(path):
@@ -734,7 +645,7 @@ def read_vdb(path):
 
     Active are voxels above 0.5, below 0 in a level set, or true. The file need not be trusted. Raises IoError.
     """
-    return Mask._of(_vdbcage.read_vdb(_path(path)))
+    return Mask._of(_vdbcage.read_vdb(_arguments.path(path)))
 
 
 def write_vdb(mask, path, metadata=None):
@@ -746,4 +657,4 @@ def write_vdb(mask, path, metadata=None):
     metadata = {} if metadata is None else metadata
     if not isinstance(metadata, dict) or not all(isinstance(text, str) for item in metadata.items() for text in item):
         raise InputError(f"metadata: {metadata!r} is not allowed; it must be a dict of strings")
-    _vdbcage.write_vdb(_mask("mask", mask), _path(path), metadata)
+    _vdbcage.write_vdb(_mask("mask", mask), _arguments.path(path), metadata)
