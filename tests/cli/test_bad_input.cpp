@@ -286,12 +286,12 @@ BOOST_AUTO_TEST_CASE(permissions)
                   {"closed", "ermission"});
 }
 
-BOOST_AUTO_TEST_CASE(a_full_disk)
+BOOST_AUTO_TEST_CASE(a_limit_on_the_size_of_files)
 {
     const TemporaryFolder folder;
     const std::string model = folder / "model.obj";
     test::writeText(model, good);
-    // A file may not grow past one block of 1024 bytes: writing fails as on a full disk. The model is smaller.
+    // A file may not grow past one block of 1024 bytes: no other machine would do, either. The model is smaller.
     const auto limited = [&](const std::string& arguments) {
         return std::vector<std::string>{
             "bash", "-c", "trap '' XFSZ; ulimit -f 1; exec " + command + " make " + model + " " + arguments};

@@ -203,7 +203,7 @@ BOOST_AUTO_TEST_CASE(a_verdict_that_cannot_be_printed_is_an_error)
                                      // nobody reads: true has ended before anything is written
                                      "set -o pipefail; (sleep 0.2; exec " + command + check + ") | true"}) {
         const auto result = runCommand({"bash", "-c", words});
-        BOOST_TEST(result.status == 1, words);
+        BOOST_TEST(result.status == (words.find("/dev/full") == std::string::npos ? 1 : 75), words);
         BOOST_TEST(result.err.find("vdbcage: error: standard output: cannot be written") == 0U, result.err);
     }
     BOOST_TEST(!fs::exists(scene.folder / "d.obj"));

@@ -81,6 +81,14 @@ bool comesBefore(const JobResult& a, const JobResult& b)
     return std::tuple(key(a), a.report) < std::tuple(key(b), b.report);
 }
 
+std::string volumeText(const JobResult& result)
+{
+    if (!(result.volumeRatio > 0)) return "-";
+    std::ostringstream text;
+    text << std::fixed << std::setprecision(2) << result.volumeRatio;
+    return text.str();
+}
+
 std::string csvField(const std::string& text)
 {
     if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
@@ -129,7 +137,7 @@ std::string tableOf(const std::vector<JobResult>& results)
         }
         out << (r.isBounding ? "  certified" : "  NOT BOUND") << std::setw(8) << r.triangles + r.quads
             << std::setprecision(2) << std::setw(8) << 100 * r.meanDistance << " %" << std::setw(7)
-            << 100 * r.maxDistance << " %" << std::setw(8) << r.volumeRatio << std::setprecision(1) << std::setw(9)
+            << 100 * r.maxDistance << " %" << std::setw(8) << volumeText(r) << std::setprecision(1) << std::setw(9)
             << r.seconds << std::setprecision(0) << std::setw(7) << r.memoryMib << '\n';
     }
     out << sumOf(results) << '\n';
@@ -144,12 +152,11 @@ std::string csvOf(const std::vector<JobResult>& results)
         text += csvField(r.report.string()) + ',' + csvField(r.cage) + ',' + csvField(r.models) + ',' +
                 std::to_string(r.status) + ',' + csvField(r.error) + ',';
         if (r.status == 0) {
+            const auto number = [](double value) { return ',' + detail::numberText(value); };
             text += std::string(r.isBounding ? "true" : "false") + ',' + std::to_string(r.triangles) + ',' +
-                    std::to_string(r.quads);
-            for (const double number :
-                 {r.meanDistance, r.maxDistance, r.volumeRatio, r.minAngleDegrees, r.seconds, r.memoryMib}) {
-                text += ',' + detail::numberText(number);
-            }
+                    std::to_string(r.quads) + number(r.meanDistance) + number(r.maxDistance) +
+                    (r.volumeRatio > 0 ? number(r.volumeRatio) : ",") + number(r.minAngleDegrees) +
+                    number(r.seconds) + number(r.memoryMib);
         } else {
             text += ",,,,,,,,"; // no cage, no numbers
         }

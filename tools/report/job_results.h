@@ -17,7 +17,7 @@ struct JobResult {
     std::size_t triangles = 0, quads = 0;
     /// Parts of the model's longest side.
     double meanDistance = 0, maxDistance = 0;
-    double volumeRatio = 0;     ///< the cage's over the model's
+    double volumeRatio = 0;     ///< the cage's over the model's; 0: the model is not closed
     double minAngleDegrees = 0; ///< of the cage's faces
     double seconds = 0, memoryMib = 0;
 };
@@ -29,7 +29,7 @@ std::vector<JobResult> readJobResults(const std::vector<std::filesystem::path>& 
 
 /// Lines for a terminal, with a heading and a sum.
 std::string tableOf(const std::vector<JobResult>& results);
-/// As RFC 4180 has it, a line a report, after one with the names of the columns.
+/// For spreadsheets, quoted as RFC 4180 has it: a line a report, after one with the names of the columns.
 std::string csvOf(const std::vector<JobResult>& results);
 /// "6 jobs: 5 certified, 1 failed"
 std::string sumOf(const std::vector<JobResult>& results);

@@ -34,8 +34,8 @@ int runReport(std::vector<std::string> arguments);
 /// The group of options that only --help-all lists, where a command has it.
 constexpr const char* rareOptions = "Rare";
 
-/// Adds the options of cages, which set `options`. Must outlive parsing.
-void addCageOptions(CLI::App& app, CageOptions& options);
+/// Adds the options of cages, which set `options`, and returns them. Must outlive parsing.
+std::vector<CLI::Option*> addCageOptions(CLI::App& app, CageOptions& options);
 
 /// Reads `arguments` into `app`, whose help is laid out one option a line. Returns false if help was asked for (and
 /// printed). \throw CLI::ParseError

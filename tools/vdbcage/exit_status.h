@@ -6,7 +6,7 @@ namespace vdbcage::tool {
 
 constexpr int exitGood = 0, exitError = 1, exitNotBounding = 2;
 constexpr int exitTryAgain = 75; ///< EX_TEMPFAIL: memory, room on the disk, threads or a device are missing
-/// 128 and the signal, as shells say it.
+/// After SIGTERM, 128 and its number as shells say it; after any other signal that asks for an end that of SIGINT.
 constexpr int exitCancelled = 130, exitTerminated = 143;
 
 /// Why a command ends. `text` lives as long as the exception.

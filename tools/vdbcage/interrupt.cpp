@@ -32,7 +32,8 @@ extern "C" void onSignal(int signal, siginfo_t* info, void* /*context*/)
 {
     // One that a write of ours raised: the write fails, and whoever wrote says so.
     if (signal == SIGPIPE && info->si_pid == ::getpid()) return;
-    const bool isFirst = signalCame.exchange(signal) == 0; // before it looks for holds: see `signalled`
+    int none = 0;
+    const bool isFirst = signalCame.compare_exchange_strong(none, signal); // before it looks for holds: see `signalled`
     if (holds > 0 || !isFirst) return;
     tool::sayCancelled();
     ::_exit(cancelledStatus());

@@ -26,7 +26,7 @@ public:
 /// Whether a signal has come that asks for a stop.
 bool signalled() noexcept;
 
-/// The exit status after a signal: exitTerminated after SIGTERM, else exitCancelled.
+/// The exit status after a signal, the first that came: exitTerminated after SIGTERM, else exitCancelled.
 int cancelledStatus() noexcept;
 
 /// From here on signals change nothing: the work is done, and only words are left.

@@ -1,6 +1,8 @@
+#include <algorithm>
 #include <iostream>
 #include <map>
 
+#include <vdbcage/core/detail/io_failure.h>
 #include <vdbcage/core/error.h>
 #include <vdbcage/mesh/io/formats.h>
 
@@ -12,13 +14,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// As a word of a POSIX shell. \throw InputError it has a line break or the like, and would not stay in its line
+/// As a word of a POSIX shell.
 std::string shellWord(const std::string& word)
 {
     constexpr const char* plain = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_@%+=:,./-";
-    if (detail::printable(word).size() != word.size()) {
-        throw InputError("'" + word + "': a job is a line, and cannot have control characters");
-    }
     if (!word.empty() && word.find_first_not_of(plain) == std::string::npos) return word;
     std::string text = "'";
     for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
@@ -51,32 +50,39 @@ int runJobs(std::vector<std::string> words)
     app.add_option("--format", format, "of cages: obj, off, ply or stl [obj]")->type_name("FORMAT");
     app.add_flag("--pictures", pictures, "of each model with its cage, too");
     app.add_option("--command", program, "how farms call vdbcage [vdbcage]")->type_name("WORD");
-    const std::size_t own = app.get_options().size();
-    addCageOptions(app, options);
-    const std::vector<CLI::Option*> all = app.get_options();
-    const std::vector<CLI::Option*> ofMake(all.begin() + static_cast<std::ptrdiff_t>(own), all.end());
+    std::vector<CLI::Option*> ofMake = addCageOptions(app, options);
     app.set_help_all_flag("--help-all", "print this and the rarer options");
     if (!parse(app, std::move(words))) return exitGood;
     detail::requireMeshExtension("cage." + format);
     requireValid(options);
 
+    ofMake.push_back(app.get_option("--threads"));
     std::string given;
     for (const CLI::Option* option : ofMake) {
         for (const std::string& value : option->results()) {
-            given += " --" + option->get_lnames().front() + ' ' + shellWord(value);
+            given += ' ' + shellWord("--" + option->get_lnames().front() + '=' + value);
         }
     }
-    if (const CLI::Option* const threads = app.get_option("--threads"); threads->count() > 0) {
-        given += " --threads " + threads->results().front();
-    }
+    const auto requireLine = [](const std::string& word) {
+        const auto isControl = [](char c) { return (c >= 0 && c < ' ') || c == '\x7f'; };
+        if (std::none_of(word.begin(), word.end(), isControl)) return;
+        throw InputError("'" + word + "': a job is a line, and cannot have control characters");
+    };
+    requireLine(folder.string());
+    requireLine(program);
     std::string text;
     std::map<std::string, fs::path> modelOf;
     for (const fs::path& model : models) {
+        requireLine(model.string());
         const std::string name = model.stem().string();
         const auto [first, isNew] = modelOf.try_emplace(name, model);
         if (!isNew) {
             throw InputError(model.string() + ": another model has this name too, and the cages of both would be " +
                              (folder / name).string() + '.' + format + ": " + first->second.string());
+        }
+        std::error_code ignored;
+        if (fs::equivalent(folder / (name + '.' + format), model, ignored)) {
+            throw InputError(model.string() + ": its cage would replace it; choose another folder");
         }
         const auto output = [&](const char* option, const std::string& extension) {
             return std::string(" ") + option + ' ' + shellWord(asFile(folder / (name + extension)));
@@ -87,7 +93,7 @@ int runJobs(std::vector<std::string> words)
     }
     std::error_code problem;
     fs::create_directories(folder, problem);
-    if (problem) throw IoError(folder.string() + ": the folder cannot be made: " + problem.message());
+    if (problem) detail::throwIoError(folder.string() + ": the folder cannot be made", problem.value());
     std::cout << text;
     return exitGood;
 }

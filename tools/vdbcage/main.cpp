@@ -13,6 +13,7 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <vdbcage/core/detail/io_failure.h>
 #include <vdbcage/core/error.h>
 #include <vdbcage/core/range.h>
 #include <vdbcage/core/version.h>
@@ -254,8 +255,7 @@ void vdbcage::tool::flushOutput()
     errno = 0;
     std::cout.flush();
     if (std::cout) return;
-    throw IoError("standard output: cannot be written" +
-                  (errno != 0 ? ": " + std::generic_category().message(errno) : std::string()));
+    detail::throwIoError("standard output: cannot be written", errno);
 }
 
 int main(int argc, char** argv)

@@ -30,8 +30,30 @@ struct MakeArguments {
     std::vector<fs::path> models;
     fs::path cage, stages, report, picture;
     CageOptions options;
-    bool skipsDone = false, isVerbose = false;
+    bool isVerbose = false;
 };
+
+/// All files that are read.
+std::vector<fs::path> inputsOf(const MakeArguments& arguments)
+{
+    std::vector<fs::path> files = arguments.models;
+    const CageOptions& options = arguments.options;
+    for (const fs::path& file : {options.scale.file, options.density.file, options.joints.file}) {
+        if (!file.empty()) files.push_back(file);
+    }
+    return files;
+}
+
+/// All that are written beside the report.
+std::vector<fs::path> resultsOf(const MakeArguments& arguments)
+{
+    std::vector<fs::path> files{arguments.cage};
+    if (!arguments.picture.empty()) files.push_back(arguments.picture);
+    if (!arguments.stages.empty()) {
+        for (const fs::path& file : stageFiles(arguments.stages)) files.push_back(file);
+    }
+    return files;
+}
 
 /// Refuses what cannot work before any work is done: formats, folders, permissions, one file under two names.
 void announce(const MakeArguments& arguments, Outputs& outputs)
@@ -39,17 +61,10 @@ void announce(const MakeArguments& arguments, Outputs& outputs)
     detail::requireMeshExtension(arguments.cage);
     if (!arguments.picture.empty()) requirePngExtension(arguments.picture);
     requireValid(arguments.options);
-    for (const fs::path& model : arguments.models) outputs.reads(model);
-    const CageOptions& options = arguments.options;
-    for (const fs::path& file : {options.scale.file, options.density.file, options.joints.file}) {
-        if (!file.empty()) outputs.reads(file);
-    }
+    for (const fs::path& file : inputsOf(arguments)) outputs.reads(file);
     if (!arguments.stages.empty()) outputs.writesInto(arguments.stages); // the others may go there too
-    outputs.writes(arguments.cage);
+    for (const fs::path& file : resultsOf(arguments)) outputs.writes(file);
     if (!arguments.report.empty()) outputs.writes(arguments.report);
-    if (!arguments.picture.empty()) outputs.writes(arguments.picture);
-    if (arguments.stages.empty()) return;
-    for (const fs::path& file : stageFiles(arguments.stages)) outputs.writes(file);
 }
 
 /// Runs the pipeline; an objection to the model names its file.
@@ -103,35 +118,26 @@ std::string summaryOf(const MakeArguments& arguments, const std::vector<ModelFil
     return out.str();
 }
 
-/// Tells models, options and versions apart.
-std::string inputsOf(const MakeArguments& arguments)
-{
-    std::vector<fs::path> files = arguments.models;
-    const CageOptions& options = arguments.options;
-    for (const fs::path& file : {options.scale.file, options.density.file, options.joints.file}) {
-        if (!file.empty()) files.push_back(file);
-    }
-    return fingerprint(files, options);
-}
-
-/// Whether the report that there is tells of the same inputs, and the cage that it names is there.
-bool wasDone(const MakeArguments& arguments)
+/// Whether the report that there is tells of the same inputs, whose fingerprint this is, and all results are there.
+bool wasDone(const MakeArguments& arguments, const std::string& inputs)
 {
     std::error_code ignored;
-    if (!fs::is_regular_file(arguments.report, ignored) || !fs::is_regular_file(arguments.cage, ignored)) return false;
-    if (fs::is_empty(arguments.report, ignored)) return false;
+    for (const fs::path& file : resultsOf(arguments)) {
+        if (!fs::is_regular_file(file, ignored)) return false;
+    }
+    if (!fs::is_regular_file(arguments.report, ignored) || fs::is_empty(arguments.report, ignored)) return false;
     const Json report = Json::parse(detail::readFile(arguments.report), nullptr, false);
     const auto has = [&](const char* name, const std::string& text) {
         return report.is_object() && report.contains(name) && report[name] == Json(text);
     };
-    return has("cage", arguments.cage.string()) && has("inputs", inputsOf(arguments));
+    return has("cage", arguments.cage.string()) && has("inputs", inputs);
 }
 
-/// Leaves a report of it, if one is wanted and can be written: what failed before is worth more than a failure of this.
+/// Leaves a report of it, if that can be written: what failed before is worth more than a failure of this.
 void reportFailure(const MakeArguments& arguments, const Failure& failure) noexcept
 {
-    if (arguments.report.empty()) return;
     try {
+        const SignalHold hold; // a file is being written
         Json names = Json::array();
         for (const fs::path& model : arguments.models) names.push_back(model.string());
         const Json report{{"vdbcage", VDBCAGE_VERSION},
@@ -147,7 +153,8 @@ void reportFailure(const MakeArguments& arguments, const Failure& failure) noexc
 
 /// Makes the cage, writes all files and returns what there is to say. All that it took is given back before the files
 /// get their names: giving back may fail too (trees of OpenVDB ask for memory for it), and ends the process.
-std::string makeFiles(const MakeArguments& arguments, Outputs& outputs, Interrupter& interrupter)
+std::string makeFiles(const MakeArguments& arguments, const std::string& inputs, Outputs& outputs,
+                      Interrupter& interrupter)
 {
     const auto began = std::chrono::steady_clock::now();
     StageClock clock(&interrupter);
@@ -169,8 +176,8 @@ std::string makeFiles(const MakeArguments& arguments, Outputs& outputs, Interrup
     writing.reset();
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
     if (!arguments.report.empty()) {
-        const Json report = toJson(CageMade{entryOf(models), inputsOf(arguments), arguments.cage, arguments.options,
-                                            seconds, clock.stages(), pipeline.report()});
+        const Json report = toJson(CageMade{entryOf(models), inputs, arguments.cage, arguments.options, seconds,
+                                            clock.stages(), pipeline.report()});
         outputs.add(arguments.report, [&](std::ostream& out) { out << toText(report); });
     }
     return summaryOf(arguments, models, pipeline, clock.stages(), seconds);
@@ -178,21 +185,23 @@ std::string makeFiles(const MakeArguments& arguments, Outputs& outputs, Interrup
 
 } // namespace
 
-void addCageOptions(CLI::App& app, CageOptions& options)
+std::vector<CLI::Option*> addCageOptions(CLI::App& app, CageOptions& options)
 {
+    std::vector<CLI::Option*> added;
     for (const OptionText& option : describeOptions()) {
-        app.add_option_function<std::string>(
-               "--" + option.name,
-               [&options, name = option.name](const std::string& value) { setOption(options, name, value); },
-               option.help + (option.range.empty() ? "" : ", " + option.range) + " [" + option.defaultValue + "]")
-            ->type_name(option.value)
-            ->group(option.isRare ? rareOptions : "Options");
+        added.push_back(app.add_option_function<std::string>(
+            "--" + option.name,
+            [&options, name = option.name](const std::string& value) { setOption(options, name, value); },
+            option.help + (option.range.empty() ? "" : ", " + option.range) + " [" + option.defaultValue + "]"));
+        added.back()->type_name(option.value)->group(option.isRare ? rareOptions : "Options");
     }
+    return added;
 }
 
 int runMake(std::vector<std::string> words)
 {
     MakeArguments arguments;
+    bool skipsDone = false;
     CLI::App app("vdbcage make MODEL... -o CAGE [OPTIONS]: bounds them (.obj .off .ply .stl)", "make");
     app.add_option("models", arguments.models)->required()->type_name("MODEL...");
     app.add_option("-o,--output", arguments.cage, "the cage to write")->required()->type_name("CAGE");
@@ -200,32 +209,37 @@ int runMake(std::vector<std::string> words)
     app.add_option("--stages", arguments.stages, "leave every stage there (.vdb, .obj)")->type_name("DIR");
     app.add_option("--report", arguments.report, "options, times, memory, verdict as JSON")->type_name("FILE.json");
     app.add_option("--picture", arguments.picture, "the model with its cage")->type_name("FILE.png");
-    app.add_flag("--skip-done", arguments.skipsDone, "nothing if the report tells that it was done");
+    app.add_flag("--skip-done", skipsDone, "nothing if the report tells that it was done");
     const TalkArguments talk(app, "print progress, stage times, the whole verdict");
     app.set_help_all_flag("--help-all", "print this and the rarer options");
     if (!parse(app, std::move(words))) return exitGood;
     arguments.isVerbose = talk.verbose();
-    if (arguments.skipsDone && arguments.report.empty()) {
+    if (skipsDone && arguments.report.empty()) {
         throw InputError("--skip-done needs --report FILE.json, which tells what was done");
     }
     std::optional<Outputs> outputs(std::in_place);
     announce(arguments, *outputs);
-    std::optional<Progress> progress(talk.progressForm());
+    std::string text;
     try {
-        const bool isDone = arguments.skipsDone && wasDone(arguments);
-        const std::string text =
-            isDone ? printable(arguments.cage) + ": was done before\n" : makeFiles(arguments, *outputs, *progress);
-        if (!isDone) outputs->commit();
+        std::optional<Progress> progress(talk.progressForm());
+        // Of the files as they are before the work: what changes meanwhile is done anew.
+        const std::string inputs =
+            arguments.report.empty() ? std::string() : fingerprint(inputsOf(arguments), arguments.options);
+        if (skipsDone && wasDone(arguments, inputs)) {
+            text = printable(arguments.cage) + ": was done before\n";
+        } else {
+            text = makeFiles(arguments, inputs, *outputs, *progress);
+            outputs->commit();
+        }
         progress->succeed();
-        progress.reset();
-        if (!talk.quiet()) std::cerr << text;
     } catch (const Cancelled&) {
         throw;
     } catch (const std::exception& exception) {
         outputs.reset(); // what was written goes, and makes room
-        reportFailure(arguments, failureOf(exception));
+        if (!arguments.report.empty()) reportFailure(arguments, failureOf(exception));
         throw;
     }
+    if (!talk.quiet()) std::cerr << text;
     return exitGood;
 }
 

@@ -8,6 +8,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <vdbcage/core/detail/io_failure.h>
 #include <vdbcage/core/error.h>
 
 namespace vdbcage::tool {
@@ -19,9 +20,9 @@ namespace {
 // A command has one Outputs. Who ends the process can use nothing but static storage.
 std::atomic<Outputs*> pending{nullptr};
 
-[[noreturn]] void failFolder(const fs::path& path, const std::string& reason)
+std::string notMade(const fs::path& path)
 {
-    throw IoError(path.string() + ": the folder cannot be made: " + reason);
+    return path.string() + ": the folder cannot be made";
 }
 
 fs::path folderOf(const fs::path& path)
@@ -75,11 +76,12 @@ void Outputs::writesInto(const fs::path& given)
     std::error_code error;
     const fs::file_status status = fs::status(path, error);
     if (fs::is_directory(status)) return;
-    if (error && error.value() != ENOENT) failFolder(path, error.message());
-    if (fs::exists(status)) failFolder(path, "something else has that name");
+    if (error && error.value() != ENOENT) detail::throwIoError(notMade(path), error.value());
+    if (fs::exists(status)) throw IoError(notMade(path) + ": something else has that name");
     const fs::path folder = folderOf(path);
-    if (!fs::is_directory(folder, error)) failFolder(path, "the folder " + folder.string() + " does not exist");
-    if (::access(folder.c_str(), W_OK) != 0) failFolder(path, std::generic_category().message(errno));
+    if (!fs::is_directory(folder, error))
+        throw IoError(notMade(path) + ": the folder " + folder.string() + " does not exist");
+    if (::access(folder.c_str(), W_OK) != 0) detail::throwIoError(notMade(path), errno);
     toMake_.push_back(path);
 }
 
@@ -106,7 +108,7 @@ void Outputs::add(const fs::path& path, const FileWriter& write)
         std::error_code error;
         made_.paths.push_back(folder);
         if (!fs::create_directory(folder, error)) made_.paths.pop_back();
-        if (error) failFolder(folder, error.message());
+        if (error) detail::throwIoError(notMade(folder), error.value());
     }
     toMake_.clear();
     files_.add(path, write);

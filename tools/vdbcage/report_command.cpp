@@ -2,6 +2,7 @@
 #include <iostream>
 
 #include <tools/report/job_results.h>
+#include <vdbcage/core/error.h>
 
 #include "commands.h"
 #include "outputs.h"
@@ -21,10 +22,17 @@ int runReport(std::vector<std::string> words)
     app.add_option("--csv", csv, "the same for spreadsheets")->type_name("FILE.csv");
     app.add_option("--html", html, "the same with pictures (of jobs --pictures)")->type_name("FILE.html");
     if (!parse(app, std::move(words))) return exitGood;
+    const auto requireExtension = [](const std::filesystem::path& file, const std::string& extension) {
+        if (file.empty() || file.extension() == extension) return;
+        throw InputError(file.string() + ": the name must end in " + extension);
+    };
+    requireExtension(csv, ".csv");
+    requireExtension(html, ".html");
+    const std::vector<JobResult> results = readJobResults(paths);
     Outputs outputs;
+    for (const JobResult& result : results) outputs.reads(result.report);
     if (!csv.empty()) outputs.writes(csv);
     if (!html.empty()) outputs.writes(html);
-    const std::vector<JobResult> results = readJobResults(paths);
     if (!csv.empty()) outputs.add(csv, [&](std::ostream& out) { out << csvOf(results); });
     if (!html.empty()) {
         const std::string page = pageOf(results);

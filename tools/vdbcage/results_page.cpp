@@ -90,8 +90,9 @@ std::string pageOf(const std::vector<JobResult>& results)
                        "; failures first, then the loosest. Distances are parts of the models' longest "
                        "sides.</p>\n<div class=\"jobs\">\n";
     for (const JobResult& r : results) {
-        text += std::string("<div class=\"job") + (r.isBounding ? "" : " bad") + "\">\n" + thumbnailOf(r) + "<h2>" +
-                escaped(r.report.stem().string()) + "</h2>\n<div class=\"verdict\">" +
+        text += std::string("<div class=\"job") + (r.isBounding ? "" : " bad") + "\">\n" +
+                (r.status == 0 ? thumbnailOf(r) : "") + "<h2>" + escaped(r.report.stem().string()) +
+                "</h2>\n<div class=\"verdict\">" +
                 (r.status != 0  ? "failed with status " + std::to_string(r.status)
                  : r.isBounding ? "certified"
                                 : "not bounding") +
@@ -103,8 +104,8 @@ std::string pageOf(const std::vector<JobResult>& results)
                     row("Quads", "%.0f", static_cast<double>(r.quads)) +
                     row("Mean distance", "%.2f %%", 100 * r.meanDistance) +
                     row("Largest distance", "%.2f %%", 100 * r.maxDistance) +
-                    row("Volume, of the model's", "%.2f", r.volumeRatio) + row("Seconds", "%.1f", r.seconds) +
-                    row("Memory", "%.0f MiB", r.memoryMib) + "</table>\n";
+                    (r.volumeRatio > 0 ? row("Volume, of the model's", "%.2f", r.volumeRatio) : "") +
+                    row("Seconds", "%.1f", r.seconds) + row("Memory", "%.0f MiB", r.memoryMib) + "</table>\n";
         }
         text += "</div>\n";
     }

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include <vdbcage/core/detail/atomic_file.h>
+#include <vdbcage/core/detail/io_failure.h>
 #include <vdbcage/core/detail/read_file.h>
 #include <vdbcage/core/error.h>
 #include <vdbcage/mesh/io/formats.h>
@@ -50,20 +51,12 @@ std::string readModel(const std::filesystem::path& path)
 {
     std::error_code ignored;
     if (!std::filesystem::is_directory(path, ignored)) formatOf(path);
-    try {
-        return detail::readFile(path);
-    } catch (const std::bad_alloc&) {
-        throw ResourceError(path.string() + ": there is not enough memory to read it");
-    }
+    return detail::withMemoryToRead(path, [&] { return detail::readFile(path); });
 }
 
 MeshFile parsed(const std::string& bytes, const std::filesystem::path& path)
 {
-    try {
-        return formatOf(path).parse(bytes, path.string());
-    } catch (const std::bad_alloc&) {
-        throw ResourceError(path.string() + ": there is not enough memory to read it");
-    }
+    return detail::withMemoryToRead(path, [&] { return formatOf(path).parse(bytes, path.string()); });
 }
 
 void requireFinitePoints(const std::vector<openvdb::Vec3d>& points, const std::string& name)

@@ -6,6 +6,7 @@
 #include <openvdb/io/Archive.h>
 #include <openvdb/tools/Prune.h>
 #include <vdbcage/core/detail/atomic_file.h>
+#include <vdbcage/core/detail/io_failure.h>
 #include <vdbcage/core/detail/mask_grid.h>
 #include <vdbcage/core/detail/parallel.h>
 #include <vdbcage/core/detail/read_file.h>
@@ -89,11 +90,8 @@ MaskGrid::Ptr toMask(const openvdb::GridBase& grid, const std::string& path)
 openvdb::GridBase::Ptr readGrid(const std::filesystem::path& path, const std::string& wanted, detail::VdbValues values)
 {
     openvdb::initialize();
-    try {
-        return detail::parseVdb(detail::readFile(path), path.string(), wanted, values);
-    } catch (const std::bad_alloc&) {
-        throw ResourceError(path.string() + ": there is not enough memory to read it");
-    }
+    return detail::withMemoryToRead(
+        path, [&] { return detail::parseVdb(detail::readFile(path), path.string(), wanted, values); });
 }
 
 } // namespace

@@ -13,6 +13,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <vdbcage/core/detail/io_failure.h>
 #include <vdbcage/core/error.h>
 
 namespace vdbcage {
@@ -23,9 +24,7 @@ namespace fs = std::filesystem;
 
 [[noreturn]] void fail(const fs::path& target, int error)
 {
-    const std::string text = target.string() + ": cannot be written: " + std::generic_category().message(error);
-    if (error == ENOSPC || error == EDQUOT || error == ENOMEM) throw ResourceError(text);
-    throw IoError(text);
+    detail::throwIoError(target.string() + ": cannot be written", error);
 }
 
 fs::path folderOf(const fs::path& file)
@@ -251,6 +250,7 @@ void PendingFiles::commit()
         if (isAllBack) throw;
         std::string text = error.what();
         for (std::size_t i = 0; i < done; ++i) text += files[i]->remains();
+        if (dynamic_cast<const ResourceError*>(&error)) throw ResourceError(text);
         throw IoError(text);
     } catch (...) {
         for (std::size_t i = done; i-- > 0;) files_[i]->restore();

@@ -7,6 +7,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <vdbcage/core/detail/io_failure.h>
 #include <vdbcage/core/error.h>
 
 namespace vdbcage::detail {
@@ -42,10 +43,7 @@ public:
     }
 
 private:
-    [[noreturn]] void fail(int error) const
-    {
-        throw IoError(path_.string() + ": cannot be read: " + std::generic_category().message(error));
-    }
+    [[noreturn]] void fail(int error) const { throwIoError(path_.string() + ": cannot be read", error); }
 
     const std::filesystem::path& path_;
     int descriptor_;

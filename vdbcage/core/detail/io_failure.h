@@ -1,0 +1,27 @@
+#pragma once
+
+#include <filesystem>
+#include <new>
+#include <string>
+
+#include <vdbcage/core/error.h>
+#include <vdbcage/core/export.h>
+
+namespace vdbcage::detail {
+
+/// \throw ResourceError if `error`, an errno, says that memory or room is lacking; else IoError. The text is `what`,
+/// and the system's words if there are any
+[[noreturn]] VDBCAGE_API void throwIoError(const std::string& what, int error);
+
+/// What `read` returns. \throw ResourceError naming `path` if there is not enough memory for it
+template <typename Read>
+auto withMemoryToRead(const std::filesystem::path& path, const Read& read)
+{
+    try {
+        return read();
+    } catch (const std::bad_alloc&) {
+        throw ResourceError(path.string() + ": there is not enough memory to read it");
+    }
+}
+
+} // namespace vdbcage::detail
