@@ -155,8 +155,8 @@ std::string csvOf(const std::vector<JobResult>& results)
             const auto number = [](double value) { return ',' + detail::numberText(value); };
             text += std::string(r.isBounding ? "true" : "false") + ',' + std::to_string(r.triangles) + ',' +
                     std::to_string(r.quads) + number(r.meanDistance) + number(r.maxDistance) +
-                    (r.volumeRatio > 0 ? number(r.volumeRatio) : ",") + number(r.minAngleDegrees) +
-                    number(r.seconds) + number(r.memoryMib);
+                    (r.volumeRatio > 0 ? number(r.volumeRatio) : ",") + number(r.minAngleDegrees) + number(r.seconds) +
+                    number(r.memoryMib);
         } else {
             text += ",,,,,,,,"; // no cage, no numbers
         }

@@ -137,7 +137,7 @@ int runBind(std::vector<std::string> words)
 
     std::optional<Progress> progress(talk.progressForm());
     const Mesh cage = readMesh(cagePath);
-    const std::size_t handles = cageHandles(cage, cage.points, coordinates.family).size();
+    const std::size_t handles = handleCount(cage, coordinates.family);
     std::string text;
     for (std::size_t i = 0; i < files.size(); ++i) {
         const Mesh model = readMesh(modelPaths[i]);

@@ -117,21 +117,6 @@ void requireCount(const char* what, std::size_t count, std::size_t needed, const
     }
 }
 
-std::size_t handleCount(const Mesh& cage, Coordinates family)
-{
-    const std::size_t points = cage.points.size(), triangles = cage.triangles.size(), quads = cage.quads.size();
-    switch (family) {
-    case Coordinates::green:
-        return points + triangles + 4 * quads;
-    case Coordinates::biharmonic:
-        return points + triangles + 2 * quads;
-    case Coordinates::somigliana:
-        return points + detail::somiglianaWeights * (triangles + 2 * quads);
-    default:
-        return points;
-    }
-}
-
 /// The cage as a family takes it.
 Mesh cageOf(const Mesh& cage, Coordinates family)
 {
@@ -292,11 +277,12 @@ std::vector<Number> computeRows(const Mesh& cage, const std::vector<Vec3d>& poin
 }
 
 /// How far handles go, in units of the cage: its points as far as it is large, and normals, which stretch with their
-/// edges, as far as these would let them.
+/// edges, as far as these would let them. Those of Somigliana coordinates about as far as they are long at rest.
 std::vector<float> maxDistancesOf(const Mesh& cage, Coordinates family)
 {
     std::vector<float> maxDistances(cage.points.size(), 1.0F);
-    if (family == Coordinates::somigliana) maxDistances.resize(handleCount(cage, family), 4.0F); // twice as at rest
+    if (family == Coordinates::somigliana) maxDistances.resize(handleCount(cage, family), 4.0F);
+    if (maxDistances.size() == handleCount(cage, family)) return maxDistances;
     const double size = detail::CageFrame(cage).size;
     const auto addNormal = [&](openvdb::Index32 corner, openvdb::Index32 next, openvdb::Index32 before) {
         const auto edge = [&](openvdb::Index32 to) {
@@ -351,6 +337,21 @@ Coordinates coordinatesNamed(const std::string& name)
     throw InputError("coordinates: '" + name + "' is not a family; there are " + familyNames());
 }
 
+std::size_t handleCount(const Mesh& cage, Coordinates family)
+{
+    const std::size_t points = cage.points.size(), triangles = cage.triangles.size(), quads = cage.quads.size();
+    switch (family) {
+    case Coordinates::green:
+        return points + triangles + 4 * quads;
+    case Coordinates::biharmonic:
+        return points + triangles + 2 * quads;
+    case Coordinates::somigliana:
+        return points + detail::somiglianaWeights * (triangles + 2 * quads);
+    default:
+        return points;
+    }
+}
+
 std::vector<Vec3d> cageHandles(const Mesh& cage, const std::vector<Vec3d>& posed, const CoordinateOptions& options)
 {
     requireCount("posed cage", posed.size(), cage.points.size(), "the cage");
@@ -361,6 +362,7 @@ std::vector<Vec3d> cageHandles(const Mesh& cage, const std::vector<Vec3d>& posed
         requireElasticity(options.elasticity);
         detail::addSomiglianaHandles(cage, posed, options.elasticity, handles);
     }
+    if (handles.size() == handleCount(cage, options.family)) return handles; // there are no normals
     const double size = detail::CageFrame(cage).size;
     const auto addNormal = [&](openvdb::Index32 corner, openvdb::Index32 next, openvdb::Index32 before) {
         const auto edge = [&](const std::vector<Vec3d>& points, openvdb::Index32 to) {
@@ -426,6 +428,8 @@ Binding::Binding(const Mesh& cage, std::vector<Vec3d> points, const CoordinateOp
 
 Binding Binding::with(const Elasticity& elasticity) const
 {
+    requireElasticity(elasticity);
+    if (family() != Coordinates::somigliana) return *this;
     Binding changed = *this;
     changed.options_.elasticity = elasticity;
     changed.restHandles_ = cageHandles(cage_, cage_.points, changed.options_);

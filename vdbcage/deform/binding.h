@@ -76,7 +76,7 @@ VDBCAGE_API void requireElasticity(const Elasticity& elasticity);
 /// What there is to know of a family that can be computed.
 struct FamilyInfo {
     Coordinates family;
-    const char* name;        ///< at most 10 letters
+    const char* name;        ///< at most 16 letters
     const char* nameOnQuads; ///< as its paper calls it on quads; `name` if it has no other there
     const char* title;       ///< a word or two
     const char* what;        ///< what it does to the model, in a line
@@ -112,6 +112,9 @@ struct CoordinateOptions {
     CoordinateOptions(Coordinates of, const Elasticity& material) : CoordinateOptions(of) { elasticity = material; }
 };
 
+/// How many handles a cage has, which is the number of weights a point.
+VDBCAGE_API std::size_t handleCount(const Mesh& cage, Coordinates family);
+
 /// What coordinates are weights of, in the order of their columns. `posed` are the posed points of `cage`.
 ///
 /// First come the posed points. For Green coordinates stretched normals follow: one a triangle, then four a quad, at
@@ -141,7 +144,7 @@ VDBCAGE_API std::vector<openvdb::Vec3d> cageHandles(const Mesh& cage, const std:
 /// closed, faces inward or is flat; a point not finite; a point for which the family is not defined (the message has
 /// the first and how many); the family is `given`; a cage too large for biharmonic coordinates \throw Cancelled Cost:
 /// O(points x faces), in parallel. Quads cost several times what triangles do. Biharmonic coordinates: O(handles^3 +
-/// points x handles^2), in 8 bytes x handles^2.
+/// points x handles^2), in 32 bytes x handles^2, of which 8 stay.
 VDBCAGE_API std::vector<double> computeCoordinates(const Mesh& cage, const std::vector<openvdb::Vec3d>& points,
                                                    const CoordinateOptions& options,
                                                    Interrupter* interrupter = nullptr);
@@ -157,11 +160,12 @@ VDBCAGE_API std::vector<float> computeWeights(const Mesh& cage, const std::vecto
 /// a posed point is off by at most 1e-6 of the cage's size, times the sum of its weights' absolute values. A normal's
 /// weight counts times the square of its edges' mean length, one of the six of a triangle four times. This holds where
 /// no point of the cage moves farther than its size and no edge gets more than twice as long. Rounding to floats adds
-/// about 1e-7 of the motion.
+/// about 1e-7 of the motion. For Somigliana coordinates it holds for `Elasticity()`, and where no triangle gets more
+/// than twice as wide; it grows as 1 / (1 - 2 nu), and with the bulging.
 class VDBCAGE_API Binding {
 public:
     /// Computes the coordinates.
-    /// \throw InputError as computeCoordinates
+    /// \throw InputError as computeCoordinates; an elasticity out of range
     /// \throw Cancelled
     Binding(const Mesh& cage, std::vector<openvdb::Vec3d> points, const CoordinateOptions& options,
             Interrupter* interrupter = nullptr);
@@ -177,8 +181,9 @@ public:
     Coordinates family() const { return options_.family; }
     /// The number of handles, which is the number of weights a point.
     std::size_t handles() const { return restHandles_.size(); }
-    /// The same with another material, of Somigliana coordinates: no weights are computed.
+    /// The same with another material: no weights are computed. Of Somigliana coordinates; others stay as they are.
     /// \throw InputError it is out of range
+    /// Cost: a copy of cage and points.
     Binding with(const Elasticity& elasticity) const;
     /// The memory that the weights take: 4 bytes a point and handle, or less where points are close together for their
     /// distance from faces. A third where there are hundreds of points a face.

@@ -12,6 +12,7 @@
 #include <system_error>
 
 #include <vdbcage/core/detail/atomic_file.h>
+#include <vdbcage/core/detail/io_failure.h>
 #include <vdbcage/core/detail/read_file.h>
 #include <vdbcage/core/error.h>
 #include <vdbcage/deform/detail/weight_blocks.h>
@@ -106,7 +107,7 @@ void writeWeights(const Mesh& cage, const std::vector<openvdb::Vec3d>& points, C
 void writeWeights(const Mesh& cage, const std::vector<openvdb::Vec3d>& points, Coordinates family,
                   const std::vector<float>& weights, std::ostream& out, const std::filesystem::path& path)
 {
-    const std::size_t handles = cageHandles(cage, cage.points, family).size();
+    const std::size_t handles = handleCount(cage, family);
     detail::requireWeights(weights.size(), points.size(), handles);
     std::string name = coordinatesName(family);
     const std::size_t nameSize = *std::lower_bound(std::begin(nameSizes), std::end(nameSizes), name.size());
@@ -132,8 +133,9 @@ Binding readWeights(const std::filesystem::path& path, const Mesh& cage, std::ve
         return Binding(cage, std::move(points), Coordinates::given, weights);
     };
     if (isDmat(path)) {
-        const std::vector<float> weights =
-            detail::parseDmat(detail::readFile(path), path.string(), points.size(), cage.points.size());
+        const std::vector<float> weights = detail::withMemoryToRead(path, [&] {
+            return detail::parseDmat(detail::readFile(path), path.string(), points.size(), cage.points.size());
+        });
         return bindGiven(weights);
     }
     detail::requireRegularFile(path);
@@ -156,8 +158,9 @@ Binding readWeights(const std::filesystem::path& path, const Mesh& cage, std::ve
         if (text.rfind(beforeCounts(candidate), 0) == 0) nameSize = candidate;
     }
     if (start.compare(0, magic.size(), magic) != 0 || nameSize == 0) {
-        const std::vector<float> weights =
-            detail::parseNpy(detail::readFile(path), path.string(), points.size(), cage.points.size());
+        const std::vector<float> weights = detail::withMemoryToRead(path, [&] {
+            return detail::parseNpy(detail::readFile(path), path.string(), points.size(), cage.points.size());
+        });
         return bindGiven(weights);
     }
     std::size_t rows = 0, columns = 0;
@@ -180,7 +183,7 @@ Binding readWeights(const std::filesystem::path& path, const Mesh& cage, std::ve
     } catch (const InputError& error) {
         fail(error.what());
     }
-    if (columns != cageHandles(cage, cage.points, family).size()) fail("it has another number of handles");
+    if (columns != handleCount(cage, family)) fail("it has another number of handles");
     // What the header says is bounded by the file's size before memory is taken for it. Neither sum can overflow: rows
     // and columns are those of a model and a cage in memory.
     const std::uintmax_t expectedSize =
@@ -189,7 +192,7 @@ Binding readWeights(const std::filesystem::path& path, const Mesh& cage, std::ve
     if (size > expectedSize) {
         fail("it has " + std::to_string(size - expectedSize) + " bytes behind the weights; it should end there");
     }
-    std::vector<float> weights(rows * columns);
+    std::vector<float> weights = detail::withMemoryToRead(path, [&] { return std::vector<float>(rows * columns); });
     in.read(reinterpret_cast<char*>(weights.data()), static_cast<std::streamsize>(weights.size() * sizeof(float)));
     if (!in) fail("it is truncated");
     if (family == Coordinates::given) return bindGiven(weights);

@@ -369,9 +369,8 @@ constexpr std::size_t together = 2; // columns of a solution
 
 BiharmonicPart biharmonicPart(const std::array<Vec3d, 3>& corners, bool onFace)
 {
-    const Vec3d a = corners[1] - corners[0], b = corners[2] - corners[0];
-    const double longest = std::max({a.lengthSqr(), b.lengthSqr(), (a - b).lengthSqr()});
-    return a.cross(b).length() > sliverWidth * longest ? closedForm(corners, onFace) : integrated(corners);
+    return isSliver(corners[1] - corners[0], corners[2] - corners[0]) ? integrated(corners)
+                                                                      : closedForm(corners, onFace);
 }
 
 BiharmonicCage::BiharmonicCage(const BoundCage& cage, Interrupter* interrupter) : cage_(cage)
@@ -403,7 +402,6 @@ unsigned BiharmonicCage::rows(const Vec3d* points, std::size_t count, Packet* ro
     };
     std::vector<Laplacians> laplacians(size, Laplacians{});
     std::array<BoundCage::Place, packetSize> nearest;
-    Packet lacking = {};
     unsigned outside = 0;
     for (std::size_t k = 0; k < size; ++k) std::fill_n(rows[k], packetSize, 0.0);
     for (std::size_t lane = 0; lane < count; ++lane) {
@@ -412,8 +410,9 @@ unsigned BiharmonicCage::rows(const Vec3d* points, std::size_t count, Packet* ro
         if (isInside) {
             nearest[lane] = cage_.nearest(x);
             const bool touches = nearest[lane].distance <= BoundCage::touching;
-            lacking[lane] = addPotentials(cage_, x, touches, {&rows[0][lane], &laplacians[0].of[lane], packetSize});
-            isInside = touches || std::abs(lacking[lane]) <= 0.5;
+            const double lacking =
+                addPotentials(cage_, x, touches, {&rows[0][lane], &laplacians[0].of[lane], packetSize});
+            isInside = touches || std::abs(lacking) <= 0.5;
         }
         if (!isInside) outside |= 1U << lane;
     }

@@ -23,7 +23,8 @@ struct BiharmonicPart {
 /// `corners` are counter-clockwise from outside, in units of the cage's longest side. `onFace`: the origin lies on the
 /// triangle, whose solid angle is left out then.
 ///
-/// Errors are below 1e-11, and about 1e-9 for triangles that are narrower than `sliverWidth`.
+/// Errors are below 1e-11 for triangles about as large as their distance, and grow as rounding over their area. Those
+/// narrower than `sliverWidth` are integrated to about 1e-9.
 BiharmonicPart biharmonicPart(const std::array<openvdb::Vec3d, 3>& corners, bool onFace);
 
 /// The biharmonic coordinates of a cage of triangles: Thiery, Michel, Chen 2024.

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include <vdbcage/deform/detail/gauss.h>
-#include <vdbcage/deform/detail/somigliana.h>
 #include <vdbcage/deform/detail/triangle_potentials.h>
 
 namespace vdbcage::detail {
@@ -90,9 +89,9 @@ CagePack::CagePack(const BoundCage& cage) : rules_(packedRules())
             t.sign[k] = from < to ? 1 : -1;
             copy(along[k].cross(normal), t.outward[k]);
         }
-        const FaceFrame frame = faceFrame(corner(1) - corner(0), corner(2) - corner(0));
+        const Vec3d flat[2] = {along[2], normal.cross(along[2])}; // the edge from corner 0
         for (std::size_t k = 0; k < 3; ++k) {
-            for (std::size_t axis = 0; axis < 2; ++axis) t.flat[k][axis] = frame[axis + 1].dot(Vec3d(t.outward[k]));
+            for (std::size_t axis = 0; axis < 2; ++axis) t.flat[k][axis] = flat[axis].dot(Vec3d(t.outward[k]));
         }
         for (std::size_t i = 0; i < 3; ++i) {
             for (std::size_t k = 0; k < 3; ++k) t.along[i][k] = along[k].dot(sides[i]) / t.area;

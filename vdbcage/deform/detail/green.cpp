@@ -53,10 +53,7 @@ FacePart closedForm(const PatchCorners& c, bool onFace)
 FacePart facePart(const PatchCorners& corners, bool quad, bool onFace)
 {
     if (quad) return integrated(corners);
-    const Vec3d a = corners[1] - corners[0], b = corners[2] - corners[0];
-    const Vec3d areaNormal = a.cross(b);
-    const double longest = std::max({a.lengthSqr(), b.lengthSqr(), (a - b).lengthSqr()});
-    if (areaNormal.length() > sliverWidth * longest) return closedForm(corners, onFace);
+    if (!isSliver(corners[1] - corners[0], corners[2] - corners[0])) return closedForm(corners, onFace);
     FacePart part = integrated(corners); // nearly degenerate
     part.positions[2] += part.positions[3];
     part.normals[0] += part.normals[1]; // the density of (u, v) on the triangle

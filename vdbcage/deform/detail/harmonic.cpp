@@ -5,6 +5,7 @@
 // grid cross the cage, so that points are reproduced. Values near the cage are interpolated up to it.
 
 #include <vdbcage/deform/detail/harmonic.h>
+#include <vdbcage/deform/detail/triangle_potentials.h>
 
 #include <algorithm>
 #include <cmath>
@@ -149,22 +150,14 @@ double determinant(const Vec3d& a, const Vec3d& b, const Vec3d& c)
     return a.dot(b.cross(c));
 }
 
-/// The solid angle of a triangle, over 4 pi; negative where it is seen from behind.
-double angleOf(const Vec3d& a, const Vec3d& b, const Vec3d& c, double volume)
-{
-    const double la = a.length(), lb = b.length(), lc = c.length();
-    const double angle = std::atan2(volume, la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
-    return angle / (2 * pi);
-}
-
 /// A face's part of the winding number around the origin.
 double windingOf(const PatchCorners& c, bool quad)
 {
     const double m3 = determinant(c[0], c[1], c[2]);
-    double winding = angleOf(c[0], c[1], c[2], m3);
+    double winding = halfSolidAngle(c[0], c[1], c[2], m3) / (2 * pi);
     if (!quad) return winding;
     const double m1 = determinant(c[0], c[2], c[3]);
-    winding += angleOf(c[0], c[2], c[3], m1);
+    winding += halfSolidAngle(c[0], c[2], c[3], m1) / (2 * pi);
     // The patch is where products of opposite corners' barycentric coordinates in the tetrahedron of its corners are
     // equal. From the two triangles to the patch that of corners 0 and 2 is the greater one.
     const double m0 = determinant(c[1], c[2], c[3]), m2 = determinant(c[0], c[1], c[3]);

@@ -10,6 +10,9 @@ namespace vdbcage::detail {
 
 class BoundCage;
 
+/// Weights a triangle of Somigliana coordinates, see somiglianaRow().
+constexpr std::size_t somiglianaWeights = 6;
+
 struct PackedEdge {
     std::uint32_t from, to;
     double length;

@@ -36,6 +36,21 @@ void seeCorners(const PackedCage& cage, Vector x, Corner* corners)
     }
 }
 
+/// Divides the points' weights by `sum`, and makes them reproduce affine maps. `normals` is what other columns add to
+/// the place at rest.
+void restorePrecision(const PackedCage& cage, Vector x, double (*rows)[packetSize], int first, Lanes sum,
+                      Vector normals)
+{
+    Vector missing = x + all(-1) * normals;
+    for (std::size_t i = 0; i < cage.pointCount; ++i) {
+        double* const at = &rows[i][first];
+        const Lanes weight = load(at) / sum;
+        store(weight, at);
+        missing = missing + -weight * Vector{all(cage.points[i][0]), all(cage.points[i][1]), all(cage.points[i][2])};
+    }
+    for (std::size_t i = 0; i < cage.pointCount; ++i) add(dot(cage.restoring[i], missing), &rows[i][first]);
+}
+
 // --- Bilinear patches
 
 /// A part of a patch: its corners, and where it is in the patch.
@@ -308,14 +323,7 @@ unsigned meanValueRows(const PackedCage& cage, const double (*x)[packetSize], vo
         }
         near |= ~(abs(sum) > 0.5 * size); // far outside they cancel, digits and all
         leftOut |= bits(near) << first;
-        Vector missing = place;
-        for (std::size_t i = 0; i < cage.pointCount; ++i) {
-            const Lanes weight = load(at(i)) / sum;
-            store(weight, at(i));
-            missing =
-                missing + -weight * Vector{all(cage.points[i][0]), all(cage.points[i][1]), all(cage.points[i][2])};
-        }
-        for (std::size_t i = 0; i < cage.pointCount; ++i) add(dot(cage.restoring[i], missing), at(i));
+        restorePrecision(cage, place, rows, first, sum, Vector{});
     }
     return leftOut;
 }
@@ -382,23 +390,6 @@ void forEachBad(Mask bad, Vector x, const Replace& replace)
     }
 }
 
-/// Makes the points' weights reproduce affine maps; `normals` is what the normals add to the place at rest. Returns
-/// the lanes where the solid angles lack digits, or whose point is on the cage or outside.
-Mask restorePrecision(const PackedCage& cage, Vector x, double (*rows)[packetSize], int first, Vector normals)
-{
-    const auto at = [&](std::size_t column) { return &rows[column][first]; };
-    Lanes sum = all(0);
-    for (std::size_t i = 0; i < cage.pointCount; ++i) sum += load(at(i));
-    Vector missing = x + all(-1) * normals;
-    for (std::size_t i = 0; i < cage.pointCount; ++i) {
-        const Lanes weight = load(at(i)) / sum;
-        store(weight, at(i));
-        missing = missing + -weight * Vector{all(cage.points[i][0]), all(cage.points[i][1]), all(cage.points[i][2])};
-    }
-    for (std::size_t i = 0; i < cage.pointCount; ++i) add(dot(cage.restoring[i], missing), at(i));
-    return ~(abs(1 - sum) < 1e-8);
-}
-
 /// Rows that begin with the solid angles of the points' hat functions. `faces(x, first, corners, edges, near)` adds
 /// them and stores the other columns; it marks lanes that are too near, and returns what the normals add to the place
 /// at rest.
@@ -416,7 +407,10 @@ unsigned solidAngleRows(const PackedCage& cage, const double (*x)[packetSize], v
         seePotentials(cage, corners, edges);
         for (std::size_t i = 0; i < cage.pointCount; ++i) store(all(0), &rows[i][first]);
         const Vector normals = faces(place, first, corners, edges, near);
-        near |= restorePrecision(cage, place, rows, first, normals);
+        Lanes sum = all(0);
+        for (std::size_t i = 0; i < cage.pointCount; ++i) sum += load(&rows[i][first]);
+        near |= ~(abs(1 - sum) < 1e-8); // digits are lacking, or the point is on the cage or outside
+        restorePrecision(cage, place, rows, first, sum, normals);
         leftOut |= bits(near) << first;
     }
     return leftOut;
@@ -476,7 +470,8 @@ unsigned somiglianaRows(const PackedCage& cage, const double (*x)[packetSize], v
             for (std::size_t face = 0; face < cage.triangleCount; ++face) {
                 const PackedTriangle& t = cage.triangles[face];
                 const SeenTriangle seen = seeTriangle(cage, t, corners, edges);
-                Lanes m[6] = {seen.height * seen.solid, all(0), all(0), seen.single, all(0), seen.single};
+                Lanes m[somiglianaWeights] = {
+                    seen.height * seen.solid, all(0), all(0), seen.single, all(0), seen.single};
                 for (int i = 0; i < 3; ++i) {
                     const double m1 = t.flat[i][0], m2 = t.flat[i][1];
                     const Lanes across = seen.feet[i] * seen.potentials[i];
@@ -494,13 +489,15 @@ unsigned somiglianaRows(const PackedCage& cage, const double (*x)[packetSize], v
                 for (int i = 0; i < 3; ++i) positions[i] = seen.hatSolid[i] / fourPi;
                 for (Lanes& entry : m) entry /= fourPi;
                 forEachBad(seen.bad & ~near, place, [&](int lane, const double(&from)[3]) {
-                    double exact[3] = {}, matrix[6] = {};
+                    double exact[3] = {}, matrix[somiglianaWeights] = {};
                     if (!exactSomigliana(*cage.cage, face, from, exact, matrix)) near[lane] = -1;
                     for (int i = 0; i < 3; ++i) positions[i][lane] = exact[i];
-                    for (int i = 0; i < 6; ++i) m[i][lane] = matrix[i];
+                    for (std::size_t i = 0; i < somiglianaWeights; ++i) m[i][lane] = matrix[i];
                 });
                 for (int i = 0; i < 3; ++i) add(positions[i], at(t.corner[i]));
-                for (std::size_t i = 0; i < 6; ++i) store(m[i], at(cage.pointCount + 6 * face + i));
+                for (std::size_t i = 0; i < somiglianaWeights; ++i) {
+                    store(m[i], at(cage.pointCount + somiglianaWeights * face + i));
+                }
                 const Lanes trace = m[0] + m[3] + m[5];
                 normals = normals + trace * Vector{all(t.normal[0]), all(t.normal[1]), all(t.normal[2])};
             }

@@ -79,10 +79,8 @@ FacePart closedForm(const PatchCorners& c, const FaceFrame& frame, bool onFace)
 
 FacePart facePart(const PatchCorners& corners, const FaceFrame& frame, bool onFace)
 {
-    const Vec3d a = corners[1] - corners[0], b = corners[2] - corners[0];
-    const double longest = std::max({a.lengthSqr(), b.lengthSqr(), (a - b).lengthSqr()});
-    return a.cross(b).length() > sliverWidth * longest ? closedForm(corners, frame, onFace)
-                                                       : integrated(corners, frame);
+    return isSliver(corners[1] - corners[0], corners[2] - corners[0]) ? integrated(corners, frame)
+                                                                      : closedForm(corners, frame, onFace);
 }
 
 Vec3d unit(const Vec3d& v)
@@ -146,12 +144,6 @@ std::vector<Vec3d> pointNormals(const std::vector<Vec3d>& points, const std::vec
     }
     for (Vec3d& normal : normals) normal = unit(normal);
     return normals;
-}
-
-/// Of the corner from which `a`, `b` and `c`, of length 1, go out.
-double solidAngle(const Vec3d& a, const Vec3d& b, const Vec3d& c)
-{
-    return 2 * std::atan2(a.dot(b.cross(c)), 1 + a.dot(b) + b.dot(c) + c.dot(a));
 }
 
 /// A pose of a cage, in units of its size.
@@ -247,8 +239,11 @@ private:
             const std::vector<Vec3d> before = pointNormals(rest_, triangles_), after = pointNormals(posed_, triangles_);
             for (std::size_t i = 0; i < triangles_.size(); ++i) {
                 const openvdb::Vec3I& t = triangles_[i];
-                const double change = solidAngle(after[t[0]], after[t[1]], after[t[2]]) -
-                                      solidAngle(before[t[0]], before[t[1]], before[t[2]]);
+                const auto spread = [&](const std::vector<Vec3d>& normals) {
+                    const Vec3d &a = normals[t[0]], &b = normals[t[1]], &c = normals[t[2]];
+                    return 2 * halfSolidAngle(a, b, c, a.dot(b.cross(c)));
+                };
+                const double change = spread(after) - spread(before);
                 bulges[i] += elasticity_.localBulging * change / fourPi;
             }
         }

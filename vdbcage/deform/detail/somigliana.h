@@ -6,11 +6,9 @@
 #include <openvdb/Types.h>
 #include <vdbcage/deform/binding.h>
 #include <vdbcage/deform/detail/bound_cage.h>
+#include <vdbcage/deform/detail/packed_cage.h>
 
 namespace vdbcage::detail {
-
-/// Weights a triangle: the symmetric matrix of somiglianaRow(), in the triangle's frame as nn, n1, n2, 11, 12, 22.
-constexpr std::size_t somiglianaWeights = 6;
 
 /// A triangle's frame: its normal, the direction of its first edge, and the normal cross that.
 using FaceFrame = std::array<openvdb::Vec3d, 3>;
@@ -24,7 +22,8 @@ void addSomiglianaHandles(const Mesh& cage, const std::vector<openvdb::Vec3d>& p
                           std::vector<openvdb::Vec3d>& handles);
 
 /// Writes the coordinates of `x`, which is scaled, to `row`: those of the points, which are Green's, then for each
-/// triangle the integral of r r^T / |r|^3 over it, over 4 pi, where r is the way from `x`. Returns false if `x` is
+/// triangle the integral of r r^T / |r|^3 over it, over 4 pi, where r is the way from `x`: the symmetric matrix in the
+/// triangle's frame, as nn, n1, n2, 11, 12, 22. Returns false if `x` is
 /// outside of the cage. \pre the cage has triangles only
 bool somiglianaRow(const BoundCage& cage, const openvdb::Vec3d& x, double* row);
 

@@ -1,5 +1,6 @@
 #include <vdbcage/deform/detail/triangle_potentials.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace vdbcage::detail {
@@ -26,6 +27,18 @@ double edgePotential(const Vec3d& a, const Vec3d& b)
 
 } // namespace
 
+bool isSliver(const Vec3d& a, const Vec3d& b)
+{
+    const double longest = std::max({a.lengthSqr(), b.lengthSqr(), (a - b).lengthSqr()});
+    return !(a.cross(b).length() > sliverWidth * longest);
+}
+
+double halfSolidAngle(const Vec3d& a, const Vec3d& b, const Vec3d& c, double determinant)
+{
+    const double la = a.length(), lb = b.length(), lc = c.length();
+    return std::atan2(determinant, la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
+}
+
 TrianglePotentials trianglePotentials(const std::array<Vec3d, 3>& c, bool onFace)
 {
     TrianglePotentials t;
@@ -35,9 +48,7 @@ TrianglePotentials trianglePotentials(const std::array<Vec3d, 3>& c, bool onFace
     t.height = t.solid = 0;
     if (!onFace) {
         t.height = t.normal.dot(c[0]);
-        const double la = c[0].length(), lb = c[1].length(), lc = c[2].length();
-        t.solid = 2 * std::atan2(c[0].dot(c[1].cross(c[2])),
-                                 la * lb * lc + c[0].dot(c[1]) * lc + c[1].dot(c[2]) * la + c[2].dot(c[0]) * lb);
+        t.solid = 2 * halfSolidAngle(c[0], c[1], c[2], c[0].dot(c[1].cross(c[2])));
     }
     t.single = -t.height * t.solid;
     for (std::size_t i = 0; i < 3; ++i) {

@@ -35,4 +35,11 @@ constexpr double fourPi = 4 * 3.14159265358979323846;
 /// A triangle that is narrower than this, over its longest side, has too few digits for closed forms.
 constexpr double sliverWidth = 1e-7;
 
+/// Whether the triangle of the sides `a` and `b` is that narrow.
+bool isSliver(const openvdb::Vec3d& a, const openvdb::Vec3d& b);
+
+/// Half the solid angle of the triangle that has these corners, seen from the origin: van Oosterom, Strackee 1983.
+/// `determinant` is that of the corners, whose sign it has.
+double halfSolidAngle(const openvdb::Vec3d& a, const openvdb::Vec3d& b, const openvdb::Vec3d& c, double determinant);
+
 } // namespace vdbcage::detail
