@@ -13,6 +13,7 @@ packages=(
 test_packages=(
     libboost-test-dev
     clang-format   # formatting is a test
+    mandoc zsh fish # manual pages and completions
     tetgen # fills cages, to see that others can use them
     xvfb xauth # a display for the window
     python3-mypy    # its stubtest holds the stubs to the Python module

@@ -37,13 +37,26 @@ std::set<std::string> flagsOf(const std::vector<std::string>& lines, const std::
     return flags;
 }
 
+/// The commands that the help lists.
+std::vector<std::string> commands()
+{
+    std::vector<std::string> names;
+    const std::regex line("  ([a-z]+)  +[a-z].*");
+    for (const std::string& text : linesOf(runCommand({command, "--help"}).out)) {
+        std::smatch match;
+        if (std::regex_match(text, match, line)) names.push_back(match[1]);
+    }
+    BOOST_REQUIRE(names.size() > 5);
+    return names;
+}
+
 } // namespace
 
 BOOST_AUTO_TEST_SUITE(help)
 
 BOOST_AUTO_TEST_CASE(help_fits_a_screen)
 {
-    for (const char* name : {"make", "check", "render", "bind", "deform", "repair", "jobs", "report"}) {
+    for (const std::string& name : commands()) {
         const auto result = runCommand({command, name, "--help"});
         BOOST_TEST(result.status == 0);
         BOOST_TEST(result.err.empty());
@@ -104,10 +117,26 @@ BOOST_AUTO_TEST_CASE(without_arguments_there_is_a_short_help)
 {
     const auto result = runCommand({command});
     BOOST_TEST(result.status == 1);
-    for (const char* name : {"make", "check", "render", "bind", "deform", "repair"}) {
-        BOOST_TEST(result.err.find(name) != std::string::npos);
-    }
+    BOOST_TEST(result.err == runCommand({command, "--help"}).out);
     BOOST_TEST(runCommand({command, "--version"}).out.rfind("vdbcage ", 0) == 0U);
+}
+
+BOOST_AUTO_TEST_CASE(the_readme_has_every_command)
+{
+    const std::string readme = test::readText(VDBCAGE_SOURCE_DIR "/README.md");
+    for (const std::string& name : commands()) {
+        BOOST_TEST(readme.find("\n    vdbcage " + name + ' ') != std::string::npos, name);
+    }
+}
+
+BOOST_AUTO_TEST_CASE(help_of_a_command_is_found_both_ways)
+{
+    for (const std::string& name : commands()) {
+        BOOST_TEST(runCommand({command, "help", name}).out == runCommand({command, name, "--help"}).out);
+    }
+    const auto wrong = runCommand({command, "help", "mak"});
+    BOOST_TEST(wrong.status == 1);
+    BOOST_TEST(wrong.err.find("did you mean make?") != std::string::npos, wrong.err);
 }
 
 BOOST_AUTO_TEST_CASE(slips_get_a_hint)

@@ -13,7 +13,7 @@
 
 namespace vdbcage::tool {
 
-int runCheck(std::vector<std::string> words)
+int runCheck(Call call)
 {
     std::filesystem::path cagePath, reportPath;
     std::vector<std::filesystem::path> modelPaths;
@@ -25,7 +25,7 @@ int runCheck(std::vector<std::string> words)
     app.add_option("models", modelPaths)->required()->type_name("MODEL...");
     app.add_option("--report", reportPath, "the verdict as JSON")->type_name("FILE.json");
     const TalkArguments talk(app);
-    if (!parse(app, std::move(words))) return exitGood;
+    if (!parse(app, std::move(call))) return exitGood;
     Outputs outputs;
     outputs.reads(cagePath);
     for (const std::filesystem::path& model : modelPaths) outputs.reads(model);

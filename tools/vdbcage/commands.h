@@ -4,10 +4,10 @@
 #include <string>
 #include <vector>
 
-#include <CLI/CLI.hpp>
 #include <vdbcage/core/detail/printable.h>
 #include <vdbcage/pipeline/options.h>
 
+#include "command_line.h"
 #include "exit_status.h"
 
 namespace vdbcage::tool {
@@ -21,24 +21,41 @@ inline std::string printable(const std::filesystem::path& text)
 /// Sends what was printed on standard output on its way. \throw IoError if it does not arrive
 void flushOutput();
 
-/// One command of `vdbcage`: its arguments without its own name; returns the exit status. \throw Error, CLI::Error
-int runMake(std::vector<std::string> arguments);
-int runCheck(std::vector<std::string> arguments);
-int runRender(std::vector<std::string> arguments);
-int runBind(std::vector<std::string> arguments);
-int runDeform(std::vector<std::string> arguments);
-int runRepair(std::vector<std::string> arguments);
-int runJobs(std::vector<std::string> arguments);
-int runReport(std::vector<std::string> arguments);
+/// Each does what it is called for and returns the exit status. \throw Error, CLI::Error
+int runMake(Call call);
+int runCheck(Call call);
+int runRender(Call call);
+int runBind(Call call);
+int runDeform(Call call);
+int runRepair(Call call);
+int runJobs(Call call);
+int runReport(Call call);
+int runMan(Call call);
+int runCompletion(Call call);
 
-/// The group of options that only --help-all lists, where a command has it.
-constexpr const char* rareOptions = "Rare";
+/// A command line that can be tried, and what it is for.
+struct Example {
+    std::string purpose; ///< a sentence
+    std::string line;
+};
+
+/// One command of `vdbcage`.
+struct Command {
+    std::string name, summary;
+    int (*run)(Call);
+    std::string details; ///< what its manual page has beyond the help; may be empty
+    /// For its manual page. One after the other they run in a folder that has bishop.obj, creature.obj (of data/) and
+    /// posed.obj, the cage as posed: a test does it.
+    std::vector<Example> examples;
+};
+
+/// All of them, in the order of the help.
+const std::vector<Command>& commands();
+
+/// What can be said to `command`.
+CommandFacts describe(const Command& command);
 
 /// Adds the options of cages, which set `options`, and returns them. Must outlive parsing.
 std::vector<CLI::Option*> addCageOptions(CLI::App& app, CageOptions& options);
-
-/// Reads `arguments` into `app`, whose help is laid out one option a line. Returns false if help was asked for (and
-/// printed). \throw CLI::ParseError
-bool parse(CLI::App& app, std::vector<std::string> arguments);
 
 } // namespace vdbcage::tool

@@ -35,7 +35,7 @@ CoordinateArguments::CoordinateArguments(CLI::App& app, For use, const std::stri
     };
     const std::string bulgings = ", " + toText(Elasticity::bulgings) + " [0]";
     add("--nu", elasticity_.nu, "Poisson's ratio, -1 to 0.5 [0]", "NU");
-    add("--rotations", rotations_, "global, or local [global]", "WHICH");
+    add("--rotations", rotations_, "how they are found [global]", "global|local");
     add("--local-bulging", elasticity_.localBulging, "where it curves" + bulgings, "N");
     add("--global-bulging", elasticity_.globalBulging, "where it moves out" + bulgings, "N");
 }

@@ -111,7 +111,7 @@ int drawComparison(const fs::path& cagePath, const fs::path& posedPath, const fs
 
 } // namespace
 
-int runBind(std::vector<std::string> words)
+int runBind(Call call)
 {
     fs::path cagePath, output;
     std::vector<fs::path> modelPaths;
@@ -126,7 +126,7 @@ int runBind(std::vector<std::string> words)
     app.add_option("-o,--output", output, "the weights to write")->required()->type_name("WEIGHTS");
     const CoordinateArguments arguments(app, CoordinateArguments::For::weights);
     const TalkArguments talk(app, "print the progress, also without a terminal");
-    if (!parse(app, std::move(words))) return exitGood;
+    if (!parse(app, std::move(call))) return exitGood;
     const CoordinateOptions coordinates = arguments.options();
     const std::vector<fs::path> files = weightsFiles(output, modelPaths);
     Outputs outputs;
@@ -156,7 +156,7 @@ int runBind(std::vector<std::string> words)
     return exitGood;
 }
 
-int runDeform(std::vector<std::string> words)
+int runDeform(Call call)
 {
     fs::path cagePath, posedPath, modelPath, output, weights;
     bool inversions = false, compare = false;
@@ -174,7 +174,7 @@ int runDeform(std::vector<std::string> words)
     app.add_flag("--inversions", inversions, "print how many triangles each pose inverts");
     app.add_flag("--compare", compare, "draw all families, and print what they distort");
     const TalkArguments talk(app, "print the progress, also without a terminal");
-    if (!parse(app, std::move(words))) return exitGood;
+    if (!parse(app, std::move(call))) return exitGood;
     if (compare) {
         if (!weights.empty() || arguments.familyIsGiven() || inversions) {
             throw InputError("--compare shows all families, and inversions too; it does not go with --weights, "

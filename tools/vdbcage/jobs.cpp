@@ -33,7 +33,7 @@ std::string asFile(const fs::path& path)
 
 } // namespace
 
-int runJobs(std::vector<std::string> words)
+int runJobs(Call call)
 {
     std::vector<fs::path> models;
     fs::path folder;
@@ -47,12 +47,12 @@ int runJobs(std::vector<std::string> words)
                  "jobs");
     app.add_option("models", models)->required()->type_name("MODEL...");
     app.add_option("-o,--output", folder, "where cages and reports go")->required()->type_name("DIR");
-    app.add_option("--format", format, "of cages: obj, off, ply or stl [obj]")->type_name("FORMAT");
+    app.add_option("--format", format, "of cages [obj]")->type_name("obj|off|ply|stl");
     app.add_flag("--pictures", pictures, "of each model with its cage, too");
     app.add_option("--command", program, "how farms call vdbcage [vdbcage]")->type_name("WORD");
     std::vector<CLI::Option*> ofMake = addCageOptions(app, options);
     app.set_help_all_flag("--help-all", "print this and the rarer options");
-    if (!parse(app, std::move(words))) return exitGood;
+    if (!parse(app, std::move(call))) return exitGood;
     detail::requireMeshExtension("cage." + format);
     requireValid(options);
 

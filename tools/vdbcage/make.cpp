@@ -198,11 +198,11 @@ std::vector<CLI::Option*> addCageOptions(CLI::App& app, CageOptions& options)
     return added;
 }
 
-int runMake(std::vector<std::string> words)
+int runMake(Call call)
 {
     MakeArguments arguments;
     bool skipsDone = false;
-    CLI::App app("vdbcage make MODEL... -o CAGE [OPTIONS]: bounds them (.obj .off .ply .stl)", "make");
+    CLI::App app("vdbcage make MODEL... -o CAGE [OPTIONS]: Bounds them (.obj .off .ply .stl)", "make");
     app.add_option("models", arguments.models)->required()->type_name("MODEL...");
     app.add_option("-o,--output", arguments.cage, "the cage to write")->required()->type_name("CAGE");
     addCageOptions(app, arguments.options);
@@ -212,7 +212,7 @@ int runMake(std::vector<std::string> words)
     app.add_flag("--skip-done", skipsDone, "nothing if the report tells that it was done");
     const TalkArguments talk(app, "print progress, stage times, the whole verdict");
     app.set_help_all_flag("--help-all", "print this and the rarer options");
-    if (!parse(app, std::move(words))) return exitGood;
+    if (!parse(app, std::move(call))) return exitGood;
     arguments.isVerbose = talk.verbose();
     if (skipsDone && arguments.report.empty()) {
         throw InputError("--skip-done needs --report FILE.json, which tells what was done");

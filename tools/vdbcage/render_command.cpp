@@ -115,7 +115,7 @@ Picture drawCage(const Mesh& model, const Mesh& cage)
     return renderScene(scene, 1200, 900);
 }
 
-int runRender(std::vector<std::string> words)
+int runRender(Call call)
 {
     std::vector<std::string> files;
     fs::path picture;
@@ -143,7 +143,7 @@ int runRender(std::vector<std::string> words)
         app.add_option("--influence", vertex, "colour models by a cage vertex's weight")->type_name("VERTEX");
     const CoordinateArguments arguments(app, CoordinateArguments::For::weights, "of the weight");
     app.add_flag("--same-view", scene.sameView, "one scale and place for all panels");
-    if (!parse(app, std::move(words))) return exitGood;
+    if (!parse(app, std::move(call))) return exitGood;
     requirePngExtension(picture);
     Outputs outputs;
     const std::vector<std::vector<PanelFile>> panels = panelsOf(files);

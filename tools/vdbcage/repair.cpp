@@ -34,7 +34,7 @@ Json toJson(const RepairReport& report)
 
 } // namespace
 
-int runRepair(std::vector<std::string> words)
+int runRepair(Call call)
 {
     std::filesystem::path cagePath, outputPath, reportPath;
     CLI::App app("vdbcage repair CAGE -o OUT [OPTIONS]\n"
@@ -45,7 +45,7 @@ int runRepair(std::vector<std::string> words)
     app.add_option("-o,--output", outputPath, "the mended cage to write")->required()->type_name("OUT");
     app.add_option("--report", reportPath, "what was done and what could not be, as JSON")->type_name("FILE.json");
     const TalkArguments talk(app);
-    if (!parse(app, std::move(words))) return exitGood;
+    if (!parse(app, std::move(call))) return exitGood;
     if (!hasRepair())
         throw InputError("this vdbcage was built without its GPL part (VDBCAGE_WITH_CGAL_GPL), and so without repair");
     detail::requireMeshExtension(outputPath);

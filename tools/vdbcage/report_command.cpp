@@ -10,7 +10,7 @@
 
 namespace vdbcage::tool {
 
-int runReport(std::vector<std::string> words)
+int runReport(Call call)
 {
     std::vector<std::filesystem::path> paths;
     std::filesystem::path csv, html;
@@ -21,7 +21,7 @@ int runReport(std::vector<std::string> words)
     app.add_option("reports", paths)->required()->type_name("DIR|FILE.json...");
     app.add_option("--csv", csv, "the same for spreadsheets")->type_name("FILE.csv");
     app.add_option("--html", html, "the same with pictures (of jobs --pictures)")->type_name("FILE.html");
-    if (!parse(app, std::move(words))) return exitGood;
+    if (!parse(app, std::move(call))) return exitGood;
     const auto requireExtension = [](const std::filesystem::path& file, const std::string& extension) {
         if (file.empty() || file.extension() == extension) return;
         throw InputError(file.string() + ": the name must end in " + extension);

@@ -8,7 +8,7 @@ namespace vdbcage::tool {
 
 TalkArguments::TalkArguments(CLI::App& app, const char* verboseHelp)
 {
-    app.add_option("--progress", progress_, "auto, or lines on standard output [auto]")->type_name("FORM");
+    app.add_option("--progress", progress_, "for terminals, or on standard output [auto]")->type_name("auto|lines");
     app.add_flag("-q,--quiet", quiet_, "print nothing but errors");
     if (verboseHelp) app.add_flag("-v,--verbose", verbose_, verboseHelp);
 }

@@ -8,6 +8,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include <tools/report/manual_page.h>
 #include <tools/view/script.h>
 #include <tools/view/state/command.h>
 #include <tools/view/state/folder.h>
@@ -33,39 +34,79 @@ struct Arguments {
     std::string context;
 };
 
-void printTable(const std::string& title, const std::vector<std::pair<std::string, std::string>>& rows)
+using Rows = std::vector<std::pair<std::string, std::string>>; // what is written or pressed, and what it does
+
+struct Section {
+    std::string title;
+    Rows rows;
+};
+
+constexpr const char* usage = "vdbcage-view [MODEL|SCENE.json] [CAGE] [POSED] [OPTIONS]";
+constexpr const char* summary = "a window in which a cage is made, and the model is posed by it";
+
+Rows describeOptions()
 {
-    std::cout << '\n' << title << ":\n";
-    constexpr std::size_t column = 36;
-    for (const auto& [usage, help] : rows) {
-        // What is too long for its column has a line of its own.
-        const bool fits = usage.size() < column;
-        std::cout << "  " << usage
-                  << (fits ? std::string(column - usage.size(), ' ') : '\n' + std::string(column + 2, ' ')) << help
-                  << '\n';
-    }
+    return {{"--script FILE", "does the lines of FILE; without a display too"},
+            {"--record FILE", "writes what the user does as such a script"},
+            {"--without-window any|egl|osmesa", "for scripts: draws, but opens no window"},
+            {"--help", "prints all of this"},
+            {"--man", "prints it as a manual page, for the program man"},
+            {"--version", "prints the version"}};
 }
 
-void printKeys(const std::string& title, KeyMap map)
+Rows describeKeys(KeyMap map)
 {
-    std::vector<std::pair<std::string, std::string>> rows = describeMouse(map);
+    Rows rows = describeMouse(map);
     for (const Shortcut& shortcut : shortcuts(map)) rows.emplace_back(shortcut.chord, shortcut.help);
-    printTable(title, rows);
+    return rows;
+}
+
+std::vector<Section> describeAll()
+{
+    return {{"Options", describeOptions()},
+            {"Lines of a script: commands", describeCommands()},
+            {"Lines of a script: what menus and keys do", describeVerbs()},
+            {"Lines of a script: what hands and eyes do", describeScript()},
+            {"Mouse and keys as in Blender (keys blender), which scripts begin with", describeKeys(KeyMap::blender)},
+            {"Mouse and keys as in Maya (keys maya)", describeKeys(KeyMap::maya)}};
 }
 
 void printHelp()
 {
-    std::cout << "vdbcage-view [MODEL|SCENE.json] [CAGE] [POSED] [OPTIONS]: a window in which a cage is\n"
-                 "made, and the model is posed by it\n\n"
-                 "  --script FILE                       does the lines of FILE; without a display too\n"
-                 "  --record FILE                       writes what the user does as such a script\n"
-                 "  --without-window any|egl|osmesa     for scripts: draws, but opens no window\n"
-                 "  --version                           prints the version\n";
-    printTable("Lines of a script: commands", describeCommands());
-    printTable("Lines of a script: what menus and keys do", describeVerbs());
-    printTable("Lines of a script: what hands and eyes do", describeScript());
-    printKeys("Mouse and keys as in Blender (keys blender), which scripts begin with", KeyMap::blender);
-    printKeys("Mouse and keys as in Maya (keys maya)", KeyMap::maya);
+    std::cout << usage << ":\n" << summary << '\n';
+    constexpr std::size_t column = 36;
+    for (const Section& section : describeAll()) {
+        std::cout << '\n' << section.title << ":\n";
+        for (const auto& [left, help] : section.rows) {
+            // What is too long for its column has a line of its own.
+            const bool fits = left.size() < column;
+            std::cout << "  " << left
+                      << (fits ? std::string(column - left.size(), ' ') : '\n' + std::string(column + 2, ' ')) << help
+                      << '\n';
+        }
+    }
+}
+
+void printManual()
+{
+    tool::ManualPage page("vdbcage-view", summary);
+    page.section("SYNOPSIS");
+    page.code(usage);
+    page.section("DESCRIPTION");
+    page.paragraph(
+        "Opens the model, its cage and its posed cage, or a scene that was saved. While an option is dragged, "
+        "previews of the cage follow; when it is let go, the cage is made and certified.");
+    for (const Section& section : describeAll()) {
+        std::string title = section.title;
+        for (char& c : title) {
+            if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
+        }
+        page.section(title);
+        for (const auto& [left, help] : section.rows) page.item(left, "", help);
+    }
+    page.section("SEE ALSO");
+    page.paragraph("vdbcage(1); /usr/share/doc/vdbcage/WINDOW.md");
+    std::cout << page.text();
 }
 
 Arguments parse(int count, char** words)
@@ -142,6 +183,7 @@ int runProgram(int count, char** words)
     for (int i = 1; i < count; ++i) {
         const std::string word = words[i];
         if (word == "--help" || word == "-h") return printHelp(), EXIT_SUCCESS;
+        if (word == "--man") return printManual(), EXIT_SUCCESS;
         if (word == "--version") return std::cout << "vdbcage-view " VDBCAGE_VERSION "\n", EXIT_SUCCESS;
     }
     const Arguments arguments = parse(count, words);

@@ -1,0 +1,79 @@
+#include "commands.h"
+
+namespace vdbcage::tool {
+
+const std::vector<Command>& commands()
+{
+    static const std::vector<Command> all{
+        {"make",
+         "make a cage for a model",
+         runMake,
+         "A model may be open, self-intersecting, badly oriented or in many parts; several get one cage around them "
+         "all. Gaps are bridged by a closing of voxels. Its surface is shrunk, decimated and tightened. Unless "
+         "--bounding is off, the cage is written only if it is proved to be valid and to bound every model. It is the "
+         "same for any number of threads. Lengths are fractions of the models' longest side.",
+         {{"At most 400 triangles, as small as they can be around the model:", "vdbcage make bishop.obj -o cage.obj"},
+          {"Quads in loops around limbs, the same on both sides, with a picture:",
+           "vdbcage make creature.obj -o loops.obj --mesh loops --symmetry auto --picture loops.png"},
+          {"Sooner, with a report for programs:",
+           "vdbcage make bishop.obj -o fast.obj --effort fast --report fast.json"}}},
+        {"check",
+         "examine a cage against its model",
+         runCheck,
+         "",
+         {{"Is it a valid cage around the whole model?", "vdbcage check cage.obj bishop.obj"}}},
+        {"render",
+         "draw models, cages and volumes into a picture",
+         runRender,
+         "",
+         {{"A model in its cage, and beside it the model alone:",
+           "vdbcage render bishop.obj cage.obj / bishop.obj -o picture.png"}}},
+        {"bind",
+         "compute how a cage moves a model",
+         runBind,
+         "",
+         {{"Once, for many poses:", "vdbcage bind cage.obj bishop.obj -o weights.npy --coordinates mlc"}}},
+        {"deform",
+         "move a model by its posed cage",
+         runDeform,
+         "",
+         {{"One pose, with weights of bind:",
+           "vdbcage deform cage.obj posed.obj bishop.obj -o moved.obj --weights weights.npy"},
+          {"All families of coordinates beside each other, in a picture and in numbers:",
+           "vdbcage deform cage.obj posed.obj bishop.obj -o families.png --compare"}}},
+        {"repair",
+         "mend a cage that was made elsewhere",
+         runRepair,
+         "Needs a vdbcage that was built with its GPL part (VDBCAGE_WITH_CGAL_GPL).",
+         {{"Closed, oriented and free of self-intersections, if it can be:", "vdbcage repair cage.obj -o mended.obj"}}},
+        {"jobs",
+         "print a command for each of many models, for farms",
+         runJobs,
+         "",
+         {{"Cages for two models, one after the other:",
+           "vdbcage jobs bishop.obj creature.obj -o cages > jobs.txt && sh jobs.txt"}}},
+        {"report",
+         "tell what became of many jobs",
+         runReport,
+         "",
+         {{"On the terminal and as a page:", "vdbcage report cages --html cages.html"}}},
+        {"man", "print a manual page", runMan, "", {{"To read it:", "vdbcage man make | man -l -"}}},
+        {"completion",
+         "print what completes commands in a shell",
+         runCompletion,
+         "",
+         {{"For this bash; in ~/.bashrc for all:", "source <(vdbcage completion bash)"},
+          {"For zsh, in ~/.zshrc after compinit:", "source <(vdbcage completion zsh)"},
+          {"For fish:", "vdbcage completion fish > ~/.config/fish/completions/vdbcage.fish"}}},
+    };
+    return all;
+}
+
+CommandFacts describe(const Command& command)
+{
+    CommandFacts result;
+    command.run({{}, [&](const CommandFacts& facts) { result = facts; }});
+    return result;
+}
+
+} // namespace vdbcage::tool

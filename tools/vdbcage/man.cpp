@@ -1,0 +1,121 @@
+#include <algorithm>
+#include <iostream>
+
+#include <tools/report/manual_page.h>
+#include <vdbcage/core/error.h>
+
+#include "commands.h"
+
+namespace vdbcage::tool {
+
+namespace {
+
+/// With a capital first, and a full stop.
+std::string sentence(std::string text)
+{
+    if (!text.empty() && text[0] >= 'a' && text[0] <= 'z') text[0] = static_cast<char>(text[0] - 'a' + 'A');
+    return text + '.';
+}
+
+void addOptions(ManualPage& page, const CommandFacts& facts, bool rareOnes)
+{
+    for (const OptionFacts& option : facts.options) {
+        if (option.isRare != rareOnes) continue;
+        page.item(option.letter.empty() ? option.name : option.letter + ", " + option.name, option.value,
+                  sentence(option.help));
+    }
+}
+
+void addExitStatus(ManualPage& page)
+{
+    page.section("EXIT STATUS");
+    page.item("0", "", "All went well.");
+    page.item("1", "",
+              "The input, an option or a file is bad. A line on standard error says which, and what is allowed.");
+    page.item("2", "",
+              "Of check: the cage does not bound the model. Of report: this is so, or a job failed, for one "
+              "of the jobs.");
+    page.item("75", "", "Memory, room on the disk, threads or OpenGL are missing: another try may do.");
+    page.item("130, 143", "", "It was ended, by SIGINT (Ctrl+C) or by SIGTERM. Nothing half-written is left.");
+}
+
+/// vdbcage(1)
+std::string mainPage()
+{
+    ManualPage page("vdbcage", "coarse, tight, strictly bounding cages for any model");
+    page.section("SYNOPSIS");
+    page.code("vdbcage COMMAND ARGUMENTS\nvdbcage COMMAND --help");
+    page.section("DESCRIPTION");
+    page.paragraph("A cage is a coarse closed mesh around a detailed model; moving the cage deforms the model. "
+                   "vdbcage makes cages, proves that they bound their models, and moves models by them. "
+                   "Meshes are .obj, .off, .ply and .stl files. Lengths are fractions of the model's longest side.");
+    page.section("COMMANDS");
+    for (const Command& command : commands())
+        page.item("vdbcage-" + command.name + "(1)", "", sentence(command.summary));
+    addExitStatus(page);
+    page.section("EXAMPLES");
+    page.paragraph("A cage, and the model as the moved cage moves it:");
+    page.code("vdbcage make bishop.obj -o cage.obj\nvdbcage deform cage.obj posed.obj bishop.obj -o moved.obj");
+    page.section("SEE ALSO");
+    page.paragraph("vdbcage-view(1), the window. /usr/share/doc/vdbcage has a guide and a page on every option.");
+    return page.text();
+}
+
+/// vdbcage-COMMAND(1)
+std::string pageOf(const Command& command)
+{
+    const CommandFacts facts = describe(command);
+    ManualPage page("vdbcage-" + command.name, command.summary);
+    page.section("SYNOPSIS");
+    page.code(facts.usage);
+    page.section("DESCRIPTION");
+    page.paragraph(facts.text);
+    if (!command.details.empty()) page.paragraph(command.details);
+    page.section("OPTIONS");
+    page.paragraph("What holds without an option is in brackets.");
+    addOptions(page, facts, false);
+    if (std::any_of(facts.options.begin(), facts.options.end(), [](const OptionFacts& o) { return o.isRare; })) {
+        page.section("RARER OPTIONS");
+        addOptions(page, facts, true);
+    }
+    if (!facts.notes.empty()) {
+        page.section("NOTES");
+        page.paragraph(facts.notes);
+    }
+    addExitStatus(page);
+    page.section("EXAMPLES");
+    for (const Example& example : command.examples) {
+        page.paragraph(example.purpose);
+        page.code(example.line);
+    }
+    page.section("SEE ALSO");
+    page.paragraph("vdbcage(1)");
+    return page.text();
+}
+
+} // namespace
+
+int runMan(Call call)
+{
+    std::string name;
+    CLI::App app("vdbcage man [COMMAND]\n"
+                 "Prints the manual page of a command, or of all together, for the program man.",
+                 "man");
+    app.add_option("command", name)->type_name("COMMAND");
+    if (!parse(app, std::move(call))) return exitGood;
+    if (name.empty()) {
+        std::cout << mainPage();
+        return exitGood;
+    }
+    std::vector<std::string> known;
+    for (const Command& command : commands()) {
+        if (command.name == name) {
+            std::cout << pageOf(command);
+            return exitGood;
+        }
+        known.push_back(command.name);
+    }
+    throw InputError("there is no command '" + name + "'" + didYouMean(name, known) + " (see vdbcage --help)");
+}
+
+} // namespace vdbcage::tool
