@@ -1,4 +1,5 @@
 #pragma once
 
-/// Version of these headers. CMakeLists.txt reads it from here too.
+/// \ingroup core
+/// Version of these headers, "MAJOR.MINOR.PATCH". CMakeLists.txt reads it from here too.
 #define VDBCAGE_VERSION "0.1.0"
