@@ -21,7 +21,9 @@ constexpr std::size_t mostSelfIntersections = 1'000'000;
 /// triangles first, then quads.
 struct CageCheck {
     // The cage by itself
-    std::size_t points = 0, triangles = 0, quads = 0;
+    std::size_t points = 0;              ///< all of its points, also those that no face uses
+    std::size_t triangles = 0;           ///< its triangles, degenerate ones too
+    std::size_t quads = 0;               ///< its quads, degenerate ones too
     std::size_t components = 0;          ///< connected over edges
     long genus = 0;                      ///< sum over the components; only meaningful if closed and manifold
     std::size_t boundaryEdges = 0;       ///< edges with one face
@@ -56,22 +58,29 @@ struct CageCheck {
     double angle1stPercentileDegrees = 0; ///< 1 % of these angles are smaller
     double medianAngleDegrees = 0;        ///< half of these angles are smaller
 
+    /// Whether there are faces, and no edge has only one.
     bool closed() const { return triangles + quads > 0 && boundaryEdges == 0; }
+    /// Whether no edge has more than two faces, and the faces of each vertex form one umbrella.
     bool manifold() const { return nonManifoldEdges == 0 && nonManifoldVertices == 0; }
+    /// Whether neighbouring faces agree on their orientation, and all components face outward.
     bool oriented() const { return misorientedEdges == 0 && inwardComponents == 0; }
-    /// A cage at all: closed, 2-manifold, facing outward, without degenerate faces and self-intersections.
+    /// Whether it is a cage at all: closed, 2-manifold, facing outward, without degenerate faces and
+    /// self-intersections.
     bool valid() const
     {
         return closed() && manifold() && oriented() && degenerateFaces == 0 && selfIntersections == 0;
     }
-    /// A valid cage that strictly bounds the model: no contact, every vertex of the model inside.
+    /// Whether it is a valid cage that strictly bounds the model: no contact, every vertex of the model inside.
     bool bounding() const { return valid() && contactFaces == 0 && modelVerticesOutside == 0; }
 };
 
+/// How a cage is examined.
 struct CheckOptions {
-    bool asFloats = false;       ///< examine both meshes with their points rounded to float (only the cage's measures)
-    bool measure = true;         ///< fill in the measures too (distances cost the most)
-    std::size_t samples = 20000; ///< points on the cage for the distances
+    bool asFloats = false; ///< examine both meshes with their points rounded to float (only the cage's measures)
+    bool measure = true;   ///< fill in the measures too (distances cost the most)
+    /// Points on the cage for the distances, beside its corners. With 0 there is no mean, and the others are of
+    /// corners.
+    std::size_t samples = 20000;
 };
 
 /// Checks cages against one model, which is examined once. Copies share what was found out. Any number of threads may
@@ -97,7 +106,7 @@ private:
     std::shared_ptr<const Model> model_;
 };
 
-/// The same in one step, for a single cage: `CageChecker(model).check(cage, options)`.
+/// Checks a single cage, in one step: `CageChecker(model).check(cage, options)`.
 VDBCAGE_API CageCheck checkCage(const Mesh& cage, const Mesh& model, const CheckOptions& options = {},
                                 Interrupter* interrupter = nullptr);
 
