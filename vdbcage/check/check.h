@@ -20,7 +20,9 @@ constexpr std::size_t mostSelfIntersections = 1'000'000;
 /// touch is a contact. Points are the same only if their index is, so two at one place touch. Faces are numbered
 /// triangles first, then quads.
 struct CageCheck {
-    // The cage by itself
+    /// \name The cage by itself
+    /// \{
+
     std::size_t points = 0;              ///< all of its points, also those that no face uses
     std::size_t triangles = 0;           ///< its triangles, degenerate ones too
     std::size_t quads = 0;               ///< its quads, degenerate ones too
@@ -38,25 +40,33 @@ struct CageCheck {
     /// Degenerate triangles are not tested. At most `mostSelfIntersections`, which then stands for as many or more.
     /// `badFaces` has the faces of all of them.
     std::size_t selfIntersections = 0;
+    /// \}
 
-    // The cage against the model
+    /// \name The cage against the model
+    /// \{
+
     std::size_t contactFaces = 0; ///< cage faces that touch or cross the model
     /// Model vertices (used by faces) not strictly inside: they lie on the cage, or their winding number is not 1 for
     /// every choice of diagonals. All of them if the cage has no inside (see MeshTopology::isCycle).
     std::size_t modelVerticesOutside = 0;
     std::vector<std::uint32_t> badFaces; ///< sorted: cage faces in a self-intersection or contact, degenerate, folded,
                                          ///< or with a model vertex between the two diagonals of the quad
+    /// \}
 
-    // Measures; lengths are fractions of the longest side of the model's bounding box
+    /// \name Measures
+    /// Lengths are fractions of the longest side of the model's bounding box.
+    /// \{
+
     double diagonal = 0;        ///< of the model's bounding box: 1 to the root of 3; 0 if the model is one point
     double meanDistance = 0;    ///< from the cage to the model under every split of its faces, over an even sample
-    double maxDistance = 0;     ///< the largest of these and of the distances of the cage's corners
-    double minDistance = 0;     ///< the smallest of these (sampled, not exact)
+    double maxDistance = 0;     ///< the largest distance of these samples and of the cage's corners
+    double minDistance = 0;     ///< the smallest distance of them (sampled, not exact)
     double cageVolume = 0;      ///< in world units cubed, the mean over the diagonals; 0 if the cage has no inside
     double volumeRatio = 0;     ///< cage volume / model volume; 0 if the model or the cage has no inside
     double minAngleDegrees = 0; ///< the smallest triangle angle (quads: under both diagonals)
     double angle1stPercentileDegrees = 0; ///< 1 % of these angles are smaller
     double medianAngleDegrees = 0;        ///< half of these angles are smaller
+    /// \}
 
     /// Whether there are faces, and no edge has only one.
     bool closed() const { return triangles + quads > 0 && boundaryEdges == 0; }
