@@ -58,6 +58,7 @@ struct GuardOptions {
 ///   degree; with less spacing these two are less in proportion,
 /// - sweeps, together with the old one, over no part of the model,
 /// - has no degenerate triangle and none with a smaller angle than allowed.
+///
 /// So a surface that bounds the model with that clearance at the start does at the end. Where it comes nearer to itself
 /// than that, only what leads out of it is allowed.
 ///
