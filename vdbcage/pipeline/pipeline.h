@@ -70,9 +70,10 @@ struct CageReport {
 /// These axes are those along which the model's faces lie flattest.
 ///
 /// Where a plane of symmetry is found or given, voxels are united with their mirror image. Everything after is done on
-/// one half, under a guard that knows the plane. The cage is then exactly symmetric, point for point and face for face.
-/// It has an edge wherever it meets the plane, and bounds the mirror image of the model too. If no such cage has few
-/// enough faces, one without symmetry is made, and the report says so.
+/// one half, under a guard that knows the plane. The cage is then symmetric, point for point and face for face: exactly
+/// where the plane lies across an axis, else but for rounding. It has an edge wherever it meets the plane, and bounds
+/// the mirror image of the model too. If no such cage has few enough faces, one without symmetry is made, and the
+/// report says so.
 class VDBCAGE_API Pipeline {
 public:
     /// Checks the model and keeps it; nothing is made yet.
@@ -100,12 +101,13 @@ public:
     /// The model as it was given.
     const Mesh& model() const;
 
-    // Of the last run; valid until the next.
+    /// \name Of the last run; valid until the next
+    /// \{
 
     /// The voxelized model; null before the first run. Its voxels lie along x, y and z, or along a plane of symmetry
     /// that lies across none of them.
     openvdb::MaskGrid::ConstPtr solid() const;
-    openvdb::MaskGrid::ConstPtr closed() const; ///< its closing, cavities filled; null before the first run
+    openvdb::MaskGrid::ConstPtr closed() const; ///< the closing of solid(), cavities filled; null before the first run
     const Mesh& surface() const;                ///< what the cage was made from: quads, or a tetrahedron
     const Mesh& smoothed() const;               ///< bounding off: the surface smoothed; else the surface
     /// The surface with fewer faces. Triangles, about twice the faces where pairs become quads; of loops the cage
@@ -113,6 +115,7 @@ public:
     const Mesh& decimated() const;
     const Mesh& cage() const;         ///< what run() returned; without faces before the first run
     const CageReport& report() const; ///< how that cage came about
+    /// \}
 
 private:
     class Impl;
