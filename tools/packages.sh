@@ -14,6 +14,7 @@ test_packages=(
     libboost-test-dev
     clang-format   # formatting is a test
     mandoc zsh fish # manual pages and completions
+    doxygen        # the reference of the library, where every public name has a comment
     tetgen # fills cages, to see that others can use them
     xvfb xauth # a display for the window
     python3-mypy    # its stubtest holds the stubs to the Python module

@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file The whole public interface of vdbcage.
+/// \file
+/// The whole public interface of vdbcage.
 
 #include <vdbcage/bounding/bounding_guard.h>
 #include <vdbcage/bounding/decimate.h>

@@ -22,8 +22,12 @@ class GuardModel;
 const GuardModel& modelOf(const BoundingGuard& guard);
 } // namespace detail
 
+/// What a BoundingGuard keeps.
 struct GuardOptions {
-    static constexpr Range clearances{1e-7, 0.1}, minAngles{0, 30}, spacings{1e-4, 0.01}, jointDensities{1, 8};
+    static constexpr Range clearances{1e-7, 0.1}; ///< of `clearance`
+    static constexpr Range minAngles{0, 30};      ///< of `minAngleDegrees`
+    static constexpr Range spacings{1e-4, 0.01};  ///< of `spacing`
+    static constexpr Range jointDensities{1, 8};  ///< of `jointDensity`
 
     /// Least distance from model to surface, fraction of the model's longest side. Where float holds the model, at
     /// least four times the rounding of its largest coordinate. Models of a quarter of a million quads and more may get
@@ -54,6 +58,7 @@ struct GuardOptions {
 ///   degree; with less spacing these two are less in proportion,
 /// - sweeps, together with the old one, over no part of the model,
 /// - has no degenerate triangle and none with a smaller angle than allowed.
+///
 /// So a surface that bounds the model with that clearance at the start does at the end. Where it comes nearer to itself
 /// than that, only what leads out of it is allowed.
 ///
@@ -68,11 +73,14 @@ struct GuardOptions {
 /// Cost: building is O(n log n) for n faces of the model.
 class VDBCAGE_API BoundingGuard {
 public:
+    /// Examines the model; it need not outlive the guard.
     /// \throw InputError an unusable model; options out of range
     /// \throw Cancelled
     explicit BoundingGuard(const Mesh& model, const GuardOptions& options = {}, Interrupter* interrupter = nullptr);
     ~BoundingGuard();
+    /// What was moved from can only be assigned to or destroyed.
     BoundingGuard(BoundingGuard&&) noexcept;
+    /// What was moved from can only be assigned to or destroyed.
     BoundingGuard& operator=(BoundingGuard&&) noexcept;
 
     /// The least distance kept, in world units.

@@ -10,9 +10,10 @@
 
 namespace vdbcage {
 
+/// What decimate() under a guard is asked for.
 struct BoundingDecimateOptions {
-    std::size_t faces = 400; ///< triangles to end with, at least 4
-    Effort effort = Effort::fair;
+    std::size_t faces = 400;      ///< triangles to end with, at least 4
+    Effort effort = Effort::fair; ///< time against tightness; decimate() gives figures
 };
 
 /// Decimates a surface that bounds the guard's model and keeps it so.

@@ -15,15 +15,18 @@ struct Joint {
     openvdb::Vec3d place{0};            ///< inside the limb, world units
     std::optional<openvdb::Vec3d> axis; ///< along the limb, of any length above 0; unset: where it is thinnest across
 
+    /// Whether place and axis are exactly the same.
     bool operator==(const Joint& other) const { return place == other.place && axis == other.axis; }
+    /// Whether place or axis differ.
     bool operator!=(const Joint& other) const { return !(*this == other); }
 };
 
 /// Joints, and where they were read from.
 struct Joints {
-    std::vector<Joint> list;
+    std::vector<Joint> list;         ///< in the order of the file
     std::filesystem::path file = {}; ///< empty if they were not read
 
+    /// Whether the joints are the same, in the same order. The file plays no part.
     bool operator==(const Joints& other) const { return list == other.list; }
 };
 

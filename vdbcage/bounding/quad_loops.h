@@ -11,15 +11,17 @@
 
 namespace vdbcage {
 
+/// What quadLoops() is asked for.
 struct QuadLoopsOptions {
-    static constexpr Range angles{0, 90}, exchangeCounts{0, 100};
+    static constexpr Range angles{0, 90};          ///< of `meanAngleDegrees` and `mostAngleDegrees`
+    static constexpr Range exchangeCounts{0, 100}; ///< of `exchanges`
 
     std::size_t faces = 400; ///< to end with, at most; at least 6
-    /// How far corners may be from square, in degrees: on average, and 95 % of them. Distance is given up until they
-    /// are, as far as that goes.
-    double meanAngleDegrees = 16, mostAngleDegrees = 42;
-    int exchanges = 4; ///< times that loops go where they bring little, and come where they bring more
-    TightenOptions tightening = {};
+    /// How far corners may be from square on average. Distance is given up until they are, as far as that goes.
+    double meanAngleDegrees = 16;
+    double mostAngleDegrees = 42;   ///< how far 95 % of the corners may be from square; likewise
+    int exchanges = 4;              ///< times that loops go where they bring little, and come where they bring more
+    TightenOptions tightening = {}; ///< of the result
 };
 
 /// Makes a cage as drawn by hand of a surface that bounds the guard's model and keeps it so: quads only, in closed

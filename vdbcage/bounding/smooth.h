@@ -8,10 +8,11 @@
 
 namespace vdbcage {
 
+/// How much smooth() under a guard rounds off.
 struct BoundingSmoothOptions {
-    static constexpr Range sweepCounts{0, 100};
+    static constexpr Range sweepCounts{0, 100}; ///< of `sweeps`
 
-    int sweeps = 3;
+    int sweeps = 3; ///< times that every vertex is moved; more round off more
 };
 
 /// Rounds off a surface that bounds the guard's model and keeps it so, by sweeps of HC Laplacian smoothing.

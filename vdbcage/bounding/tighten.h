@@ -9,8 +9,11 @@
 
 namespace vdbcage {
 
+/// How much time tighten() takes.
 struct TightenOptions {
-    static constexpr Range sweepCounts{0, 100}, perturbationCounts{0, 100}, sampleCounts{1, 100};
+    static constexpr Range sweepCounts{0, 100};        ///< of `sweeps`
+    static constexpr Range perturbationCounts{0, 100}; ///< of `perturbations`
+    static constexpr Range sampleCounts{1, 100};       ///< of `samples`
 
     int sweeps = 16; ///< times that each vertex is tried, at most
     /// Times that it is pushed out a little and tightened again, kept where tighter. If any, sweeps of small steps end

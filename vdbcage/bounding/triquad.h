@@ -11,8 +11,11 @@
 
 namespace vdbcage {
 
+/// What triquad() under a guard is asked for.
 struct BoundingTriquadOptions {
-    static constexpr Range mergeAngles{0, 180}, quadShares{0, 1}, quadShapes{0, 1};
+    static constexpr Range mergeAngles{0, 180}; ///< of `mergeAngleDegrees`
+    static constexpr Range quadShares{0, 1};    ///< of `quads`
+    static constexpr Range quadShapes{0, 1};    ///< of `quadShape`
 
     /// Largest angle between the triangles of a quad in the end, under either diagonal; 90 allows most.
     double mergeAngleDegrees = 30;
@@ -21,7 +24,7 @@ struct BoundingTriquadOptions {
     /// 0: what is nearest to the model. Above 0 vertices are brought nearer to four edges; corners get squarer, the
     /// more so for more, at the cost of distance.
     double quadShape = 0.5;
-    TightenOptions tightening = {};
+    TightenOptions tightening = {}; ///< of the result, with all four triangles of each quad
 };
 
 /// Makes triangles and quads of a surface that bounds the guard's model and keeps it so, each quad under both

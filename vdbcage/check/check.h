@@ -20,8 +20,12 @@ constexpr std::size_t mostSelfIntersections = 1'000'000;
 /// touch is a contact. Points are the same only if their index is, so two at one place touch. Faces are numbered
 /// triangles first, then quads.
 struct CageCheck {
-    // The cage by itself
-    std::size_t points = 0, triangles = 0, quads = 0;
+    /// \name The cage by itself
+    /// \{
+
+    std::size_t points = 0;              ///< all of its points, also those that no face uses
+    std::size_t triangles = 0;           ///< its triangles, degenerate ones too
+    std::size_t quads = 0;               ///< its quads, degenerate ones too
     std::size_t components = 0;          ///< connected over edges
     long genus = 0;                      ///< sum over the components; only meaningful if closed and manifold
     std::size_t boundaryEdges = 0;       ///< edges with one face
@@ -36,42 +40,57 @@ struct CageCheck {
     /// Degenerate triangles are not tested. At most `mostSelfIntersections`, which then stands for as many or more.
     /// `badFaces` has the faces of all of them.
     std::size_t selfIntersections = 0;
+    /// \}
 
-    // The cage against the model
+    /// \name The cage against the model
+    /// \{
+
     std::size_t contactFaces = 0; ///< cage faces that touch or cross the model
     /// Model vertices (used by faces) not strictly inside: they lie on the cage, or their winding number is not 1 for
     /// every choice of diagonals. All of them if the cage has no inside (see MeshTopology::isCycle).
     std::size_t modelVerticesOutside = 0;
     std::vector<std::uint32_t> badFaces; ///< sorted: cage faces in a self-intersection or contact, degenerate, folded,
                                          ///< or with a model vertex between the two diagonals of the quad
+    /// \}
 
-    // Measures; lengths are fractions of the longest side of the model's bounding box
+    /// \name Measures
+    /// Lengths are fractions of the longest side of the model's bounding box.
+    /// \{
+
     double diagonal = 0;        ///< of the model's bounding box: 1 to the root of 3; 0 if the model is one point
     double meanDistance = 0;    ///< from the cage to the model under every split of its faces, over an even sample
-    double maxDistance = 0;     ///< the largest of these and of the distances of the cage's corners
-    double minDistance = 0;     ///< the smallest of these (sampled, not exact)
+    double maxDistance = 0;     ///< the largest distance of these samples and of the cage's corners
+    double minDistance = 0;     ///< the smallest distance of them (sampled, not exact)
     double cageVolume = 0;      ///< in world units cubed, the mean over the diagonals; 0 if the cage has no inside
     double volumeRatio = 0;     ///< cage volume / model volume; 0 if the model or the cage has no inside
     double minAngleDegrees = 0; ///< the smallest triangle angle (quads: under both diagonals)
     double angle1stPercentileDegrees = 0; ///< 1 % of these angles are smaller
     double medianAngleDegrees = 0;        ///< half of these angles are smaller
+    /// \}
 
+    /// Whether there are faces, and no edge has only one.
     bool closed() const { return triangles + quads > 0 && boundaryEdges == 0; }
+    /// Whether no edge has more than two faces, and the faces of each vertex form one umbrella.
     bool manifold() const { return nonManifoldEdges == 0 && nonManifoldVertices == 0; }
+    /// Whether neighbouring faces agree on their orientation, and all components face outward.
     bool oriented() const { return misorientedEdges == 0 && inwardComponents == 0; }
-    /// A cage at all: closed, 2-manifold, facing outward, without degenerate faces and self-intersections.
+    /// Whether it is a cage at all: closed, 2-manifold, facing outward, without degenerate faces and
+    /// self-intersections.
     bool valid() const
     {
         return closed() && manifold() && oriented() && degenerateFaces == 0 && selfIntersections == 0;
     }
-    /// A valid cage that strictly bounds the model: no contact, every vertex of the model inside.
+    /// Whether it is a valid cage that strictly bounds the model: no contact, every vertex of the model inside.
     bool bounding() const { return valid() && contactFaces == 0 && modelVerticesOutside == 0; }
 };
 
+/// How a cage is examined.
 struct CheckOptions {
-    bool asFloats = false;       ///< examine both meshes with their points rounded to float (only the cage's measures)
-    bool measure = true;         ///< fill in the measures too (distances cost the most)
-    std::size_t samples = 20000; ///< points on the cage for the distances
+    bool asFloats = false; ///< examine both meshes with their points rounded to float (only the cage's measures)
+    bool measure = true;   ///< fill in the measures too (distances cost the most)
+    /// Points on the cage for the distances, beside its corners. With 0 there is no mean, and the others are of
+    /// corners.
+    std::size_t samples = 20000;
 };
 
 /// Checks cages against one model, which is examined once. Copies share what was found out. Any number of threads may
@@ -97,7 +116,7 @@ private:
     std::shared_ptr<const Model> model_;
 };
 
-/// The same in one step, for a single cage: `CageChecker(model).check(cage, options)`.
+/// Checks a single cage, in one step: `CageChecker(model).check(cage, options)`.
 VDBCAGE_API CageCheck checkCage(const Mesh& cage, const Mesh& model, const CheckOptions& options = {},
                                 Interrupter* interrupter = nullptr);
 

@@ -11,6 +11,7 @@ namespace vdbcage {
 /// characters, which names of files and values may have, are written as codes.
 class VDBCAGE_API Error : public std::runtime_error {
 public:
+    /// `what()` is `text`, each control character as a code.
     explicit Error(const std::string& text);
     ~Error() override;
 };
@@ -48,6 +49,7 @@ public:
 /// The interrupter asked to stop. Nothing was written and no partial result exists.
 class VDBCAGE_API Cancelled : public Error {
 public:
+    /// `what()` is "cancelled".
     Cancelled();
     ~Cancelled() override;
 };

@@ -39,7 +39,7 @@ private:
 
 /// How long one stage took.
 struct StageTime {
-    std::string name;
+    std::string name;      ///< as given to `start`
     double seconds = 0;    ///< wall clock
     double cpuSeconds = 0; ///< of all threads of the process
 };
@@ -47,11 +47,15 @@ struct StageTime {
 /// An interrupter that records what each stage took. It passes everything on to another interrupter, if there is one.
 class VDBCAGE_API StageClock : public Interrupter {
 public:
+    /// `next` may be null: then nobody is told, and nothing cancels. It must outlive this.
     explicit StageClock(Interrupter* next = nullptr) : next_(next) {}
     ~StageClock() override;
 
+    /// The stage `name` begins; null counts as an empty name. From one thread at a time.
     void start(const char* name = nullptr) override;
+    /// The stage that began last ends, and its times are added to the list.
     void end() override;
+    /// What `next` answers; false without one. From any thread.
     bool wasInterrupted(int percent = -1) override;
 
     /// The stages, in the order in which they first began. A name that ran more than once is listed once, with its

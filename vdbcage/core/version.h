@@ -1,6 +1,8 @@
 #pragma once
 
-/// Version of these headers. CMakeLists.txt reads it from here too.
+/// \ingroup core
+/// Version of these headers, "MAJOR.MINOR.PATCH". CMakeLists.txt reads it from here too.
 #define VDBCAGE_VERSION "0.1.0"
-/// The day of this version.
+/// \ingroup core
+/// The day of this version, "YYYY-MM-DD". Manual pages bear it.
 #define VDBCAGE_VERSION_DATE "2026-11-26"

@@ -51,32 +51,36 @@ enum class Coordinates {
 
 /// The material of Somigliana coordinates. It acts in the pose, not in the weights.
 struct VDBCAGE_API Elasticity {
+    /// What the material turns with.
     enum class Rotations {
         global, ///< the elastic material turns as a whole. For parts that turn up to a quarter turn from the mean
         local   ///< at each face as the face does. For parts that turn farther; stretches more
     };
-    static constexpr Range bulgings{0, 100};
+    static constexpr Range bulgings{0, 100}; ///< of `localBulging` and `globalBulging`
 
     /// Poisson's ratio, above -1 and below 0.5: how much the material gets thinner where it is stretched. Near 0.5 the
     /// pose reacts strongly to the cage.
     double nu = 0;
-    Rotations rotations = Rotations::global;
+    Rotations rotations = Rotations::global; ///< for the whole, or face by face
     /// How much the surface bulges where the cage's normals come to spread more, in `bulgings`.
     double localBulging = 0;
     /// How much it bulges where the cage moves outward, from its rest pose turned and scaled to fit, in `bulgings`.
     double globalBulging = 0;
 
+    /// Whether all four are exactly the same.
     bool operator==(const Elasticity& other) const;
+    /// Whether one of them differs.
     bool operator!=(const Elasticity& other) const { return !(*this == other); }
 };
 
-/// \throw InputError a number of it is out of range
+/// Checks the numbers of a material.
+/// \throw InputError naming the first that is out of range
 VDBCAGE_API void requireElasticity(const Elasticity& elasticity);
 
 /// What there is to know of a family that can be computed.
 struct FamilyInfo {
-    Coordinates family;
-    const char* name;        ///< at most 16 letters
+    Coordinates family;      ///< never `given`
+    const char* name;        ///< of the command and of weights files; at most 16 letters
     const char* nameOnQuads; ///< as its paper calls it on quads; `name` if it has no other there
     const char* title;       ///< a word or two
     const char* what;        ///< what it does to the model, in a line
@@ -98,9 +102,9 @@ VDBCAGE_API Coordinates coordinatesNamed(const std::string& name);
 
 /// A family, and what it can be asked for.
 struct CoordinateOptions {
-    static constexpr Range resolutions{4, 256};
+    static constexpr Range resolutions{4, 256}; ///< of `resolution`
 
-    Coordinates family;
+    Coordinates family; ///< whose weights they are
     /// Of harmonic coordinates: voxels along the cage's longest side. What the weights of a point are off by has a mean
     /// sum of 2.4 % in 64 voxels and 0.7 % in 128 (cage of 400 faces), most near the cage. 8 bytes for each voxel
     /// inside and point of the cage.
@@ -108,7 +112,9 @@ struct CoordinateOptions {
     /// Of Somigliana coordinates. Weights do not depend on it.
     Elasticity elasticity;
 
+    /// The family `of`. `voxels` is the resolution, which only harmonic coordinates look at.
     CoordinateOptions(Coordinates of, int voxels = 64) : family(of), resolution(voxels) {}
+    /// The family `of`, with a material, which only Somigliana coordinates look at.
     CoordinateOptions(Coordinates of, const Elasticity& material) : CoordinateOptions(of) { elasticity = material; }
 };
 
@@ -138,18 +144,24 @@ VDBCAGE_API std::vector<openvdb::Vec3d> cageHandles(const Mesh& cage, const std:
 /// Point i is the sum over the handles at rest, each times its weight, to 1e-12 of the cage's size. The weights of the
 /// cage's points have sum 1; those of points that no face uses are 0. The weights are accurate to 1e-7, less where
 /// faces meet at a distance below 1e-7 of the cage's size. Harmonic ones reproduce points to 1e-10, and are as accurate
-/// as their grid is fine. Points at less than 1e-12 of it count as on the cage.
+/// as their grid is fine. Points at less than 1e-12 of the cage's size from it count as on it.
+///
 /// Self-intersections are not looked for. Degenerate faces are allowed. The same bits for any number of threads and for
-/// all instruction sets of a processor. \pre `cage` is closed and faces outward \throw InputError a cage that is not
-/// closed, faces inward or is flat; a point not finite; a point for which the family is not defined (the message has
-/// the first and how many); the family is `given`; a cage too large for biharmonic coordinates \throw Cancelled Cost:
-/// O(points x faces), in parallel. Quads cost several times what triangles do. Biharmonic coordinates: O(handles^3 +
-/// points x handles^2), in 32 bytes x handles^2, of which 8 stay.
+/// all instruction sets of a processor.
+/// \pre `cage` is closed and faces outward
+/// \throw InputError a cage that is not closed, faces inward or is flat; a point not finite; a point for which the
+/// family is not defined (the message has the first and how many); the family is `given`; a cage too large for
+/// biharmonic coordinates; a resolution of harmonic coordinates out of range
+/// \throw Cancelled
+/// Cost: O(points x faces), in parallel. Quads cost several times what triangles do. Biharmonic coordinates:
+/// O(handles^3 + points x handles^2), in 32 bytes x handles^2, of which 8 stay.
 VDBCAGE_API std::vector<double> computeCoordinates(const Mesh& cage, const std::vector<openvdb::Vec3d>& points,
                                                    const CoordinateOptions& options,
                                                    Interrupter* interrupter = nullptr);
 
-/// The same rounded to single precision, as Binding and weights files take them.
+/// computeCoordinates(), rounded to single precision, as Binding and weights files take them.
+/// \throw InputError as computeCoordinates
+/// \throw Cancelled
 VDBCAGE_API std::vector<float> computeWeights(const Mesh& cage, const std::vector<openvdb::Vec3d>& points,
                                               const CoordinateOptions& options, Interrupter* interrupter = nullptr);
 
@@ -164,7 +176,7 @@ VDBCAGE_API std::vector<float> computeWeights(const Mesh& cage, const std::vecto
 /// than twice as wide; it grows as 1 / (1 - 2 nu), and with the bulging.
 class VDBCAGE_API Binding {
 public:
-    /// Computes the coordinates.
+    /// Computes the coordinates, as the stage "bind".
     /// \throw InputError as computeCoordinates; an elasticity out of range
     /// \throw Cancelled
     Binding(const Mesh& cage, std::vector<openvdb::Vec3d> points, const CoordinateOptions& options,
@@ -175,13 +187,17 @@ public:
     Binding(const Mesh& cage, std::vector<openvdb::Vec3d> points, const CoordinateOptions& options,
             const std::vector<float>& weights);
 
+    /// The cage at rest, as it was given.
     const Mesh& cage() const { return cage_; }
+    /// The points at rest, as they were given.
     const std::vector<openvdb::Vec3d>& points() const { return points_; }
+    /// What the weights were computed with, and the material that pose() uses.
     const CoordinateOptions& options() const { return options_; }
+    /// The family of `options()`; `given` for weights that were made elsewhere.
     Coordinates family() const { return options_.family; }
     /// The number of handles, which is the number of weights a point.
     std::size_t handles() const { return restHandles_.size(); }
-    /// The same with another material: no weights are computed. Of Somigliana coordinates; others stay as they are.
+    /// This binding with another material: no weights are computed. Of Somigliana coordinates; others stay as they are.
     /// \throw InputError it is out of range
     /// Cost: a copy of cage and points.
     Binding with(const Elasticity& elasticity) const;

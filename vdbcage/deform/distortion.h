@@ -19,7 +19,7 @@ struct Distortion {
     std::optional<double> volume;
 };
 
-/// Of a model whose points are posed at `posed`. Triangles without area at rest are left out.
+/// How a model whose points are posed at `posed` is distorted. Triangles without area at rest are left out.
 /// \throw InputError not as many points as the model has; one not finite; the model is not usable, or has no area
 /// Cost: O(n log n) for n triangles.
 /// Based on: Smith, Schaefer, Bijective Parameterization with Free Boundaries, 2015 (the energy).

@@ -26,8 +26,8 @@ struct ReadSummary {
 
 /// What a file holds.
 struct MeshFile {
-    Mesh mesh;
-    ReadSummary summary;
+    Mesh mesh;           ///< points in the order of the file; faces by kind, each in its order
+    ReadSummary summary; ///< what else was there
 };
 
 /// Reads a model or cage.
@@ -46,6 +46,7 @@ struct MeshFile {
 VDBCAGE_API MeshFile readMeshFile(const std::filesystem::path& path);
 
 /// The mesh of readMeshFile.
+/// \throw IoError as readMeshFile
 VDBCAGE_API Mesh readMesh(const std::filesystem::path& path);
 
 /// Writes `mesh` to `path` in the format of its extension: OBJ, OFF, PLY (binary little endian, doubles) or STL
@@ -57,13 +58,17 @@ VDBCAGE_API Mesh readMesh(const std::filesystem::path& path);
 /// \throw InputError the mesh is not usable (see requireUsable), or one of its points is not finite
 VDBCAGE_API void writeMesh(const Mesh& mesh, const std::filesystem::path& path);
 
-/// The same to a stream, whose state tells whether it took all; `path` gives the format, and the name in errors.
+/// writeMesh() to a stream, whose state tells whether it took all; `path` gives the format, and the name in errors.
+/// \throw IoError unknown extension; a coordinate does not fit STL's floats
+/// \throw InputError as to a path
 VDBCAGE_API void writeMesh(const Mesh& mesh, std::ostream& out, const std::filesystem::path& path);
 
-/// Red, green and blue.
+/// Red, green and blue, each 0 to 255.
 using PointColour = std::array<std::uint8_t, 3>;
 
-/// As writeMesh to a PLY, with a colour for each point (red, green, blue, uchar), which Blender and MeshLab show.
+/// Writes a binary PLY with a colour for each point (red, green, blue, uchar), which Blender and MeshLab show.
+///
+/// The stream's state tells whether it took all; `path` is the name in errors.
 /// \throw InputError as writeMesh; not as many colours as points
 VDBCAGE_API void writeColouredPly(const Mesh& mesh, const std::vector<PointColour>& colours, std::ostream& out,
                                   const std::filesystem::path& path);
@@ -78,7 +83,9 @@ VDBCAGE_API void writeColouredPly(const Mesh& mesh, const std::vector<PointColou
 VDBCAGE_API void writeMoved(const std::filesystem::path& original, const std::vector<openvdb::Vec3d>& points,
                             const std::filesystem::path& path);
 
-/// The same to a stream, as with writeMesh.
+/// writeMoved() to a stream, whose state tells whether it took all; `path` gives the format, and the name in errors.
+/// \throw InputError as to a path
+/// \throw IoError as readMesh
 VDBCAGE_API void writeMoved(const std::filesystem::path& original, const std::vector<openvdb::Vec3d>& points,
                             std::ostream& out, const std::filesystem::path& path);
 

@@ -13,12 +13,13 @@ struct SymmetryPlane {
     int axis = 0;      ///< 0, 1, 2: x, y, z
     double offset = 0; ///< of its points along the axis, world units
 
+    /// Whether axis and offset are exactly the same.
     bool operator==(const SymmetryPlane& other) const { return axis == other.axis && offset == other.offset; }
 };
 
 /// How well a model agrees with its mirror image.
 struct Symmetry {
-    SymmetryPlane plane;
+    SymmetryPlane plane; ///< in which the model is mirrored
     /// Fraction of the model's longest side: almost all of the surface (99 % of its area) is no farther than this from
     /// its mirror image.
     double deviation = 0;

@@ -16,8 +16,8 @@ namespace vdbcage {
 /// is a pair of different points that follow each other around a face. A face that uses an edge twice, as one with a
 /// repeated corner may, counts there twice.
 struct MeshTopology {
-    std::size_t faces = 0;
-    std::size_t edges = 0;
+    std::size_t faces = 0;               ///< triangles and quads
+    std::size_t edges = 0;               ///< each counted once, however many faces use it
     std::size_t vertices = 0;            ///< points that faces use
     std::size_t boundaryEdges = 0;       ///< edges with one face
     std::size_t nonManifoldEdges = 0;    ///< edges with more than two faces
@@ -30,6 +30,7 @@ struct MeshTopology {
     /// volume, and every point off its faces has a winding number.
     std::vector<std::uint8_t> componentIsCycle;
 
+    /// How many parts are connected over edges. Parts that share only a vertex are two.
     std::size_t components() const { return componentIsCycle.size(); }
     /// Whether there are faces, and all components are cycles.
     bool isCycle() const;

@@ -19,10 +19,10 @@ namespace vdbcage {
 
 /// Which faces a cage is made of.
 enum class CageFaces {
-    triangles,
-    triquad, ///< triangles, merged into quads where they are flat enough
-    quads,   ///< of at least 87 % of the faces, where it can
-    loops    ///< quads only, in rings around limbs, as drawn by hand; looser than quads; bounding only
+    triangles, ///< no quads
+    triquad,   ///< triangles, merged into quads where they are flat enough
+    quads,     ///< of at least 87 % of the faces, where it can
+    loops      ///< quads only, in rings around limbs, as drawn by hand; looser than quads; bounding only
 };
 
 /// What becomes of parts of the model that the closing leaves apart.
@@ -33,36 +33,56 @@ enum class CageParts {
 
 /// In which plane a cage is symmetric.
 enum class CageSymmetry {
-    automatic, ///< in one across x, y or z, where the model is
-    off,
-    x, ///< in the plane across x in which the model is, as far as it is
-    y,
-    z
+    automatic, ///< in one that the model is symmetric in: across x, y or z, or else in any direction
+    off,       ///< in none
+    x,         ///< in the plane across x in which the model agrees best with its mirror image
+    y,         ///< likewise across y
+    z          ///< likewise across z
 };
 
 /// Everything that decides how a cage comes out. Lengths are fractions of the model's longest side.
+///
+/// Members that are not set are chosen by vdbcage; docs/OPTIONS.md says how. Values out of their range are an
+/// InputError of Pipeline::run() and makeCage().
 struct CageOptions {
-    int faces = 400;                   ///< faces of the cage, at most; a quad counts once
-    std::optional<int> resolution;     ///< voxels along the model's longest side; unset: by the faces
-    std::optional<double> closeRadius; ///< gaps up to twice this wide are bridged; unset: as the faces allow
-    std::optional<double> erodeRadius; ///< at most the close radius, which must be set; unset: equal to it
-    StructuringElement element = StructuringElement::sphere; ///< structuring element of the closing
-    ScaleField scale;                            ///< what the close radius is multiplied by in places; for the sphere
-    ScaleField density;                          ///< how many times the faces places of the model get; bounding only
-    Joints joints;                               ///< where it is to bend: more faces, rings of loops; bounding only
-    int smooth = 0;                              ///< sweeps of smoothing at the end: rounder, and less tight, with more
-    CageParts parts = CageParts::keep;           ///< what becomes of separate parts of the closing
-    double clearance = GuardOptions{}.clearance; ///< least distance from model to cage
-    std::optional<double> minAngle;              ///< degrees: no triangle angle gets smaller; unset: by the effort
-    Effort effort = Effort::fair;                ///< time against tightness
-    CageFaces mesh = CageFaces::triangles;       ///< triangles only, or quads too
-    double quadShape = BoundingTriquadOptions{}.quadShape; ///< 0: tightest, 1: squarest corners; triquad and quads
-    std::optional<double> mergeAngle;           ///< degrees: flatter pairs become quads; unset: as the faces ask
-    CageSymmetry symmetry = CageSymmetry::off;  ///< exactly symmetric cages; bounding only
-    double symmetryTolerance = 0.005;           ///< that a plane may be missed by, where one is looked for
+    /// Faces of the cage, at most: leastFaces() to 1000000. A quad counts once.
+    int faces = 400;
+    /// Voxels along the model's longest side, 8 to 2048. Unset: by the faces and the effort.
+    std::optional<int> resolution;
+    /// Gaps up to twice this wide are bridged, 0 to 0.25. Unset: 0.03, or more where the faces need it.
+    std::optional<double> closeRadius;
+    /// Where less than the close radius, the difference is left as an offset; 0 to the close radius, which must be set.
+    /// Unset: equal to it.
+    std::optional<double> erodeRadius;
+    StructuringElement element = StructuringElement::sphere; ///< of the closing
+    /// What the close radius and the erode radius are multiplied by in places; for the sphere only.
+    ScaleField scale;
+    /// About how many times the faces a place of the model gets, at the cost of the others. Needs `bounding`.
+    ScaleField density;
+    /// Where it is to bend: three rings of quads with CageFaces::loops, twice the faces with others. Needs `bounding`.
+    Joints joints;
+    /// Sweeps of smoothing at the end, 0 to 100: rounder, and less tight, with more.
+    int smooth = 0;
+    CageParts parts = CageParts::keep; ///< what becomes of separate parts of the closing
+    /// Least distance from model to cage, 1e-7 to 0.1.
+    double clearance = GuardOptions{}.clearance;
+    /// No triangle angle gets smaller, in degrees, 0 to 30. Unset: 1, 6 or 10, see docs/OPTIONS.md.
+    std::optional<double> minAngle;
+    Effort effort = Effort::fair;          ///< time against tightness
+    CageFaces mesh = CageFaces::triangles; ///< triangles only, or quads too
+    /// 0: tightest, 1: squarest corners. Of CageFaces::triquad and CageFaces::quads.
+    double quadShape = BoundingTriquadOptions{}.quadShape;
+    /// Triangles that meet at a smaller angle become quads, in degrees, 0 to 180. Unset: 30 of CageFaces::triquad, or
+    /// 10 without `bounding`; 90 of CageFaces::quads.
+    std::optional<double> mergeAngle;
+    CageSymmetry symmetry = CageSymmetry::off; ///< makes symmetric cages; needs `bounding`
+    /// The largest Symmetry::deviation with which CageSymmetry::automatic takes a plane, 0 to 0.3.
+    double symmetryTolerance = 0.005;
     Interior interior = Interior::automatic;    ///< what is inside of a model with holes
     Voxelizer voxelizer = Voxelizer::automatic; ///< what turns the model into voxels
-    bool bounding = true;                       ///< only ever give a cage certified to bound the model
+    /// Only ever give a cage certified to bound the model. If not, plain operators are used, and the cage is returned
+    /// whatever the verdict.
+    bool bounding = true;
 };
 
 /// What is known of an option beside its value: one entry serves flags, help, range checks, README and metadata.
@@ -120,14 +140,16 @@ VDBCAGE_API std::vector<OptionText> describeOptions();
 /// The value of each option as text that setOption takes, in the order of visitOptions: (name, value).
 VDBCAGE_API std::vector<std::pair<std::string, std::string>> optionValues(const CageOptions& options);
 
-/// Sets the option called `name` from text. Numbers are written in the C locale's way.
+/// Sets the option called `name` from text. Numbers are written in the C locale's way. Files that it names are read.
 /// \throw InputError naming the option, the value and what is allowed
+/// \throw IoError naming a file that cannot be read
 VDBCAGE_API void setOption(CageOptions& options, const std::string& name, const std::string& value);
 
-/// The fewest faces that may be asked for: a box of quads, or a tetrahedron of triangles.
+/// The fewest faces that may be asked for: 4 of triangles (a tetrahedron), 6 of all others (a box).
 VDBCAGE_API int leastFaces(CageFaces mesh);
 
-/// Checks every range and that options fit each other. \throw InputError
+/// Checks every range and that options fit each other.
+/// \throw InputError naming the option, the value and what is allowed
 VDBCAGE_API void requireValid(const CageOptions& options);
 
 } // namespace vdbcage

@@ -34,7 +34,7 @@ struct CageReport {
     VoxelizeReport voxels;   ///< what made the voxels
     double closeRadius = 0;  ///< fraction of the longest side, as given or chosen
     double offsetVoxels = 0; ///< by how much all of the closing was grown to keep the clearance
-    CageStart start = CageStart::closing;
+    CageStart start = CageStart::closing; ///< what it was shrunk from
     std::optional<Symmetry> symmetry; ///< the plane in which the cage is exactly symmetric, and how far the model is
     /// If the plane lies across no axis: the cage is symmetric in it but for the rounding of its coordinates.
     std::optional<TiltedSymmetry> tiltedSymmetry;
@@ -43,9 +43,10 @@ struct CageReport {
     std::size_t cavitiesFilled = 0; ///< hollows inside the closing that were filled
     std::size_t solidParts = 0;     ///< separate surfaces of the model's voxels, inner ones too
     std::int64_t solidHandles = 0;  ///< and handles, tunnels through them, of all of them
-    std::size_t parts = 0;          ///< the same of what the cage was made from: the closing, grown a little
-    std::int64_t handles = 0;
-    std::size_t solidVoxels = 0, closedVoxels = 0;
+    std::size_t parts = 0;          ///< separate surfaces of what the cage was made from: the closing, grown a little
+    std::int64_t handles = 0;       ///< tunnels through the surface that the cage was made from
+    std::size_t solidVoxels = 0;    ///< of the model
+    std::size_t closedVoxels = 0;   ///< of its closing, cavities filled
 };
 
 /// From a model to its cage, keeping every intermediate. Running again with other options starts from the first stage
@@ -69,49 +70,61 @@ struct CageReport {
 /// These axes are those along which the model's faces lie flattest.
 ///
 /// Where a plane of symmetry is found or given, voxels are united with their mirror image. Everything after is done on
-/// one half, under a guard that knows the plane. The cage is then exactly symmetric, point for point and face for face.
-/// It has an edge wherever it meets the plane, and bounds the mirror image of the model too. If no such cage has few
-/// enough faces, one without symmetry is made, and the report says so.
+/// one half, under a guard that knows the plane. The cage is then symmetric, point for point and face for face: exactly
+/// where the plane lies across an axis, else but for rounding. It has an edge wherever it meets the plane, and bounds
+/// the mirror image of the model too. If no such cage has few enough faces, one without symmetry is made, and the
+/// report says so.
 class VDBCAGE_API Pipeline {
 public:
+    /// Checks the model and keeps it; nothing is made yet.
     /// \throw InputError the model has no usable face (see requireUsable)
     explicit Pipeline(Mesh model);
     ~Pipeline();
+    /// What was moved from can only be assigned to or destroyed.
     Pipeline(Pipeline&&) noexcept;
+    /// What was moved from can only be assigned to or destroyed.
     Pipeline& operator=(Pipeline&&) noexcept;
 
     /// Makes the cage for `options` and returns it; valid until the next run. A run that throws leaves the cage and the
     /// intermediates of the last one that did not.
     ///
-    /// Stages reported to `interrupter`, some more than once: symmetry, guard, voxelize, close, surface, decimate,
-    /// tighten, quads or loops, smooth, coplanar, certify. The cage can have fewer faces than asked. It has more only
-    /// where the topology of the closing does not allow fewer and `bounding` is off.
-    /// \throw InputError what requireValid, voxelize or closeMask refuses
+    /// Stages reported to `interrupter`, some more than once: interior, symmetry, guard, voxelize, close, surface,
+    /// decimate, tighten, quads or loops, smooth, coplanar, certify. The cage can have fewer faces than asked. It has
+    /// more only where the topology of the closing does not allow fewer and `bounding` is off.
+    /// \throw InputError what requireValid, voxelize or closeMask refuses; the model misses the plane of symmetry that
+    /// is asked for by more than 0.3 of its longest side
     /// \throw DeviceError the voxelizer asked for is missing or fails
     /// \throw Error the cage could not be certified, which is a defect of vdbcage
     /// \throw Cancelled
     const Mesh& run(const CageOptions& options, Interrupter* interrupter = nullptr);
 
+    /// The model as it was given.
     const Mesh& model() const;
-    /// The intermediates of the last run; null or empty before the first.
-    /// The voxelized model. Its voxels lie along x, y and z, or along a plane of symmetry that lies across none of
-    /// them.
+
+    /// \name Of the last run; valid until the next
+    /// \{
+
+    /// The voxelized model; null before the first run. Its voxels lie along x, y and z, or along a plane of symmetry
+    /// that lies across none of them.
     openvdb::MaskGrid::ConstPtr solid() const;
-    openvdb::MaskGrid::ConstPtr closed() const; ///< its closing, cavities filled
+    openvdb::MaskGrid::ConstPtr closed() const; ///< the closing of solid(), cavities filled; null before the first run
     const Mesh& surface() const;                ///< what the cage was made from: quads, or a tetrahedron
     const Mesh& smoothed() const;               ///< bounding off: the surface smoothed; else the surface
-    /// Triangles, about twice the faces where pairs become quads; of loops the cage before smoothing; of a box its
-    /// quads.
+    /// The surface with fewer faces. Triangles, about twice the faces where pairs become quads; of loops the cage
+    /// before smoothing; of a box its quads.
     const Mesh& decimated() const;
-    const Mesh& cage() const;
-    const CageReport& report() const;
+    const Mesh& cage() const;         ///< what run() returned; without faces before the first run
+    const CageReport& report() const; ///< how that cage came about
+    /// \}
 
 private:
     class Impl;
     std::unique_ptr<Impl> impl_;
 };
 
-/// One model, one cage: Pipeline(model).run(options). What most callers need.
+/// Makes one cage of one model, as `Pipeline(model).run(options)` does. What most callers need.
+///
+/// With the default options the cage has at most 400 triangles. It is certified to bound the model, or this throws.
 /// \throw InputError as Pipeline and run()
 /// \throw DeviceError as run()
 /// \throw Error as run()

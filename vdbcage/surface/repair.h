@@ -24,9 +24,10 @@ struct RepairReport {
 /// Whether this build has repair(): it was made with VDBCAGE_WITH_CGAL_GPL.
 VDBCAGE_API bool hasRepair();
 
+/// What repair() returns.
 struct RepairedCage {
-    Mesh cage; ///< of triangles; closed and outward, as far as `report` says
-    RepairReport report;
+    Mesh cage;           ///< of triangles; closed and outward, as far as `report` says
+    RepairReport report; ///< what was done, and what is still wrong
 };
 
 /// Mends a cage made elsewhere, by CGAL's Polygon_mesh_processing.

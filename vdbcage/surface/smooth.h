@@ -7,12 +7,15 @@
 
 namespace vdbcage {
 
+/// How smooth() without a guard rounds off; `alpha` and `beta` are those of the paper.
 struct SmoothOptions {
-    static constexpr Range iterationCounts{0, 100}, alphas{0, 1}, betas{0, 1};
+    static constexpr Range iterationCounts{0, 100}; ///< of `iterations`
+    static constexpr Range alphas{0, 1};            ///< of `alpha`
+    static constexpr Range betas{0, 1};             ///< of `beta`
 
-    int iterations = 3;
-    double alpha = 0;  ///< pull towards the original position
-    double beta = 0.5; ///< weight of a vertex's own correction against its neighbours'
+    int iterations = 3; ///< times that every vertex is moved; with 0 the surface stays as it is
+    double alpha = 0;   ///< what a vertex is drawn back to: 0 where it was before the iteration, 1 where it began
+    double beta = 0.5;  ///< share of a vertex's own correction; the rest is the mean of its neighbours' corrections
 };
 
 /// HC Laplacian smoothing: rounds a surface without shrinking it.

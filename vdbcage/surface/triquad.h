@@ -7,10 +7,11 @@
 
 namespace vdbcage {
 
+/// Which triangles triquad() without a guard merges.
 struct TriquadOptions {
-    static constexpr Range mergeAngles{0, 180};
+    static constexpr Range mergeAngles{0, 180}; ///< of `mergeAngleDegrees`
 
-    double mergeAngleDegrees = 10; ///< largest dihedral angle between two triangles that become a quad
+    double mergeAngleDegrees = 10; ///< largest angle between the normals of two triangles that become a quad
 };
 
 /// Merges pairs of triangles into quads, flattest and squarest pairs first.

@@ -8,6 +8,7 @@
 
 namespace vdbcage {
 
+/// What fillCavities() returns.
 struct FilledMask {
     openvdb::MaskGrid::Ptr mask; ///< same transform, no other metadata
     /// How many separate cavities were filled. Two that touch by an edge or corner only are two.

@@ -4,7 +4,9 @@
 #include <vdbcage/core/export.h>
 #include <vdbcage/core/interrupter.h>
 
-/// Mathematical morphology on sparse masks. What holds for all of it:
+/// \addtogroup volume
+/// \par Morphology
+/// What holds for all of it:
 /// - Masks are sets of active voxels on the unbounded integer lattice. Outside of a grid is empty; there is no border.
 /// - Active tiles of every level count as their voxels, and are never made dense.
 /// - The grid's transform plays no part, nor do the values of a BoolGrid, as with OpenVDB's own morphology.
@@ -24,10 +26,11 @@ enum class StructuringElement {
     cube    ///< max |d_i| <= r, so that r counts rounded down
 };
 
+/// The radii and the element of closeMask().
 struct CloseOptions {
     double closeRadiusVoxels = 4; ///< radius of the dilation, in voxels, 0 to 512
     double erodeRadiusVoxels = 4; ///< radius of the erosion, in voxels, 0 to closeRadiusVoxels
-    StructuringElement element = StructuringElement::sphere;
+    StructuringElement element = StructuringElement::sphere; ///< of the dilation and of the erosion
 };
 
 /// The dilation of `mask`: every voxel within the radius of an active voxel, by the element's measure.
@@ -37,8 +40,8 @@ VDBCAGE_API openvdb::MaskGrid::Ptr dilate(const openvdb::MaskGrid& mask, double 
                                           StructuringElement element = StructuringElement::sphere,
                                           Interrupter* interrupter = nullptr);
 
-/// The same of the active voxels of any BoolGrid.
-/// \throw InputError as above
+/// dilate() of the active voxels of any BoolGrid.
+/// \throw InputError as of a mask
 /// \throw Cancelled
 VDBCAGE_API openvdb::MaskGrid::Ptr dilate(const openvdb::BoolGrid& mask, double radiusVoxels,
                                           StructuringElement element = StructuringElement::sphere,
@@ -51,6 +54,9 @@ VDBCAGE_API openvdb::MaskGrid::Ptr erode(const openvdb::MaskGrid& mask, double r
                                          StructuringElement element = StructuringElement::sphere,
                                          Interrupter* interrupter = nullptr);
 
+/// erode() of the active voxels of any BoolGrid.
+/// \throw InputError as of a mask
+/// \throw Cancelled
 VDBCAGE_API openvdb::MaskGrid::Ptr erode(const openvdb::BoolGrid& mask, double radiusVoxels,
                                          StructuringElement element = StructuringElement::sphere,
                                          Interrupter* interrupter = nullptr);
@@ -64,6 +70,10 @@ VDBCAGE_API openvdb::MaskGrid::Ptr erode(const openvdb::BoolGrid& mask, double r
 VDBCAGE_API openvdb::MaskGrid::Ptr openMask(const openvdb::MaskGrid& mask, double radiusVoxels,
                                             StructuringElement element = StructuringElement::sphere,
                                             Interrupter* interrupter = nullptr);
+
+/// openMask() of the active voxels of any BoolGrid.
+/// \throw InputError as of a mask
+/// \throw Cancelled
 VDBCAGE_API openvdb::MaskGrid::Ptr openMask(const openvdb::BoolGrid& mask, double radiusVoxels,
                                             StructuringElement element = StructuringElement::sphere,
                                             Interrupter* interrupter = nullptr);
@@ -78,6 +88,10 @@ VDBCAGE_API openvdb::MaskGrid::Ptr openMask(const openvdb::BoolGrid& mask, doubl
 /// Based on: Calderon and Boubekeur, Bounding Proxies for Shape Approximation, 2017 (asymmetric closing).
 VDBCAGE_API openvdb::MaskGrid::Ptr closeMask(const openvdb::MaskGrid& solid, const CloseOptions& options = {},
                                              Interrupter* interrupter = nullptr);
+
+/// closeMask() of the active voxels of any BoolGrid.
+/// \throw InputError as of a mask
+/// \throw Cancelled
 VDBCAGE_API openvdb::MaskGrid::Ptr closeMask(const openvdb::BoolGrid& solid, const CloseOptions& options = {},
                                              Interrupter* interrupter = nullptr);
 

@@ -9,16 +9,25 @@
 #include <vdbcage/core/interrupter.h>
 #include <vdbcage/volume/morphology.h>
 
+/// \addtogroup volume
+/// \par Scale fields
 /// Closing with a radius that varies in space: smaller where features matter, 0 where a hole has to stay.
 namespace vdbcage {
 
-/// A box or a sphere in world space, where the radius is multiplied by `scale`.
+/// A box or a sphere in world space, its border included, where the radius is multiplied by `scale`.
 struct ScaleRegion {
-    enum class Shape { box, sphere };
-    Shape shape = Shape::sphere;
-    openvdb::Vec3d lower{0}, upper{0}; ///< box: its corners; sphere: `lower` is the centre; world units
-    double radius = 0;                 ///< of the sphere, world units, at least 0
-    double scale = 1;                  ///< 0 to 8
+    /// Which of the two it is.
+    enum class Shape {
+        box,   ///< along the axes, from `lower` to `upper`
+        sphere ///< about `lower`, of `radius`
+    };
+    Shape shape = Shape::sphere; ///< what the numbers below mean
+    /// Box: the corner with the smallest coordinates. Sphere: the centre. World units, finite.
+    openvdb::Vec3d lower{0};
+    /// Box: the corner with the largest coordinates; nothing is inside if one is below that of `lower`. World units.
+    openvdb::Vec3d upper{0};
+    double radius = 0; ///< of the sphere, world units, at least 0
+    double scale = 1;  ///< 0 to 8
 };
 
 /// What the radius of a closing is multiplied by, place by place. It is the grid's value, interpolated, times the scale
@@ -26,9 +35,9 @@ struct ScaleRegion {
 /// everywhere.
 struct ScaleField {
     openvdb::FloatGrid::ConstPtr grid; ///< values cut to 0 to 8; its background holds outside; a linear transform
-    std::vector<ScaleRegion> regions;
-    std::string source = {};         ///< the text that it was read from; empty if it was made otherwise
-    std::filesystem::path file = {}; ///< that `grid` was read from; empty if it was not read
+    std::vector<ScaleRegion> regions;  ///< their scales are multiplied where they overlap
+    std::string source = {};           ///< the text that it was read from; empty if it was made otherwise
+    std::filesystem::path file = {};   ///< that `grid` was read from; empty if it was not read
 };
 
 /// A field from text; "none" is no field.

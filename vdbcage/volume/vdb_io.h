@@ -23,7 +23,7 @@ namespace vdbcage {
 VDBCAGE_API void writeVdb(const openvdb::MaskGrid& mask, const std::filesystem::path& path,
                           const std::map<std::string, std::string>& metadata = {});
 
-/// The same to a stream that can seek, whose state tells whether it took all. `path` is the name in errors.
+/// writeVdb() to a stream that can seek, whose state tells whether it took all. `path` is the name in errors.
 VDBCAGE_API void writeVdb(const openvdb::MaskGrid& mask, std::ostream& out, const std::filesystem::path& path,
                           const std::map<std::string, std::string>& metadata = {});
 

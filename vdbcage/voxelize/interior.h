@@ -25,7 +25,7 @@ enum class Interior {
 /// Based on: Nooruddin and Turk, Simplification and Repair of Polygonal Models Using Volumetric Techniques, 2003.
 VDBCAGE_API double rayAgreement(const Mesh& model, Interrupter* interrupter = nullptr);
 
-/// Below this share Interior::automatic takes the shell.
+/// Below this rayAgreement() Interior::automatic takes the shell.
 constexpr double mostlySheet = 0.3;
 
 } // namespace vdbcage
