@@ -11,8 +11,6 @@ import subprocess
 import tempfile
 import time
 
-FOLDER = pathlib.Path(tempfile.mkdtemp(prefix="vdbcage-farm-"))
-
 _daemons = []
 _PARENT_DEATH_SIGNAL, _CHILD_SUBREAPER = 1, 36  # <linux/prctl.h>
 
@@ -49,20 +47,30 @@ def _end_all():
     shutil.rmtree(FOLDER)
 
 
-# Processes that daemons leave behind become ours, so none is missed.
-_prctl(_CHILD_SUBREAPER, 1)
-_prctl(_PARENT_DEATH_SIGNAL, signal.SIGTERM)
+def _run_in_child():
+    """Goes on in a child. Where its parent, which is the process that others know, is killed, it still cleans up."""
+    child = os.fork()
+    if child == 0:
+        _prctl(_PARENT_DEATH_SIGNAL, signal.SIGTERM)
+        return
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # the child gets it, too
+    status = os.waitstatus_to_exitcode(os.waitpid(child, 0)[1])
+    os._exit(status if status >= 0 else 128 - status)
+
+
+_run_in_child()
+FOLDER = pathlib.Path(tempfile.mkdtemp(prefix="vdbcage-farm-"))
+_prctl(_CHILD_SUBREAPER, 1)  # what daemons leave behind becomes ours, so none is missed
 for _signal in signal.SIGTERM, signal.SIGHUP:
     signal.signal(_signal, signal.default_int_handler)
 atexit.register(_end_all)
 
 
 def start(words, log, environment):
-    """Starts a daemon, which ends with the tests even where these are killed."""
+    """Starts a daemon, which ends with the tests."""
     with open(log, "w") as out:
-        _daemons.append(subprocess.Popen(
-            [str(word) for word in words], env=environment, stdin=subprocess.DEVNULL, stdout=out, stderr=out,
-            preexec_fn=lambda: _prctl(_PARENT_DEATH_SIGNAL, signal.SIGKILL)))
+        _daemons.append(subprocess.Popen([str(word) for word in words], env=environment, stdin=subprocess.DEVNULL,
+                                         stdout=out, stderr=out))
 
 
 def wait_until(condition, what):

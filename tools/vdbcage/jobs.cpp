@@ -52,7 +52,7 @@ int runJobs(std::vector<std::string> words)
     app.add_flag("--pictures", pictures, "of each model with its cage, too");
     app.add_option("--command", program, "how farms call vdbcage [vdbcage]")->type_name("WORD");
     std::vector<CLI::Option*> ofMake = addCageOptions(app, options);
-    ofMake.push_back(app.add_option("--progress", progress, "of each job: auto, or lines on its output [auto]"));
+    ofMake.push_back(app.add_option("--progress", progress, "of each job: auto, or lines for farms [auto]"));
     ofMake.back()->type_name("FORM");
     app.set_help_all_flag("--help-all", "print this and the rarer options");
     if (!parse(app, std::move(words))) return exitGood;
