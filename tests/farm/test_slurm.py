@@ -12,6 +12,7 @@ from support import BAD, ENVIRONMENT, GOOD, QUICK, Case, changed, recipe
 
 CLUSTER = FOLDER / "slurm"
 NODE = "node"
+ENDED = ("COMPLETED", "FAILED", "CANCELLED")
 
 
 def free_ports(count):
@@ -104,12 +105,12 @@ class Slurm(Case):
         tasks = [dict(word.split("=", 1) for word in line.split() if "=" in word) for line in told.splitlines()]
         return sorted(tasks, key=lambda task: int(task["ArrayTaskId"]))
 
-    def wait_for(self, job, **expected):
-        """Waits until the job, an array of one task, is so."""
-        def is_so():
+    def wait_for(self, job, is_so=lambda task: False):
+        """Waits until the only task of the array is so, or has ended; the task."""
+        def found():
             task, = self.tasks(job)
-            return all(task[name] == value for name, value in expected.items())
-        wait_until(is_so, f"{job} does not become {expected}: {self.tasks(job)}")
+            return task if is_so(task) or task["JobState"] in ENDED else None
+        return wait_until(found, f"job {job} does not end")
 
     def submit_one(self, options):
         """Submits the documented array, of one model and with more options; the job."""
@@ -146,7 +147,8 @@ class Slurm(Case):
         log = self.cages / "1.log"
         wait_until(lambda: log.exists() and "Progress: " in log.read_text(), "the job does not work")
         self.shell(f"scancel {job}")
-        self.wait_for(job, JobState="CANCELLED", ExitCode="143:0")
+        task = self.wait_for(job)
+        self.assertEqual((task["JobState"], task["ExitCode"]), ("CANCELLED", "143:0"))
         self.assertIn("vdbcage: error: cancelled\n", log.read_text())
         self.assertNotIn("100%", log.read_text())
         self.assertEqual(list(self.cages.iterdir()), [log])
@@ -154,9 +156,10 @@ class Slurm(Case):
     def test_too_little_memory_is_tried_again(self):
         self.write_script(changed(self.script, "\neval", "\nulimit -v 300000\neval"))
         job = self.submit_one("-o cages --faces 60 --effort fast --resolution 800")
-        self.wait_for(job, JobState="PENDING", Restarts="1")
-        self.shell(f"scancel {job}")
-        self.wait_for(job, JobState="CANCELLED")
+        task = self.wait_for(job, lambda task: task["Restarts"] != "0" and task["JobState"] == "PENDING")
+        self.assertEqual((task["JobState"], task["Restarts"]), ("PENDING", "1"))
+        self.shell(f"scancel {job}")  # it would be tried again some minutes later
+        self.assertEqual(self.wait_for(job)["JobState"], "CANCELLED")
         self.assertIn("vdbcage: error: not enough memory\n", (self.cages / "1.log").read_text())
         report = json.loads((self.cages / "creature.json").read_text())
         self.assertEqual((report["error"], report["exit_status"]), ("not enough memory", 75))
