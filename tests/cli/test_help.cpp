@@ -104,7 +104,7 @@ BOOST_AUTO_TEST_CASE(without_arguments_there_is_a_short_help)
 {
     const auto result = runCommand({command});
     BOOST_TEST(result.status == 1);
-    for (const char* name : {"make", "check", "render", "bind", "deform", "repair"}) {
+    for (const char* name : {"make", "check", "render", "bind", "deform", "repair", "jobs", "report"}) {
         BOOST_TEST(result.err.find(name) != std::string::npos);
     }
     BOOST_TEST(runCommand({command, "--version"}).out.rfind("vdbcage ", 0) == 0U);

@@ -16,7 +16,9 @@
 using namespace vdbcage;
 using openvdb::Vec3d;
 using test::cageFor;
+using test::jittered;
 using test::Kind;
+using test::mapped;
 using test::pointsInside;
 using test::Random;
 using test::randomCage;
@@ -25,13 +27,6 @@ namespace {
 
 constexpr Coordinates families[] = {Coordinates::meanValue, Coordinates::green, Coordinates::maximumLikelihood,
                                     Coordinates::somigliana};
-
-std::vector<Vec3d> jittered(std::vector<Vec3d> points, std::uint32_t seed, double by = 0.3)
-{
-    Random random(seed);
-    for (Vec3d& p : points) p += random(0, by) * random.direction();
-    return points;
-}
 
 double difference(const std::vector<Vec3d>& a, const std::vector<Vec3d>& b)
 {
@@ -95,8 +90,7 @@ Distortion distortion(const Mesh& cage, const std::vector<Vec3d>& places, Coordi
             }
         }
     }
-    std::vector<Vec3d> posedCage = cage.points;
-    for (Vec3d& p : posedCage) p = map(p);
+    const std::vector<Vec3d> posedCage = mapped(cage.points, map);
     const std::vector<double> coordinates = computeCoordinates(cage, points, family);
     const std::vector<Vec3d> handles = cageHandles(cage, posedCage, family);
     double sum = 0;
@@ -262,6 +256,36 @@ BOOST_AUTO_TEST_CASE(combinations_are_within_their_bound)
             }
             BOOST_TEST(*std::max_element(sums.begin(), sums.end()) < 1e-6);
         }
+    }
+}
+
+// All triangles get twice as wide: where the bound of Somigliana coordinates ends.
+BOOST_AUTO_TEST_CASE(combinations_at_the_border_of_their_bound)
+{
+    const Mesh cage = randomCage(Kind::triangles, 28, 0.1, 2);
+    const double size = test::longestSide(cage);
+    const std::vector<Vec3d> points = closePoints(cage, 28);
+    const std::vector<Vec3d> posed = mapped(cage.points, [](const Vec3d& p) { return 2.0 * p; });
+    const Binding usual(cage, points, Coordinates::somigliana);
+    const std::vector<double> coordinates = computeCoordinates(cage, points, Coordinates::somigliana);
+    const std::vector<double> sizes = sizesOf(coordinates, cage, Coordinates::somigliana);
+    for (const double nu : {-0.9, 0.0, 0.4, 0.499}) {
+        const double growth = std::max(1.0, 1 / (1 - 2 * nu));
+        const CoordinateOptions options(Coordinates::somigliana, {nu, Elasticity::Rotations::global, 0, 0});
+        const std::vector<Vec3d> rest = cageHandles(cage, cage.points, options),
+                                 handles = cageHandles(cage, posed, options);
+        double farthest = 0; // of the matrices' handles, in units of the cage
+        for (std::size_t k = cage.points.size(); k < handles.size(); ++k) {
+            farthest = std::max(farthest, (handles[k] - rest[k]).length() / size);
+        }
+        BOOST_TEST(farthest < (4 + 1e-9) * growth); // as far as they count
+        BOOST_TEST(farthest > 2 * growth);
+        const std::vector<Vec3d> moved = usual.with(options.elasticity).pose(posed);
+        double off = 0; // over the size of the row
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            off = std::max(off, (moved[i] - test::weighted(coordinates, i, handles)).length() / size / sizes[i]);
+        }
+        BOOST_TEST(off < 1e-6 * growth);
     }
 }
 
