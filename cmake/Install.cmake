@@ -55,6 +55,24 @@ foreach(program vdbcage_cli vdbcage_view)
         install(TARGETS ${program} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT programs)
     endif()
 endforeach()
+if(TARGET vdbcage_cli AND NOT CMAKE_CROSSCOMPILING) # the programs print their manual pages
+    set(manuals ${PROJECT_BINARY_DIR}/manuals)
+    set(window "")
+    if(TARGET vdbcage_view)
+        set(window $<TARGET_FILE:vdbcage_view>)
+    endif()
+    add_custom_command(OUTPUT ${manuals}.stamp
+        COMMAND ${CMAKE_COMMAND} -DCOMMAND=$<TARGET_FILE:vdbcage_cli> -DWINDOW=${window} -DFOLDER=${manuals}
+            -DDEBIAN=${VDBCAGE_DEBIAN_PACKAGES} -P ${PROJECT_SOURCE_DIR}/cmake/WriteManuals.cmake
+        COMMAND ${CMAKE_COMMAND} -E touch ${manuals}.stamp
+        DEPENDS vdbcage_cli $<TARGET_NAME_IF_EXISTS:vdbcage_view> ${PROJECT_SOURCE_DIR}/cmake/WriteManuals.cmake
+        COMMENT "Printing manual pages and completions" VERBATIM)
+    add_custom_target(vdbcage_manuals ALL DEPENDS ${manuals}.stamp)
+    install(DIRECTORY ${manuals}/ DESTINATION ${CMAKE_INSTALL_DATADIR} COMPONENT programs)
+    install(FILES README.md DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/vdbcage COMPONENT programs)
+    install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/vdbcage COMPONENT programs
+        FILES_MATCHING PATTERN "*.md" PATTERN "*.png" PATTERN "*.view" PATTERN "*.param")
+endif()
 if(TARGET vdbcage_blender)
     get_target_property(addon vdbcage_blender ADDON)
     install(FILES ${addon} DESTINATION ${CMAKE_INSTALL_DATADIR}/vdbcage COMPONENT programs)

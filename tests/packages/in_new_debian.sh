@@ -17,6 +17,10 @@ dpkg -i libvdbcage0.1_*.deb vdbcage_*.deb python3-vdbcage_*.deb
 vdbcage make bishop.obj -o /tmp/cage.obj --faces 200
 vdbcage check /tmp/cage.obj bishop.obj
 vdbcage-view --help > /tmp/help
+for page in vdbcage vdbcage-make vdbcage-view; do gunzip -c /usr/share/man/man1/$page.1.gz | grep -q '^.SH SYNOPSIS'; done
+bash -c '. /usr/share/bash-completion/completions/vdbcage; complete -p vdbcage'
+test -s /usr/share/zsh/vendor-completions/_vdbcage -a -s /usr/share/fish/vendor_completions.d/vdbcage.fish
+test -s /usr/share/doc/vdbcage/docs/OPTIONS.md
 python3 -c "
 import vdbcage
 assert vdbcage.__file__ == '/usr/lib/python3/dist-packages/vdbcage/__init__.py', vdbcage.__file__
