@@ -1,8 +1,8 @@
 # Finds what the library is built on; used by the build and, installed, by the package configuration.
 #
 # vdbcage_find_dependencies(MISSING [ALL]): targets of what public headers include, with ALL of what the library is
-# linked to, too. Names what was not found in the variable MISSING. Nothing is looked for in a fixed place: CMake's own
-# variables (CMAKE_PREFIX_PATH, OpenVDB_ROOT, CMAKE_MODULE_PATH, a toolchain's) decide.
+# linked to, too. The variable MISSING is then a list of what was not found. Nothing is looked for in a fixed place:
+# CMake's own variables (CMAKE_PREFIX_PATH, OpenVDB_ROOT, CMAKE_MODULE_PATH, a toolchain's) decide.
 #
 # A function, because OpenVDB's FindOpenVDB.cmake sets BUILD_SHARED_LIBS and other variables in its caller, and because
 # TBB's own package must be found before it (after it is a hard error).
@@ -54,6 +54,5 @@ function(vdbcage_find_dependencies missing)
             list(APPEND notFound ${name})
         endif()
     endforeach()
-    list(JOIN notFound ", " notFound)
     set(${missing} "${notFound}" PARENT_SCOPE)
 endfunction()

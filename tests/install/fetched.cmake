@@ -2,7 +2,7 @@ cmake_minimum_required(VERSION 3.25)
 include(${CMAKE_CURRENT_LIST_DIR}/../support/run.cmake)
 set(work ${build}_fetched) # beside the others: a compiler cache sees the same relative paths
 file(REMOVE_RECURSE ${work}/prefix)
-run(${CMAKE_COMMAND} -S ${source}/tests/install/fetched -B ${work} -G Ninja -DCMAKE_BUILD_TYPE=Release
+run(${CMAKE_COMMAND} --fresh -S ${source}/tests/install/fetched -B ${work} -G Ninja -DCMAKE_BUILD_TYPE=Release
     -DCMAKE_CXX_COMPILER=${compiler} -DCMAKE_CXX_COMPILER_LAUNCHER=${launcher} -DVDBCAGE_SOURCE=${source}
     -DVDBCAGE_WARNINGS_AS_ERRORS=${strict} -DVDBCAGE_WITH_CGAL_GPL=OFF)
 run(${CMAKE_COMMAND} --build ${work})
