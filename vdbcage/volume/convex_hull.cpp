@@ -10,6 +10,7 @@
 #include <cstdlib>
 #include <limits>
 #include <memory>
+#include <new>
 #include <string>
 #include <vector>
 
@@ -37,7 +38,7 @@ class Qhull {
 public:
     explicit Qhull(std::vector<double>& points) : messages_(::open_memstream(&text_, &size_))
     {
-        if (!messages_) throw Error("convex hull: no memory");
+        if (!messages_) throw std::bad_alloc();
         qh_zero(&qh_, messages_);
         char command[] = "qhull";
         failed_ = qh_new_qhull(&qh_, 3, static_cast<int>(points.size() / 3), points.data(), False, command, nullptr,
