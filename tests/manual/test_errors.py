@@ -67,43 +67,42 @@ NOT_CAUSED = {
     },
 }
 
-# Words of what is thrown, but not at a user of the command, with why not. The reference tells programmers of it.
+# What is thrown, but not at a user of the command, with why not: the first words of it. The reference has these errors.
 LIBRARY_ONLY = {
     "the command reads meshes from files, which have points for all faces, finite ones": [
-        "a face uses point", "); coordinates must be finite", "is not finite; a point of a face must be",
-        "posed points: point … is not finite", "is …; coordinates must be finite", "model: its faces have no area",
+        "a face uses point", "point … is (…, …, …); coordinates must be finite",
+        "point … is …; coordinates must be finite", "picture: point … is not finite",
+        "posed points: point … is not finite", "model: its faces have no area",
         "model: its coordinates are not within the range of float",
         "the surface to decimate: its coordinates are too large to subtract",
     ],
     "the command hands on as many values as there are points": [
-        "colours were given; the mesh has", "posed points: there are", "model: it has … points; the binding has",
-        "weights: there are …; … points and … handles need", "…: it has … points; … has …",
-        "values for … points; it must be one for each", "points were given for a mesh of",
-        "were given for a mesh of", "colours of points; its mesh has",
+        "colours were given; the mesh has", "it has … points; … has …", "posed points: there are",
+        "model: it has … points; the binding has", "weights: there are …; … points and",
+        "there are … values for … points", "picture: … points were given", "picture: … … were given",
+        "a layer has … colours of points",
     ],
     "the command makes the surfaces, voxels and planes that it works on": [
-        "surface: ", "the surface is not a 2-manifold", " has no length", " has two faces on the same side", "axis: …",
-        "the mask has active voxels near", "model: its bounding box is not within the box given for the voxels",
-        "convex hull: a mask of",
+        "surface: ", "the surface is not a 2-manifold", "has no length", "has two faces on the same side", "axis: …",
+        "symmetry axis: …", "the mask has active voxels near", "convex hull: a mask of",
+        "model: its bounding box is not within the box given for the voxels",
     ],
-    "the command looks at its options before": [
-        "faces: … is not allowed; a closed surface has at least 4",
-        "faces: … is not allowed; a closed surface of quads has at least 6", "decimation: faces is",
-        "there is no option '…'; there are:", "… is … voxels; it must be between 0 and", "… is …; it must be …",
-        "the cube has one radius everywhere; a scale field needs the sphere", "is not at a finite place",
-        "has an axis without length", "coordinates: 'given' weights were made elsewhere",
+    "the command looks at its options and files before": [
+        "faces: … is not allowed; a closed surface", "decimation: faces is", "there is no option '…'; there are:",
+        "is … voxels; it must be between 0 and", "is …; it must be …", "the cube has one radius everywhere",
+        "is not at a finite place", "has an axis without length", "coordinates: 'given' weights were made elsewhere",
         "inversions: the binding's weights were made elsewhere", "weights: …", "it is not a NumPy file",
-        "repair: this build was made without VDBCAGE_WITH_CGAL_GPL",
-        "its … is … pixels; 1 to … is allowed", "… is …; 0 to 1 is allowed", "there is nothing to show",
-        "columns; 0 or more are allowed", "a panel has nothing to show", "a layer has no mesh",
-        "view: the elevation is", "view: the azimuth must be",
+        "repair: this build was made without VDBCAGE_WITH_CGAL_GPL", "its … is … pixels; 1 to … is allowed",
+        "is …; 0 to 1 is allowed", "there is nothing to show", "it has … columns; 0 or more are allowed",
+        "a panel has nothing to show", "a layer has no mesh", "view: ",
     ],
     "programs that draw by themselves can use contexts wrongly": [
-        "context is already current on this thread", "the context is in use on another thread",
-        "a device turned out to be software", "EGL has no hardware device", "the program has no uniform",
+        "OpenGL: a context is already current", "OpenGL: an EGL context is already current",
+        "OpenGL: an OSMesa context is already current", "OpenGL: the context is in use on another thread",
+        "OpenGL: a device turned out to be software", "OpenGL: the program has no uniform",
     ],
     "only the window and tests read pictures, or make them of other bytes": [
-        "bytes; 3 bytes a pixel are needed", "pixels and alpha for", "it has … x … pixels",
+        "picture: it has … x … pixels and … bytes", "picture: it has … pixels and alpha", "it has … x … pixels",
     ],
 }
 
@@ -142,9 +141,11 @@ class Page(unittest.TestCase):
         for thrown in sources.thrown:
             told = {message for message in page if sources.tells(message, thrown)}
             found |= told
-            words = [words for words in flat(LIBRARY_ONLY) if words in thrown.words()]
+            if told:
+                continue
+            words = [words for words in flat(LIBRARY_ONLY) if thrown.words().lstrip("…: ").startswith(words)]
             library_only.update(words)
-            if not told and not words:
+            if not words:
                 missing.append(f"{thrown.where}: {thrown.words()}")
         self.assertEqual(missing, [], "these need a remedy on the page")
         self.assertEqual(set(page) - found, set(), "the sources have no such messages")
@@ -226,7 +227,8 @@ class Rows(unittest.TestCase):
             rows += error_rows.WITHOUT_GPL_PART
         with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
             wrong = [text for text in pool.map(self.run_row, range(len(rows)), rows) if text]
-        self.assertFalse(wrong, "\n" + "\n".join(wrong))
+        if wrong:
+            self.fail("\n" + "\n".join(wrong))
 
     def test_each_message_has_a_row(self):
         caused = [row.message for row in [*self.rows, *error_rows.WITHOUT_GPL_PART]]
