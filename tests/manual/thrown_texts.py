@@ -186,8 +186,8 @@ def longest_words(text):
 
 
 class Sources:
-    """`thrown`: all texts; `wrappers`: those around what a caller gives; `parts`: what may stand for a value; `wordless`:
-    the files that throw values only."""
+    """`thrown`: all texts; `wrappers`: those around what a caller gives; `parts`: what may stand for a value;
+    `wordless`: the files that throw values only."""
 
     def __init__(self, root, folders):
         self.thrown, self.wrappers, self.parts, self.wordless = [], [], [], set()
