@@ -53,8 +53,10 @@ void Outputs::abandon() noexcept
 Outputs::Identity Outputs::identityOf(const fs::path& path)
 {
     std::error_code error;
-    fs::path existing = fs::weakly_canonical(path, error);
-    if (error) existing = fs::absolute(path, error).lexically_normal();
+    // Absolute first: where a relative path leads to nothing it would be left as it is.
+    const fs::path absolute = fs::absolute(path, error);
+    fs::path existing = fs::weakly_canonical(absolute, error);
+    if (error) existing = absolute.lexically_normal();
     fs::path below;
     for (;;) {
         struct stat status {};

@@ -93,6 +93,19 @@ std::vector<std::vector<PanelFile>> panelsOf(const std::vector<std::string>& wor
     return panels;
 }
 
+/// The surface of a volume; an objection to it names its file.
+Mesh readVoxels(const fs::path& path)
+{
+    const openvdb::MaskGrid::Ptr mask = readVdb(path);
+    try {
+        Mesh surface = extractSurface(*mask);
+        if (faceCount(surface) == 0) throw InputError("it has no active voxels; at least one is needed");
+        return surface;
+    } catch (const InputError& error) {
+        throw InputError(path.string() + ": " + error.what());
+    }
+}
+
 /// The option's text names the range itself.
 CLI::Validator inRange(int least, int most)
 {
@@ -161,7 +174,7 @@ int runRender(Call call)
             const bool voxels = fs::path(file.name).extension() == ".vdb";
             const auto [known, isNew] = meshes.try_emplace(file.name);
             Mesh& mesh = known->second;
-            if (isNew) mesh = voxels ? extractSurface(*readVdb(file.name)) : readMesh(file.name);
+            if (isNew) mesh = voxels ? readVoxels(file.name) : readMesh(file.name);
             const bool isModel = panel.empty() || (file.isJoined && panel.back().style == LayerStyle::shaded);
             panel.push_back(voxels ? voxelsLayer(mesh) : isModel ? shadedLayer(mesh) : wireframeLayer(mesh));
         }

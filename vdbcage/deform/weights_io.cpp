@@ -171,7 +171,10 @@ Binding readWeights(const std::filesystem::path& path, const Mesh& cage, std::ve
     } catch (const InputError& error) {
         fail(error.what());
     }
-    if (columns != handleCount(cage, family)) fail("it has another number of handles");
+    if (columns != handleCount(cage, family)) {
+        fail("it has " + std::to_string(columns) + " handles; " + coordinatesName(family) +
+             " coordinates of this cage have " + std::to_string(handleCount(cage, family)));
+    }
     // What the header says is bounded by the file's size before memory is taken for it. Neither sum can overflow: rows
     // and columns are those of a model and a cage in memory.
     const std::uintmax_t expectedSize =

@@ -129,8 +129,9 @@ public:
     {
         if (!isFloating(type)) return whole(type);
         const double value = floating(type);
-        if (!(std::abs(value) <= 1e15) || std::nearbyint(value) != value)
-            fail(std::string(what) + " is not an integer");
+        if (!(std::abs(value) <= 1e15) || std::nearbyint(value) != value) {
+            fail(std::string(what) + " is " + numberText(value) + ", which is not an integer");
+        }
         return static_cast<std::int64_t>(value);
     }
     void skip(PlyType type, std::uint64_t count)
