@@ -203,6 +203,10 @@ BOOST_AUTO_TEST_CASE(resolutions)
     const std::string usual = bytesOf({});
     BOOST_TEST((bytesOf({"--resolution", "64"}) == usual));
     BOOST_TEST((bytesOf({"--resolution", "5"}) != usual));
+    expectRefusal(scene,
+                  {"deform", cage, scene.at("posed.0010.obj"), model, "-o", scene.at("out.obj"), "--weights", weights,
+                   "--resolution", "5"},
+                  "--resolution is of weights that are computed; it does not go with --weights");
     std::filesystem::remove(weights);
     expectRefusal(scene, {"bind", cage, model, "-o", weights, "--coordinates", "harmonic", "--resolution", "3"},
                   "resolution: 3 is not allowed; it must be 4 to 256");
@@ -240,7 +244,7 @@ BOOST_AUTO_TEST_CASE(elasticities)
     expectRefusal(scene, {"deform", cage, posed, model, "-o", scene.at("a.png"), "--compare", "--nu", "-1"},
                   "nu: -1 is not allowed");
     expectRefusal(scene, {"deform", cage, posed, model, "-o", out, "--coordinates", "somigliana", "--rotations", "x"},
-                  "rotations: 'x' is neither global nor local");
+                  "rotations: 'x' is not allowed; it must be global or local");
     BOOST_TEST(runCommand({command, "bind", cage, model, "-o", weights}).status == 0);
     expectRefusal(scene, {"deform", cage, posed, model, "-o", out, "--weights", weights, "--nu", "0.1"},
                   "nu: only somigliana coordinates have it; these are mvc");

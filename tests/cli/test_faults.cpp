@@ -10,18 +10,20 @@
 #include <functional>
 #include <map>
 #include <random>
-#include <sstream>
 
 #include <sched.h>
 
+#include <support/process.h>
 #include <support/run_command.h>
 #include <support/shapes.h>
 #include <vdbcage/mesh/mesh_io.h>
 #include <vdbcage/volume/vdb_io.h>
 
 using namespace vdbcage;
+using test::hasEnded;
 using test::runCommand;
 using test::TemporaryFolder;
+using test::ticks;
 namespace fs = std::filesystem;
 
 namespace {
@@ -141,27 +143,9 @@ private:
 /// What stands behind a word in /proc/PID/FILE.
 std::string procValue(pid_t process, const char* file, const std::string& word)
 {
-    const std::string text = test::readText("/proc/" + std::to_string(process) + "/" + file);
+    const std::string text = test::readText(test::procFolder(process) / file);
     const auto at = text.find(word);
     return at == std::string::npos ? "" : text.substr(at + word.size(), text.find('\n', at) - at - word.size());
-}
-
-bool hasEnded(pid_t process)
-{
-    siginfo_t info{};
-    return ::waitid(P_PID, static_cast<id_t>(process), &info, WEXITED | WNOHANG | WNOWAIT) != 0 || info.si_pid != 0;
-}
-
-/// The clock ticks of the processor that it has used.
-long ticks(pid_t process)
-{
-    const std::string stat = test::readText("/proc/" + std::to_string(process) + "/stat");
-    std::istringstream in(stat.substr(std::min(stat.size(), stat.rfind(')') + 2)));
-    std::string skipped;
-    for (int i = 0; i < 11; ++i) in >> skipped;
-    long user = 0, system = 0;
-    in >> user >> system;
-    return user + system;
 }
 
 /// Starts `words`, sends `signal` once the command listens and `isTime` says so, and waits for its end.
@@ -214,7 +198,7 @@ BOOST_AUTO_TEST_CASE(signals_at_any_time)
         const TemporaryFolder own;
         long most = 0;
         const pid_t whole = test::startCommand(words, own / "out", own / "err");
-        while (!hasEnded(whole)) most = std::max(most, ticks(whole));
+        while (!hasEnded(whole)) most = std::max(most, ticks(test::procFolder(whole)));
         BOOST_TEST(test::waitFor(whole) == 0, work.name + ": " + test::readText(own / "err"));
         const Contents finished = folder.contents();
         for (int run = 0; run < times(4); ++run, ++runs) {
@@ -225,7 +209,7 @@ BOOST_AUTO_TEST_CASE(signals_at_any_time)
             const long moment = static_cast<long>(random() % static_cast<unsigned long>(most + 1));
             const std::size_t files = folder.contents().size() + 1 + random() % 3;
             const auto result = runSignalled(words, signal, [&](pid_t process) {
-                return byFiles ? folder.contents().size() >= files : ticks(process) >= moment;
+                return byFiles ? folder.contents().size() >= files : ticks(test::procFolder(process)) >= moment;
             });
             BOOST_TEST_CONTEXT(work.name << ", signal " << signal << " at " << (byFiles ? "file " : "tick ")
                                          << (byFiles ? static_cast<long>(files) : moment))
@@ -249,7 +233,8 @@ BOOST_AUTO_TEST_CASE(drawing_stops_when_it_is_told_to)
     const Folder folder;
     auto words =
         folder.words({"render", {"render", "@model.obj", "@cage.obj", "-o", "@p.png", "--size", "12000x12000"}});
-    const auto result = runSignalled(words, SIGINT, [&](pid_t process) { return ticks(process) > 20; });
+    const auto result =
+        runSignalled(words, SIGINT, [&](pid_t process) { return ticks(test::procFolder(process)) > 20; });
     BOOST_TEST(result.status == 130);
     BOOST_TEST(result.err == "vdbcage: error: cancelled\n");
     BOOST_TEST(folder.isOldOrNew({}));

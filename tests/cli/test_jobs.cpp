@@ -1,14 +1,13 @@
 #include <boost/test/unit_test.hpp>
 
 #include <algorithm>
-#include <csignal>
-#include <fstream>
 #include <map>
 #include <regex>
 #include <sstream>
 #include <thread>
 
 #include <sched.h>
+#include <support/process.h>
 #include <support/read_json.h>
 #include <support/run_command.h>
 #include <vdbcage/mesh/mesh_io.h>
@@ -47,28 +46,18 @@ void expectRefusal(const std::vector<std::string>& words, const std::string& men
 /// only wait.
 std::pair<std::size_t, int> workingThreads(const std::vector<std::string>& words)
 {
-    constexpr long moment = 2; // in ticks of processor time, hundredths of a second
+    constexpr long moment = 2; // in ticks
     const TemporaryFolder own;
     const pid_t child = test::startCommand(words, own / "out", own / "err");
     std::map<std::string, long> ticks;
-    siginfo_t info{};
-    do {
+    while (!test::hasEnded(child)) {
         ::sched_yield();
         std::error_code ignored;
-        for (const auto& task :
-             std::filesystem::directory_iterator("/proc/" + std::to_string(child) + "/task", ignored)) {
-            std::ifstream stat(task.path() / "stat");
-            std::string text;
-            std::getline(stat, text);
-            std::istringstream fields(text.substr(std::min(text.size(), text.rfind(')') + 1)));
-            std::string skipped;
-            for (int i = 0; i < 11; ++i) fields >> skipped;
-            long user = 0, system = 0;
-            if (fields >> user >> system) ticks[task.path().filename()] = user + system;
+        for (const auto& task : std::filesystem::directory_iterator(test::procFolder(child) / "task", ignored)) {
+            long& most = ticks[task.path().filename()];
+            most = std::max(most, test::ticks(task.path()));
         }
-        info.si_pid = 0;
-        ::waitid(P_PID, static_cast<id_t>(child), &info, WEXITED | WNOHANG | WNOWAIT);
-    } while (info.si_pid == 0);
+    }
     std::size_t working = 0;
     for (const auto& thread : ticks) working += thread.second > moment;
     return {working, test::waitFor(child)};
@@ -82,11 +71,11 @@ BOOST_AUTO_TEST_CASE(a_line_for_each_model)
 {
     const TemporaryFolder folder;
     const std::string out = folder / "cages";
-    const auto result =
-        runCommand({command, "jobs", "a/body.obj", "it's a \"model\".ply", "./-x.stl", "-o", out, "--faces", "120",
-                    "--density", "box:0,0,0,1,1,1,2", "--format", "ply", "--pictures", "--threads", "2"});
+    const auto result = runCommand({command, "jobs", "a/body.obj", "it's a \"model\".ply", "./-x.stl", "-o", out,
+                                    "--faces", "120", "--density", "box:0,0,0,1,1,1,2", "--format", "ply", "--pictures",
+                                    "--threads", "2", "--progress", "lines"});
     BOOST_TEST(result.status == 0, result.err);
-    const std::string options = " --skip-done --faces=120 --density=box:0,0,0,1,1,1,2 --threads=2";
+    const std::string options = " --skip-done --faces=120 --density=box:0,0,0,1,1,1,2 --progress=lines --threads=2";
     const auto line = [&](const std::string& model, const std::string& name) {
         const auto file = [&](const std::string& extension) {
             const std::string path = out + "/" + name + extension;
@@ -111,6 +100,7 @@ BOOST_AUTO_TEST_CASE(what_is_no_job)
     expectRefusal({"jobs", folder / "x.obj", "-o", folder.path()}, "x.obj: its cage would replace it");
     expectRefusal({"jobs", "a.obj", "-o", out, "--faces", "3"}, "faces: '3' is not allowed");
     expectRefusal({"jobs", "a.obj", "-o", out, "--format", "vdb"}, ".obj");
+    expectRefusal({"jobs", "a.obj", "-o", out, "--progress", "rarely"}, "progress: 'rarely' is neither auto nor lines");
     expectRefusal({"jobs", "a.obj", "-o", out, "--report", "x.json"}, "there is no option '--report'");
     BOOST_TEST(!std::filesystem::exists(out));
 }

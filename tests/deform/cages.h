@@ -2,7 +2,9 @@
 
 #include <random>
 #include <stdexcept>
+#include <utility>
 
+#include <openvdb/math/Mat3.h>
 #include <support/shapes.h>
 #include <vdbcage/deform/binding.h>
 #include <vdbcage/deform/detail/cage_triangles.h>
@@ -72,6 +74,29 @@ inline Mesh randomCage(Kind kind, std::uint32_t seed, double bumps = 0.2, int fi
     Random random(seed);
     for (Vec3d& p : mesh.points) p *= 1 + random(-bumps, bumps);
     return mesh;
+}
+
+template <typename Map>
+std::vector<Vec3d> mapped(std::vector<Vec3d> points, const Map& map)
+{
+    for (Vec3d& p : points) p = map(p);
+    return points;
+}
+
+/// The points, each moved by up to `by` in any direction.
+inline std::vector<Vec3d> jittered(std::vector<Vec3d> points, std::uint32_t seed, double by = 0.3)
+{
+    Random random(seed);
+    return mapped(std::move(points), [&](const Vec3d& p) { return p + random(0, by) * random.direction(); });
+}
+
+/// A large one around any axis.
+inline openvdb::Mat3d rotation(std::uint32_t seed)
+{
+    Random random(seed);
+    openvdb::Mat3d matrix;
+    matrix.setToRotation(random.direction(), random(1, 3));
+    return matrix;
 }
 
 /// Whose inside the family knows: some split quads.

@@ -16,7 +16,9 @@
 using namespace vdbcage;
 using openvdb::Vec3d;
 using test::cageFor;
+using test::jittered;
 using test::Kind;
+using test::mapped;
 using test::pointsInside;
 using test::Random;
 using test::randomCage;
@@ -25,13 +27,6 @@ namespace {
 
 constexpr Coordinates families[] = {Coordinates::meanValue, Coordinates::green, Coordinates::maximumLikelihood,
                                     Coordinates::somigliana};
-
-std::vector<Vec3d> jittered(std::vector<Vec3d> points, std::uint32_t seed, double by = 0.3)
-{
-    Random random(seed);
-    for (Vec3d& p : points) p += random(0, by) * random.direction();
-    return points;
-}
 
 double difference(const std::vector<Vec3d>& a, const std::vector<Vec3d>& b)
 {
@@ -95,8 +90,7 @@ Distortion distortion(const Mesh& cage, const std::vector<Vec3d>& places, Coordi
             }
         }
     }
-    std::vector<Vec3d> posedCage = cage.points;
-    for (Vec3d& p : posedCage) p = map(p);
+    const std::vector<Vec3d> posedCage = mapped(cage.points, map);
     const std::vector<double> coordinates = computeCoordinates(cage, points, family);
     const std::vector<Vec3d> handles = cageHandles(cage, posedCage, family);
     double sum = 0;
@@ -251,7 +245,7 @@ BOOST_AUTO_TEST_CASE(combinations_are_within_their_bound)
             std::vector<Vec3d> updated = bound.pose(jittered(cage.points, 27, 0.1));
             bound.update(updated, jittered(cage.points, 27, 0.1), jitter);
             BOOST_TEST(difference(updated, bound.pose(jitter)) < 1e-7);
-            if (family == Coordinates::somigliana) continue; // each of its points moves the whole cage's handles
+            if (family == Coordinates::somigliana) continue; // each point moves handles of all faces: see below
             // Point by point of the cage: what the moves add up to if all signs are the worst.
             std::vector<double> sums(points.size(), 0.0);
             for (std::size_t k = 0; k < cage.points.size(); ++k) {
@@ -262,6 +256,49 @@ BOOST_AUTO_TEST_CASE(combinations_are_within_their_bound)
             }
             BOOST_TEST(*std::max_element(sums.begin(), sums.end()) < 1e-6);
         }
+    }
+}
+
+// What the handles add up to if all go as far as the bound allows, with the worst signs.
+BOOST_AUTO_TEST_CASE(somigliana_at_the_border_of_its_bound)
+{
+    const Mesh cage = randomCage(Kind::triangles, 28, 0.1, 2);
+    const double size = test::longestSide(cage);
+    const std::vector<Vec3d> points = closePoints(cage, 28);
+    const std::vector<double> coordinates = computeCoordinates(cage, points, Coordinates::somigliana);
+    const std::vector<double> sizes = sizesOf(coordinates, cage, Coordinates::somigliana);
+    const std::size_t handles = handleCount(cage, Coordinates::somigliana);
+    std::vector<float> farthest(cage.points.size(), 1);
+    farthest.resize(handles, 4);
+    const detail::WeightBlocks blocks(
+        points, farthest, [&](const std::vector<std::uint32_t>& block, std::vector<float>& rows) {
+            for (std::size_t i = 0; i < rows.size(); ++i) {
+                rows[i] = static_cast<float>(coordinates[block[i / handles] * handles + i % handles]);
+            }
+        });
+    std::vector<double> sums(points.size(), 0.0);
+    for (std::size_t k = 0; k < handles; ++k) {
+        std::vector<Vec3d> moved(points.size(), Vec3d(0));
+        blocks.move({{k, openvdb::Vec3f(1, 0, 0)}}, 1, moved);
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            sums[i] += farthest[k] * std::abs(moved[i].x() - coordinates[i * handles + k]) / sizes[i];
+        }
+    }
+    BOOST_TEST(*std::max_element(sums.begin(), sums.end()) < 1e-6);
+
+    // They go no farther where all triangles get twice as wide, or by as much more as the material says.
+    const std::vector<Vec3d> posed = mapped(cage.points, [](const Vec3d& p) { return 2.0 * p; });
+    for (const double nu : {-0.9, 0.0, 0.4, 0.499}) {
+        const double growth = std::max(1.0, 1 / (1 - 2 * nu));
+        const CoordinateOptions options(Coordinates::somigliana, {nu, Elasticity::Rotations::global, 0, 0});
+        const std::vector<Vec3d> before = cageHandles(cage, cage.points, options),
+                                 after = cageHandles(cage, posed, options);
+        double most = 0;
+        for (std::size_t k = cage.points.size(); k < handles; ++k) {
+            most = std::max(most, (after[k] - before[k]).length() / size);
+        }
+        BOOST_TEST(most < (4 + 1e-9) * growth);
+        BOOST_TEST(most > 2 * growth);
     }
 }
 

@@ -17,9 +17,11 @@ using test::cageFor;
 using test::Kind;
 using test::kinds;
 using test::longestSide;
+using test::mapped;
 using test::pointsInside;
 using test::Random;
 using test::randomCage;
+using test::rotation;
 using test::weighted;
 
 namespace {
@@ -32,21 +34,6 @@ Mesh moved(Mesh cage, const std::vector<Vec3d>& points)
 {
     cage.points = points;
     return cage;
-}
-
-template <typename Map>
-std::vector<Vec3d> mapped(std::vector<Vec3d> points, const Map& map)
-{
-    for (Vec3d& p : points) p = map(p);
-    return points;
-}
-
-openvdb::Mat3d rotation(std::uint32_t seed)
-{
-    Random random(seed);
-    openvdb::Mat3d matrix;
-    matrix.setToRotation(random.direction(), random(0, 3));
-    return matrix;
 }
 
 // The largest distance between what the coordinates make of the cage's image and the points' image.

@@ -12,6 +12,7 @@
 
 using namespace vdbcage;
 using openvdb::Vec3d;
+using test::jittered;
 using test::Kind;
 using test::pointsInside;
 using test::Random;
@@ -118,13 +119,6 @@ Matrix meanValues(const Mesh& cage, const std::vector<Vec3d>& points)
 
 const Mesh cage = randomCage(Kind::both, 50);
 const std::vector<Vec3d> points{Vec3d(0), Vec3d(0.1, 0.2, 0.3), Vec3d(-0.4, 0, 0.2)};
-
-std::vector<Vec3d> jittered(std::vector<Vec3d> list, std::uint32_t seed, double by = 0.3)
-{
-    Random random(seed);
-    for (Vec3d& p : list) p += random(0, by) * random.direction();
-    return list;
-}
 
 /// What reading the file says; empty if it is read. What is thrown must be an IoError that names the file.
 std::string messageOf(const TemporaryFolder& folder, const File& file, const Mesh& ofCage = cage,

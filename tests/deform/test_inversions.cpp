@@ -12,6 +12,7 @@
 using namespace vdbcage;
 using openvdb::Vec3d;
 using test::Kind;
+using test::mapped;
 using test::Random;
 using test::randomCage;
 
@@ -21,13 +22,6 @@ constexpr Coordinates families[] = {Coordinates::meanValue, Coordinates::green, 
                                     Coordinates::somigliana};
 
 const Mesh model = test::sphere(Vec3d(0.1, 0, 0), 0.5, 12);
-
-template <typename Map>
-std::vector<Vec3d> mapped(std::vector<Vec3d> points, const Map& map)
-{
-    for (Vec3d& p : points) p = map(p);
-    return points;
-}
 
 std::vector<std::uint32_t> inverted(const Mesh& cage, const Mesh& mesh, Coordinates family,
                                     const std::vector<Vec3d>& pose)

@@ -14,9 +14,12 @@
 using namespace vdbcage;
 using openvdb::Mat3d;
 using openvdb::Vec3d;
+using test::jittered;
 using test::Kind;
+using test::mapped;
 using test::Random;
 using test::randomCage;
+using test::rotation;
 using test::weighted;
 
 namespace {
@@ -94,21 +97,6 @@ Vec3d identity(const Mesh& cage, const Vec3d& x, double nu, const Displacement& 
         });
     }
     return sum;
-}
-
-Mat3d rotation(std::uint32_t seed)
-{
-    Random random(seed);
-    Mat3d matrix;
-    matrix.setToRotation(random.direction(), random(1, 3));
-    return matrix;
-}
-
-std::vector<Vec3d> jittered(std::vector<Vec3d> points, std::uint32_t seed, double by)
-{
-    Random random(seed);
-    for (Vec3d& p : points) p += random(0, by) * random.direction();
-    return points;
 }
 
 double volumeOf(const Mesh& mesh, const std::vector<Vec3d>& points)
@@ -190,13 +178,6 @@ Vec3d bent(const Vec3d& p) // by a half turn over its length
 {
     const double angle = p.x() * pi / 4, radius = 4 / pi;
     return {(radius - p.y()) * std::sin(angle), radius - (radius - p.y()) * std::cos(angle), p.z()};
-}
-
-template <typename Map>
-std::vector<Vec3d> mapped(std::vector<Vec3d> points, const Map& map)
-{
-    for (Vec3d& p : points) p = map(p);
-    return points;
 }
 
 /// Of a triangle whose frame turns with it: its handles tell the stretch in the plane, and the traction over mu.

@@ -1,6 +1,7 @@
 #include <boost/test/unit_test.hpp>
 
 #include <cstring>
+#include <utility>
 
 #include <sys/stat.h>
 
@@ -52,25 +53,30 @@ BOOST_AUTO_TEST_CASE(reads_back_what_was_written)
 BOOST_AUTO_TEST_CASE(is_the_numpy_file_that_is_documented)
 {
     const TemporaryFolder folder;
-    const std::vector<float> written = computeWeights(cage, points, Coordinates::green);
-    const std::size_t handles = cageHandles(cage, cage.points, Coordinates::green).size();
-    writeWeights(cage, points, Coordinates::green, written, folder / "w.npy");
-    const std::string bytes = test::readText(folder / "w.npy");
-    BOOST_REQUIRE(bytes.size() > 10U);
-    BOOST_TEST(bytes.substr(0, 8) == std::string("\x93NUMPY\x01\x00", 8));
-    const std::size_t header = 10 + static_cast<unsigned char>(bytes[8]) + 256U * static_cast<unsigned char>(bytes[9]);
-    BOOST_TEST(header % 64 == 0U);
-    std::string text = bytes.substr(10, header - 10);
-    BOOST_TEST(text.back() == '\n');
-    text.erase(text.find_last_not_of(" \n") + 1);
-    BOOST_TEST(text == "{'descr': [('family', '|S8'), ('cage_hash', '<u8'), ('points_hash', '<u8'), ('weights', '<f4', "
-                       "(3, " +
-                           std::to_string(handles) + "))], 'fortran_order': False, 'shape': (), }");
-    BOOST_REQUIRE(bytes.size() == header + 24 + 4 * 3 * handles);
-    BOOST_TEST(bytes.substr(header, 8) == std::string("green\0\0\0", 8));
-    std::vector<float> weights(3 * handles);
-    std::memcpy(weights.data(), bytes.data() + header + 24, weights.size() * sizeof(float));
-    BOOST_TEST((weights == written));
+    for (const auto& [family, name] : {std::pair{Coordinates::green, std::string("green\0\0\0", 8)},
+                                       {Coordinates::biharmonic, std::string("biharmonic\0\0\0\0\0\0", 16)}}) {
+        const std::vector<float> written = computeWeights(cage, points, family);
+        const std::size_t handles = handleCount(cage, family);
+        writeWeights(cage, points, family, written, folder / "w.npy");
+        const std::string bytes = test::readText(folder / "w.npy");
+        BOOST_REQUIRE(bytes.size() > 10U);
+        BOOST_TEST(bytes.substr(0, 8) == std::string("\x93NUMPY\x01\x00", 8));
+        const std::size_t header =
+            10 + static_cast<unsigned char>(bytes[8]) + 256U * static_cast<unsigned char>(bytes[9]);
+        BOOST_TEST(header % 64 == 0U);
+        std::string text = bytes.substr(10, header - 10);
+        BOOST_TEST(text.back() == '\n');
+        text.erase(text.find_last_not_of(" \n") + 1);
+        BOOST_TEST(text == "{'descr': [('family', '|S" + std::to_string(name.size()) +
+                               "'), ('cage_hash', '<u8'), ('points_hash', '<u8'), ('weights', '<f4', (3, " +
+                               std::to_string(handles) + "))], 'fortran_order': False, 'shape': (), }");
+        const std::size_t begin = header + name.size() + 16; // of the weights, behind two hashes
+        BOOST_REQUIRE(bytes.size() == begin + 4 * 3 * handles);
+        BOOST_TEST(bytes.substr(header, name.size()) == name);
+        std::vector<float> weights(3 * handles);
+        std::memcpy(weights.data(), bytes.data() + begin, weights.size() * sizeof(float));
+        BOOST_TEST((weights == written));
+    }
 }
 
 BOOST_AUTO_TEST_CASE(refuses_what_does_not_fit)

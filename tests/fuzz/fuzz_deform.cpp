@@ -1,5 +1,6 @@
-// Random cages, also squeezed, folded, huge and tiny ones, and points in, on and near them: coordinates are one line of
-// objection, or finite weights that reproduce the points.
+// Random cages, also squeezed, folded, huge and tiny ones, and points in, on and near them, for any family and
+// material: coordinates are one line of objection, or finite weights that reproduce the points. Bound to them, points
+// at rest stay where they are, and random poses are finite.
 
 #include <algorithm>
 #include <cmath>

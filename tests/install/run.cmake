@@ -8,7 +8,10 @@ if(kind STREQUAL "shared")
     set(library ${build}_shared) # beside the other: a compiler cache sees the same relative paths
     run(${CMAKE_COMMAND} -S ${source} -B ${library} -G Ninja -DCMAKE_BUILD_TYPE=Release -DBUILD_SHARED_LIBS=ON
         -DCMAKE_CXX_COMPILER=${compiler} -DCMAKE_CXX_COMPILER_LAUNCHER=${launcher} -DVDBCAGE_BUILD_TESTS=OFF
-        -DVDBCAGE_BUILD_TOOLS=OFF -DVDBCAGE_WITH_CGAL_GPL=OFF -DVDBCAGE_WARNINGS_AS_ERRORS=${strict})
+        -DVDBCAGE_WITH_CGAL_GPL=OFF -DVDBCAGE_WARNINGS_AS_ERRORS=${strict}
+        -DVDBCAGE_BUILD_VIEW=${view} -DVDBCAGE_BUILD_PYTHON=${python}
+        # as they are without the test packages, which makes packages of the same build
+        -DVDBCAGE_DEBIAN_PACKAGES=OFF -DCMAKE_INSTALL_PREFIX=/usr/local -DVDBCAGE_PYTHON_DIR=lib/python3/dist-packages)
     run(${CMAKE_COMMAND} --build ${library})
     # Ninja keeps what every object was compiled from.
     execute_process(COMMAND ninja -C ${library} -t deps OUTPUT_VARIABLE dependencies RESULT_VARIABLE status)
@@ -40,3 +43,24 @@ run(${CMAKE_COMMAND} -S ${source}/tests/install/consumer -B ${work}/consumer -G 
     -DCMAKE_PREFIX_PATH=${work}/prefix -DCMAKE_CXX_COMPILER=${compiler})
 run(${CMAKE_COMMAND} --build ${work}/consumer)
 run(${work}/consumer/consumer ${source}/data/bishop.obj ${work}/cage.obj)
+
+file(GLOB folder ${work}/prefix/lib*/pkgconfig ${work}/prefix/lib*/*/pkgconfig)
+set(ENV{PKG_CONFIG_PATH} ${folder})
+set(ENV{LD_LIBRARY_PATH} ${folder}/..)
+set(flags --cflags --libs)
+if(kind STREQUAL "static")
+    list(APPEND flags --static)
+endif()
+execute_process(COMMAND pkg-config ${flags} vdbcage OUTPUT_VARIABLE flags COMMAND_ERROR_IS_FATAL ANY)
+separate_arguments(flags UNIX_COMMAND "${flags}")
+run(${launcher} ${compiler} -c ${source}/tests/install/consumer/main.cpp -o ${work}/by_pkg_config.o ${flags})
+run(${compiler} ${work}/by_pkg_config.o -o ${work}/by_pkg_config ${flags})
+run(${work}/by_pkg_config ${source}/data/bishop.obj ${work}/cage.obj)
+unset(ENV{LD_LIBRARY_PATH})
+
+if(kind STREQUAL "shared") # programs and the module find the library from where they are
+    run(${work}/prefix/bin/vdbcage check ${work}/cage.obj ${source}/data/bishop.obj)
+    if(python)
+        run(${CMAKE_COMMAND} -E env PYTHONPATH=${work}/prefix/lib/python3/dist-packages /usr/bin/python3 -c "import vdbcage")
+    endif()
+endif()

@@ -106,6 +106,7 @@ class BindingTest(Case):
         self.refuses("nu: 0.5 is not allowed", usual.with_elasticity, Elasticity(nu=0.5))
         self.refuses("nu: 'soft' is not allowed", usual.with_elasticity, Elasticity(nu="soft"))
         self.refuses("rotations: 'both' is not allowed", usual.with_elasticity, Elasticity(rotations="both"))
+        self.refuses("rotations: 1 is not allowed", usual.with_elasticity, Elasticity(rotations=1))
         self.refuses("global_bulging: -1 is not allowed", usual.with_elasticity, Elasticity(global_bulging=-1))
         self.refuses("elasticity: 0.3 is not allowed", usual.with_elasticity, 0.3)
         self.refuses("elasticity: only somigliana coordinates", Binding, self.cage, inside, elasticity=Elasticity())

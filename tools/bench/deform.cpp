@@ -66,7 +66,8 @@ int runDeform(int argc, char** argv)
 {
     std::string model;
     std::vector<int> faces{100, 400}, counts{10000, 100000};
-    std::vector<std::string> families{"mvc", "green", "mlc", "harmonic"}, meshes{"triangles", "triquad"};
+    std::vector<std::string> families, meshes{"triangles", "triquad"};
+    for (const FamilyInfo& family : coordinateFamilies()) families.emplace_back(family.name);
     int threads = tbb::info::default_concurrency(), runs = 10;
     CLI::App app("vdbcage-bench deform: times and memory of binding and posing, least of several runs, as JSON lines.\n"
                  "The points are spread over the model, the cages made with --effort fast --merge-angle 60");

@@ -29,7 +29,7 @@ Elasticity toElasticity(const py::tuple& values)
 {
     Elasticity elasticity;
     elasticity.nu = values[0].cast<double>();
-    if (values[1].cast<std::string>() == "local") elasticity.rotations = Elasticity::Rotations::local;
+    elasticity.rotations = rotationsNamed(values[1].cast<std::string>());
     elasticity.localBulging = values[2].cast<double>();
     elasticity.globalBulging = values[3].cast<double>();
     requireElasticity(elasticity);
@@ -38,8 +38,7 @@ Elasticity toElasticity(const py::tuple& values)
 
 py::tuple fromElasticity(const Elasticity& elasticity)
 {
-    const bool isLocal = elasticity.rotations == Elasticity::Rotations::local;
-    return py::make_tuple(elasticity.nu, isLocal ? "local" : "global", elasticity.localBulging,
+    return py::make_tuple(elasticity.nu, rotationsName(elasticity.rotations), elasticity.localBulging,
                           elasticity.globalBulging);
 }
 

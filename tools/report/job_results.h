@@ -17,7 +17,7 @@ struct JobResult {
     std::size_t triangles = 0, quads = 0;
     /// Parts of the model's longest side.
     double meanDistance = 0, maxDistance = 0;
-    double volumeRatio = 0;     ///< the cage's over the model's; 0: the model is not closed
+    double volumeRatio = 0;     ///< the cage's over the model's; 0: one of them is not closed
     double minAngleDegrees = 0; ///< of the cage's faces
     double seconds = 0, memoryMib = 0;
 };

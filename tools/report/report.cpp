@@ -198,7 +198,9 @@ std::vector<std::string> remarks(const CageReport& report, const CageOptions& op
         lines.push_back("voxels by the CPU: " + detail::printable(report.voxels.fallback));
     }
     if (report.cavitiesFilled > 0) {
-        lines.push_back(std::to_string(report.cavitiesFilled) + " hollows inside the closing were filled");
+        lines.push_back(std::to_string(report.cavitiesFilled) + (report.cavitiesFilled == 1
+                                                                     ? " hollow inside the closing was filled"
+                                                                     : " hollows inside the closing were filled"));
     }
     const CageCheck& check = report.check;
     const bool isSameThroughout = report.solidParts == report.parts && report.parts == check.components &&
@@ -250,7 +252,7 @@ std::string describe(const CageCheck& check)
     percent("largest distance", check.maxDistance);
     char buffer[64];
     std::snprintf(buffer, sizeof buffer, "%.3f", check.volumeRatio);
-    fact("cage volume / model's", check.volumeRatio > 0 ? buffer : "- (the model is not closed)");
+    fact("cage volume / model's", check.volumeRatio > 0 ? buffer : "- (the model or the cage is not closed)");
     std::snprintf(buffer, sizeof buffer, "%.1f degrees", check.minAngleDegrees);
     fact("smallest angle", buffer);
     return text;

@@ -63,11 +63,7 @@ CoordinateOptions CoordinateArguments::optionsOfEach(Coordinates family) const
     requireWithin(CoordinateOptions::resolutions, resolution_, "resolution");
     CoordinateOptions options(family, resolution_);
     options.elasticity = elasticity_;
-    if (rotations_ == "local") {
-        options.elasticity.rotations = Elasticity::Rotations::local;
-    } else if (rotations_ != "global") {
-        throw InputError("rotations: '" + rotations_ + "' is neither global nor local");
-    }
+    options.elasticity.rotations = rotationsNamed(rotations_);
     requireElasticity(options.elasticity);
     return options;
 }

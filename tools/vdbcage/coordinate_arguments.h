@@ -17,6 +17,7 @@ public:
     explicit CoordinateArguments(CLI::App& app, For use, const std::string& purpose = "how the cage moves the model");
 
     bool familyIsGiven() const { return familyOption_->count() > 0; }
+    bool resolutionIsGiven() const { return resolutionOption_->count() > 0; }
     const std::string& familyName() const { return family_; }
     /// \throw InputError no such family; an option out of range, or of a family that has none
     CoordinateOptions options() const;

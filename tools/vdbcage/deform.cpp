@@ -183,7 +183,12 @@ int runDeform(Call call)
         return drawComparison(cagePath, posedPath, modelPath, output, arguments, talk.progressForm());
     }
     const Coordinates family = coordinatesNamed(arguments.familyName());
-    if (weights.empty()) arguments.options(); // fails before anything is read
+    std::optional<CoordinateOptions> computed;
+    if (weights.empty()) {
+        computed = arguments.options();
+    } else if (arguments.resolutionIsGiven()) {
+        throw InputError("--resolution is of weights that are computed; it does not go with --weights");
+    }
     detail::requireMeshExtension(output);
     if (isPattern(posedPath) != isPattern(output)) {
         throw InputError("POSED_CAGE and OUT: both or none must have a frame number, as in cage.%04d.obj");
@@ -198,10 +203,9 @@ int runDeform(Call call)
 
     std::optional<Progress> progress(talk.progressForm());
     const Mesh cage = readMesh(cagePath), model = readMesh(modelPath);
-    Binding binding = weights.empty()
-                          ? bindFiles(cagePath, modelPath,
-                                      [&] { return Binding(cage, model.points, arguments.options(), &*progress); })
-                          : readWeights(weights, cage, model.points);
+    Binding binding = weights.empty() ? bindFiles(cagePath, modelPath,
+                                                  [&] { return Binding(cage, model.points, *computed, &*progress); })
+                                      : readWeights(weights, cage, model.points);
     if (binding.family() == Coordinates::given) {
         const std::string made = weights.string() + ": its weights were made elsewhere; ";
         if (arguments.familyIsGiven()) {

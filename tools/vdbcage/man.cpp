@@ -57,7 +57,7 @@ std::string mainPage()
     page.paragraph("A cage, and the model as the moved cage moves it:");
     page.code("vdbcage make bishop.obj -o cage.obj\nvdbcage deform cage.obj posed.obj bishop.obj -o moved.obj");
     page.section("SEE ALSO");
-    page.paragraph("vdbcage-view(1), the window. /usr/share/doc/vdbcage has a guide and a page on every option.");
+    page.paragraph("vdbcage-view(1), the window. README.md and docs/GUIDE.md in /usr/share/doc/vdbcage.");
     return page.text();
 }
 

@@ -6,6 +6,11 @@
 
 namespace vdbcage::tool {
 
+void requireProgress(const std::string& form)
+{
+    if (form != "auto" && form != "lines") throw InputError("progress: '" + form + "' is neither auto nor lines");
+}
+
 TalkArguments::TalkArguments(CLI::App& app, const char* verboseHelp)
 {
     app.add_option("--progress", progress_, "for terminals, or on standard output [auto]")->type_name("auto|lines");
@@ -15,8 +20,8 @@ TalkArguments::TalkArguments(CLI::App& app, const char* verboseHelp)
 
 ProgressForm TalkArguments::progressForm() const
 {
+    requireProgress(progress_);
     if (progress_ == "lines") return ProgressForm::farm;
-    if (progress_ != "auto") throw InputError("progress: '" + progress_ + "' is neither auto nor lines");
     if (quiet_) return ProgressForm::none;
     if (::isatty(STDERR_FILENO) == 1) return ProgressForm::bar;
     return verbose_ ? ProgressForm::lines : ProgressForm::none;

@@ -8,6 +8,9 @@
 
 namespace vdbcage::tool {
 
+/// \throw InputError `--progress` knows no such form
+void requireProgress(const std::string& form);
+
 /// The options of a command that takes its time: -q and --progress, and where it has more to say -v.
 class TalkArguments {
 public:

@@ -105,7 +105,7 @@ void printManual()
         for (const auto& [left, help] : section.rows) page.item(left, "", help);
     }
     page.section("SEE ALSO");
-    page.paragraph("vdbcage(1); /usr/share/doc/vdbcage/WINDOW.md");
+    page.paragraph("vdbcage(1), and docs/WINDOW.md in /usr/share/doc/vdbcage.");
     std::cout << page.text();
 }
 

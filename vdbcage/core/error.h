@@ -17,7 +17,7 @@ public:
 };
 
 /// A value handed in is not acceptable. The message names what, its value and what is allowed. Thrown before any work
-/// is done.
+/// is done, but for what only the work shows, such as a point outside of the cage.
 class VDBCAGE_API InputError : public Error {
 public:
     using Error::Error;
@@ -32,7 +32,7 @@ public:
 };
 
 /// A file could not be read or written for lack of memory or of room on the disk. Another try or another machine may
-/// do.
+/// do. Only what reads or writes files throws it: elsewhere lack of memory is std::bad_alloc.
 class VDBCAGE_API ResourceError : public IoError {
 public:
     using IoError::IoError;

@@ -323,6 +323,19 @@ void requireElasticity(const Elasticity& elasticity)
     requireWithin(Elasticity::bulgings, elasticity.globalBulging, "global bulging");
 }
 
+const char* rotationsName(Elasticity::Rotations rotations)
+{
+    return rotations == Elasticity::Rotations::global ? "global" : "local";
+}
+
+Elasticity::Rotations rotationsNamed(const std::string& name)
+{
+    for (const auto rotations : {Elasticity::Rotations::global, Elasticity::Rotations::local}) {
+        if (name == rotationsName(rotations)) return rotations;
+    }
+    throw InputError("rotations: '" + name + "' is not allowed; it must be global or local");
+}
+
 bool Elasticity::operator==(const Elasticity& other) const
 {
     return nu == other.nu && rotations == other.rotations && localBulging == other.localBulging &&

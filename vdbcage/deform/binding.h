@@ -77,6 +77,12 @@ struct VDBCAGE_API Elasticity {
 /// \throw InputError naming the first that is out of range
 VDBCAGE_API void requireElasticity(const Elasticity& elasticity);
 
+/// "global" or "local".
+VDBCAGE_API const char* rotationsName(Elasticity::Rotations rotations);
+
+/// \throw InputError there are none of that name
+VDBCAGE_API Elasticity::Rotations rotationsNamed(const std::string& name);
+
 /// What there is to know of a family that can be computed.
 struct FamilyInfo {
     Coordinates family;      ///< never `given`

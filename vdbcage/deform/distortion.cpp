@@ -7,6 +7,7 @@
 #include <utility>
 
 #include <vdbcage/core/error.h>
+#include <vdbcage/deform/detail/cage_triangles.h>
 #include <vdbcage/mesh/topology.h>
 
 namespace vdbcage {
@@ -25,16 +26,6 @@ double energyOf(const Vec3d& a, const Vec3d& b, double area, const Vec3d& posedA
         (posedA.dot(posedA) * bb - 2 * posedA.dot(posedB) * ab + posedB.dot(posedB) * aa) / (area * area);
     const double product = posedA.cross(posedB).lengthSqr() / (area * area);
     return product > 0 ? 0.25 * (sum + sum / product) : std::numeric_limits<double>::infinity();
-}
-
-/// Six times the volume, measured from `origin`.
-double volumeOf(const std::vector<openvdb::Vec3I>& triangles, const std::vector<Vec3d>& points, const Vec3d& origin)
-{
-    double volume = 0;
-    for (const openvdb::Vec3I& t : triangles) {
-        volume += (points[t[0]] - origin).dot((points[t[1]] - origin).cross(points[t[2]] - origin));
-    }
-    return volume;
 }
 
 } // namespace
@@ -71,10 +62,9 @@ Distortion poseDistortion(const Mesh& model, const std::vector<Vec3d>& posed)
         if (below < 0.99 * whole) distortion.percentile99 = energy;
         below += area;
     }
-    const Vec3d origin = boundingBox(model).getCenter();
-    const double volume = volumeOf(triangles, model.points, origin);
+    const double volume = detail::sixfoldVolume(model.points, triangles);
     if (analyzeTopology(model).isCycle() && volume > 0) {
-        distortion.volume = volumeOf(triangles, posed, origin) / volume;
+        distortion.volume = detail::sixfoldVolume(posed, triangles) / volume;
     }
     return distortion;
 }

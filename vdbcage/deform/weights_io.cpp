@@ -12,6 +12,7 @@
 #include <system_error>
 
 #include <vdbcage/core/detail/atomic_file.h>
+#include <vdbcage/core/detail/hash.h>
 #include <vdbcage/core/detail/io_failure.h>
 #include <vdbcage/core/detail/read_file.h>
 #include <vdbcage/core/error.h>
@@ -34,34 +35,21 @@ struct Hashes {
 };
 static_assert(sizeof(Hashes) == 16, "written as it is in memory");
 
-class Hash {
-public:
-    void add(const void* data, std::size_t size)
-    {
-        for (std::size_t i = 0; i < size; ++i) {
-            value_ = (value_ ^ static_cast<const unsigned char*>(data)[i]) * 0x100000001b3U;
-        }
-    }
-    template <typename Item>
-    void add(const std::vector<Item>& items)
-    {
-        const std::uint64_t count = items.size();
-        add(&count, sizeof count);
-        add(items.data(), items.size() * sizeof(Item));
-    }
-    std::uint64_t value() const { return value_; }
-
-private:
-    std::uint64_t value_ = 0xcbf29ce484222325U;
-};
+template <typename Item>
+void add(detail::Hash& hash, const std::vector<Item>& items)
+{
+    const std::uint64_t count = items.size();
+    hash.add({reinterpret_cast<const char*>(&count), sizeof count});
+    hash.add({reinterpret_cast<const char*>(items.data()), items.size() * sizeof(Item)});
+}
 
 Hashes hashesOf(const Mesh& cage, const std::vector<openvdb::Vec3d>& points)
 {
-    Hash ofCage, ofPoints;
-    ofCage.add(cage.points);
-    ofCage.add(cage.triangles);
-    ofCage.add(cage.quads);
-    ofPoints.add(points);
+    detail::Hash ofCage, ofPoints;
+    add(ofCage, cage.points);
+    add(ofCage, cage.triangles);
+    add(ofCage, cage.quads);
+    add(ofPoints, points);
     return {ofCage.value(), ofPoints.value()};
 }
 

@@ -10,6 +10,7 @@
 #include <cstdlib>
 #include <limits>
 #include <memory>
+#include <new>
 #include <string>
 #include <vector>
 
@@ -37,11 +38,11 @@ class Qhull {
 public:
     explicit Qhull(std::vector<double>& points) : messages_(::open_memstream(&text_, &size_))
     {
-        if (!messages_) throw Error("convex hull: no memory");
+        if (!messages_) throw std::bad_alloc();
         qh_zero(&qh_, messages_);
         char command[] = "qhull";
-        failed_ = qh_new_qhull(&qh_, 3, static_cast<int>(points.size() / 3), points.data(), False, command, nullptr,
-                               messages_) != 0;
+        status_ = qh_new_qhull(&qh_, 3, static_cast<int>(points.size() / 3), points.data(), False, command, nullptr,
+                               messages_);
     }
     ~Qhull()
     {
@@ -56,7 +57,8 @@ public:
 
     std::vector<Facet> facets()
     {
-        if (failed_) {
+        if (status_ == qh_ERRmem) throw std::bad_alloc();
+        if (status_ != 0) {
             std::fflush(messages_);
             throw Error("convex hull: " + std::string(text_, size_));
         }
@@ -72,7 +74,7 @@ private:
     std::size_t size_ = 0;
     std::FILE* messages_;
     qhT qh_;
-    bool failed_ = false;
+    int status_ = 0; ///< as qh_new_qhull returns it
 };
 
 /// The lowest and the highest corner of each column of corners between columns of voxels.

@@ -367,8 +367,8 @@ class Elasticity:
     global_bulging: float = 0.0
 
     def _values(self):
-        if self.rotations not in ("global", "local"):
-            raise InputError(f"rotations: {self.rotations!r} is not allowed; it must be 'global' or 'local'")
+        if not isinstance(self.rotations, str):
+            raise InputError(f"rotations: {self.rotations!r} is not allowed; it must be a string")
         return (_arguments.number("nu", self.nu, -1, 0.5), self.rotations,
                 _arguments.number("local_bulging", self.local_bulging, 0, 100),
                 _arguments.number("global_bulging", self.global_bulging, 0, 100))

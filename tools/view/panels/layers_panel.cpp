@@ -199,7 +199,7 @@ void buildMaterial(const PanelContext& context)
             changed.rotations = rotations;
             ask(changed);
         }
-        context.name(std::string("material.") + rotationNames[i]);
+        context.name(std::string("material.") + rotationsName(rotations));
         help(helps[i]);
     }
 }

@@ -110,7 +110,7 @@ void buildResult(const PanelContext& context)
         row("Verdict", [&] { coloured(check.bounding() ? theme::good : theme::bad, verdictOf(check)); });
         row("Faces", facesOf(check));
         row("Volume", check.volumeRatio > 0 ? number("%.3f times the model's", check.volumeRatio)
-                                            : std::string("the model is not closed"));
+                                            : std::string("model or cage is not closed"));
         row("Distance", number("%.2f %% in the mean, ", 100 * check.meanDistance) +
                             number("%.2f %% at most", 100 * check.maxDistance));
         ImGui::TableSetColumnIndex(1);

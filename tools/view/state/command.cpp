@@ -205,7 +205,7 @@ Command materialOf(const Words& words)
 {
     Elasticity elasticity;
     elasticity.nu = numberOf(words[0], "nu");
-    elasticity.rotations = named<Elasticity::Rotations>(rotationNames, words[1], "rotations");
+    elasticity.rotations = rotationsNamed(words[1]);
     elasticity.localBulging = numberOf(words[2], "local bulging");
     elasticity.globalBulging = numberOf(words[3], "global bulging");
     requireElasticity(elasticity);
@@ -387,7 +387,7 @@ struct ArgumentsOf {
     std::string operator()(const SetMaterial& c) const
     {
         const Elasticity& e = c.elasticity;
-        return numbers({e.nu}) + named(rotationNames, e.rotations) + numbers({e.localBulging, e.globalBulging});
+        return numbers({e.nu}) + ' ' + rotationsName(e.rotations) + numbers({e.localBulging, e.globalBulging});
     }
     std::string operator()(const MoveSelected& c) const { return numbers(c.by); }
     std::string operator()(const RotateSelected& c) const

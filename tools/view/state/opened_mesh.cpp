@@ -3,6 +3,7 @@
 #include <system_error>
 #include <utility>
 
+#include <vdbcage/core/detail/hash.h>
 #include <vdbcage/core/detail/read_file.h>
 
 namespace vdbcage::view {
@@ -19,14 +20,11 @@ FileStamp stampOf(const fs::path& path)
     return error ? FileStamp{} : stamp;
 }
 
-std::uint64_t digestOf(const fs::path& path)
+std::string digestOf(const fs::path& path)
 {
-    std::uint64_t digest = 0xcbf29ce484222325U;
-    for (const char byte : detail::readFile(path)) {
-        digest ^= static_cast<unsigned char>(byte);
-        digest *= 0x100000001b3U;
-    }
-    return digest;
+    detail::Hash hash;
+    hash.add(detail::readFile(path));
+    return hash.digits();
 }
 
 OpenedMeshPtr openMesh(const fs::path& given)

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <string>
 
 #include <vdbcage/mesh/mesh_io.h>
 
@@ -23,9 +24,10 @@ struct FileStamp {
 /// Of the file at `path`; all zero if there is none.
 FileStamp stampOf(const std::filesystem::path& path);
 
-/// A digest of the bytes of the file at `path` (FNV-1a, 64 bits): for files that changed by chance, not by intent.
-/// \throw IoError Cost: one pass.
-std::uint64_t digestOf(const std::filesystem::path& path);
+/// 16 hexadecimal digits of the bytes of the file at `path`: for files that changed by chance, not by intent.
+/// \throw IoError
+/// Cost: one pass.
+std::string digestOf(const std::filesystem::path& path);
 
 /// A model or cage as it was read from a file. It never changes, so everything that needs it shares it.
 struct OpenedMesh {

@@ -1,8 +1,6 @@
 #include <tools/view/state/scene.h>
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <map>
 #include <utility>
 #include <vector>
@@ -26,14 +24,6 @@ namespace {
 
 constexpr int formatVersion = 1;
 
-std::string hexadecimal(std::uint64_t value)
-{
-    std::array<char, 17> digits{};
-    char* const end = std::to_chars(digits.data(), digits.data() + digits.size(), value, 16).ptr;
-    const std::string text(digits.data(), end);
-    return std::string(16 - text.size(), '0') + text;
-}
-
 /// A file as it is named in a scene: from the scene's folder where both have a common one, so that a folder with a
 /// scene can be moved.
 Json fileOf(const fs::path& path, const fs::path& scene)
@@ -41,14 +31,14 @@ Json fileOf(const fs::path& path, const fs::path& scene)
     const fs::path folder = fs::absolute(scene).lexically_normal().parent_path();
     const fs::path relative = path.lexically_relative(folder);
     const bool isBelow = !relative.empty() && *relative.begin() != "..";
-    return {{"file", (isBelow ? relative : path).string()}, {"digest", hexadecimal(digestOf(path))}};
+    return {{"file", (isBelow ? relative : path).string()}, {"digest", digestOf(path)}};
 }
 
 /// Where it is. \throw InputError it is another one now
 fs::path sameFile(const Json& file, const fs::path& scene)
 {
     const fs::path path = scene.parent_path() / file.at("file").get<std::string>();
-    const std::string digest = hexadecimal(digestOf(path));
+    const std::string digest = digestOf(path);
     const auto saved = file.at("digest").get<std::string>();
     if (digest != saved) {
         throw InputError(path.string() + ": it is not the file that the scene " + scene.string() +
@@ -60,7 +50,7 @@ fs::path sameFile(const Json& file, const fs::path& scene)
 Json toJson(const Elasticity& elasticity)
 {
     return {{"nu", elasticity.nu},
-            {"rotations", rotationNames[static_cast<std::size_t>(elasticity.rotations)]},
+            {"rotations", rotationsName(elasticity.rotations)},
             {"local_bulging", elasticity.localBulging},
             {"global_bulging", elasticity.globalBulging}};
 }
@@ -68,11 +58,7 @@ Json toJson(const Elasticity& elasticity)
 /// \throw InputError
 Elasticity elasticityOf(const Json& json)
 {
-    const auto rotations = json.at("rotations").get<std::string>();
-    const auto* const name = std::find(rotationNames.begin(), rotationNames.end(), rotations);
-    if (name == rotationNames.end()) refuse("rotations", rotations, "global or local");
-    const Elasticity elasticity{json.at("nu").get<double>(),
-                                static_cast<Elasticity::Rotations>(name - rotationNames.begin()),
+    const Elasticity elasticity{json.at("nu").get<double>(), rotationsNamed(json.at("rotations").get<std::string>()),
                                 json.at("local_bulging").get<double>(), json.at("global_bulging").get<double>()};
     requireElasticity(elasticity);
     return elasticity;

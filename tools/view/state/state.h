@@ -101,7 +101,6 @@ enum class CageEdit : std::uint8_t {
 };
 constexpr std::array<const char*, 5> cageEditNames{"split", "collapse", "flip", "merge", "cut"};
 constexpr std::array<const char*, 2> modeNames{"shape", "pose"};
-constexpr std::array<const char*, 2> rotationNames{"global", "local"}; ///< of Elasticity::Rotations
 constexpr std::array<const char*, 4> toolNames{"select", "move", "rotate", "scale"};
 constexpr std::array<const char*, 4> orientationNames{"world", "local", "normal", "view"};
 

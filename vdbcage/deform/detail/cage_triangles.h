@@ -14,4 +14,7 @@ namespace vdbcage::detail {
 /// Cost: O(faces).
 std::vector<openvdb::Vec3I> cageTriangles(const Mesh& cage);
 
+/// Six times the volume in closed `triangles`; negative where they face inward.
+double sixfoldVolume(const std::vector<openvdb::Vec3d>& points, const std::vector<openvdb::Vec3I>& triangles);
+
 } // namespace vdbcage::detail

@@ -89,49 +89,41 @@ Vec3d unit(const Vec3d& v)
     return length > 0 ? v / length : Vec3d(0);
 }
 
-/// The rotation that takes `from` nearest to `to`, around the means of both, by `weights`: Kabsch 1976.
-Mat3d bestRotation(const std::vector<Vec3d>& from, const std::vector<Vec3d>& to, const std::vector<double>& weights)
+/// A rotation around `from`, which goes to `to`.
+struct Motion {
+    Vec3d from{0}, to{0};
+    Mat3d rotation = Mat3d::identity();
+};
+
+/// What takes the points `from` nearest to `to`, by `weights`: Kabsch 1976.
+Motion bestMotion(const std::vector<Vec3d>& from, const std::vector<Vec3d>& to, const std::vector<double>& weights)
 {
     double total = 0;
-    Vec3d fromMean(0), toMean(0);
+    Motion motion;
     for (std::size_t i = 0; i < from.size(); ++i) {
         total += weights[i];
-        fromMean += weights[i] * from[i];
-        toMean += weights[i] * to[i];
+        motion.from += weights[i] * from[i];
+        motion.to += weights[i] * to[i];
     }
-    fromMean /= total;
-    toMean /= total;
+    motion.from /= total;
+    motion.to /= total;
     Mat3d product = Mat3d::zero();
     for (std::size_t i = 0; i < from.size(); ++i) {
-        const Vec3d a = from[i] - fromMean, b = weights[i] * (to[i] - toMean);
+        const Vec3d a = from[i] - motion.from, b = weights[i] * (to[i] - motion.to);
         for (int r = 0; r < 3; ++r) {
             for (int c = 0; c < 3; ++c) product(r, c) += b[r] * a[c];
         }
     }
     Mat3d axes;
     Vec3d squares;
-    if (!openvdb::math::diagonalizeSymmetricMatrix(product.transpose() * product, axes, squares)) {
-        return Mat3d::identity();
-    }
+    if (!openvdb::math::diagonalizeSymmetricMatrix(product.transpose() * product, axes, squares)) return motion;
     std::array<int, 3> order{0, 1, 2};
     std::sort(order.begin(), order.end(), [&](int i, int j) { return squares[i] > squares[j]; });
     const Vec3d a = axes.col(order[0]), b = axes.col(order[1]), c = a.cross(b);
     const Vec3d turnedA = unit(product * a), rest = product * b;
     const Vec3d turnedB = unit(rest - rest.dot(turnedA) * turnedA), turnedC = turnedA.cross(turnedB);
-    Mat3d rotation;
-    for (int r = 0; r < 3; ++r) rotation.setRow(r, turnedA[r] * a + turnedB[r] * b + turnedC[r] * c);
-    return rotation;
-}
-
-/// Six times.
-double volumeOf(const std::vector<Vec3d>& points, const std::vector<openvdb::Vec3I>& triangles)
-{
-    double volume = 0; // from a point of the cage: no digits are lost far from the origin
-    for (const openvdb::Vec3I& t : triangles) {
-        const Vec3d& apex = points[triangles.front()[0]];
-        volume += (points[t[0]] - apex).dot((points[t[1]] - apex).cross(points[t[2]] - apex));
-    }
-    return volume;
+    for (int r = 0; r < 3; ++r) motion.rotation.setRow(r, turnedA[r] * a + turnedB[r] * b + turnedC[r] * c);
+    return motion;
 }
 
 /// The normals of the points, by area.
@@ -159,11 +151,11 @@ public:
             const double area = edge(rest_, t, 1).cross(edge(rest_, t, 2)).length();
             for (int k = 0; k < 3; ++k) areas[t[k]] += area;
         }
-        rotation_ = bestRotation(rest_, posed_, areas);
-        const double volume = volumeOf(rest_, triangles_);
-        scale_ = volume > 0 ? std::cbrt(std::max(0.0, volumeOf(posed_, triangles_) / volume)) : 1;
+        motion_ = bestMotion(rest_, posed_, areas);
+        const double volume = sixfoldVolume(rest_, triangles_);
+        scale_ = volume > 0 ? std::cbrt(std::max(0.0, sixfoldVolume(posed_, triangles_) / volume)) : 1;
         for (const openvdb::Vec3I& t : triangles_) faces_.push_back(posedFace(t));
-        const std::vector<double> bulges = bulging(volume, areas);
+        const std::vector<double> bulges = bulging(volume);
         for (std::size_t i = 0; i < faces_.size(); ++i) faces_[i].traction = traction(faces_[i].stretch, bulges[i]);
         balance();
     }
@@ -212,7 +204,7 @@ private:
         const Vec3d posedA = edge(posed_, t, 1), posedB = edge(posed_, t, 2);
         const Vec3d first = posedA / a.length(), second = (posedB - b.dot(frame[1]) * first) / b.dot(frame[2]);
         if (elasticity_.rotations == Elasticity::Rotations::global) {
-            for (std::size_t i = 0; i < 3; ++i) face.turned[i] = rotation_ * frame[i];
+            for (std::size_t i = 0; i < 3; ++i) face.turned[i] = motion_.rotation * frame[i];
             face.stretch = scale_;
         } else {
             const FaceFrame own = faceFrame(first, second);
@@ -232,7 +224,7 @@ private:
     }
 
     /// Of each triangle, what its stretch along the normal is more than that in the plane, as a factor's logarithm.
-    std::vector<double> bulging(double volume, const std::vector<double>& weights) const
+    std::vector<double> bulging(double volume) const
     {
         std::vector<double> bulges(triangles_.size(), 0.0);
         if (elasticity_.localBulging > 0) {
@@ -249,7 +241,7 @@ private:
         }
         const double scaled = volume * scale_ * scale_ * scale_;
         if (elasticity_.globalBulging > 0 && scaled > 0) {
-            const std::vector<Vec3d> fitted = bestFit(weights);
+            const std::vector<Vec3d> fitted = bestFit();
             for (std::size_t i = 0; i < triangles_.size(); ++i) {
                 bulges[i] += elasticity_.globalBulging * swept(fitted, triangles_[i]) / scaled;
             }
@@ -260,17 +252,10 @@ private:
     }
 
     /// The points at rest, scaled, turned and moved as near to the pose as that brings them.
-    std::vector<Vec3d> bestFit(const std::vector<double>& weights) const
+    std::vector<Vec3d> bestFit() const
     {
-        double total = 0;
-        Vec3d from(0), to(0);
-        for (std::size_t i = 0; i < rest_.size(); ++i) {
-            total += weights[i];
-            from += weights[i] * rest_[i];
-            to += weights[i] * posed_[i];
-        }
         std::vector<Vec3d> fitted;
-        for (const Vec3d& p : rest_) fitted.push_back(scale_ * (rotation_ * (p - from / total)) + to / total);
+        for (const Vec3d& p : rest_) fitted.push_back(scale_ * (motion_.rotation * (p - motion_.from)) + motion_.to);
         return fitted;
     }
 
@@ -312,9 +297,9 @@ private:
 
     std::vector<openvdb::Vec3I> triangles_;
     Elasticity elasticity_;
-    double size_, scale_ = 1;
+    double size_, scale_;
     std::vector<Vec3d> rest_, posed_;
-    Mat3d rotation_;
+    Motion motion_;
     std::vector<Face> faces_;
 };
 

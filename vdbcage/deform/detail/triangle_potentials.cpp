@@ -1,3 +1,6 @@
+// Based on: Wilton and others, "Potential Integrals for Uniform and Linear Source Distributions on Polygonal and
+// Polyhedral Domains", 1984; for solid angles van Oosterom, Strackee, "The Solid Angle of a Plane Triangle", 1983.
+
 #include <vdbcage/deform/detail/triangle_potentials.h>
 
 #include <algorithm>

@@ -1,0 +1,37 @@
+# cmake -DCOMMAND= -DWINDOW= -DFOLDER= -DDEBIAN= -P WriteManuals.cmake: manual pages and completions, as the programs
+# print them, in FOLDER as they stand below PREFIX/share. WINDOW may be empty. For DEBIAN packages pages are gzipped.
+cmake_minimum_required(VERSION 3.25)
+file(REMOVE_RECURSE ${FOLDER})
+
+# printed(OUTPUT COMMAND...): its standard output, in a file.
+function(printed output)
+    get_filename_component(parent ${output} DIRECTORY)
+    file(MAKE_DIRECTORY ${parent})
+    execute_process(COMMAND ${ARGN} OUTPUT_FILE ${output} COMMAND_ERROR_IS_FATAL ANY)
+endfunction()
+
+execute_process(COMMAND ${COMMAND} --help OUTPUT_VARIABLE help COMMAND_ERROR_IS_FATAL ANY)
+string(REGEX MATCHALL "\n  [a-z]+  " names "${help}")
+list(TRANSFORM names STRIP)
+list(LENGTH names count)
+if(count LESS 5)
+    message(FATAL_ERROR "${COMMAND} --help lists only ${count} commands")
+endif()
+printed(${FOLDER}/man/man1/vdbcage.1 ${COMMAND} man)
+foreach(name IN LISTS names)
+    printed(${FOLDER}/man/man1/vdbcage-${name}.1 ${COMMAND} man ${name})
+endforeach()
+if(WINDOW)
+    printed(${FOLDER}/man/man1/vdbcage-view.1 ${WINDOW} --man)
+endif()
+if(DEBIAN) # without name and time, so that the same text makes the same bytes
+    file(GLOB pages ${FOLDER}/man/man1/*.1)
+    execute_process(COMMAND gzip -9n ${pages} COMMAND_ERROR_IS_FATAL ANY)
+endif()
+set(zshFolder site-functions)
+if(DEBIAN)
+    set(zshFolder vendor-completions)
+endif()
+printed(${FOLDER}/bash-completion/completions/vdbcage ${COMMAND} completion bash)
+printed(${FOLDER}/zsh/${zshFolder}/_vdbcage ${COMMAND} completion zsh)
+printed(${FOLDER}/fish/vendor_completions.d/vdbcage.fish ${COMMAND} completion fish)
