@@ -6,7 +6,7 @@ packages=(
     libboost-dev libboost-iostreams-dev
     libopenmesh-dev libcgal-dev libgmp-dev libmpfr-dev libqhull-dev            # surfaces
     libgl-dev libegl-dev libosmesa6-dev libgl1-mesa-dri libpng-dev             # pictures, voxels by OpenGL
-    libcli11-dev nlohmann-json3-dev                                            # the command
+    libcli11-dev nlohmann-json3-dev libssl-dev                                 # the command
     libimgui-dev libglfw3-dev fonts-inter pkg-config                           # the window
     python3-dev python3-numpy pybind11-dev                                     # the Python module
 )
@@ -17,6 +17,7 @@ test_packages=(
     doxygen        # the reference of the library, where every public name has a comment
     tetgen # fills cages, to see that others can use them
     xvfb xauth # a display for the window
+    python3-jsonschema # reports keep to docs/report.schema.json
     python3-mypy    # its stubtest holds the stubs to the Python module
     python3-openvdb # files and arrays go between it and the Python module
     blender         # runs the add-on, and opens the volumes

@@ -29,7 +29,7 @@ class Make(Case):
         self.assertEqual(bpy.context.selected_objects, selected)
         self.assertLessEqual(len(cage.data.polygons), 300)
         self.assertTrue(cage["vdbcage_report"]["check"]["bounding"])
-        self.assertEqual(cage["vdbcage_report"]["options"]["faces"], "300")
+        self.assertEqual(cage["vdbcage_report"]["options"]["faces"], 300)
         self.certified(cage, model)
 
         command("make", write_obj(self.folder / "model.obj", model, model), "-o", self.folder / "cage.obj", "--faces",

@@ -104,8 +104,8 @@ BOOST_AUTO_TEST_CASE(make_leaves_cage_stages_report_and_picture)
 
     const json report = readJson(folder / "report.json");
     BOOST_TEST(report["check"]["bounding"] == true);
-    BOOST_TEST(report["options"]["faces"] == "200");
-    BOOST_TEST(report["model"]["triangles"].get<long>() + 2 * report["model"]["quads"].get<long>() > 10000);
+    BOOST_TEST(report["options"]["faces"] == 200);
+    BOOST_TEST(report["models"][0]["triangles"].get<long>() + 2 * report["models"][0]["quads"].get<long>() > 10000);
     BOOST_TEST(report["seconds"].get<double>() > 0);
     BOOST_TEST(report["memory_peak_mib"].get<double>() > 1);
     std::vector<std::string> names;

@@ -96,7 +96,7 @@ public:
     {
         Contents now = contents();
         std::string& report = now[(folder_ / "r.json").string()];
-        const std::string failure = "\n  \"exit_status\": " + std::to_string(status) + "\n";
+        const std::string failure = "\n  \"exit_status\": " + std::to_string(status) + ",\n";
         if (status != 0 && report.find(failure) != std::string::npos) report = "old";
         if (now == start_) return true;
         // What differs from run to run: times in reports, identifiers in .vdb files.

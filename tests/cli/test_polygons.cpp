@@ -64,7 +64,7 @@ BOOST_AUTO_TEST_CASE(make_and_check_tell_which_splits_are_certified)
     BOOST_TEST(checked.status == 0, checked.err);
     BOOST_TEST(has(checked.out, line), checked.out);
     for (const char* report : {"made.json", "checked.json"}) {
-        const auto model = jsonOf(folder / report)["model"];
+        const auto model = jsonOf(folder / report)["models"][0];
         BOOST_TEST(model["splits_certified_up_to_corners"] == 64);
         BOOST_TEST(model["faces_certified_as_split"] == 2);
     }
@@ -81,7 +81,7 @@ BOOST_AUTO_TEST_CASE(nothing_is_said_where_every_split_is_certified)
                                   "--effort", "fast", "--report", folder / "made.json"});
     BOOST_TEST_REQUIRE(made.status == 0, made.err);
     BOOST_TEST(!has(made.err, "corners"), made.err);
-    const auto model = jsonOf(folder / "made.json")["model"];
+    const auto model = jsonOf(folder / "made.json")["models"][0];
     BOOST_TEST(model["splits_certified_up_to_corners"] == 64);
     BOOST_TEST(model["faces_certified_as_split"] == 0);
 }
@@ -99,9 +99,9 @@ BOOST_AUTO_TEST_CASE(copies_of_a_polygon_take_little_memory)
     const auto made = runCommand({"sh", "-c", make});
     BOOST_TEST_REQUIRE(made.status == 0, made.err);
     const auto report = jsonOf(folder / "made.json");
-    BOOST_TEST(report["model"]["triangles"] == 20001 * 62); // they are counted
-    BOOST_TEST(report["model"]["polygons_split"] == 20001);
-    BOOST_TEST(report["model"]["faces_certified_as_split"] == 0);
+    BOOST_TEST(report["models"][0]["triangles"] == 20001 * 62); // they are counted
+    BOOST_TEST(report["models"][0]["polygons_split"] == 20001);
+    BOOST_TEST(report["models"][0]["faces_certified_as_split"] == 0);
     BOOST_TEST(report["check"]["bounding"] == true);
 }
 

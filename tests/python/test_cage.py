@@ -31,7 +31,7 @@ class CageTest(Case):
 
     def test_booleans_are_on_and_off(self):
         cage = make_cage(Mesh.read(BISHOP), faces=100, bounding=False, effort="fast")
-        self.assertEqual(cage.report["options"]["bounding"], "off")
+        self.assertEqual(cage.report["options"]["bounding"], False)
 
     def test_a_cage_has_its_verdict_and_its_report(self):
         model = Mesh.read(BISHOP)
@@ -39,7 +39,7 @@ class CageTest(Case):
         self.assertIsInstance(cage, Mesh)
         self.assertTrue(cage.check.bounding)
         self.assertEqual(cage.check.triangles, len(cage))
-        self.assertEqual(cage.report["options"]["faces"], "100")
+        self.assertEqual(cage.report["options"]["faces"], 100)
         self.assertEqual(cage.report["options"]["close_radius"], "auto")
         self.assertEqual(cage.report["start"], "closing")
         self.assertIn("voxelize", cage.report["stages"])

@@ -18,15 +18,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The names of one model or of several, as reports of cages and of failures have them.
 std::string modelsOf(const Json& report)
 {
-    const auto nameOf = [](const Json& model) {
-        return model.is_string() ? model.get<std::string>() : model.at("file").get<std::string>();
-    };
-    if (report.contains("model")) return nameOf(report.at("model"));
     std::string names;
-    for (const Json& model : report.at("models")) names += (names.empty() ? "" : ", ") + nameOf(model);
+    for (const Json& model : report.at("models")) {
+        names += (names.empty() ? "" : ", ") + model.at("file").get<std::string>();
+    }
     return names;
 }
 
@@ -37,22 +34,21 @@ std::optional<JobResult> resultOf(const fs::path& file, const std::string& text)
     try {
         const Json report = Json::parse(text);
         result.report = file;
-        static_cast<void>(report.at("vdbcage"));
+        if (report.at("format") != 1 || report.at("kind") != "make") return std::nullopt;
         result.cage = report.at("cage").get<std::string>();
         result.models = modelsOf(report);
-        if (report.contains("error")) {
+        if (!report.at("error").is_null()) {
             result.error = report.at("error").get<std::string>();
             result.status = report.at("exit_status").get<int>();
             return result;
         }
-        static_cast<void>(report.at("result")); // `check` writes none
         const Json& check = report.at("check");
         result.isBounding = check.at("bounding").get<bool>();
         result.triangles = check.at("triangles").get<std::size_t>();
         result.quads = check.at("quads").get<std::size_t>();
         result.meanDistance = check.at("mean_distance").get<double>();
         result.maxDistance = check.at("max_distance").get<double>();
-        result.volumeRatio = check.at("volume_ratio").get<double>();
+        if (!check.at("volume_ratio").is_null()) result.volumeRatio = check.at("volume_ratio").get<double>();
         result.minAngleDegrees = check.at("min_angle_degrees").get<double>();
         result.seconds = report.at("seconds").get<double>();
         result.memoryMib = report.at("memory_peak_mib").get<double>();

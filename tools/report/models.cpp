@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <system_error>
 
+#include <tools/report/run_facts.h>
 #include <vdbcage/core/detail/printable.h>
 #include <vdbcage/core/error.h>
 
@@ -29,7 +30,7 @@ void append(const Mesh& mesh, Mesh& all)
 
 } // namespace
 
-std::vector<ModelFile> readModels(const std::vector<std::filesystem::path>& paths)
+std::vector<ModelFile> readModels(const std::vector<std::filesystem::path>& paths, Hashes hashes)
 {
     std::vector<ModelFile> models;
     for (const std::filesystem::path& path : paths) {
@@ -39,8 +40,10 @@ std::vector<ModelFile> readModels(const std::vector<std::filesystem::path>& path
                 throw InputError(path.string() + ": this model is named twice");
             }
         }
+        const Json sha256 = hashes == Hashes::sha256 ? Json(sha256OfFile(path)) : Json();
         MeshFile file = readMeshFile(path);
         Json facts = toJson(file.mesh, file.summary, path);
+        facts["sha256"] = sha256;
         models.push_back({path, std::move(file.mesh), file.summary, std::move(facts)});
     }
     return models;
@@ -60,15 +63,14 @@ void checkEach(std::vector<ModelFile>& models, const Mesh& cage, Interrupter* in
     for (ModelFile& model : models) model.check = checkCage(cage, model.mesh, {}, interrupter);
 }
 
-std::pair<std::string, Json> entryOf(const std::vector<ModelFile>& models)
+Json entryOf(const std::vector<ModelFile>& models)
 {
-    if (models.size() == 1) return {"model", models.front().facts};
     Json list = Json::array();
     for (const ModelFile& model : models) {
         list.push_back(model.facts);
-        if (model.check) list.back()["check"] = toJson(*model.check);
+        list.back()["check"] = model.check ? toJson(*model.check) : Json();
     }
-    return {"models", list};
+    return list;
 }
 
 std::string namesOf(const std::vector<ModelFile>& models)

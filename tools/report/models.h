@@ -17,12 +17,15 @@ struct ModelFile {
     std::filesystem::path path;
     Mesh mesh;
     ReadSummary summary;
-    Json facts;                          ///< toJson of the three above
+    Json facts;                          ///< toJson of the three above, with its hash if that was asked for
     std::optional<CageCheck> check = {}; ///< the verdict on the cage against this model alone
 };
 
+/// Whether files are to be hashed, for reports.
+enum class Hashes { none, sha256 };
+
 /// Reads them. \throw IoError; InputError if one is named twice
-std::vector<ModelFile> readModels(const std::vector<std::filesystem::path>& paths);
+std::vector<ModelFile> readModels(const std::vector<std::filesystem::path>& paths, Hashes hashes);
 
 /// All models as one. A lone model gives its mesh away.
 Mesh takeMesh(std::vector<ModelFile>& models);
@@ -30,8 +33,8 @@ Mesh takeMesh(std::vector<ModelFile>& models);
 /// Where there are several: sets the verdict of each. \throw InputError, Cancelled
 void checkEach(std::vector<ModelFile>& models, const Mesh& cage, Interrupter* interrupter);
 
-/// "model" and the facts of a lone model; "models" and a list where there are several, each with its "check".
-std::pair<std::string, Json> entryOf(const std::vector<ModelFile>& models);
+/// A list of their facts. Where there are several, each has its "check".
+Json entryOf(const std::vector<ModelFile>& models);
 
 /// Their names for messages: "body.obj, shirt.obj".
 std::string namesOf(const std::vector<ModelFile>& models);

@@ -1,13 +1,15 @@
 #include <tools/report/report.h>
+#include <tools/report/run_facts.h>
 
 #include <cstdio>
 #include <iomanip>
+#include <optional>
 #include <sstream>
+#include <type_traits>
 
 #include <sys/resource.h>
 
 #include <vdbcage/core/detail/printable.h>
-#include <vdbcage/core/version.h>
 
 namespace vdbcage::tool {
 
@@ -22,7 +24,7 @@ Json toJson(const CageCheck& check)
             {"triangles", check.triangles},
             {"quads", check.quads},
             {"components", check.components},
-            {"genus", check.genus},
+            {"genus", check.closed() && check.manifold() ? Json(check.genus) : Json()},
             {"boundary_edges", check.boundaryEdges},
             {"non_manifold_edges", check.nonManifoldEdges},
             {"non_manifold_vertices", check.nonManifoldVertices},
@@ -36,8 +38,8 @@ Json toJson(const CageCheck& check)
             {"mean_distance", check.meanDistance},
             {"max_distance", check.maxDistance},
             {"min_distance", check.minDistance},
-            {"cage_volume", check.cageVolume},
-            {"volume_ratio", check.volumeRatio},
+            {"cage_volume", check.cageVolume != 0 ? Json(check.cageVolume) : Json()},
+            {"volume_ratio", check.volumeRatio > 0 ? Json(check.volumeRatio) : Json()},
             {"min_angle_degrees", check.minAngleDegrees},
             {"angle_1st_percentile_degrees", check.angle1stPercentileDegrees},
             {"median_angle_degrees", check.medianAngleDegrees}};
@@ -131,25 +133,70 @@ Json toJson(const std::vector<StageTime>& stages)
     return list;
 }
 
+Json toJson(const QuadQuality& quality)
+{
+    Json valences = Json::object();
+    for (const auto& [edges, vertices] : quality.valences) valences[std::to_string(edges)] = vertices;
+    return {{"share", quality.share},
+            {"irregular_share", quality.irregular},
+            {"valences", valences},
+            {"corner_mean_degrees", quality.cornerMean},
+            {"corner_95th_degrees", quality.corner95th},
+            {"fold_mean_degrees", quality.foldMean},
+            {"fold_95th_degrees", quality.fold95th},
+            {"loop_share", quality.inLoops},
+            {"loops", quality.loops},
+            {"aspect_median", quality.aspect}};
+}
+
+/// A number, a truth, or the text that one writes: words, and names of files; null where there is none.
+template <typename Value>
+Json typed(const Value& value, const std::string& text)
+{
+    if constexpr (std::is_arithmetic_v<Value>) {
+        return value;
+    } else if constexpr (std::is_same_v<Value, std::optional<int>> || std::is_same_v<Value, std::optional<double>>) {
+        return value ? Json(*value) : Json(text);
+    } else {
+        return text == "none" ? Json() : Json(text);
+    }
+}
+
 Json toJson(const CageOptions& options)
 {
     Json object = Json::object();
-    for (const auto& option : optionValues(options)) object[option.first] = option.second;
+    const auto texts = optionValues(options);
+    auto text = texts.begin();
+    visitOptions(options,
+                 [&](const OptionInfo& info, const auto& value) { object[info.name] = typed(value, text++->second); });
     return object;
 }
 
-Json toJson(const CageMade& made)
+Json reportOf(const CageOrder& order, const CageMade& made)
 {
-    return {{"vdbcage", VDBCAGE_VERSION},
-            made.model,
-            {"inputs", made.inputs.empty() ? Json() : Json(made.inputs)},
-            {"cage", made.cage.string()},
-            {"options", toJson(made.options)},
-            {"seconds", made.seconds},
-            {"stages", toJson(made.stages)},
-            {"memory_peak_mib", peakMemory()},
-            {"result", toJson(made.report)},
-            {"check", toJson(made.report.check)}};
+    Json report = reportOf(order, "", 0);
+    report["cage_sha256"] = made.sha256.empty() ? Json() : Json(made.sha256);
+    report["seconds"] = made.seconds;
+    report["stages"] = toJson(made.stages);
+    report["result"] = toJson(made.report);
+    if (!made.cage.quads.empty()) report["quads"] = toJson(quadQuality(made.cage));
+    report["check"] = toJson(made.report.check);
+    return report;
+}
+
+Json reportOf(const CageOrder& order, const std::string& error, int status)
+{
+    Json report = runFacts("make", order.arguments);
+    report["models"] = order.models;
+    report["inputs"] = order.inputs.empty() ? Json() : Json(order.inputs);
+    report["cage"] = order.cage.empty() ? Json() : Json(order.cage.string());
+    report["options"] = toJson(order.options);
+    report["exit_status"] = status;
+    report["error"] = error.empty() ? Json() : Json(error);
+    report["memory_peak_mib"] = peakMemory();
+    // What a failure has none of.
+    for (const char* name : {"cage_sha256", "seconds", "stages", "result", "quads", "check"}) report[name] = nullptr;
+    return report;
 }
 
 double peakMemory()

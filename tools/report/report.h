@@ -5,6 +5,7 @@
 #include <vector>
 
 #include <nlohmann/json.hpp>
+#include <tools/report/quad_quality.h>
 #include <vdbcage/check/check.h>
 #include <vdbcage/core/interrupter.h>
 #include <vdbcage/mesh/mesh_io.h>
@@ -14,24 +15,34 @@ namespace vdbcage::tool {
 
 using Json = nlohmann::ordered_json;
 
-/// JSON forms of what is reported; lengths are fractions of the model's longest side.
+/// JSON forms of what is reported, as docs/REPORT.md has them. Lengths are fractions of the model's longest side.
 Json toJson(const CageCheck& check);
+Json toJson(const QuadQuality& quality);
 Json toJson(const CageReport& report);
 Json toJson(const Mesh& mesh, const ReadSummary& summary, const std::filesystem::path& path);
 Json toJson(const std::vector<StageTime>& stages);
 Json toJson(const CageOptions& options);
 
-/// A cage that was made, with all that `make --report` tells.
-struct CageMade {
-    std::pair<std::string, Json> model; ///< "model" and toJson of its file; see models.h
-    std::string inputs;                 ///< fingerprint() of what it was made from; empty: not known
-    std::filesystem::path cage;         ///< where it is, or will be, written
+/// What was asked for, by the command or in the window.
+struct CageOrder {
+    std::vector<std::string> arguments; ///< see runFacts()
+    Json models;                        ///< see entryOf()
+    std::string inputs;                 ///< fingerprint() of what it was to be made from; empty: not known
+    std::filesystem::path cage;         ///< where it is, or will be, written; empty: nowhere
     const CageOptions& options;
+};
+/// A cage that was made.
+struct CageMade {
+    const Mesh& cage;
+    std::string sha256; ///< of its file; empty: there is none
     double seconds = 0; ///< wall clock
     const std::vector<StageTime>& stages;
     const CageReport& report;
 };
-Json toJson(const CageMade& made);
+/// What `make --report` tells.
+Json reportOf(const CageOrder& order, const CageMade& made);
+/// The same of an order that failed, for `error`, with an exit status.
+Json reportOf(const CageOrder& order, const std::string& error, int status);
 
 /// Largest amount of memory this process has held, in MiB.
 double peakMemory();

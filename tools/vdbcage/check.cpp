@@ -2,8 +2,8 @@
 #include <optional>
 
 #include <tools/report/models.h>
+#include <tools/report/run_facts.h>
 #include <vdbcage/check/check.h>
-#include <vdbcage/core/version.h>
 #include <vdbcage/mesh/mesh_io.h>
 
 #include "commands.h"
@@ -25,6 +25,7 @@ int runCheck(Call call)
     app.add_option("models", modelPaths)->required()->type_name("MODEL...");
     app.add_option("--report", reportPath, "the verdict as JSON")->type_name("FILE.json");
     const TalkArguments talk(app);
+    const std::vector<std::string> arguments = call.words;
     if (!parse(app, std::move(call))) return exitGood;
     Outputs outputs;
     outputs.reads(cagePath);
@@ -32,13 +33,18 @@ int runCheck(Call call)
     if (!reportPath.empty()) outputs.writes(reportPath);
 
     std::optional<Progress> progress(talk.progressForm());
+    const std::string sha256 = reportPath.empty() ? "" : sha256OfFile(cagePath);
     const Mesh cage = readMesh(cagePath);
-    std::vector<ModelFile> models = readModels(modelPaths);
+    std::vector<ModelFile> models = readModels(modelPaths, reportPath.empty() ? Hashes::none : Hashes::sha256);
     const CageCheck check = checkCage(cage, takeMesh(models), {}, &*progress);
     checkEach(models, cage, &*progress);
     if (!reportPath.empty()) {
-        const Json report{
-            {"vdbcage", VDBCAGE_VERSION}, {"cage", cagePath.string()}, entryOf(models), {"check", toJson(check)}};
+        Json report = runFacts("check", arguments);
+        report["models"] = entryOf(models);
+        report["cage"] = cagePath.string();
+        report["cage_sha256"] = sha256;
+        report["quads"] = cage.quads.empty() ? Json() : toJson(quadQuality(cage));
+        report["check"] = toJson(check);
         outputs.add(reportPath, [&](std::ostream& out) { out << toText(report); });
     }
     progress->succeed();

@@ -6,10 +6,10 @@
 #include <tools/report/fingerprint.h>
 #include <tools/report/models.h>
 #include <tools/report/report.h>
+#include <tools/report/run_facts.h>
 #include <tools/report/stages.h>
 #include <vdbcage/core/detail/read_file.h>
 #include <vdbcage/core/error.h>
-#include <vdbcage/core/version.h>
 #include <vdbcage/mesh/io/formats.h>
 #include <vdbcage/mesh/mesh_io.h>
 #include <vdbcage/pipeline/pipeline.h>
@@ -27,6 +27,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct MakeArguments {
+    std::vector<std::string> words;
     std::vector<fs::path> models;
     fs::path cage, stages, report, picture;
     CageOptions options;
@@ -138,14 +139,10 @@ void reportFailure(const MakeArguments& arguments, const Failure& failure) noexc
 {
     try {
         const SignalHold hold; // a file is being written
-        Json names = Json::array();
-        for (const fs::path& model : arguments.models) names.push_back(model.string());
-        const Json report{{"vdbcage", VDBCAGE_VERSION},
-                          {"models", names},
-                          {"cage", arguments.cage.string()},
-                          {"options", toJson(arguments.options)},
-                          {"error", detail::printable(failure.text)},
-                          {"exit_status", failure.status}};
+        Json models = Json::array();
+        for (const fs::path& model : arguments.models) models.push_back({{"file", model.string()}});
+        const Json report = reportOf(CageOrder{arguments.words, models, "", arguments.cage, arguments.options},
+                                     detail::printable(failure.text), failure.status);
         writeFileAtomically(arguments.report, [&](std::ostream& out) { out << toText(report); });
     } catch (const std::exception&) {
     }
@@ -160,7 +157,8 @@ std::string makeFiles(const MakeArguments& arguments, const std::string& inputs,
     StageClock clock(&interrupter);
 
     std::optional<Stage> reading(std::in_place, &clock, "read");
-    std::vector<ModelFile> models = readModels(arguments.models);
+    std::vector<ModelFile> models =
+        readModels(arguments.models, arguments.report.empty() ? Hashes::none : Hashes::sha256);
     reading.reset();
 
     Pipeline pipeline = makePipeline(models, arguments, clock);
@@ -171,13 +169,17 @@ std::string makeFiles(const MakeArguments& arguments, const std::string& inputs,
     // All work first: while files are waiting a signal has to wait for work.
     const std::string picture = arguments.picture.empty() ? std::string() : encodePng(drawCage(pipeline.model(), cage));
     if (!arguments.stages.empty()) addStages(pipeline, arguments, &clock, outputs);
-    outputs.add(arguments.cage, [&](std::ostream& out) { writeMesh(cage, out, arguments.cage); });
+    std::ostringstream cageFile;           // its hash is of the bytes in the file
+    cageFile.exceptions(std::ios::badbit); // it would hide a lack of memory
+    writeMesh(cage, cageFile, arguments.cage);
+    outputs.add(arguments.cage, [&](std::ostream& out) { out << cageFile.str(); });
     if (!arguments.picture.empty()) outputs.add(arguments.picture, [&](std::ostream& out) { out << picture; });
     writing.reset();
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
     if (!arguments.report.empty()) {
-        const Json report = toJson(CageMade{entryOf(models), inputs, arguments.cage, arguments.options, seconds,
-                                            clock.stages(), pipeline.report()});
+        const CageOrder order{arguments.words, entryOf(models), inputs, arguments.cage, arguments.options};
+        const Json report =
+            reportOf(order, CageMade{cage, sha256Of(cageFile.str()), seconds, clock.stages(), pipeline.report()});
         outputs.add(arguments.report, [&](std::ostream& out) { out << toText(report); });
     }
     return summaryOf(arguments, models, pipeline, clock.stages(), seconds);
@@ -212,6 +214,7 @@ int runMake(Call call)
     app.add_flag("--skip-done", skipsDone, "nothing if the report tells that it was done");
     const TalkArguments talk(app, "print progress, stage times, the whole verdict");
     app.set_help_all_flag("--help-all", "print this and the rarer options");
+    arguments.words = call.words;
     if (!parse(app, std::move(call))) return exitGood;
     arguments.isVerbose = talk.verbose();
     if (skipsDone && arguments.report.empty()) {

@@ -3,9 +3,9 @@
 #include <sstream>
 
 #include <tools/report/report.h>
+#include <tools/report/run_facts.h>
 #include <vdbcage/check/check.h>
 #include <vdbcage/core/error.h>
-#include <vdbcage/core/version.h>
 #include <vdbcage/mesh/io/formats.h>
 #include <vdbcage/mesh/mesh_io.h>
 #include <vdbcage/surface/repair.h>
@@ -45,6 +45,7 @@ int runRepair(Call call)
     app.add_option("-o,--output", outputPath, "the mended cage to write")->required()->type_name("OUT");
     app.add_option("--report", reportPath, "what was done and what could not be, as JSON")->type_name("FILE.json");
     const TalkArguments talk(app);
+    const std::vector<std::string> arguments = call.words;
     if (!parse(app, std::move(call))) return exitGood;
     if (!hasRepair())
         throw InputError("this vdbcage was built without its GPL part (VDBCAGE_WITH_CGAL_GPL), and so without repair");
@@ -58,10 +59,10 @@ int runRepair(Call call)
     const RepairedCage mended = repair(readMesh(cagePath), &*progress);
     outputs.add(outputPath, [&](std::ostream& out) { writeMesh(mended.cage, out, outputPath); });
     if (!reportPath.empty()) {
-        const Json facts{{"vdbcage", VDBCAGE_VERSION},
-                         {"cage", cagePath.string()},
-                         {"repaired", outputPath.string()},
-                         {"repair", toJson(mended.report)}};
+        Json facts = runFacts("repair", arguments);
+        facts["cage"] = cagePath.string();
+        facts["repaired"] = outputPath.string();
+        facts["repair"] = toJson(mended.report);
         outputs.add(reportPath, [&](std::ostream& out) { out << toText(facts); });
     }
     std::ostringstream lines;

@@ -53,14 +53,12 @@ void saveOptions(const CageOptions& options, const fs::path& path)
 void saveReport(const CageResult& result, const fs::path& path)
 {
     const OpenedMesh& model = *result.order.model;
-    const tool::CageMade made{{"model", tool::toJson(model.mesh, model.summary, model.path)},
-                              {},
-                              {},
-                              result.order.options,
-                              result.seconds,
-                              result.stages,
-                              result.report};
-    saveText(tool::toText(tool::toJson(made)), path);
+    tool::Json facts = tool::toJson(model.mesh, model.summary, model.path);
+    facts["sha256"] = nullptr; // the file may be another by now
+    facts["check"] = nullptr;
+    const tool::CageOrder order{{}, tool::Json::array({facts}), "", "", result.order.options};
+    const tool::CageMade made{result.cage, "", result.seconds, result.stages, result.report};
+    saveText(tool::toText(tool::reportOf(order, made)), path);
 }
 
 void saveStages(const CageResult& result, const fs::path& folder)

@@ -5,11 +5,11 @@
 #include <cstddef>
 #include <vector>
 
+#include <vdbcage/check/detail/box_tree.h>
 #include <vdbcage/check/detail/face_triangles.h>
 #include <vdbcage/check/detail/predicates.h>
 #include <vdbcage/core/detail/asker.h>
 #include <vdbcage/core/interrupter.h>
-#include <vdbcage/geometry/triangle_bvh.h>
 
 namespace vdbcage::detail {
 
@@ -32,8 +32,8 @@ struct CageFaces {
     /// \pre `cage` has passed requireSound
     /// \throw Cancelled
     CageFaces(const Mesh& cage, Interrupter* interrupter)
-        : mesh(cage), faces(cage), tree(mesh.points, faces.triangles(), interrupter), degenerate(faces.size()),
-          bad(faces.faces())
+        : mesh(cage), faces(cage), tree(mesh.points, faces.triangles(), BoxTree::Copies::keep, interrupter),
+          degenerate(faces.size()), bad(faces.faces())
     {
         Asker ask(interrupter);
         for (std::size_t t = 0; t < faces.size(); ++t) {
@@ -50,7 +50,7 @@ struct CageFaces {
 
     const Mesh& mesh;
     FaceTriangles faces;
-    TriangleBvh tree;
+    BoxTree tree;
     std::vector<char> degenerate; ///< by triangle
     Flags bad;                    ///< by face
 };

@@ -60,13 +60,14 @@ CheckedModel::CheckedModel(const Mesh& mesh, Interrupter* interrupter)
     const FaceTriangles faces(mesh);
     throwIfInterrupted(interrupter);
     bool dropped = false;
-    const auto buildTree = [&] {
+    const auto buildTrees = [&] {
         const std::vector<Vec3I> triangles = everyTriangle(mesh, faces);
+        candidates = BoxTree(mesh.points, triangles, BoxTree::Copies::drop, interrupter);
+        dropped = candidates.size() < triangles.size();
         tree = TriangleBvh(mesh.points, triangles, interrupter, TriangleBvh::Copies::drop);
-        dropped = tree.items().size() < triangles.size();
     };
     parallelInvoke(
-        buildTree, [&] { findParts(mesh, faces, false, interrupter); },
+        buildTrees, [&] { findParts(mesh, faces, false, interrupter); },
         [&] {
             if (analyzeTopology(mesh, interrupter).isCycle()) {
                 volume = std::abs(detail::volume(mesh.points, faces));

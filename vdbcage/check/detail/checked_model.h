@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include <vdbcage/check/detail/box_tree.h>
 #include <vdbcage/check/detail/face_triangles.h>
 #include <vdbcage/core/detail/nearest_float.h>
 #include <vdbcage/core/interrupter.h>
@@ -14,7 +15,7 @@ namespace vdbcage::detail {
 /// \throw InputError an index that is not below the number of points; a point of a face that is not finite
 void requireSound(const Mesh& mesh, const char* what);
 
-/// What is found out about a model once: its triangles in a tree, and its parts.
+/// What is found out about a model once: its triangles in trees, and its parts.
 ///
 /// A part is what hangs together over shared vertices. Vertices are shared by index. Where triangles were dropped as
 /// copies of others, points in one place are shared too.
@@ -35,18 +36,20 @@ struct CheckedModel {
             const Vec3d& p = model.tree.points()[i];
             return asFloats ? nearestFloat(p) : p;
         }
-        Corners corners(const TriangleBvh::Item& item) const
+        Corners corners(const BoxTree::Item& item) const
         {
             return {point(item.corners[0]), point(item.corners[1]), point(item.corners[2])};
         }
-        /// How far its triangles may lie from those in the tree.
+        /// How far its triangles may lie from those in the trees.
         double maxDistance() const
         {
             return asFloats ? 2 * floatRounding({model.tree.box().lo, model.tree.box().hi}) : 0;
         }
     };
 
-    TriangleBvh tree;                        ///< all four triangles of a quad; copies are dropped
+    // Of all four triangles of a quad; copies are dropped.
+    BoxTree candidates;                      ///< for the verdict
+    TriangleBvh tree;                        ///< for distances; it has the points
     std::size_t usedVertices = 0;            ///< points that faces use
     std::vector<std::uint32_t> partOfPoint;  ///< only for these
     std::vector<std::uint32_t> partVertices; ///< the vertices of part k are partVertices[partFirst[k]] ...

@@ -18,8 +18,8 @@ using Range = tbb::blocked_range<std::size_t>;
 
 bool liesOnCage(const CageFaces& cage, const Vec3d& p)
 {
-    return !cage.tree.forEachOverlap(
-        Box::of(p), [&](const TriangleBvh::Item& item) { return !contains(cage.tree.corners(item), p); });
+    return !cage.tree.inBox(Box::of(p),
+                            [&](const BoxTree::Item& item) { return !contains(cage.corners(item.triangle), p); });
 }
 
 // p does not lie on the cage. `crossed` is room to work in.
@@ -32,8 +32,8 @@ bool liesInside(CageFaces& cage, const Vec3d& p, std::vector<std::uint32_t>& cro
     int winding = 0;
     crossed.clear();
     const Box ray{p, {std::numeric_limits<double>::infinity(), p[1], p[2]}};
-    cage.tree.forEachOverlap(ray, [&](const TriangleBvh::Item& item) {
-        const int crossing = rayCrossing(cage.tree.corners(item), p);
+    cage.tree.inBox(ray, [&](const BoxTree::Item& item) {
+        const int crossing = rayCrossing(cage.corners(item.triangle), p);
         if (crossing == 0) return true;
         if (cage.faces.ofFirstDiagonal(item.triangle)) winding += crossing;
         if (cage.faces.ofQuad(item.triangle)) crossed.push_back(cage.faces.face(item.triangle));
@@ -65,7 +65,7 @@ std::size_t countContacts(CageFaces& cage, const CheckedModel::View& view, Flags
             for (std::size_t t = cage.faces.first(face); t < cage.faces.first(face + 1); ++t) {
                 const Corners corners = cage.corners(t);
                 const Box box = Box::of(corners);
-                model.tree.traverse(model.tree.near(corners, view.maxDistance()), [&](const TriangleBvh::Item& item) {
+                model.candidates.near(corners, view.maxDistance(), [&](const BoxTree::Item& item) {
                     std::atomic<bool>& part = touched[model.partOfPoint[item.corners[0]]];
                     if (contact && isSet(part)) return true; // nothing left to learn from this pair
                     const Corners other = view.corners(item);

@@ -91,10 +91,10 @@ void forCollisions(const CageFaces& cage, std::size_t face, const Wanted& wanted
         if (cage.degenerate[t]) continue;
         const Corners corners = cage.corners(t);
         const Box box = Box::of(corners);
-        more = cage.tree.traverse(cage.tree.near(corners), [&](const TriangleBvh::Item& item) {
+        more = cage.tree.near(corners, 0, [&](const BoxTree::Item& item) {
             const Index other = cage.faces.face(item.triangle);
             if (other == face || cage.degenerate[item.triangle] || !wanted(other)) return true;
-            if (!box.meets(Box::of(cage.tree.corners(item))) || !collide(cage, t, item.triangle)) return true;
+            if (!box.meets(Box::of(cage.corners(item.triangle))) || !collide(cage, t, item.triangle)) return true;
             return visit(other);
         });
     }
