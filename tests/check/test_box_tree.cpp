@@ -167,6 +167,7 @@ BOOST_AUTO_TEST_CASE(passes_over_what_is_beside_the_plane)
     for (std::size_t t = 0; t < soup.triangles.size(); ++t) meeting += trianglesMeet(slanted, soup.corners(t)) ? 1 : 0;
     BOOST_TEST(meeting > 20U);
     BOOST_TEST(inBox(tree, Box::of(slanted)).size() > 2500U);
+    BOOST_TEST(inBox(tree, {Vec3d(0.0), Vec3d(40, 40, 0)}).size() == soup.triangles.size());
     BOOST_TEST(nearTo(tree, slanted, 0).size() < 20 * meeting);
     const Corners above{Vec3d(0, 0, 0.1), Vec3d(40, 0, 0.1), Vec3d(0, 40, 0.1)};
     BOOST_TEST(nearTo(tree, above, 0).empty());

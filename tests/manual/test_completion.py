@@ -26,8 +26,9 @@ def bash(line, folder):
 
 def fish(line, folder):
     """What fish offers, without what it tells of each."""
-    done = subprocess.run(["fish", "--no-config", "-c", f"vdbcage completion fish | source; complete -C {line!r}"], cwd=folder,
-                          capture_output=True, text=True, env={**os.environ, "HOME": str(folder)})
+    script = f"vdbcage completion fish | source; complete -C {line!r}"
+    done = subprocess.run(["fish", "--no-config", "-c", script], cwd=folder, capture_output=True, text=True,
+                          env={**os.environ, "HOME": str(folder)})
     assert done.returncode == 0 and not done.stderr, done.stderr
     offers = {offer.split("\t")[0] for offer in done.stdout.splitlines()}
     last = line.split(" ")[-1]
@@ -38,8 +39,9 @@ def fish(line, folder):
 def zsh(line, folder):
     """What zsh offers, asked as a user does: at a terminal, by the key that lists."""
     main, side = pty.openpty()
+    terminal = {"HOME": str(folder), "TERM": "dumb", "COLUMNS": "200"}
     shell = subprocess.Popen(["zsh", "-f", "-i"], stdin=side, stdout=side, stderr=side, cwd=folder, close_fds=True,
-                             start_new_session=True, env={**os.environ, "HOME": str(folder), "TERM": "dumb", "COLUMNS": "200"})
+                             start_new_session=True, env={**os.environ, **terminal})
     os.close(side)
     seen = ""
 
@@ -53,9 +55,17 @@ def zsh(line, folder):
 
     try:
         # One offer a line, to standard output, between marks that the typed words do not have.
-        setup = """PS1= ; stty -echo; unsetopt zle_bracketed_paste; autoload -Uz compinit && compinit -u -D; source <(vdbcage completion zsh)
-            show() { compadd() { builtin compadd -O offers "$@"; print -rl -- $offers | sed 's/^/offer:/'; builtin compadd "$@" };
-                     _main_complete; print END''OFFERS }
+        setup = """PS1= ; stty -echo; unsetopt zle_bracketed_paste; autoload -Uz compinit && compinit -u -D
+            source <(vdbcage completion zsh)
+            show() {
+                compadd() {
+                    builtin compadd -O offers "$@"
+                    print -rl -- $offers | sed 's/^/offer:/'
+                    builtin compadd "$@"
+                }
+                _main_complete
+                print END''OFFERS
+            }
             zle -C show list-choices show; bindkey '^T' show; print SET''UP"""
         os.write(main, (setup + "\n").encode())
         until("SETUP")

@@ -102,7 +102,8 @@ LIBRARY_ONLY = {
         "OpenGL: a device turned out to be software", "OpenGL: the program has no uniform",
     ],
     "only the window and tests read pictures, or make them of other bytes": [
-        "picture: it has … x … pixels and … bytes", "picture: it has … pixels and alpha", "it has … x … pixels",
+        "picture: it has … x … pixels and … bytes", "picture: it has … pixels and alpha",
+        "it has … x … pixels",
     ],
 }
 

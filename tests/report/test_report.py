@@ -50,7 +50,8 @@ class Reports(unittest.TestCase):
 
     def run_command(self, *words, status=0):
         """The report, which must keep to the schema."""
-        done = subprocess.run(["vdbcage", *words, "--report", "r.json"], cwd=self.folder, capture_output=True, text=True)
+        done = subprocess.run(["vdbcage", *words, "--report", "r.json"], cwd=self.folder, capture_output=True,
+                              text=True)
         self.assertEqual(done.returncode, status, done.stderr)
         report = json.loads((self.folder / "r.json").read_text())
         jsonschema.Draft202012Validator(SCHEMA).validate(report)
@@ -63,8 +64,8 @@ class Reports(unittest.TestCase):
         return hashlib.sha256((self.folder / name).read_bytes()).hexdigest()
 
     def test_a_cage_of_quads(self):
-        report = self.run_command("make", "bishop.obj", "-o", "cage.obj", "--mesh", "loops", "--faces", "60", "--threads", "1",
-                                  "--effort", "fast", "--scale-field", "sphere:0,1,0,1,2", "--bounding", "on")
+        report = self.run_command("make", "bishop.obj", "-o", "cage.obj", "--mesh", "loops", "--faces", "60",
+                                  "--threads", "1", "--effort", "fast", "--scale-field", "sphere:0,1,0,1,2", "--bounding", "on")
         self.assertEqual(report["models"][0]["sha256"], self.sha256("bishop.obj"))
         self.assertEqual(report["cage_sha256"], self.sha256("cage.obj"))
         self.assertEqual(report["threads"], 1)
@@ -76,7 +77,7 @@ class Reports(unittest.TestCase):
         self.assertEqual(sum(report["quads"]["valences"].values()), report["check"]["points"])
         self.assertTrue(report["check"]["bounding"])
         self.assertGreater(report["check"]["volume_ratio"], 1)
-        self.assertIn("decimate", [stage["name"] for stage in report["stages"]])
+        self.assertIn("certify", [stage["name"] for stage in report["stages"]])
 
     def test_an_open_model(self):
         report = self.run_command("make", "open.obj", "-o", "cage.obj", "--faces", "20", "--effort", "fast")
@@ -85,7 +86,8 @@ class Reports(unittest.TestCase):
         self.assertIsNotNone(report["result"]["ray_agreement"])
 
     def test_symmetry_of_both_kinds(self):
-        report = self.run_command("make", "box.obj", "-o", "cage.obj", "--faces", "20", "--symmetry", "x", "--effort", "fast")
+        asked = ["-o", "cage.obj", "--faces", "20", "--effort", "fast", "--symmetry"]
+        report = self.run_command("make", "box.obj", *asked, "x")
         self.assertEqual(report["result"]["symmetry"]["axis"], "x")
         # Twice as wide at the back, and turned.
         lines = [line.split() for line in BOX.splitlines()]
@@ -93,7 +95,7 @@ class Reports(unittest.TestCase):
         turned = [(0.8 * x - 0.6 * y, 0.6 * x + 0.8 * y, z * (1 if y == 0 else 0.5)) for x, y, z in points]
         text = "".join(f"v {x} {y} {z}\n" for x, y, z in turned) + BOX[BOX.index("f "):]
         (self.folder / "turned.obj").write_text(text)
-        report = self.run_command("make", "turned.obj", "-o", "cage.obj", "--faces", "20", "--symmetry", "auto", "--effort", "fast")
+        report = self.run_command("make", "turned.obj", *asked, "auto")
         self.assertIsNone(report["result"]["symmetry"]["axis"])
         self.assertEqual(len(report["result"]["symmetry"]["normal"]), 3)
 
@@ -119,6 +121,15 @@ class Reports(unittest.TestCase):
     @unittest.skipIf(os.environ["VDBCAGE_HAS_GPL_PART"] != "1", "without repair")
     def test_a_repair(self):
         self.assertEqual(self.run_command("repair", "open.obj", "-o", "mended.obj")["repair"]["filled_holes"], 1)
+
+    @unittest.skipUnless(os.environ["VDBCAGE_WINDOW"], "without the window")
+    def test_what_the_window_saves(self):
+        (self.folder / "s.view").write_text("open box.obj\nset faces 20\nwait\nsave-report r.json\nwait\n")
+        subprocess.run([os.environ["VDBCAGE_WINDOW"], "--script", "s.view", "--without-window", "any"],
+                       cwd=self.folder, check=True)
+        report = json.loads((self.folder / "r.json").read_text())
+        jsonschema.Draft202012Validator(SCHEMA).validate(report)
+        self.assertEqual((report["arguments"], report["cage"], report["options"]["faces"]), (None, None, 20))
 
     def test_the_page_has_every_field(self):
         page = (SOURCE / "docs" / "REPORT.md").read_text()
