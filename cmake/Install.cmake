@@ -71,7 +71,7 @@ if(TARGET vdbcage_cli AND NOT CMAKE_CROSSCOMPILING) # the programs print their m
     install(DIRECTORY ${manuals}/ DESTINATION ${CMAKE_INSTALL_DATADIR} COMPONENT programs)
     install(FILES README.md DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/vdbcage COMPONENT programs)
     install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/vdbcage COMPONENT programs
-        FILES_MATCHING PATTERN "*.md" PATTERN "*.png" PATTERN "*.view" PATTERN "*.param")
+        FILES_MATCHING PATTERN "*.md" PATTERN "*.png" PATTERN "*.view" PATTERN "*.param" PATTERN "*.json")
 endif()
 if(TARGET vdbcage_blender)
     get_target_property(addon vdbcage_blender ADDON)

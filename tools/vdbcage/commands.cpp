@@ -8,11 +8,15 @@ const std::vector<Command>& commands()
         {"make",
          "make a cage for a model",
          runMake,
-         "A model may be open, self-intersecting, badly oriented or in many parts; several get one cage around them "
-         "all. Gaps are bridged by a closing of voxels. Its surface is shrunk, decimated and tightened. Unless "
+         "Makes one cage around all models. They may be open, self-intersecting, badly oriented or in many parts. Gaps "
+         "are bridged by a closing of voxels. Its surface is shrunk, decimated and tightened. Unless "
          "--bounding is off, the cage is written only if it is proved to be valid and to bound every model. It is the "
-         "same for any number of threads. Lengths are fractions of the models' longest side.",
-         {{"At most 400 triangles, as small as they can be around the model:", "vdbcage make bishop.obj -o cage.obj"},
+         "same for any number of threads. Lengths are fractions of the models' longest side, but for places, which are "
+         "in "
+         "their coordinates: REGION is sphere:X,Y,Z,RADIUS,TIMES or box:X,Y,Z,X,Y,Z,TIMES, and a joints file has a "
+         "line "
+         "X Y Z for a point, X Y Z X Y Z for a bone.",
+         {{"A cage of at most 400 triangles, as tight as it can be:", "vdbcage make bishop.obj -o cage.obj"},
           {"Quads in loops around limbs, the same on both sides, with a picture:",
            "vdbcage make creature.obj -o loops.obj --mesh loops --symmetry auto --picture loops.png"},
           {"Sooner, with a report for programs:",

@@ -26,17 +26,18 @@ void addOptions(ManualPage& page, const CommandFacts& facts, bool rareOnes)
     }
 }
 
-void addExitStatus(ManualPage& page)
+/// Of `command`, or of all if it is null.
+void addExitStatus(ManualPage& page, const Command* command)
 {
     page.section("EXIT STATUS");
     page.item("0", "", "All went well.");
     page.item("1", "",
               "The input, an option or a file is bad. A line on standard error says which, and what is allowed.");
-    page.item("2", "",
-              "Of check: the cage does not bound the model. Of report: this is so, or a job failed, for one "
-              "of the jobs.");
+    if (!command || command->name == "check") page.item("2", "", "check: the cage is not valid, or does not bound.");
+    if (!command || command->name == "report") page.item("2", "", "report: a job failed, or its cage does not bound.");
     page.item("75", "", "Memory, room on the disk, threads or OpenGL are missing: another try may do.");
-    page.item("130, 143", "", "It was ended, by SIGINT (Ctrl+C) or by SIGTERM. Nothing half-written is left.");
+    page.item("130, 143", "",
+              "It was ended, by SIGINT (Ctrl+C), SIGHUP or SIGPIPE, or by SIGTERM. Nothing half-written is left.");
 }
 
 /// vdbcage(1)
@@ -52,12 +53,13 @@ std::string mainPage()
     page.section("COMMANDS");
     for (const Command& command : commands())
         page.item("vdbcage-" + command.name + "(1)", "", sentence(command.summary));
-    addExitStatus(page);
+    addExitStatus(page, nullptr);
     page.section("EXAMPLES");
     page.paragraph("A cage, and the model as the moved cage moves it:");
     page.code("vdbcage make bishop.obj -o cage.obj\nvdbcage deform cage.obj posed.obj bishop.obj -o moved.obj");
     page.section("SEE ALSO");
-    page.paragraph("vdbcage-view(1), the window. README.md and docs/GUIDE.md in /usr/share/doc/vdbcage.");
+    page.paragraph("vdbcage-view(1), the window. README.md and docs/GUIDE.md in PREFIX/share/doc/vdbcage; Debian's "
+                   "packages have /usr as PREFIX.");
     return page.text();
 }
 
@@ -82,7 +84,7 @@ std::string pageOf(const Command& command)
         page.section("NOTES");
         page.paragraph(facts.notes);
     }
-    addExitStatus(page);
+    addExitStatus(page, &command);
     page.section("EXAMPLES");
     for (const Example& example : command.examples) {
         page.paragraph(example.purpose);

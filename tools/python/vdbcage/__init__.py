@@ -233,7 +233,7 @@ class Cage(Mesh):
     def report(self):
         """How the cage came about, a dict.
 
-        options: every option, as text; seconds: wall clock; stages: the seconds of each stage; and what
+        options: every option as asked for; seconds: wall clock; stages: the seconds of each stage; and what
         `vdbcage make --report` has under "result": resolution, close_radius, start, float_safe and more.
         """
         return self._report
