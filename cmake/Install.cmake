@@ -55,6 +55,11 @@ foreach(program vdbcage_cli vdbcage_view)
         install(TARGETS ${program} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT programs)
     endif()
 endforeach()
+if(TARGET vdbcage_cli)
+    install(FILES README.md DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/vdbcage COMPONENT programs)
+    install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/vdbcage COMPONENT programs
+        FILES_MATCHING PATTERN "*.md" PATTERN "*.png" PATTERN "*.view" PATTERN "*.param" PATTERN "*.json")
+endif()
 if(TARGET vdbcage_cli AND NOT CMAKE_CROSSCOMPILING) # the programs print their manual pages
     set(manuals ${PROJECT_BINARY_DIR}/manuals)
     set(window "")
@@ -69,9 +74,6 @@ if(TARGET vdbcage_cli AND NOT CMAKE_CROSSCOMPILING) # the programs print their m
         COMMENT "Printing manual pages and completions" VERBATIM)
     add_custom_target(vdbcage_manuals ALL DEPENDS ${manuals}.stamp)
     install(DIRECTORY ${manuals}/ DESTINATION ${CMAKE_INSTALL_DATADIR} COMPONENT programs)
-    install(FILES README.md DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/vdbcage COMPONENT programs)
-    install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/vdbcage COMPONENT programs
-        FILES_MATCHING PATTERN "*.md" PATTERN "*.png" PATTERN "*.view" PATTERN "*.param" PATTERN "*.json")
 endif()
 if(TARGET vdbcage_blender)
     get_target_property(addon vdbcage_blender ADDON)

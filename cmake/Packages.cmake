@@ -44,10 +44,16 @@ endforeach()
 # Lines of descriptions have at most 79 letters.
 if(VDBCAGE_WITH_CGAL_GPL)
     set(licence "Apache-2.0 and GPL-3+")
+    set(gplParagraph "
+License: GPL-3+
+ On Debian systems the GNU General Public License, version 3, is in
+ /usr/share/common-licenses/GPL-3.
+")
     set(gpl "This build has `repair` and the voxelizer `cgal`, which are made from GPL
 packages of CGAL: as a whole it is under the GPL, version 3 or later.")
 else()
     set(licence "Apache-2.0")
+    set(gplParagraph "")
     set(gpl "This build leaves out `repair` and the voxelizer `cgal`, which would need
 GPL packages of CGAL.")
 endif()

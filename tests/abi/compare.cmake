@@ -19,7 +19,9 @@ foreach(header IN LISTS headers)
 endforeach()
 file(WRITE ${work}/suppressions "[suppress_function]\nsymbol_name_not_regexp = ^_ZNK?7vdbcage\ndrop = yes
 [suppress_variable]\nsymbol_name_not_regexp = ^_ZNK?7vdbcage\ndrop = yes\n")
-file(GLOB library ${work}/libvdbcage.so.*)
+# The newest: an older SOVERSION's may lie beside it.
+file(READ_SYMLINK ${work}/libvdbcage.so library)
+set(library ${work}/${library})
 run(abidw --headers-dir ${work}/headers --drop-private-types --suppressions ${work}/suppressions
     --out-file ${work}/now.xml ${library})
 string(REGEX REPLACE ".*\\.so\\." "" soversion ${library})

@@ -113,7 +113,7 @@ BOOST_AUTO_TEST_SUITE(box_tree)
 BOOST_AUTO_TEST_CASE(finds_all_that_meet)
 {
     constexpr double infinity = std::numeric_limits<double>::infinity();
-    for (const double unit : {1.0, 1e-160, 1e150, 3e-310}) {
+    for (const double unit : {1.0, 1e-70, 1e70, 1e-160, 1e150, 3e-310}) {
         for (const std::size_t count : {1U, 3U, 4U, 5U, 17U, 300U}) {
             Random random(static_cast<unsigned>(count));
             const Soup soup = randomSoup(random, count, unit);
@@ -132,7 +132,7 @@ BOOST_AUTO_TEST_CASE(finds_all_that_meet)
                     if (trianglesMeet(triangle, other)) BOOST_TEST(close.count(t) == 1U);
                 }
             }
-            // Each meets itself, and its own plane only.
+            // Each meets itself.
             for (std::uint32_t t = 0; t < count; ++t) BOOST_TEST(nearTo(tree, soup.corners(t), 0).count(t) == 1U);
         }
     }
@@ -156,6 +156,38 @@ BOOST_AUTO_TEST_CASE(finds_all_within_a_distance)
             if (trianglesMeet(triangle, moved)) BOOST_TEST(found.count(t) == 1U);
         }
     }
+}
+
+// The plane's slab is rounded: a point in the middle of an edge, whose coordinates are exact, lies on its border.
+BOOST_AUTO_TEST_CASE(finds_points_on_edges)
+{
+    std::mt19937 engine(11);
+    const auto corner = [&] {
+        std::uniform_int_distribution<int> place(-20, 20);
+        const int x = place(engine), y = place(engine), z = place(engine);
+        return Vec3d(x, y, z);
+    };
+    for (int i = 0; i < 1000; ++i) {
+        const Corners triangle{corner(), corner(), corner()};
+        for (std::size_t k = 0; k < 3; ++k) {
+            Soup soup;
+            const Vec3d middle = 0.5 * (triangle[k] + triangle[(k + 1) % 3]);
+            soup.add({middle, middle, middle});
+            const BoxTree tree(soup.points, soup.triangles, BoxTree::Copies::keep, nullptr);
+            BOOST_TEST(nearTo(tree, triangle, 0).size() == 1U);
+        }
+    }
+}
+
+// One triangle far away: all others are in one cell of the curve.
+BOOST_AUTO_TEST_CASE(looks_at_few_also_where_one_is_far_away)
+{
+    Soup soup = plane(40);
+    std::shuffle(soup.triangles.begin(), soup.triangles.end(), std::mt19937(1));
+    soup.add({Vec3d(1e9, 0, 0), Vec3d(1e9, 1, 0), Vec3d(1e9, 0, 1)});
+    const BoxTree tree(soup.points, soup.triangles, BoxTree::Copies::drop, nullptr);
+    BOOST_TEST(tree.size() == soup.triangles.size());
+    BOOST_TEST(inBox(tree, {Vec3d(20.2, 20.2, 0), Vec3d(20.8, 20.8, 0)}).size() < 40U);
 }
 
 BOOST_AUTO_TEST_CASE(passes_over_what_is_beside_the_plane)

@@ -9,7 +9,7 @@ if(kind STREQUAL "shared")
     run(${CMAKE_COMMAND} -S ${source} -B ${library} -G Ninja -DCMAKE_BUILD_TYPE=Release -DBUILD_SHARED_LIBS=ON
         -DCMAKE_CXX_COMPILER=${compiler} -DCMAKE_CXX_COMPILER_LAUNCHER=${launcher} -DVDBCAGE_BUILD_TESTS=OFF
         -DVDBCAGE_WITH_CGAL_GPL=OFF -DVDBCAGE_WARNINGS_AS_ERRORS=${strict}
-        -DVDBCAGE_BUILD_VIEW=${view} -DVDBCAGE_BUILD_PYTHON=${python}
+        -DVDBCAGE_BUILD_TOOLS=${tools} -DVDBCAGE_BUILD_VIEW=${view} -DVDBCAGE_BUILD_PYTHON=${python}
         # as they are without the test packages, which makes packages of the same build
         -DVDBCAGE_DEBIAN_PACKAGES=OFF -DCMAKE_INSTALL_PREFIX=/usr/local -DVDBCAGE_PYTHON_DIR=lib/python3/dist-packages)
     run(${CMAKE_COMMAND} --build ${library})
@@ -58,7 +58,7 @@ run(${compiler} ${work}/by_pkg_config.o -o ${work}/by_pkg_config ${flags})
 run(${work}/by_pkg_config ${source}/data/bishop.obj ${work}/cage.obj)
 unset(ENV{LD_LIBRARY_PATH})
 
-if(kind STREQUAL "shared") # programs and the module find the library from where they are
+if(kind STREQUAL "shared" AND tools) # programs and the module find the library from where they are
     run(${work}/prefix/bin/vdbcage check ${work}/cage.obj ${source}/data/bishop.obj)
     if(python)
         run(${CMAKE_COMMAND} -E env PYTHONPATH=${work}/prefix/lib/python3/dist-packages /usr/bin/python3 -c "import vdbcage")

@@ -42,6 +42,7 @@ NOT_CAUSED = {
         "FILE: cannot be written: REASON; FILE was made",
         "FILE: cannot be written: REASON; FILE was replaced, what it held is in FILE",
         "FILE: N positions were given; FILE has N points",
+        "FILE: was changed while it was read",
     },
     "would be a defect of vdbcage, and none is known": {
         "the cage could not be certified; this is a defect of vdbcage, please report the model",

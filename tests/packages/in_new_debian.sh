@@ -2,7 +2,8 @@
 set -eux
 export DEBIAN_FRONTEND=noninteractive LC_ALL=C.UTF-8
 cd /input
-ours='libvdbcage0.1 vdbcage python3-vdbcage'
+library=$(basename libvdbcage[0-9]*.deb | cut -d_ -f1)
+ours="$library vdbcage python3-vdbcage"
 # All but what dpkg, apt and ldconfig write themselves.
 files() { find / -xdev \( -path /proc -o -path /sys -o -path /dev -o -path /input -o -path /tmp -o -path /var/lib/dpkg \
     -o -path /var/lib/apt -o -path /var/cache -o -path /var/log \) -prune -o -print | sort; }
@@ -11,9 +12,9 @@ needs() { for deb; do dpkg-deb -f "$deb" Depends; done | tr -s ',\n' '\n\n' | gr
 satisfy() { apt-get satisfy -y -q --no-install-recommends "$(needs "$@")"; }
 
 # What the packages say they need is enough for them: dpkg installs nothing else.
-satisfy libvdbcage0.1_*.deb vdbcage_*.deb python3-vdbcage_*.deb
+satisfy "$library"_*.deb vdbcage_*.deb python3-vdbcage_*.deb
 files > /tmp/before_use
-dpkg -i libvdbcage0.1_*.deb vdbcage_*.deb python3-vdbcage_*.deb
+dpkg -i "$library"_*.deb vdbcage_*.deb python3-vdbcage_*.deb
 vdbcage make bishop.obj -o /tmp/cage.obj --faces 200
 vdbcage check /tmp/cage.obj bishop.obj
 vdbcage-view --help > /tmp/help
@@ -32,16 +33,16 @@ dpkg --purge $ours
 files > /tmp/after_use
 diff /tmp/before_use /tmp/after_use
 apt-get install -y -q --no-install-recommends g++ cmake make pkg-config
-satisfy libvdbcage0.1_*.deb libvdbcage-dev_*.deb
+satisfy "$library"_*.deb libvdbcage-dev_*.deb
 files > /tmp/before_development
-dpkg -i libvdbcage0.1_*.deb libvdbcage-dev_*.deb
+dpkg -i "$library"_*.deb libvdbcage-dev_*.deb
 cmake -S consumer -B /tmp/consumer -DCMAKE_BUILD_TYPE=Release
 cmake --build /tmp/consumer
 /tmp/consumer/consumer bishop.obj /tmp/cage.obj
 g++ consumer/main.cpp -o /tmp/by_pkg_config $(pkg-config --cflags --libs vdbcage)
 /tmp/by_pkg_config bishop.obj /tmp/cage.obj
 
-dpkg --purge libvdbcage-dev libvdbcage0.1
+dpkg --purge libvdbcage-dev $library
 files > /tmp/after_development
 diff /tmp/before_development /tmp/after_development
 [ -z "$(dpkg-query -W -f '${Package}\n' '*vdbcage*' 2>/dev/null)" ]

@@ -8,7 +8,7 @@ file(MAKE_DIRECTORY ${work}/input)
 # The sources of this machine that are Debian's, in whichever form it keeps them, and how it reaches them.
 file(STRINGS /etc/os-release codename REGEX "^VERSION_CODENAME=")
 string(REPLACE "VERSION_CODENAME=" "" codename "${codename}")
-execute_process(COMMAND apt-get indextargets --format "deb $(REPO_URI) $(RELEASE) $(COMPONENT)" "Created-By: Packages"
+execute_process(COMMAND apt-get indextargets --format "deb $(REPO_URI) $(RELEASE) $(COMPONENT)" "Created-By: Packages" "Origin: Debian"
     OUTPUT_VARIABLE sources COMMAND_ERROR_IS_FATAL ANY)
 string(REGEX MATCHALL "deb [^\n]* ${codename}(-[a-z]+)? [^\n]*\n" sources "${sources}")
 list(REMOVE_DUPLICATES sources)

@@ -2,7 +2,6 @@
 
 #include <string_view>
 
-#include <tools/report/commit.h>
 #include <vdbcage/core/detail/hash.h>
 #include <vdbcage/core/detail/read_file.h>
 #include <vdbcage/core/version.h>
@@ -18,7 +17,6 @@ std::string fingerprint(const std::vector<std::filesystem::path>& files, const C
         hash.add(bytes);
     };
     add(VDBCAGE_VERSION);
-    add(VDBCAGE_COMMIT);
     for (const auto& [name, value] : optionValues(options)) {
         add(name);
         add(value);

@@ -8,7 +8,7 @@
 
 namespace vdbcage::tool {
 
-/// 16 hexadecimal digits that tell the version of vdbcage and its commit, the contents of `files` and the values of `options` apart:
+/// 16 hexadecimal digits that tell the version of vdbcage, the contents of `files` and the values of `options` apart:
 /// FNV-1a of all bytes. \throw IoError a file cannot be read
 std::string fingerprint(const std::vector<std::filesystem::path>& files, const CageOptions& options);
 

@@ -35,7 +35,9 @@ std::optional<JobResult> resultOf(const fs::path& file, const std::string& text)
         const Json report = Json::parse(text);
         result.report = file;
         if (report.at("format") != 1 || report.at("kind") != "make") return std::nullopt;
-        result.cage = report.at("cage").get<std::string>();
+        // The window knows no file of the cage.
+        const Json& cage = report.at("cage");
+        result.cage = cage.is_null() ? file.string() : cage.get<std::string>();
         result.models = modelsOf(report);
         if (!report.at("error").is_null()) {
             result.error = report.at("error").get<std::string>();

@@ -40,8 +40,14 @@ std::vector<ModelFile> readModels(const std::vector<std::filesystem::path>& path
                 throw InputError(path.string() + ": this model is named twice");
             }
         }
-        const Json sha256 = hashes == Hashes::sha256 ? Json(sha256OfFile(path)) : Json();
-        MeshFile file = readMeshFile(path);
+        MeshFile file;
+        const auto read = [&] { file = readMeshFile(path); };
+        Json sha256;
+        if (hashes == Hashes::sha256) {
+            sha256 = sha256WhileRead(path, read);
+        } else {
+            read();
+        }
         Json facts = toJson(file.mesh, file.summary, path);
         facts["sha256"] = sha256;
         models.push_back({path, std::move(file.mesh), file.summary, std::move(facts)});

@@ -9,6 +9,7 @@
 #include <tbb/global_control.h>
 #include <tools/report/commit.h>
 #include <vdbcage/core/detail/read_file.h>
+#include <vdbcage/core/error.h>
 #include <vdbcage/core/version.h>
 
 namespace vdbcage::tool {
@@ -50,9 +51,14 @@ std::string sha256Of(const std::string& bytes)
     return text;
 }
 
-std::string sha256OfFile(const std::filesystem::path& path)
+std::string sha256WhileRead(const std::filesystem::path& path, const std::function<void()>& read)
 {
-    return sha256Of(detail::readFile(path));
+    std::error_code ignored; // reading says what is wrong
+    const auto before = std::filesystem::last_write_time(path, ignored);
+    std::string hash = sha256Of(detail::readFile(path));
+    read();
+    if (std::filesystem::last_write_time(path, ignored) == before) return hash;
+    throw IoError(path.string() + ": was changed while it was read");
 }
 
 } // namespace vdbcage::tool

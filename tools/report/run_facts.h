@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -14,7 +15,7 @@ Json runFacts(const std::string& kind, const std::vector<std::string>& arguments
 
 /// SHA-256 in 64 hexadecimal digits, as the program sha256sum prints it.
 std::string sha256Of(const std::string& bytes);
-/// The same of a file's contents. \throw IoError it cannot be read
-std::string sha256OfFile(const std::filesystem::path& path);
+/// The same of a file's contents, which `read` reads meanwhile. \throw IoError it cannot be read, or was changed
+std::string sha256WhileRead(const std::filesystem::path& path, const std::function<void()>& read);
 
 } // namespace vdbcage::tool

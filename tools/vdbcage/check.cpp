@@ -33,8 +33,8 @@ int runCheck(Call call)
     if (!reportPath.empty()) outputs.writes(reportPath);
 
     std::optional<Progress> progress(talk.progressForm());
-    const std::string sha256 = reportPath.empty() ? "" : sha256OfFile(cagePath);
-    const Mesh cage = readMesh(cagePath);
+    Mesh cage;
+    const std::string sha256 = sha256WhileRead(cagePath, [&] { cage = readMesh(cagePath); });
     std::vector<ModelFile> models = readModels(modelPaths, reportPath.empty() ? Hashes::none : Hashes::sha256);
     const CageCheck check = checkCage(cage, takeMesh(models), {}, &*progress);
     checkEach(models, cage, &*progress);

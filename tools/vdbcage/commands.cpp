@@ -1,5 +1,7 @@
 #include "commands.h"
 
+#include <vdbcage/core/error.h>
+
 namespace vdbcage::tool {
 
 const std::vector<Command>& commands()
@@ -71,6 +73,16 @@ const std::vector<Command>& commands()
           {"For fish:", "vdbcage completion fish > ~/.config/fish/completions/vdbcage.fish"}}},
     };
     return all;
+}
+
+const Command& commandNamed(const std::string& name)
+{
+    std::vector<std::string> known;
+    for (const Command& command : commands()) {
+        if (command.name == name) return command;
+        known.push_back(command.name);
+    }
+    throw InputError("there is no command '" + name + "'" + didYouMean(name, known) + " (see vdbcage --help)");
 }
 
 CommandFacts describe(const Command& command)

@@ -52,6 +52,9 @@ struct Command {
 /// All of them, in the order of the help.
 const std::vector<Command>& commands();
 
+/// \throw InputError there is none of this name; with a hint
+const Command& commandNamed(const std::string& name);
+
 /// What can be said to `command`.
 CommandFacts describe(const Command& command);
 

@@ -53,7 +53,7 @@ int runJobs(Call call)
     app.add_option("--command", program, "how farms call vdbcage [vdbcage]")->type_name("WORD");
     std::vector<CLI::Option*> ofMake = addCageOptions(app, options);
     ofMake.push_back(app.add_option("--progress", progress, "of each job: auto, or lines for farms [auto]"));
-    ofMake.back()->type_name("FORM");
+    ofMake.back()->type_name("auto|lines");
     app.set_help_all_flag("--help-all", "print this and the rarer options");
     if (!parse(app, std::move(call))) return exitGood;
     detail::requireMeshExtension("cage." + format);

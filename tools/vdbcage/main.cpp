@@ -53,12 +53,7 @@ int run(const std::vector<std::string>& arguments)
         std::cout << "vdbcage " VDBCAGE_VERSION "\n";
         return exitGood;
     }
-    std::vector<std::string> known;
-    for (const Command& command : commands()) {
-        if (name == command.name) return command.run({std::move(words)});
-        known.push_back(command.name);
-    }
-    throw InputError("there is no command '" + name + "'" + didYouMean(name, known) + " (see vdbcage --help)");
+    return commandNamed(name).run({std::move(words)});
 }
 
 /// Opens what the caller has closed of standard input, output and error: otherwise the next file that is opened would

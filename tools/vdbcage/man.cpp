@@ -2,7 +2,6 @@
 #include <iostream>
 
 #include <tools/report/manual_page.h>
-#include <vdbcage/core/error.h>
 
 #include "commands.h"
 
@@ -37,7 +36,7 @@ void addExitStatus(ManualPage& page, const Command* command)
     if (!command || command->name == "report") page.item("2", "", "report: a job failed, or its cage does not bound.");
     page.item("75", "", "Memory, room on the disk, threads or OpenGL are missing: another try may do.");
     page.item("130, 143", "",
-              "It was ended, by SIGINT (Ctrl+C), SIGHUP or SIGPIPE, or by SIGTERM. Nothing half-written is left.");
+              "It was ended, by SIGINT (Ctrl+C) or SIGHUP, or by SIGTERM. Nothing half-written is left.");
 }
 
 /// vdbcage(1)
@@ -105,19 +104,8 @@ int runMan(Call call)
                  "man");
     app.add_option("command", name)->type_name("COMMAND");
     if (!parse(app, std::move(call))) return exitGood;
-    if (name.empty()) {
-        std::cout << mainPage();
-        return exitGood;
-    }
-    std::vector<std::string> known;
-    for (const Command& command : commands()) {
-        if (command.name == name) {
-            std::cout << pageOf(command);
-            return exitGood;
-        }
-        known.push_back(command.name);
-    }
-    throw InputError("there is no command '" + name + "'" + didYouMean(name, known) + " (see vdbcage --help)");
+    std::cout << (name.empty() ? mainPage() : pageOf(commandNamed(name)));
+    return exitGood;
 }
 
 } // namespace vdbcage::tool

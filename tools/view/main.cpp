@@ -105,7 +105,8 @@ void printManual()
         for (const auto& [left, help] : section.rows) page.item(left, "", help);
     }
     page.section("SEE ALSO");
-    page.paragraph("vdbcage(1), and docs/WINDOW.md in /usr/share/doc/vdbcage.");
+    page.paragraph(
+        "vdbcage(1), and docs/WINDOW.md in PREFIX/share/doc/vdbcage; Debian's packages have /usr as PREFIX.");
     std::cout << page.text();
 }
 

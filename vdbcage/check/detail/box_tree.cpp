@@ -5,6 +5,7 @@
 #include <limits>
 
 #include <tbb/blocked_range.h>
+#include <vdbcage/core/detail/asker.h>
 #include <vdbcage/core/detail/parallel.h>
 
 namespace vdbcage::detail {
@@ -50,14 +51,10 @@ Corners sorted(Corners corners)
     return corners;
 }
 
-Box joined(const Box& a, const Box& b)
+Box joined(Box a, const Box& b)
 {
-    Box box = a;
-    for (int i = 0; i < 3; ++i) {
-        box.lo[i] = std::min(a.lo[i], b.lo[i]);
-        box.hi[i] = std::max(a.hi[i], b.hi[i]);
-    }
-    return box;
+    a.expand(b);
+    return a;
 }
 
 struct Coded {
@@ -70,25 +67,61 @@ struct Coded {
     }
 };
 
-/// Of each triangle with copies the first is left. Copies have one code, and so follow each other.
-void dropCopies(const std::vector<Vec3d>& points, const std::vector<Vec3I>& triangles, std::vector<Coded>& order)
+/// Where runs of equal codes end that begin at `run`.
+std::vector<Coded>::iterator endOfRun(std::vector<Coded>::iterator run, std::vector<Coded>::iterator end)
 {
-    auto end = order.begin();
-    for (auto run = order.begin(); run != order.end();) {
-        const auto next =
-            std::find_if(run, order.end(), [code = run->code](const Coded& coded) { return coded.code != code; });
-        if (next - run > 1) {
-            const auto place = [&](const Coded& coded) { return sorted(cornersOf(points, triangles[coded.triangle])); };
-            std::stable_sort(run, next, [&](const Coded& a, const Coded& b) { return place(a) < place(b); });
-            const auto last =
-                std::unique(run, next, [&](const Coded& a, const Coded& b) { return place(a) == place(b); });
-            end = std::move(run, last, end);
-        } else {
-            *end++ = *run;
-        }
+    return std::find_if(run, end, [code = run->code](const Coded& coded) { return coded.code != code; });
+}
+
+/// Puts those from `begin` to `end` in the order of the curve through the box of their centres. Those of one cell
+/// follow a curve through that cell. What has one centre is in a run of one code.
+/// Cost: O(n log n); the cells of a curve are 2^21 times smaller than its box.
+void sortAlongCurve(const std::vector<Vec3d>& centres, std::vector<Coded>::iterator begin,
+                    std::vector<Coded>::iterator end, std::size_t leafSize, Interrupter* interrupter)
+{
+    throwIfInterrupted(interrupter);
+    const auto count = static_cast<std::size_t>(end - begin);
+    const auto at = [&](std::size_t i) -> Coded& { return begin[static_cast<std::ptrdiff_t>(i)]; };
+    const Box all = parallelReduce(
+        Range(0, count, 4096), Box::of(centres[at(0).triangle]),
+        [&](const Range& range, Box box) {
+            for (std::size_t i = range.begin(); i < range.end(); ++i) box.expand(Box::of(centres[at(i).triangle]));
+            return box;
+        },
+        joined);
+    if (all.lo == all.hi) return;
+    parallelFor(Range(0, count, 4096), [&](const Range& range) {
+        for (std::size_t i = range.begin(); i < range.end(); ++i) at(i).code = mortonCode(centres[at(i).triangle], all);
+    });
+    parallelSort(begin, end);
+    for (auto run = begin; run != end;) {
+        const auto next = endOfRun(run, end);
+        if (static_cast<std::size_t>(next - run) > leafSize) sortAlongCurve(centres, run, next, leafSize, interrupter);
         run = next;
     }
-    order.erase(end, order.end());
+}
+
+/// Of each triangle with copies the first is left. Copies have one centre, and so are in one run of equal codes.
+void dropCopies(const std::vector<Vec3d>& points, const std::vector<Vec3I>& triangles, std::vector<Coded>& order,
+                Interrupter* interrupter)
+{
+    Asker ask(interrupter);
+    const auto place = [&](const Coded& coded) {
+        ask();
+        return sorted(cornersOf(points, triangles[coded.triangle]));
+    };
+    auto kept = order.begin();
+    for (auto run = order.begin(); run != order.end();) {
+        const auto next = endOfRun(run, order.end());
+        auto last = next;
+        if (next - run > 1) {
+            std::stable_sort(run, next, [&](const Coded& a, const Coded& b) { return place(a) < place(b); });
+            last = std::unique(run, next, [&](const Coded& a, const Coded& b) { return place(a) == place(b); });
+        }
+        kept = kept == run ? last : std::move(run, last, kept);
+        run = next;
+    }
+    order.erase(kept, order.end());
 }
 
 } // namespace
@@ -104,30 +137,18 @@ BoxTree::BoxTree(const std::vector<Vec3d>& points, const std::vector<Vec3I>& tri
 void BoxTree::sort(const std::vector<Vec3d>& points, const std::vector<Vec3I>& triangles, Copies copies,
                    Interrupter* interrupter)
 {
-    const Box none{Vec3d(std::numeric_limits<double>::infinity()), Vec3d(-std::numeric_limits<double>::infinity())};
-    const Box all = parallelReduce(
-        Range(0, triangles.size(), 4096), none,
-        [&](const Range& range, Box box) {
-            throwIfInterrupted(interrupter);
-            for (std::size_t t = range.begin(); t < range.end(); ++t) {
-                box = joined(box, Box::of(cornersOf(points, triangles[t])));
-            }
-            return box;
-        },
-        joined);
-    for (int i = 0; i < 3; ++i) farthest_ = std::max({farthest_, std::abs(all.lo[i]), std::abs(all.hi[i])});
-
+    std::vector<Vec3d> centres(triangles.size());
     std::vector<Coded> order(triangles.size());
     parallelFor(Range(0, triangles.size(), 4096), [&](const Range& range) {
         throwIfInterrupted(interrupter);
         for (std::size_t t = range.begin(); t < range.end(); ++t) {
             const Box box = Box::of(cornersOf(points, triangles[t]));
-            order[t] = {mortonCode(0.5 * box.lo + 0.5 * box.hi, all), static_cast<std::uint32_t>(t)};
+            centres[t] = 0.5 * box.lo + 0.5 * box.hi;
+            order[t] = {0, static_cast<std::uint32_t>(t)};
         }
     });
-    parallelSort(order.begin(), order.end());
-    throwIfInterrupted(interrupter);
-    if (copies == Copies::drop) dropCopies(points, triangles, order);
+    sortAlongCurve(centres, order.begin(), order.end(), leafSize, interrupter);
+    if (copies == Copies::drop) dropCopies(points, triangles, order, interrupter);
     items_.reserve(order.size());
     for (const Coded& coded : order) items_.push_back({triangles[coded.triangle], coded.triangle});
 }
@@ -154,15 +175,19 @@ void BoxTree::buildBoxes(const std::vector<Vec3d>& points, Interrupter* interrup
         }
         levels_.push_back(std::move(level));
     }
+    const Box& all = levels_.back().front();
+    for (int i = 0; i < 3; ++i) farthest_ = std::max({farthest_, std::abs(all.lo[i]), std::abs(all.hi[i])});
 }
 
 BoxTree::Slab BoxTree::slabOf(const Corners& triangle, double maxDistance) const
 {
-    // Right for any normal, the triangle's own is the best. Without one nothing is beside the slab.
+    // Right for any normal, the triangle's own is the best. Without one nothing is beside the slab. Nor is it where
+    // lengths lose digits or the heights below overflow.
     const double infinity = std::numeric_limits<double>::infinity();
+    const Slab everything{Vec3d(0.0), -infinity, infinity};
     Vec3d normal = (triangle[1] - triangle[0]).cross(triangle[2] - triangle[0]);
     const double length = normal.length();
-    if (!(length > 0) || !std::isfinite(length)) return {Vec3d(0.0), -infinity, infinity};
+    if (!(length > 1e-150) || !(length < 1e150)) return everything;
     normal /= length;
     Slab slab{normal, infinity, -infinity};
     double farthest = farthest_;
@@ -174,6 +199,7 @@ BoxTree::Slab BoxTree::slabOf(const Corners& triangle, double maxDistance) const
     }
     // The rounding of such a dot product is at most 3 eps (|n0| + |n1| + |n2|) farthest, and there are two of them. The
     // normal's length is 1 within 4 eps. The least normal number is more than what subnormal ones lose.
+    if (!(farthest < 1e300)) return everything;
     const double rounding = 16 * std::numeric_limits<double>::epsilon() * farthest + std::numeric_limits<double>::min();
     slab.low -= 1.001 * maxDistance + rounding;
     slab.high += 1.001 * maxDistance + rounding;

@@ -47,7 +47,7 @@ struct CheckedModel {
         }
     };
 
-    // Of all four triangles of a quad; copies are dropped.
+    // Of all four triangles of a quad. Copies are dropped, from `tree` only those that make it slow.
     BoxTree candidates;                      ///< for the verdict
     TriangleBvh tree;                        ///< for distances; it has the points
     std::size_t usedVertices = 0;            ///< points that faces use
