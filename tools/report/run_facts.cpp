@@ -53,10 +53,10 @@ std::string sha256Of(const std::string& bytes)
 
 std::string sha256WhileRead(const std::filesystem::path& path, const std::function<void()>& read)
 {
-    std::error_code ignored; // reading says what is wrong
+    std::error_code ignored;
     const auto before = std::filesystem::last_write_time(path, ignored);
+    read(); // first: it says better what is wrong
     std::string hash = sha256Of(detail::readFile(path));
-    read();
     if (std::filesystem::last_write_time(path, ignored) == before) return hash;
     throw IoError(path.string() + ": was changed while it was read");
 }

@@ -15,7 +15,8 @@ Json runFacts(const std::string& kind, const std::vector<std::string>& arguments
 
 /// SHA-256 in 64 hexadecimal digits, as the program sha256sum prints it.
 std::string sha256Of(const std::string& bytes);
-/// The same of a file's contents, which `read` reads meanwhile. \throw IoError it cannot be read, or was changed
+/// Calls `read`, which reads the file, and returns the same of its contents. \throw IoError the file was changed
+/// meanwhile
 std::string sha256WhileRead(const std::filesystem::path& path, const std::function<void()>& read);
 
 } // namespace vdbcage::tool

@@ -34,7 +34,13 @@ int runCheck(Call call)
 
     std::optional<Progress> progress(talk.progressForm());
     Mesh cage;
-    const std::string sha256 = sha256WhileRead(cagePath, [&] { cage = readMesh(cagePath); });
+    std::string sha256;
+    const auto read = [&] { cage = readMesh(cagePath); };
+    if (reportPath.empty()) {
+        read();
+    } else {
+        sha256 = sha256WhileRead(cagePath, read);
+    }
     std::vector<ModelFile> models = readModels(modelPaths, reportPath.empty() ? Hashes::none : Hashes::sha256);
     const CageCheck check = checkCage(cage, takeMesh(models), {}, &*progress);
     checkEach(models, cage, &*progress);
