@@ -34,7 +34,7 @@ CoordinateArguments::CoordinateArguments(CLI::App& app, For use, const std::stri
         elasticOptions_.push_back(app.add_option(name, value, "of somigliana: " + help)->type_name(type));
     };
     const std::string bulgings = ", " + toText(Elasticity::bulgings) + " [0]";
-    add("--nu", elasticity_.nu, "Poisson's ratio, -1 to 0.5 [0]", "NU");
+    add("--nu", elasticity_.nu, "Poisson's ratio in (-1, 0.5) [0]", "NU");
     add("--rotations", rotations_, "how they are found [global]", "global|local");
     add("--local-bulging", elasticity_.localBulging, "where it curves" + bulgings, "N");
     add("--global-bulging", elasticity_.globalBulging, "where it moves out" + bulgings, "N");

@@ -30,7 +30,8 @@ void printHelp(std::ostream& out)
     for (const Command& command : commands()) {
         out << "  " << std::left << std::setw(12) << command.name << command.summary << '\n';
     }
-    out << "\nvdbcage COMMAND --help tells more. Try: vdbcage make model.obj -o cage.obj\n";
+    out << "\nvdbcage COMMAND --help tells more. Try: vdbcage make model.obj -o cage.obj\n"
+           "vdbcage --version prints the version. The window is vdbcage-view.\n";
 }
 
 int run(const std::vector<std::string>& arguments)
