@@ -6,6 +6,7 @@
 #include <random>
 #include <set>
 
+#include <support/triangle_soup.h>
 #include <vdbcage/check/detail/box_tree.h>
 #include <vdbcage/check/detail/predicates.h>
 
@@ -14,21 +15,7 @@ using namespace vdbcage::detail;
 
 namespace {
 
-struct Soup {
-    std::vector<Vec3d> points;
-    std::vector<Vec3I> triangles;
-
-    void add(const Corners& corners)
-    {
-        const auto first = static_cast<std::uint32_t>(points.size());
-        points.insert(points.end(), corners.begin(), corners.end());
-        triangles.emplace_back(first, first + 1, first + 2);
-    }
-    Corners corners(std::size_t t) const
-    {
-        return {points[triangles[t][0]], points[triangles[t][1]], points[triangles[t][2]]};
-    }
-};
+using Soup = test::TriangleSoup;
 
 class Random {
 public:

@@ -7,6 +7,7 @@
 
 #include <support/shapes.h>
 #include <support/stop_at.h>
+#include <support/triangle_soup.h>
 #include <tbb/global_control.h>
 #include <vdbcage/core/error.h>
 #include <vdbcage/geometry/triangle_bvh.h>
@@ -16,14 +17,7 @@ using namespace vdbcage::detail;
 
 namespace {
 
-struct Soup {
-    std::vector<Vec3d> points;
-    std::vector<Vec3I> triangles;
-
-    Corners corners(std::size_t t) const
-    {
-        return {points[triangles[t][0]], points[triangles[t][1]], points[triangles[t][2]]};
-    }
+struct Soup : test::TriangleSoup {
     TriangleBvh tree() const { return {points, triangles}; }
 };
 

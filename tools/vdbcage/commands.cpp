@@ -10,7 +10,7 @@ const std::vector<Command>& commands()
         {"make",
          "make a cage for a model",
          runMake,
-         "Makes one cage around all models. They may be open, self-intersecting, badly oriented or in many parts. Gaps "
+         "One cage bounds all models. They may be open, self-intersecting, badly oriented or in many parts. Gaps "
          "are bridged by a closing of voxels. Its surface is shrunk, decimated and tightened. Unless "
          "--bounding is off, the cage is written only if it is proved to be valid and to bound every model. It is the "
          "same for any number of threads. Lengths are fractions of the models' longest side, but for places, which are "

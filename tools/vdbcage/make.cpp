@@ -204,7 +204,7 @@ int runMake(Call call)
 {
     MakeArguments arguments;
     bool skipsDone = false;
-    CLI::App app("vdbcage make MODEL... -o CAGE [OPTIONS]: Bounds them (.obj .off .ply .stl)", "make");
+    CLI::App app("vdbcage make MODEL... -o CAGE [OPTIONS]: A cage for all (.obj .off .ply .stl)", "make");
     app.add_option("models", arguments.models)->required()->type_name("MODEL...");
     app.add_option("-o,--output", arguments.cage, "the cage to write")->required()->type_name("CAGE");
     addCageOptions(app, arguments.options);
