@@ -1,6 +1,8 @@
 """What causes each message of docs/ERRORS.md: a command line in a folder, and the files that it needs."""
 
+import json
 import struct
+import zlib
 
 from volumes import floats, frustum, grid, mask, node, one, scale_map, text, tile, tree, volume
 
@@ -157,6 +159,22 @@ MODELS = [
              ("byte N: WHAT of triangle N is N; coordinates must be finite",
               binary_stl(1, [float("nan")] + CORNERS_OF_ONE[1:]))),
 ]
+
+# ---- Reports
+
+# What `report` reads of one.
+REPORT = json.dumps({"format": 1, "kind": "make", "models": [{"file": "model.obj"}], "cage": "cage.obj", "error": None,
+                     "seconds": 1, "memory_peak_mib": 1,
+                     "check": {"bounding": True, "triangles": 12, "quads": 0, "mean_distance": 0.1, "max_distance": 0.2,
+                               "volume_ratio": None, "min_angle_degrees": 45}})
+
+
+def png(width, height):
+    """The head of a picture that says that it is so large."""
+    chunks = [b"IHDR" + struct.pack(">2I5B", width, height, 8, 2, 0, 0, 0), b"IDAT" + zlib.compress(b"")]
+    return b"\x89PNG\r\n\x1a\n" + b"".join(struct.pack(">I", len(chunk) - 4) + chunk +
+                                           struct.pack(">I", zlib.crc32(chunk)) for chunk in chunks)
+
 
 # ---- The command line
 
@@ -482,6 +500,9 @@ OTHERS = [
            "--inversions", "--compare --inversions"),
     Row("FILE: it is no report of vdbcage make", "report model.obj"),
     Row("FOLDER: there are no reports of vdbcage make", "report ."),
+    Row("FILE: it is no PNG picture: REASON", "report r.json --html new.html", {"r.json": REPORT, "r.png": "no picture"}),
+    Row("FILE: it is no PNG picture: it has N x N pixels", "report r.json --html new.html",
+        {"r.json": REPORT, "r.png": png(1000000, 1000000)}),
 ]
 
 # ---- What is missing on a machine

@@ -146,8 +146,8 @@ class Reports(unittest.TestCase):
 
     def test_the_page_has_every_field(self):
         page = (SOURCE / "docs" / "REPORT.md").read_text()
-        options = set(SCHEMA["$defs"]["options"]["properties"])
-        for name in properties(SCHEMA) - options - {"name"}:
+        parts = {name: part for name, part in SCHEMA["$defs"].items() if name != "options"}
+        for name in properties(parts) - {"name"}:
             self.assertIn(f"`{name}`", page, name)
 
     def test_the_schema_itself(self):

@@ -79,17 +79,18 @@ Picture decodePng(const std::string& bytes, const std::string& name)
     constexpr std::size_t mostPixels = std::size_t(1) << 26U; // small files can claim any size
     png_image image{};
     image.version = PNG_IMAGE_VERSION;
-    const auto fail = [&](const std::string& why) { throw IoError(name + ": it is no PNG picture: " + why); };
-    if (png_image_begin_read_from_memory(&image, bytes.data(), bytes.size()) == 0) fail(image.message);
+    const auto throwProblem = [&] { throw IoError(name + ": it is no PNG picture: " + image.message); };
+    if (png_image_begin_read_from_memory(&image, bytes.data(), bytes.size()) == 0) throwProblem();
     if (std::size_t(image.width) * image.height > mostPixels) {
         png_image_free(&image);
-        fail("it has " + std::to_string(image.width) + " x " + std::to_string(image.height) + " pixels");
+        throw IoError(name + ": it is no PNG picture: it has " + std::to_string(image.width) + " x " +
+                      std::to_string(image.height) + " pixels");
     }
     image.format = PNG_FORMAT_RGB;
     Picture picture{static_cast<int>(image.width), static_cast<int>(image.height),
                     std::vector<std::uint8_t>(PNG_IMAGE_SIZE(image))};
     const png_color white{255, 255, 255};
-    if (png_image_finish_read(&image, &white, picture.rgb.data(), 0, nullptr) == 0) fail(image.message);
+    if (png_image_finish_read(&image, &white, picture.rgb.data(), 0, nullptr) == 0) throwProblem();
     return picture;
 }
 

@@ -7,6 +7,7 @@
 #include <tools/report/run_facts.h>
 #include <vdbcage/core/detail/printable.h>
 #include <vdbcage/core/error.h>
+#include <vdbcage/mesh/io/formats.h>
 
 namespace vdbcage::tool {
 
@@ -40,16 +41,10 @@ std::vector<ModelFile> readModels(const std::vector<std::filesystem::path>& path
                 throw InputError(path.string() + ": this model is named twice");
             }
         }
-        MeshFile file;
-        const auto read = [&] { file = readMeshFile(path); };
-        Json sha256;
-        if (hashes == Hashes::sha256) {
-            sha256 = sha256WhileRead(path, read);
-        } else {
-            read();
-        }
+        const std::string bytes = detail::readMeshBytes(path);
+        MeshFile file = detail::parseMesh(bytes, path);
         Json facts = toJson(file.mesh, file.summary, path);
-        facts["sha256"] = sha256;
+        if (hashes == Hashes::sha256) facts["sha256"] = sha256Of(bytes);
         models.push_back({path, std::move(file.mesh), file.summary, std::move(facts)});
     }
     return models;
@@ -74,7 +69,7 @@ Json entryOf(const std::vector<ModelFile>& models)
     Json list = Json::array();
     for (const ModelFile& model : models) {
         list.push_back(model.facts);
-        list.back()["check"] = model.check ? toJson(*model.check) : Json();
+        if (model.check) list.back()["check"] = toJson(*model.check);
     }
     return list;
 }

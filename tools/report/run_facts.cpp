@@ -8,8 +8,6 @@
 
 #include <tbb/global_control.h>
 #include <tools/report/commit.h>
-#include <vdbcage/core/detail/read_file.h>
-#include <vdbcage/core/error.h>
 #include <vdbcage/core/version.h>
 
 namespace vdbcage::tool {
@@ -49,16 +47,6 @@ std::string sha256Of(const std::string& bytes)
         text += digits[digest[i] & 15U];
     }
     return text;
-}
-
-std::string sha256WhileRead(const std::filesystem::path& path, const std::function<void()>& read)
-{
-    std::error_code ignored;
-    const auto before = std::filesystem::last_write_time(path, ignored);
-    read(); // first: it says better what is wrong
-    std::string hash = sha256Of(detail::readFile(path));
-    if (std::filesystem::last_write_time(path, ignored) == before) return hash;
-    throw IoError(path.string() + ": was changed while it was read");
 }
 
 } // namespace vdbcage::tool

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <filesystem>
-#include <functional>
 #include <string>
 #include <vector>
 
@@ -15,8 +13,5 @@ Json runFacts(const std::string& kind, const std::vector<std::string>& arguments
 
 /// SHA-256 in 64 hexadecimal digits, as the program sha256sum prints it.
 std::string sha256Of(const std::string& bytes);
-/// Calls `read`, which reads the file, and returns the same of its contents. \throw IoError the file was changed
-/// meanwhile
-std::string sha256WhileRead(const std::filesystem::path& path, const std::function<void()>& read);
 
 } // namespace vdbcage::tool

@@ -4,7 +4,7 @@
 #include <tools/report/models.h>
 #include <tools/report/run_facts.h>
 #include <vdbcage/check/check.h>
-#include <vdbcage/mesh/mesh_io.h>
+#include <vdbcage/mesh/io/formats.h>
 
 #include "commands.h"
 #include "interrupt.h"
@@ -33,14 +33,8 @@ int runCheck(Call call)
     if (!reportPath.empty()) outputs.writes(reportPath);
 
     std::optional<Progress> progress(talk.progressForm());
-    Mesh cage;
-    std::string sha256;
-    const auto read = [&] { cage = readMesh(cagePath); };
-    if (reportPath.empty()) {
-        read();
-    } else {
-        sha256 = sha256WhileRead(cagePath, read);
-    }
+    const std::string cageFile = detail::readMeshBytes(cagePath);
+    const Mesh cage = detail::parseMesh(cageFile, cagePath).mesh;
     std::vector<ModelFile> models = readModels(modelPaths, reportPath.empty() ? Hashes::none : Hashes::sha256);
     const CageCheck check = checkCage(cage, takeMesh(models), {}, &*progress);
     checkEach(models, cage, &*progress);
@@ -48,7 +42,7 @@ int runCheck(Call call)
         Json report = runFacts("check", arguments);
         report["models"] = entryOf(models);
         report["cage"] = cagePath.string();
-        report["cage_sha256"] = sha256;
+        report["cage_sha256"] = sha256Of(cageFile);
         report["quads"] = cage.quads.empty() ? Json() : toJson(quadQuality(cage));
         report["check"] = toJson(check);
         outputs.add(reportPath, [&](std::ostream& out) { out << toText(report); });

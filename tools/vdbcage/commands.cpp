@@ -75,14 +75,19 @@ const std::vector<Command>& commands()
     return all;
 }
 
+std::vector<std::string> commandNames()
+{
+    std::vector<std::string> names;
+    for (const Command& command : commands()) names.push_back(command.name);
+    return names;
+}
+
 const Command& commandNamed(const std::string& name)
 {
-    std::vector<std::string> known;
     for (const Command& command : commands()) {
         if (command.name == name) return command;
-        known.push_back(command.name);
     }
-    throw InputError("there is no command '" + name + "'" + didYouMean(name, known) + " (see vdbcage --help)");
+    throw InputError("there is no command '" + name + "'" + didYouMean(name, commandNames()) + " (see vdbcage --help)");
 }
 
 CommandFacts describe(const Command& command)

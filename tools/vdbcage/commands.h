@@ -52,6 +52,8 @@ struct Command {
 /// All of them, in the order of the help.
 const std::vector<Command>& commands();
 
+std::vector<std::string> commandNames();
+
 /// \throw InputError there is none of this name; with a hint
 const Command& commandNamed(const std::string& name);
 

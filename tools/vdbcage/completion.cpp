@@ -24,13 +24,6 @@ struct Completed {
     Values arguments; ///< what stands where no option does
 };
 
-std::vector<std::string> namesOf(const std::vector<Command>& named)
-{
-    std::vector<std::string> names;
-    for (const Command& command : named) names.push_back(command.name);
-    return names;
-}
-
 /// By the option's type: "auto|N" has the word auto; what is in capitals is a file, a folder or a number.
 Values valuesOf(const OptionFacts& option)
 {
@@ -57,14 +50,14 @@ std::vector<Completed> allCompleted()
     for (const Command& command : commands()) {
         Completed& added = all.emplace_back(Completed{command.name, command.summary, describe(command).options, {}});
         if (command.name == "man") {
-            added.arguments.words = namesOf(commands());
+            added.arguments.words = commandNames();
         } else if (command.name == "completion") {
             added.arguments.words = {"bash", "fish", "zsh"};
         } else {
             added.arguments.files = true;
         }
     }
-    all.push_back({"help", "print what a command takes", {}, {namesOf(commands())}});
+    all.push_back({"help", "print what a command takes", {}, {commandNames()}});
     return all;
 }
 

@@ -38,7 +38,7 @@ int runJobs(Call call)
 {
     std::vector<fs::path> models;
     fs::path folder;
-    std::string program = "vdbcage", format = "obj", progress;
+    std::string program = "vdbcage", format = "obj", progress = "auto";
     CageOptions options;
     bool pictures = false;
     CLI::App app("vdbcage jobs MODEL... -o DIR [OPTIONS of make]\n"
@@ -52,13 +52,13 @@ int runJobs(Call call)
     app.add_flag("--pictures", pictures, "of each model with its cage, too");
     app.add_option("--command", program, "how farms call vdbcage [vdbcage]")->type_name("WORD");
     std::vector<CLI::Option*> ofMake = addCageOptions(app, options);
-    ofMake.push_back(app.add_option("--progress", progress, "of each job: auto, or lines for farms [auto]"));
-    ofMake.back()->type_name("auto|lines");
+    ofMake.push_back(app.add_option("--progress", progress, "of each job: auto, or lines for farms [auto]")
+                         ->type_name("auto|lines"));
     app.set_help_all_flag("--help-all", "print this and the rarer options");
     if (!parse(app, std::move(call))) return exitGood;
     detail::requireMeshExtension("cage." + format);
     requireValid(options);
-    if (!progress.empty()) requireProgress(progress);
+    requireProgress(progress);
 
     ofMake.push_back(app.get_option("--threads"));
     std::string given;

@@ -128,10 +128,10 @@ bool wasDone(const MakeArguments& arguments, const std::string& inputs)
     }
     if (!fs::is_regular_file(arguments.report, ignored) || fs::is_empty(arguments.report, ignored)) return false;
     const Json report = Json::parse(detail::readFile(arguments.report), nullptr, false);
-    const auto has = [&](const char* name, const std::string& text) {
-        return report.is_object() && report.contains(name) && report[name] == Json(text);
+    const auto has = [&](const char* name, const Json& value) {
+        return report.is_object() && report.contains(name) && report[name] == value;
     };
-    return has("cage", arguments.cage.string()) && has("inputs", inputs);
+    return has("format", 1) && has("cage", arguments.cage.string()) && has("inputs", inputs);
 }
 
 /// Leaves a report of it, if that can be written: what failed before is worth more than a failure of this.
@@ -146,6 +146,15 @@ void reportFailure(const MakeArguments& arguments, const Failure& failure) noexc
         writeFileAtomically(arguments.report, [&](std::ostream& out) { out << toText(report); });
     } catch (const std::exception&) {
     }
+}
+
+/// As they will be in its file, whose hash reports have.
+std::string bytesOf(const Mesh& cage, const fs::path& path)
+{
+    std::ostringstream out;
+    out.exceptions(std::ios::badbit); // it would hide a lack of memory
+    writeMesh(cage, out, path);
+    return out.str();
 }
 
 /// Makes the cage, writes all files and returns what there is to say. All that it took is given back before the files
@@ -169,17 +178,15 @@ std::string makeFiles(const MakeArguments& arguments, const std::string& inputs,
     // All work first: while files are waiting a signal has to wait for work.
     const std::string picture = arguments.picture.empty() ? std::string() : encodePng(drawCage(pipeline.model(), cage));
     if (!arguments.stages.empty()) addStages(pipeline, arguments, &clock, outputs);
-    std::ostringstream cageFile;           // its hash is of the bytes in the file
-    cageFile.exceptions(std::ios::badbit); // it would hide a lack of memory
-    writeMesh(cage, cageFile, arguments.cage);
-    outputs.add(arguments.cage, [&](std::ostream& out) { out << cageFile.str(); });
+    const std::string cageFile = bytesOf(cage, arguments.cage);
+    outputs.add(arguments.cage, [&](std::ostream& out) { out << cageFile; });
     if (!arguments.picture.empty()) outputs.add(arguments.picture, [&](std::ostream& out) { out << picture; });
     writing.reset();
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
     if (!arguments.report.empty()) {
         const CageOrder order{arguments.words, entryOf(models), inputs, arguments.cage, arguments.options};
         const Json report =
-            reportOf(order, CageMade{cage, sha256Of(cageFile.str()), seconds, clock.stages(), pipeline.report()});
+            reportOf(order, CageMade{cage, sha256Of(cageFile), seconds, clock.stages(), pipeline.report()});
         outputs.add(arguments.report, [&](std::ostream& out) { out << toText(report); });
     }
     return summaryOf(arguments, models, pipeline, clock.stages(), seconds);

@@ -25,15 +25,26 @@ void addOptions(ManualPage& page, const CommandFacts& facts, bool rareOnes)
     }
 }
 
-/// Of `command`, or of all if it is null.
-void addExitStatus(ManualPage& page, const Command* command)
+constexpr const char* statusTwo = "Exit status 2: ";
+
+/// What it is, where the text of a command says so; else empty.
+std::string meaningOfTwo(const CommandFacts& facts)
+{
+    const std::size_t at = facts.text.find(statusTwo);
+    return at == std::string::npos ? "" : facts.text.substr(at + std::string(statusTwo).size());
+}
+
+/// What it can be of some commands.
+void addExitStatus(ManualPage& page, const std::vector<Command>& some)
 {
     page.section("EXIT STATUS");
     page.item("0", "", "All went well.");
     page.item("1", "",
               "The input, an option or a file is bad. A line on standard error says which, and what is allowed.");
-    if (!command || command->name == "check") page.item("2", "", "check: the cage is not valid, or does not bound.");
-    if (!command || command->name == "report") page.item("2", "", "report: a job failed, or its cage does not bound.");
+    for (const Command& command : some) {
+        const std::string meaning = meaningOfTwo(describe(command));
+        if (!meaning.empty()) page.item("2", "", "Of " + command.name + ": " + meaning);
+    }
     page.item("75", "", "Memory, room on the disk, threads or OpenGL are missing: another try may do.");
     page.item("130, 143", "",
               "It was ended, by SIGINT (Ctrl+C) or SIGHUP, or by SIGTERM. Nothing half-written is left.");
@@ -52,7 +63,7 @@ std::string mainPage()
     page.section("COMMANDS");
     for (const Command& command : commands())
         page.item("vdbcage-" + command.name + "(1)", "", sentence(command.summary));
-    addExitStatus(page, nullptr);
+    addExitStatus(page, commands());
     page.section("EXAMPLES");
     page.paragraph("A cage, and the model as the moved cage moves it:");
     page.code("vdbcage make bishop.obj -o cage.obj\nvdbcage deform cage.obj posed.obj bishop.obj -o moved.obj");
@@ -70,7 +81,7 @@ std::string pageOf(const Command& command)
     page.section("SYNOPSIS");
     page.code(facts.usage);
     page.section("DESCRIPTION");
-    page.paragraph(facts.text);
+    page.paragraph(facts.text.substr(0, facts.text.find(statusTwo))); // which has its own section
     if (!command.details.empty()) page.paragraph(command.details);
     page.section("OPTIONS");
     page.paragraph("What holds without an option is in brackets.");
@@ -83,7 +94,7 @@ std::string pageOf(const Command& command)
         page.section("NOTES");
         page.paragraph(facts.notes);
     }
-    addExitStatus(page, &command);
+    addExitStatus(page, {command});
     page.section("EXAMPLES");
     for (const Example& example : command.examples) {
         page.paragraph(example.purpose);
@@ -100,7 +111,7 @@ int runMan(Call call)
 {
     std::string name;
     CLI::App app("vdbcage man [COMMAND]\n"
-                 "Prints the manual page of a command, or of all together, for the program man.",
+                 "Prints the manual page of a command, or that of vdbcage, for the program man.",
                  "man");
     app.add_option("command", name)->type_name("COMMAND");
     if (!parse(app, std::move(call))) return exitGood;

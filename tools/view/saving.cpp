@@ -53,9 +53,8 @@ void saveOptions(const CageOptions& options, const fs::path& path)
 void saveReport(const CageResult& result, const fs::path& path)
 {
     const OpenedMesh& model = *result.order.model;
-    tool::Json facts = tool::toJson(model.mesh, model.summary, model.path);
-    facts["sha256"] = nullptr; // the file may be another by now
-    facts["check"] = nullptr;
+    // Without a hash: the file may be another by now.
+    const tool::Json facts = tool::toJson(model.mesh, model.summary, model.path);
     const tool::CageOrder order{{}, tool::Json::array({facts}), "", "", result.order.options};
     const tool::CageMade made{result.cage, "", result.seconds, result.stages, result.report};
     saveText(tool::toText(tool::reportOf(order, made)), path);

@@ -46,19 +46,6 @@ const Format& formatOf(const std::filesystem::path& path)
                   "; the formats are known by " + known);
 }
 
-/// All of a model file. \throw IoError
-std::string readModel(const std::filesystem::path& path)
-{
-    std::error_code ignored;
-    if (!std::filesystem::is_directory(path, ignored)) formatOf(path);
-    return detail::withMemoryToRead(path, [&] { return detail::readFile(path); });
-}
-
-MeshFile parsed(const std::string& bytes, const std::filesystem::path& path)
-{
-    return detail::withMemoryToRead(path, [&] { return formatOf(path).parse(bytes, path.string()); });
-}
-
 void requireFinitePoints(const std::vector<openvdb::Vec3d>& points, const std::string& name)
 {
     for (std::size_t i = 0; i < points.size(); ++i) {
@@ -76,9 +63,21 @@ void detail::requireMeshExtension(const std::filesystem::path& path)
     formatOf(path);
 }
 
+std::string detail::readMeshBytes(const std::filesystem::path& path)
+{
+    std::error_code ignored;
+    if (!std::filesystem::is_directory(path, ignored)) formatOf(path);
+    return withMemoryToRead(path, [&] { return readFile(path); });
+}
+
+MeshFile detail::parseMesh(const std::string& bytes, const std::filesystem::path& path)
+{
+    return withMemoryToRead(path, [&] { return formatOf(path).parse(bytes, path.string()); });
+}
+
 MeshFile readMeshFile(const std::filesystem::path& path)
 {
-    return parsed(readModel(path), path);
+    return detail::parseMesh(detail::readMeshBytes(path), path);
 }
 
 Mesh readMesh(const std::filesystem::path& path)
@@ -126,8 +125,8 @@ void writeMoved(const std::filesystem::path& original, const std::vector<openvdb
     const std::string name = path.string();
     const bool isObj = formatOf(original).parse == detail::parseObj && formatOf(path).parse == detail::parseObj;
     requireFinitePoints(points, name);
-    const std::string text = readModel(original);
-    Mesh mesh = parsed(text, original).mesh;
+    const std::string text = detail::readMeshBytes(original);
+    Mesh mesh = detail::parseMesh(text, original).mesh;
     if (mesh.points.size() != points.size()) {
         throw InputError(name + ": " + std::to_string(points.size()) + " positions were given; " + original.string() +
                          " has " + std::to_string(mesh.points.size()) + " points");

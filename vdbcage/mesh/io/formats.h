@@ -21,6 +21,11 @@ namespace vdbcage::detail {
 /// \throw IoError naming the path and the extensions
 VDBCAGE_API void requireMeshExtension(const std::filesystem::path& path);
 
+/// All bytes of a mesh file. \throw IoError; ResourceError
+VDBCAGE_API std::string readMeshBytes(const std::filesystem::path& path);
+/// What readMeshFile makes of them. \throw as readMeshFile
+VDBCAGE_API MeshFile parseMesh(const std::string& bytes, const std::filesystem::path& path);
+
 MeshFile parseObj(std::string_view bytes, const std::string& name);
 MeshFile parseOff(std::string_view bytes, const std::string& name);
 MeshFile parsePly(std::string_view bytes, const std::string& name);
