@@ -2,7 +2,7 @@
 #   core < geometry < mesh < gl < voxelize | volume | surface | check | deform < bounding < pipeline < tools, tests
 # A room includes only itself and rooms of lower floors; those of one floor do not know each other. Public headers
 # include no private ones. tools/draw and tools/report are for the command and the window, which do not know each other;
-# tools/edit is for the window. tools/python, the Python module, uses tools/report.
+# tools/edit is for the window. tools/python, the Python module, uses tools/report. tools/bench measures all.
 # Third-party libraries stay in their files.
 cmake_minimum_required(VERSION 3.25)
 get_filename_component(root ${CMAKE_CURRENT_LIST_DIR}/.. ABSOLUTE)
@@ -26,9 +26,9 @@ set(confined
     "tbb/parallel_|^(vdbcage/core/detail/parallel\\.h|tools/.*|tests/.*)$"
     "tbb/task_group|^(vdbcage/core/detail/parallel\\.h|tools/.*|tests/.*)$"
     "png\\.h|^(tools/draw/picture\\.cpp|tests/.*)$"
-    "tools/report/|^(tools/(report|vdbcage|view|python)/.*|tests/.*)$"
-    "tools/vdbcage/|^(tools/vdbcage/.*|tests/.*)$"
-    "tools/draw/|^(tools/(draw|edit|vdbcage|view)/.*|tests/.*)$"
+    "tools/report/|^(tools/(report|vdbcage|view|python|bench)/.*|tests/.*)$"
+    "tools/vdbcage/|^(tools/(vdbcage|bench)/.*|tests/.*)$"
+    "tools/draw/|^(tools/(draw|edit|vdbcage|view|bench)/.*|tests/.*)$"
     "tools/edit/|^(tools/(edit|view|bench)/.*|tests/.*)$"
     "tools/view/|^(tools/(view|bench)/.*|tests/.*)$"
     "imgui|^(tools/view/widgets\\.cpp|tools/view/panels/.*|tests/view/.*)$"

@@ -79,6 +79,7 @@ BOOST_AUTO_TEST_CASE(make_leaves_cage_stages_report_and_picture)
     BOOST_TEST(faceCount(cage) <= 200U);
     BOOST_TEST(checkCage(cage, readMesh(bishop)).bounding());
 
+    const json report = readJson(folder / "report.json");
     const auto stages = folder / "stages";
     openvdb::initialize();
     for (const char* name : {"solid", "dilated", "closed", "contour"}) {
@@ -91,6 +92,11 @@ BOOST_AUTO_TEST_CASE(make_leaves_cage_stages_report_and_picture)
         BOOST_CHECK(grid->getGridClass() == openvdb::GRID_FOG_VOLUME);
         BOOST_TEST(grid->metaValue<std::string>("vdbcage_stage") == name);
         BOOST_TEST(grid->metaValue<std::string>("vdbcage_option_faces") == "200");
+        BOOST_TEST(grid->metaValue<std::string>("vdbcage_option_close_radius") == "auto");
+        BOOST_TEST(grid->metaValue<std::string>("vdbcage_resolution") ==
+                   std::to_string(report["result"]["resolution"].get<int>()));
+        BOOST_TEST(grid->metaValue<std::string>("vdbcage_close_radius") == "0.03");
+        BOOST_TEST(grid->metaValue<std::string>("vdbcage_erode_radius") == "0.03");
         BOOST_TEST(grid->metaValue<std::string>("vdbcage_source") == "bishop.obj");
     }
     const auto solid = readVdb(stages / "solid.vdb"), dilated = readVdb(stages / "dilated.vdb"),
@@ -102,7 +108,6 @@ BOOST_AUTO_TEST_CASE(make_leaves_cage_stages_report_and_picture)
         BOOST_TEST(faceCount(readMesh(stages / (std::string(name) + ".obj"))) > 0U);
     }
 
-    const json report = readJson(folder / "report.json");
     BOOST_TEST(report["check"]["bounding"] == true);
     BOOST_TEST(report["options"]["faces"] == 200);
     BOOST_TEST(report["models"][0]["triangles"].get<long>() + 2 * report["models"][0]["quads"].get<long>() > 10000);

@@ -413,6 +413,80 @@ BOOST_AUTO_TEST_CASE(more_smoothing_is_rounder)
     BOOST_TEST(volumes[1] > volumes[2]);
 }
 
+BOOST_AUTO_TEST_CASE(what_is_left_to_the_pipeline_is_in_its_report)
+{
+    const Mesh model = test::box({0, 0, 0}, {1, 1, 1});
+    CageOptions options = coarse();
+    options.mesh = CageFaces::quads;
+    Pipeline made(model);
+    made.run(options);
+    BOOST_TEST(made.report().resolution == 32);
+    BOOST_TEST(made.report().closeRadius == 0.03);
+    BOOST_TEST(made.report().erodeRadius == 0.03);
+    BOOST_TEST(made.report().minAngle.value() == 6);
+    BOOST_TEST(made.report().mergeAngle.value() == 90);
+    BOOST_TEST(made.report().smooth == 0);
+    options.bounding = false;
+    options.closeRadius = 0.1;
+    options.erodeRadius = 0.05;
+    options.mesh = CageFaces::triangles;
+    made.run(options);
+    BOOST_TEST(made.report().closeRadius == 0.1);
+    BOOST_TEST(made.report().erodeRadius == 0.05);
+    BOOST_TEST(!made.report().minAngle.has_value());
+    BOOST_TEST(!made.report().mergeAngle.has_value());
+    BOOST_TEST(made.report().smooth == 3);
+    const Mesh cage = made.cage();
+    options.smooth = 3;
+    BOOST_CHECK(sameMesh(made.run(options), cage));
+}
+
+BOOST_AUTO_TEST_CASE(the_smoothed_stage_is_what_smoothing_gave)
+{
+    CageOptions options = coarse();
+    Pipeline made(saturn());
+    made.run(options);
+    BOOST_TEST(faceCount(made.smoothed()) == faceCount(made.cage()));
+    const Mesh sharp = made.smoothed();
+    options.smooth = 9;
+    made.run(options);
+    BOOST_TEST(faceCount(made.smoothed()) == faceCount(made.cage()));
+    BOOST_CHECK(!sameMesh(made.smoothed(), sharp));
+    options.bounding = false;
+    made.run(options);
+    BOOST_TEST(faceCount(made.smoothed()) == faceCount(made.surface()));
+    BOOST_CHECK(!sameMesh(made.smoothed(), made.surface()));
+}
+
+/// Bars side by side on two others: how many holes are left between them depends on the width of the voxels.
+Mesh grille()
+{
+    Mesh mesh = test::joined(test::box({0, 0, 0}, {10, 0.4, 0.4}), test::box({0, 7, 0}, {10, 7.4, 0.4}));
+    for (int i = 0; i < 10; ++i) mesh = test::joined(mesh, test::box({i + 0.1, 0, 0.2}, {i + 0.5, 7.4, 0.6}));
+    return mesh;
+}
+
+BOOST_AUTO_TEST_CASE(twice_the_resolution_never_gives_a_looser_cage)
+{
+    for (const CageFaces mesh : {CageFaces::triangles, CageFaces::triquad}) {
+        bool wasHalfTaken = false;
+        double least = 1;
+        for (const int resolution : {32, 64, 128}) {
+            CageOptions options;
+            options.faces = 160;
+            options.effort = Effort::fast;
+            options.mesh = mesh;
+            options.resolution = resolution;
+            Pipeline made(grille());
+            made.run(options);
+            BOOST_TEST(made.report().check.meanDistance <= least);
+            least = made.report().check.meanDistance;
+            wasHalfTaken = wasHalfTaken || made.report().resolution < resolution;
+        }
+        BOOST_TEST(wasHalfTaken);
+    }
+}
+
 BOOST_AUTO_TEST_CASE(unusable_models_and_options_are_refused_before_any_work)
 {
     BOOST_CHECK_THROW(Pipeline(Mesh{}), InputError);

@@ -1,5 +1,6 @@
 // vdbcage-bench: what cages cost and how good they are, as JSON lines on standard output. Each whole run (`cage`, or no
-// subcommand) is a process of its own; closing, voxelize, deform and view run in this process.
+// subcommand) is a process of its own; closing, voxelize, deform and view run in this process. `paper` makes a page of
+// HTML.
 
 #include <cstdio>
 #include <exception>
@@ -16,6 +17,7 @@ int main(int argc, char** argv)
         if (argc > 1 && std::string(argv[1]) == "cage") return bench::runCage(argc, argv);
         if (argc > 1 && std::string(argv[1]) == "closing") return bench::runClosing(argc, argv);
         if (argc > 1 && std::string(argv[1]) == "voxelize") return bench::runVoxelize(argc, argv);
+        if (argc > 1 && std::string(argv[1]) == "paper") return bench::runPaper(argc, argv);
         if (argc > 1 && std::string(argv[1]) == "deform") return bench::runDeform(argc, argv);
         if (argc > 1 && std::string(argv[1]) == "view") {
 #ifdef VDBCAGE_HAS_VIEW

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 
+#include <vdbcage/core/detail/number_text.h>
 #include <vdbcage/mesh/mesh_io.h>
 #include <vdbcage/volume/boundary_voxels.h>
 #include <vdbcage/volume/morphology.h>
@@ -46,7 +47,11 @@ void writeStages(const Stages& stages, const fs::path& folder,
         std::replace(key.begin(), key.end(), '-', '_');
         metadata["option_" + key] = option.second;
     }
-    const double radius = stages.report.closeRadius * stages.report.resolution;
+    const CageReport& report = stages.report; // what was left to vdbcage came to
+    metadata["resolution"] = std::to_string(report.resolution);
+    metadata["close_radius"] = detail::numberText(report.closeRadius);
+    metadata["erode_radius"] = detail::numberText(report.erodeRadius);
+    const double radius = report.closeRadius * report.resolution;
     const auto dilated = stages.options.element == StructuringElement::cube
                              ? dilate(stages.solid, radius, StructuringElement::cube, interrupter)
                              : dilate(stages.solid, radius, stages.options.scale, interrupter);

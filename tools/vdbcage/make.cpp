@@ -8,6 +8,7 @@
 #include <tools/report/report.h>
 #include <tools/report/run_facts.h>
 #include <tools/report/stages.h>
+#include <vdbcage/core/detail/number_text.h>
 #include <vdbcage/core/detail/read_file.h>
 #include <vdbcage/core/error.h>
 #include <vdbcage/mesh/io/formats.h>
@@ -105,7 +106,8 @@ std::string summaryOf(const MakeArguments& arguments, const std::vector<ModelFil
     out << (check.bounding() ? ", certified bounding"
             : check.valid()  ? ", NOT bounding"
                              : ", NOT a valid cage")
-        << ", mean distance " << 100 * check.meanDistance << " % of the longest side, " << seconds << " s\n";
+        << ", mean distance " << 100 * check.meanDistance << " % of the longest side, resolution " << report.resolution
+        << ", " << seconds << " s\n";
     for (const std::string& remark : remarks(report, arguments.options)) out << "  " << remark << '\n';
     out << describe(models);
     if (!arguments.isVerbose) return out.str();
@@ -113,9 +115,11 @@ std::string summaryOf(const MakeArguments& arguments, const std::vector<ModelFil
         out << "  " << std::left << std::setw(10) << stage.name << std::right << std::setw(8) << stage.seconds
             << " s\n";
     }
-    out << "  resolution " << report.resolution << ", close radius " << report.closeRadius << ", memory peak "
-        << peakMemory() << " MiB\n"
-        << describe(check);
+    out << "  close radius " << detail::numberText(report.closeRadius) << ", erode radius "
+        << detail::numberText(report.erodeRadius);
+    if (report.minAngle) out << ", least angle " << detail::numberText(*report.minAngle);
+    if (report.mergeAngle) out << ", merge angle " << detail::numberText(*report.mergeAngle);
+    out << ", smooth " << report.smooth << ", memory peak " << peakMemory() << " MiB\n" << describe(check);
     return out.str();
 }
 

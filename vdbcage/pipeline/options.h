@@ -47,7 +47,8 @@ enum class CageSymmetry {
 struct CageOptions {
     /// Faces of the cage, at most: leastFaces() to 1000000. A quad counts once.
     int faces = 400;
-    /// Voxels along the model's longest side, 8 to 2048. Unset: by the faces and the effort.
+    /// Voxels along the model's longest side, 8 to 2048. Halves of it down to 32 compete with it, so that doubling it
+    /// never gives a looser cage. Unset: by the faces and the effort.
     std::optional<int> resolution;
     /// Gaps up to twice this wide are bridged, 0 to 0.25. Unset: 0.03, or more where the faces need it.
     std::optional<double> closeRadius;
@@ -61,8 +62,9 @@ struct CageOptions {
     ScaleField density;
     /// Where it is to bend: three rings of quads with CageFaces::loops, twice the faces with others. Needs `bounding`.
     Joints joints;
-    /// Sweeps of smoothing at the end, 0 to 100: rounder, and less tight, with more.
-    int smooth = 0;
+    /// Sweeps of smoothing, 0 to 100: rounder, and less tight, with more. Of the cage, or of the surface before it is
+    /// decimated without `bounding`. Unset: 0, or 3 without `bounding`.
+    std::optional<int> smooth;
     CageParts parts = CageParts::keep; ///< what becomes of separate parts of the closing
     /// Least distance from model to cage, 1e-7 to 0.1.
     double clearance = GuardOptions{}.clearance;

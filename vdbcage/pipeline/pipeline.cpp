@@ -47,7 +47,11 @@ CageReport reportOf(const Candidate& made, const CageOptions& options, bool fits
     report.floatSafe = options.bounding && fitsFloat && made.boundsAsFloats;
     report.resolution = made.voxels.resolution;
     report.voxels = solid.report;
-    report.closeRadius = made.voxels.closeRadius;
+    report.closeRadius = closing.key.closeRadius;
+    report.erodeRadius = closing.key.erodeRadius;
+    report.minAngle = made.minAngle;
+    if (detail::arePaired(options)) report.mergeAngle = detail::mergeAngle(options);
+    report.smooth = detail::smoothing(options);
     report.offsetVoxels = made.offsetVoxels;
     report.start = made.start;
     report.symmetry = made.symmetry;
@@ -113,7 +117,7 @@ private:
     static Candidate nothing()
     {
         Candidate candidate;
-        candidate.surface = candidate.smoothed = std::make_shared<const Mesh>();
+        candidate.surface = std::make_shared<const Mesh>();
         return candidate;
     }
 
@@ -161,7 +165,7 @@ const Mesh& Pipeline::surface() const
 }
 const Mesh& Pipeline::smoothed() const
 {
-    return *impl_->made().smoothed;
+    return impl_->made().smoothed;
 }
 const Mesh& Pipeline::decimated() const
 {

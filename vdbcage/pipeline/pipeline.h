@@ -30,9 +30,13 @@ enum class CageStart {
 struct CageReport {
     CageCheck check;         ///< the verdict on the cage as it is returned, with measures
     bool floatSafe = false;  ///< its coordinates are floats, and the cage also bounds the model rounded to float
-    int resolution = 0;      ///< voxels along the longest side, as given or chosen
+    int resolution = 0;      ///< voxels along the longest side, as given, a half of it that is tighter, or chosen
     VoxelizeReport voxels;   ///< what made the voxels
     double closeRadius = 0;  ///< fraction of the longest side, as given or chosen
+    double erodeRadius = 0;  ///< the same
+    std::optional<double> minAngle;   ///< degrees, as given or chosen; bounding only
+    std::optional<double> mergeAngle; ///< the same, of CageFaces::triquad and CageFaces::quads
+    int smooth = 0;                   ///< sweeps, as given or chosen
     double offsetVoxels = 0; ///< by how much all of the closing was grown to keep the clearance
     CageStart start = CageStart::closing; ///< what it was shrunk from
     std::optional<Symmetry> symmetry; ///< the plane in which the cage is exactly symmetric, and how far the model is
@@ -62,7 +66,8 @@ struct CageReport {
 /// hull. The last resort is the model's bounding box; CageReport::floatSafe says whether it also bounds as floats. So
 /// there are never more faces than asked for. Effort::fast takes a coarser resolution where the surface is large.
 ///
-/// Few faces are begun with several resolutions side by side, and the tightest cage is kept. Up to 150 faces, what the
+/// Few faces are begun with several resolutions side by side, and the tightest cage is kept. So are a resolution that
+/// is given and its halves. Up to 150 faces, what the
 /// lower efforts give competes as well, and the box around the model along its own axes, tightened; below 12 triangles
 /// a tetrahedron, too. So no effort gives looser cages than a lower one there. Where the box lies on the model, within
 /// the clearance as closely as other cages, it is the cage. Up to 24 faces loops compete with other quads, but not with
@@ -109,7 +114,8 @@ public:
     openvdb::MaskGrid::ConstPtr solid() const;
     openvdb::MaskGrid::ConstPtr closed() const; ///< the closing of solid(), cavities filled; null before the first run
     const Mesh& surface() const;                ///< what the cage was made from: quads, or a tetrahedron
-    const Mesh& smoothed() const;               ///< bounding off: the surface smoothed; else the surface
+    /// What smoothing gave: the cage, before edges that are almost flat are bent. Bounding off: the surface.
+    const Mesh& smoothed() const;
     /// The surface with fewer faces. Triangles, about twice the faces where pairs become quads; of loops the cage
     /// before smoothing; of a box its quads.
     const Mesh& decimated() const;

@@ -304,7 +304,7 @@ class Pipeline:
 
     @property
     def smoothed(self):
-        """Without bounding: the surface, smoothed; else the surface. None before the first run."""
+        """What smoothing gave: the cage, or the surface without bounding. None before the first run."""
         return self._stage("smoothed")
 
     @property

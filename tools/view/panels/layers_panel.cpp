@@ -21,7 +21,7 @@ constexpr std::array<LayerText, layerCount> texts{
     {{LayerId::model, "Model", "what the cage is made for"},
      {LayerId::cage, "Cage", "the outcome; hidden edges are faint"},
      {LayerId::decimated, "Decimated", "the cage before its triangles were merged to quads and tightened"},
-     {LayerId::smoothed, "Smoothed", "the surface smoothed, where bounding is off; else the surface"},
+     {LayerId::smoothed, "Smoothed", "the cage after smoothing; where bounding is off, the surface after it"},
      {LayerId::surface, "Surface", "what the cage was made from"},
      {LayerId::closed, "Closing", "exposed faces of the closing's voxels"},
      {LayerId::closedNodes, "Closing: nodes", "a box for each node of the closing's tree"},

@@ -201,7 +201,11 @@ std::optional<double> cameTo(const std::string& name, const CageResultPtr& shown
     if (!shown || shown->order.cage) return std::nullopt;
     const CageReport& report = shown->report;
     if (name == "resolution") return report.resolution;
-    if (name == "close-radius" || name == "erode-radius") return report.closeRadius;
+    if (name == "close-radius") return report.closeRadius;
+    if (name == "erode-radius") return report.erodeRadius;
+    if (name == "min-angle") return report.minAngle;
+    if (name == "merge-angle") return report.mergeAngle;
+    if (name == "smooth") return report.smooth;
     return std::nullopt;
 }
 

@@ -37,7 +37,7 @@ enum class LayerId : std::uint8_t {
     closed,      ///< the exposed faces of the closing's voxels
     closedNodes, ///< boxes of the nodes of its tree
     surface,     ///< what the cage was made from
-    smoothed,    ///< the surface smoothed, where bounding is off
+    smoothed,    ///< the cage after smoothing; where bounding is off, the surface after it
     decimated,   ///< the cage before its triangles were merged and the last touches
     cage
 };

@@ -231,7 +231,8 @@ std::optional<Candidate> BoundingSearch::tightest(const Run& run, const Bounding
         const Run of{options, run.scale, run.density, run.interrupter, run.isSheet};
         take(climb(of, guard), 0);
         // That a cage of more faces lies on the model more closely than a box is not worth them.
-        if (isOfFewFaces(options)) take(shrinkOnto(of, simpleSolids(of, guard), guard), options.clearance);
+        const bool isHalf = options.resolution != run.options.resolution;
+        if (isOfFewFaces(options) && !isHalf) take(shrinkOnto(of, simpleSolids(of, guard), guard), options.clearance);
     }
     return best;
 }
@@ -354,7 +355,8 @@ Candidate BoundingSearch::begin(const Run& run, const Voxels& voxels, CageStart 
     candidate.offsetVoxels = start->offsetVoxels;
     candidate.from = start;
     candidate.closing = start->closing;
-    candidate.surface = candidate.smoothed = start->surface;
+    candidate.surface = start->surface;
+    candidate.minAngle = guardOptions_.minAngleDegrees;
     candidate.topology = start->topology;
     return candidate;
 }
@@ -369,11 +371,12 @@ std::optional<Candidate> BoundingSearch::shrinkOnto(const Run& run, Candidates s
         decimateAndTighten(run, starts, guard);
     }
     keepAtMost(static_cast<std::size_t>(options.faces), &Candidate::cage, starts);
-    if (options.smooth > 0) {
+    if (const int sweeps = smoothing(options); sweeps > 0) {
         forEach(starts, run.interrupter, "smooth", [&](Candidate& candidate, Interrupter* piece) {
-            candidate.cage = smooth(candidate.cage, guard, {options.smooth}, piece);
+            candidate.cage = smooth(candidate.cage, guard, {sweeps}, piece);
         });
     }
+    for (Candidate& candidate : starts) candidate.smoothed = candidate.cage;
     if (options.mesh == CageFaces::triangles) {
         const Stage stage(run.interrupter, "coplanar");
         for (Candidate& candidate : starts) {
@@ -479,9 +482,9 @@ Candidate BoundingSearch::box(const Run& run, const BoundingGuard& guard)
     const bool isBoxTooMuch = areTriangles && run.options.faces < policy::trianglesOfBox;
     Mesh surface = isBoxTooMuch ? tetrahedronMesh(box) : boxMesh(box);
     if (areTriangles) surface = triangulated(std::move(surface));
-    candidate.surface = candidate.smoothed = std::make_shared<const Mesh>(std::move(surface));
+    candidate.surface = std::make_shared<const Mesh>(std::move(surface));
     candidate.topology = analyzeTopology(*candidate.surface, nullptr);
-    candidate.decimated = candidate.cage = certifier_.rounded(*candidate.surface);
+    candidate.decimated = candidate.smoothed = candidate.cage = certifier_.rounded(*candidate.surface);
     candidate.check = certifier_.check(candidate.cage, run.interrupter);
     candidate.boundsAsFloats = certifier_.boundsAsFloats(candidate.cage, run.interrupter);
     return candidate;

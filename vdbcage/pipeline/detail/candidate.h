@@ -33,13 +33,14 @@ struct Candidate {
     double offsetVoxels = 0;
     std::shared_ptr<StartingSurface> from; ///< bounding only
     std::shared_ptr<Closing> closing;
-    std::shared_ptr<const Mesh> surface, smoothed;
+    std::shared_ptr<const Mesh> surface;
     MeshTopology topology; ///< of the surface
-    Mesh decimated, cage;
+    Mesh decimated, smoothed, cage;
     CageCheck check;
     double looseness = 0; ///< its mean distance, as the density counts it
     bool boundsAsFloats = false;
     bool repaired = false;
+    std::optional<double> minAngle = {}; ///< degrees, that the guard kept
     std::optional<Symmetry> symmetry = {};
     std::optional<TiltedSymmetry> tiltedSymmetry = {};
     std::string noSymmetry = {};

@@ -20,7 +20,25 @@ double growth(const CageOptions& options)
     return std::max(1.0, options.faces / usualFaces);
 }
 
+/// Those that are given a resolution also with halves of it.
+std::vector<CageOptions> withHalves(std::vector<CageOptions> list)
+{
+    const std::size_t given = list.size();
+    for (std::size_t i = 0; i < given; ++i) {
+        for (int half = list[i].resolution.value_or(0) / 2; half >= coarsestHalf; half /= 2) {
+            list.push_back(list[i]);
+            list.back().resolution = half;
+        }
+    }
+    return list;
+}
+
 } // namespace
+
+bool arePaired(const CageOptions& options)
+{
+    return options.mesh == CageFaces::triquad || options.mesh == CageFaces::quads;
+}
 
 bool isOfFewFaces(const CageOptions& options)
 {
@@ -36,13 +54,12 @@ std::vector<CageOptions> competitors(const CageOptions& options)
         list.push_back(options);
         list.back().effort = effort;
     }
-    const bool areOtherQuads = options.mesh == CageFaces::triquad || options.mesh == CageFaces::quads;
-    if (areOtherQuads && options.effort != Effort::fast && options.faces <= competingLoops) {
+    if (arePaired(options) && options.effort != Effort::fast && options.faces <= competingLoops) {
         list.push_back(options);
         list.back().effort = Effort::fast;
         list.back().mesh = CageFaces::loops;
     }
-    return list;
+    return withHalves(std::move(list));
 }
 
 std::vector<Voxels> ladder(const CageOptions& options)
@@ -111,6 +128,11 @@ bool hasFewEnoughHandles(const CageOptions& options, const MeshTopology& topolog
     if (options.parts == CageParts::merge && parts > 1) return false;
     const double taken = facesPerPart * (parts - 1) + facesPerHandle * static_cast<double>(topology.genus());
     return taken <= handleShare * options.faces;
+}
+
+int smoothing(const CageOptions& options)
+{
+    return options.smooth.value_or(options.bounding ? 0 : usualSmoothing);
 }
 
 int loopExchanges(Effort effort)

@@ -51,6 +51,10 @@ constexpr int competingFaces = 150; ///< up to these, lower efforts' cages and t
 constexpr int competingLoops = 24;  ///< up to so many faces, loops with other quads; they take longer
 constexpr double fewStarts[] = {1.0, 0.85, 0.7, 0.6}, fewestStarts[] = {0.65, 0.5}; ///< shares of the resolution
 
+// Finer voxels can be worse: they leave gaps open, whose handles take faces. So coarser ones compete with those that
+// are given, which takes a third more time or less from 128 on.
+constexpr int coarsestHalf = 32; ///< voxels along the longest side
+
 // Shape of the cage.
 constexpr double mergeAnyFold = 90, mergeFlat = 10, mergeUsual = 30; ///< degrees: quads, no guard, triquad
 constexpr double wideAngle = 10, usualAngle = 6; ///< degrees; the wide one costs up to 5 % of the tightness
@@ -71,7 +75,7 @@ constexpr double leastTurnedSide = 0.05;          ///< world units: OpenVDB has 
 constexpr int trianglesOfBox = 12;
 constexpr double boxMargin = 0.01;       ///< of the longest side, between the model and its box
 constexpr double leastThickness = 0.005; ///< of its longest side, of a box: the guard keeps surfaces 0.002 apart
-constexpr int stepSmoothing = 3;         ///< sweeps that take the steps of the voxels away, where no guard does
+constexpr int usualSmoothing = 3;        ///< sweeps that take the steps of the voxels away, where no guard does
 
 } // namespace policy
 
@@ -83,13 +87,16 @@ struct Voxels {
     bool turned = false;                     ///< along the model's own axes
 };
 
-/// The options whose cages compete for the tightest. Among few faces the order of the collapses is luck: there they are
+/// The options whose cages compete for the tightest, Among few faces the order of the collapses is luck: there they are
 /// those of all lower efforts, too, so that no effort gives looser cages than a lower one. Among the fewest, loops
-/// compete with other quads from Effort::fair on.
+/// compete with other quads from Effort::fair on. A resolution that is given competes with its halves, which come last.
 std::vector<CageOptions> competitors(const CageOptions& options);
 
 /// The voxels to try, finest first. Options that are not `auto` are obeyed.
 std::vector<Voxels> ladder(const CageOptions& options);
+
+/// Whether pairs of triangles become quads.
+bool arePaired(const CageOptions& options);
 
 /// Whether cages of other kinds compete with those from closings: a box's, and those of lower efforts.
 bool isOfFewFaces(const CageOptions& options);
@@ -108,6 +115,9 @@ int affordableResolution(const CageOptions& options, const Voxels& voxels, std::
 
 /// Whether parts and handles leave faces enough for the shape.
 bool hasFewEnoughHandles(const CageOptions& options, const MeshTopology& topology);
+
+/// Sweeps of smoothing.
+int smoothing(const CageOptions& options);
 
 /// How often loops are exchanged.
 int loopExchanges(Effort effort);

@@ -31,14 +31,14 @@ Candidate textbookCage(const CageOptions& options, const ScaleVersion& scale, Vo
     {
         const Stage stage(interrupter, "smooth");
         SmoothOptions smoothing;
-        smoothing.iterations = std::min(100, policy::stepSmoothing + options.smooth);
-        candidate.smoothed = std::make_shared<const Mesh>(smooth(*candidate.surface, smoothing, interrupter));
+        smoothing.iterations = detail::smoothing(options);
+        candidate.smoothed = smooth(*candidate.surface, smoothing, interrupter);
     }
     {
         const Stage stage(interrupter, "decimate");
         DecimateOptions target;
         target.faces = static_cast<std::size_t>(options.faces);
-        candidate.decimated = certifier.rounded(decimate(*candidate.smoothed, target, interrupter));
+        candidate.decimated = certifier.rounded(decimate(candidate.smoothed, target, interrupter));
     }
     CageCheck check = certifier.check(candidate.decimated, interrupter);
     if (hasRepair() && !check.valid()) {

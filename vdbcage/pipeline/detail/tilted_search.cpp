@@ -45,9 +45,8 @@ std::optional<Candidate> TiltedSearch::run(const CageOptions& options, Interrupt
     candidate.symmetry.reset();
     candidate.tiltedSymmetry = plane_;
     candidate.decimated = turnedBack(std::move(candidate.decimated));
-    const bool isSmoothed = candidate.smoothed != candidate.surface;
     candidate.surface = std::make_shared<const Mesh>(turnedBack(*candidate.surface));
-    candidate.smoothed = isSmoothed ? std::make_shared<const Mesh>(turnedBack(*candidate.smoothed)) : candidate.surface;
+    candidate.smoothed = turnedBack(std::move(candidate.smoothed));
     auto closing = std::make_shared<Closing>(*candidate.closing);
     auto solid = std::make_shared<Solid>(*closing->solid);
     isolated([&] {

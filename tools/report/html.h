@@ -1,0 +1,13 @@
+#pragma once
+
+#include <string>
+
+namespace vdbcage::tool {
+
+/// `text` for a page of HTML, its control bytes escaped.
+std::string htmlText(const std::string& text);
+
+/// A picture that is in the page itself: `png` are the bytes of its file.
+std::string htmlPicture(const std::string& png, const std::string& description);
+
+} // namespace vdbcage::tool
