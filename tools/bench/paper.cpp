@@ -393,7 +393,7 @@ CageOptions usual(bool bounding)
     return bounding ? CageOptions{} : textbook(64);
 }
 
-void addResolutions(Page& page, const std::vector<Subject>& subjects)
+void addResolutions(Page& page, const Arguments& arguments, const std::vector<Subject>& subjects)
 {
     page.heading("Cages by resolution");
     page.paragraph("In the paper the resolution decides how close a cage is: the surface of the voxels is all there "
@@ -402,6 +402,7 @@ void addResolutions(Page& page, const std::vector<Subject>& subjects)
                    "looser.");
     std::vector<std::pair<std::string, std::function<CageOptions(bool)>>> choices;
     for (const int resolution : publishedResolutions) {
+        if (resolution > arguments.wholeRuns) break;
         choices.emplace_back(std::to_string(resolution), [resolution](bool bounding) {
             CageOptions options = usual(bounding);
             options.resolution = resolution;
@@ -555,12 +556,14 @@ int runPaper(int argc, char** argv)
     app.add_option("-o,--output", arguments.output, "the page to write")->required()->type_name("FILE.html");
     addList(app, "--models", arguments.models, "[bishop,bench,creature,botijo]")->type_name("NAME,NAME");
     addList(app, "--resolutions", arguments.resolutions, "of stages [32,64,128,256,512,1024]")->type_name("N,N");
-    app.add_option("--whole-runs", arguments.wholeRuns, "the finest resolution of whole runs [256]")->type_name("N");
+    app.add_option("--whole-runs", arguments.wholeRuns, "the finest resolution of whole runs, 32 or more [256]")
+        ->type_name("N");
     app.add_option("--divisions", arguments.divisions, "times that triangles are cut into four [3]")->type_name("N");
     app.add_option("--threads", arguments.threads, "[all]")->type_name("N");
     CLI11_PARSE(app, argc - 1, argv + 1);
     for (const int resolution : arguments.resolutions) requirePositive("--resolutions", resolution);
     requirePositive("--threads", arguments.threads);
+    if (arguments.wholeRuns < 32) throw InputError("--whole-runs: it must be 32 or more");
 
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                     static_cast<std::size_t>(arguments.threads));
@@ -586,7 +589,7 @@ int runPaper(int argc, char** argv)
     addMachine(page, arguments, subjects);
     addStages(page, arguments, subjects);
     addVoxelizers(page, arguments, subjects);
-    addResolutions(page, subjects);
+    addResolutions(page, arguments, subjects);
     addSmoothing(page, subjects);
     addMeshes(page, subjects);
     addPoses(page, subjects);
