@@ -129,7 +129,7 @@ int runBind(Call call)
     app.add_option("models", modelPaths)->required()->type_name("MODEL...");
     app.add_option("-o,--output", output, "the weights to write")->required()->type_name("WEIGHTS");
     const CoordinateArguments arguments(app, CoordinateArguments::For::weights);
-    const TalkArguments talk(app, "print warnings, and the progress also without a terminal");
+    const TalkArguments talk(app, "print warnings; progress without a terminal");
     if (!parse(app, std::move(call))) return exitGood;
     const CoordinateOptions coordinates = arguments.options();
     const std::vector<fs::path> files = weightsFiles(output, modelPaths);
@@ -179,7 +179,7 @@ int runDeform(Call call)
     app.add_option("--weights", weights, "of bind, or a matrix (.npy, .dmat) [computed]")->type_name("WEIGHTS");
     app.add_flag("--inversions", inversions, "print how many triangles each pose inverts");
     app.add_flag("--compare", compare, "draw all families, and print what they distort");
-    const TalkArguments talk(app, "print warnings, and the progress also without a terminal");
+    const TalkArguments talk(app, "print warnings; progress without a terminal");
     if (!parse(app, std::move(call))) return exitGood;
     if (compare) {
         if (!weights.empty() || arguments.familyIsGiven() || inversions) {
