@@ -373,9 +373,10 @@ BOOST_AUTO_TEST_CASE(what_does_not_fit_is_refused_by_name)
     const auto expectDmat = [&](const std::string& bytes, const std::string& message) {
         BOOST_TEST(messageOf(folder, {"w.dmat", bytes}) == message);
     };
-    expectDmat("", "the file is empty");
-    expectDmat("weights\n", "line 1: the number of columns is \"weights\", which is not an integer");
-    expectDmat("26\n3\n", "line 1: the number of rows is missing");
+    expectDmat("", "the file is empty; copy or export it again");
+    expectDmat("weights\n",
+               "line 1: the number of columns is \"weights\", which is not an integer; write a whole number");
+    expectDmat("26\n3\n", "line 1: the number of rows is missing; add it, or export the file again");
     expectDmat("26 3 1\n", "line 1: the first line must be COLUMNS ROWS, and nothing behind it");
     expectDmat("-26 3\n", "line 1: the number of columns is -26; it must not be negative");
     expectDmat("26 3\n0.5 0.x",
@@ -384,7 +385,7 @@ BOOST_AUTO_TEST_CASE(what_does_not_fit_is_refused_by_name)
     expectDmat(text + "7\n", "line 80: there is \"7\" behind the last weight");
     text[5] = 'x';
     expectDmat(text, "line 2: the weight is " + ("\"" + text.substr(5, text.find('\n', 5) - 5) + "\"") +
-                         ", which is not a number");
+                         ", which is not a number; numbers are written like 12, -0.5 and 3e-2");
     expectDmat("0 0\n26 3\r\n" + bytesOf<double>(good.transposed().numbers),
                "line 2: the second line must be COLUMNS ROWS, and nothing behind it");
     BOOST_CHECK_THROW(readWeights(folder / "none.dmat", cage, points), IoError);

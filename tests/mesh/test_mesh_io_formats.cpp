@@ -4,12 +4,14 @@
 
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <sstream>
 
 #include <mesh/mesh_samples.h>
 #include <support/shapes.h>
 #include <vdbcage/core/error.h>
 #include <vdbcage/mesh/io/polygon_soup.h>
+#include <vdbcage/mesh/io/polygon_splitter.h>
 
 using namespace vdbcage;
 using namespace vdbcage::test;
@@ -218,19 +220,43 @@ BOOST_AUTO_TEST_CASE(equal_polygons_have_their_alternatives_once)
     BOOST_TEST(mesh.alternatives.size() == 64U * 62U);
     BOOST_TEST(summary.polygons == 60U);
     BOOST_TEST(summary.alternateCorners == 64U);
-    BOOST_TEST(summary.facesAsSplit == 0U);
     // The same corners in another order are another polygon.
     const std::string five = "OFF\n5 3 0\n0 0 0\n2 0 0\n3 1 0\n2 2 0\n0 2 0\n";
     BOOST_TEST(off(five + "5 0 1 2 3 4\n5 4 3 2 1 0\n5 2 3 4 0 1\n").alternatives.size() == 10U);
     BOOST_TEST(off(five + "5 0 1 2 3 4\n5 4 3 2 1 0\n5 0 2 1 3 4\n").alternatives.size() == 20U);
 }
 
-BOOST_AUTO_TEST_CASE(faces_of_more_than_64_corners_are_told)
+BOOST_AUTO_TEST_CASE(faces_of_more_than_64_corners_are_there_as_a_fan_and_as_ears)
 {
+    // Convex ones are split as a fan.
     const auto [mesh, summary] = onCircle({{0, 65}, {10, 65}, {0, 64}, {0, 5}});
-    BOOST_TEST(mesh.alternatives.size() == 64U * 62U + 10U);
+    BOOST_TEST(mesh.alternatives.size() == 2U * 63U + 64U * 62U + 10U);
     BOOST_TEST(summary.alternateCorners == 64U);
-    BOOST_TEST(summary.facesAsSplit == 2U);
+    std::vector<Vec3I> ears;
+    std::vector<openvdb::Index32> first(65);
+    std::iota(first.begin(), first.end(), openvdb::Index32(0));
+    detail::PolygonSplitter(mesh.points).splitByEars(first.data(), first.size(), ears);
+    BOOST_TEST_REQUIRE(ears.size() == 63U);
+    for (std::size_t i = 0; i < ears.size(); ++i) BOOST_REQUIRE((mesh.alternatives[i] == ears[i]));
+    BOOST_REQUIRE((mesh.triangles[63] == Vec3I(10, 11, 12)));
+    BOOST_TEST(!std::equal(ears.begin(), ears.end(), mesh.triangles.begin()));
+    // A star has no fan that divides it.
+    for (const std::size_t corners : {66U, 200U, 5000U}) {
+        detail::PolygonSoup soup;
+        std::vector<openvdb::Index32> face;
+        for (std::size_t i = 0; i < corners; ++i) {
+            const double angle = 2 * 3.14159265358979 * double(i) / double(corners), radius = i % 2 == 0 ? 1 : 0.5;
+            soup.points.emplace_back(radius * std::cos(angle), radius * std::sin(angle), 0);
+            face.push_back(openvdb::Index32((i + 7) % corners));
+        }
+        soup.addFace(face.data(), corners);
+        const Mesh star = detail::toMesh(std::move(soup), "star").mesh;
+        BOOST_TEST(star.triangles.size() == corners - 2);
+        BOOST_TEST_REQUIRE(star.alternatives.size() == corners - 2);
+        for (std::size_t i = 0; i < star.alternatives.size(); ++i) {
+            BOOST_REQUIRE((star.alternatives[i] == Vec3I(face[0], face[i + 1], face[i + 2])));
+        }
+    }
 }
 
 BOOST_AUTO_TEST_CASE(alternatives_keep_within_their_budget)
@@ -250,9 +276,8 @@ BOOST_AUTO_TEST_CASE(alternatives_keep_within_their_budget)
     faces.emplace_back(0, 5);
     faces.emplace_back(0, 20);
     const auto [mesh, summary] = onCircle(faces);
-    BOOST_TEST(mesh.alternatives.size() == 10U + 20U * 18U);
+    BOOST_TEST(mesh.alternatives.size() == 10U + 20U * 18U + (fit + 2) * 62 + 63);
     BOOST_TEST(summary.alternateCorners == 63U);
-    BOOST_TEST(summary.facesAsSplit == fit + 3);
     BOOST_TEST(mesh.triangles.size() == (fit + 2) * 62 + 63 + 3 + 18);
 }
 

@@ -100,6 +100,16 @@ class MeshTest(Case):
                 self.assertTrue(numpy.array_equal(back.triangles, mesh.triangles))
         self.assertGreater(len(Mesh.read(BISHOP)), 1000)
 
+    def test_odd_files_are_read_with_a_warning(self):
+        path = self.folder / "odd.obj"
+        path.write_text("v 0 0 0\nv 1d0 0 0\nv 0 1+e0 0\nf 1 2 3\n")
+        with self.assertWarns(UserWarning) as warned:
+            mesh = Mesh.read(path)
+        self.assertEqual(mesh.points.tolist(), CORNERS[:3])
+        self.assertEqual(str(warned.warnings[0].message),
+                         f"{path}: line 2: a number has an exponent of Fortran, like 1.5d3, which is read as 1.5e3")
+        self.assertEqual((len(warned.warnings), warned.filename), (2, __file__))
+
     def test_bad_files_are_refused(self):
         missing = self.folder / "missing.obj"
         self.refuses(f"{missing}: cannot be read", Mesh.read, missing, error=IoError)

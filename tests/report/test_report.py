@@ -117,6 +117,17 @@ class Reports(unittest.TestCase):
         self.assertEqual([model["file"] for model in report["models"]], ["box.obj", "open.obj"])
         self.assertTrue(report["models"][1]["check"]["bounding"])
 
+    def test_warnings_of_odd_files(self):
+        points, faces = BOX.count("v "), BOX.count("f ")
+        (self.folder / "odd.obj").write_text(f"OFF\n{points} {faces} 0\n{BOX}")
+        warning = "line 1: the header of an OFF file comes before the OBJ file; it is passed over"
+        report = self.run_command("make", "odd.obj", "-o", "cage.obj", "--faces", "20", "--effort", "fast")
+        self.assertEqual(report["models"][0]["warnings"], [warning])
+        report = self.run_command("check", "odd.obj", "box.obj", status=2)
+        self.assertEqual((report["cage_warnings"], report["models"][0]["warnings"]), ([warning], []))
+        if os.environ["VDBCAGE_HAS_GPL_PART"] == "1":
+            self.assertEqual(self.run_command("repair", "odd.obj", "-o", "mended.obj")["cage_warnings"], [warning])
+
     def test_a_failure(self):
         (self.folder / "bad.obj").write_text("v 0 0 0\nf 1 2 3\n")
         report = self.run_command("make", "bad.obj", "-o", "cage.obj", status=1)

@@ -1,5 +1,6 @@
 #include <utility>
 
+#include <pybind11/stl.h>
 #include <vdbcage/mesh/mesh_io.h>
 
 #include "arrays.h"
@@ -25,7 +26,8 @@ void defineMesh(py::module_& module)
                                [](const py::object& self) { return readOnly(self.cast<const Mesh&>().quads, self); });
 
     module.def("read_mesh", [](const std::string& path) {
-        return resultOfJob(py::none(), [&](Interrupter*) { return std::make_shared<Mesh>(readMesh(path)); });
+        MeshFile file = resultOfJob(py::none(), [&](Interrupter*) { return readMeshFile(path); });
+        return py::make_tuple(std::make_shared<Mesh>(std::move(file.mesh)), std::move(file.summary.warnings));
     });
     module.def("write_mesh", [](const Mesh& mesh, const std::string& path) {
         runJob(py::none(), [&](Interrupter*) { writeMesh(mesh, std::filesystem::path(path)); });

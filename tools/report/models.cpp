@@ -85,16 +85,27 @@ std::string describe(const std::vector<ModelFile>& models)
 {
     std::string text;
     for (const ModelFile& model : models) {
-        if (model.check) {
-            std::array<char, 64> distance{};
-            std::snprintf(distance.data(), distance.size(), "%.2f %% of its longest side",
-                          100 * model.check->meanDistance);
-            text += "  " + detail::printable(model.path.string()) + ": " + verdict(*model.check) + ", mean distance " +
-                    distance.data() + '\n';
-        }
-        text += describe(model.summary);
+        if (!model.check) continue;
+        std::array<char, 64> distance{};
+        std::snprintf(distance.data(), distance.size(), "%.2f %% of its longest side", 100 * model.check->meanDistance);
+        text += "  " + detail::printable(model.path.string()) + ": " + verdict(*model.check) + ", mean distance " +
+                distance.data() + '\n';
     }
     return text;
+}
+
+std::string warningLines(const std::vector<ModelFile>& models)
+{
+    std::string lines;
+    for (const ModelFile& model : models) lines += warningLines(model.path, model.summary);
+    return lines;
+}
+
+Mesh readMesh(const std::filesystem::path& path, std::string& warnings)
+{
+    MeshFile file = readMeshFile(path);
+    warnings += warningLines(path, file.summary);
+    return std::move(file.mesh);
 }
 
 const char* verdict(const CageCheck& check)

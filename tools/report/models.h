@@ -39,8 +39,14 @@ Json entryOf(const std::vector<ModelFile>& models);
 /// Their names for messages: "body.obj, shirt.obj".
 std::string namesOf(const std::vector<ModelFile>& models);
 
-/// What there is to say of each: its verdict, and faces that are certified as split here only. Lines with their ends.
+/// Where there are several: the verdict of each. Lines with their ends.
 std::string describe(const std::vector<ModelFile>& models);
+
+/// The warningLines() of all.
+std::string warningLines(const std::vector<ModelFile>& models);
+
+/// readMesh() that appends the warningLines() of the file.
+Mesh readMesh(const std::filesystem::path& path, std::string& warnings);
 
 /// "bounding", "NOT bounding" or "NOT a valid cage".
 const char* verdict(const CageCheck& check);

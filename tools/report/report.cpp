@@ -123,9 +123,9 @@ Json toJson(const Mesh& mesh, const ReadSummary& summary, const std::filesystem:
             {"quads", mesh.quads.size()},
             {"polygons_split", summary.polygons},
             {"splits_certified_up_to_corners", summary.alternateCorners},
-            {"faces_certified_as_split", summary.facesAsSplit},
             {"degenerate_faces", summary.degenerateFaces},
             {"ignored_elements", summary.ignoredElements},
+            {"warnings", summary.warnings},
             {"sha256", nullptr}, // who knows them sets these two
             {"check", nullptr}};
 }
@@ -268,12 +268,13 @@ std::vector<std::string> remarks(const CageReport& report, const CageOptions& op
     return lines;
 }
 
-std::string describe(const ReadSummary& summary)
+std::string warningLines(const std::filesystem::path& path, const ReadSummary& summary)
 {
-    if (summary.facesAsSplit == 0) return "";
-    return "  " + std::to_string(summary.facesAsSplit) + (summary.facesAsSplit == 1 ? " face" : " faces") +
-           " of more than " + std::to_string(summary.alternateCorners) +
-           " corners: certified as split here, not under other splits\n";
+    std::string lines;
+    for (const std::string& warning : summary.warnings) {
+        lines += "  warning: " + detail::printable(path.string()) + ": " + warning + '\n';
+    }
+    return lines;
 }
 
 std::string describe(const CageCheck& check)

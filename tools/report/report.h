@@ -55,7 +55,7 @@ std::string describe(const CageCheck& check);
 /// How the cage came about, where that is worth telling: what it was shrunk from and why, its symmetry, what made its
 /// voxels, parts and handles. One line each, without a line break.
 std::vector<std::string> remarks(const CageReport& report, const CageOptions& options);
-/// A line that says which faces of the model are only certified as they are split here; empty if none.
-std::string describe(const ReadSummary& summary);
+/// What the file has otherwise than its format: "  warning: FILE: line 7: ...", one line each with its end.
+std::string warningLines(const std::filesystem::path& path, const ReadSummary& summary);
 
 } // namespace vdbcage::tool

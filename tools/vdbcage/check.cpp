@@ -34,7 +34,8 @@ int runCheck(Call call)
 
     std::optional<Progress> progress(talk.progressForm());
     const std::string cageFile = detail::readMeshBytes(cagePath);
-    const Mesh cage = detail::parseMesh(cageFile, cagePath).mesh;
+    const MeshFile cageRead = detail::parseMesh(cageFile, cagePath);
+    const Mesh& cage = cageRead.mesh;
     std::vector<ModelFile> models = readModels(modelPaths, reportPath.empty() ? Hashes::none : Hashes::sha256);
     const CageCheck check = checkCage(cage, takeMesh(models), {}, &*progress);
     checkEach(models, cage, &*progress);
@@ -43,6 +44,7 @@ int runCheck(Call call)
         report["models"] = entryOf(models);
         report["cage"] = cagePath.string();
         report["cage_sha256"] = sha256Of(cageFile);
+        report["cage_warnings"] = cageRead.summary.warnings;
         report["quads"] = cage.quads.empty() ? Json() : toJson(quadQuality(cage));
         report["check"] = toJson(check);
         outputs.add(reportPath, [&](std::ostream& out) { out << toText(report); });
@@ -50,7 +52,9 @@ int runCheck(Call call)
     progress->succeed();
     progress.reset();
     if (!talk.quiet()) {
-        std::cout << printable(cagePath) << ": " << verdict(check) << '\n' << describe(models) << describe(check);
+        std::cout << printable(cagePath) << ": " << verdict(check) << '\n'
+                  << describe(models) << describe(check) << warningLines(cagePath, cageRead.summary)
+                  << warningLines(models);
         flushOutput();
     }
     outputs.commit();

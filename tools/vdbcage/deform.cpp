@@ -3,6 +3,7 @@
 #include <optional>
 
 #include <tools/report/frames.h>
+#include <tools/report/models.h>
 #include <tools/report/posed_cage.h>
 #include <vdbcage/check/check.h>
 #include <vdbcage/core/error.h>
@@ -85,7 +86,7 @@ std::vector<fs::path> weightsFiles(const fs::path& output, const std::vector<fs:
 
 /// What deform --compare does.
 int drawComparison(const fs::path& cagePath, const fs::path& posedPath, const fs::path& modelPath,
-                   const fs::path& picture, const CoordinateArguments& arguments, ProgressForm form)
+                   const fs::path& picture, const CoordinateArguments& arguments, const TalkArguments& talk)
 {
     requirePngExtension(picture);
     const auto optionsOf = [&](Coordinates family) { return arguments.optionsOfEach(family); };
@@ -94,8 +95,10 @@ int drawComparison(const fs::path& cagePath, const fs::path& posedPath, const fs
     Outputs outputs;
     for (const fs::path& input : {cagePath, posedPath, modelPath}) outputs.reads(input);
     outputs.writes(picture);
-    std::optional<Progress> progress(form);
-    const Mesh cage = readMesh(cagePath), posed = readMesh(posedPath), model = readMesh(modelPath);
+    std::optional<Progress> progress(talk.progressForm());
+    std::string warnings;
+    const Mesh cage = readMesh(cagePath, warnings), posed = readMesh(posedPath, warnings),
+               model = readMesh(modelPath, warnings);
     requireSameFaces(posedPath, posed, "the cage " + cagePath.string(), cage);
     const FamilyComparison comparison =
         bindFiles(cagePath, modelPath, [&] { return compareFamilies(cage, posed, model, optionsOf, &*progress); });
@@ -106,6 +109,7 @@ int drawComparison(const fs::path& cagePath, const fs::path& posedPath, const fs
     std::cout << comparison.table;
     flushOutput();
     outputs.commit();
+    if (talk.verbose()) std::cerr << warnings;
     return exitGood;
 }
 
@@ -125,7 +129,7 @@ int runBind(Call call)
     app.add_option("models", modelPaths)->required()->type_name("MODEL...");
     app.add_option("-o,--output", output, "the weights to write")->required()->type_name("WEIGHTS");
     const CoordinateArguments arguments(app, CoordinateArguments::For::weights);
-    const TalkArguments talk(app, "print the progress, also without a terminal");
+    const TalkArguments talk(app, "print warnings; progress without a terminal");
     if (!parse(app, std::move(call))) return exitGood;
     const CoordinateOptions coordinates = arguments.options();
     const std::vector<fs::path> files = weightsFiles(output, modelPaths);
@@ -136,11 +140,12 @@ int runBind(Call call)
     for (const fs::path& file : files) outputs.writes(file);
 
     std::optional<Progress> progress(talk.progressForm());
-    const Mesh cage = readMesh(cagePath);
+    std::string warnings;
+    const Mesh cage = readMesh(cagePath, warnings);
     const std::size_t handles = handleCount(cage, coordinates.family);
     std::string text;
     for (std::size_t i = 0; i < files.size(); ++i) {
-        const Mesh model = readMesh(modelPaths[i]);
+        const Mesh model = readMesh(modelPaths[i], warnings);
         const std::vector<float> weights = bindFiles(
             cagePath, modelPaths[i], [&] { return computeWeights(cage, model.points, coordinates, &*progress); });
         outputs.add(files[i], [&](std::ostream& out) {
@@ -152,6 +157,7 @@ int runBind(Call call)
     outputs.commit();
     progress->succeed();
     progress.reset();
+    if (talk.verbose()) text += warnings;
     if (!talk.quiet()) std::cerr << text;
     return exitGood;
 }
@@ -173,14 +179,14 @@ int runDeform(Call call)
     app.add_option("--weights", weights, "of bind, or a matrix (.npy, .dmat) [computed]")->type_name("WEIGHTS");
     app.add_flag("--inversions", inversions, "print how many triangles each pose inverts");
     app.add_flag("--compare", compare, "draw all families, and print what they distort");
-    const TalkArguments talk(app, "print the progress, also without a terminal");
+    const TalkArguments talk(app, "print warnings; progress without a terminal");
     if (!parse(app, std::move(call))) return exitGood;
     if (compare) {
         if (!weights.empty() || arguments.familyIsGiven() || inversions) {
             throw InputError("--compare shows all families, and inversions too; it does not go with --weights, "
                              "--coordinates or --inversions");
         }
-        return drawComparison(cagePath, posedPath, modelPath, output, arguments, talk.progressForm());
+        return drawComparison(cagePath, posedPath, modelPath, output, arguments, talk);
     }
     const Coordinates family = coordinatesNamed(arguments.familyName());
     std::optional<CoordinateOptions> computed;
@@ -202,7 +208,8 @@ int runDeform(Call call)
     for (const Frame& frame : frames) outputs.writes(framePath(output, frame.number));
 
     std::optional<Progress> progress(talk.progressForm());
-    const Mesh cage = readMesh(cagePath), model = readMesh(modelPath);
+    std::string warnings;
+    const Mesh cage = readMesh(cagePath, warnings), model = readMesh(modelPath, warnings);
     Binding binding = weights.empty() ? bindFiles(cagePath, modelPath,
                                                   [&] { return Binding(cage, model.points, *computed, &*progress); })
                                       : readWeights(weights, cage, model.points);
@@ -223,7 +230,7 @@ int runDeform(Call call)
     if (!weights.empty()) binding = binding.with(arguments.optionsOf(binding.family()).elasticity);
     std::vector<Mesh> posedCages; // kept for what is printed
     for (const Frame& frame : frames) {
-        const Mesh posed = readMesh(frame.path);
+        const Mesh posed = readMesh(frame.path, warnings);
         requireSameFaces(frame.path, posed, "the cage " + cagePath.string(), cage);
         const std::vector<openvdb::Vec3d> points = binding.pose(posed.points);
         const fs::path path = framePath(output, frame.number);
@@ -235,12 +242,12 @@ int runDeform(Call call)
     progress.reset();
     std::cout << report;
     flushOutput();
-    const std::string text = talk.quiet() ? std::string()
-                                          : printable(output) + ": " + std::to_string(frames.size()) +
-                                                (frames.size() == 1 ? " pose" : " poses") + " of " +
-                                                std::to_string(model.points.size()) + " points\n";
+    std::string text = printable(output) + ": " + std::to_string(frames.size()) +
+                       (frames.size() == 1 ? " pose" : " poses") + " of " + std::to_string(model.points.size()) +
+                       " points\n";
+    if (talk.verbose()) text += warnings;
     outputs.commit();
-    std::cerr << text;
+    if (!talk.quiet()) std::cerr << text;
     return exitGood;
 }
 

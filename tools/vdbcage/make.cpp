@@ -111,6 +111,7 @@ std::string summaryOf(const MakeArguments& arguments, const std::vector<ModelFil
     for (const std::string& remark : remarks(report, arguments.options)) out << "  " << remark << '\n';
     out << describe(models);
     if (!arguments.isVerbose) return out.str();
+    out << warningLines(models);
     for (const StageTime& stage : stages) {
         out << "  " << std::left << std::setw(10) << stage.name << std::right << std::setw(8) << stage.seconds
             << " s\n";
@@ -223,7 +224,7 @@ int runMake(Call call)
     app.add_option("--report", arguments.report, "options, times, memory, verdict as JSON")->type_name("FILE.json");
     app.add_option("--picture", arguments.picture, "the model with its cage")->type_name("FILE.png");
     app.add_flag("--skip-done", skipsDone, "nothing if the report tells that it was done");
-    const TalkArguments talk(app, "print progress, stage times, the whole verdict");
+    const TalkArguments talk(app, "progress, warnings, stage times, whole verdict");
     app.set_help_all_flag("--help-all", "print this and the rarer options");
     arguments.words = call.words;
     if (!parse(app, std::move(call))) return exitGood;

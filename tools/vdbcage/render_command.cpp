@@ -1,9 +1,11 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <iostream>
 #include <map>
 
 #include <tools/draw/diverging_colours.h>
+#include <tools/report/models.h>
 #include <vdbcage/core/error.h>
 #include <vdbcage/deform/binding.h>
 #include <vdbcage/mesh/mesh_io.h>
@@ -156,6 +158,8 @@ int runRender(Call call)
         app.add_option("--influence", vertex, "colour models by a cage vertex's weight")->type_name("VERTEX");
     const CoordinateArguments arguments(app, CoordinateArguments::For::weights, "of the weight");
     app.add_flag("--same-view", scene.sameView, "one scale and place for all panels");
+    bool isVerbose = false;
+    app.add_flag("-v,--verbose", isVerbose, "print warnings of what is odd in the files");
     if (!parse(app, std::move(call))) return exitGood;
     requirePngExtension(picture);
     Outputs outputs;
@@ -167,6 +171,7 @@ int runRender(Call call)
     const Size size = parseSize(sizeText);
     const CoordinateOptions coordinates = arguments.options();
 
+    std::string warnings;
     std::map<std::string, Mesh> meshes; // by file: many panels can show the same model; layers point at them
     for (const std::vector<PanelFile>& panelFiles : panels) {
         std::vector<Layer>& panel = scene.panels.emplace_back();
@@ -174,7 +179,7 @@ int runRender(Call call)
             const bool voxels = fs::path(file.name).extension() == ".vdb";
             const auto [known, isNew] = meshes.try_emplace(file.name);
             Mesh& mesh = known->second;
-            if (isNew) mesh = voxels ? readVoxels(file.name) : readMesh(file.name);
+            if (isNew) mesh = voxels ? readVoxels(file.name) : readMesh(file.name, warnings);
             const bool isModel = panel.empty() || (file.isJoined && panel.back().style == LayerStyle::shaded);
             panel.push_back(voxels ? voxelsLayer(mesh) : isModel ? shadedLayer(mesh) : wireframeLayer(mesh));
         }
@@ -185,6 +190,7 @@ int runRender(Call call)
     const std::string bytes = encodePng(renderScene(scene, size.width, size.height));
     outputs.add(picture, [&](std::ostream& out) { out << bytes; });
     outputs.commit();
+    if (isVerbose) std::cerr << warnings;
     return exitGood;
 }
 

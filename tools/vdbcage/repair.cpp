@@ -56,11 +56,13 @@ int runRepair(Call call)
     if (!reportPath.empty()) outputs.writes(reportPath);
 
     std::optional<Progress> progress(talk.progressForm());
-    const RepairedCage mended = repair(readMesh(cagePath), &*progress);
+    const MeshFile cage = readMeshFile(cagePath);
+    const RepairedCage mended = repair(cage.mesh, &*progress);
     outputs.add(outputPath, [&](std::ostream& out) { writeMesh(mended.cage, out, outputPath); });
     if (!reportPath.empty()) {
         Json facts = runFacts("repair", arguments);
         facts["cage"] = cagePath.string();
+        facts["cage_warnings"] = cage.summary.warnings;
         facts["repaired"] = outputPath.string();
         facts["repair"] = toJson(mended.report);
         outputs.add(reportPath, [&](std::ostream& out) { out << toText(facts); });
@@ -69,6 +71,7 @@ int runRepair(Call call)
     if (!talk.quiet()) {
         const Json facts = toJson(mended.report);
         for (const auto& fact : facts.items()) lines << "  " << fact.key() << ": " << fact.value() << '\n';
+        lines << warningLines(cagePath, cage.summary);
     }
     const std::string text = lines.str();
     outputs.commit();

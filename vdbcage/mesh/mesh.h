@@ -17,9 +17,9 @@ struct Mesh {
     std::vector<openvdb::Vec3d> points;    ///< world space, exactly as the file has them
     std::vector<openvdb::Vec3I> triangles; ///< three indices into `points`
     std::vector<openvdb::Vec4I> quads;     ///< four indices into `points`, in order around the face
-    /// Of a model that was read: the triangles that its polygons have when they are split in other ways. Quads, whose
-    /// diagonals are known, and large polygons (see ReadSummary) have none here. Those of equal polygons are there
-    /// once. They are no faces, but another program may see them, so cages bound them too.
+    /// Of a model that was read: the triangles that its polygons have when they are split in other ways, once where
+    /// polygons are equal. Quads, whose diagonals are known, have none here, large polygons few (see ReadSummary). They
+    /// are no faces, but another program may see them, so cages bound them too.
     std::vector<openvdb::Vec3I> alternatives = {};
 };
 

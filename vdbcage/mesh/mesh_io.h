@@ -18,10 +18,13 @@ struct ReadSummary {
     std::size_t polygons = 0;        ///< faces with more than four corners, split into triangles
     std::size_t degenerateFaces = 0; ///< faces that repeat a corner or have zero area (kept: they are geometry)
     std::size_t ignoredElements = 0; ///< lines, points, curves and other elements that are not faces
-    /// Faces of up to so many corners have triangles of other splits in Mesh::alternatives (of any split up to 8
-    /// corners, of the fans around each corner beyond): 64, or 4 to 63 where these would be more than 2^24 triangles.
+    /// Faces of up to so many corners have triangles of all these splits in Mesh::alternatives: of any split up to 8
+    /// corners, of the fans around each corner beyond. 64, or 4 to 63 where these would be more than 2^24 triangles.
+    /// Faces of more corners are there as the fan around their first corner and as clipping ears splits them.
     std::size_t alternateCorners = 64;
-    std::size_t facesAsSplit = 0; ///< faces of more corners: in the mesh only as they are split here
+    /// What the file has otherwise than its format, one sentence a kind, with the line where it is first: "line 7: a
+    /// number has ... (3 times)". Nothing of the file itself is in them.
+    std::vector<std::string> warnings;
 };
 
 /// What a file holds.
@@ -37,6 +40,11 @@ struct MeshFile {
 /// Corners of an STL with the same coordinates become one point. Faces with more than four corners are split into
 /// triangles. So are concave quads: those that only one diagonal divides into two triangles of their orientation. The
 /// reader does not depend on the locale.
+///
+/// What some programs write otherwise is read where its meaning is plain, with a warning in ReadSummary. That is text
+/// of UTF-16 with a byte order mark; numbers like 3.1+e2 and 1.5d3, which are 310 and 1500; the header of an OFF file
+/// before an OBJ, if its counts are right; in a PLY a line of the header without the word comment, more values in the
+/// line of a face than the header says, and lines that end in CR LF or CR before binary data.
 ///
 /// An OBJ has no mark of its end. One whose last line has no end, and that has points which no face uses, is taken for
 /// truncated. One that was cut off at the end of a line is read as what is left of it.

@@ -20,6 +20,7 @@ import numbers
 import operator
 import os
 import re
+import warnings
 
 import numpy
 
@@ -132,9 +133,12 @@ class Mesh:
 
         Faces of more than four corners are split. Cages bound them in every way they can be split, also where another
         program splits them otherwise. A mesh that is made anew from these arrays does not know these other ways.
-        Raises IoError.
+        Warns (UserWarning) of what the file has otherwise than its format. Raises IoError.
         """
-        return Mesh._of(_vdbcage.read_mesh(_arguments.path(path)))
+        mesh, told = _vdbcage.read_mesh(_arguments.path(path))
+        for warning in told:
+            warnings.warn(f"{os.fsdecode(path)}: {warning}", stacklevel=2)
+        return Mesh._of(mesh)
 
     def write(self, path):
         """Writes an OBJ, OFF, PLY or STL file; the extension says which. It appears whole or not at all.

@@ -65,7 +65,7 @@ std::string readFile(const std::filesystem::path& path)
 {
     requireRegularFile(path);
     std::string bytes = File(path).readAll();
-    if (bytes.empty()) throw IoError(path.string() + ": the file is empty");
+    if (bytes.empty()) throw IoError(path.string() + ": the file is empty; copy or export it again");
     return bytes;
 }
 

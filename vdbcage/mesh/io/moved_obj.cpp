@@ -5,6 +5,7 @@
 
 #include <vdbcage/core/detail/number_text.h>
 #include <vdbcage/mesh/io/obj_syntax.h>
+#include <vdbcage/mesh/io/utf16.h>
 
 namespace vdbcage::detail {
 
@@ -28,9 +29,9 @@ struct Statements {
     std::vector<std::vector<Corner>> faces;
 };
 
-Statements read(std::string_view bytes, const std::string& name)
+Statements read(std::string_view bytes, const std::string& name, Warnings& warnings)
 {
-    TextCursor in(bytes, name, objSyntax);
+    TextCursor in(bytes, name, objSyntax, &warnings);
     Statements statements;
     const auto triple = [&](std::vector<Triple>& to) {
         in.atLineEnd(); // skips blanks
@@ -106,9 +107,12 @@ std::vector<Vec3d> turnedNormals(const Statements& statements, const std::vector
 
 } // namespace
 
-std::string movedObj(std::string_view bytes, const std::string& name, const std::vector<Vec3d>& points)
+std::string movedObj(std::string_view original, const std::string& name, const std::vector<Vec3d>& points)
 {
-    const Statements statements = read(bytes, name);
+    Warnings warnings; // again those of reading it as a mesh
+    std::string storage;
+    const std::string_view bytes = asUtf8(original, name, storage, warnings);
+    const Statements statements = read(bytes, name, warnings);
     const std::vector<Vec3d> normals = turnedNormals(statements, points);
     std::string text;
     text.reserve(bytes.size() + bytes.size() / 2);

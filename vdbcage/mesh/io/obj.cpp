@@ -1,11 +1,13 @@
 // Based on: Wavefront, "Object Files (.obj)", the polygonal part of version 3.0.
 // Differs: statements that carry no polygons are skipped unread, also unknown ones, as programs add their own; a face
-// of one or two corners is ignored, except at the end of a file that was cut off within it.
+// of one or two corners is ignored, except at the end of a file that was cut off within it; the header of an OFF file
+// may come first.
 
 #include <vdbcage/mesh/io/formats.h>
 
 #include <algorithm>
 #include <cstdint>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -13,6 +15,7 @@
 #include <vdbcage/mesh/io/output_buffer.h>
 #include <vdbcage/mesh/io/polygon_soup.h>
 #include <vdbcage/mesh/io/text_cursor.h>
+#include <vdbcage/mesh/io/utf16.h>
 
 namespace vdbcage::detail {
 
@@ -37,20 +40,22 @@ bool looksLikeKeyword(std::string_view word)
 
 class ObjParser {
 public:
-    ObjParser(std::string_view bytes, const std::string& name)
-        : in_(bytes, name, objSyntax), name_(name),
+    ObjParser(std::string_view bytes, const std::string& name, Warnings& warnings)
+        : in_(bytes, name, objSyntax, &warnings), name_(name), warnings_(warnings),
           endsWithinLine_(!bytes.empty() && bytes.back() != '\n' && bytes.back() != '\r')
     {
     }
 
     MeshFile parse()
     {
+        skipOffHeader();
         while (in_.skipToWord()) statement();
         for (const Reference& reference : ahead_) {
             if (reference.index >= soup_.points.size()) failOutOfRange(reference.where, soup_.points.size());
         }
+        if (offHeader_) requireCounts();
         if (endsWithinLine_) requireAllUsed();
-        return toMesh(std::move(soup_), name_);
+        return toMesh(std::move(soup_), name_, warnings_);
     }
 
 private:
@@ -59,6 +64,37 @@ private:
         std::uint64_t index;
         const char* where;
     };
+
+    /// Skips a line "OFF" and a line of two or three counts, or the counts alone.
+    void skipOffHeader()
+    {
+        in_.skipToWord();
+        TextCursor ahead = in_;
+        if (ahead.skipWord("OFF") && !ahead.skipToWord()) return;
+        const char* where = ahead.position();
+        std::vector<std::int64_t> counts;
+        for (std::string_view word = ahead.word(); !word.empty(); word = ahead.word()) {
+            constexpr std::size_t mostDigits = 18; // fit in 64 bits
+            const bool isCount = word.find_first_not_of("0123456789") == std::string_view::npos;
+            if (!isCount || word.size() > mostDigits || counts.size() == 3) return;
+            counts.push_back(0);
+            for (const char digit : word) counts.back() = 10 * counts.back() + (digit - '0');
+        }
+        if (counts.size() < 2 || counts[0] < 3 || counts[1] < 1) return; // not those of a mesh
+        in_.warn(in_.position(), "the header of an OFF file comes before the OBJ file; it is passed over");
+        in_ = ahead;
+        offHeader_ = {where, std::size_t(counts[0]), std::size_t(counts[1])};
+    }
+
+    /// Counts that are right show that the header was meant so, and that no line is missing.
+    void requireCounts() const
+    {
+        if (soup_.points.size() == offHeader_->points && faces_ == offHeader_->faces) return;
+        in_.fail(offHeader_->where, "the counts before the OBJ file are " + std::to_string(offHeader_->points) +
+                                        " points and " + std::to_string(offHeader_->faces) + " faces, but there are " +
+                                        std::to_string(soup_.points.size()) + " and " + std::to_string(faces_) +
+                                        "; delete this line if the file is whole");
+    }
 
     void statement()
     {
@@ -76,7 +112,9 @@ private:
         } else if (looksLikeKeyword(keyword)) {
             in_.nextStatement();
         } else {
-            in_.fail(start, "a line cannot begin with " + in_.quoted(start) + " in an OBJ file");
+            const char* remedy = offHeader_ ? "; if this is an OFF file, let its name end in .off"
+                                            : "; lines begin with a keyword, like v or f";
+            in_.fail(start, "a line cannot begin with " + in_.quoted(start) + " in an OBJ file" + remedy);
         }
     }
 
@@ -87,13 +125,17 @@ private:
         const double z = in_.coordinate("the z coordinate");
         soup_.points.emplace_back(x, y, z);
         while (!in_.atLineEnd()) { // a weight or a colour: not used, but a number
-            if (!in_.skipNumber()) in_.fail(in_.quoted(in_.position()) + " behind the coordinates is not a number");
+            if (!in_.skipNumber()) {
+                in_.fail(in_.quoted(in_.position()) +
+                         " behind the coordinates is not a number; only numbers may be there");
+            }
         }
         in_.nextLine();
     }
 
     void face(const char* start)
     {
+        ++faces_;
         face_.clear();
         int firstForm = 0;
         bool sameForm = true;
@@ -104,7 +146,7 @@ private:
         }
         // The last line may be cut off anywhere if it has no end; what is left of its last corner may still look whole.
         if (in_.atEnd() && (face_.size() < 3 || !sameForm)) {
-            in_.fail(start, "the file ends within a face");
+            in_.fail(start, "the file ends within a face; copy or export it again");
         }
         soup_.addFace(face_.data(), face_.size());
         in_.nextLine();
@@ -116,7 +158,8 @@ private:
         const char* where = in_.position();
         ObjCorner read;
         if (!readObjCorner(in_, read) || !in_.atWordEnd()) {
-            in_.fail(where, "the corner " + in_.quoted(where) + " is none of v, v/vt, v//vn and v/vt/vn");
+            in_.fail(where,
+                     "the corner " + in_.quoted(where) + " is not understood; it must be v, v/vt, v//vn or v/vt/vn");
         }
         const std::int64_t index = read.point;
         const std::uint64_t points = soup_.points.size();
@@ -142,7 +185,7 @@ private:
         const auto unused = std::find(used.begin(), used.end(), false);
         if (unused == used.end()) return;
         in_.fail("the file ends within a line, and no face uses point " + std::to_string(unused - used.begin() + 1) +
-                 ": it seems to be cut off (if it is whole, end its last line)");
+                 ": it seems to be cut off; if it is whole, end its last line");
     }
 
     [[noreturn]] void failOutOfRange(const char* where, std::uint64_t points) const
@@ -152,10 +195,18 @@ private:
                  "the corner " + in_.quoted(where) + " is out of range; there are " + std::to_string(points) + there);
     }
 
+    struct OffHeader {
+        const char* where;
+        std::size_t points, faces;
+    };
+
     TextCursor in_;
     const std::string& name_;
+    Warnings& warnings_;
     bool endsWithinLine_;
+    std::optional<OffHeader> offHeader_;
     PolygonSoup soup_;
+    std::size_t faces_ = 0; // also those that are ignored
     std::vector<openvdb::Index32> face_;
     std::vector<Reference> ahead_; // with growing index
 };
@@ -175,7 +226,9 @@ void writeFace(OutputBuffer& buffer, const Face& face)
 
 MeshFile parseObj(std::string_view bytes, const std::string& name)
 {
-    return ObjParser(bytes, name).parse();
+    Warnings warnings;
+    std::string storage;
+    return ObjParser(asUtf8(bytes, name, storage, warnings), name, warnings).parse();
 }
 
 void writeObj(const Mesh& mesh, const std::string&, std::ostream& out)

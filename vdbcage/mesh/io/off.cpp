@@ -14,6 +14,7 @@
 #include <vdbcage/mesh/io/output_buffer.h>
 #include <vdbcage/mesh/io/polygon_soup.h>
 #include <vdbcage/mesh/io/text_cursor.h>
+#include <vdbcage/mesh/io/utf16.h>
 
 namespace vdbcage::detail {
 
@@ -21,23 +22,29 @@ namespace {
 
 class OffParser {
 public:
-    OffParser(std::string_view bytes, const std::string& name) : in_(bytes, name, TextSyntax{'#'}), name_(name) {}
+    OffParser(std::string_view bytes, const std::string& name, Warnings& warnings)
+        : in_(bytes, name, TextSyntax{'#'}, &warnings), name_(name), warnings_(warnings)
+    {
+    }
 
     MeshFile parse()
     {
-        if (!in_.skipToWord()) in_.fail("the file ends before a header");
+        if (!in_.skipToWord()) in_.fail("the file ends before a header; the first line must be OFF");
         header();
         in_.skipToWord();
         const char* counts = in_.position();
         points_ = count("the number of points");
         faces_ = count("the number of faces");
         if (!in_.atLineEnd()) in_.integer("the number of edges");
-        if (!in_.atLineEnd()) in_.fail(in_.quoted(in_.position()) + " behind the counts is not understood");
+        if (!in_.atLineEnd()) {
+            in_.fail(in_.quoted(in_.position()) +
+                     " behind the counts is not understood; they are those of points, faces and edges");
+        }
         // "0 0 0" and "0" are the shortest point and face; the last line may lack its end.
         if (points_ > (in_.bytesLeft() + 1) / 6 || faces_ > (in_.bytesLeft() + 1 - 6 * points_) / 2) {
             in_.fail(counts, "the header announces " + std::to_string(points_) + " points and " +
                                  std::to_string(faces_) + " faces, which cannot fit in the " +
-                                 std::to_string(in_.bytesLeft()) + " bytes that follow");
+                                 std::to_string(in_.bytesLeft()) + " bytes that follow; copy or export the file again");
         }
         soup_.points.reserve(points_);
         for (std::uint64_t i = 0; i < points_; ++i) point(i);
@@ -45,9 +52,9 @@ public:
         for (std::uint64_t i = 0; i < faces_; ++i) face(i);
         if (in_.skipToWord()) {
             in_.fail(in_.quoted(in_.position()) + " follows the last of the " + std::to_string(faces_) +
-                     " faces that the header announces");
+                     " faces that the header announces; correct the header");
         }
-        return toMesh(std::move(soup_), name_);
+        return toMesh(std::move(soup_), name_, warnings_);
     }
 
 private:
@@ -58,11 +65,13 @@ private:
         const auto fail = [&](const std::string& problem) { in_.fail(start, in_.quoted(start) + problem); };
         const std::string_view word = TextCursor(in_).word();
         if (word.find_first_not_of("+-0123456789") == std::string_view::npos) return; // the counts
-        if (take('S') && !take('T')) fail(" is not the header of an OFF file");
+        if (take('S') && !take('T'))
+            fail(" is not the header of an OFF file; the first line must be OFF, or the counts");
         take('C');
         take('N');
         const bool otherDimension = take('4') || take('n');
-        if (!take('O') || !take('F') || !take('F')) fail(" is not the header of an OFF file");
+        if (!take('O') || !take('F') || !take('F'))
+            fail(" is not the header of an OFF file; the first line must be OFF, or the counts");
         if (otherDimension) fail(" is of another dimension; only three-dimensional OFF files are supported");
         if (in_.skipWord("BINARY")) in_.fail("binary OFF files are not supported; only ascii ones are");
     }
@@ -72,7 +81,9 @@ private:
         in_.skipToWord();
         const char* where = in_.position();
         const std::int64_t value = in_.integer(what);
-        if (value < 0) in_.fail(where, std::string(what) + " is " + in_.quoted(where) + ", which is below 0");
+        if (value < 0)
+            in_.fail(where,
+                     std::string(what) + " is " + in_.quoted(where) + ", which is below 0; it must be 0 or more");
         return static_cast<std::uint64_t>(value);
     }
 
@@ -80,7 +91,7 @@ private:
     {
         if (in_.skipToWord()) return;
         in_.fail("the file ends within " + std::string(what) + " " + std::to_string(done + 1) + " of " +
-                 std::to_string(total));
+                 std::to_string(total) + "; copy or export it again");
     }
 
     void point(std::uint64_t i)
@@ -103,7 +114,8 @@ private:
         // Checked before anything is stored, like the counts of the header.
         if (corners > in_.bytesLeft() / 2) {
             in_.fail(where, "a face with " + std::to_string(corners) + " corners cannot fit in the " +
-                                std::to_string(in_.bytesLeft()) + " bytes that follow");
+                                std::to_string(in_.bytesLeft()) +
+                                " bytes that follow; a face begins with the number of its corners");
         }
         face_.clear();
         for (std::uint64_t j = 0; j < corners; ++j) {
@@ -122,6 +134,7 @@ private:
 
     TextCursor in_;
     const std::string& name_;
+    Warnings& warnings_;
     PolygonSoup soup_;
     std::vector<openvdb::Index32> face_;
     std::uint64_t points_ = 0, faces_ = 0;
@@ -142,7 +155,9 @@ void writeFace(OutputBuffer& buffer, const Face& face)
 
 MeshFile parseOff(std::string_view bytes, const std::string& name)
 {
-    return OffParser(bytes, name).parse();
+    Warnings warnings;
+    std::string storage;
+    return OffParser(asUtf8(bytes, name, storage, warnings), name, warnings).parse();
 }
 
 void writeOff(const Mesh& mesh, const std::string&, std::ostream& out)

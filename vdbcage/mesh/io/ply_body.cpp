@@ -18,6 +18,7 @@
 #include <vdbcage/mesh/io/ply_header.h>
 #include <vdbcage/mesh/io/polygon_soup.h>
 #include <vdbcage/mesh/io/text_cursor.h>
+#include <vdbcage/mesh/io/utf16.h>
 
 namespace vdbcage::detail {
 
@@ -38,7 +39,8 @@ std::string ordinal(const PlyElement& element, std::uint64_t i)
 /// The body of an ascii file: one line an element.
 class AsciiSource {
 public:
-    AsciiSource(std::string_view bytes, std::size_t headerSize, const std::string& name) : in_(bytes, name)
+    AsciiSource(std::string_view bytes, std::size_t headerSize, const std::string& name, Warnings& warnings)
+        : in_(bytes, name, {}, &warnings)
     {
         while (bytes.size() - in_.bytesLeft() < headerSize) in_.nextLine();
     }
@@ -50,12 +52,19 @@ public:
 
     void beginElement(const PlyElement& element, std::uint64_t i)
     {
-        if (!in_.skipToWord()) in_.fail("the file ends before " + ordinal(element, i));
+        if (!in_.skipToWord()) in_.fail("the file ends before " + ordinal(element, i) + "; copy or export it again");
     }
     void endElement(const PlyElement& element, std::uint64_t i)
     {
+        // MeshLab has written texture coordinates of corners that its header does not have.
+        bool hasMore = false;
+        while (element.name == "face" && !in_.atLineEnd() && in_.skipNumber()) hasMore = true;
         if (!in_.atLineEnd()) {
-            in_.fail(in_.quoted(in_.position()) + " follows the properties of " + ordinal(element, i));
+            in_.fail(in_.quoted(in_.position()) + " follows the properties of " + ordinal(element, i) +
+                     "; the header must have a property for each value");
+        }
+        if (hasMore) {
+            in_.warn(in_.position(), "the line of a face has more values than the header says; they are not used");
         }
         in_.nextLine();
     }
@@ -70,7 +79,7 @@ public:
         if (!isFloating(type)) return in_.integer(what);
         const double value = in_.coordinate(what);
         if (std::abs(value) > 1e15 || std::nearbyint(value) != value) {
-            fail(std::string(what) + " is " + in_.quoted(marked_) + ", which is not an integer");
+            fail(std::string(what) + " is " + in_.quoted(marked_) + ", which is not an integer; write a whole number");
         }
         return static_cast<std::int64_t>(value);
     }
@@ -78,12 +87,16 @@ public:
     {
         mark();
         for (; count > 0; --count) {
-            if (in_.word().empty()) in_.fail("the line ends before the element is complete");
+            if (in_.word().empty()) {
+                in_.fail("the line ends before the element is complete; each property needs a value");
+            }
         }
     }
     void finish()
     {
-        if (in_.skipToWord()) in_.fail(in_.quoted(in_.position()) + " follows the last element");
+        if (in_.skipToWord()) {
+            in_.fail(in_.quoted(in_.position()) + " follows the last element; correct the counts of the header");
+        }
     }
     /// \throw IoError for the value read last
     [[noreturn]] void fail(const std::string& problem) const { in_.fail(marked_, problem); }
@@ -130,7 +143,7 @@ public:
         if (!isFloating(type)) return whole(type);
         const double value = floating(type);
         if (!(std::abs(value) <= 1e15) || std::nearbyint(value) != value) {
-            fail(std::string(what) + " is " + numberText(value) + ", which is not an integer");
+            fail(std::string(what) + " is " + numberText(value) + ", which is not an integer; write a whole number");
         }
         return static_cast<std::int64_t>(value);
     }
@@ -145,7 +158,8 @@ public:
         marked_ = at_;
         const auto isPadding = [](char c) { return c == '\0' || c == ' ' || c == '\n' || c == '\r' || c == '\t'; };
         if (!std::all_of(bytes_.begin() + static_cast<std::ptrdiff_t>(at_), bytes_.end(), isPadding)) {
-            fail("the last element ends here, but " + std::to_string(room()) + " bytes follow");
+            fail("the last element ends here, but " + std::to_string(room()) +
+                 " bytes follow; copy or export the file again");
         }
     }
     /// \throw IoError for the value read last
@@ -158,7 +172,7 @@ private:
     [[noreturn]] void failEnd()
     {
         marked_ = bytes_.size();
-        fail("the file ends within " + ordinal(*element_, index_));
+        fail("the file ends within " + ordinal(*element_, index_) + "; copy or export it again");
     }
 
     template <typename Value>
@@ -254,7 +268,8 @@ private:
         if (element.count > in_.room() / least) {
             throw IoError(name_ + ": line " + std::to_string(element.line) + ": the header announces " +
                           std::to_string(element.count) + " elements " + quote(element.name) + " of at least " +
-                          std::to_string(least) + " bytes, but only " + std::to_string(in_.room()) + " bytes are left");
+                          std::to_string(least) + " bytes, but only " + std::to_string(in_.room()) +
+                          " bytes are left; copy or export the file again");
         }
         const std::size_t count = static_cast<std::size_t>(element.count);
         if (hasPoints) soup_.points.reserve(count);
@@ -280,10 +295,12 @@ private:
     void list(const PlyProperty& property, Use use)
     {
         const std::int64_t count = in_.integer(property.countType, "the length of a list");
-        if (count < 0) in_.fail("the length of a list is " + std::to_string(count) + ", which is below 0");
+        if (count < 0) {
+            in_.fail("the length of a list is " + std::to_string(count) + ", which is below 0; it must be 0 or more");
+        }
         if (std::uint64_t(count) > in_.room() / Source::leastSize(property.type)) {
             in_.fail("a list of " + std::to_string(count) + " values cannot fit in the " + std::to_string(in_.room()) +
-                     " bytes that are left");
+                     " bytes that are left; copy or export the file again");
         }
         if (use == Use::none) {
             in_.skip(property.type, std::uint64_t(count));
@@ -336,22 +353,25 @@ private:
 
 void requireGeometry(const PlyHeader& header, const std::string& name)
 {
-    const auto fail = [&](const std::string& problem) { throw IoError(name + ": the PLY header " + problem); };
+    const auto fail = [&](std::size_t line, const std::string& problem) {
+        throw IoError(name + ": line " + std::to_string(line) + ": the PLY header " + problem);
+    };
     int points = 0;
     for (const PlyElement& element : header.elements) {
         if (element.name != "vertex") continue;
-        ++points;
+        if (++points == 2) fail(element.line, "has two elements \"vertex\"; there must be one");
         for (const char* axis : {"x", "y", "z"}) {
             const auto isAxis = [&](const PlyProperty& property) { return property.name == axis; };
             const auto found = std::find_if(element.properties.begin(), element.properties.end(), isAxis);
-            if (found == element.properties.end()) fail(std::string("has no property \"") + axis + "\" of \"vertex\"");
+            const std::string property = std::string(" property \"") + axis + "\" of \"vertex\"";
+            if (found == element.properties.end()) fail(element.line, "has no" + property + "; points have x, y and z");
             if (std::count_if(element.properties.begin(), element.properties.end(), isAxis) != 1) {
-                fail(std::string("has two properties \"") + axis + "\" of \"vertex\"");
+                fail(element.line, "has more than one" + property + "; there must be one");
             }
-            if (found->isList) fail(std::string("makes the property \"") + axis + "\" of \"vertex\" a list");
+            if (found->isList) fail(element.line, "makes the" + property + " a list; it must be a number");
         }
     }
-    if (points != 1) fail(points == 0 ? "has no element \"vertex\"" : "has two elements \"vertex\"");
+    if (points == 0) fail(header.endLine, "has no element \"vertex\"; there must be one, with x, y and z");
     for (const PlyElement& element : header.elements) {
         if (element.name != "face" && element.name != "tristrips") continue;
         const auto isCorners = [](const PlyProperty& p) {
@@ -359,10 +379,12 @@ void requireGeometry(const PlyHeader& header, const std::string& name)
         };
         const auto found = std::find_if(element.properties.begin(), element.properties.end(), isCorners);
         if (element.count > 0 && found == element.properties.end()) {
-            fail("has no property \"vertex_indices\" of \"" + element.name + "\"");
+            fail(element.line,
+                 "has no property \"vertex_indices\" of \"" + element.name + "\"; it must have that list");
         }
         if (found != element.properties.end() && !found->isList) {
-            fail("makes the property \"" + found->name + "\" of \"" + element.name + "\" no list");
+            fail(element.line,
+                 "makes the property \"" + found->name + "\" of \"" + element.name + "\" no list; it must be a list");
         }
     }
 }
@@ -376,12 +398,22 @@ void writeFace(OutputBuffer& buffer, const Face& face)
 
 } // namespace
 
-MeshFile parsePly(std::string_view bytes, const std::string& name)
+MeshFile parsePly(std::string_view given, const std::string& name)
 {
-    const PlyHeader header = parsePlyHeader(bytes, name);
+    Warnings warnings;
+    std::string storage;
+    const std::string_view bytes = asUtf8(given, name, storage, warnings);
+    const PlyHeader header = parsePlyHeader(bytes, name, warnings);
     requireGeometry(header, name);
-    const auto parse = [&](auto source) { return toMesh(BodyParser(header, name, std::move(source)).parse(), name); };
-    if (header.format == PlyFormat::ascii) return parse(AsciiSource(bytes, header.size, name));
+    const auto parse = [&](auto source) {
+        PolygonSoup soup = BodyParser(header, name, std::move(source)).parse();
+        return toMesh(std::move(soup), name, warnings);
+    };
+    if (header.format == PlyFormat::ascii) return parse(AsciiSource(bytes, header.size, name, warnings));
+    if (bytes.data() != given.data()) {
+        throw IoError(name + ": line " + std::to_string(header.endLine) +
+                      ": binary data follow text of UTF-16; export the file again, as ascii or as binary");
+    }
     return parse(BinarySource(bytes, header.size, name, header.format == PlyFormat::binaryBigEndian));
 }
 

@@ -6,6 +6,8 @@
 #include <string_view>
 #include <vector>
 
+#include <vdbcage/mesh/io/warnings.h>
+
 namespace vdbcage::detail {
 
 enum class PlyFormat { ascii, binaryLittleEndian, binaryBigEndian };
@@ -32,11 +34,12 @@ struct PlyElement {
 struct PlyHeader {
     PlyFormat format = PlyFormat::ascii;
     std::vector<PlyElement> elements;
-    std::size_t size = 0; ///< in bytes: where the body begins
+    std::size_t size = 0;    ///< in bytes: where the body begins
+    std::size_t endLine = 0; ///< the number of its last line, from 1
 };
 
 /// Parses the header of a PLY file.
 /// \throw IoError naming `name`, the line and the value
-PlyHeader parsePlyHeader(std::string_view bytes, const std::string& name);
+PlyHeader parsePlyHeader(std::string_view bytes, const std::string& name, Warnings& warnings);
 
 } // namespace vdbcage::detail

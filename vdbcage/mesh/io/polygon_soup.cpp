@@ -4,7 +4,6 @@
 #include <array>
 #include <cstdint>
 #include <limits>
-#include <numeric>
 #include <tuple>
 #include <utility>
 
@@ -26,22 +25,26 @@ bool repeatsCorner(const openvdb::Index32* face, std::size_t count, std::vector<
 /// Polygons, to get the triangles of their alternate splits.
 class Alternates {
 public:
-    /// `face` must stay where it is.
-    void add(const openvdb::Index32* face, std::size_t count)
+    /// `face` must stay where it is. `split` are its triangles in the mesh.
+    void add(const openvdb::Index32* face, std::size_t count, const openvdb::Vec3I* split)
     {
-        if (count > mostCornersWithAlternates) {
-            ++tooLarge_;
-        } else {
-            faces_.push_back({face, count, hashOf(face, count), true});
+        Face added{face, count};
+        for (std::size_t i = 2; i < count && added.isFirstFan; ++i) {
+            added.isFirstFan = split[i - 2] == openvdb::Vec3I(face[0], face[i - 1], face[i]);
         }
+        if (count <= mostCornersWithAlternates) added.hash = hashOf(face, count);
+        faces_.push_back(added);
     }
 
-    /// Appends them, in the order of the polygons, once for those that are equal.
-    void appendTo(std::vector<openvdb::Vec3I>& triangles, ReadSummary& summary)
+    /// Appends them, in the order of the polygons, once for those that are equal. Large ones get the other one of two
+    /// splits: the fan around their first corner and the clipping of ears. That is no more than they have in the mesh.
+    void appendTo(std::vector<openvdb::Vec3I>& triangles, PolygonSplitter& splitter, ReadSummary& summary)
     {
         dropCopies();
         std::array<std::size_t, mostCornersWithAlternates + 1> needed{};
-        for (const Face& face : faces_) needed[face.count] += face.first ? alternativesOf(face.count) : 0;
+        for (const Face& face : faces_) {
+            if (face.count < needed.size() && face.first) needed[face.count] += alternativesOf(face.count);
+        }
         // Four triangles of a quad are no more than a convex one gets: only larger faces may have to go without.
         std::size_t corners = 4, all = 0;
         while (corners < mostCornersWithAlternates && all + needed[corners + 1] <= mostAlternates) {
@@ -49,10 +52,13 @@ public:
         }
         triangles.reserve(needed[4] + all);
         summary.alternateCorners = corners;
-        summary.facesAsSplit = tooLarge_;
         for (const Face& face : faces_) {
             if (face.count > corners) {
-                ++summary.facesAsSplit;
+                if (face.isFirstFan) {
+                    splitter.splitByEars(face.corners, face.count, triangles);
+                } else {
+                    addFirstFan(face.corners, face.count, triangles);
+                }
             } else if (face.first) {
                 addAlternatives(face.corners, face.count, triangles);
             }
@@ -63,8 +69,9 @@ private:
     struct Face {
         const openvdb::Index32* corners;
         std::size_t count;
-        std::uint64_t hash;
-        bool first; ///< of those that are equal
+        bool isFirstFan = true; ///< it is split as a fan around its first corner
+        std::uint64_t hash = 0;
+        bool first = true; ///< of those that are equal
     };
 
     /// The same from any start in either direction.
@@ -97,8 +104,10 @@ private:
 
     void dropCopies()
     {
-        std::vector<std::size_t> order(faces_.size());
-        std::iota(order.begin(), order.end(), std::size_t(0));
+        std::vector<std::size_t> order;
+        for (std::size_t i = 0; i < faces_.size(); ++i) {
+            if (faces_[i].count <= mostCornersWithAlternates) order.push_back(i);
+        }
         std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
             return std::tie(faces_[a].hash, a) < std::tie(faces_[b].hash, b);
         });
@@ -111,12 +120,11 @@ private:
     }
 
     std::vector<Face> faces_;
-    std::size_t tooLarge_ = 0;
 };
 
 } // namespace
 
-MeshFile toMesh(PolygonSoup soup, const std::string& name)
+MeshFile toMesh(PolygonSoup soup, const std::string& name, const Warnings& warnings)
 {
     if (soup.points.size() > std::numeric_limits<openvdb::Index32>::max()) {
         throw IoError(name + ": it has " + std::to_string(soup.points.size()) + " points; at most " +
@@ -128,6 +136,7 @@ MeshFile toMesh(PolygonSoup soup, const std::string& name)
     mesh.triangles = std::move(soup.triangles);
 
     found.ignoredElements = soup.ignoredElements;
+    found.warnings = warnings.texts();
     bool hasArea = false;
     for (const openvdb::Vec3I& triangle : mesh.triangles) {
         if (isDegenerate(mesh, triangle)) {
@@ -147,7 +156,7 @@ MeshFile toMesh(PolygonSoup soup, const std::string& name)
         const std::size_t triangles = mesh.triangles.size();
         const std::size_t quads = mesh.quads.size();
         splitter.split(face, count, mesh.triangles, mesh.quads);
-        if (mesh.quads.size() == quads) alternates.add(face, count);
+        if (mesh.quads.size() == quads) alternates.add(face, count, mesh.triangles.data() + triangles);
         bool faceHasArea = false;
         for (std::size_t i = triangles; i < mesh.triangles.size() && !faceHasArea; ++i) {
             faceHasArea = !isDegenerate(mesh, mesh.triangles[i]);
@@ -162,7 +171,7 @@ MeshFile toMesh(PolygonSoup soup, const std::string& name)
         begin = end;
     }
 
-    alternates.appendTo(mesh.alternatives, found);
+    alternates.appendTo(mesh.alternatives, splitter, found);
 
     if (faceCount(mesh) == 0) throw IoError(name + ": it has no faces; at least one is needed");
     if (!hasArea) {

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include <vdbcage/mesh/io/warnings.h>
 #include <vdbcage/mesh/mesh.h>
 #include <vdbcage/mesh/mesh_io.h>
 
@@ -39,6 +40,6 @@ constexpr std::size_t mostAlternates = std::size_t(1) << 24U;
 /// Splits the polygons, and checks that there is a face with an area.
 /// \pre all indices are in range and all coordinates finite
 /// \throw IoError naming `name` (of the file)
-MeshFile toMesh(PolygonSoup soup, const std::string& name);
+MeshFile toMesh(PolygonSoup soup, const std::string& name, const Warnings& warnings = {});
 
 } // namespace vdbcage::detail

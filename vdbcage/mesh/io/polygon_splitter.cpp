@@ -74,6 +74,14 @@ void PolygonSplitter::split(const openvdb::Index32* face, std::size_t count, std
     clipEars(face, triangles);
 }
 
+void PolygonSplitter::splitByEars(const openvdb::Index32* face, std::size_t count,
+                                  std::vector<openvdb::Vec3I>& triangles)
+{
+    scaleToUnit(points_, face, count, local_);
+    project();
+    clipEars(face, triangles);
+}
+
 void PolygonSplitter::splitQuad(const openvdb::Index32* face, std::vector<openvdb::Vec3I>& triangles,
                                 std::vector<openvdb::Vec4I>& quads)
 {
@@ -335,6 +343,11 @@ std::size_t alternativesOf(std::size_t count)
 {
     if (count <= mostForTriples) return count * (count - 1) * (count - 2) / 6;
     return count <= mostCornersWithAlternates ? count * (count - 2) : 0;
+}
+
+void addFirstFan(const openvdb::Index32* face, std::size_t count, std::vector<openvdb::Vec3I>& triangles)
+{
+    for (std::size_t i = 2; i < count; ++i) triangles.emplace_back(face[0], face[i - 1], face[i]);
 }
 
 void addAlternatives(const openvdb::Index32* face, std::size_t count, std::vector<openvdb::Vec3I>& triangles)

@@ -24,6 +24,9 @@ public:
     void split(const openvdb::Index32* face, std::size_t count, std::vector<openvdb::Vec3I>& triangles,
                std::vector<openvdb::Vec4I>& quads);
 
+    /// Appends the triangles of clipping ears, also where split() takes a fan.
+    void splitByEars(const openvdb::Index32* face, std::size_t count, std::vector<openvdb::Vec3I>& triangles);
+
     /// What the search for ears in the faces split so far has cost: about the number of corners looked at. 0 for fans.
     std::size_t work() const { return allWork_; }
 
@@ -72,6 +75,9 @@ private:
     std::size_t allWork_ = 0;
     std::size_t work_ = 0; // what ears have cost
 };
+
+/// Appends the fan around the first corner of a face: the way in which most programs split one.
+void addFirstFan(const openvdb::Index32* face, std::size_t count, std::vector<openvdb::Vec3I>& triangles);
 
 /// Faces of more corners have no alternate splits.
 constexpr std::size_t mostCornersWithAlternates = 64;

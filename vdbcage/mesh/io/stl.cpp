@@ -17,6 +17,7 @@
 #include <vdbcage/mesh/io/output_buffer.h>
 #include <vdbcage/mesh/io/polygon_soup.h>
 #include <vdbcage/mesh/io/text_cursor.h>
+#include <vdbcage/mesh/io/utf16.h>
 
 namespace vdbcage::detail {
 
@@ -95,7 +96,10 @@ std::string_view lowerCase(std::string_view word, char (&buffer)[16])
 
 class AsciiParser {
 public:
-    AsciiParser(std::string_view bytes, const std::string& name) : in_(bytes, name), merger_(soup_.points) {}
+    AsciiParser(std::string_view bytes, const std::string& name, Warnings& warnings)
+        : in_(bytes, name, {}, &warnings), merger_(soup_.points)
+    {
+    }
 
     PolygonSoup parse()
     {
@@ -115,7 +119,7 @@ private:
         expect("normal");
         // The normal follows from the corners; that of a face without area is often written as "nan".
         for (int axis = 0; axis < 3; ++axis) {
-            if (in_.word().empty()) in_.fail("the facet's normal is missing");
+            if (in_.word().empty()) in_.fail("the facet's normal is missing; it has three numbers");
         }
         expect("outer");
         expect("loop");
@@ -134,7 +138,7 @@ private:
     /// Skips the next word, on this line or a later one, if it is `keyword`.
     bool next(const char* keyword)
     {
-        if (!in_.skipToWord()) in_.fail("the file ends before \"endsolid\"");
+        if (!in_.skipToWord()) in_.fail("the file ends before \"endsolid\"; copy or export it again");
         TextCursor ahead = in_;
         char buffer[16];
         if (lowerCase(ahead.word(), buffer) != keyword) return false;
@@ -143,7 +147,7 @@ private:
     }
     void expect(const char* keyword)
     {
-        if (!next(keyword)) in_.fail(in_.quoted(in_.position()) + " stands where \"" + keyword + "\" should be");
+        if (!next(keyword)) in_.fail(in_.quoted(in_.position()) + " stands here; it must be \"" + keyword + "\"");
     }
 
     TextCursor in_;
@@ -156,16 +160,18 @@ PolygonSoup parseBinary(std::string_view bytes, const std::string& name)
     const auto fail = [&](std::size_t byte, const std::string& problem) {
         throw IoError(name + ": byte " + std::to_string(byte) + ": " + problem);
     };
-    if (bytes.size() < headerSize) fail(bytes.size(), "the file ends within the header of a binary STL (84 bytes)");
+    if (bytes.size() < headerSize) {
+        fail(bytes.size(), "the file ends within the header of a binary STL (84 bytes); copy or export it again");
+    }
     const std::uint64_t count = loadLittleEndian<std::uint32_t>(bytes.data() + 80);
     const std::uint64_t end = headerSize + count * facetSize;
     if (bytes.size() < end) {
         fail(80, "the header announces " + std::to_string(count) + " triangles, which take " + std::to_string(end) +
-                     " bytes, but the file has " + std::to_string(bytes.size()));
+                     " bytes, but the file has " + std::to_string(bytes.size()) + "; copy or export it again");
     }
     if (bytes.substr(end).find_first_not_of('\0') != std::string_view::npos) {
         fail(end, "the last of " + std::to_string(count) + " triangles ends here, but " +
-                      std::to_string(bytes.size() - end) + " bytes follow");
+                      std::to_string(bytes.size() - end) + " bytes follow; copy or export the file again");
     }
     PolygonSoup soup;
     soup.triangles.reserve(count);
@@ -191,15 +197,18 @@ PolygonSoup parseBinary(std::string_view bytes, const std::string& name)
     return soup;
 }
 
-/// A file whose size is the one that its header announces is binary. Of the others (a cut-off binary file may be among
-/// them) one that begins with "solid" and has no zero byte near its start is ascii: in a binary file the number of
-/// triangles, if below 2^24, and the attributes have zero bytes.
-bool isAscii(std::string_view bytes)
+/// Whether the size is the one that the header of a binary file announces.
+bool hasBinarySize(std::string_view bytes)
 {
-    if (bytes.size() >= headerSize) {
-        const std::uint64_t count = loadLittleEndian<std::uint32_t>(bytes.data() + 80);
-        if (bytes.size() == headerSize + count * facetSize) return false;
-    }
+    if (bytes.size() < headerSize) return false;
+    return bytes.size() == headerSize + facetSize * loadLittleEndian<std::uint32_t>(bytes.data() + 80);
+}
+
+/// Of files without the size of a binary one (a cut-off binary file may be among them) one that begins with "solid" and
+/// has no zero byte near its start is ascii: in a binary file the number of triangles, if below 2^24, and the
+/// attributes have zero bytes.
+bool looksAscii(std::string_view bytes)
+{
     if (bytes.substr(0, 256).find('\0') != std::string_view::npos) return false;
     const std::string noName;
     TextCursor in(bytes, noName);
@@ -211,8 +220,12 @@ bool isAscii(std::string_view bytes)
 
 MeshFile parseStl(std::string_view bytes, const std::string& name)
 {
-    PolygonSoup soup = isAscii(bytes) ? AsciiParser(bytes, name).parse() : parseBinary(bytes, name);
-    return toMesh(std::move(soup), name);
+    if (hasBinarySize(bytes)) return toMesh(parseBinary(bytes, name), name);
+    Warnings warnings;
+    std::string storage;
+    const std::string_view text = asUtf8(bytes, name, storage, warnings);
+    if (!looksAscii(text)) return toMesh(parseBinary(bytes, name), name);
+    return toMesh(AsciiParser(text, name, warnings).parse(), name, warnings);
 }
 
 void writeStl(const Mesh& mesh, const std::string& name, std::ostream& out)

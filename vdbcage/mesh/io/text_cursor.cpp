@@ -25,6 +25,46 @@ std::from_chars_result parse(const char* first, const char* last, Number& value)
     return result.ec == std::errc::invalid_argument ? std::from_chars_result{first, result.ec} : result;
 }
 
+/// A number whose exponent has an unusual form.
+struct UnusualNumber {
+    std::string text; ///< in the usual form; empty if it is no such number
+    const char* warning = nullptr;
+};
+
+/// Two forms have one meaning only. Fortran marks the exponent of a double by d: 1.5d3. Some programs write the sign of
+/// the exponent before its mark: 3.1+e2. Not taken is Fortran's 1.5-300, which may also be two numbers that touch.
+UnusualNumber usualForm(std::string_view word)
+{
+    const auto digitsFrom = [&](std::size_t at) {
+        while (at < word.size() && isDigit(word[at])) ++at;
+        return at;
+    };
+    const auto isSign = [&](std::size_t at) { return at < word.size() && (word[at] == '+' || word[at] == '-'); };
+    const auto isMark = [&](std::size_t at, char small, char large) {
+        return at < word.size() && (word[at] == small || word[at] == large);
+    };
+    const std::size_t first = isSign(0) ? 1 : 0, point = digitsFrom(first);
+    const bool hasPoint = point < word.size() && word[point] == '.';
+    const std::size_t mantissa = hasPoint ? digitsFrom(point + 1) : point;
+    if (mantissa - first == (hasPoint ? 1U : 0U)) return {};
+    std::size_t digits = mantissa + 1;
+    std::string exponent = "e";
+    const bool isSignedFirst = isSign(mantissa) && isMark(mantissa + 1, 'e', 'E');
+    if (isSignedFirst) {
+        exponent += word[mantissa];
+        ++digits;
+    } else if (!isMark(mantissa, 'd', 'D')) {
+        return {};
+    } else if (isSign(digits)) {
+        exponent += word[digits++];
+    }
+    if (digits >= word.size() || digitsFrom(digits) != word.size()) return {};
+    exponent += word.substr(digits);
+    return {std::string(word.substr(0, mantissa)) + exponent,
+            isSignedFirst ? "a number has the sign of its exponent before the e, like 3.1+e2, which is read as 3.1e+2"
+                          : "a number has an exponent of Fortran, like 1.5d3, which is read as 1.5e3"};
+}
+
 /// For a decimal number outside the range of double: is it too small (and not too large)? std::from_chars does not
 /// say which. The position of the first digit that is not zero, with the exponent, tells them apart: the two ranges are
 /// six hundred powers of ten away from each other.
@@ -62,8 +102,9 @@ std::string quote(std::string_view piece)
     return text + (piece.size() > longest ? "...\"" : "\"");
 }
 
-TextCursor::TextCursor(std::string_view bytes, const std::string& name, TextSyntax syntax)
-    : begin_(bytes.data()), at_(bytes.data()), end_(bytes.data() + bytes.size()), name_(name), syntax_(syntax)
+TextCursor::TextCursor(std::string_view bytes, const std::string& name, TextSyntax syntax, Warnings* warnings)
+    : begin_(bytes.data()), at_(bytes.data()), end_(bytes.data() + bytes.size()), name_(&name), syntax_(syntax),
+      warnings_(warnings)
 {
     if (bytes.substr(0, 3) == "\xEF\xBB\xBF") at_ += 3;
 }
@@ -148,19 +189,36 @@ double TextCursor::coordinate(const char* what)
     skipBlanks();
     double value = 0;
     const std::from_chars_result result = parse(at_, end_, value);
-    const bool wholeWord = result.ptr != at_ && endsWord(result.ptr);
-    if (wholeWord && result.ec == std::errc() && std::isfinite(value)) {
-        at_ = result.ptr;
-        return value;
+    if (result.ptr == at_ || !endsWord(result.ptr) || result.ec != std::errc() || !std::isfinite(value)) {
+        return unusualCoordinate(what);
     }
-    if (atLineEnd()) failMissing(what);
-    if (!wholeWord) fail(std::string(what) + " is " + quoted(at_) + ", which is not a number");
-    if (result.ec == std::errc() || !isTooSmall(at_, result.ptr)) {
-        fail(std::string(what) + " is " + quoted(at_) + "; coordinates must be finite");
-    }
-    const bool negative = *at_ == '-';
     at_ = result.ptr;
-    return negative ? -0.0 : 0.0;
+    return value;
+}
+
+double TextCursor::unusualCoordinate(const char* what)
+{
+    if (atLineEnd()) failMissing(what);
+    const char* start = at_;
+    std::string_view text = word();
+    const UnusualNumber unusual = warnings_ ? usualForm(text) : UnusualNumber{};
+    if (unusual.warning) {
+        warn(start, unusual.warning);
+        text = unusual.text;
+    }
+    const char* end = text.data() + text.size();
+    double value = 0;
+    const std::from_chars_result result = parse(text.data(), end, value);
+    if (result.ptr != end) {
+        fail(start, std::string(what) + " is " + quoted(start) +
+                        ", which is not a number; numbers are written like 12, -0.5 and 3e-2");
+    }
+    const bool isFinite = result.ec == std::errc() && std::isfinite(value);
+    if (!isFinite && (result.ec == std::errc() || !isTooSmall(text.data(), end))) {
+        fail(start, std::string(what) + " is " + quoted(start) + "; coordinates must be finite");
+    }
+    if (isFinite) return value;
+    return text.front() == '-' ? -0.0 : 0.0;
 }
 
 bool TextCursor::skipNumber()
@@ -168,8 +226,13 @@ bool TextCursor::skipNumber()
     skipBlanks();
     double value = 0;
     const std::from_chars_result result = parse(at_, end_, value);
-    if (result.ptr == at_ || !endsWord(result.ptr)) return false;
-    at_ = result.ptr;
+    if (result.ptr != at_ && endsWord(result.ptr)) {
+        at_ = result.ptr;
+        return true;
+    }
+    const char* end = wordEnd(at_);
+    if (!warnings_ || !usualForm({at_, static_cast<std::size_t>(end - at_)}).warning) return false;
+    at_ = end;
     return true;
 }
 
@@ -179,7 +242,7 @@ std::int64_t TextCursor::integer(const char* what)
     const char* first = at_;
     std::int64_t value = 0;
     if (!integerPrefix(value) || !atWordEnd()) {
-        fail(first, std::string(what) + " is " + quoted(first) + ", which is not an integer");
+        fail(first, std::string(what) + " is " + quoted(first) + ", which is not an integer; write a whole number");
     }
     return value;
 }
@@ -188,15 +251,15 @@ bool TextCursor::integerPrefix(std::int64_t& value)
 {
     const std::from_chars_result result = parse(at_, end_, value);
     if (result.ptr == at_) return false;
-    if (result.ec != std::errc()) fail("the integer " + quoted(at_) + " is too large");
+    if (result.ec != std::errc()) fail("the integer " + quoted(at_) + " is too large; it must be below 2^63");
     at_ = result.ptr;
     return true;
 }
 
 void TextCursor::failMissing(const char* what) const
 {
-    if (at_ == end_) fail(std::string("the file ends where ") + what + " should be");
-    fail(std::string(what) + " is missing");
+    if (at_ == end_) fail(std::string("the file ends where ") + what + " should be; copy or export it again");
+    fail(std::string(what) + " is missing; add it, or export the file again");
 }
 
 std::size_t TextCursor::lineOf(const char* where) const
@@ -210,7 +273,7 @@ std::size_t TextCursor::lineOf(const char* where) const
 
 void TextCursor::fail(const char* where, const std::string& problem) const
 {
-    throw IoError(name_ + ": line " + std::to_string(lineOf(where)) + ": " + problem);
+    throw IoError(*name_ + ": line " + std::to_string(lineOf(where)) + ": " + problem);
 }
 
 std::string TextCursor::quoted(const char* where) const

@@ -4,6 +4,8 @@
 #include <string>
 #include <string_view>
 
+#include <vdbcage/mesh/io/warnings.h>
+
 namespace vdbcage::detail {
 
 /// A piece of a file for a message: in quotes, shortened, with codes for what cannot be printed.
@@ -20,8 +22,9 @@ struct TextSyntax {
 /// \throw IoError "NAME: line N: PROBLEM", from every failure
 class TextCursor {
 public:
-    /// `bytes` and `name` (the file's, for messages) must outlive the cursor.
-    TextCursor(std::string_view bytes, const std::string& name, TextSyntax syntax = {});
+    /// `bytes`, `name` (the file's, for messages) and `warnings` must outlive the cursor. Where these are null, nothing
+    /// unusual is taken.
+    TextCursor(std::string_view bytes, const std::string& name, TextSyntax syntax = {}, Warnings* warnings = nullptr);
 
     const char* position() const { return at_; }
     /// The bytes from here to the end of the file.
@@ -40,8 +43,8 @@ public:
     std::string_view word();
     /// Skips the next word of the line if it is `expected`.
     bool skipWord(std::string_view expected);
-    /// The next word as a finite number. One that is too small for a double becomes zero. `what` is what it stands for
-    /// in messages, such as "the x coordinate".
+    /// The next word as a finite number. One that is too small for a double becomes zero. Where there are `warnings`,
+    /// forms like 3.1+e2 and 1.5d3 are numbers too. `what` is what it stands for in messages, as "the x coordinate".
     double coordinate(const char* what);
     /// True if the next word is a number of any kind, which is then skipped.
     bool skipNumber();
@@ -65,6 +68,11 @@ public:
     /// \throw IoError for the line of `where`
     [[noreturn]] void fail(const char* where, const std::string& problem) const;
     [[noreturn]] void fail(const std::string& problem) const { fail(at_, problem); }
+    /// Adds a warning, or counts one more of its kind. \see Warnings
+    void warn(const char* where, const char* what) const
+    {
+        if (warnings_ && !warnings_->count(what)) warnings_->add(what, lineOf(where));
+    }
     /// The word at `where`, for a message.
     std::string quoted(const char* where) const;
 
@@ -75,13 +83,15 @@ private:
     bool endsWord(const char* at) const;
     const char* wordEnd(const char* at) const;
     void skipBlanks();
+    double unusualCoordinate(const char* what);
     [[noreturn]] void failMissing(const char* what) const;
 
     const char* begin_;
     const char* at_;
     const char* end_;
-    const std::string& name_;
+    const std::string* name_;
     TextSyntax syntax_;
+    Warnings* warnings_;
 };
 
 } // namespace vdbcage::detail

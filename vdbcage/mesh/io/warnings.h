@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace vdbcage::detail {
+
+/// What a reader took otherwise than its format has it: one text a kind, however often a file does it.
+class Warnings {
+public:
+    /// Counts a case of a kind that was added. False if it was not.
+    bool count(std::string_view what)
+    {
+        for (Warning& warning : list_) {
+            if (warning.what != what) continue;
+            ++warning.times;
+            return true;
+        }
+        return false;
+    }
+    /// Adds a kind, first met on `line`. `what` is a literal: nothing of a file gets into warnings.
+    void add(const char* what, std::size_t line) { list_.push_back({what, line, 1}); }
+
+    /// "line 7: WHAT (3 times)"
+    std::vector<std::string> texts() const
+    {
+        std::vector<std::string> all;
+        for (const Warning& warning : list_) {
+            all.push_back("line " + std::to_string(warning.line) + ": " + warning.what);
+            if (warning.times > 1) all.back() += " (" + std::to_string(warning.times) + " times)";
+        }
+        return all;
+    }
+
+private:
+    struct Warning {
+        const char* what;
+        std::size_t line, times;
+    };
+    std::vector<Warning> list_;
+};
+
+} // namespace vdbcage::detail
