@@ -26,6 +26,7 @@
 #include <vdbcage/mesh/mesh_io.h>
 #include <vdbcage/mesh/symmetry.h>
 #include <vdbcage/mesh/topology.h>
+#include <vdbcage/pipeline/memory.h>
 #include <vdbcage/pipeline/options.h>
 #include <vdbcage/pipeline/pipeline.h>
 #include <vdbcage/surface/decimate.h>

@@ -121,6 +121,35 @@ BOOST_AUTO_TEST_CASE(make_leaves_cage_stages_report_and_picture)
     }
 }
 
+BOOST_AUTO_TEST_CASE(what_would_take_too_much_memory_is_refused_with_what_would_fit)
+{
+    const TemporaryFolder folder;
+    const auto make = [&](const std::string& resolution, const std::string& memory) {
+        return runCommand({command, "make", bishop, "-o", folder / "cage.obj", "--effort", "fast", "--threads", "2",
+                           "--resolution", resolution, "--memory", memory, "--report", folder / "report.json"});
+    };
+    const auto refused = make("1000", "110M");
+    BOOST_TEST(refused.status == 75);
+    std::smatch match;
+    const std::regex text("vdbcage: error: --resolution: '1000' would take about [0-9.]+ GiB of memory, and 110 MiB is "
+                          "allowed; with ([0-9]+) it would fit\n");
+    BOOST_REQUIRE(std::regex_match(refused.err, match, text));
+    BOOST_TEST(folder.entries() == 1U); // the report
+    const json failure = readJson(folder / "report.json");
+    BOOST_TEST(failure["exit_status"] == 75);
+    BOOST_TEST(failure["error"].get<std::string>().find("it would fit") != std::string::npos);
+
+    const auto made = make(match[1], "110M");
+    BOOST_TEST(made.status == 0, made.err);
+    const json report = readJson(folder / "report.json");
+    BOOST_TEST(report["result"]["resolution"] == std::stoi(match[1]));
+#ifdef VDBCAGE_FAILING_CALLS // sanitizers take more
+    BOOST_TEST(report["memory_peak_mib"].get<double>() < 110);
+    BOOST_TEST(report["memory_peak_mib"].get<double>() > 110.0 / 2);
+#endif
+    BOOST_TEST(make("32", "off").status == 0);
+}
+
 BOOST_AUTO_TEST_CASE(every_voxelizer_leads_to_the_same_cage_and_is_reported)
 {
     const TemporaryFolder folder;

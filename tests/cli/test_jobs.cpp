@@ -71,11 +71,29 @@ BOOST_AUTO_TEST_CASE(a_line_for_each_model)
 {
     const TemporaryFolder folder;
     const std::string out = folder / "cages";
-    const auto result = runCommand({command, "jobs", "a/body.obj", "it's a \"model\".ply", "./-x.stl", "-o", out,
-                                    "--faces", "120", "--density", "box:0,0,0,1,1,1,2", "--format", "ply", "--pictures",
-                                    "--threads", "2", "--progress", "lines"});
+    const auto result = runCommand({command,
+                                    "jobs",
+                                    "a/body.obj",
+                                    "it's a \"model\".ply",
+                                    "./-x.stl",
+                                    "-o",
+                                    out,
+                                    "--faces",
+                                    "120",
+                                    "--density",
+                                    "box:0,0,0,1,1,1,2",
+                                    "--format",
+                                    "ply",
+                                    "--pictures",
+                                    "--threads",
+                                    "2",
+                                    "--progress",
+                                    "lines",
+                                    "--memory",
+                                    "2G"});
     BOOST_TEST(result.status == 0, result.err);
-    const std::string options = " --skip-done --faces=120 --density=box:0,0,0,1,1,1,2 --progress=lines --threads=2";
+    const std::string options =
+        " --skip-done --faces=120 --density=box:0,0,0,1,1,1,2 --memory=2G --progress=lines --threads=2";
     const auto line = [&](const std::string& model, const std::string& name) {
         const auto file = [&](const std::string& extension) {
             const std::string path = out + "/" + name + extension;
@@ -100,6 +118,7 @@ BOOST_AUTO_TEST_CASE(what_is_no_job)
     expectRefusal({"jobs", folder / "x.obj", "-o", folder.path()}, "x.obj: its cage would replace it");
     expectRefusal({"jobs", "a.obj", "-o", out, "--faces", "3"}, "faces: '3' is not allowed");
     expectRefusal({"jobs", "a.obj", "-o", out, "--format", "vdb"}, ".obj");
+    expectRefusal({"jobs", "a.obj", "-o", out, "--memory", "2X"}, "--memory: '2X' is not allowed");
     expectRefusal({"jobs", "a.obj", "-o", out, "--progress", "rarely"}, "progress: 'rarely' is neither auto nor lines");
     expectRefusal({"jobs", "a.obj", "-o", out, "--report", "x.json"}, "there is no option '--report'");
     BOOST_TEST(!std::filesystem::exists(out));

@@ -229,6 +229,8 @@ COMMAND_LINE = [
     make("--NAME: 'WORD' is not allowed; it must be one of NAME", "--mesh pentagons"),
     Row("nu: N is not allowed; it must be above -1 and below 0.5",
         "deform cage.obj cage.obj model.obj -o new.obj --coordinates somigliana --nu 0.5"),
+    make("--memory: 'WORD' is not allowed; it must be auto, off, or a size as 4G, 512M or 4000000000",
+         "--memory much"),
     Row("progress: 'WORD' is neither auto nor lines", "check cage.obj model.obj --progress bars"),
     Row("rotations: 'WORD' is not allowed; it must be global or local",
         "deform cage.obj cage.obj model.obj -o new.obj --coordinates somigliana --rotations none"),
@@ -540,8 +542,12 @@ OTHERS = [
 # ---- What is missing on a machine
 
 MACHINE = [
-    Row("not enough memory", "make model.obj -o new.obj --resolution 2048 --voxelizer cpu --threads 1", status=75,
-        limits="-v 1500000"),
+    Row("not enough memory", "make model.obj -o new.obj --resolution 2048 --voxelizer cpu --threads 1 --memory off",
+        status=75, limits="-v 1500000"),
+    Row("--resolution: 'WORD' would take about N WORD of memory, and N WORD is allowed; with N it would fit",
+        "make model.obj -o new.obj --resolution 2048 --memory 200M", status=75),
+    make("--resolution: 'WORD' would take about N WORD of memory, and N WORD is allowed; no resolution would fit",
+         "--memory 1M", status=75),
     Row("FILE: there is not enough memory to read it", "check large.obj model.obj --threads 1", {"large.obj": 1 << 33},
         status=75, limits="-v 1500000"),
     Row("not enough threads can be started; look at limits on processes (ulimit -u)",

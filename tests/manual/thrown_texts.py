@@ -9,7 +9,7 @@ TOKENS = re.compile(r"""
     | '(?:\\.|[^'\\])*'                        # a character
     | [A-Za-z_]\w* | \d[\w.']* | :: | << | [-+=!<>&|]= | \S
 """, re.VERBOSE | re.DOTALL)
-ERRORS = {"Error", "InputError", "IoError", "ResourceError", "DeviceError"}
+ERRORS = {"Error", "InputError", "IoError", "ResourceError", "MemoryError", "DeviceError"}
 # They throw what they are given, which may get words around it where they are defined: there it has one of these names.
 HELPERS = {"fail", "refuse", "damaged", "throwIoError"}
 HANDED_ON = {"problem", "what", "why", "allowed"}

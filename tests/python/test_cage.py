@@ -1,5 +1,6 @@
 import dataclasses
 import json
+import subprocess
 
 import numpy
 
@@ -46,6 +47,17 @@ class CageTest(Case):
         self.assertGreater(cage.report["seconds"], 0)
         self.assertEqual(vdbcage.check_cage(cage, model), cage.check)
         json.dumps(cage.report)  # plain values
+
+    def test_memory_is_predicted_as_the_command_does(self):
+        bishop = Mesh.read(BISHOP)
+        usual, fine = vdbcage.predicted_memory(bishop), vdbcage.predicted_memory(bishop, resolution=1024)
+        self.assertIsInstance(fine, int)
+        self.assertGreater(fine, 10 * usual)
+        words = "make", BISHOP, "-q", "-o", self.folder / "c.obj", "--memory"
+        command(*words, usual)
+        with self.assertRaises(subprocess.CalledProcessError):
+            command(*words, usual - 1)
+        self.refuses("resolution: '7' is not allowed", vdbcage.predicted_memory, bishop, resolution=7)
 
     def test_a_check_says_what_the_command_says(self):
         cage, model = self.folder / "cage.obj", Mesh.read(BISHOP)

@@ -3,8 +3,9 @@
 //   FAIL_ALLOCATION=N         the Nth allocation fails, counted from 1
 //   FAIL_ALLOCATIONS_FROM=N   so do all that follow
 //   MOST_THREADS=N            no more than N threads can live at a time beside the first one, as under ulimit -u
-//   FULL_DISK=N               after N writes the disk is full; not for standard output and error
-//   COUNT_ALLOCATIONS=FILE    their number is written there when the command ends
+//   FULL_DISK=N               after N bytes the disk is full, and the write that reaches it is short; not for standard
+//                             output and error
+//   COUNT=FILE                the numbers of allocations and of bytes are written there when the command ends
 
 #include <atomic>
 #include <cerrno>
@@ -34,8 +35,8 @@ unsigned long fromEnvironment(const char* name)
 struct Plan {
     unsigned long one = fromEnvironment("FAIL_ALLOCATION"), from = fromEnvironment("FAIL_ALLOCATIONS_FROM"),
                   mostThreads = fromEnvironment("MOST_THREADS");
-    unsigned long mostWrites = fromEnvironment("FULL_DISK");
-    bool limitsThreads = std::getenv("MOST_THREADS") != nullptr, limitsWrites = std::getenv("FULL_DISK") != nullptr;
+    unsigned long mostBytes = fromEnvironment("FULL_DISK");
+    bool limitsThreads = std::getenv("MOST_THREADS") != nullptr, limitsBytes = std::getenv("FULL_DISK") != nullptr;
 };
 
 const Plan& plan()
@@ -44,7 +45,7 @@ const Plan& plan()
     return known;
 }
 
-std::atomic<unsigned long> allocations{0}, writes{0}, threads{0}; // so far; so far; living
+std::atomic<unsigned long> allocations{0}, bytes{0}, threads{0}; // so far; written so far; living
 
 bool fails()
 {
@@ -71,11 +72,11 @@ void* runCounted(void* data)
 
 __attribute__((destructor)) void writeCount()
 {
-    const char* path = std::getenv("COUNT_ALLOCATIONS");
+    const char* path = std::getenv("COUNT");
     if (!path) return;
-    const unsigned long count = allocations;
+    const unsigned long allocationCount = allocations, byteCount = bytes;
     if (std::FILE* file = std::fopen(path, "w")) {
-        std::fprintf(file, "%lu\n", count);
+        std::fprintf(file, "%lu %lu\n", allocationCount, byteCount);
         std::fclose(file);
     }
 }
@@ -115,15 +116,20 @@ int posix_memalign(void** result, std::size_t alignment, std::size_t size)
     return *result ? 0 : ENOMEM;
 }
 
-ssize_t write(int descriptor, const void* bytes, std::size_t count)
+ssize_t write(int descriptor, const void* data, std::size_t count)
 {
     using Write = ssize_t (*)(int, const void*, std::size_t);
     static const auto real = reinterpret_cast<Write>(::dlsym(RTLD_NEXT, "write"));
-    if (plan().limitsWrites && descriptor > STDERR_FILENO && ++writes > plan().mostWrites) {
-        errno = ENOSPC;
-        return -1;
+    if (descriptor <= STDERR_FILENO) return real(descriptor, data, count);
+    const unsigned long before = bytes.fetch_add(count);
+    if (plan().limitsBytes && before + count > plan().mostBytes) {
+        if (before >= plan().mostBytes) {
+            errno = ENOSPC;
+            return -1;
+        }
+        count = plan().mostBytes - before;
     }
-    return real(descriptor, bytes, count);
+    return real(descriptor, data, count);
 }
 
 int pthread_create(pthread_t* thread, const pthread_attr_t* attributes, void* (*run)(void*), void* argument)

@@ -10,6 +10,7 @@
 #include <tools/report/report.h>
 #include <vdbcage/check/check.h>
 #include <vdbcage/core/error.h>
+#include <vdbcage/pipeline/memory.h>
 #include <vdbcage/pipeline/pipeline.h>
 
 #include "job.h"
@@ -177,6 +178,11 @@ void defineCage(py::module_& module)
         .def("run", &SharedPipeline::run)
         .def("mesh", stageOf)
         .def("mask", maskOf);
+    module.def("predicted_memory", [](const MeshPtr& model, const OptionTexts& texts, const py::object& progress) {
+        const CageOptions options = toOptions(texts);
+        return resultOfJob(progress,
+                           [&](Interrupter* interrupter) { return predictedMemory(*model, options, interrupter); });
+    });
     module.def("check_cage", [](const MeshPtr& cage, const MeshPtr& model, bool asFloats, bool measure,
                                 std::size_t samples, const py::object& progress) {
         return toDict(resultOfJob(progress, [&](Interrupter* interrupter) {

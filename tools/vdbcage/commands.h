@@ -63,4 +63,7 @@ CommandFacts describe(const Command& command);
 /// Adds the options of cages, which set `options`, and returns them. Must outlive parsing.
 std::vector<CLI::Option*> addCageOptions(CLI::App& app, CageOptions& options);
 
+/// Adds --memory, for memoryLimit(). Must outlive parsing.
+CLI::Option* addMemoryOption(CLI::App& app, std::string& text);
+
 } // namespace vdbcage::tool

@@ -6,6 +6,7 @@
 #include <system_error>
 
 #include <vdbcage/core/error.h>
+#include <vdbcage/pipeline/memory.h>
 
 #include "interrupt.h"
 
@@ -15,6 +16,7 @@ Failure failureOf(const std::exception& exception) noexcept
 {
     if (dynamic_cast<const Cancelled*>(&exception)) return {exception.what(), cancelledStatus()};
     if (dynamic_cast<const ResourceError*>(&exception)) return {exception.what(), exitTryAgain};
+    if (dynamic_cast<const MemoryError*>(&exception)) return {exception.what(), exitTryAgain};
     if (dynamic_cast<const DeviceError*>(&exception)) return {exception.what(), exitTryAgain};
     if (dynamic_cast<const std::bad_alloc*>(&exception)) return {"not enough memory", exitTryAgain};
     const auto* const system = dynamic_cast<const std::system_error*>(&exception);

@@ -2,6 +2,7 @@
 #include <iostream>
 #include <map>
 
+#include <tools/report/memory_limit.h>
 #include <vdbcage/core/detail/io_failure.h>
 #include <vdbcage/core/error.h>
 #include <vdbcage/mesh/io/formats.h>
@@ -38,7 +39,7 @@ int runJobs(Call call)
 {
     std::vector<fs::path> models;
     fs::path folder;
-    std::string program = "vdbcage", format = "obj", progress = "auto";
+    std::string program = "vdbcage", format = "obj", progress = "auto", memory = "auto";
     CageOptions options;
     bool pictures = false;
     CLI::App app("vdbcage jobs MODEL... -o DIR [OPTIONS of make]\n"
@@ -52,6 +53,7 @@ int runJobs(Call call)
     app.add_flag("--pictures", pictures, "of each model with its cage, too");
     app.add_option("--command", program, "how farms call vdbcage [vdbcage]")->type_name("WORD");
     std::vector<CLI::Option*> ofMake = addCageOptions(app, options);
+    ofMake.push_back(addMemoryOption(app, memory));
     ofMake.push_back(app.add_option("--progress", progress, "of each job: auto, or lines for farms [auto]")
                          ->type_name("auto|lines"));
     app.set_help_all_flag("--help-all", "print this and the rarer options");
@@ -59,6 +61,7 @@ int runJobs(Call call)
     detail::requireMeshExtension("cage." + format);
     requireValid(options);
     requireProgress(progress);
+    memoryLimit(memory);
 
     ofMake.push_back(app.get_option("--threads"));
     std::string given;

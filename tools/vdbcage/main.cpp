@@ -9,6 +9,7 @@
 #include <new>
 
 #include <fcntl.h>
+#include <gmp.h>
 #include <unistd.h>
 
 #include <vdbcage/core/detail/io_failure.h>
@@ -111,11 +112,33 @@ int guarded(const Work& work) noexcept
     ::_exit(status);
 }
 
+/// As onTerminate, for GMP, which CGAL's exact numbers are of: by itself it aborts where memory lacks.
+[[noreturn]] void onLackOfMemory() noexcept
+{
+    Outputs::abandon();
+    ::_exit(fail("not enough memory", exitTryAgain));
+}
+
+void* allocateForGmp(std::size_t size)
+{
+    void* const block = std::malloc(size);
+    if (!block) onLackOfMemory();
+    return block;
+}
+
+void* reallocateForGmp(void* old, std::size_t /*oldSize*/, std::size_t size)
+{
+    void* const block = std::realloc(old, size);
+    if (!block) onLackOfMemory();
+    return block;
+}
+
 /// Runs before the constructors of all shared libraries, some of which start threads.
 void beforeAll(int /*count*/, char** /*arguments*/, char** /*environment*/)
 {
     catchSignals();
     std::set_terminate(onTerminate);
+    ::mp_set_memory_functions(allocateForGmp, reallocateForGmp, nullptr); // null: free()
 }
 
 __attribute__((section(".preinit_array"), used)) void (*const atStart)(int, char**, char**) = beforeAll;

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include <tools/report/fingerprint.h>
+#include <tools/report/memory_limit.h>
 #include <tools/report/models.h>
 #include <tools/report/report.h>
 #include <tools/report/run_facts.h>
@@ -13,6 +14,7 @@
 #include <vdbcage/core/error.h>
 #include <vdbcage/mesh/io/formats.h>
 #include <vdbcage/mesh/mesh_io.h>
+#include <vdbcage/pipeline/memory.h>
 #include <vdbcage/pipeline/pipeline.h>
 
 #include "commands.h"
@@ -32,6 +34,7 @@ struct MakeArguments {
     std::vector<fs::path> models;
     fs::path cage, stages, report, picture;
     CageOptions options;
+    std::size_t memoryLimit = 0;
     bool isVerbose = false;
 };
 
@@ -74,6 +77,7 @@ Pipeline makePipeline(std::vector<ModelFile>& models, const MakeArguments& argum
 {
     try {
         Pipeline pipeline(takeMesh(models));
+        requireMemory(pipeline.model(), arguments.options, arguments.memoryLimit, &interrupter);
         pipeline.run(arguments.options, &interrupter);
         return pipeline;
     } catch (const InputError& error) {
@@ -212,10 +216,18 @@ std::vector<CLI::Option*> addCageOptions(CLI::App& app, CageOptions& options)
     return added;
 }
 
+CLI::Option* addMemoryOption(CLI::App& app, std::string& text)
+{
+    return app.add_option("--memory", text, "refuse what would take more memory [auto]")
+        ->type_name("auto|off|SIZE")
+        ->group(rareOptions);
+}
+
 int runMake(Call call)
 {
     MakeArguments arguments;
     bool skipsDone = false;
+    std::string memory = "auto";
     CLI::App app("vdbcage make MODEL... -o CAGE [OPTIONS]: A cage for all (.obj .off .ply .stl)", "make");
     app.add_option("models", arguments.models)->required()->type_name("MODEL...");
     app.add_option("-o,--output", arguments.cage, "the cage to write")->required()->type_name("CAGE");
@@ -224,11 +236,13 @@ int runMake(Call call)
     app.add_option("--report", arguments.report, "options, times, memory, verdict as JSON")->type_name("FILE.json");
     app.add_option("--picture", arguments.picture, "the model with its cage")->type_name("FILE.png");
     app.add_flag("--skip-done", skipsDone, "nothing if the report tells that it was done");
+    addMemoryOption(app, memory);
     const TalkArguments talk(app, "progress, warnings, stage times, whole verdict");
     app.set_help_all_flag("--help-all", "print this and the rarer options");
     arguments.words = call.words;
     if (!parse(app, std::move(call))) return exitGood;
     arguments.isVerbose = talk.verbose();
+    arguments.memoryLimit = memoryLimit(memory);
     if (skipsDone && arguments.report.empty()) {
         throw InputError("--skip-done needs --report FILE.json, which tells what was done");
     }

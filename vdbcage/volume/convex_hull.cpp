@@ -136,7 +136,7 @@ openvdb::MaskGrid::Ptr convexHull(const openvdb::MaskGrid& mask, Interrupter* in
     constexpr std::int64_t mostColumns = 1 << 28;
     // Centres on a facet are inside. Qhull's facets are off by rounding, some 1e-14 of the extent.
     constexpr double onFacet = 1e-7;
-    const openvdb::MaskGrid::Ptr result = detail::maskGridLike(mask, std::make_shared<openvdb::MaskTree>());
+    const openvdb::MaskGrid::Ptr result = detail::maskGridLike(mask, detail::emptyTree<openvdb::MaskTree>(false));
     const CoordBBox box = detail::isolated([&] { return mask.evalActiveVoxelBoundingBox(); });
     if (mask.empty() || box.empty()) return result;
     const Coord size = box.dim();

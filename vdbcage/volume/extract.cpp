@@ -88,8 +88,7 @@ void findCritical(const MaskAccessor& tree, const Coord& block, std::vector<Coor
 
 openvdb::MaskGrid::Ptr makeWellComposed(const openvdb::MaskGrid& solid, Interrupter* interrupter)
 {
-    const openvdb::MaskGrid::Ptr result =
-        detail::maskGridLike(solid, std::make_shared<openvdb::MaskTree>(solid.tree()));
+    const openvdb::MaskGrid::Ptr result = detail::maskGridLike(solid, detail::maskTreeLike(solid.tree()));
     openvdb::MaskTree& tree = result->tree();
     // Voxels are added inside the box of those that are there, so this ends.
     for (std::vector<Coord> blocks = detail::surfaceBlocks(tree, interrupter); !blocks.empty();) {

@@ -23,7 +23,7 @@ openvdb::MaskGrid::Ptr withMirrorImage(const openvdb::MaskGrid& mask, int axis, 
         voxel[a] = sum - voxel[a];
         return voxel;
     };
-    const openvdb::MaskGrid::Ptr result = detail::maskGridLike(mask, std::make_shared<openvdb::MaskTree>(mask.tree()));
+    const openvdb::MaskGrid::Ptr result = detail::maskGridLike(mask, detail::maskTreeLike(mask.tree()));
     openvdb::tree::ValueAccessor<openvdb::MaskTree> accessor(result->tree());
     for (auto leaf = mask.tree().cbeginLeaf(); leaf; ++leaf) {
         throwIfInterrupted(interrupter);

@@ -85,7 +85,7 @@ MaskTree::Ptr closeTree(const MaskTree& mask, const CloseOptions& options, const
 
 MaskGrid::Ptr activeVoxels(const BoolGrid& grid)
 {
-    return detail::maskGridLike(grid, std::make_shared<MaskTree>(grid.tree(), false, true, openvdb::TopologyCopy()));
+    return detail::maskGridLike(grid, detail::maskTreeLike(grid.tree()));
 }
 
 } // namespace

@@ -39,7 +39,7 @@ MaskGrid::Ptr maskWhere(const Grid& grid, const std::string& path, bool (*isInsi
                       "' is inside: the solid has no end");
     }
     using Leaf = typename Grid::TreeType::LeafNodeType;
-    auto tree = std::make_shared<MaskTree>(false);
+    auto tree = detail::emptyTree<MaskTree>(false);
     openvdb::tree::ValueAccessor<MaskTree> target(*tree);
     auto tile = grid.tree().cbeginValueAll();
     tile.setMaxDepth(Grid::TreeType::ValueAllCIter::LEAF_DEPTH - 1);
@@ -106,7 +106,7 @@ void writeVdb(const MaskGrid& mask, std::ostream& out, const std::filesystem::pa
               const std::map<std::string, std::string>& metadata)
 {
     openvdb::initialize();
-    const auto tree = std::make_shared<openvdb::FloatTree>(mask.tree(), 0.0F, 1.0F, openvdb::TopologyCopy());
+    const auto tree = detail::treeLike<openvdb::FloatTree>(mask.tree(), 0.0F, 1.0F);
     const auto grid = FloatGrid::create(tree);
     detail::copyTransform(mask, *grid);
     grid->setName(gridName);

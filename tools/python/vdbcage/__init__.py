@@ -26,7 +26,7 @@ import numpy
 
 __all__ = ["Binding", "Cage", "CageCheck", "Cancelled", "DeviceError", "Elasticity", "Error", "Family", "InputError",
            "IoError", "Mask", "Mesh", "Pipeline", "check_cage", "close_mask", "coordinate_families", "make_cage",
-           "read_vdb", "voxelize", "write_vdb"]
+           "predicted_memory", "read_vdb", "voxelize", "write_vdb"]
 
 
 class Error(Exception):
@@ -254,6 +254,18 @@ def make_cage(model, /, *, progress=None, **options):
     """
     texts, progress = _option_texts(options), _arguments.callback(progress)
     return _run(_vdbcage.Pipeline(_mesh("model", model)), texts, progress)
+
+
+def predicted_memory(model, /, *, progress=None, **options):
+    """About how many bytes the command takes at most to make this cage, before it is made.
+
+    A program takes as much on top of what it holds, or a little less.
+    model, progress, options: as for make_cage
+    Raises InputError, Cancelled.
+    """
+    texts, progress = _option_texts(options), _arguments.callback(progress)
+    with _names_of_python():
+        return _vdbcage.predicted_memory(_mesh("model", model), texts, progress)
 
 
 def _run(pipeline, texts, progress):

@@ -8,7 +8,7 @@ import numpy.typing as npt
 
 __all__ = ["Binding", "Cage", "CageCheck", "Cancelled", "DeviceError", "Elasticity", "Error", "Family", "InputError",
            "IoError", "Mask", "Mesh", "Pipeline", "check_cage", "close_mask", "coordinate_families", "make_cage",
-           "read_vdb", "voxelize", "write_vdb"]
+           "predicted_memory", "read_vdb", "voxelize", "write_vdb"]
 
 __version__: str
 
@@ -78,6 +78,8 @@ class Cage(Mesh):
     def report(self) -> dict[str, Any]: ...
 
 def make_cage(model: Mesh, /, *, progress: _Progress = None, **options: _Option) -> Cage: ...
+
+def predicted_memory(model: Mesh, /, *, progress: _Progress = None, **options: _Option) -> int: ...
 
 class Pipeline:
     def __init__(self, model: Mesh) -> None: ...

@@ -1,11 +1,57 @@
 #pragma once
 
 #include <memory>
+#include <type_traits>
 #include <utility>
 
 #include <openvdb/openvdb.h>
 
 namespace vdbcage::detail {
+
+// Where memory lacks OpenVDB's own trees end the program when they go, as they ask for memory in their destructor; and
+// what a copy has copied so far is lost. Trees of vdbcage are made here.
+
+/// An empty tree, which takes no memory to be given back.
+template <typename Tree>
+std::shared_ptr<Tree> emptyTree(const typename Tree::ValueType& background)
+{
+    const auto giveBack = [](Tree* tree) {
+        tree->root().clear();
+        delete tree;
+    };
+    return {new Tree(background), giveBack};
+}
+
+/// A tree whose active voxels are those of `source`, and have the value `on`; all others have `off`.
+template <typename Tree, typename Source>
+std::shared_ptr<Tree> treeLike(const Source& source, const typename Tree::ValueType& off,
+                               const typename Tree::ValueType& on)
+{
+    const auto tree = emptyTree<Tree>(off);
+    // Else the root would lose a new child if there were no memory for its place.
+    for (auto child = source.root().cbeginChildOn(); child; ++child) tree->root().addTile(child.getCoord(), off, false);
+    auto tile = source.cbeginValueOn();
+    tile.setMaxDepth(Source::ValueOnCIter::LEAF_DEPTH - 1);
+    for (; tile; ++tile) tree->addTile(tile.getLevel(), tile.getCoord(), on, true);
+    openvdb::tree::ValueAccessor<Tree> accessor(*tree);
+    for (auto leaf = source.cbeginLeaf(); leaf; ++leaf) {
+        auto* const copy = accessor.touchLeaf(leaf->origin());
+        copy->setValueMask(leaf->getValueMask());
+        if constexpr (!std::is_same_v<typename Tree::ValueType, bool>) {
+            for (auto voxel = copy->beginValueOn(); voxel; ++voxel) voxel.setValue(on);
+        }
+    }
+    accessor.clear();
+    tree->root().eraseBackgroundTiles();
+    return tree;
+}
+
+/// A mask tree with the active voxels of `source`.
+template <typename Source>
+openvdb::MaskTree::Ptr maskTreeLike(const Source& source)
+{
+    return treeLike<openvdb::MaskTree>(source, false, true);
+}
 
 /// Gives `grid` a copy of the transform of `source`. Where voxels are smaller than some 1e-5 the two share one: OpenVDB
 /// can read and write it, but refuses to copy it.

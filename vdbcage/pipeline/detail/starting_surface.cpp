@@ -81,7 +81,7 @@ StartingSurface startingSurface(std::shared_ptr<Closing> closing, CageStart kind
         }
         const std::vector<std::size_t> tooNear = guard.facesTooNear(*start.surface);
         if (tooNear.empty()) break;
-        if (!mask) mask = maskGridLike(*solid, std::make_shared<openvdb::MaskTree>(solid->tree()));
+        if (!mask) mask = maskGridLike(*solid, maskTreeLike(solid->tree()));
         if (addVoxelsOutside(*start.surface, tooNear, axes, *mask) == 0) mask = grownBy(1, *mask);
     }
     start.closing->surface.reset(); // it was for this

@@ -6,6 +6,7 @@
 #include <set>
 #include <sstream>
 
+#include <vdbcage/core/detail/mask_grid.h>
 #include <vdbcage/core/detail/parallel.h>
 #include <vdbcage/core/error.h>
 
@@ -165,12 +166,13 @@ MaskTree::Ptr assemble(const FullParts& full, std::vector<BuiltBlock> built)
             addTile(upperNodeOf(block.origin), block.origin, block.full);
         }
     }
-    auto tree = std::make_shared<MaskTree>(false);
+    auto tree = emptyTree<MaskTree>(false);
     for (auto& [origin, upperNode] : upperNodes) {
         if (!upperNode || (upperNode->isChildMaskOff() && upperNode->isValueMaskOn())) {
             tree->root().addTile(origin, true, true);
         } else if (!upperNode->isChildMaskOff() || !upperNode->isValueMaskOff()) { // isEmpty() knows of children only
-            tree->root().addChild(upperNode.release());
+            tree->root().addChild(upperNode.get());
+            static_cast<void>(upperNode.release()); // not before the root has it
         }
     }
     return tree;
@@ -178,9 +180,16 @@ MaskTree::Ptr assemble(const FullParts& full, std::vector<BuiltBlock> built)
 
 void release(MaskTree& tree, const Progress& progress)
 {
+    std::size_t count = 0;
+    for (auto upperNode = tree.root().cbeginChildOn(); upperNode; ++upperNode) {
+        count += upperNode->getChildMask().countOn();
+    }
     std::vector<LowerNode*> stolen;
+    std::vector<std::unique_ptr<LowerNode>> blocks;
+    stolen.reserve(count); // nothing is lost where memory lacks
+    blocks.reserve(count);
     tree.stealNodes(stolen);
-    std::vector<std::unique_ptr<LowerNode>> blocks(stolen.begin(), stolen.end());
+    for (LowerNode* const block : stolen) blocks.emplace_back(block);
     std::atomic<std::size_t> done{0};
     parallelFor(std::size_t{0}, blocks.size(), [&](std::size_t i) {
         progress.check(done++, blocks.size());

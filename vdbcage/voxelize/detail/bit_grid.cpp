@@ -5,6 +5,7 @@
 #include <new>
 #include <vector>
 
+#include <vdbcage/core/detail/mask_grid.h>
 #include <vdbcage/core/detail/parallel.h>
 #include <vdbcage/core/detail/word_bits.h>
 
@@ -124,7 +125,7 @@ openvdb::MaskGrid::Ptr toMask(const BitGrid& bits, const openvdb::math::Transfor
         blocks[static_cast<std::size_t>(i)] = BlockBuilder(bits, origin(i)).build();
     });
 
-    auto mask = openvdb::MaskGrid::create();
+    auto mask = openvdb::MaskGrid::create(emptyTree<openvdb::MaskTree>(false));
     mask->setTransform(transform);
     auto& root = mask->tree().root();
     for (int i = 0; i < static_cast<int>(blocks.size()); ++i) {
@@ -132,8 +133,9 @@ openvdb::MaskGrid::Ptr toMask(const BitGrid& bits, const openvdb::math::Transfor
         if (!block.node && !block.full) continue;
         auto* upper = root.probeNode<UpperNode>(origin(i));
         if (!upper) {
-            upper = new UpperNode(origin(i), false);
-            root.addChild(upper);
+            auto made = std::make_unique<UpperNode>(origin(i), false);
+            root.addChild(made.get());
+            upper = made.release();
         }
         if (block.full) {
             upper->addTile(2, origin(i), true, true);

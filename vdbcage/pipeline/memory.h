@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstddef>
+
+#include <vdbcage/core/error.h>
+#include <vdbcage/core/export.h>
+#include <vdbcage/core/interrupter.h>
+#include <vdbcage/mesh/mesh.h>
+#include <vdbcage/pipeline/options.h>
+
+namespace vdbcage {
+
+/// Making a cage would take more memory than is allowed. Thrown before any work is done.
+class VDBCAGE_API MemoryError : public Error {
+public:
+    using Error::Error;
+    ~MemoryError() override;
+};
+
+/// About how many bytes a process holds at most that makes a cage: `vdbcage make`, with nothing else in it.
+///
+/// It is meant as an upper bound: in 30 runs the peak was 65 to 93 % of it (docs/OPTIONS.md). Most is taken by the
+/// surface of the closing, which is counted in coarse voxels. Grids of fields are not counted, nor is what a program
+/// makes of the result, as pictures.
+/// \throw InputError as Pipeline::run
+/// \throw Cancelled
+/// Cost: that of voxels and their closing at resolution 64, once.
+VDBCAGE_API std::size_t predictedMemory(const Mesh& model, const CageOptions& options = {},
+                                        Interrupter* interrupter = nullptr);
+
+/// Does nothing where predictedMemory() is at most `limit` bytes.
+/// \throw MemoryError it is more; names the finest resolution with which it is not, if there is one
+/// \throw InputError as predictedMemory
+/// \throw Cancelled
+VDBCAGE_API void requireMemory(const Mesh& model, const CageOptions& options, std::size_t limit,
+                               Interrupter* interrupter = nullptr);
+
+} // namespace vdbcage
