@@ -243,7 +243,7 @@ BOOST_AUTO_TEST_CASE(signals_at_any_time)
                 const int status = signal == SIGTERM ? 143 : 130;
                 BOOST_TEST((result.status == status || result.status == 0), result.status);
                 if (result.status == status) BOOST_TEST(result.err == "vdbcage: error: cancelled\n");
-                BOOST_TEST(folder.isOldOrNew(finished));
+                BOOST_TEST(folder.isOldOrNew(finished, result.status));
                 BOOST_TEST((result.status != 0 || folder.contents().size() == finished.size()));
             }
             cancelled += result.status > 128;

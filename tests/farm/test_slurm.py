@@ -142,7 +142,7 @@ class Slurm(Case):
         self.assertEqual(self.results(), before)
         self.expect_cages((*GOOD, BAD))
 
-    def test_a_cancelled_job_leaves_no_file(self):
+    def test_a_cancelled_job_leaves_its_report(self):
         job = self.submit_one("-o cages --effort best --progress lines")
         log = self.cages / "1.log"
         wait_until(lambda: log.exists() and "Progress: " in log.read_text(), "the job does not work")
@@ -151,11 +151,13 @@ class Slurm(Case):
         self.assertEqual((task["JobState"], task["ExitCode"]), ("CANCELLED", "143:0"))
         self.assertIn("vdbcage: error: cancelled\n", log.read_text())
         self.assertNotIn("100%", log.read_text())
-        self.assertEqual(list(self.cages.iterdir()), [log])
+        report = json.loads((self.cages / "creature.json").read_text())
+        self.assertEqual((report["error"], report["exit_status"]), ("cancelled", 143))
+        self.assertEqual(sorted(file.name for file in self.cages.iterdir()), ["1.log", "creature.json"])
 
     def test_too_little_memory_is_tried_again(self):
         self.write_script(changed(self.script, "\neval", "\nulimit -v 300000\neval"))
-        job = self.submit_one("-o cages --faces 60 --effort fast --resolution 800")
+        job = self.submit_one("-o cages --faces 60 --effort fast --resolution 800 --memory off")
         task = self.wait_for(job, lambda task: task["Restarts"] != "0" and task["JobState"] == "PENDING")
         self.assertEqual((task["JobState"], task["Restarts"]), ("PENDING", "1"))
         self.shell(f"scancel {job}")  # it would be tried again some minutes later

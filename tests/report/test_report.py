@@ -61,13 +61,17 @@ class Reports(unittest.TestCase):
         (self.folder / "box.obj").write_text(BOX)
         (self.folder / "open.obj").write_text(BOX[:BOX.rindex("f ")])
 
+    def valid(self, name):
+        report = json.loads((self.folder / name).read_text())
+        jsonschema.Draft202012Validator(SCHEMA).validate(report)
+        return report
+
     def run_command(self, *words, status=0):
         """The report, which must keep to the schema."""
         done = subprocess.run(["vdbcage", *words, "--report", "r.json"], cwd=self.folder, capture_output=True,
                               text=True)
         self.assertEqual(done.returncode, status, done.stderr)
-        report = json.loads((self.folder / "r.json").read_text())
-        jsonschema.Draft202012Validator(SCHEMA).validate(report)
+        report = self.valid("r.json")
         self.assertEqual(report["arguments"], [*words[1:], "--report", "r.json"])
         self.assertEqual(report["kind"], words[0])
         self.error = done.stderr
@@ -134,6 +138,19 @@ class Reports(unittest.TestCase):
         self.assertEqual(report["models"], [{"file": "bad.obj"}])
         self.assertEqual(self.error, f"vdbcage: error: {report['error']}\n")
         self.assertEqual((report["exit_status"], report["check"], report["seconds"]), (1, None, None))
+
+    def test_a_cancelled_run(self):
+        words = ["vdbcage", "make", "box.obj", "-o", "cage.obj", "--effort", "best", "--resolution", "400",
+                 "--progress", "lines", "--report", "run.json"]
+        process = subprocess.Popen(words, cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        process.stdout.readline()  # it works
+        process.terminate()
+        _, self.error = process.communicate()
+        self.assertEqual(process.returncode, 143, self.error)
+        report = self.valid("run.json")
+        self.assertEqual((report["exit_status"], report["error"]), (143, "cancelled"))
+        self.assertEqual(self.error, "vdbcage: error: cancelled\n")
+        self.assertFalse((self.folder / "cage.obj").exists())
 
     def test_a_verdict(self):
         report = self.run_command("check", "box.obj", "box.obj", status=2)

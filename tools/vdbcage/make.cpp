@@ -249,6 +249,8 @@ int runMake(Call call)
     std::optional<Outputs> outputs(std::in_place);
     announce(arguments, *outputs);
     std::string text;
+    std::optional<SignalHold> hold; // a run that is cancelled leaves a report, too
+    if (!arguments.report.empty()) hold.emplace();
     try {
         std::optional<Progress> progress(talk.progressForm());
         // Of the files as they are before the work: what changes meanwhile is done anew.
@@ -261,8 +263,6 @@ int runMake(Call call)
             outputs->commit();
         }
         progress->succeed();
-    } catch (const Cancelled&) {
-        throw;
     } catch (const std::exception& exception) {
         outputs.reset(); // what was written goes, and makes room
         if (!arguments.report.empty()) reportFailure(arguments, failureOf(exception));

@@ -28,16 +28,16 @@ enum class CageStart {
 
 /// How a cage came about, beside the cage itself.
 struct CageReport {
-    CageCheck check;         ///< the verdict on the cage as it is returned, with measures
-    bool floatSafe = false;  ///< its coordinates are floats, and the cage also bounds the model rounded to float
-    int resolution = 0;      ///< voxels along the longest side, as given, a half of it that is tighter, or chosen
-    VoxelizeReport voxels;   ///< what made the voxels
-    double closeRadius = 0;  ///< fraction of the longest side, as given or chosen
-    double erodeRadius = 0;  ///< the same
-    std::optional<double> minAngle;   ///< degrees, as given or chosen; bounding only
-    std::optional<double> mergeAngle; ///< the same, of CageFaces::triquad and CageFaces::quads
-    int smooth = 0;                   ///< sweeps, as given or chosen
-    double offsetVoxels = 0; ///< by how much all of the closing was grown to keep the clearance
+    CageCheck check;        ///< the verdict on the cage as it is returned, with measures
+    bool floatSafe = false; ///< its coordinates are floats, and the cage also bounds the model rounded to float
+    int resolution = 0;     ///< voxels along the longest side, as given, a half of it that is tighter, or chosen
+    VoxelizeReport voxels;  ///< what made the voxels
+    double closeRadius = 0; ///< fraction of the longest side, as given or chosen
+    double erodeRadius = 0; ///< the same
+    std::optional<double> minAngle;       ///< degrees, as given or chosen; bounding only
+    std::optional<double> mergeAngle;     ///< the same, of CageFaces::triquad and CageFaces::quads
+    int smooth = 0;                       ///< sweeps, as given or chosen
+    double offsetVoxels = 0;              ///< by how much all of the closing was grown to keep the clearance
     CageStart start = CageStart::closing; ///< what it was shrunk from
     std::optional<Symmetry> symmetry; ///< the plane in which the cage is exactly symmetric, and how far the model is
     /// If the plane lies across no axis: the cage is symmetric in it but for the rounding of its coordinates.
