@@ -65,14 +65,16 @@ public:
         if (resolution > 0) options.resolution = resolution;
         double quads = 0, finest = 0; // of all surfaces that are kept at a time
         for (const CageOptions& competitor : detail::competitors(options)) {
-            const int wanted = detail::ladder(competitor).front().resolution;
             const bool areLoops = competitor.mesh == CageFaces::loops && !competitor.resolution;
-            const double first = areLoops ? detail::policy::quadsPerLoopsFace * competitor.faces
-                                          : quads_ * static_cast<double>(wanted) * wanted;
-            if (detail::mayBeTurned(competitor)) quads += first;
-            for (const double scale : detail::startScales(competitor)) {
-                quads += first * scale * scale;
-                finest = std::max(finest, scale * wanted);
+            for (const std::vector<detail::Voxels>& rungs : detail::ladders(competitor)) {
+                const int wanted = rungs.front().resolution;
+                const double first = areLoops ? detail::policy::quadsPerLoopsFace * competitor.faces
+                                              : quads_ * static_cast<double>(wanted) * wanted;
+                if (detail::mayBeTurned(competitor)) quads += first;
+                for (const double scale : detail::startScales(competitor)) {
+                    quads += first * scale * scale;
+                    finest = std::max(finest, scale * wanted);
+                }
             }
         }
         const bool guarded = options.bounding;

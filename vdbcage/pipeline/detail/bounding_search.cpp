@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iomanip>
+#include <iterator>
 #include <limits>
 #include <sstream>
 #include <utility>
@@ -231,24 +232,32 @@ std::optional<Candidate> BoundingSearch::tightest(const Run& run, const Bounding
         const Run of{options, run.scale, run.density, run.interrupter, run.isSheet};
         take(climb(of, guard), 0);
         // That a cage of more faces lies on the model more closely than a box is not worth them.
-        const bool isHalf = options.resolution != run.options.resolution;
-        if (isOfFewFaces(options) && !isHalf) take(shrinkOnto(of, simpleSolids(of, guard), guard), options.clearance);
+        if (isOfFewFaces(options)) take(shrinkOnto(of, simpleSolids(of, guard), guard), options.clearance);
     }
     return best;
 }
 
-/// A cage from the first rung of the ladder that leads to few enough faces, or else from the convex hull; nothing if
-/// that has too many too.
+/// The tightest cage from the first rungs of the ladders that lead to few enough faces, or else from the convex hull;
+/// nothing if that has too many too.
 std::optional<Candidate> BoundingSearch::climb(const Run& run, const BoundingGuard& guard)
 {
-    const std::vector<Voxels> rungs = ladder(run.options);
-    for (Voxels voxels : rungs) {
-        voxels.plane = guard.symmetry();
-        Candidates starts = startsFrom(run, voxels, guard);
-        if (starts.empty()) continue;
+    const std::vector<std::vector<Voxels>> all = ladders(run.options);
+    std::vector<std::size_t> next(all.size(), 0); // rung of each
+    for (;;) {
+        Candidates starts;
+        for (std::size_t i = 0; i < all.size(); ++i) {
+            Candidates found;
+            while (found.empty() && next[i] < all[i].size()) {
+                Voxels voxels = all[i][next[i]++];
+                voxels.plane = guard.symmetry();
+                found = startsFrom(run, voxels, guard);
+            }
+            std::move(found.begin(), found.end(), std::back_inserter(starts));
+        }
+        if (starts.empty()) break;
         if (auto candidate = shrinkOnto(run, std::move(starts), guard)) return candidate;
     }
-    Voxels voxels = rungs.front();
+    Voxels voxels = all.front().front();
     voxels.resolution = std::min(voxels.resolution, policy::hullResolution);
     voxels.plane = guard.symmetry();
     return shrinkOnto(run, {begin(run, voxels, CageStart::hull, guard)}, guard);

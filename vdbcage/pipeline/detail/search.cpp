@@ -20,19 +20,6 @@ double growth(const CageOptions& options)
     return std::max(1.0, options.faces / usualFaces);
 }
 
-/// Those that are given a resolution also with halves of it.
-std::vector<CageOptions> withHalves(std::vector<CageOptions> list)
-{
-    const std::size_t given = list.size();
-    for (std::size_t i = 0; i < given; ++i) {
-        for (int half = list[i].resolution.value_or(0) / 2; half >= coarsestHalf; half /= 2) {
-            list.push_back(list[i]);
-            list.back().resolution = half;
-        }
-    }
-    return list;
-}
-
 } // namespace
 
 bool arePaired(const CageOptions& options)
@@ -59,7 +46,7 @@ std::vector<CageOptions> competitors(const CageOptions& options)
         list.back().effort = Effort::fast;
         list.back().mesh = CageFaces::loops;
     }
-    return withHalves(std::move(list));
+    return list;
 }
 
 std::vector<Voxels> ladder(const CageOptions& options)
@@ -80,6 +67,17 @@ std::vector<Voxels> ladder(const CageOptions& options)
         for (int coarser = resolution / 2; coarser >= coarsest; coarser /= 2) {
             list.push_back({coarser, options.closeRadius.value_or(greatestRadius)});
         }
+    }
+    return list;
+}
+
+std::vector<std::vector<Voxels>> ladders(const CageOptions& options)
+{
+    std::vector<std::vector<Voxels>> list{ladder(options)};
+    CageOptions coarser = options;
+    for (int half = options.resolution.value_or(0) / 2; half >= coarsestHalf; half /= 2) {
+        coarser.resolution = half;
+        list.push_back(ladder(coarser));
     }
     return list;
 }

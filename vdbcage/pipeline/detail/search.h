@@ -52,7 +52,7 @@ constexpr int competingLoops = 24;  ///< up to so many faces, loops with other q
 constexpr double fewStarts[] = {1.0, 0.85, 0.7, 0.6}, fewestStarts[] = {0.65, 0.5}; ///< shares of the resolution
 
 // Finer voxels can be worse: they leave gaps open, whose handles take faces. So coarser ones compete with those that
-// are given, which takes a third more time or less from 128 on.
+// are given. That takes twice the processor's time, but side by side little longer.
 constexpr int coarsestHalf = 32; ///< voxels along the longest side
 
 // Shape of the cage.
@@ -89,11 +89,14 @@ struct Voxels {
 
 /// The options whose cages compete for the tightest, Among few faces the order of the collapses is luck: there they are
 /// those of all lower efforts, too, so that no effort gives looser cages than a lower one. Among the fewest, loops
-/// compete with other quads from Effort::fair on. A resolution that is given competes with its halves, which come last.
+/// compete with other quads from Effort::fair on.
 std::vector<CageOptions> competitors(const CageOptions& options);
 
 /// The voxels to try, finest first. Options that are not `auto` are obeyed.
 std::vector<Voxels> ladder(const CageOptions& options);
+
+/// The ladder of the options, then those with halves of the resolution, if one is given. Their cages compete.
+std::vector<std::vector<Voxels>> ladders(const CageOptions& options);
 
 /// Whether pairs of triangles become quads.
 bool arePaired(const CageOptions& options);
