@@ -23,7 +23,7 @@ void require(bool holds)
 /// answer.
 void requireSurvives(const Mesh& mesh, test::Parse parse, test::Write writer)
 {
-    require(test::sameBits(parse(test::write(writer, mesh), "again", nullptr), mesh));
+    require(test::sameBits(parse(test::write(writer, mesh), "again").mesh, mesh));
 }
 
 } // namespace
@@ -33,7 +33,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const std::string name = "fuzz";
     Mesh mesh;
     try {
-        mesh = detail::PARSE({reinterpret_cast<const char*>(data), size}, name, nullptr);
+        mesh = detail::PARSE({reinterpret_cast<const char*>(data), size}, name).mesh;
     } catch (const IoError& error) {
         const std::string_view message = error.what();
         require(message.substr(0, 6) == "fuzz: " && message.find('\n') == std::string_view::npos);
