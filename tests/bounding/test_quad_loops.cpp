@@ -465,6 +465,27 @@ BOOST_AUTO_TEST_CASE(a_loop_that_is_split_is_two_loops)
     BOOST_TEST(split > 50);
 }
 
+BOOST_AUTO_TEST_CASE(a_loop_from_plane_to_plane_is_split_too)
+{
+    constexpr int resolution = 8;
+    const Mesh model = test::box({-0.1, -0.1, -0.1}, {0.1, 0.1, 0.1});
+    const BoundingGuard guard = test::guardOf(model, true);
+    const Mesh half = guard.symmetrized(test::ball(resolution), 0.25 / resolution);
+    const Working before(half, guard);
+    int split = 0;
+    for (const QuadLoop& loop : straightLoops(before.table)) {
+        if (loop.isClosed()) continue;
+        BOOST_TEST(loop.rungs.size() == loop.quads.size() + 1);
+        Working now(half, guard);
+        if (splitLoop(now.surface, now.table, loop).empty()) continue;
+        ++split;
+        BOOST_TEST(now.surface.liveFaces() == 2 * now.table.count());
+        BOOST_TEST(twoFacesMakeEach(now));
+        BOOST_TEST(checkCage(now.surface.mesh(), model).bounding());
+    }
+    BOOST_TEST(split > 5);
+}
+
 BOOST_AUTO_TEST_CASE(exchanged_loops_bring_a_surface_nearer)
 {
     double before = 0, after = 0;

@@ -6,41 +6,20 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
 #include <limits>
 #include <string_view>
 
 #include <deform/cages.h>
+#include <fuzz/bytes.h>
 #include <vdbcage/core/error.h>
 #include <vdbcage/deform/binding.h>
 
 using namespace vdbcage;
+using fuzz::Choices;
+using fuzz::require;
 using openvdb::Vec3d;
 
 namespace {
-
-void require(bool holds)
-{
-    if (!holds) std::abort();
-}
-
-/// What the bytes ask for; zero behind their end.
-class Choices {
-public:
-    Choices(const std::uint8_t* data, std::size_t size) : data_(data), size_(size) {}
-
-    int below(int count) { return next() % count; }
-    double share() { return (next() + 256 * next()) / 65535.0; }
-    /// Around 0, of any magnitude from 1e-16 on.
-    double small() { return (share() - 0.5) * std::pow(10.0, -below(17)); }
-    Vec3d direction() { return {2 * share() - 1, 2 * share() - 1, 2 * share() - 1}; }
-
-private:
-    int next() { return at_ < size_ ? data_[at_++] : 0; }
-
-    const std::uint8_t* data_;
-    std::size_t size_, at_ = 0;
-};
 
 Mesh cageOf(Choices& choices)
 {

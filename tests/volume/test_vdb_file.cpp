@@ -427,18 +427,4 @@ BOOST_AUTO_TEST_CASE(a_message_is_one_line_whatever_names_a_file_has)
     BOOST_TEST(detail::shortened(std::string(81, 'x')).size() == 83U);
 }
 
-// Files that reach different places of the reader, as the fuzzer found them.
-BOOST_AUTO_TEST_CASE(the_fuzzers_corpus)
-{
-    const TemporaryFolder folder;
-    int accepted = 0, files = 0;
-    for (const auto& entry : std::filesystem::directory_iterator(VDBCAGE_SOURCE_DIR "/tests/fuzz/corpus/vdb")) {
-        BOOST_TEST(isHarmless(folder / "a.vdb", readText(entry.path()), &accepted), entry.path());
-        ++files;
-    }
-    BOOST_TEST(files > 20);
-    BOOST_TEST(accepted > 0);
-    BOOST_TEST(accepted < files);
-}
-
 BOOST_AUTO_TEST_SUITE_END()

@@ -70,7 +70,10 @@ std::vector<QuadLoop> straightLoops(const QuadTable& table)
                 loop.rungs.push_back(sideOf(table, at));
                 loop.quads.push_back(at.quad);
                 const Entry on = next(table, at);
-                if (on.quad == none) loop.rungs.push_back(sideOf(table, {at.quad, (at.side + 2) % 4}));
+                if (on.quad == none) {
+                    const auto [a, b] = sideOf(table, {at.quad, (at.side + 2) % 4});
+                    loop.rungs.push_back({b, a}); // as the quad beyond would be entered
+                }
                 at = on;
             }
             if (isSimple(loop)) loops.push_back(std::move(loop));

@@ -13,7 +13,9 @@ namespace vdbcage::detail {
 /// Where each rung becomes one vertex the quads are gone, and what was on both sides of them is joined. So all faces
 /// stay quads.
 struct QuadLoop {
-    std::vector<Rung> rungs;          ///< rung i is the side across which quad i is entered; one more at the plane
+    /// Rung i is the side across which quad i is entered; one more at the plane. All first ends are on one side of the
+    /// loop, all second ends on the other.
+    std::vector<Rung> rungs;
     std::vector<std::uint32_t> quads; ///< each once
 
     bool isClosed() const { return rungs.size() == quads.size(); }

@@ -16,7 +16,7 @@ constexpr int smallRadius = 120; ///< largest radius, rounded up, for which heig
 template <class T>
 constexpr T none = 0;
 template <>
-constexpr std::uint8_t none<std::uint8_t> = 128;
+inline constexpr std::uint8_t none<std::uint8_t> = 128;
 
 /// What a query needs to know of its sphere: heights above them and squares of distances along an axis.
 struct SphereTables {
