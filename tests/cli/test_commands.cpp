@@ -66,9 +66,9 @@ BOOST_AUTO_TEST_CASE(verbose_names_every_stage_where_there_is_no_terminal)
 BOOST_AUTO_TEST_CASE(make_leaves_cage_stages_report_and_picture)
 {
     const TemporaryFolder folder;
-    const auto result = runCommand({command, "make", bishop, "-o", folder / "cage.obj", "--faces", "200",
-                                    "--resolution", "64", "--stages", folder / "stages", "--report",
-                                    folder / "report.json", "--picture", folder / "picture.png"});
+    const auto result =
+        runCommand({command, "make", bishop, "-o", folder / "cage.obj", "--faces", "200", "--stages", folder / "stages",
+                    "--report", folder / "report.json", "--picture", folder / "picture.png"});
     BOOST_TEST(result.status == 0, result.err);
     BOOST_TEST(result.out.empty());
     BOOST_TEST(result.err.find("certified bounding") != std::string::npos, result.err);
@@ -197,7 +197,7 @@ BOOST_AUTO_TEST_CASE(a_device_that_fails_is_replaced_by_the_cpu_and_reported)
     writeMesh(test::box({0, 0, 0}, {1, 0.03, 0.02}), model);
     // Mesa's drivers then have no OpenGL 4.5; a driver of another make would do the work.
     const auto run = runCommand({"env", "MESA_GL_VERSION_OVERRIDE=4.1", command, "make", model, "-o", cage, "--report",
-                                 report, "--resolution", "1024", "--close-radius", "0.001", "--effort", "fast"});
+                                 report, "--resolution", "1024", "--close-radius", "0.001", "--bounding", "off"});
     BOOST_TEST(run.status == 0, run.err);
     const json result = readJson(report)["result"];
     if (result["voxelizer"] == "cpu") {

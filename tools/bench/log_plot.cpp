@@ -13,7 +13,7 @@ namespace vdbcage::bench {
 namespace {
 
 // Pixels.
-constexpr double width = 520, height = 330, left = 62, right = 14, top = 34, bottom = 46;
+constexpr double width = 520, height = 330, left = 62, right = 14, top = 34, bottom = 58;
 constexpr std::array<const char*, 6> colours{"#2456a6", "#c2571a", "#2e7d4f", "#8e3b8f", "#8a6d00", "#4c5866"};
 
 /// As snprintf writes it, whatever its length.

@@ -35,7 +35,7 @@ svg.plot .grid { stroke: #e4e8ed; stroke-width: 1; }
 
 bool isNumber(const std::string& cell)
 {
-    return !cell.empty() && std::isdigit(static_cast<unsigned char>(cell.front())) != 0;
+    return cell == "-" || (!cell.empty() && std::isdigit(static_cast<unsigned char>(cell.front())) != 0);
 }
 
 } // namespace

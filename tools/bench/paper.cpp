@@ -89,11 +89,12 @@ std::string printed(const char* format, double value)
     return text.data();
 }
 
-/// With three digits; "-" for none.
+/// With two or three digits, below 0.1 in milliseconds; "-" for none.
 std::string secondsText(double seconds)
 {
     if (seconds <= 0) return "-";
-    return printed(seconds >= 100 ? "%.0f" : seconds >= 10 ? "%.1f" : seconds >= 1 ? "%.2f" : "%.3f", seconds);
+    if (seconds < 0.1) return printed(seconds < 0.01 ? "%.1f ms" : "%.0f ms", 1000 * seconds);
+    return printed(seconds >= 100 ? "%.0f" : seconds >= 10 ? "%.1f" : "%.2f", seconds);
 }
 
 std::string percentText(double share)
@@ -151,7 +152,7 @@ Picture drawn(const std::vector<std::vector<Layer>>& panels, int columns, const 
 void addFigure(Page& page, const std::vector<std::vector<Layer>>& panels, int columns, const View& view,
                const std::string& caption)
 {
-    constexpr int panelWidth = 290, panelHeight = 250;
+    constexpr int panelWidth = 230, panelHeight = 200;
     const int rows = static_cast<int>(panels.size()) / columns;
     page.picture(draw::encodePng(drawn(panels, columns, view, columns * panelWidth, rows * panelHeight)), caption);
 }
@@ -241,7 +242,7 @@ PlotSeries seriesOf(const std::string& name, const std::vector<StageRow>& rows, 
 void addStages(Page& page, const Arguments& arguments, const std::vector<Subject>& subjects)
 {
     page.heading("Time by stage and resolution");
-    page.paragraph("The paper's users wait for dilation and erosion: 96 of 105 seconds of the bishop in 128 voxels. "
+    page.paragraph("The paper's users wait for dilation and erosion: 96 of 105 seconds for the bishop in 128 voxels. "
                    "Here a closing takes milliseconds, as trees of voxels are closed without a grid of distances, and "
                    "the cube by three passes of words of 64 voxels. What takes time is to decimate and tighten under "
                    "a guard that keeps the cage off the model, and that hardly depends on the resolution.");
@@ -268,14 +269,14 @@ void addStages(Page& page, const Arguments& arguments, const std::vector<Subject
             line.resize(11, "-");
             cells.push_back(std::move(line));
         }
-        page.table(
-            std::string(subject.name) +
-                ": seconds, and memory in MiB. Dilation and erosion are measured one by one; a closing does both "
-                "at once. Totals are of whole runs, reading and certifying included; a bounding run also tries "
-                "the halves of its resolution.",
-            {"voxels", "paper, total", "voxelize", "dilation", "erosion", "closing", "remeshing", "plain, total", "MiB",
-             "bounding, total", "MiB"},
-            cells);
+        page.table(std::string(subject.name) +
+                       ": seconds where nothing else is said, and memory in MiB. Dilation and erosion are measured one "
+                       "by one; a closing does both "
+                       "at once. Totals are of whole runs, reading and certifying included; a bounding run also tries "
+                       "the halves of its resolution.",
+                   {"voxels", "paper, total", "voxelize", "dilation", "erosion", "closing", "remeshing", "plain, total",
+                    "MiB", "bounding, total", "MiB"},
+                   cells);
         std::vector<PlotSeries> times{seriesOf("voxelize", rows, &StageRow::voxelize),
                                       seriesOf("dilation", rows, &StageRow::dilate),
                                       seriesOf("erosion", rows, &StageRow::erode),
