@@ -42,6 +42,9 @@ void requirePositive(const char* option, int count);
 /// What this process has used so far: "cpu_seconds" and "memory_peak_mib".
 Json usage();
 
+/// A line of /proc/self/status in MiB, as VmHWM.
+double processMemory(const std::string& name);
+
 /// What work has cost, in seconds: of the clock, and of all of the process's threads.
 struct Cost {
     double wallSeconds = 0, cpuSeconds = 0;

@@ -23,17 +23,6 @@ namespace {
 using openvdb::MaskGrid;
 using openvdb::MaskTree;
 
-/// A line of /proc/self/status in MiB, as VmHWM.
-double processMemory(const std::string& name)
-{
-    std::ifstream status("/proc/self/status");
-    for (std::string word; status >> word;) {
-        double kib = 0;
-        if (word == name + ":" && status >> kib) return kib / 1024;
-    }
-    return 0;
-}
-
 /// How much memory in MiB `work` takes at its peak, more than there was; pages the process had but did not use are
 /// given back first.
 template <class Work>
