@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdio>
 #include <fstream>
+#include <functional>
 #include <iostream>
 #include <sstream>
 
@@ -330,68 +331,52 @@ void addVoxelizers(Page& page, const Arguments& arguments, const std::vector<Sub
                {"model", "voxels", "paper, CGAL", "paper, OpenGL", "cgal", "gl", "cpu"}, rows);
 }
 
-/// A cage with what is said of it.
-struct MadeCage {
-    Mesh cage;
-    CageReport report;
-};
-
-MadeCage made(Pipeline& pipeline, const CageOptions& options)
-{
-    const Mesh& cage = pipeline.run(options);
-    return {cage, pipeline.report()};
-}
-
 std::string verdictOf(const CageCheck& check)
 {
     return check.bounding() ? "certified" : check.valid() ? "cuts the model" : "not valid";
 }
 
-/// Cages of all subjects by one option, bounding and plain.
+/// A value of one option, to be compared with others.
+struct Choice {
+    std::string name;
+    std::function<void(CageOptions&)> set;
+};
+
+/// Cages of all subjects by one option. Bounding ones have our own settings beside it, plain ones the paper's with 64
+/// voxels, its middle resolution.
 void addCages(Page& page, const std::vector<Subject>& subjects, const std::string& column,
-              const std::vector<std::pair<std::string, std::function<CageOptions(bool)>>>& choices)
+              const std::vector<Choice>& choices)
 {
     std::vector<std::vector<std::string>> rows;
-    struct Figure {
-        const Subject* subject;
-        std::vector<MadeCage> cages;
-    };
-    std::vector<Figure> figures;
+    std::vector<std::vector<Mesh>> cages; // of each subject
+    std::string names;
+    for (const Choice& choice : choices) names += (names.empty() ? "" : ", ") + choice.name;
     for (const Subject& subject : subjects) {
         Pipeline pipeline(subject.mesh);
-        Figure figure{&subject, {}};
+        cages.emplace_back();
         for (const bool bounding : {true, false}) {
-            for (const auto& choice : choices) {
-                figure.cages.push_back(made(pipeline, choice.second(bounding)));
-                const CageCheck& check = figure.cages.back().report.check;
-                rows.push_back({subject.name, bounding ? "bounding" : "plain", choice.first,
+            for (const Choice& choice : choices) {
+                CageOptions options = bounding ? CageOptions{} : textbook(64);
+                choice.set(options);
+                cages.back().push_back(pipeline.run(options));
+                const CageCheck& check = pipeline.report().check;
+                rows.push_back({subject.name, bounding ? "bounding" : "plain", choice.name,
                                 std::to_string(check.triangles), std::to_string(check.quads),
                                 percentText(check.meanDistance), percentText(check.maxDistance),
                                 ratioText(check.volumeRatio), verdictOf(check)});
             }
         }
-        figures.push_back(std::move(figure));
     }
     page.table(
         "Distances are parts of the model's longest side.",
         {"model", "way", column, "triangles", "quads", "mean distance", "largest", "volume, of the model's", "verdict"},
         rows);
-    for (const Figure& figure : figures) {
+    for (std::size_t i = 0; i < subjects.size(); ++i) {
         std::vector<std::vector<Layer>> panels;
-        for (const MadeCage& one : figure.cages) {
-            panels.push_back({shadedLayer(figure.subject->mesh), wireframeLayer(one.cage)});
-        }
-        std::string names;
-        for (const auto& choice : choices) names += (names.empty() ? "" : ", ") + choice.first;
-        addFigure(page, panels, static_cast<int>(choices.size()), figure.subject->view,
-                  std::string(figure.subject->name) + ", " + column + " " + names + ": bounding above, plain below.");
+        for (const Mesh& cage : cages[i]) panels.push_back({shadedLayer(subjects[i].mesh), wireframeLayer(cage)});
+        addFigure(page, panels, static_cast<int>(choices.size()), subjects[i].view,
+                  std::string(subjects[i].name) + ", " + column + " " + names + ": bounding above, plain below.");
     }
-}
-
-/// Plain cages have the paper's settings and 64 voxels, its middle one; bounding ones our own.
-CageOptions usual(bool bounding)
-{
-    return bounding ? CageOptions{} : textbook(64);
 }
 
 void addResolutions(Page& page, const Arguments& arguments, const std::vector<Subject>& subjects)
@@ -401,14 +386,11 @@ void addResolutions(Page& page, const Arguments& arguments, const std::vector<Su
                    "is, and what was dilated and not eroded stays as an offset. Here the cage is tightened onto the "
                    "model itself. So it hugs the model in 32 voxels as in 128, and twice the voxels never make it "
                    "looser.");
-    std::vector<std::pair<std::string, std::function<CageOptions(bool)>>> choices;
+    std::vector<Choice> choices;
     for (const int resolution : publishedResolutions) {
         if (resolution > arguments.wholeRuns) break;
-        choices.emplace_back(std::to_string(resolution), [resolution](bool bounding) {
-            CageOptions options = usual(bounding);
-            options.resolution = resolution;
-            return options;
-        });
+        choices.push_back(
+            {std::to_string(resolution), [resolution](CageOptions& options) { options.resolution = resolution; }});
     }
     addCages(page, subjects, "voxels", choices);
 }
@@ -419,13 +401,9 @@ void addSmoothing(Page& page, const std::vector<Subject>& subjects)
     page.paragraph("The paper smooths the surface of the voxels before it is decimated, 3 times by default. Plain "
                    "cages do so here. Bounding ones are smoothed at the end, each vertex as far as the guard allows, "
                    "so that they grow rounder and looser, and stay certified.");
-    std::vector<std::pair<std::string, std::function<CageOptions(bool)>>> choices;
+    std::vector<Choice> choices;
     for (const int sweeps : {0, 3, 9}) {
-        choices.emplace_back(std::to_string(sweeps), [sweeps](bool bounding) {
-            CageOptions options = usual(bounding);
-            options.smooth = sweeps;
-            return options;
-        });
+        choices.push_back({std::to_string(sweeps), [sweeps](CageOptions& options) { options.smooth = sweeps; }});
     }
     addCages(page, subjects, "sweeps", choices);
 }
@@ -436,16 +414,9 @@ void addMeshes(Page& page, const std::vector<Subject>& subjects)
     page.paragraph("Tri-quad cages have quads where two triangles are flat enough. As a quad counts once, they have "
                    "more vertices for as many faces. In bounding ones every quad is convex and holds the model under "
                    "both of its diagonals.");
-    std::vector<std::pair<std::string, std::function<CageOptions(bool)>>> choices;
-    for (const auto& [name, mesh] :
-         {std::pair("triangles", CageFaces::triangles), std::pair("tri-quad", CageFaces::triquad)}) {
-        choices.emplace_back(name, [mesh = mesh](bool bounding) {
-            CageOptions options = usual(bounding);
-            options.mesh = mesh;
-            return options;
-        });
-    }
-    addCages(page, subjects, "faces", choices);
+    addCages(page, subjects, "faces",
+             {{"triangles", [](CageOptions& options) { options.mesh = CageFaces::triangles; }},
+              {"tri-quad", [](CageOptions& options) { options.mesh = CageFaces::triquad; }}});
 }
 
 void addPoses(Page& page, const std::vector<Subject>& subjects)

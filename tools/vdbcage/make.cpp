@@ -147,7 +147,6 @@ bool wasDone(const MakeArguments& arguments, const std::string& inputs)
 void reportFailure(const MakeArguments& arguments, const Failure& failure) noexcept
 {
     try {
-        const SignalHold hold; // a file is being written
         Json models = Json::array();
         for (const fs::path& model : arguments.models) models.push_back({{"file", model.string()}});
         const Json report = reportOf(CageOrder{arguments.words, models, "", arguments.cage, arguments.options},
