@@ -1,6 +1,6 @@
 #include "page.h"
 
-#include <cctype>
+#include <cstdlib>
 
 #include <tools/report/html.h>
 
@@ -33,9 +33,12 @@ svg.plot text.title { font-size: 14px; font-weight: 600; fill: #1d2530; }
 svg.plot .grid { stroke: #e4e8ed; stroke-width: 1; }
 )";
 
+/// Also one with a unit, and a lone -, which stands for none.
 bool isNumber(const std::string& cell)
 {
-    return cell == "-" || (!cell.empty() && std::isdigit(static_cast<unsigned char>(cell.front())) != 0);
+    char* end = nullptr;
+    std::strtod(cell.c_str(), &end);
+    return cell == "-" || (end != cell.c_str() && (*end == ' ' || *end == '\0'));
 }
 
 } // namespace

@@ -10,7 +10,7 @@ class Page {
 public:
     void heading(const std::string& text);
     void paragraph(const std::string& text);
-    /// Rows are as long as the head. Cells that begin with a digit, and a lone -, are to the right.
+    /// Rows are as long as the head. Numbers, also with a unit, and a lone - are to the right.
     void table(const std::string& caption, const std::vector<std::string>& head,
                const std::vector<std::vector<std::string>>& rows);
     /// `png` are the bytes of its file.

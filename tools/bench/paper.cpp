@@ -76,7 +76,7 @@ std::vector<Subject> allSubjects()
 }
 
 struct Arguments {
-    std::string self; ///< the name of this program
+    std::string self, words; ///< the name of this program, and what stood behind it
     fs::path output;
     std::vector<std::string> models{"bishop", "bench", "creature", "botijo"};
     std::vector<int> resolutions{32, 64, 128, 256, 512, 1024};
@@ -94,7 +94,9 @@ std::string printed(const char* format, double value)
 std::string secondsText(double seconds)
 {
     if (seconds <= 0) return "-";
-    if (seconds < 0.1) return printed(seconds < 0.01 ? "%.1f ms" : "%.0f ms", 1000 * seconds);
+    if (seconds < 0.1) {
+        return printed(seconds < 0.001 ? "%.2f ms" : seconds < 0.01 ? "%.1f ms" : "%.0f ms", 1000 * seconds);
+    }
     return printed(seconds >= 100 ? "%.0f" : seconds >= 10 ? "%.1f" : "%.2f", seconds);
 }
 
@@ -181,7 +183,7 @@ void addMachine(Page& page, const Arguments& arguments, const std::vector<Subjec
                {{"vdbcage", facts["vdbcage"].get<std::string>() + ", commit " +
                                 (facts["commit"].is_null() ? "unknown" : facts["commit"].get<std::string>())},
                 {"processor", processorName() + ", " + std::to_string(arguments.threads) + " threads"},
-                {"command", "vdbcage-bench paper -o " + arguments.output.filename().string()}});
+                {"command", "vdbcage-bench" + arguments.words}});
     std::vector<std::vector<std::string>> rows;
     for (const Subject& subject : subjects) {
         const std::size_t triangles = subject.mesh.triangles.size() + 2 * subject.mesh.quads.size();
@@ -523,6 +525,7 @@ int runPaper(int argc, char** argv)
 {
     Arguments arguments;
     arguments.self = argv[0];
+    for (int i = 1; i < argc; ++i) arguments.words += std::string(" ") + argv[i];
     CLI::App app("vdbcage-bench paper: the tables and figures of \"Cage Generation with User Interaction in Cage\n"
                  "Modeler\" on our own models, as a page of HTML; about 20 minutes on two cores");
     app.add_option("-o,--output", arguments.output, "the page to write")->required()->type_name("FILE.html");
