@@ -487,6 +487,26 @@ BOOST_AUTO_TEST_CASE(twice_the_resolution_never_gives_a_looser_cage)
     }
 }
 
+BOOST_AUTO_TEST_CASE(where_gaps_are_half_of_the_automatic_resolution_competes)
+{
+    bool wasHalfTaken = false;
+    for (const int faces : {160, 300, 500}) {
+        CageOptions options;
+        options.faces = faces;
+        options.symmetry = CageSymmetry::off;
+        Pipeline made(grille());
+        made.run(options);
+        const CageReport automatic = made.report();
+        wasHalfTaken = wasHalfTaken || automatic.resolution == 27;
+        for (const int resolution : {54, 27}) {
+            options.resolution = resolution;
+            made.run(options);
+            BOOST_TEST(automatic.check.meanDistance <= made.report().check.meanDistance);
+        }
+    }
+    BOOST_TEST(wasHalfTaken);
+}
+
 BOOST_AUTO_TEST_CASE(unusable_models_and_options_are_refused_before_any_work)
 {
     BOOST_CHECK_THROW(Pipeline(Mesh{}), InputError);

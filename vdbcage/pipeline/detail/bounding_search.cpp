@@ -243,15 +243,19 @@ std::optional<Candidate> BoundingSearch::climb(const Run& run, const BoundingGua
 {
     const std::vector<std::vector<Voxels>> all = ladders(run.options);
     std::vector<std::size_t> next(all.size(), 0); // rung of each
+    std::size_t climbed = 1;                      // ladders
     for (;;) {
         Candidates starts;
-        for (std::size_t i = 0; i < all.size(); ++i) {
+        for (std::size_t i = 0; i < climbed; ++i) {
             Candidates found;
             while (found.empty() && next[i] < all[i].size()) {
                 Voxels voxels = all[i][next[i]++];
                 voxels.plane = guard.symmetry();
                 found = startsFrom(run, voxels, guard);
             }
+            const bool opensOthers = i == 0 && (found.empty() || mayCoarserBeTighter(run.options, found.front().voxels,
+                                                                                     found.front().topology));
+            if (opensOthers) climbed = all.size();
             std::move(found.begin(), found.end(), std::back_inserter(starts));
         }
         if (starts.empty()) break;
@@ -310,7 +314,7 @@ BoundingSearch::Turned& BoundingSearch::turnedModel()
 /// What cages of few faces may be shrunk from beside closings.
 BoundingSearch::Candidates BoundingSearch::simpleSolids(const Run& run, const BoundingGuard& guard)
 {
-    Voxels voxels = ladder(run.options).front();
+    Voxels voxels = ladders(run.options).front().front();
     voxels.plane = guard.symmetry();
     Candidates starts{begin(run, voxels, CageStart::orientedBox, guard)};
     const bool isBoxTooMuch = run.options.mesh == CageFaces::triangles && run.options.faces < policy::trianglesOfBox;
@@ -484,7 +488,7 @@ Candidate BoundingSearch::box(const Run& run, const BoundingGuard& guard)
     openvdb::BBoxd box = boundingBox(model_);
     box.expand(std::max(2 * guard.clearance(), policy::boxMargin * longestSide(box)));
     Candidate candidate;
-    candidate.voxels = ladder(run.options).back();
+    candidate.voxels = ladders(run.options).back().back();
     candidate.start = CageStart::box;
     candidate.closing = volumes_.closing(run.options, run.scale, candidate.voxels, run.interrupter);
     const bool areTriangles = run.options.mesh == CageFaces::triangles;

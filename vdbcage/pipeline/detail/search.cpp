@@ -20,6 +20,18 @@ double growth(const CageOptions& options)
     return std::max(1.0, options.faces / usualFaces);
 }
 
+/// One resolution, with all radii.
+std::vector<Voxels> rungs(int resolution, const std::optional<double>& closeRadius)
+{
+    std::vector<Voxels> list{{resolution, closeRadius.value_or(leastRadius)}};
+    if (!closeRadius) {
+        for (double radius = 2 * leastRadius; radius <= greatestRadius; radius *= 2) {
+            list.push_back({resolution, radius});
+        }
+    }
+    return list;
+}
+
 } // namespace
 
 bool arePaired(const CageOptions& options)
@@ -49,37 +61,30 @@ std::vector<CageOptions> competitors(const CageOptions& options)
     return list;
 }
 
-std::vector<Voxels> ladder(const CageOptions& options)
+std::vector<std::vector<Voxels>> ladders(const CageOptions& options)
 {
-    const double wanted = options.mesh == CageFaces::loops
-                              ? loopsResolution * std::sqrt(options.faces)
-                              : shareOf(options.effort) * usualResolution * std::sqrt(growth(options));
-    const int resolution =
+    const bool areLoops = options.mesh == CageFaces::loops;
+    const double wanted = areLoops ? loopsResolution * std::sqrt(options.faces)
+                                   : shareOf(options.effort) * usualResolution * std::sqrt(growth(options));
+    int resolution =
         options.resolution.value_or(std::clamp(static_cast<int>(std::ceil(wanted)), coarsestLoops, finestResolution));
-    std::vector<Voxels> list{{resolution, options.closeRadius.value_or(leastRadius)}};
-    if (!options.closeRadius) {
-        for (double radius = 2 * leastRadius; radius <= greatestRadius; radius *= 2) {
-            list.push_back({resolution, radius});
-        }
+    std::vector<std::vector<Voxels>> list{rungs(resolution, options.closeRadius)};
+    if (options.resolution || !areLoops) {
+        while (resolution / 2 >= coarsestHalf) list.push_back(rungs(resolution /= 2, options.closeRadius));
     }
     if (!options.resolution) {
-        const int coarsest = options.mesh == CageFaces::loops ? coarsestLoops : coarsestResolution;
+        const int coarsest = areLoops ? coarsestLoops : coarsestResolution;
         for (int coarser = resolution / 2; coarser >= coarsest; coarser /= 2) {
-            list.push_back({coarser, options.closeRadius.value_or(greatestRadius)});
+            list.back().push_back({coarser, options.closeRadius.value_or(greatestRadius)});
         }
     }
     return list;
 }
 
-std::vector<std::vector<Voxels>> ladders(const CageOptions& options)
+bool mayCoarserBeTighter(const CageOptions& options, const Voxels& finest, const MeshTopology& topology)
 {
-    std::vector<std::vector<Voxels>> list{ladder(options)};
-    CageOptions coarser = options;
-    for (int half = options.resolution.value_or(0) / 2; half >= coarsestHalf; half /= 2) {
-        coarser.resolution = half;
-        list.push_back(ladder(coarser));
-    }
-    return list;
+    const bool isClosed = finest.closeRadius <= options.closeRadius.value_or(leastRadius);
+    return options.resolution || !isClosed || topology.components() > 1 || topology.genus() > 0;
 }
 
 std::vector<double> startScales(const CageOptions& options)

@@ -52,8 +52,9 @@ constexpr int competingLoops = 24;  ///< up to so many faces, loops with other q
 constexpr double fewStarts[] = {1.0, 0.85, 0.7, 0.6}, fewestStarts[] = {0.65, 0.5}; ///< shares of the resolution
 
 // Finer voxels can be worse: they leave gaps open, whose handles take faces. So coarser ones compete with those that
-// are given. That takes twice the processor's time, but side by side little longer.
-constexpr int coarsestHalf = 32; ///< voxels along the longest side
+// are given, and with others where there are handles: 5 % tighter on 30 models of that kind. That takes twice the
+// processor's time, but side by side little longer.
+constexpr int coarsestHalf = 24; ///< voxels along the longest side
 
 // Shape of the cage.
 constexpr double mergeAnyFold = 90, mergeFlat = 10, mergeUsual = 30; ///< degrees: quads, no guard, triquad
@@ -92,11 +93,17 @@ struct Voxels {
 /// compete with other quads from Effort::fair on.
 std::vector<CageOptions> competitors(const CageOptions& options);
 
-/// The voxels to try, finest first. Options that are not `auto` are obeyed.
-std::vector<Voxels> ladder(const CageOptions& options);
-
-/// The ladder of the options, then those with halves of the resolution, if one is given. Their cages compete.
+/// The voxels to try: one ladder for the finest, and one for each of its halves. Options that are not `auto` are
+/// obeyed.
+///
+/// Of each ladder the first rung that leads to few enough handles is taken; that of the first ladder competes with
+/// those of the others where mayCoarserBeTighter().
 std::vector<std::vector<Voxels>> ladders(const CageOptions& options);
+
+/// Whether halves of the resolution are worth their time. A resolution that is given always competes with them, so that
+/// a finer one is never looser. Others do where gaps stay open or needed a greater radius. `finest` is the rung taken
+/// from the first ladder, `topology` that of its surface.
+bool mayCoarserBeTighter(const CageOptions& options, const Voxels& finest, const MeshTopology& topology);
 
 /// Whether pairs of triangles become quads.
 bool arePaired(const CageOptions& options);
