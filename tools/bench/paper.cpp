@@ -527,7 +527,7 @@ int runPaper(int argc, char** argv)
     arguments.self = argv[0];
     for (int i = 1; i < argc; ++i) arguments.words += std::string(" ") + argv[i];
     CLI::App app("vdbcage-bench paper: the tables and figures of \"Cage Generation with User Interaction in Cage\n"
-                 "Modeler\" on our own models, as a page of HTML; about 20 minutes on two cores");
+                 "Modeler\" on our own models, as a page of HTML; about 5 minutes on two cores");
     app.add_option("-o,--output", arguments.output, "the page to write")->required()->type_name("FILE.html");
     addList(app, "--models", arguments.models, "[bishop,bench,creature,botijo]")->type_name("NAME,NAME");
     addList(app, "--resolutions", arguments.resolutions, "of stages [32,64,128,256,512,1024]")->type_name("N,N");
