@@ -489,6 +489,7 @@ BOOST_AUTO_TEST_CASE(twice_the_resolution_never_gives_a_looser_cage)
 
 BOOST_AUTO_TEST_CASE(where_gaps_are_half_of_the_automatic_resolution_competes)
 {
+    constexpr int automaticResolution = 54, half = 27; // of Effort::fair, up to 1000 faces
     bool wasHalfTaken = false;
     for (const int faces : {160, 300, 500}) {
         CageOptions options;
@@ -497,8 +498,8 @@ BOOST_AUTO_TEST_CASE(where_gaps_are_half_of_the_automatic_resolution_competes)
         Pipeline made(grille());
         made.run(options);
         const CageReport automatic = made.report();
-        wasHalfTaken = wasHalfTaken || automatic.resolution == 27;
-        for (const int resolution : {54, 27}) {
+        wasHalfTaken = wasHalfTaken || automatic.resolution == half;
+        for (const int resolution : {automaticResolution, half}) {
             options.resolution = resolution;
             made.run(options);
             BOOST_TEST(automatic.check.meanDistance <= made.report().check.meanDistance);

@@ -47,7 +47,7 @@ public:
         if (options.interior == Interior::automatic) {
             counted.interior = rayAgreement(model, &questions) < mostlySheet ? Interior::shell : Interior::solid;
         }
-        detail::Voxels voxels = detail::ladders(options).front().front();
+        detail::Voxels voxels = detail::finestVoxels(options);
         voxels.resolution = std::min(voxels.resolution, countedResolution);
         detail::Volumes volumes(model);
         const auto closing = volumes.closing(counted, detail::ScaleVersion(options.scale), voxels, &questions);
@@ -88,7 +88,7 @@ public:
     /// The finest resolution, below that of the options, with which it takes `limit` bytes at most; 0: there is none.
     int finestWithin(double limit) const
     {
-        int fits = 0, tooFine = detail::ladders(options_).front().front().resolution;
+        int fits = 0, tooFine = detail::finestVoxels(options_).resolution;
         for (int next = least; next < tooFine; next = (fits + tooFine) / 2) {
             (bytes(next) <= limit ? fits : tooFine) = next;
             if (fits == 0) return 0;

@@ -243,7 +243,7 @@ std::optional<Candidate> BoundingSearch::climb(const Run& run, const BoundingGua
 {
     const std::vector<std::vector<Voxels>> all = ladders(run.options);
     std::vector<std::size_t> next(all.size(), 0); // rung of each
-    std::size_t climbed = 1;                      // ladders
+    std::size_t climbed = 1;                      // the first alone, until others may be tighter
     for (;;) {
         Candidates starts;
         for (std::size_t i = 0; i < climbed; ++i) {
@@ -253,9 +253,9 @@ std::optional<Candidate> BoundingSearch::climb(const Run& run, const BoundingGua
                 voxels.plane = guard.symmetry();
                 found = startsFrom(run, voxels, guard);
             }
-            const bool opensOthers = i == 0 && (found.empty() || mayCoarserBeTighter(run.options, found.front().voxels,
-                                                                                     found.front().topology));
-            if (opensOthers) climbed = all.size();
+            if (found.empty() || mayCoarserBeTighter(run.options, found.front().voxels, found.front().topology)) {
+                climbed = all.size();
+            }
             std::move(found.begin(), found.end(), std::back_inserter(starts));
         }
         if (starts.empty()) break;
@@ -314,7 +314,7 @@ BoundingSearch::Turned& BoundingSearch::turnedModel()
 /// What cages of few faces may be shrunk from beside closings.
 BoundingSearch::Candidates BoundingSearch::simpleSolids(const Run& run, const BoundingGuard& guard)
 {
-    Voxels voxels = ladders(run.options).front().front();
+    Voxels voxels = finestVoxels(run.options);
     voxels.plane = guard.symmetry();
     Candidates starts{begin(run, voxels, CageStart::orientedBox, guard)};
     const bool isBoxTooMuch = run.options.mesh == CageFaces::triangles && run.options.faces < policy::trianglesOfBox;

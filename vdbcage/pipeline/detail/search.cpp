@@ -81,10 +81,15 @@ std::vector<std::vector<Voxels>> ladders(const CageOptions& options)
     return list;
 }
 
+Voxels finestVoxels(const CageOptions& options)
+{
+    return ladders(options).front().front();
+}
+
 bool mayCoarserBeTighter(const CageOptions& options, const Voxels& finest, const MeshTopology& topology)
 {
-    const bool isClosed = finest.closeRadius <= options.closeRadius.value_or(leastRadius);
-    return options.resolution || !isClosed || topology.components() > 1 || topology.genus() > 0;
+    const bool isRadiusRaised = finest.closeRadius > options.closeRadius.value_or(leastRadius);
+    return options.resolution || isRadiusRaised || topology.components() > 1 || topology.genus() > 0;
 }
 
 std::vector<double> startScales(const CageOptions& options)

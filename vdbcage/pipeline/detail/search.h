@@ -100,8 +100,11 @@ std::vector<CageOptions> competitors(const CageOptions& options);
 /// those of the others where mayCoarserBeTighter().
 std::vector<std::vector<Voxels>> ladders(const CageOptions& options);
 
+/// The first rung of the first ladder.
+Voxels finestVoxels(const CageOptions& options);
+
 /// Whether halves of the resolution are worth their time. A resolution that is given always competes with them, so that
-/// a finer one is never looser. Others do where gaps stay open or needed a greater radius. `finest` is the rung taken
+/// twice of it is never looser. Others do where gaps stay open or needed a greater radius. `finest` is the rung taken
 /// from the first ladder, `topology` that of its surface.
 bool mayCoarserBeTighter(const CageOptions& options, const Voxels& finest, const MeshTopology& topology);
 

@@ -23,7 +23,7 @@ Candidate textbookCage(const CageOptions& options, const ScaleVersion& scale, Vo
 {
     Candidate candidate;
     if (options.symmetry != CageSymmetry::off) candidate.noSymmetry = "bounding is off";
-    candidate.voxels = ladders(options).front().front();
+    candidate.voxels = finestVoxels(options);
     candidate.closing = volumes.closing(options, scale, candidate.voxels, interrupter);
     candidate.surface = surfaceOf(*candidate.closing, interrupter);
     candidate.closing->surface.reset();
