@@ -1,12 +1,14 @@
 // vdbcage-bench cage: what cages cost, how tight they are and how their triangles are shaped, by number of faces and
-// effort, beside plain quadric decimation of the same surface without a guard.
+// effort, beside plain quadric decimation of the model, which cuts it.
 
 #include <algorithm>
 #include <iostream>
+#include <optional>
 
 #include <openvdb/math/Mat3.h>
 #include <tbb/global_control.h>
 #include <tbb/info.h>
+#include <vdbcage/core/error.h>
 #include <vdbcage/core/version.h>
 #include <vdbcage/mesh/mesh_io.h>
 #include <vdbcage/pipeline/pipeline.h>
@@ -40,6 +42,25 @@ Json quality(const Mesh& cage, const CageCheck& check)
              {{"0", check.minAngleDegrees}, {"1", check.angle1stPercentileDegrees}, {"50", check.medianAngleDegrees}}}};
 }
 
+/// The model itself with as few triangles; null where it is no surface that can be decimated.
+Json decimated(const Mesh& model, int faces)
+{
+    StageClock clock;
+    DecimateOptions target;
+    target.faces = static_cast<std::size_t>(faces);
+    std::optional<Stage> decimating(std::in_place, &clock, "decimate");
+    Mesh plain;
+    try {
+        plain = decimate(model, target);
+    } catch (const InputError&) {
+        return nullptr;
+    }
+    decimating.reset();
+    Json line = toJson(clock.stages());
+    line.update(quality(plain, checkCage(plain, model)));
+    return line;
+}
+
 /// One run in this process.
 Json measure(const std::string& model, int copy, const std::string& effort, CageOptions options)
 {
@@ -63,14 +84,7 @@ Json measure(const std::string& model, int copy, const std::string& effort, Cage
     line["resolution"] = pipeline.report().resolution;
     line["cage"] = quality(pipeline.cage(), pipeline.report().check);
 
-    StageClock plainClock;
-    DecimateOptions target;
-    target.faces = static_cast<std::size_t>(options.faces);
-    std::optional<Stage> decimating(std::in_place, &plainClock, "decimate");
-    const Mesh plain = decimate(pipeline.surface(), target);
-    decimating.reset();
-    line["qem"] = toJson(plainClock.stages());
-    line["qem"].update(quality(plain, checkCage(plain, pipeline.model())));
+    line["qem"] = decimated(pipeline.model(), options.faces);
     return line;
 }
 
