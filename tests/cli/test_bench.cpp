@@ -80,6 +80,15 @@ BOOST_AUTO_TEST_CASE(cages_beside_plain_decimation)
     }
 }
 
+BOOST_AUTO_TEST_CASE(what_is_no_manifold_is_not_decimated)
+{
+    const auto lines = linesOf({"cage", VDBCAGE_MODELS "/soup.obj", "--faces", "50", "--efforts", "fast",
+                                "--resolution", "16", "--copies", "2"});
+    BOOST_REQUIRE(lines.size() == 1U);
+    BOOST_TEST(lines[0]["cage"]["bounding"] == true);
+    BOOST_TEST(lines[0]["qem"].is_null());
+}
+
 BOOST_AUTO_TEST_CASE(copies_are_turned_and_give_medians)
 {
     const std::vector<std::string> words{"cage", bishop, "--faces", "50", "--efforts", "fast", "--resolution", "32"};
