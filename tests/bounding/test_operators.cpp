@@ -10,6 +10,7 @@
 
 #include <tbb/global_control.h>
 #include <vdbcage/bounding/decimate.h>
+#include <vdbcage/bounding/detail/recorded_decimation.h>
 #include <vdbcage/bounding/smooth.h>
 #include <vdbcage/bounding/tighten.h>
 #include <vdbcage/bounding/triquad.h>
@@ -116,6 +117,23 @@ BOOST_DATA_TEST_CASE(every_cage_bounds_its_model, boost::unit_test::data::make({
         if (faces > 12) BOOST_TEST(tightest < checker.check(start).meanDistance); // 12 may be looser than hundreds
     }
     BOOST_TEST(reached >= (faces == 12 ? 12 : 16)); // of 18: the guard may lock some, most at few faces
+}
+
+BOOST_AUTO_TEST_CASE(a_recorded_decimation_gives_the_same_whatever_was_asked_before)
+{
+    const Mesh start = ball(24);
+    for (const bool isHalved : {false, true}) {
+        GuardOptions guarding;
+        if (isHalved) guarding.symmetry = SymmetryPlane{0, 0};
+        const BoundingGuard guard(test::sphere({0, 0, 0}, 0.4, 12), guarding);
+        const Mesh surface = isHalved ? guard.symmetrized(start, 1e-3) : start;
+        detail::RecordedDecimation recorded(surface, guard, nullptr);
+        for (const std::size_t faces : {100U, 300U, 40U, 300U}) {
+            for (const Effort effort : {Effort::fast, Effort::fair}) {
+                BOOST_CHECK(same(recorded.to(to(faces, effort), nullptr), decimate(surface, guard, to(faces, effort))));
+            }
+        }
+    }
 }
 
 BOOST_AUTO_TEST_CASE(a_ball_is_wrapped_tightly)

@@ -164,6 +164,12 @@ BOOST_AUTO_TEST_CASE(what_is_no_file)
     expectRefusal(path, "is a directory");
 }
 
+#ifdef __SANITIZE_ADDRESS__ // what it knows of all memory is resident, too
+constexpr long mostKilobytes = 4000000;
+#else
+constexpr long mostKilobytes = 2000000;
+#endif
+
 BOOST_AUTO_TEST_CASE(grids_at_the_ends_of_space_and_grids_that_fill_it)
 {
     const TemporaryFolder folder;
@@ -174,7 +180,7 @@ BOOST_AUTO_TEST_CASE(grids_at_the_ends_of_space_and_grids_that_fill_it)
         BOOST_TEST(outcomes[0].status == 1);
         BOOST_TEST(std::count(outcomes[0].err.begin(), outcomes[0].err.end(), '\n') == 1, outcomes[0].err);
         BOOST_TEST(outcomes[0].err.find(mention) != std::string::npos, outcomes[0].err);
-        BOOST_TEST(outcomes[0].kilobytes < 2000000);
+        BOOST_TEST(outcomes[0].kilobytes < mostKilobytes);
         // As a scale field it is what it says.
         BOOST_TEST(outcomes[1].status == 0, outcomes[1].err);
     };

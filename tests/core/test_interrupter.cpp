@@ -92,17 +92,17 @@ BOOST_AUTO_TEST_CASE(parts_of_a_stage_say_how_far_the_whole_is)
     BOOST_TEST(detail::StagePart(nullptr, 0, 50).passedOn() == nullptr);
 
     watcher = {};
-    detail::StagesSideBySide both(&watcher, 2);
+    detail::StagesSideBySide both(&watcher, {3, 1});
     throwIfInterrupted(both.passedOn(0), 50);
     throwIfInterrupted(both.passedOn(1), 20);
     throwIfInterrupted(both.passedOn(0), 30); // it does not go back
     throwIfInterrupted(both.passedOn(1), -1);
     throwIfInterrupted(both.passedOn(0), 100);
     throwIfInterrupted(both.passedOn(1), 101);
-    BOOST_TEST(watcher.said == (std::vector<int>{25, 35, 35, -1, 60, 100}), boost::test_tools::per_element());
+    BOOST_TEST(watcher.said == (std::vector<int>{37, 42, 42, -1, 80, 100}), boost::test_tools::per_element());
     watcher.stop = true;
     BOOST_CHECK_THROW(throwIfInterrupted(both.passedOn(1)), Cancelled);
-    BOOST_TEST(detail::StagesSideBySide(nullptr, 2).passedOn(1) == nullptr);
+    BOOST_TEST(detail::StagesSideBySide(nullptr, {1, 1}).passedOn(1) == nullptr);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -16,6 +16,8 @@
 #include <tbb/global_control.h>
 #include <vdbcage/check/check.h>
 #include <vdbcage/core/error.h>
+#include <vdbcage/pipeline/detail/bounding_search.h>
+#include <vdbcage/pipeline/detail/volumes.h>
 #include <vdbcage/pipeline/pipeline.h>
 #include <vdbcage/volume/scale_field.h>
 
@@ -308,6 +310,25 @@ BOOST_AUTO_TEST_CASE(a_density_puts_faces_where_it_is_above_1)
         BOOST_CHECK(sameMesh(denser, makeCage(model, options)));
         tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
         BOOST_CHECK(sameMesh(denser, makeCage(model, options)));
+    }
+}
+
+BOOST_AUTO_TEST_CASE(large_surfaces_give_the_same_cages)
+{
+    const Mesh model = saturn();
+    detail::Volumes volumes(model);
+    detail::Certifier certifier(model);
+    CageOptions options = coarse();
+    options.resolution = 48; // and half of it
+    options.effort = Effort::fast;
+    constexpr std::size_t anySurface = 0, theFiner = 5000; // faces that are large
+    for (const auto& [mesh, largest] : {std::pair{CageFaces::triangles, anySurface}, {CageFaces::triquad, theFiner}}) {
+        options.mesh = mesh;
+        CageOptions other = options;
+        other.faces += 50;
+        detail::BoundingSearch search(model, volumes, certifier, {}, largest);
+        search.run(other, {}, {}, nullptr);
+        BOOST_CHECK(sameMesh(search.run(options, {}, {}, nullptr).cage, makeCage(model, options)));
     }
 }
 

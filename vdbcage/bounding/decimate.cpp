@@ -40,29 +40,24 @@ void redistributeAndPerturb(GuardedMesh& surface, Interrupter* interrupter)
     }
 }
 
-} // namespace
-
-RecordedDecimation::RecordedDecimation(const Mesh& surface, const BoundingGuard& guard, Interrupter* interrupter)
-    : copies_(guard.symmetry() ? 2 : 1), sequence_(shrunk(surface, guard, interrupter))
-{
-}
-
-Mesh RecordedDecimation::to(const BoundingDecimateOptions& options, Interrupter* interrupter)
+/// What decimate() makes of a shrunk surface. `collapsed(faces, interrupter)` is what collapseInBatches() makes of it.
+template <typename Collapsed>
+Mesh decimated(const Collapsed& collapsed, std::size_t copies, const BoundingDecimateOptions& options,
+               Interrupter* interrupter)
 {
     const Effort effort = options.effort;
     const double stop = effort == Effort::fast ? 2.5 : 3; // times the faces
     constexpr int sweepsAtStop = 2;
-    requireFaces(options.faces);
-    const std::size_t faces = options.faces / copies_;
+    const std::size_t faces = options.faces / copies;
     const int samples = tightenOptions(effort).samples;
     // Quadrics know the surface that they were made from: one that was pulled onto the model on the way is better.
     const auto facesAtStop = static_cast<std::size_t>(stop * static_cast<double>(faces));
-    const int collapsed = effort == Effort::fast ? 80 : effort == Effort::fair ? 40 : 20; // percent
-    StagePart collapsing(interrupter, 0, collapsed);
-    GuardedMesh guarded = sequence_.at(facesAtStop, collapsing.passedOn());
+    const int share = effort == Effort::fast ? 80 : effort == Effort::fair ? 40 : 20; // percent
+    StagePart collapsing(interrupter, 0, share);
+    GuardedMesh guarded = collapsed(facesAtStop, collapsing.passedOn());
     tighten(guarded, sweepsAtStop, areaPerSample(guarded, 2 * faces, samples), interrupter);
     collapseByQuadrics(guarded, faces, interrupter);
-    throwIfInterrupted(interrupter, collapsed);
+    throwIfInterrupted(interrupter, share);
     // Where the model is in the way of every collapse, there is room farther out (the model's
     // longest side is 1 to 2).
     for (double push = 0.02; guarded.liveFaces() > faces && push < 1; push *= 2) {
@@ -74,10 +69,24 @@ Mesh RecordedDecimation::to(const BoundingDecimateOptions& options, Interrupter*
         StagePart redistributing(interrupter, 50, 100);
         redistribute(guarded, 2, 3, redistributing.passedOn());
     } else if (effort == Effort::best) {
-        StagePart redistributing(interrupter, collapsed, 100);
+        StagePart redistributing(interrupter, share, 100);
         redistributeAndPerturb(guarded, redistributing.passedOn());
     }
     return guarded.mesh();
+}
+
+} // namespace
+
+RecordedDecimation::RecordedDecimation(const Mesh& surface, const BoundingGuard& guard, Interrupter* interrupter)
+    : copies_(guard.symmetry() ? 2 : 1), sequence_(shrunk(surface, guard, interrupter))
+{
+}
+
+Mesh RecordedDecimation::to(const BoundingDecimateOptions& options, Interrupter* interrupter)
+{
+    requireFaces(options.faces);
+    return decimated([&](std::size_t faces, Interrupter* passedOn) { return sequence_.at(faces, passedOn); }, copies_,
+                     options, interrupter);
 }
 
 } // namespace detail
@@ -86,7 +95,14 @@ Mesh decimate(const Mesh& surface, const BoundingGuard& guard, const BoundingDec
               Interrupter* interrupter)
 {
     detail::requireFaces(options.faces);
-    return detail::RecordedDecimation(surface, guard, interrupter).to(options, interrupter);
+    detail::GuardedMesh start = detail::shrunk(surface, guard, interrupter);
+    const std::size_t copies = start.copies();
+    return detail::decimated(
+        [&](std::size_t faces, Interrupter* passedOn) {
+            collapseInBatches(start, faces, passedOn);
+            return std::move(start);
+        },
+        copies, options, interrupter);
 }
 
 } // namespace vdbcage

@@ -19,6 +19,7 @@ constexpr double perOpenGl = 80e6;       ///< and the driver's
 constexpr double perModelTriangle = 400; ///< of the mesh, the guard and the certifier
 constexpr double perPlainTriangle = 250; ///< where there is no guard
 constexpr double perQuad = 2200;         ///< of the surface, under the guard, with how it was decimated
+constexpr double perLargeQuad = 800;     ///< where that is not recorded (largeSurface)
 constexpr double perPlainQuad = 600;     ///< of the surface, where there is no guard
 constexpr double perCageFace = 1500;     ///< of the cage, with what it is tightened by
 constexpr double perVoxel = 0.2;         ///< of the bounding box
@@ -63,38 +64,40 @@ public:
     {
         CageOptions options = options_;
         if (resolution > 0) options.resolution = resolution;
-        double quads = 0, finest = 0; // of all surfaces that are kept at a time
+        double together = 0, alone = 0, finest = 0; // bytes of surfaces, as they are decimated
+        const auto add = [&](double quads, const CageOptions& competitor) {
+            const double recorded = quads * (competitor.bounding ? perQuad : perPlainQuad);
+            if (!competitor.bounding || quads <= detail::policy::largeSurface) {
+                together += recorded;
+            } else {
+                alone = std::max(alone, competitor.mesh == CageFaces::loops ? recorded : quads * perLargeQuad);
+            }
+        };
         for (const CageOptions& competitor : detail::competitors(options)) {
             const bool areLoops = competitor.mesh == CageFaces::loops && !competitor.resolution;
             for (const std::vector<detail::Voxels>& rungs : detail::ladders(competitor)) {
                 const int wanted = rungs.front().resolution;
                 const double first = areLoops ? detail::policy::quadsPerLoopsFace * competitor.faces
                                               : quads_ * static_cast<double>(wanted) * wanted;
-                if (detail::mayBeTurned(competitor)) quads += first;
+                if (detail::mayBeTurned(competitor)) add(first, competitor);
                 for (const double scale : detail::startScales(competitor)) {
-                    quads += first * scale * scale;
+                    add(first * scale * scale, competitor);
                     finest = std::max(finest, scale * wanted);
                 }
             }
         }
-        const bool guarded = options.bounding;
-        const double surfaces = quads * (guarded ? perQuad : perPlainQuad);
         const double voxels = perVoxel * box_ * finest * finest * finest;
         return perProcess + (options.voxelizer == Voxelizer::gl ? perOpenGl : 0) +
-               modelTriangles_ * (guarded ? perModelTriangle : perPlainTriangle) + perCageFace * options.faces +
-               std::max(surfaces, voxels);
+               modelTriangles_ * (options.bounding ? perModelTriangle : perPlainTriangle) +
+               perCageFace * options.faces + std::max({together, alone, voxels});
     }
 
     /// The finest resolution, below that of the options, with which it takes `limit` bytes at most; 0: there is none.
     int finestWithin(double limit) const
     {
-        int fits = 0, tooFine = detail::finestVoxels(options_).resolution;
-        for (int next = least; next < tooFine; next = (fits + tooFine) / 2) {
-            (bytes(next) <= limit ? fits : tooFine) = next;
-            if (fits == 0) return 0;
-            if (tooFine - fits <= 1) break;
-        }
-        return fits;
+        int fits = detail::finestVoxels(options_).resolution - 1;
+        while (fits >= least && bytes(fits) > limit) --fits; // larger surfaces may take less: they are not recorded
+        return fits >= least ? fits : 0;
     }
 
 private:

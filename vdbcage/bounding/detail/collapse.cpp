@@ -27,7 +27,7 @@ struct QueuedEdge {
     static constexpr std::uint32_t none = ~std::uint32_t(0);
 
     double cost;
-    std::uint32_t u, v, stampU, stampV;
+    std::uint32_t u, v, stamp;
     std::uint32_t place =
         none; ///< its number; with none the cost is the best place's, allowed or not: it can only grow
 
@@ -69,14 +69,18 @@ public:
         }
     }
 
-    /// Collapses the next few edges, the same ones whatever comes after, and calls made(star, place) for each. Returns
-    /// whether anything was left to try.
-    template <typename Made>
-    bool runBatch(const Made& made)
+    /// Collapses batches until at most `faces` are left, of `first` that there were. It calls made(star, place) for
+    /// each collapse and ended() after each batch. A batch has the same edges whatever comes after.
+    template <typename Made, typename Ended>
+    void runBatches(std::size_t first, std::size_t faces, Interrupter* interrupter, const Made& made,
+                    const Ended& ended)
     {
-        if (!refillIfEmpty()) return false;
-        collapseBatch(batchSize(), false, made);
-        return true;
+        while (surface_.liveFaces() > faces) {
+            throwIfInterrupted(interrupter, static_cast<int>(100 * (first - surface_.liveFaces()) / (first - faces)));
+            if (!refillIfEmpty()) return;
+            collapseBatch(batchSize(), false, made);
+            ended();
+        }
     }
 
 private:
@@ -141,10 +145,12 @@ private:
         push(edges);
     }
 
+    /// The same only as long as no edge at either end changes: both stamps only ever grow.
+    std::uint32_t stamp(std::uint32_t u, std::uint32_t v) const { return stamp_[u] + stamp_[v]; }
+
     bool isCurrent(const QueuedEdge& edge) const
     {
-        return edge.stampU == stamp_[edge.u] && edge.stampV == stamp_[edge.v] && surface_.isVertex(edge.u) &&
-               surface_.isVertex(edge.v);
+        return edge.stamp == stamp(edge.u, edge.v) && surface_.isVertex(edge.u) && surface_.isVertex(edge.v);
     }
 
     void push(const std::vector<Edge>& edges)
@@ -167,7 +173,7 @@ private:
         });
         for (std::size_t i = 0; i < edges.size(); ++i) {
             const auto [u, v] = edges[i];
-            queue_.push({costs[i], u, v, stamp_[u], stamp_[v]});
+            queue_.push({costs[i], u, v, stamp(u, v)});
         }
     }
 
@@ -201,6 +207,12 @@ void collapseByQuadrics(GuardedMesh& surface, std::size_t faces, Interrupter* in
     QuadricCollapser(surface).run(faces, interrupter);
 }
 
+void collapseInBatches(GuardedMesh& surface, std::size_t faces, Interrupter* interrupter)
+{
+    QuadricCollapser(surface).runBatches(
+        surface.liveFaces(), faces, interrupter, [](const StarChange&, const Vec3d&) {}, [] {});
+}
+
 class CollapseSequence::Recorder {
 public:
     explicit Recorder(GuardedMesh start)
@@ -210,15 +222,15 @@ public:
 
     GuardedMesh at(std::size_t faces, Interrupter* interrupter)
     {
-        const std::size_t first = start_.liveFaces();
-        while (end_.liveFaces() > faces) {
-            throwIfInterrupted(interrupter, static_cast<int>(100 * (first - end_.liveFaces()) / (first - faces)));
-            const bool goesOn = collapser_.runBatch([&](const StarChange& star, const Vec3d& place) {
+        collapser_.runBatches(
+            start_.liveFaces(), faces, interrupter,
+            [&](const StarChange& star, const Vec3d& place) {
                 collapses_.push_back({star.centre, star.removed, place});
+            },
+            [&] {
+                stops_.push_back({collapses_.size(), end_.liveFaces()});
             });
-            if (!goesOn) return end_;
-            stops_.push_back({collapses_.size(), end_.liveFaces()});
-        }
+        if (end_.liveFaces() > faces) return end_;
         const auto hasMore = [&](const Stop& stop) { return stop.faces > faces; };
         const auto stop = std::partition_point(stops_.begin(), stops_.end(), hasMore);
         if (stop->collapses == collapses_.size()) return end_;

@@ -17,7 +17,14 @@ namespace vdbcage::detail {
 /// Based on: Garland and Heckbert, Surface Simplification Using Quadric Error Metrics, 1997.
 void collapseByQuadrics(GuardedMesh& surface, std::size_t faces, Interrupter* interrupter);
 
-/// Collapses that are recorded: each surface on the way can be had again.
+/// Collapses batches of edges that cost least, until one leaves at most `faces`, or where no collapse is allowed any
+/// more. A batch may leave a few faces less.
+/// \throw Cancelled
+/// Cost: as collapseByQuadrics().
+void collapseInBatches(GuardedMesh& surface, std::size_t faces, Interrupter* interrupter);
+
+/// The collapses of collapseInBatches(), recorded: each surface on the way can be had again. It takes the memory of two
+/// surfaces.
 ///
 /// The batches of collapses do not depend on what is asked for. So the answer does not depend on what was asked for
 /// before.
@@ -29,8 +36,7 @@ public:
     CollapseSequence(CollapseSequence&&) noexcept;
     CollapseSequence& operator=(CollapseSequence&&) noexcept;
 
-    /// The surface after the first batch that leaves at most `faces`, or where no collapse is allowed any more. A batch
-    /// may leave a few faces less.
+    /// What collapseInBatches() makes of the start.
     /// \throw Cancelled; it can go on then
     /// Cost: as collapseByQuadrics(), but some microseconds for each collapse that was recorded.
     GuardedMesh at(std::size_t faces, Interrupter* interrupter);

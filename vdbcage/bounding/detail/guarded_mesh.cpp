@@ -31,7 +31,6 @@ GuardedMesh::GuardedMesh(const Mesh& surface, const GuardModel& guard, Quads qua
     auto firstOfQuads = static_cast<std::uint32_t>(surface.triangles.size());
     if (guard.symmetry()) firstOfQuads = takeHalf(firstOfQuads);
     facesOf_.resize(points_.size());
-    alternatesOf_.resize(points_.size());
     life_.assign(faces_.size(), live);
     quadAt_.assign(faces_.size(), none);
     liveFaces_ = faces_.size();
@@ -148,13 +147,14 @@ GuardedMesh::Vertices GuardedMesh::neighbours(std::uint32_t v) const
         list.push_back(t[0] == v ? t[1] : t[1] == v ? t[2] : t[0]);
         if (halved) list.push_back(t[0] == v ? t[2] : t[1] == v ? t[0] : t[1]);
     }
-    for (const std::uint32_t f : alternatesOf_[v]) {
+    const FaceList& alternates = alternatesOf(v);
+    for (const std::uint32_t f : alternates) {
         for (const int i : {0, 1, 2}) {
             if (faces_[f][i] != v) list.push_back(faces_[f][i]);
         }
     }
     std::sort(list.begin(), list.end());
-    if (halved || !alternatesOf_[v].empty()) list.erase(std::unique(list.begin(), list.end()), list.end());
+    if (halved || !alternates.empty()) list.erase(std::unique(list.begin(), list.end()), list.end());
     return list;
 }
 
@@ -169,12 +169,12 @@ void GuardedMesh::change(const StarChange& star, const Vec3d& p)
     if (star.centre == vertices()) {
         points_.push_back(p);
         facesOf_.emplace_back();
-        alternatesOf_.emplace_back();
+        if (!alternatesOf_.empty()) alternatesOf_.emplace_back();
         reconnect(star);
         return;
     }
     points_[star.centre] = p;
-    const bool takesFaceIn = star.oldFaces.size() > facesOf_[star.centre].size() + alternatesOf_[star.centre].size();
+    const bool takesFaceIn = star.oldFaces.size() > facesOf_[star.centre].size() + alternatesOf(star.centre).size();
     if (star.removed != none || takesFaceIn) {
         reconnect(star);
     } else {
@@ -291,6 +291,7 @@ Vec4I GuardedMesh::quadOf(std::uint32_t f) const
 
 void GuardedMesh::pair(std::uint32_t f, std::uint32_t g, const std::array<Vec3I, 2>& alternates)
 {
+    alternatesOf_.resize(points_.size());
     auto number = static_cast<std::uint32_t>(quads_.size());
     if (freeQuads_.empty()) {
         quads_.emplace_back();

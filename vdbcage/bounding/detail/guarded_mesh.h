@@ -119,7 +119,10 @@ public:
     }
     /// The weight of a face or an alternate in a sum over the surface: a half if it shows under one diagonal only.
     double weight(std::uint32_t f) const { return isInQuad(f) ? 0.5 : 1; }
-    const FaceList& alternatesOf(std::uint32_t v) const { return alternatesOf_[v]; }
+    const FaceList& alternatesOf(std::uint32_t v) const
+    {
+        return alternatesOf_.empty() ? noAlternates_ : alternatesOf_[v];
+    }
 
     /// The live triangles and quads, in order, without points that no face uses. Then the mirror image of them all.
     Mesh mesh() const;
@@ -140,7 +143,9 @@ private:
     std::vector<Vec3d> points_;
     std::vector<Vec3I> faces_;
     std::vector<char> life_;
-    std::vector<FaceList> facesOf_, alternatesOf_; // by vertex
+    std::vector<FaceList> facesOf_;      // by vertex
+    std::vector<FaceList> alternatesOf_; // by vertex; empty until there is a quad
+    FaceList noAlternates_;              // stays empty
     std::size_t liveFaces_ = 0;
     double leastQuadCosine_ = 0;
     std::vector<Quad> quads_;

@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <deque>
 #include <mutex>
+#include <numeric>
+#include <vector>
 
 #include <vdbcage/core/interrupter.h>
 
@@ -28,13 +30,15 @@ private:
     int from_, to_;
 };
 
-/// Several pieces of work side by side, each of which says how far it is: together they are as far as the mean, and
-/// never go back.
+/// Several pieces of work side by side, each of which says how far it is: together they are as far as the mean by
+/// weight, and never go back.
 class StagesSideBySide {
 public:
-    StagesSideBySide(Interrupter* whole, std::size_t count) : whole_(whole)
+    /// \param weights of the pieces, positive
+    StagesSideBySide(Interrupter* whole, const std::vector<double>& weights)
+        : whole_(whole), weight_(std::accumulate(weights.begin(), weights.end(), 0.0))
     {
-        for (std::size_t i = 0; i < count; ++i) pieces_.emplace_back(*this);
+        for (const double weight : weights) pieces_.emplace_back(*this, weight);
     }
     StagesSideBySide(const StagesSideBySide&) = delete;
     StagesSideBySide& operator=(const StagesSideBySide&) = delete;
@@ -45,26 +49,28 @@ public:
 private:
     class Piece : public Interrupter {
     public:
-        explicit Piece(StagesSideBySide& all) : all_(all) {}
+        Piece(StagesSideBySide& all, double weight) : all_(all), weight_(weight) {}
 
         bool wasInterrupted(int percent) override
         {
             if (percent < 0) return all_.whole_->wasInterrupted(-1);
             const std::lock_guard lock(all_.mutex_);
             const int now = std::max(percent_, std::min(percent, 100));
-            all_.sum_ += now - percent_;
+            all_.sum_ += weight_ * (now - percent_);
             percent_ = now;
-            return all_.whole_->wasInterrupted(all_.sum_ / static_cast<int>(all_.pieces_.size()));
+            return all_.whole_->wasInterrupted(static_cast<int>(all_.sum_ / all_.weight_));
         }
 
     private:
         StagesSideBySide& all_;
+        const double weight_;
         int percent_ = 0; // guarded by mutex_
     };
 
     Interrupter* whole_;
-    std::mutex mutex_; // held while the whole is told, so that nothing older is told later
-    int sum_ = 0;
+    std::mutex mutex_;    // held while the whole is told, so that nothing older is told later
+    const double weight_; // of all
+    double sum_ = 0;
     std::deque<Piece> pieces_; // they cannot be moved
 };
 

@@ -32,7 +32,7 @@ template <typename Change>
 void forEach(std::vector<Candidate>& candidates, Interrupter* interrupter, const char* name, const Change& change)
 {
     const Stage stage(interrupter, name);
-    StagesSideBySide pieces(interrupter, candidates.size());
+    StagesSideBySide pieces(interrupter, std::vector<double>(candidates.size(), 1.0));
     parallelFor(std::size_t(0), candidates.size(), [&](std::size_t i) { change(candidates[i], pieces.passedOn(i)); });
 }
 
@@ -66,8 +66,8 @@ std::string tolerance(double deviation)
 } // namespace
 
 BoundingSearch::BoundingSearch(const Mesh& model, Volumes& volumes, Certifier& certifier,
-                               const std::optional<Symmetry>& acrossX)
-    : model_(model), volumes_(volumes), certifier_(certifier)
+                               const std::optional<Symmetry>& acrossX, std::size_t largeSurface)
+    : model_(model), volumes_(volumes), certifier_(certifier), largeSurface_(largeSurface)
 {
     if (!acrossX) return;
     soughtSymmetry_ = CageSymmetry::x;
@@ -399,14 +399,32 @@ std::optional<Candidate> BoundingSearch::shrinkOnto(const Run& run, Candidates s
     return tightestCertified(run, std::move(starts), guard);
 }
 
+/// Those whose surfaces are large one after the other, then the others side by side. \throw Cancelled
+template <typename Change>
+void BoundingSearch::forEachSurface(Candidates& candidates, Interrupter* interrupter, const char* name,
+                                    const Change& change) const
+{
+    const Stage stage(interrupter, name);
+    std::vector<double> faces;
+    for (const Candidate& candidate : candidates) faces.push_back(static_cast<double>(faceCount(*candidate.surface)));
+    StagesSideBySide pieces(interrupter, faces);
+    const auto changeOne = [&](std::size_t i) { change(candidates[i], pieces.passedOn(i)); };
+    for (std::size_t i = 0; i < candidates.size(); ++i) {
+        if (isLarge(candidates[i])) changeOne(i);
+    }
+    parallelFor(std::size_t(0), candidates.size(), [&](std::size_t i) {
+        if (!isLarge(candidates[i])) changeOne(i);
+    });
+}
+
 /// Cages of quads in loops; what is not of quads only is left out.
-void BoundingSearch::collapseLoops(const Run& run, Candidates& starts, const BoundingGuard& guard)
+void BoundingSearch::collapseLoops(const Run& run, Candidates& starts, const BoundingGuard& guard) const
 {
     QuadLoopsOptions options;
     options.faces = static_cast<std::size_t>(run.options.faces);
     options.tightening = tightenOptions(run.options.effort);
     options.exchanges = loopExchanges(run.options.effort);
-    forEach(starts, run.interrupter, "loops", [&](Candidate& candidate, Interrupter* piece) {
+    forEachSurface(starts, run.interrupter, "loops", [&](Candidate& candidate, Interrupter* piece) {
         candidate.cage = quadLoops(*candidate.surface, guard, options, piece);
         candidate.decimated = candidate.cage;
     });
@@ -415,7 +433,7 @@ void BoundingSearch::collapseLoops(const Run& run, Candidates& starts, const Bou
 }
 
 /// Cages of triangles, or of triangles and quads.
-void BoundingSearch::decimateAndTighten(const Run& run, Candidates& starts, const BoundingGuard& guard)
+void BoundingSearch::decimateAndTighten(const Run& run, Candidates& starts, const BoundingGuard& guard) const
 {
     const CageOptions& options = run.options;
     Interrupter* const interrupter = run.interrupter;
@@ -430,10 +448,14 @@ void BoundingSearch::decimateAndTighten(const Run& run, Candidates& starts, cons
         const bool isSimple = candidate.start == CageStart::orientedBox || candidate.start == CageStart::tetrahedron;
         return isSimple && surface.triangles.size() + (onlyTriangles ? 2 : 1) * surface.quads.size() <= faces;
     };
-    forEach(starts, interrupter, "decimate", [&](Candidate& candidate, Interrupter* piece) {
+    forEachSurface(starts, interrupter, "decimate", [&](Candidate& candidate, Interrupter* piece) {
         const Mesh& surface = *candidate.surface;
         if (isCage(candidate)) {
             candidate.decimated = onlyTriangles ? triangulated(surface) : surface;
+            return;
+        }
+        if (isLarge(candidate)) {
+            candidate.decimated = decimate(surface, guard, decimation, piece);
             return;
         }
         auto& known = candidate.from->decimation;

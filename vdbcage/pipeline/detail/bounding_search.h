@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <optional>
 #include <string>
@@ -10,6 +11,7 @@
 #include <vdbcage/mesh/detail/aligned_axes.h>
 #include <vdbcage/pipeline/detail/candidate.h>
 #include <vdbcage/pipeline/detail/certifier.h>
+#include <vdbcage/pipeline/detail/search.h>
 
 namespace vdbcage::detail {
 
@@ -21,9 +23,11 @@ class TiltedSearch;
 /// decimations.
 class BoundingSearch {
 public:
-    /// The first three must outlive this. `acrossX` is the best plane across x, where it is known.
+    /// The first three must outlive this. `acrossX` is the best plane across x, where it is known. Surfaces of more
+    /// than `largeSurface` faces are decimated one after the other, and nothing is recorded of it: that takes a third
+    /// of the memory, and as much time again in each run. The cages are the same.
     BoundingSearch(const Mesh& model, Volumes& volumes, Certifier& certifier,
-                   const std::optional<Symmetry>& acrossX = {});
+                   const std::optional<Symmetry>& acrossX = {}, std::size_t largeSurface = policy::largeSurface);
     ~BoundingSearch();
 
     /// A certified cage, or the model's bounding box with its verdict. It can be called again after any exception.
@@ -64,14 +68,18 @@ private:
     Candidates simpleSolids(const Run& run, const BoundingGuard& guard);
     Candidate begin(const Run& run, const Voxels& voxels, CageStart kind, const BoundingGuard& guard);
     std::optional<Candidate> shrinkOnto(const Run& run, Candidates starts, const BoundingGuard& guard);
-    static void collapseLoops(const Run& run, Candidates& starts, const BoundingGuard& guard);
-    static void decimateAndTighten(const Run& run, Candidates& starts, const BoundingGuard& guard);
+    void collapseLoops(const Run& run, Candidates& starts, const BoundingGuard& guard) const;
+    void decimateAndTighten(const Run& run, Candidates& starts, const BoundingGuard& guard) const;
+    bool isLarge(const Candidate& candidate) const { return faceCount(*candidate.surface) > largeSurface_; }
+    template <typename Change>
+    void forEachSurface(Candidates& candidates, Interrupter* interrupter, const char* name, const Change& change) const;
     std::optional<Candidate> tightestCertified(const Run& run, Candidates candidates, const BoundingGuard& guard);
     Candidate box(const Run& run, const BoundingGuard& guard);
 
     const Mesh& model_;
     Volumes& volumes_;
     Certifier& certifier_;
+    const std::size_t largeSurface_;                  // faces
     CageSymmetry soughtSymmetry_ = CageSymmetry::off; // what was asked for `symmetry_`; off: nothing yet
     Symmetry symmetry_;
     std::unique_ptr<TiltedSearch> tilted_;       // once a plane in another direction was looked for

@@ -41,7 +41,8 @@ constexpr double loopsStarts[] = {1.0, 1.35}, bestLoopsStarts[] = {0.85, 1.0, 1.
 // Surfaces.
 constexpr double enoughTriangles = 9000; ///< for up to `usualFaces` and Effort::fast; with 7500 some are 8 % looser
 constexpr double coarsestShare = 0.75;   ///< of the resolution to have no more: thin parts need some
-constexpr double handleShare = 0.15;     ///< of the faces, that parts and handles may take
+constexpr std::size_t largeSurface = 500'000; ///< faces: beyond, one after the other and not recorded, for memory
+constexpr double handleShare = 0.15;          ///< of the faces, that parts and handles may take
 constexpr double facesPerPart = 8, facesPerHandle = 12; ///< that one takes at least, about
 
 // Starts. Among few faces the order of the collapses is luck, so that several starts pay. For the fewest, voxels of up
