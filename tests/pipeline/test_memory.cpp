@@ -58,6 +58,7 @@ BOOST_AUTO_TEST_CASE(finer_voxels_larger_models_and_more_faces_take_more)
         last = now;
     }
     BOOST_TEST(last > 4000 * mebibyte); // the surface has millions of quads
+    BOOST_TEST(last < 8192 * mebibyte); // they are decimated alone
     options.bounding = false;
     BOOST_TEST(predictedMemory(model, options) < last);
 

@@ -64,7 +64,8 @@ public:
     {
         CageOptions options = options_;
         if (resolution > 0) options.resolution = resolution;
-        double together = 0, alone = 0, finest = 0; // bytes of surfaces, as they are decimated
+        double together = 0, alone = 0; // bytes of surfaces: side by side, and of that which takes most by itself
+        double finest = 0;              // resolution
         const auto add = [&](double quads, const CageOptions& competitor) {
             const double recorded = quads * (competitor.bounding ? perQuad : perPlainQuad);
             if (!competitor.bounding || quads <= detail::policy::largeSurface) {
