@@ -10,6 +10,7 @@
 #include <tbb/global_control.h>
 #include <vdbcage/core/error.h>
 #include <vdbcage/deform/binding.h>
+#include <vdbcage/deform/detail/cage_triangles.h>
 
 using namespace vdbcage;
 using openvdb::Vec3d;

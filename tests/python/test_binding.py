@@ -1,5 +1,6 @@
 import numpy
 
+import vdbcage
 from support import SHELL, Case, command
 from vdbcage import Binding, Elasticity, IoError, Mesh, coordinate_families, make_cage
 

@@ -48,6 +48,20 @@ class CageTest(Case):
         self.assertEqual(vdbcage.check_cage(cage, model), cage.check)
         json.dumps(cage.report)  # plain values
 
+    def test_a_file_holds_the_cage_that_was_certified(self):
+        shift = [20000, 0, 0]
+        bishop = Mesh.read(BISHOP)
+        model = Mesh(bishop.points / numpy.ptp(bishop.points, axis=0).max() + shift, bishop.triangles, bishop.quads)
+        path = self.folder / "cage.stl"
+        cage = make_cage(model, faces=50, effort="fast")
+        self.assertFalse(cage.report["float_safe"])
+        self.refuses("cage.stl: its file would hold float32", cage.write, path)
+        self.assertFalse(path.exists())
+        self.refuses("model: it is so far from the origin", make_cage, model, precision="float32")
+        model = Mesh(model.points - [18000, 0, 0], model.triangles, model.quads)
+        make_cage(model, faces=50, effort="fast", precision="float32").write(path)
+        self.assertTrue(vdbcage.check_cage(Mesh.read(path), model).bounding)
+
     def test_memory_is_predicted_as_the_command_does(self):
         bishop = Mesh.read(BISHOP)
         usual, fine = vdbcage.predicted_memory(bishop), vdbcage.predicted_memory(bishop, resolution=1024)

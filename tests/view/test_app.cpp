@@ -7,6 +7,7 @@
 #include "app_fixture.h"
 #include "random_command.h"
 #include <tools/view/state/words.h>
+#include <vdbcage/check/check.h>
 #include <vdbcage/core/error.h>
 #include <vdbcage/mesh/mesh_io.h>
 
@@ -314,6 +315,29 @@ BOOST_AUTO_TEST_CASE(stages_report_options_and_pictures_are_saved)
     BOOST_TEST(test::readText(folder / "r.json").find("\"bounding\": true") != std::string::npos);
     BOOST_CHECK_THROW(runLine(app, "save-picture " + path("p.txt")), InputError);
     BOOST_CHECK_THROW(runLine(app, "save-cage " + path("cage.xyz")), Error);
+}
+
+BOOST_AUTO_TEST_CASE(a_file_that_cannot_hold_a_bounding_cage_is_not_saved)
+{
+    const fs::path model = folder / "far.obj", file = folder / "cage.stl";
+    writeMesh(box(openvdb::Vec3d(10000.1), openvdb::Vec3d(10001.1)), model);
+    App app(context.api(), setup(false));
+    run(app, {"open " + quotedWord(model.string()), "set faces 12", "set effort fast", "wait"});
+    BOOST_CHECK_EXCEPTION(runLine(app, "save-cage " + quotedWord(file.string())), InputError, [](const Error& error) {
+        return std::string(error.what()).find(".stl files hold float32, and so rounded the cage does not bound") !=
+               std::string::npos;
+    });
+    BOOST_TEST(!fs::exists(file));
+    run(app, {"save-cage " + quotedWord((folder / "cage.ply").string()), "set precision float32", "wait",
+              "save-cage " + quotedWord(file.string())});
+    BOOST_TEST(checkCage(readMesh(file), readMesh(model)).bounding());
+    // After an edit the coordinates are what the user made of them.
+    run(app, {"mode shape", "key 1", "key a", "move 1e-5 0 0", "wait", "expect standing current"});
+    try {
+        runLine(app, "save-cage " + quotedWord(file.string()));
+        BOOST_TEST(checkCage(readMesh(file), readMesh(model)).bounding());
+    } catch (const InputError&) {
+    }
 }
 
 BOOST_AUTO_TEST_CASE(errors_of_scripts_name_file_and_line)

@@ -33,5 +33,8 @@ void defineMesh(py::module_& module)
         runJob(py::none(), [&](Interrupter*) { writeMesh(mesh, std::filesystem::path(path)); });
     });
 }
+    module.def("is_held", [](const Mesh& mesh, const std::string& path) {
+        return resultOfJob(py::none(), [&](Interrupter*) { return asWritten(mesh, path).points == mesh.points; });
+    });
 
 } // namespace vdbcage::python

@@ -1,7 +1,5 @@
 #include "models.h"
 
-#include <array>
-#include <cstdio>
 #include <system_error>
 
 #include <tools/report/run_facts.h>
@@ -86,10 +84,12 @@ std::string describe(const std::vector<ModelFile>& models)
     std::string text;
     for (const ModelFile& model : models) {
         if (!model.check) continue;
-        std::array<char, 64> distance{};
-        std::snprintf(distance.data(), distance.size(), "%.2f %% of its longest side", 100 * model.check->meanDistance);
-        text += "  " + detail::printable(model.path.string()) + ": " + verdict(*model.check) + ", mean distance " +
-                distance.data() + '\n';
+        text += "  " + detail::printable(model.path.string()) + ": " + verdict(*model.check);
+        if (model.check->valid() && !model.check->bounding()) {
+            text += ", faces touching it " + std::to_string(model.check->contactFaces) + ", its vertices outside " +
+                    std::to_string(model.check->modelVerticesOutside);
+        }
+        text += '\n';
     }
     return text;
 }

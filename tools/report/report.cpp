@@ -9,6 +9,7 @@
 
 #include <sys/resource.h>
 
+#include <vdbcage/core/detail/number_text.h>
 #include <vdbcage/core/detail/printable.h>
 
 namespace vdbcage::tool {
@@ -281,6 +282,11 @@ std::string describe(const CageCheck& check)
 {
     std::string text;
     const auto fact = [&](const char* name, const std::string& value) {
+    if (options.bounding && !report.floatSafe && options.precision != Precision::float64) {
+        lines.emplace_back("coordinates are float64: programs that hold float32, as Blender, round them, and the cage "
+                           "may then cut the model; --precision float32 makes one for them, or says by how much to "
+                           "move the model first");
+    }
         text += std::string("  ") + name + std::string(26 - std::char_traits<char>::length(name), ' ') + value + '\n';
     };
     const auto count = [&](const char* name, std::size_t value) { fact(name, std::to_string(value)); };

@@ -4,6 +4,7 @@
 #include <tools/report/models.h>
 #include <tools/report/run_facts.h>
 #include <vdbcage/check/check.h>
+#include <vdbcage/core/range.h>
 #include <vdbcage/mesh/io/formats.h>
 
 #include "commands.h"

@@ -63,6 +63,10 @@ CommandFacts describe(const Command& command);
 /// Adds the options of cages, which set `options`, and returns them. Must outlive parsing.
 std::vector<CLI::Option*> addCageOptions(CLI::App& app, CageOptions& options);
 
+/// Makes the options of a cage those for a file that it is written to, which is then certified as it is.
+/// \throw InputError the file cannot hold the precision that is asked for; IoError unknown extension
+void setPrecisionFor(const std::filesystem::path& cage, CageOptions& options);
+
 /// Adds --memory, for memoryLimit(). Must outlive parsing.
 CLI::Option* addMemoryOption(CLI::App& app, std::string& text);
 

@@ -101,7 +101,7 @@ int drawComparison(const fs::path& cagePath, const fs::path& posedPath, const fs
                model = readMesh(modelPath, warnings);
     requireSameFaces(posedPath, posed, "the cage " + cagePath.string(), cage);
     const FamilyComparison comparison =
-        bindFiles(cagePath, modelPath, [&] { return compareFamilies(cage, posed, model, optionsOf, &*progress); });
+        bindFiles(cagePath, modelPath, [&] { return compareFamilies(cage, posed, model, ofModel, &*progress); });
     const std::string bytes = encodePng(comparison.sheet);
     outputs.add(picture, [&](std::ostream& out) { out << bytes; });
     progress->succeed();
@@ -117,6 +117,7 @@ int drawComparison(const fs::path& cagePath, const fs::path& posedPath, const fs
 
 int runBind(Call call)
 {
+    const auto ofModel = [&](Coordinates family) { return forModel(model, optionsOf(family)); };
     fs::path cagePath, output;
     std::vector<fs::path> modelPaths;
     CLI::App app("vdbcage bind CAGE MODEL... -o WEIGHTS.npy [OPTIONS]\n"
@@ -146,8 +147,9 @@ int runBind(Call call)
     std::string text;
     for (std::size_t i = 0; i < files.size(); ++i) {
         const Mesh model = readMesh(modelPaths[i], warnings);
-        const std::vector<float> weights = bindFiles(
-            cagePath, modelPaths[i], [&] { return computeWeights(cage, model.points, coordinates, &*progress); });
+        const CoordinateOptions ofModel = forModel(model, coordinates);
+        const std::vector<float> weights =
+            bindFiles(cagePath, modelPaths[i], [&] { return computeWeights(cage, model.points, ofModel, &*progress); });
         outputs.add(files[i], [&](std::ostream& out) {
             writeWeights(cage, model.points, coordinates.family, weights, out, files[i]);
         });
@@ -228,6 +230,7 @@ int runDeform(Call call)
                          " coordinates; --coordinates asks for " + arguments.familyName());
     }
     if (!weights.empty()) binding = binding.with(arguments.optionsOf(binding.family()).elasticity);
+    if (computed) computed = forModel(model, *computed);
     std::vector<Mesh> posedCages; // kept for what is printed
     for (const Frame& frame : frames) {
         const Mesh posed = readMesh(frame.path, warnings);

@@ -5,7 +5,6 @@
 #include <tools/report/memory_limit.h>
 #include <vdbcage/core/detail/io_failure.h>
 #include <vdbcage/core/error.h>
-#include <vdbcage/mesh/io/formats.h>
 
 #include "commands.h"
 #include "talk_arguments.h"
@@ -58,7 +57,7 @@ int runJobs(Call call)
                          ->type_name("auto|lines"));
     app.set_help_all_flag("--help-all", "print this and the rarer options");
     if (!parse(app, std::move(call))) return exitGood;
-    detail::requireMeshExtension("cage." + format);
+    setPrecisionFor("cage." + format, options);
     requireValid(options);
     requireProgress(progress);
     memoryLimit(memory);

@@ -12,7 +12,6 @@
 #include <vdbcage/core/detail/number_text.h>
 #include <vdbcage/core/detail/read_file.h>
 #include <vdbcage/core/error.h>
-#include <vdbcage/mesh/io/formats.h>
 #include <vdbcage/mesh/mesh_io.h>
 #include <vdbcage/pipeline/memory.h>
 #include <vdbcage/pipeline/pipeline.h>
@@ -63,7 +62,6 @@ std::vector<fs::path> resultsOf(const MakeArguments& arguments)
 /// Refuses what cannot work before any work is done: formats, folders, permissions, one file under two names.
 void announce(const MakeArguments& arguments, Outputs& outputs)
 {
-    detail::requireMeshExtension(arguments.cage);
     if (!arguments.picture.empty()) requirePngExtension(arguments.picture);
     requireValid(arguments.options);
     for (const fs::path& file : inputsOf(arguments)) outputs.reads(file);
@@ -216,6 +214,17 @@ std::vector<CLI::Option*> addCageOptions(CLI::App& app, CageOptions& options)
 }
 
 CLI::Option* addMemoryOption(CLI::App& app, std::string& text)
+void setPrecisionFor(const fs::path& cage, CageOptions& options)
+{
+    if (precisionOf(cage) == Precision::float64) return;
+    if (options.precision == Precision::float64) {
+        throw InputError("--precision: 'float64' is not allowed with " + cage.string() + ": " +
+                         cage.extension().string() + " files hold float32; it must be auto or float32, or the file " +
+                         ".obj, .off or .ply");
+    }
+    options.precision = Precision::float32;
+}
+
 {
     return app.add_option("--memory", text, "refuse what would take more memory [auto]")
         ->type_name("auto|off|SIZE")
@@ -246,6 +255,7 @@ int runMake(Call call)
         throw InputError("--skip-done needs --report FILE.json, which tells what was done");
     }
     std::optional<Outputs> outputs(std::in_place);
+    setPrecisionFor(arguments.cage, arguments.options);
     announce(arguments, *outputs);
     std::string text;
     std::optional<SignalHold> hold; // a run that is cancelled leaves a report, too

@@ -6,7 +6,6 @@
 #include <tools/view/saving.h>
 #include <tools/view/state/move.h>
 #include <vdbcage/core/error.h>
-#include <vdbcage/mesh/mesh_io.h>
 
 namespace vdbcage::view {
 
@@ -70,9 +69,9 @@ Write writerOf(const Saver::Source& source, const std::string& verb, const fs::p
     if (verb == "save-colours") return writeColours(source, file);
     if (verb == "save-cage" || verb == "save-report") {
         currentCage(source.planner, verb);
-        return [cage = source.planner.shown(), isReport = verb == "save-report", file](Interrupter*) {
+        return [cage = source.planner.shown(), isReport = verb == "save-report", file](Interrupter* interrupter) {
             if (isReport) return saveReport(*cage, file);
-            writeMesh(cage->cage, file);
+            saveCage(*cage, file, interrupter);
         };
     }
     return writePosed(source, verb, file);

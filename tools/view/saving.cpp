@@ -102,7 +102,7 @@ void saveWeights(const BindOrder& order, const fs::path& path, Interrupter* inte
 {
     if (path.extension() != ".npy") throw InputError(path.string() + ": weights are written as .npy");
     const std::vector<openvdb::Vec3d>& points = order.model->mesh.points;
-    const std::vector<float> weights = computeWeights(*order.cage, points, order.family, interrupter);
+    const std::vector<float> weights = computeWeights(*order.cage, points, coordinateOptions(order), interrupter);
     writeWeights(*order.cage, points, order.family, weights, path);
 }
 

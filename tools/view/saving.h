@@ -13,6 +13,8 @@
 /// What the window writes beside cages and scenes, as the command `make` does. Each file appears whole or not at all.
 namespace vdbcage::view {
 
+/// \throw InputError the window says more of the cage than holds of what the file can have of it; IoError; Cancelled
+void saveCage(const CageResult& result, const std::filesystem::path& path, Interrupter* interrupter);
 /// For `preset FILE`. \throw IoError
 void saveOptions(const CageOptions& options, const std::filesystem::path& path);
 /// As make --report. \throw IoError

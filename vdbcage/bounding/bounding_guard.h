@@ -8,6 +8,7 @@
 #include <vdbcage/bounding/joints.h>
 #include <vdbcage/core/export.h>
 #include <vdbcage/core/interrupter.h>
+#include <vdbcage/core/precision.h>
 #include <vdbcage/core/range.h>
 #include <vdbcage/mesh/mesh.h>
 #include <vdbcage/mesh/symmetry.h>
@@ -29,14 +30,15 @@ struct GuardOptions {
     static constexpr Range spacings{1e-4, 0.01};  ///< of `spacing`
     static constexpr Range jointDensities{1, 8};  ///< of `jointDensity`
 
-    /// Least distance from model to surface, fraction of the model's longest side. Where float holds the model, at
-    /// least four times the rounding of its largest coordinate. Models of a quarter of a million quads and more may get
-    /// up to a quarter more, in less time.
+    /// Least distance from model to surface, fraction of the model's longest side. Where points are rounded to float,
+    /// at least four times the rounding of the largest coordinate. Models of a quarter of a million quads and more may
+    /// get up to a quarter more, in less time.
     double clearance = 3e-5;
     double minAngleDegrees = 6; ///< no move makes a triangle angle smaller than this (or than it was)
     /// Least distance between triangles of a surface without a common corner, fraction of the model's longest side. The
     /// default is wide enough for every mesh generator; TetGen fills cages of sheets down to an eighth of it, too.
     double spacing = 0.002;
+    Precision precision = Precision::automatic; ///< of the surface's coordinates; moves are decided as rounded
     /// If set, surfaces are exactly symmetric in it and stay so, and bound the model and its mirror image.
     std::optional<SymmetryPlane> symmetry = {};
     /// Where faces go: the operators give a part of the model about as many times the faces as this says, at the cost
@@ -62,8 +64,8 @@ struct GuardOptions {
 /// So a surface that bounds the model with that clearance at the start does at the end. Where it comes nearer to itself
 /// than that, only what leads out of it is allowed.
 ///
-/// All is decided on the coordinates as they will be written: points are rounded to float where float can hold the
-/// model. Distances are decided up to a few units of 2^-52 of the sizes involved, far below any clearance.
+/// All is decided on the coordinates as they will be written: points are rounded to float as GuardOptions::precision
+/// says. Distances are decided up to a few units of 2^-52 of the sizes involved, far below any clearance.
 ///
 /// With a plane of symmetry coordinates across it are rounded to multiples of one number, fine enough for the largest
 /// of them. So the mirror image of every point is exact. The operators then take only surfaces that are exactly
@@ -74,7 +76,8 @@ struct GuardOptions {
 class VDBCAGE_API BoundingGuard {
 public:
     /// Examines the model; it need not outlive the guard.
-    /// \throw InputError an unusable model; options out of range
+    /// \throw InputError an unusable model; options out of range; float32 is asked for and rounds by more than a
+    /// thousandth of the longest side
     /// \throw Cancelled
     explicit BoundingGuard(const Mesh& model, const GuardOptions& options = {}, Interrupter* interrupter = nullptr);
     ~BoundingGuard();

@@ -44,7 +44,7 @@ Binding bindBeside(const Binding& binding, const Mesh& model, const std::vector<
         points.push_back(points.back() - depth / normal.length() * normal);
     }
     try {
-        return Binding(binding.cage(), std::move(points), binding.options(), interrupter);
+        return Binding(binding.cage(), std::move(points), options, interrupter);
     } catch (const InputError& error) {
         throw InputError("inversions: two points are looked at for each triangle; " + std::string(error.what()));
     }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <new>
 #include <string_view>
 #include <system_error>
@@ -10,8 +11,10 @@
 
 #include <vdbcage/core/detail/atomic_file.h>
 #include <vdbcage/core/detail/io_failure.h>
+#include <vdbcage/core/detail/number_text.h>
 #include <vdbcage/core/detail/read_file.h>
 #include <vdbcage/core/error.h>
+#include <vdbcage/mesh/detail/precision.h>
 #include <vdbcage/mesh/io/formats.h>
 #include <vdbcage/mesh/io/moved_obj.h>
 
@@ -21,14 +24,15 @@ namespace {
 
 struct Format {
     const char* extension;
+    Precision precision; ///< of what is written
     MeshFile (*parse)(std::string_view, const std::string&);
-    void (*write)(const Mesh&, const std::string&, std::ostream&);
+    void (*write)(const Mesh&, const std::string&, std::ostream&); ///< of points that have this precision
 };
 
-constexpr std::array<Format, 4> formats{{{".obj", detail::parseObj, detail::writeObj},
-                                         {".off", detail::parseOff, detail::writeOff},
-                                         {".ply", detail::parsePly, detail::writePly},
-                                         {".stl", detail::parseStl, detail::writeStl}}};
+constexpr std::array<Format, 4> formats{{{".obj", Precision::float64, detail::parseObj, detail::writeObj},
+                                         {".off", Precision::float64, detail::parseOff, detail::writeOff},
+                                         {".ply", Precision::float64, detail::parsePly, detail::writePly},
+                                         {".stl", Precision::float32, detail::parseStl, detail::writeStl}}};
 
 const Format& formatOf(const std::filesystem::path& path)
 {
@@ -56,7 +60,33 @@ void requireFinitePoints(const std::vector<openvdb::Vec3d>& points, const std::s
     }
 }
 
+/// As asWritten().
+Mesh rounded(Mesh mesh, const Format& format, const std::string& name)
+{
+    if (format.precision == Precision::float64) return mesh;
+    constexpr double largest = double(std::numeric_limits<float>::max());
+    for (std::size_t i = 0; i < mesh.points.size(); ++i) {
+        for (int axis = 0; axis < 3; ++axis) {
+            const double value = mesh.points[i][axis];
+            if (!(std::abs(value) > largest)) continue;
+            throw IoError(name + ": the " + "xyz"[axis] + " coordinate of point " + std::to_string(i) + " is " +
+                          detail::numberText(value) + ", which does not fit the floats of an STL file");
+        }
+    }
+    return detail::asFloats(std::move(mesh));
+}
+
 } // namespace
+
+Precision precisionOf(const std::filesystem::path& path)
+{
+    return formatOf(path).precision;
+}
+
+Mesh asWritten(Mesh mesh, const std::filesystem::path& path)
+{
+    return rounded(std::move(mesh), formatOf(path), path.string());
+}
 
 void detail::requireMeshExtension(const std::filesystem::path& path)
 {
@@ -97,7 +127,11 @@ void writeMesh(const Mesh& mesh, std::ostream& out, const std::filesystem::path&
     const Format& format = formatOf(path);
     requireUsable(mesh, name.c_str());
     requireFinitePoints(mesh.points, name);
-    format.write(mesh, name, out);
+    if (format.precision == Precision::float64) {
+        format.write(mesh, name, out);
+    } else {
+        format.write(rounded(mesh, format, name), name, out);
+    }
 }
 
 void writeColouredPly(const Mesh& mesh, const std::vector<PointColour>& colours, std::ostream& out,

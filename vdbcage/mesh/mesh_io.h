@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <vdbcage/core/export.h>
+#include <vdbcage/core/precision.h>
 #include <vdbcage/mesh/mesh.h>
 
 namespace vdbcage {
@@ -56,6 +57,17 @@ VDBCAGE_API MeshFile readMeshFile(const std::filesystem::path& path);
 /// The mesh of readMeshFile.
 /// \throw IoError as readMeshFile
 VDBCAGE_API Mesh readMesh(const std::filesystem::path& path);
+
+/// The numbers that files of this name hold when they are written: float32 of STL, float64 of the others.
+///
+/// A cage that is to go into such a file is made with this CageOptions::precision: it is then certified as the file has
+/// it.
+/// \throw IoError unknown extension
+VDBCAGE_API Precision precisionOf(const std::filesystem::path& path);
+
+/// The mesh with its points as a file of this name has them when it is written. A verdict on the file is one on this.
+/// \throw IoError unknown extension; a coordinate does not fit STL's floats
+VDBCAGE_API Mesh asWritten(Mesh mesh, const std::filesystem::path& path);
 
 /// Writes `mesh` to `path` in the format of its extension: OBJ, OFF, PLY (binary little endian, doubles) or STL
 /// (binary: float coordinates, quads as two triangles).

@@ -60,6 +60,13 @@ const std::vector<std::pair<const char*, CageSymmetry>>& names(CageSymmetry /*ty
     return list;
 }
 
+const std::vector<std::pair<const char*, Precision>>& names(Precision /*type*/)
+{
+    static const std::vector<std::pair<const char*, Precision>> list{
+        {"auto", Precision::automatic}, {"float32", Precision::float32}, {"float64", Precision::float64}};
+    return list;
+}
+
 const std::vector<std::pair<const char*, Effort>>& names(Effort /*type*/)
 {
     static const std::vector<std::pair<const char*, Effort>> list{

@@ -10,6 +10,7 @@
 #include <vdbcage/bounding/smooth.h>
 #include <vdbcage/bounding/triquad.h>
 #include <vdbcage/core/export.h>
+#include <vdbcage/core/precision.h>
 #include <vdbcage/core/range.h>
 #include <vdbcage/volume/morphology.h>
 #include <vdbcage/volume/scale_field.h>
@@ -70,8 +71,9 @@ struct CageOptions {
     double clearance = GuardOptions{}.clearance;
     /// No triangle angle gets smaller, in degrees, 0 to 30. Unset: 1, 6 or 10, see docs/OPTIONS.md.
     std::optional<double> minAngle;
-    Effort effort = Effort::fair;          ///< time against tightness
-    CageFaces mesh = CageFaces::triangles; ///< triangles only, or quads too
+    Precision precision = Precision::automatic; ///< of the cage's coordinates; for a file see precisionOf()
+    Effort effort = Effort::fair;               ///< time against tightness
+    CageFaces mesh = CageFaces::triangles;      ///< triangles only, or quads too
     /// 0: tightest, 1: squarest corners. Of CageFaces::triquad and CageFaces::quads.
     double quadShape = BoundingTriquadOptions{}.quadShape;
     /// Triangles that meet at a smaller angle become quads, in degrees, 0 to 180. Unset: 30 of CageFaces::triquad, or
@@ -127,6 +129,7 @@ void visitOptions(Options& options, Visit&& visit)
 }
 
 /// An option in words, for help and tables.
+    visit(OptionInfo{"precision", "", "numbers that coordinates are", {}, true}, options.precision);
 struct OptionText {
     std::string name;         ///< as OptionInfo
     std::string value;        ///< "N", "F", "sphere|cube"

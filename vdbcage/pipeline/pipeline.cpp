@@ -38,13 +38,13 @@ bool areEqual(const CageOptions& a, const CageOptions& b)
     return equal;
 }
 
-CageReport reportOf(const Candidate& made, const CageOptions& options, bool fitsFloat)
+CageReport reportOf(const Candidate& made, const CageOptions& options, bool areFloats)
 {
     const detail::Closing& closing = *made.closing;
     const detail::Solid& solid = *closing.solid;
     CageReport report;
     report.check = made.check;
-    report.floatSafe = options.bounding && fitsFloat && made.boundsAsFloats;
+    report.floatSafe = options.bounding && areFloats && made.boundsAsFloats;
     report.resolution = made.voxels.resolution;
     report.voxels = solid.report;
     report.closeRadius = closing.key.closeRadius;
@@ -128,7 +128,6 @@ private:
     Candidate made_ = nothing();
     CageReport report_;
     std::optional<Last> last_;
-    std::optional<double> agreement_; // of rays about the model's inside, once it was asked for
 };
 
 Pipeline::Pipeline(Mesh model) : impl_(std::make_unique<Impl>(std::move(model)))

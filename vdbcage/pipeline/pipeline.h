@@ -58,8 +58,8 @@ struct CageReport {
 ///
 /// With CageOptions::bounding the surface of the closing is shrunk, decimated and tightened under a BoundingGuard. The
 /// cage is then certified by CageChecker, other code than the guard's, on its coordinates as they are returned. It is
-/// examined against the model as given and, where float can hold it, as rounded to float. A cage that is not certified
-/// is never returned.
+/// examined against the model as given and, where its coordinates are floats, as rounded to float. A cage that is not
+/// certified is never returned.
 ///
 /// The closing may have too many parts and handles for the faces. If its radius and resolution are not given, it is
 /// closed more, then voxelized more coarsely. Where that is not enough, the cage is shrunk from the closing's convex
@@ -96,7 +96,8 @@ public:
     /// Stages reported to `interrupter`, some more than once: interior, symmetry, guard, voxelize, close, surface,
     /// decimate, tighten, quads or loops, smooth, coplanar, certify. The cage can have fewer faces than asked. It has
     /// more only where the topology of the closing does not allow fewer and `bounding` is off.
-    /// \throw InputError what requireValid, voxelize or closeMask refuses; the model misses the plane of symmetry that
+    /// \throw InputError what requireValid, voxelize or closeMask refuses; float32 is asked for and rounds by more than a
+    /// thousandth of the longest side; the model misses the plane of symmetry that
     /// is asked for by more than 0.3 of its longest side
     /// \throw DeviceError the voxelizer asked for is missing or fails
     /// \throw Error the cage could not be certified, which is a defect of vdbcage

@@ -121,7 +121,9 @@ class MakingOperator(Options, CommandOperator):
         models = selected_models(context)
         self._models = [model.name for model in models]
         file = job.folder / "models" / f"{files.file_name(models[0].name)}.ply"  # messages have this name
-        words = [command(context), "make", file, "-o", job.folder / "cage.ply", "-v", *option_words(self)]
+        words = [command(context), "make", file, "-o", job.folder / "cage.ply", "-v",
+                 "--precision", "float32",  # Blender holds no other
+                 *option_words(self)]
         file.parent.mkdir()
         self._written = joined_models(context, models, self.surface)
         files.write_ply(file, self._written)

@@ -236,6 +236,18 @@ class Cage(Mesh):
     @property
     def report(self):
         """How the cage came about, a dict.
+    def write(self, path):
+        """As Mesh.write, but only to a file that holds its points as they were certified.
+
+        STL files hold float32: make_cage(..., precision="float32") makes cages for them.
+        Raises InputError where the points would be rounded; IoError.
+        """
+        path = _arguments.path(path)
+        if not _vdbcage.is_held(self._mesh, path):
+            raise InputError(f"{path}: its file would hold float32, and the cage was certified in float64; write .obj, "
+                             ".off or .ply, or make it with precision='float32'")
+        super().write(path)
+
 
         options: every option as asked for; seconds: wall clock; stages: the seconds of each stage; and what
         `vdbcage make --report` has under "result": resolution, close_radius, start, float_safe and more.

@@ -51,6 +51,14 @@ def indices(name, value, corners, count):
     return array
 
 
+def places(name, value, count):
+    """Indices below `count` as a list."""
+    rows = numpy.asarray(() if value is None else value)
+    if rows.ndim != 1:
+        raise InputError(f"{name}: an array of shape {rows.shape} is not allowed; it must be (n,)")
+    return indices(name, rows.reshape(-1, 1), 1, count)[:, 0].tolist()
+
+
 def path(value):
     """The bytes of a path."""
     try:

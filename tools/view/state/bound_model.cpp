@@ -14,10 +14,10 @@ namespace {
 constexpr std::size_t mostTriangles = 12000, leastTriangles = 100, modelTrianglesPerTriangle = 10;
 
 std::shared_ptr<const Binding> bound(const BindOrder& order, std::vector<openvdb::Vec3d> points,
-                                     Interrupter* interrupter)
+                                     const CoordinateOptions& options, Interrupter* interrupter)
 {
     try {
-        return std::make_shared<const Binding>(*order.cage, std::move(points), order.family, interrupter);
+        return std::make_shared<const Binding>(*order.cage, std::move(points), options, interrupter);
     } catch (const InputError& error) { // of the library, which does not know the file
         const std::string text = error.what(), prefix = "points: ";
         if (text.compare(0, prefix.size(), prefix) != 0) throw;
@@ -51,7 +51,7 @@ std::shared_ptr<const Binding> bindingOf(const BindOrder& order, Interrupter* in
 {
     const std::vector<openvdb::Vec3d>& points = order.model->mesh.points;
     if (order.weights) return std::make_shared<const Binding>(readWeights(order.weights->path, *order.cage, points));
-    return bound(order, points, interrupter);
+    return bound(order, points, coordinateOptions(order), interrupter);
 }
 
 BoundModelPtr boundCoarsely(const BindOrder& order, Interrupter* interrupter)
@@ -65,7 +65,7 @@ BoundModelPtr boundCoarsely(const BindOrder& order, Interrupter* interrupter)
     std::vector<openvdb::Vec3d> points;
     points.reserve(bound.standIn->points.size());
     for (const openvdb::Index32 i : bound.standIn->points) points.push_back(model.points[i]);
-    bound.coarse = view::bound(order, std::move(points), interrupter);
+    bound.coarse = view::bound(order, std::move(points), order.family, interrupter);
     return std::make_shared<const BoundModel>(std::move(bound));
 }
 

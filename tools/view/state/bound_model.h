@@ -49,6 +49,9 @@ using BoundModelPtr = std::shared_ptr<const BoundModel>;
 /// At most so many triangles a stand-in of a model has: a tenth of the model's, and so many as are drawn at once.
 std::size_t coarseTriangles(const Mesh& model);
 
+/// The family of an order, and the model's points that no face uses.
+CoordinateOptions coordinateOptions(const BindOrder& order);
+
 /// Binds all of the model's points, or reads their weights. \throw InputError as Binding, naming the file; IoError as
 /// readWeights; Cancelled
 std::shared_ptr<const Binding> bindingOf(const BindOrder& order, Interrupter* interrupter);

@@ -127,6 +127,7 @@ private:
 
 } // namespace
 
+    double checkedLeastPart_ = 0;
 std::unique_ptr<CageMaker> makePipelineMaker()
 {
     return std::make_unique<PipelineMaker>();

@@ -10,6 +10,7 @@
 #include <vdbcage/core/detail/nearest_float.h>
 #include <vdbcage/core/error.h>
 #include <vdbcage/geometry/union_find.h>
+#include <vdbcage/mesh/detail/precision.h>
 #include <vdbcage/volume/detail/scale_at.h>
 
 namespace vdbcage::detail {
@@ -124,7 +125,8 @@ GuardModel::GuardModel(const Mesh& model, const GuardOptions& options, Interrupt
     clearance_ = options.clearance * side * scale_;
     // Below the least sine the orientation tests have no room.
     minSine_ = std::max(1e-6, std::sin(options.minAngleDegrees * pi / 180));
-    roundsToFloat_ = fitsFloat(box);
+    requireHeld(options.precision, box);
+    roundsToFloat_ = areFloats(options.precision, box);
     if (roundsToFloat_) clearance_ = std::max(clearance_, 4 * floatRounding(box) * scale_);
     const double narrowness = options.spacing / GuardOptions{}.spacing; // of triangles to each other
     spacing_ = {options.spacing * side * scale_, 0.05 * narrowness, std::sin(narrowness * pi / 180)};

@@ -36,7 +36,8 @@ void writeOff(const Mesh& mesh, const std::string& name, std::ostream& out);
 void writePly(const Mesh& mesh, const std::string& name, std::ostream& out);
 /// With a colour for each point, unless `colours` is null.
 void writePly(const Mesh& mesh, const std::vector<PointColour>* colours, std::ostream& out);
-/// \throw IoError naming `name`: a coordinate does not fit a float
+/// \pre the points are floats
+/// \throw IoError naming `name`: there are too many triangles
 void writeStl(const Mesh& mesh, const std::string& name, std::ostream& out);
 
 } // namespace vdbcage::detail

@@ -234,7 +234,6 @@ void writeStl(const Mesh& mesh, const std::string& name, std::ostream& out)
     if (triangles.size() > std::numeric_limits<std::uint32_t>::max()) {
         throw IoError(name + ": an STL file cannot hold " + std::to_string(triangles.size()) + " triangles");
     }
-    constexpr double largest = double(std::numeric_limits<float>::max());
     OutputBuffer buffer(out);
     constexpr std::string_view header = "binary STL"; // not "solid", which some readers take for ascii
     buffer.text(header);
@@ -242,17 +241,7 @@ void writeStl(const Mesh& mesh, const std::string& name, std::ostream& out)
     buffer.binary(static_cast<std::uint32_t>(triangles.size()));
     for (const openvdb::Vec3I& triangle : triangles) {
         openvdb::Vec3s corners[3];
-        for (int corner = 0; corner < 3; ++corner) {
-            for (int axis = 0; axis < 3; ++axis) {
-                const double value = mesh.points[triangle[corner]][axis];
-                if (std::abs(value) > largest) {
-                    throw IoError(name + ": " + coordinateNames[axis] + " of point " +
-                                  std::to_string(triangle[corner]) + " is " + numberText(value) +
-                                  ", which does not fit the floats of an STL file");
-                }
-                corners[corner][axis] = static_cast<float>(value);
-            }
-        }
+        for (int corner = 0; corner < 3; ++corner) corners[corner] = openvdb::Vec3s(mesh.points[triangle[corner]]);
         const openvdb::Vec3d first(corners[0]);
         openvdb::Vec3d normal = (openvdb::Vec3d(corners[1]) - first).cross(openvdb::Vec3d(corners[2]) - first);
         const double length = normal.length();

@@ -204,7 +204,7 @@ const BoundingGuard& BoundingSearch::guardFor(const Run& run, const std::optiona
 {
     GuardOptions options = guardOptions(run.options, run.isSheet);
     options.symmetry = plane;
-    if (!guard_ || options.clearance != guardOptions_.clearance ||
+    if (!guard_ || options.clearance != guardOptions_.clearance || options.precision != guardOptions_.precision ||
         options.minAngleDegrees != guardOptions_.minAngleDegrees || options.spacing != guardOptions_.spacing ||
         !(run.density == density_) || options.joints != guardOptions_.joints ||
         options.jointDensity != guardOptions_.jointDensity || !(plane == guardOptions_.symmetry)) {
@@ -498,7 +498,7 @@ std::optional<Candidate> BoundingSearch::tightestCertified(const Run& run, Candi
                      [](const Candidate& a, const Candidate& b) { return a.looseness < b.looseness; });
     for (Candidate& candidate : candidates) {
         if (!candidate.check.bounding()) continue;
-        candidate.boundsAsFloats = certifier_.boundsAsFloats(candidate.cage, run.interrupter);
+        candidate.boundsAsFloats = certifier_.boundsAsFloats(candidate.cage, run.options.precision, run.interrupter);
         if (candidate.boundsAsFloats) return std::move(candidate);
     }
     return std::nullopt;
@@ -519,9 +519,10 @@ Candidate BoundingSearch::box(const Run& run, const BoundingGuard& guard)
     if (areTriangles) surface = triangulated(std::move(surface));
     candidate.surface = std::make_shared<const Mesh>(std::move(surface));
     candidate.topology = analyzeTopology(*candidate.surface, nullptr);
-    candidate.decimated = candidate.smoothed = candidate.cage = certifier_.rounded(*candidate.surface);
+    candidate.decimated = candidate.smoothed = candidate.cage =
+        certifier_.rounded(*candidate.surface, run.options.precision);
     candidate.check = certifier_.check(candidate.cage, run.interrupter);
-    candidate.boundsAsFloats = certifier_.boundsAsFloats(candidate.cage, run.interrupter);
+    candidate.boundsAsFloats = certifier_.boundsAsFloats(candidate.cage, run.options.precision, run.interrupter);
     return candidate;
 }
 

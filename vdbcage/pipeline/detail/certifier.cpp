@@ -1,10 +1,10 @@
 #include <vdbcage/pipeline/detail/certifier.h>
 
-#include <vdbcage/core/detail/nearest_float.h>
+#include <utility>
 
 namespace vdbcage::detail {
 
-Certifier::Certifier(const Mesh& model) : model_(model), fitsFloat_(detail::fitsFloat(boundingBox(model)))
+Certifier::Certifier(const Mesh& model) : model_(model), box_(boundingBox(model))
 {
 }
 
@@ -14,9 +14,9 @@ CageCheck Certifier::check(const Mesh& cage, Interrupter* interrupter)
     return checker(interrupter).check(cage, {}, interrupter);
 }
 
-bool Certifier::boundsAsFloats(const Mesh& cage, Interrupter* interrupter)
+bool Certifier::boundsAsFloats(const Mesh& cage, Precision precision, Interrupter* interrupter)
 {
-    if (!fitsFloat_) return true;
+    if (!areFloats(precision)) return true;
     const Stage stage(interrupter, "certify");
     CheckOptions options;
     options.asFloats = true;
@@ -24,12 +24,9 @@ bool Certifier::boundsAsFloats(const Mesh& cage, Interrupter* interrupter)
     return checker(interrupter).check(cage, options, interrupter).bounding();
 }
 
-Mesh Certifier::rounded(Mesh mesh) const
+Mesh Certifier::rounded(Mesh mesh, Precision precision) const
 {
-    if (fitsFloat_) {
-        for (openvdb::Vec3d& point : mesh.points) point = nearestFloat(point);
-    }
-    return mesh;
+    return areFloats(precision) ? asFloats(std::move(mesh)) : mesh;
 }
 
 const CageChecker& Certifier::checker(Interrupter* interrupter)

@@ -4,6 +4,8 @@
 
 #include <vdbcage/check/check.h>
 #include <vdbcage/core/interrupter.h>
+#include <vdbcage/core/precision.h>
+#include <vdbcage/mesh/detail/precision.h>
 #include <vdbcage/mesh/mesh.h>
 
 namespace vdbcage::detail {
@@ -17,20 +19,21 @@ public:
     /// Verdict and measures of a cage, against the model as given.
     /// \throw Cancelled
     CageCheck check(const Mesh& cage, Interrupter* interrupter);
-    /// Whether a cage also bounds the model as a host that stores floats would hold it. True if float cannot hold it.
+    /// Whether a cage also bounds the model as a host that stores floats would hold it. True if its coordinates are
+    /// not rounded to float.
     /// \throw Cancelled
-    bool boundsAsFloats(const Mesh& cage, Interrupter* interrupter);
+    bool boundsAsFloats(const Mesh& cage, Precision precision, Interrupter* interrupter);
 
-    /// Whether float can hold the model.
-    bool fitsFloat() const { return fitsFloat_; }
-    /// `mesh` with its points as float holds them, if it can.
-    Mesh rounded(Mesh mesh) const;
+    /// Whether coordinates of cages are rounded to float.
+    bool areFloats(Precision precision) const { return detail::areFloats(precision, box_); }
+    /// `mesh` with its points rounded like this.
+    Mesh rounded(Mesh mesh, Precision precision) const;
 
 private:
     const CageChecker& checker(Interrupter* interrupter);
 
     const Mesh& model_;
-    bool fitsFloat_;
+    openvdb::BBoxd box_;                         // of the model
     std::unique_ptr<const CageChecker> checker_; // once it was asked for
 };
 

@@ -187,3 +187,4 @@ GuardOptions guardOptions(const CageOptions& options, bool ofSheet)
 }
 
 } // namespace vdbcage::detail
+    guarding.precision = options.precision;

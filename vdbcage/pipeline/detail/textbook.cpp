@@ -38,11 +38,11 @@ Candidate textbookCage(const CageOptions& options, const ScaleVersion& scale, Vo
         const Stage stage(interrupter, "decimate");
         DecimateOptions target;
         target.faces = static_cast<std::size_t>(options.faces);
-        candidate.decimated = certifier.rounded(decimate(candidate.smoothed, target, interrupter));
+        candidate.decimated = certifier.rounded(decimate(candidate.smoothed, target, interrupter), options.precision);
     }
     CageCheck check = certifier.check(candidate.decimated, interrupter);
     if (hasRepair() && !check.valid()) {
-        candidate.decimated = repair(candidate.decimated, interrupter).cage;
+        candidate.decimated = certifier.rounded(repair(candidate.decimated, interrupter).cage, options.precision);
         candidate.repaired = true;
     }
     candidate.cage = merged(candidate.decimated, options);

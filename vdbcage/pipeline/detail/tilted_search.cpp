@@ -37,9 +37,9 @@ std::optional<Candidate> TiltedSearch::run(const CageOptions& options, Interrupt
     acrossX.symmetry = CageSymmetry::x;
     Candidate candidate = search_.run(acrossX, {}, {}, interrupter);
     if (!candidate.symmetry) return std::nullopt;
-    candidate.cage = certifier_.rounded(turnedBack(std::move(candidate.cage)));
+    candidate.cage = certifier_.rounded(turnedBack(std::move(candidate.cage)), options.precision);
     candidate.check = certifier_.check(candidate.cage, interrupter);
-    candidate.boundsAsFloats = certifier_.boundsAsFloats(candidate.cage, interrupter);
+    candidate.boundsAsFloats = certifier_.boundsAsFloats(candidate.cage, options.precision, interrupter);
     if (!candidate.check.bounding() || !candidate.boundsAsFloats) return std::nullopt;
 
     candidate.symmetry.reset();
