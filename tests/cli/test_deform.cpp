@@ -185,8 +185,45 @@ BOOST_AUTO_TEST_CASE(families_compared)
     test::writeText(outside, "v 9 9 9\nv 9 8 9\nv 8 9 9\nf 1 2 3\n");
     const auto far = runCommand({command, "deform", cage, posed, outside, "-o", other, "--compare"});
     BOOST_TEST(far.status == 0, far.err);
-    BOOST_TEST(far.out.find("green: points: point 0 at (9, 9, 9) and 2 others have no") != std::string::npos, far.out);
+    BOOST_TEST(far.out.find("green: points: green coordinates are not defined at 3 of 3 points, first at point 0") !=
+                   std::string::npos,
+               far.out);
     BOOST_TEST(far.out.find("mvc ") != std::string::npos, far.out);
+}
+
+BOOST_AUTO_TEST_CASE(points_of_no_face_are_told_and_ride_along_or_stay)
+{
+    const Scene scene;
+    const std::string cage = scene.at("cage.obj"), posed = scene.at("posed.0010.obj"), model = scene.at("loose.obj");
+    test::writeText(model, "v 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nv 0 0 0\nv 9 0 0\n");
+    const std::string out = scene.at("out.obj");
+    const auto checked = runCommand({command, "check", cage, model});
+    BOOST_TEST(checked.status == 0, checked.out);
+    BOOST_TEST(checked.out.find("points of no face         2, outside of the cage 1\n") != std::string::npos,
+               checked.out);
+    for (const char* family : {"mvc", "green", "mlc", "harmonic", "biharmonic", "somigliana"}) {
+        const auto ridden = runCommand({command, "deform", cage, posed, model, "-o", out, "--coordinates", family});
+        BOOST_TEST(ridden.status == 0, ridden.err);
+        BOOST_TEST(ridden.err.find("that no face uses: 2; outside of the cage they ride along") != std::string::npos,
+                   ridden.err);
+        BOOST_TEST(readMesh(out).points[4].x() > 9.5);
+        const auto still =
+            runCommand({command, "deform", cage, posed, model, "-o", out, "--coordinates", family, "--loose", "stay"});
+        BOOST_TEST(still.err.find("that no face uses: 2; they stay") != std::string::npos, still.err);
+        BOOST_TEST(readMesh(out).points[4] == Vec3d(9, 0, 0));
+        const auto bound = runCommand({command, "bind", cage, model, "-o", scene.at("w.npy"), "--coordinates", family});
+        BOOST_TEST(bound.status == 0, bound.err);
+        BOOST_TEST(bound.err.find("that no face uses: 2") != std::string::npos, bound.err);
+        const auto stored =
+            runCommand({command, "deform", cage, posed, model, "-o", out, "--weights", scene.at("w.npy")});
+        BOOST_TEST(stored.status == 0, stored.err);
+        BOOST_TEST(readMesh(out).points[4].x() > 9.5);
+    }
+    expectRefusal(scene, {"deform", cage, posed, model, "-o", scene.at("other.obj"), "--loose", "fly"},
+                  "it must be ride or stay");
+    const auto made = runCommand({command, "make", model, "-o", scene.at("made.obj"), "--report", scene.at("r.json")});
+    BOOST_TEST(made.err.find("points of the model that no face uses: 2, outside of the cage: ") != std::string::npos,
+               made.err);
 }
 
 BOOST_AUTO_TEST_CASE(resolutions)

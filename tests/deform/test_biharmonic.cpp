@@ -432,8 +432,8 @@ BOOST_AUTO_TEST_CASE(points_outside)
     BOOST_CHECK_EXCEPTION(computeCoordinates(torus, {Vec3d(3, 0, 0), Vec3d(0)}, Coordinates::biharmonic), InputError,
                           [](const InputError& error) {
                               return std::string(error.what()) ==
-                                     "points: point 1 at (0, 0, 0) and 0 others have no biharmonic "
-                                     "coordinates in this cage; all must be inside of it";
+                                     "points: biharmonic coordinates are not defined at 1 of 2 points, first at point "
+                                     "1, (0, 0, 0); all must be inside of the cage";
                           });
 }
 

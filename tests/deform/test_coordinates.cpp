@@ -448,9 +448,46 @@ BOOST_AUTO_TEST_CASE(points_outside)
     const auto same = [](const Vec3d& p) { return p; };
     BOOST_TEST(error(cage, points, Coordinates::meanValue, same) < 1e-11);
     for (const Coordinates family : {Coordinates::green, Coordinates::maximumLikelihood, Coordinates::somigliana}) {
-        BOOST_TEST(messageOf(cage, points, family) == "points: point 1 at (2, 0, 0) and 1 others have no " +
-                                                          std::string(coordinatesName(family)) +
-                                                          " coordinates in this cage; all must be inside of it");
+        BOOST_TEST(messageOf(cage, points, family) ==
+                   "points: " + std::string(coordinatesName(family)) +
+                       " coordinates are not defined at 2 of 3 points, first at point 1, (2, 0, 0); all must be inside "
+                       "of the cage");
+    }
+}
+
+BOOST_AUTO_TEST_CASE(loose_points_ride_along_or_stay)
+{
+    const Mesh cage = randomCage(Kind::both, 12);
+    const std::vector<Vec3d> points{Vec3d(0), Vec3d(2, 0, 0), Vec3d(0.1, 0, 0), Vec3d(0, 5, 0)};
+    std::vector<Vec3d> posed = cage.points;
+    for (Vec3d& p : posed) p = Vec3d(p[0] + 0.3 * p[1] * p[1], 1.2 * p[1], p[2]);
+    for (const FamilyInfo& family : coordinateFamilies()) {
+        if (family.isEverywhere) continue;
+        const Mesh faces = family.splitsQuads ? Mesh{cage.points, detail::cageTriangles(cage), {}} : cage;
+        const std::vector<Vec3d> byMeanValue = Binding(faces, points, Coordinates::meanValue).pose(posed);
+        CoordinateOptions options(family.family, 24);
+        const std::vector<Vec3d> inside = Binding(cage, {points[0], points[2]}, options).pose(posed);
+        options.loose.indices = {1, 2, 3};
+        const Binding riding(cage, points, options);
+        const std::vector<Vec3d> at = riding.pose(posed);
+        BOOST_TEST_CONTEXT(family.name)
+        {
+            BOOST_TEST((at[0] - inside[0]).length() < 1e-6);
+            BOOST_TEST((at[2] - inside[1]).length() < 1e-6); // it is inside
+            BOOST_TEST((at[1] - byMeanValue[1]).length() < 1e-5);
+            BOOST_TEST((at[3] - byMeanValue[3]).length() < 1e-5);
+            BOOST_TEST((at[3] - points[3]).length() > 0.1);
+            const std::vector<float> weights = computeWeights(cage, points, options);
+            BOOST_TEST((Binding(cage, points, options, weights).pose(posed) == at));
+            options.loose.motion = LoosePoints::Motion::stay;
+            const std::vector<Vec3d> still = Binding(cage, points, options).pose(posed);
+            for (const std::size_t i : {1, 2, 3}) BOOST_TEST(still[i] == points[i]);
+            BOOST_TEST((still[0] - inside[0]).length() < 1e-6);
+            options.loose.indices = {1}; // another one is outside
+            BOOST_CHECK_THROW(Binding(cage, points, options), InputError);
+            options.loose.indices = {4};
+            BOOST_CHECK_THROW(Binding(cage, points, options), InputError);
+        }
     }
 }
 
@@ -467,7 +504,7 @@ BOOST_AUTO_TEST_CASE(points_so_far_that_squares_overflow)
                 BOOST_TEST(messageOf(cage, points, family).find("point 0") != std::string::npos);
             }
             const std::string message = messageOf(cage, points, Coordinates::meanValue);
-            BOOST_TEST((message.empty() || message.find("they are too far away") != std::string::npos), message);
+            BOOST_TEST((message.empty() || message.find("none may be so far away") != std::string::npos), message);
             if (!message.empty()) continue;
             const std::vector<double> rows = computeCoordinates(cage, points, Coordinates::meanValue);
             BOOST_TEST(std::equal(at.begin(), at.end(), rows.begin() + static_cast<std::ptrdiff_t>(at.size())));

@@ -344,8 +344,8 @@ BOOST_AUTO_TEST_CASE(bindings_and_weights_are_of_the_grid_asked_for)
     const Binding read(cage, points, coarse, computeWeights(cage, points, coarse));
     BOOST_TEST((binding.pose(posed) == read.pose(posed)));
     BOOST_CHECK_EXCEPTION(Binding(cage, {Vec3d(0), Vec3d(3, 0, 0)}, coarse), InputError, [](const InputError& error) {
-        return std::string(error.what()) == "points: point 1 at (3, 0, 0) and 0 others have no harmonic coordinates in "
-                                            "this cage; all must be inside of it";
+        return std::string(error.what()) == "points: harmonic coordinates are not defined at 1 of 2 points, first at "
+                                            "point 1, (3, 0, 0); all must be inside of the cage";
     });
     BOOST_CHECK_THROW(computeWeights(cage, points, {Coordinates::harmonic, 3}), InputError);
 }

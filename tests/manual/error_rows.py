@@ -512,9 +512,10 @@ OTHERS = [
     bind("FILE: it faces inward; turn its faces around",
          cage=obj(CORNERS, "".join("f " + " ".join(line.split()[:0:-1]) + "\n" for line in BOX_FACES.splitlines()))),
     bind("FILE: it is flat; it must have a volume to deform what is in it", cage=POINTS + "f 1 2 3\nf 3 2 1\n"),
-    bind("FILE: point N at WORD and N others have no NAME coordinates in this cage; all must be inside of it",
+    bind("FILE: NAME coordinates are not defined at N of N points, first at point N, WORD; all must be inside of the "
+         "cage",
          "--coordinates harmonic --resolution 16", model=OUTSIDE),
-    bind("FILE: point N at WORD and N others have no NAME coordinates in this cage; they are too far away",
+    bind("FILE: NAME coordinates are not defined at N of N points, first at point N, WORD; none may be so far away",
          "--coordinates mvc", model=FAR_OFF),
     deform("inversions: two points are looked at for each triangle; REASON",
            "--inversions --coordinates harmonic --resolution 16", model=AT_A_SIDE),

@@ -114,6 +114,21 @@ class BindingTest(Case):
         self.refuses("elasticity: only somigliana coordinates", Binding(self.cage, inside).with_elasticity,
                      Elasticity())
 
+    def test_loose_points_ride_along_or_stay(self):
+        model = Mesh(numpy.vstack([self.model.points, [[1e3, 0, 0]]]), self.model.triangles, self.model.quads)
+        self.assertEqual(model.loose_points.tolist(), [len(model.points) - 1])
+        self.assertEqual(vdbcage.check_cage(self.cage, model).loose_points_outside, 1)
+        posed = self.cage.points + [0, 0, 2]
+        with self.assertRaises(vdbcage.InputError):
+            Binding(self.cage, model.points, "green")
+        for motion, at in (("ride", [1e3, 0, 2]), ("stay", [1e3, 0, 0])):
+            binding = Binding(self.cage, model.points, "green", loose=model.loose_points, loose_motion=motion)
+            numpy.testing.assert_allclose(binding.pose(posed)[-1], at, rtol=1e-5, atol=1e-3)
+            self.assertEqual(binding.weights().shape[0], len(model.points))
+        self.refuses("loose: row 0 has the index", Binding, self.cage, model.points, loose=[len(model.points)])
+        self.refuses("loose_motion: 3 is not allowed", Binding, self.cage, model.points, loose_motion=3)
+        self.refuses("it must be ride or stay", Binding, self.cage, model.points, loose_motion="fly")
+
     def test_bad_arguments_are_refused(self):
         inside = self.model.points[:5]
         far = [[1e6, 0, 0]]
@@ -124,7 +139,7 @@ class BindingTest(Case):
         self.refuses("resolution: only harmonic coordinates", Binding, self.cage, inside, "mvc", resolution=64)
         self.refuses("points: row 0 has the coordinate nan", Binding, self.cage, [[numpy.nan, 0, 0]])
         self.refuses("points: an array of shape (2, 2)", Binding, self.cage, [[1, 2], [3, 4]])
-        self.refuses("points: point 0", Binding, self.cage, far, "green")
+        self.refuses("points: green coordinates are not defined at 1 of 1 points", Binding, self.cage, far, "green")
         self.refuses("cage: it is not closed", Binding, Mesh(inside, [[0, 1, 2]]), inside)
         self.refuses("cage: it faces inward", Binding, Mesh(self.cage.points, self.cage.triangles[:, ::-1]), inside)
         binding = Binding(self.cage, inside)

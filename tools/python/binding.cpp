@@ -56,8 +56,10 @@ void defineBinding(py::module_& module)
 
     py::class_<Binding, std::shared_ptr<Binding>>(module, "Binding", py::module_local())
         .def(py::init([](const MeshPtr& cage, const py::array& points, const std::string& family, int resolution,
-                         const py::tuple& elasticity, const py::object& progress) {
+                         const py::tuple& elasticity, std::vector<openvdb::Index32> loose, const std::string& motion,
+                         const py::object& progress) {
             CoordinateOptions coordinates(coordinatesNamed(family), resolution);
+            coordinates.loose = {std::move(loose), looseMotionNamed(motion)};
             coordinates.elasticity = toElasticity(elasticity);
             Points rows = toRows<openvdb::Vec3d>(points);
             return resultOfJob(progress, [&](Interrupter* interrupter) {

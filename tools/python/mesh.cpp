@@ -25,6 +25,10 @@ void defineMesh(py::module_& module)
         .def_property_readonly("quads",
                                [](const py::object& self) { return readOnly(self.cast<const Mesh&>().quads, self); });
 
+    module.def("loose_points", [](const Mesh& mesh) {
+        const std::vector<openvdb::Index32> loose = loosePoints(mesh);
+        return py::array_t<openvdb::Index32>(static_cast<py::ssize_t>(loose.size()), loose.data());
+    });
     module.def("read_mesh", [](const std::string& path) {
         MeshFile file = resultOfJob(py::none(), [&](Interrupter*) { return readMeshFile(path); });
         return py::make_tuple(std::make_shared<Mesh>(std::move(file.mesh)), std::move(file.summary.warnings));

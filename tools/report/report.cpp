@@ -288,6 +288,10 @@ std::string describe(const CageCheck& check)
                            "move the model first");
     }
         text += std::string("  ") + name + std::string(26 - std::char_traits<char>::length(name), ' ') + value + '\n';
+    if (check.loosePoints > 0) {
+        lines.push_back("points of the model that no face uses: " + std::to_string(check.loosePoints) +
+                        ", outside of the cage: " + std::to_string(check.loosePointsOutside));
+    }
     };
     const auto count = [&](const char* name, std::size_t value) { fact(name, std::to_string(value)); };
     const auto percent = [&](const char* name, double fraction) {
@@ -319,3 +323,7 @@ std::string describe(const CageCheck& check)
 }
 
 } // namespace vdbcage::tool
+    if (check.loosePoints > 0) {
+        fact("points of no face",
+             std::to_string(check.loosePoints) + ", outside of the cage " + std::to_string(check.loosePointsOutside));
+    }

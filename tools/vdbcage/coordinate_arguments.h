@@ -28,7 +28,7 @@ public:
     CoordinateOptions optionsOfEach(Coordinates family) const;
 
 private:
-    std::string family_ = "mvc", rotations_ = "global";
+    std::string family_ = "mvc", rotations_ = "global", loose_ = "ride";
     int resolution_;
     Elasticity elasticity_;
     CLI::Option *familyOption_, *resolutionOption_;

@@ -43,6 +43,23 @@ auto bindFiles(const fs::path& cagePath, const fs::path& modelPath, const Bind& 
     }
 }
 
+/// The options with the model's points that no face uses.
+CoordinateOptions forModel(const Mesh& model, CoordinateOptions options)
+{
+    options.loose.indices = loosePoints(model);
+    return options;
+}
+
+/// "  points of MODEL that no face uses: 2; where the family is not defined they ride along by mean value coordinates"
+std::string describeLoose(const fs::path& path, const CoordinateOptions& options)
+{
+    if (options.loose.indices.empty()) return {};
+    return "  points of " + printable(path) + " that no face uses: " + std::to_string(options.loose.indices.size()) +
+           (options.loose.motion == LoosePoints::Motion::stay
+                ? "; they stay where they are\n"
+                : "; outside of the cage they ride along by mean value coordinates\n");
+}
+
 /// A line a frame: how many triangles of the model the pose turns inside out, and whether the posed cage is one.
 std::string describeInversions(const Binding& binding, const Mesh& model, const std::vector<Frame>& frames,
                                const std::vector<Mesh>& posedCages, Interrupter* interrupter)
@@ -154,7 +171,8 @@ int runBind(Call call)
             writeWeights(cage, model.points, coordinates.family, weights, out, files[i]);
         });
         text += printable(files[i]) + ": " + std::to_string(model.points.size()) + " points, " +
-                std::to_string(handles) + " handles, " + coordinatesName(coordinates.family) + '\n';
+                std::to_string(handles) + " handles, " + coordinatesName(coordinates.family) + '\n' +
+                describeLoose(modelPaths[i], ofModel);
     }
     outputs.commit();
     progress->succeed();
@@ -248,6 +266,7 @@ int runDeform(Call call)
     std::string text = printable(output) + ": " + std::to_string(frames.size()) +
                        (frames.size() == 1 ? " pose" : " poses") + " of " + std::to_string(model.points.size()) +
                        " points\n";
+    if (computed) text += describeLoose(modelPath, *computed);
     if (talk.verbose()) text += warnings;
     outputs.commit();
     if (!talk.quiet()) std::cerr << text;

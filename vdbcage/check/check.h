@@ -49,6 +49,8 @@ struct CageCheck {
     /// Model vertices (used by faces) not strictly inside: they lie on the cage, or their winding number is not 1 for
     /// every choice of diagonals. All of them if the cage has no inside (see MeshTopology::isCycle).
     std::size_t modelVerticesOutside = 0;
+    std::size_t loosePoints = 0;         ///< model points that no face uses: none of the verdict is about them
+    std::size_t loosePointsOutside = 0;  ///< those of them that are not strictly inside
     std::vector<std::uint32_t> badFaces; ///< sorted: cage faces in a self-intersection or contact, degenerate, folded,
                                          ///< or with a model vertex between the two diagonals of the quad
     /// \}

@@ -147,7 +147,7 @@ public:
              Interrupter* interrupter)
         : points_(points), family_(entry(requireComputable(options).family)), interrupter_(interrupter),
           columns_(handleCount(mesh, options.family)), cage_(cageOf(mesh, options.family)), pack_(cage_),
-          undefined_(points.size(), 0)
+          looseMotion_(options.loose.motion), isLoose_(points.size(), false), undefined_(points.size(), 0)
     {
         requireFinite(points, "points");
         if (options.family == Coordinates::harmonic) grid_.emplace(cage_, options.resolution, interrupter);
@@ -167,16 +167,17 @@ public:
         });
     }
 
-    /// \throw InputError if the family is not defined at a point whose row was asked for
+    /// \throw InputError a row that was asked for is of a point where it is not defined
     void requireDefined() const
     {
         const auto first = std::find(undefined_.begin(), undefined_.end(), 1);
         if (first == undefined_.end()) return;
         const auto index = static_cast<std::size_t>(first - undefined_.begin());
-        throw InputError("points: point " + std::to_string(index) + " at " + text(points_[index]) + " and " +
-                         std::to_string(std::count(first, undefined_.end(), 1) - 1) + " others have no " +
-                         family_.info.name + " coordinates in this cage; " +
-                         (family_.info.isEverywhere ? "they are too far away" : "all must be inside of it"));
+        throw InputError(std::string("points: ") + family_.info.name + " coordinates are not defined at " +
+                         std::to_string(std::count(first, undefined_.end(), 1)) + " of " +
+                         std::to_string(points_.size()) + " points, first at point " + std::to_string(index) + ", " +
+                         text(points_[index]) + "; " +
+                         (family_.info.isEverywhere ? "none may be so far away" : "all must be inside of the cage"));
     }
 
 private:
@@ -242,7 +243,13 @@ private:
             }
         }
         for (std::size_t lane = 0; lane < count; ++lane) {
-            if (probe[lane] != 0) undefined_[pointOf(first + lane)] = 1;
+            const std::size_t point = pointOf(first + lane);
+            const bool isDefined = probe[lane] == 0;
+            if (isLoose_[point]) {
+                if (!moveLoosely(at[lane], isDefined, to + lane * columns_)) undefined_[point] = 1;
+            } else if (!isDefined) {
+                undefined_[point] = 1;
+            }
         }
     }
 
@@ -253,12 +260,29 @@ private:
     detail::BoundCage cage_;
     detail::CagePack pack_;
     std::optional<detail::HarmonicGrid> grid_;         // of harmonic coordinates
+    /// Makes the row of a loose point, which has that of the family where it is defined. Mean value coordinates are of
+    /// the cage's points, the first handles of every family. False where they are not defined.
+    template <typename Number>
+    bool moveLoosely(const Vec3d& at, bool isDefined, Number* row) const
+    {
+        const bool stays = looseMotion_ == LoosePoints::Motion::stay;
+        if (isDefined && !stays) return true;
+        std::fill_n(row, columns_, Number(0));
+        if (stays) return true;
+        std::vector<double> weights(cage_.points().size());
+        if (isFinite(at)) detail::meanValueRow(cage_, at, weights.data());
+        std::transform(weights.begin(), weights.end(), row, [](double weight) { return static_cast<Number>(weight); });
+        return isFinite(at) && std::all_of(weights.begin(), weights.end(), [](double w) { return std::isfinite(w); });
+    }
+
     std::optional<detail::BiharmonicCage> biharmonic_; // of biharmonic ones
     std::vector<char> undefined_;
 };
 
 template <typename Number>
 std::vector<Number> computeRows(const Mesh& cage, const std::vector<Vec3d>& points, const CoordinateOptions& options,
+    LoosePoints::Motion looseMotion_;
+    std::vector<bool> isLoose_;
                                 Interrupter* interrupter)
 {
     const Stage stage(interrupter, "bind");
@@ -343,6 +367,13 @@ bool Elasticity::operator==(const Elasticity& other) const
 }
 
 Coordinates coordinatesNamed(const std::string& name)
+LoosePoints::Motion looseMotionNamed(const std::string& name)
+{
+    if (name == "ride") return LoosePoints::Motion::ride;
+    if (name == "stay") return LoosePoints::Motion::stay;
+    throw InputError("loose points: '" + name + "' is not allowed; it must be ride or stay");
+}
+
 {
     for (const FamilyInfo& family : coordinateFamilies()) {
         if (name == family.name || name == family.nameOnQuads) return family.family;

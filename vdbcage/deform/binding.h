@@ -106,6 +106,20 @@ VDBCAGE_API const char* coordinatesName(Coordinates family);
 /// \throw InputError naming the families
 VDBCAGE_API Coordinates coordinatesNamed(const std::string& name);
 
+/// Points that need no coordinates of a family, such as those that no face of a model uses.
+struct LoosePoints {
+    /// How they move.
+    enum class Motion {
+        ride, ///< by the family where it is defined, and elsewhere by mean value coordinates
+        stay  ///< not at all: their weights are 0
+    };
+    std::vector<openvdb::Index32> indices = {}; ///< ascending; see loosePoints()
+    Motion motion = Motion::ride;               ///< of all of them
+};
+
+/// \throw InputError there is none of that name: "ride" or "stay"
+VDBCAGE_API LoosePoints::Motion looseMotionNamed(const std::string& name);
+
 /// A family, and what it can be asked for.
 struct CoordinateOptions {
     static constexpr Range resolutions{4, 256}; ///< of `resolution`
@@ -117,6 +131,7 @@ struct CoordinateOptions {
     int resolution;
     /// Of Somigliana coordinates. Weights do not depend on it.
     Elasticity elasticity;
+    LoosePoints loose; ///< of the points that are bound
 
     /// The family `of`. `voxels` is the resolution, which only harmonic coordinates look at.
     CoordinateOptions(Coordinates of, int voxels = 64) : family(of), resolution(voxels) {}
@@ -156,7 +171,8 @@ VDBCAGE_API std::vector<openvdb::Vec3d> cageHandles(const Mesh& cage, const std:
 /// all instruction sets of a processor.
 /// \pre `cage` is closed and faces outward
 /// \throw InputError a cage that is not closed, faces inward or is flat; a point not finite; a point for which the
-/// family is not defined (the message has the first and how many); the family is `given`; a cage too large for
+/// family is not defined and that is not loose (the message has the first and how many); the family is `given`; a loose
+/// point that is not there; a cage too large for
 /// biharmonic coordinates; a resolution of harmonic coordinates out of range
 /// \throw Cancelled
 /// Cost: O(points x faces), in parallel. Quads cost several times what triangles do. Biharmonic coordinates:

@@ -43,6 +43,8 @@ Binding bindBeside(const Binding& binding, const Mesh& model, const std::vector<
         points.push_back((model.points[t[0]] + model.points[t[1]] + model.points[t[2]]) / 3);
         points.push_back(points.back() - depth / normal.length() * normal);
     }
+    CoordinateOptions options = binding.options();
+    options.loose = {}; // of other points
     try {
         return Binding(binding.cage(), std::move(points), options, interrupter);
     } catch (const InputError& error) {

@@ -50,6 +50,17 @@ std::vector<openvdb::Vec3I> everySplit(const Mesh& mesh)
     return triangles;
 }
 
+std::vector<openvdb::Index32> loosePoints(const Mesh& mesh)
+{
+    std::vector<bool> isUsed(mesh.points.size(), false);
+    forEachIndex(mesh, [&](openvdb::Index32 corner) { isUsed[corner] = true; });
+    std::vector<openvdb::Index32> loose;
+    for (openvdb::Index32 i = 0; i < isUsed.size(); ++i) {
+        if (!isUsed[i]) loose.push_back(i);
+    }
+    return loose;
+}
+
 openvdb::BBoxd boundingBox(const Mesh& mesh)
 {
     openvdb::BBoxd box;

@@ -38,6 +38,10 @@ VDBCAGE_API std::vector<openvdb::Vec3I> triangulate(const Mesh& mesh);
 /// Cost: O(faces).
 VDBCAGE_API std::vector<openvdb::Vec3I> everySplit(const Mesh& mesh);
 
+/// The points that no face uses, nor another split of one: their indices, ascending. They bound nothing.
+/// Cost: O(points + faces).
+VDBCAGE_API std::vector<openvdb::Index32> loosePoints(const Mesh& mesh);
+
 /// The box of the points that faces use; empty for no faces.
 /// Cost: O(faces).
 VDBCAGE_API openvdb::BBoxd boundingBox(const Mesh& mesh);

@@ -162,6 +162,11 @@ class Mesh:
         """uint32, shape (n, 4), read-only: indices of points. No copy."""
         return self._mesh.quads
 
+    @property
+    def loose_points(self):
+        """uint32, shape (n,): the indices of the points that no face uses, ascending. They bound nothing."""
+        return _vdbcage.loose_points(self._mesh)
+
     def __len__(self):
         """The number of faces."""
         return len(self.triangles) + len(self.quads)
@@ -201,6 +206,8 @@ class CageCheck:
     self_intersections: int
     contact_faces: int
     model_vertices_outside: int
+    loose_points: int  # of the model, that no face uses; the verdict is not about them
+    loose_points_outside: int
     bad_faces: tuple
     diagonal: float  # of the model's bounding box
     mean_distance: float
@@ -419,21 +426,28 @@ class Binding:
     Raises InputError; Cancelled.
     """
 
+    loose: indices of points that need no coordinates of the family, such as a model's loose_points
+    loose_motion: "ride": by mean value coordinates where the family is not defined; "stay": not at all
     __slots__ = ("_binding", "_cage")
 
-    def __init__(self, cage, points, coordinates="mvc", *, resolution=None, elasticity=None, progress=None):
+    def __init__(self, cage, points, coordinates="mvc", *, resolution=None, elasticity=None, loose=None,
+                 loose_motion="ride", progress=None):
         if not isinstance(coordinates, str):
             raise InputError(f"coordinates: {coordinates!r} is not allowed; it must be a string")
         for name, value, family in (("resolution", resolution, "harmonic"), ("elasticity", elasticity, "somigliana")):
             if value is not None and coordinates != family:
                 raise InputError(f"{name}: only {family} coordinates have it; these are {coordinates}")
-        self._binding = _vdbcage.Binding(_mesh("cage", cage), _arguments.points("points", points), coordinates,
+        if not isinstance(loose_motion, str):
+            raise InputError(f"loose_motion: {loose_motion!r} is not allowed; it must be a string")
+        points = _arguments.points("points", points)
+        self._binding = _vdbcage.Binding(_mesh("cage", cage), points, coordinates,
                                          _arguments.whole("resolution", 64 if resolution is None else resolution,
                                                           4, 256),
                                          _elasticity(Elasticity() if elasticity is None else elasticity),
                                          _arguments.callback(progress))
         self._cage = cage
 
+                                         _arguments.places("loose", loose, len(points)), loose_motion,
     @classmethod
     def read(cls, path, cage, points):
         """Reads weights of `vdbcage bind` or write() for the same cage and points, or a matrix made elsewhere.

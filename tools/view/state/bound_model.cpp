@@ -41,6 +41,13 @@ bool operator==(const BindOrder& a, const BindOrder& b)
                                 a.cage->quads == b.cage->quads);
 }
 
+CoordinateOptions coordinateOptions(const BindOrder& order)
+{
+    CoordinateOptions options(order.family);
+    options.loose.indices = loosePoints(order.model->mesh);
+    return options;
+}
+
 std::size_t coarseTriangles(const Mesh& model)
 {
     const std::size_t triangles = model.triangles.size() + 2 * model.quads.size();

@@ -59,6 +59,7 @@ CheckedModel::CheckedModel(const Mesh& mesh, Interrupter* interrupter)
     throwIfInterrupted(interrupter);
     const FaceTriangles faces(mesh);
     throwIfInterrupted(interrupter);
+    loosePoints = vdbcage::loosePoints(mesh);
     bool dropped = false;
     const auto buildTrees = [&] {
         const std::vector<Vec3I> triangles = everyTriangle(mesh, faces);

@@ -51,6 +51,7 @@ struct CheckedModel {
     BoxTree candidates;                      ///< for the verdict
     TriangleBvh tree;                        ///< for distances; it has the points
     std::size_t usedVertices = 0;            ///< points that faces use
+    std::vector<std::uint32_t> loosePoints;  ///< the others
     std::vector<std::uint32_t> partOfPoint;  ///< only for these
     std::vector<std::uint32_t> partVertices; ///< the vertices of part k are partVertices[partFirst[k]] ...
     std::vector<std::size_t> partFirst;      ///< ... partVertices[partFirst[k + 1] - 1]

@@ -27,7 +27,7 @@ bool liesOnCage(const CageFaces& cage, const Vec3d& p)
 // The winding number counts one diagonal of every quad. Another choice of diagonals changes it exactly if p lies in the
 // tetrahedron of such a quad, so p must be in none. The ray crosses the tetrahedron's four triangles once if p is in
 // it, twice or never if not.
-bool liesInside(CageFaces& cage, const Vec3d& p, std::vector<std::uint32_t>& crossed)
+bool liesInside(const CageFaces& cage, const Vec3d& p, std::vector<std::uint32_t>& crossed)
 {
     int winding = 0;
     crossed.clear();
@@ -39,17 +39,16 @@ bool liesInside(CageFaces& cage, const Vec3d& p, std::vector<std::uint32_t>& cro
         if (cage.faces.ofQuad(item.triangle)) crossed.push_back(cage.faces.face(item.triangle));
         return true;
     });
-    bool between = false;
     std::sort(crossed.begin(), crossed.end());
+    auto between = crossed.begin();
     for (auto face = crossed.begin(); face != crossed.end();) {
         const auto next = std::upper_bound(face, crossed.end(), *face);
-        if ((next - face) % 2 == 1) {
-            between = true;
-            set(cage.bad[*face]);
-        }
+        const std::uint32_t quad = *face;
+        if ((next - face) % 2 == 1) *between++ = quad;
         face = next;
     }
-    return winding == 1 && !between;
+    crossed.erase(between, crossed.end());
+    return winding == 1 && crossed.empty();
 }
 
 } // namespace
@@ -112,7 +111,29 @@ std::size_t countOutside(CageFaces& cage, const CheckedModel::View& view, const 
             throwIfInterrupted(interrupter);
             const Question& question = questions[i];
             const Vec3d p = view.point(question.vertex);
-            if ((question.onCage && liesOnCage(cage, p)) || !liesInside(cage, p, crossed)) outside += question.weight;
+            if (question.onCage && liesOnCage(cage, p)) {
+                outside += question.weight;
+                continue;
+            }
+            if (!liesInside(cage, p, crossed)) outside += question.weight;
+            for (const std::uint32_t quad : crossed) set(cage.bad[quad]);
+        }
+        result += outside;
+    });
+    return result;
+}
+
+std::size_t countLooseOutside(const CageFaces& cage, const CheckedModel::View& view, Interrupter* interrupter)
+{
+    const std::vector<std::uint32_t>& points = view.model.loosePoints;
+    std::atomic<std::size_t> result{0};
+    parallelFor(Range(0, points.size(), 64), [&](const Range& range) {
+        std::vector<std::uint32_t> crossed;
+        std::size_t outside = 0;
+        for (std::size_t i = range.begin(); i < range.end(); ++i) {
+            throwIfInterrupted(interrupter);
+            const Vec3d p = view.point(points[i]);
+            if (!p.isFinite() || liesOnCage(cage, p) || !liesInside(cage, p, crossed)) ++outside;
         }
         result += outside;
     });

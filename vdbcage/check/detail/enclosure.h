@@ -20,4 +20,11 @@ std::size_t countContacts(CageFaces& cage, const CheckedModel::View& model, Flag
 std::size_t countOutside(CageFaces& cage, const CheckedModel::View& model, const Flags& touched,
                          Interrupter* interrupter);
 
+/// Counts the model's points that no face uses and that are not strictly inside as countOutside() says. It marks no
+/// face.
+/// \pre the cage is a cycle
+/// \throw Cancelled
+/// Cost: one ray for each, in parallel.
+std::size_t countLooseOutside(const CageFaces& cage, const CheckedModel::View& model, Interrupter* interrupter);
+
 } // namespace vdbcage::detail
