@@ -25,6 +25,7 @@
 #include <vdbcage/deform/weights_io.h>
 #include <vdbcage/mesh/mesh.h>
 #include <vdbcage/mesh/mesh_io.h>
+#include <vdbcage/mesh/parts.h>
 #include <vdbcage/mesh/symmetry.h>
 #include <vdbcage/mesh/topology.h>
 #include <vdbcage/pipeline/memory.h>

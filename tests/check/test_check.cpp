@@ -531,6 +531,16 @@ BOOST_AUTO_TEST_CASE(strange_but_allowed)
     checkCage(cube(1e-300), cube(5e-301));
     checkCage(point({0, 0, 0}), point({0, 0, 0}));
     checkCage(Mesh(), cube());
+    Mesh loose = cube(0.5);
+    loose.points.insert(loose.points.end(), {{0, 0, 0}, {5, 0, 0}, {1, 0, 0}, {0, 0.999, 0}, {0, 0, std::nan("")}});
+    const CageCheck counted = checkCage(cube(), loose);
+    BOOST_TEST(counted.bounding());
+    BOOST_TEST(counted.loosePoints == 5U);
+    BOOST_TEST(counted.loosePointsOutside == 3U); // one of them on it, one nowhere
+    BOOST_TEST(counted.badFaces.empty());
+    Mesh open = cube();
+    open.quads.pop_back();
+    BOOST_TEST(checkCage(open, loose).loosePointsOutside == 5U); // it has no inside
     Mesh unused = cube();
     unused.points.emplace_back(std::nan(""), 0, 0);
     BOOST_TEST(check(unused).bounding());

@@ -247,6 +247,37 @@ BOOST_AUTO_TEST_CASE(writing_replaces_a_file_and_a_failed_one_leaves_it)
     BOOST_TEST(folder.entries() == 1U);
 }
 
+BOOST_AUTO_TEST_CASE(files_hold_what_as_written_says)
+{
+    const TemporaryFolder folder;
+    std::mt19937_64 random(5);
+    std::uniform_real_distribution<double> share(0, 1);
+    Mesh mesh = pyramid();
+    for (Vec3d& p : mesh.points) p += 1000 * Vec3d(share(random), share(random), share(random));
+    for (const char* name : {"a.obj", "a.off", "a.ply", "a.stl", "a.STL"}) {
+        const std::filesystem::path path = folder / name;
+        const Mesh said = asWritten(mesh, path);
+        writeMesh(mesh, path);
+        const Mesh read = readMesh(path);
+        const auto cornersOf = [](const Mesh& of) {
+            std::vector<Vec3d> corners;
+            for (const openvdb::Vec3I& t : triangulate(of)) {
+                for (int i = 0; i < 3; ++i) corners.push_back(of.points[t[i]]);
+            }
+            return corners;
+        };
+        BOOST_TEST_CONTEXT(name)
+        {
+            BOOST_TEST((cornersOf(read) == cornersOf(said)));
+            BOOST_TEST((said.points == mesh.points) == (precisionOf(path) == Precision::float64));
+        }
+    }
+    mesh.points[1].z() = -1e39;
+    BOOST_CHECK_THROW(asWritten(mesh, "a.stl"), IoError);
+    BOOST_CHECK_THROW(asWritten(mesh, "a.xyz"), IoError);
+    BOOST_CHECK_THROW(precisionOf("a"), IoError);
+}
+
 BOOST_AUTO_TEST_CASE(moved_obj_keeps_all_but_positions_and_normals)
 {
     const TemporaryFolder folder;

@@ -38,13 +38,12 @@ BOOST_AUTO_TEST_CASE(text_goes_in_and_comes_out)
 {
     CageOptions options;
     const std::vector<std::pair<std::string, std::string>> wanted{
-        {"faces", "100"},           {"resolution", "64"}, {"close-radius", "0.125"},
-        {"erode-radius", "0.0625"}, {"element", "cube"},  {"scale-field", "none"},
-        {"density", "none"},        {"joints", "none"},   {"smooth", "7"},
-        {"parts", "merge"},         {"mesh", "triquad"},  {"quad-shape", "0.25"},
-        {"merge-angle", "22.5"},    {"symmetry", "auto"}, {"symmetry-tolerance", "0.01"},
-        {"interior", "shell"},      {"voxelizer", "cpu"}, {"bounding", "off"},
-        {"clearance", "0.001"},     {"min-angle", "2"},   {"effort", "best"}};
+        {"faces", "100"},       {"resolution", "64"},     {"close-radius", "0.125"}, {"erode-radius", "0.0625"},
+        {"element", "cube"},    {"scale-field", "none"},  {"density", "none"},       {"joints", "none"},
+        {"smooth", "7"},        {"parts", "merge"},       {"least-part", "0.1"},     {"mesh", "triquad"},
+        {"quad-shape", "0.25"}, {"merge-angle", "22.5"},  {"symmetry", "auto"},      {"symmetry-tolerance", "0.01"},
+        {"interior", "shell"},  {"voxelizer", "cpu"},     {"bounding", "off"},       {"clearance", "0.001"},
+        {"min-angle", "2"},     {"precision", "float32"}, {"effort", "best"}};
     for (const auto& option : wanted) setOption(options, option.first, option.second);
     BOOST_CHECK(optionValues(options) == wanted);
     BOOST_CHECK(optionValues(CageOptions{}) != wanted);

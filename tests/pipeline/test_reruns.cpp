@@ -261,6 +261,8 @@ BOOST_AUTO_TEST_CASE(every_option_counts)
                                                     {"bounding", "off"},
                                                     {"clearance", "0.01"},
                                                     {"min-angle", "12"},
+                                                    {"precision", "float64"},
+                                                    {"least-part", "0.5"},
                                                     {"effort", "fair"}};
     Mesh ball = test::sphere({0, 0, 0}, 1, 16);
     ball.quads.resize(ball.quads.size() * 2 / 3);                       // open, so that the interior matters

@@ -10,6 +10,7 @@
 #include <tools/report/report.h>
 #include <vdbcage/check/check.h>
 #include <vdbcage/core/error.h>
+#include <vdbcage/mesh/parts.h>
 #include <vdbcage/pipeline/memory.h>
 #include <vdbcage/pipeline/pipeline.h>
 
@@ -57,6 +58,8 @@ py::dict toDict(const CageCheck& check)
     fields["model_vertices_outside"] = check.modelVerticesOutside;
     fields["bad_faces"] = py::tuple(py::cast(check.badFaces));
     fields["loose_points"] = check.loosePoints;
+    fields["bad_faces"] = py::tuple(py::cast(check.badFaces));
+    fields["longest_side"] = check.longestSide;
     fields["loose_points_outside"] = check.loosePointsOutside;
     fields["diagonal"] = check.diagonal;
     fields["mean_distance"] = check.meanDistance;
@@ -185,10 +188,12 @@ void defineCage(py::module_& module)
         return resultOfJob(progress,
                            [&](Interrupter* interrupter) { return predictedMemory(*model, options, interrupter); });
     });
-    module.def("check_cage", [](const MeshPtr& cage, const MeshPtr& model, bool asFloats, bool measure,
-                                std::size_t samples, const py::object& progress) {
+    module.def("check_cage", [](const MeshPtr& cage, const MeshPtr& model, double leastPart, bool asFloats,
+                                bool measure, std::size_t samples, const py::object& progress) {
         return toDict(resultOfJob(progress, [&](Interrupter* interrupter) {
-            return checkCage(*cage, *model, {asFloats, measure, samples}, interrupter);
+            const CheckOptions options{asFloats, measure, samples};
+            return leastPart > 0 ? checkCage(*cage, largeParts(*model, leastPart).mesh, options, interrupter)
+                                 : checkCage(*cage, *model, options, interrupter);
         }));
     });
 }

@@ -6,6 +6,7 @@
 #include <vdbcage/core/detail/printable.h>
 #include <vdbcage/core/error.h>
 #include <vdbcage/mesh/io/formats.h>
+#include <vdbcage/mesh/parts.h>
 
 namespace vdbcage::tool {
 
@@ -56,10 +57,13 @@ Mesh takeMesh(std::vector<ModelFile>& models)
     return all;
 }
 
-void checkEach(std::vector<ModelFile>& models, const Mesh& cage, Interrupter* interrupter)
+void checkEach(std::vector<ModelFile>& models, const Mesh& cage, double leastSide, Interrupter* interrupter)
 {
     if (models.size() == 1) return;
-    for (ModelFile& model : models) model.check = checkCage(cage, model.mesh, {}, interrupter);
+    for (ModelFile& model : models) {
+        if (leastSide > 0) model.mesh = partsFrom(model.mesh, leastSide).mesh;
+        if (faceCount(model.mesh) > 0) model.check = checkCage(cage, model.mesh, {}, interrupter);
+    }
 }
 
 Json entryOf(const std::vector<ModelFile>& models)

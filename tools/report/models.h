@@ -30,8 +30,9 @@ std::vector<ModelFile> readModels(const std::vector<std::filesystem::path>& path
 /// All models as one. A lone model gives its mesh away.
 Mesh takeMesh(std::vector<ModelFile>& models);
 
-/// Where there are several: sets the verdict of each. \throw InputError, Cancelled
-void checkEach(std::vector<ModelFile>& models, const Mesh& cage, Interrupter* interrupter);
+/// Where there are several: sets the verdict of each, without parts of a longest side below `leastSide`.
+/// \throw InputError, Cancelled
+void checkEach(std::vector<ModelFile>& models, const Mesh& cage, double leastSide, Interrupter* interrupter);
 
 /// A list of their facts. Where there are several, each has its "check".
 Json entryOf(const std::vector<ModelFile>& models);

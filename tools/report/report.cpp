@@ -35,6 +35,9 @@ Json toJson(const CageCheck& check)
             {"self_intersections", check.selfIntersections},
             {"contact_faces", check.contactFaces},
             {"model_vertices_outside", check.modelVerticesOutside},
+            {"loose_points", check.loosePoints},
+            {"loose_points_outside", check.loosePointsOutside},
+            {"model_longest_side", check.longestSide},
             {"model_diagonal", check.diagonal},
             {"mean_distance", check.meanDistance},
             {"max_distance", check.maxDistance},
@@ -107,6 +110,10 @@ Json toJson(const CageReport& report)
             {"smooth", report.smooth},
             {"start", start},
             {"repaired", report.repaired},
+            {"parts_left_out", report.partsLeftOut},
+            {"faces_left_out", report.facesLeftOut},
+            {"side_share", report.sideShare},
+            {"start_faces", report.startFaces},
             {"cavities_filled", report.cavitiesFilled},
             {"solid_parts", report.solidParts},
             {"solid_handles", report.solidHandles},
@@ -222,6 +229,25 @@ std::string toText(const Json& report)
 std::vector<std::string> remarks(const CageReport& report, const CageOptions& options)
 {
     std::vector<std::string> lines;
+    if (report.partsLeftOut > 0) {
+        lines.push_back("left out, so not bound: parts below " + detail::numberText(options.leastPart) +
+                        " of the largest: " + std::to_string(report.partsLeftOut) + ", with " +
+                        std::to_string(report.facesLeftOut) + " faces");
+    }
+    if (report.sideShare < 1) {
+        std::ostringstream out;
+        out << "little of the longest side, " << report.check.longestSide
+            << ", is filled: voxels and radii were chosen as for " << report.sideShare
+            << " of it; the mean distance is " << std::setprecision(3)
+            << report.check.meanDistance * report.check.longestSide
+            << "; --least-part leaves out parts that are small and far away";
+        lines.push_back(out.str());
+    }
+    if (options.bounding && !options.resolution && report.start == CageStart::closing &&
+        2 * report.startFaces < static_cast<std::size_t>(options.faces)) {
+        lines.push_back("too few voxels for so many faces: their surface has " + std::to_string(2 * report.startFaces) +
+                        " triangles; --least-part leaves small parts far away out, --resolution takes finer voxels");
+    }
     if (report.start == CageStart::hull) {
         lines.emplace_back("shrunk from the convex hull: the closing has too many parts or handles for so few faces");
     } else if (report.start == CageStart::box) {

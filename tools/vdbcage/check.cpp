@@ -6,6 +6,7 @@
 #include <vdbcage/check/check.h>
 #include <vdbcage/core/range.h>
 #include <vdbcage/mesh/io/formats.h>
+#include <vdbcage/mesh/parts.h>
 
 #include "commands.h"
 #include "interrupt.h"
@@ -25,9 +26,12 @@ int runCheck(Call call)
     app.add_option("cage", cagePath)->required()->type_name("CAGE");
     app.add_option("models", modelPaths)->required()->type_name("MODEL...");
     app.add_option("--report", reportPath, "the verdict as JSON")->type_name("FILE.json");
+    double leastPart = 0;
+    app.add_option("--least-part", leastPart, "leaves smaller parts of the model out, 0 to 1 [0]")->type_name("F");
     const TalkArguments talk(app);
     const std::vector<std::string> arguments = call.words;
     if (!parse(app, std::move(call))) return exitGood;
+    requireWithin({0, 1}, leastPart, "--least-part");
     Outputs outputs;
     outputs.reads(cagePath);
     for (const std::filesystem::path& model : modelPaths) outputs.reads(model);
@@ -38,8 +42,14 @@ int runCheck(Call call)
     const MeshFile cageRead = detail::parseMesh(cageFile, cagePath);
     const Mesh& cage = cageRead.mesh;
     std::vector<ModelFile> models = readModels(modelPaths, reportPath.empty() ? Hashes::none : Hashes::sha256);
-    const CageCheck check = checkCage(cage, takeMesh(models), {}, &*progress);
-    checkEach(models, cage, &*progress);
+    Mesh model = takeMesh(models);
+    LargeParts parts;
+    if (leastPart > 0) {
+        parts = largeParts(model, leastPart);
+        model = std::move(parts.mesh);
+    }
+    const CageCheck check = checkCage(cage, model, {}, &*progress);
+    checkEach(models, cage, parts.leastSide, &*progress);
     if (!reportPath.empty()) {
         Json report = runFacts("check", arguments);
         report["models"] = entryOf(models);
@@ -47,15 +57,20 @@ int runCheck(Call call)
         report["cage_sha256"] = sha256Of(cageFile);
         report["cage_warnings"] = cageRead.summary.warnings;
         report["quads"] = cage.quads.empty() ? Json() : toJson(quadQuality(cage));
+        report["parts_left_out"] = parts.partsLeftOut;
+        report["faces_left_out"] = parts.facesLeftOut;
         report["check"] = toJson(check);
         outputs.add(reportPath, [&](std::ostream& out) { out << toText(report); });
     }
     progress->succeed();
     progress.reset();
     if (!talk.quiet()) {
-        std::cout << printable(cagePath) << ": " << verdict(check) << '\n'
-                  << describe(models) << describe(check) << warningLines(cagePath, cageRead.summary)
-                  << warningLines(models);
+        std::cout << printable(cagePath) << ": " << verdict(check) << '\n' << describe(models);
+        if (parts.partsLeftOut > 0) {
+            std::cout << "  left out, so not looked at: " << parts.partsLeftOut << " small parts with "
+                      << parts.facesLeftOut << " faces\n";
+        }
+        std::cout << describe(check) << warningLines(cagePath, cageRead.summary) << warningLines(models);
         flushOutput();
     }
     outputs.commit();

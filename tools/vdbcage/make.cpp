@@ -108,8 +108,9 @@ std::string summaryOf(const MakeArguments& arguments, const std::vector<ModelFil
     out << (check.bounding() ? ", certified bounding"
             : check.valid()  ? ", NOT bounding"
                              : ", NOT a valid cage")
-        << ", mean distance " << 100 * check.meanDistance << " % of the longest side, resolution " << report.resolution
-        << ", " << seconds << " s\n";
+        << (check.bounding() && report.partsLeftOut > 0 ? " what was not left out" : "") << ", mean distance "
+        << 100 * check.meanDistance << " % of the longest side, resolution " << report.resolution << ", " << seconds
+        << " s\n";
     for (const std::string& remark : remarks(report, arguments.options)) out << "  " << remark << '\n';
     out << describe(models);
     if (!arguments.isVerbose) return out.str();
@@ -178,7 +179,7 @@ std::string makeFiles(const MakeArguments& arguments, const std::string& inputs,
 
     Pipeline pipeline = makePipeline(models, arguments, clock);
     const Mesh& cage = pipeline.cage();
-    checkEach(models, cage, &clock);
+    checkEach(models, cage, pipeline.report().leastPartSide, &clock);
 
     std::optional<Stage> writing(std::in_place, &clock, "write");
     // All work first: while files are waiting a signal has to wait for work.

@@ -14,6 +14,7 @@
 #include <vdbcage/deform/weights_io.h>
 #include <vdbcage/mesh/io/formats.h>
 #include <vdbcage/mesh/mesh_io.h>
+#include <vdbcage/mesh/parts.h>
 
 namespace vdbcage::view {
 
@@ -44,6 +45,27 @@ void saveFrames(PosedScene& scene, const fs::path& path, Interrupter* interrupte
 }
 
 } // namespace
+
+void saveCage(const CageResult& result, const fs::path& path, Interrupter* interrupter)
+{
+    const Mesh written = asWritten(result.cage, path);
+    if (written.points != result.cage.points) {
+        const CageCheck& said = result.report.check;
+        CheckOptions options;
+        options.measure = false;
+        const Mesh& model = result.order.model->mesh;
+        const double leastPart = result.order.options.leastPart;
+        const CageCheck check = leastPart > 0
+                                    ? checkCage(written, largeParts(model, leastPart).mesh, options, interrupter)
+                                    : checkCage(written, model, options, interrupter);
+        if (check.valid() < said.valid() || check.bounding() < said.bounding()) {
+            throw InputError(path.string() + ": " + path.extension().string() + " files hold float32, and so rounded " +
+                             (said.bounding() ? "the cage does not bound the model" : "it is no valid cage") +
+                             "; save it as .obj, .off or .ply, or make it with the precision float32");
+        }
+    }
+    writeMesh(written, path);
+}
 
 void saveOptions(const CageOptions& options, const fs::path& path)
 {

@@ -69,6 +69,7 @@ void measure(CageCheck& result, const detail::CageFaces& cage, const detail::Che
     result.angle1stPercentileDegrees = angles.firstPercentile;
     result.medianAngleDegrees = angles.median;
     if (!(model.longestSide > 0)) return;
+    result.longestSide = model.longestSide;
     result.diagonal = model.diagonal / model.longestSide;
     const detail::Distances distances =
         detail::distances(cage.mesh.points, cage.faces, model.tree, samples, interrupter);

@@ -59,6 +59,7 @@ struct CageCheck {
     /// Lengths are fractions of the longest side of the model's bounding box.
     /// \{
 
+    double longestSide = 0;     ///< of the model's bounding box, world units: what the others are fractions of
     double diagonal = 0;        ///< of the model's bounding box: 1 to the root of 3; 0 if the model is one point
     double meanDistance = 0;    ///< from the cage to the model under every split of its faces, over an even sample
     double maxDistance = 0;     ///< the largest distance of these samples and of the cage's corners

@@ -149,6 +149,13 @@ public:
           columns_(handleCount(mesh, options.family)), cage_(cageOf(mesh, options.family)), pack_(cage_),
           looseMotion_(options.loose.motion), isLoose_(points.size(), false), undefined_(points.size(), 0)
     {
+        for (const openvdb::Index32 i : options.loose.indices) {
+            if (i >= points.size()) {
+                throw InputError("loose points: there is no point " + std::to_string(i) + "; there are " +
+                                 std::to_string(points.size()) + " points, counted from 0");
+            }
+            isLoose_[i] = true;
+        }
         requireFinite(points, "points");
         if (options.family == Coordinates::harmonic) grid_.emplace(cage_, options.resolution, interrupter);
         if (options.family == Coordinates::biharmonic) biharmonic_.emplace(cage_, interrupter);

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <string>
 
+#include <vdbcage/mesh/parts.h>
 #include <vdbcage/pipeline/detail/search.h>
 #include <vdbcage/pipeline/detail/simple_solids.h>
 #include <vdbcage/pipeline/detail/volumes.h>
@@ -48,15 +49,19 @@ public:
         if (options.interior == Interior::automatic) {
             counted.interior = rayAgreement(model, &questions) < mostlySheet ? Interior::shell : Interior::solid;
         }
-        detail::Voxels voxels = detail::finestVoxels(options);
-        voxels.resolution = std::min(voxels.resolution, countedResolution);
         detail::Volumes volumes(model);
-        const auto closing = volumes.closing(counted, detail::ScaleVersion(options.scale), voxels, &questions);
+        const detail::ScaleVersion scale(options.scale);
+        const auto quadsOf = [&](const detail::Voxels& voxels) {
+            return surfaceOf(*volumes.closing(counted, scale, voxels, &questions), &questions)->quads.size();
+        };
+        const openvdb::Vec3d extents = boundingBox(model).extents() / detail::longestSide(boundingBox(model));
+        if (options.bounding) share_ = detail::shareOfSide(options, extents[0] * extents[1] * extents[2], quadsOf);
+        detail::Voxels voxels = detail::finestVoxels(options, share_);
+        voxels.resolution = std::min(voxels.resolution, static_cast<int>(countedResolution / share_));
         const double side = voxels.resolution;
-        quads_ = static_cast<double>(surfaceOf(*closing, &questions)->quads.size()) / (side * side);
-        const openvdb::BBoxd box = boundingBox(model);
+        quads_ = static_cast<double>(quadsOf(voxels)) / (side * side);
         box_ = 1;
-        for (const int axis : {0, 1, 2}) box_ *= box.extents()[axis] / detail::longestSide(box) + 1 / side;
+        for (const int axis : {0, 1, 2}) box_ *= extents[axis] + 1 / side;
     }
 
     /// Bytes, with another resolution or, if it is 0, with that of the options.
@@ -76,7 +81,7 @@ public:
         };
         for (const CageOptions& competitor : detail::competitors(options)) {
             const bool areLoops = competitor.mesh == CageFaces::loops && !competitor.resolution;
-            for (const std::vector<detail::Voxels>& rungs : detail::ladders(competitor)) {
+            for (const std::vector<detail::Voxels>& rungs : detail::ladders(competitor, share_)) {
                 const int wanted = rungs.front().resolution;
                 const double first = areLoops ? detail::policy::quadsPerLoopsFace * competitor.faces
                                               : quads_ * static_cast<double>(wanted) * wanted;
@@ -96,7 +101,7 @@ public:
     /// The finest resolution, below that of the options, with which it takes `limit` bytes at most; 0: there is none.
     int finestWithin(double limit) const
     {
-        int fits = detail::finestVoxels(options_).resolution - 1;
+        int fits = detail::finestVoxels(options_, share_).resolution - 1;
         while (fits >= least && bytes(fits) > limit) --fits; // larger surfaces may take less: they are not recorded
         return fits >= least ? fits : 0;
     }
@@ -106,9 +111,16 @@ private:
 
     const CageOptions options_;
     const double modelTriangles_;
+    double share_ = 1; ///< shareOfSide()
     double quads_ = 0; ///< of the closing's surface, for the square of the resolution
     double box_ = 0;   ///< its volume, for the cube of the longest side
 };
+
+Demand demandOf(const Mesh& model, const CageOptions& options, Interrupter* interrupter)
+{
+    if (options.leastPart <= 0) return {model, options, interrupter};
+    return {largeParts(model, options.leastPart).mesh, options, interrupter};
+}
 
 std::string sizeText(double bytes)
 {
@@ -130,14 +142,14 @@ std::size_t predictedMemory(const Mesh& model, const CageOptions& options, Inter
 {
     requireValid(options);
     requireUsable(model, "model");
-    return static_cast<std::size_t>(Demand(model, options, interrupter).bytes(0));
+    return static_cast<std::size_t>(demandOf(model, options, interrupter).bytes(0));
 }
 
 void requireMemory(const Mesh& model, const CageOptions& options, std::size_t limit, Interrupter* interrupter)
 {
     requireValid(options);
     requireUsable(model, "model");
-    const Demand demand(model, options, interrupter);
+    const Demand demand = demandOf(model, options, interrupter);
     const auto allowed = static_cast<double>(limit);
     if (demand.bytes(0) <= allowed) return;
     const int finest = demand.finestWithin(allowed);

@@ -67,6 +67,9 @@ struct CageOptions {
     /// decimated without `bounding`. Unset: 0, or 3 without `bounding`.
     std::optional<int> smooth;
     CageParts parts = CageParts::keep; ///< what becomes of separate parts of the closing
+    /// Leaves out parts of the model that are smaller than so much of the largest, by the longest sides of their boxes,
+    /// 0 to 1. The cage need not bound them.
+    double leastPart = 0;
     /// Least distance from model to cage, 1e-7 to 0.1.
     double clearance = GuardOptions{}.clearance;
     /// No triangle angle gets smaller, in degrees, 0 to 30. Unset: 1, 6 or 10, see docs/OPTIONS.md.
@@ -113,6 +116,7 @@ void visitOptions(Options& options, Visit&& visit)
     visit(OptionInfo{"smooth", "K", "rounds it off: 0 is tightest", BoundingSmoothOptions::sweepCounts},
           options.smooth);
     visit(OptionInfo{"parts", "", "separate parts of the closing", {}, true}, options.parts);
+    visit(OptionInfo{"least-part", "F", "leaves smaller parts of the model out", {0, 1}, true}, options.leastPart);
     visit(OptionInfo{"mesh", "", "faces of the cage"}, options.mesh);
     visit(OptionInfo{"quad-shape", "F", "0: tightest, 1: squarest quads", BoundingTriquadOptions::quadShapes},
           options.quadShape);

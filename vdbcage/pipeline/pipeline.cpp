@@ -12,6 +12,7 @@
 
 #include <vdbcage/core/detail/parallel.h>
 #include <vdbcage/core/error.h>
+#include <vdbcage/mesh/parts.h>
 #include <vdbcage/pipeline/detail/bounding_search.h>
 #include <vdbcage/pipeline/detail/textbook.h>
 
@@ -58,6 +59,8 @@ CageReport reportOf(const Candidate& made, const CageOptions& options, bool areF
     report.tiltedSymmetry = made.tiltedSymmetry;
     report.noSymmetry = made.noSymmetry;
     report.repaired = made.repaired;
+    report.sideShare = made.sideShare;
+    report.startFaces = faceCount(*made.surface);
     report.cavitiesFilled = closing.cavitiesFilled;
     report.solidParts = solid.boundary.components;
     report.solidHandles = solid.boundary.genus;
@@ -79,15 +82,23 @@ public:
         requireValid(options);
         ScaleVersion scale(options.scale), density(options.density);
         if (last_ && scale == last_->scale && density == last_->density && areEqual(options, last_->options)) return;
+        Work& work = workFor(options.leastPart);
+        detail::requireHeld(options.precision, boundingBox(work.model));
         CageOptions decided = options;
-        if (options.interior == Interior::automatic) decided.interior = interiorOf(interrupter);
-        Candidate made = options.bounding ? search_.run(decided, scale, density, interrupter)
-                                          : detail::textbookCage(decided, scale, volumes_, certifier_, interrupter);
+        if (options.interior == Interior::automatic) decided.interior = work.interior(interrupter);
+        Candidate made = options.bounding
+                             ? work.search.run(decided, scale, density, interrupter)
+                             : detail::textbookCage(decided, scale, work.volumes, work.certifier, interrupter);
         if (options.bounding && !made.check.bounding()) {
             throw Error("the cage could not be certified; this is a defect of vdbcage, please report the model");
         }
-        report_ = reportOf(made, options, certifier_.fitsFloat());
-        if (options.interior == Interior::automatic) report_.voxels.agreement = agreement_;
+        report_ = reportOf(made, options, work.certifier.areFloats(options.precision));
+        if (work.parts) {
+            report_.partsLeftOut = work.parts->partsLeftOut;
+            report_.facesLeftOut = work.parts->facesLeftOut;
+            report_.leastPartSide = work.parts->leastSide;
+        }
+        if (options.interior == Interior::automatic) report_.voxels.agreement = work.agreement;
         made_ = std::move(made);
         last_ = Last{options, std::move(scale), std::move(density)};
         last_->options.scale = last_->options.density = {};
@@ -98,14 +109,37 @@ public:
     const CageReport& report() const { return report_; }
 
 private:
-    /// The same for every copy of the model that voxels are made of, also for those that are turned.
-    Interior interiorOf(Interrupter* interrupter)
-    {
-        if (!agreement_) {
-            const Stage stage(interrupter, "interior");
-            agreement_ = rayAgreement(model_, interrupter);
+    /// What is made of the model, or of its large parts.
+    struct Work {
+        Work(const Mesh& whole, double least)
+            : leastPart(least), parts(least > 0 ? std::optional(largeParts(whole, least)) : std::nullopt),
+              model(parts ? parts->mesh : whole)
+        {
         }
-        return *agreement_ < mostlySheet ? Interior::shell : Interior::solid;
+
+        /// The same for every copy of the model that voxels are made of, also for those that are turned.
+        Interior interior(Interrupter* interrupter)
+        {
+            if (!agreement) {
+                const Stage stage(interrupter, "interior");
+                agreement = rayAgreement(model, interrupter);
+            }
+            return *agreement < mostlySheet ? Interior::shell : Interior::solid;
+        }
+
+        double leastPart;
+        std::optional<LargeParts> parts; // none are left out without it
+        const Mesh& model;
+        detail::Volumes volumes{model};
+        detail::Certifier certifier{model};
+        detail::BoundingSearch search{model, volumes, certifier};
+        std::optional<double> agreement; // of rays about the model's inside, once it was asked for
+    };
+
+    Work& workFor(double leastPart)
+    {
+        if (!work_ || work_->leastPart != leastPart) work_ = std::make_unique<Work>(model_, leastPart);
+        return *work_;
     }
 
     /// What the cage was made with.
@@ -122,9 +156,7 @@ private:
     }
 
     const Mesh model_;
-    detail::Volumes volumes_{model_};
-    detail::Certifier certifier_{model_};
-    detail::BoundingSearch search_{model_, volumes_, certifier_};
+    std::unique_ptr<Work> work_;
     Candidate made_ = nothing();
     CageReport report_;
     std::optional<Last> last_;

@@ -44,6 +44,11 @@ struct CageReport {
     std::optional<TiltedSymmetry> tiltedSymmetry;
     std::string noSymmetry;         ///< why there is none; empty if there is, or it was not asked for
     bool repaired = false;          ///< an unguarded cage was not valid and went through repair()
+    std::size_t partsLeftOut = 0;   ///< of the model, smaller than CageOptions::leastPart: it bounds the others
+    std::size_t facesLeftOut = 0;   ///< the model's triangles and quads in these
+    double leastPartSide = 0;       ///< the longest side that was asked of a part, world units
+    double sideShare = 1;           ///< of the longest side, that voxels and radii of `auto` were chosen for
+    std::size_t startFaces = 0;     ///< of what it was shrunk from
     std::size_t cavitiesFilled = 0; ///< hollows inside the closing that were filled
     std::size_t solidParts = 0;     ///< separate surfaces of the model's voxels, inner ones too
     std::int64_t solidHandles = 0;  ///< and handles, tunnels through them, of all of them

@@ -209,7 +209,8 @@ class CageCheck:
     loose_points: int  # of the model, that no face uses; the verdict is not about them
     loose_points_outside: int
     bad_faces: tuple
-    diagonal: float  # of the model's bounding box
+    longest_side: float  # of the model's bounding box, world units
+    diagonal: float  # of the same
     mean_distance: float
     max_distance: float
     min_distance: float
@@ -356,18 +357,20 @@ class Pipeline:
         return None if mesh is None else Mesh._of(mesh)
 
 
-def check_cage(cage, model, *, as_floats=False, measure=True, samples=20000, progress=None):
+def check_cage(cage, model, *, least_part=0, as_floats=False, measure=True, samples=20000, progress=None):
     """Examines any mesh as a cage of any model and returns a CageCheck.
 
     cage, model: Mesh
+    least_part: leaves out parts of the model smaller than so much of the largest, 0 to 1, as make_cage does
     as_floats: both meshes are examined with their points rounded to float
     measure: False leaves the measures at 0, which is faster
     samples: points on the cage for the distances, 1 to 10**9
     Raises InputError, Cancelled.
     """
     samples = _arguments.whole("samples", samples, 1, 10**9)
-    return CageCheck(**_vdbcage.check_cage(_mesh("cage", cage), _mesh("model", model), bool(as_floats), bool(measure),
-                                           samples, _arguments.callback(progress)))
+    least_part = _arguments.number("least_part", least_part, 0, 1)
+    return CageCheck(**_vdbcage.check_cage(_mesh("cage", cage), _mesh("model", model), least_part, bool(as_floats),
+                                           bool(measure), samples, _arguments.callback(progress)))
 
 
 @dataclasses.dataclass(frozen=True)

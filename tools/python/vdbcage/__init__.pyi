@@ -64,6 +64,7 @@ class CageCheck:
     loose_points: int
     loose_points_outside: int
     bad_faces: tuple[int, ...]
+    longest_side: float
     diagonal: float
     mean_distance: float
     max_distance: float
@@ -102,8 +103,8 @@ class Pipeline:
     @property
     def decimated(self) -> Mesh | None: ...
 
-def check_cage(cage: Mesh, model: Mesh, *, as_floats: bool = False, measure: bool = True, samples: int = 20000,
-               progress: _Progress = None) -> CageCheck: ...
+def check_cage(cage: Mesh, model: Mesh, *, least_part: float = 0, as_floats: bool = False, measure: bool = True,
+               samples: int = 20000, progress: _Progress = None) -> CageCheck: ...
 
 @dataclass(frozen=True)
 class Family:

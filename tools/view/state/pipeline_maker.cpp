@@ -5,6 +5,7 @@
 #include <tools/view/state/runner.h>
 #include <vdbcage/check/check.h>
 #include <vdbcage/core/error.h>
+#include <vdbcage/mesh/parts.h>
 
 namespace vdbcage::view {
 
@@ -99,11 +100,15 @@ private:
         CageResult result;
         result.order = order;
         result.cage = order.cage->mesh;
-        if (!checker_ || checked_ != order.model) {
+        const double leastPart = order.options.leastPart;
+        if (!checker_ || checked_ != order.model || checkedLeastPart_ != leastPart) {
             checker_.reset();
             const Stage stage(&clock, "guard");
-            checker_.emplace(order.model->mesh, &clock);
+            const Mesh& model = order.model->mesh;
+            checker_ =
+                leastPart > 0 ? CageChecker(largeParts(model, leastPart).mesh, &clock) : CageChecker(model, &clock);
             checked_ = order.model;
+            checkedLeastPart_ = leastPart;
         }
         {
             const Stage stage(&clock, "certify");

@@ -22,7 +22,7 @@ bool liesOnCage(const CageFaces& cage, const Vec3d& p)
                             [&](const BoxTree::Item& item) { return !contains(cage.corners(item.triangle), p); });
 }
 
-// p does not lie on the cage. `crossed` is room to work in.
+// p does not lie on the cage. `crossed` gets the quads between whose diagonals p is.
 //
 // The winding number counts one diagonal of every quad. Another choice of diagonals changes it exactly if p lies in the
 // tetrahedron of such a quad, so p must be in none. The ray crosses the tetrahedron's four triangles once if p is in

@@ -34,12 +34,17 @@ inline double floatRounding(const openvdb::BBoxd& box)
     return farthest(box) * 0x1p-24 + 0x1p-149;
 }
 
+/// Whether a model in `box` is too large or too small for floats and their squares.
+inline bool isBeyondFloat(const openvdb::BBoxd& box)
+{
+    return !(floatRounding(box) < 1e23 && box.extents()[static_cast<int>(box.maxExtent())] > 1e-30);
+}
+
 /// Whether a host that stores floats can hold a model of this box at all: rounding is far below its size.
 /// \pre `box` is not empty
 inline bool fitsFloat(const openvdb::BBoxd& box)
 {
-    const double side = box.extents()[static_cast<int>(box.maxExtent())], rounding = floatRounding(box);
-    return rounding < 1e23 && side > 1e-30 && rounding < 1e-5 * side;
+    return !isBeyondFloat(box) && floatRounding(box) < 1e-5 * box.extents()[static_cast<int>(box.maxExtent())];
 }
 
 } // namespace vdbcage::detail

@@ -229,7 +229,8 @@ std::optional<Candidate> BoundingSearch::tightest(const Run& run, const Bounding
         best = std::move(candidate);
     };
     for (const CageOptions& options : competitors(run.options)) {
-        const Run of{options, run.scale, run.density, run.interrupter, run.isSheet};
+    const double share = shareFor(run, guard);
+        const Run of{options, run.scale, run.density, run.interrupter, run.isSheet, share};
         take(climb(of, guard), 0);
         // That a cage of more faces lies on the model more closely than a box is not worth them.
         if (isOfFewFaces(options)) take(shrinkOnto(of, simpleSolids(of, guard), guard), options.clearance);
@@ -241,7 +242,7 @@ std::optional<Candidate> BoundingSearch::tightest(const Run& run, const Bounding
 /// nothing if that has too many too.
 std::optional<Candidate> BoundingSearch::climb(const Run& run, const BoundingGuard& guard)
 {
-    const std::vector<std::vector<Voxels>> all = ladders(run.options);
+    const std::vector<std::vector<Voxels>> all = ladders(run.options, run.share);
     std::vector<std::size_t> next(all.size(), 0); // rung of each
     std::size_t climbed = 1;                      // the first alone, until others may be tighter
     for (;;) {
@@ -253,7 +254,8 @@ std::optional<Candidate> BoundingSearch::climb(const Run& run, const BoundingGua
                 voxels.plane = guard.symmetry();
                 found = startsFrom(run, voxels, guard);
             }
-            if (found.empty() || mayCoarserBeTighter(run.options, found.front().voxels, found.front().topology)) {
+            if (found.empty() ||
+                mayCoarserBeTighter(run.options, run.share, found.front().voxels, found.front().topology)) {
                 climbed = all.size();
             }
             std::move(found.begin(), found.end(), std::back_inserter(starts));
@@ -314,7 +316,7 @@ BoundingSearch::Turned& BoundingSearch::turnedModel()
 /// What cages of few faces may be shrunk from beside closings.
 BoundingSearch::Candidates BoundingSearch::simpleSolids(const Run& run, const BoundingGuard& guard)
 {
-    Voxels voxels = finestVoxels(run.options);
+    Voxels voxels = finestVoxels(run.options, run.share);
     voxels.plane = guard.symmetry();
     Candidates starts{begin(run, voxels, CageStart::orientedBox, guard)};
     const bool isBoxTooMuch = run.options.mesh == CageFaces::triangles && run.options.faces < policy::trianglesOfBox;
@@ -326,12 +328,31 @@ int BoundingSearch::resolutionFor(const Run& run, const Voxels& voxels)
 {
     if (!dependsOnSurface(run.options)) return voxels.resolution;
     ClosingKey key = closingKey(run.options, run.scale, voxels);
-    if (!counted_ || !(counted_->key == key)) {
-        const auto closing = volumes_.closing(run.options, run.scale, voxels, run.interrupter);
-        counted_ = Counted{std::move(key), faceCount(*surfaceOf(*closing, run.interrupter))};
-    }
-    return affordableResolution(run.options, voxels, counted_->quads);
+    const auto isIt = [&](const Counted& counted) { return counted.key == key; };
+    const auto known = std::find_if(counted_.begin(), counted_.end(), isIt);
+    if (known != counted_.end()) return known->quads;
+    const auto closing = volumes_.closing(run.options, run.scale, voxels, run.interrupter);
+    const std::size_t quads = faceCount(*surfaceOf(*closing, run.interrupter));
+    constexpr std::size_t most = 64; // of many runs
+    if (counted_.size() >= most) counted_.clear();
+    counted_.push_back({std::move(key), quads});
+    return quads;
 }
+    return affordableResolution(run.options, run.share, voxels, quadsOf(run, voxels));
+}
+
+double BoundingSearch::shareFor(const Run& run, const BoundingGuard& guard)
+{
+    const openvdb::Vec3d extents = boundingBox(model_).extents() / longestSide(boundingBox(model_));
+    return shareOfSide(run.options, extents[0] * extents[1] * extents[2], [&](Voxels voxels) {
+        voxels.plane = guard.symmetry();
+        return quadsOf(run, voxels);
+    });
+}
+
+/// How many faces the surface of a closing has.
+std::size_t BoundingSearch::quadsOf(const Run& run, const Voxels& voxels)
+{
 
 /// A candidate with what it is made from: of the run before, or anew.
 Candidate BoundingSearch::begin(const Run& run, const Voxels& voxels, CageStart kind, const BoundingGuard& guard)
@@ -377,6 +398,7 @@ Candidate BoundingSearch::begin(const Run& run, const Voxels& voxels, CageStart 
 /// Makes cages of the candidates' surfaces, side by side; the tightest that has few enough faces and is certified.
 std::optional<Candidate> BoundingSearch::shrinkOnto(const Run& run, Candidates starts, const BoundingGuard& guard)
 {
+    candidate.sideShare = run.share;
     const CageOptions& options = run.options;
     if (options.mesh == CageFaces::loops) {
         collapseLoops(run, starts, guard);

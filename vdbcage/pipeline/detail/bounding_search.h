@@ -44,6 +44,7 @@ private:
         const ScaleVersion &scale, &density;
         Interrupter* interrupter;
         bool isSheet = false; ///< the model
+        double share = 1;     ///< shareOfSide()
     };
     using Candidates = std::vector<Candidate>;
     /// The model along its own axes.
@@ -65,6 +66,8 @@ private:
     Turned& turnedModel();
     Candidates startsFrom(const Run& run, const Voxels& voxels, const BoundingGuard& guard);
     int resolutionFor(const Run& run, const Voxels& voxels);
+    double shareFor(const Run& run, const BoundingGuard& guard);
+    std::size_t quadsOf(const Run& run, const Voxels& voxels);
     Candidates simpleSolids(const Run& run, const BoundingGuard& guard);
     Candidate begin(const Run& run, const Voxels& voxels, CageStart kind, const BoundingGuard& guard);
     std::optional<Candidate> shrinkOnto(const Run& run, Candidates starts, const BoundingGuard& guard);
@@ -97,7 +100,7 @@ private:
         ClosingKey key;
         std::size_t quads = 0;
     };
-    std::optional<Counted> counted_;                       // the last closing whose faces were counted
+    std::vector<Counted> counted_;                         // closings whose faces were counted
     std::vector<std::shared_ptr<StartingSurface>> starts_; // of the last run, under guard_
 };
 

@@ -38,6 +38,7 @@ struct Candidate {
     Mesh decimated, smoothed, cage;
     CageCheck check;
     double looseness = 0; ///< its mean distance, as the density counts it
+    double sideShare = 1; ///< shareOfSide()
     bool boundsAsFloats = false;
     bool repaired = false;
     std::optional<double> minAngle = {}; ///< degrees, that the guard kept

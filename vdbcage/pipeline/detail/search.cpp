@@ -21,12 +21,12 @@ double growth(const CageOptions& options)
 }
 
 /// One resolution, with all radii.
-std::vector<Voxels> rungs(int resolution, const std::optional<double>& closeRadius)
+std::vector<Voxels> rungs(int resolution, const std::optional<double>& closeRadius, double share)
 {
-    std::vector<Voxels> list{{resolution, closeRadius.value_or(leastRadius)}};
+    std::vector<Voxels> list{{resolution, closeRadius.value_or(leastRadius * share)}};
     if (!closeRadius) {
         for (double radius = 2 * leastRadius; radius <= greatestRadius; radius *= 2) {
-            list.push_back({resolution, radius});
+            list.push_back({resolution, radius * share});
         }
     }
     return list;
@@ -68,9 +68,13 @@ std::vector<std::vector<Voxels>> ladders(const CageOptions& options)
                                    : shareOf(options.effort) * usualResolution * std::sqrt(growth(options));
     int resolution =
         options.resolution.value_or(std::clamp(static_cast<int>(std::ceil(wanted)), coarsestLoops, finestResolution));
-    std::vector<std::vector<Voxels>> list{rungs(resolution, options.closeRadius)};
+    const auto finer = [share](int voxels) { return static_cast<int>(std::lround(voxels / share)); };
+    if (!options.resolution) resolution = finer(resolution);
+    std::vector<std::vector<Voxels>> list{rungs(resolution, options.closeRadius, share)};
     if (options.resolution || !areLoops) {
-        while (resolution / 2 >= coarsestHalf) list.push_back(rungs(resolution /= 2, options.closeRadius));
+        while (resolution / 2 >= finer(coarsestHalf)) {
+            list.push_back(rungs(resolution /= 2, options.closeRadius, share));
+        }
     }
     if (!options.resolution) {
         const int coarsest = areLoops ? coarsestLoops : coarsestResolution;
@@ -81,14 +85,14 @@ std::vector<std::vector<Voxels>> ladders(const CageOptions& options)
     return list;
 }
 
-Voxels finestVoxels(const CageOptions& options)
+Voxels finestVoxels(const CageOptions& options, double share)
 {
-    return ladders(options).front().front();
+    return ladders(options, share).front().front();
 }
 
-bool mayCoarserBeTighter(const CageOptions& options, const Voxels& finest, const MeshTopology& topology)
+bool mayCoarserBeTighter(const CageOptions& options, double share, const Voxels& finest, const MeshTopology& topology)
 {
-    const bool isRadiusRaised = finest.closeRadius > options.closeRadius.value_or(leastRadius);
+    const bool isRadiusRaised = finest.closeRadius > options.closeRadius.value_or(leastRadius * share);
     return options.resolution || isRadiusRaised || topology.components() > 1 || topology.genus() > 0;
 }
 
@@ -119,15 +123,16 @@ bool dependsOnSurface(const CageOptions& options)
     return options.mesh == CageFaces::loops || (options.effort == Effort::fast && options.faces > fewestFaces);
 }
 
-int affordableResolution(const CageOptions& options, const Voxels& voxels, std::size_t quads)
+int affordableResolution(const CageOptions& options, double share, const Voxels& voxels, std::size_t quads)
 {
     if (options.mesh == CageFaces::loops) {
-        const double share = std::sqrt(quadsPerLoopsFace * options.faces / static_cast<double>(quads));
-        return std::clamp(static_cast<int>(std::lround(share * voxels.resolution)), coarsestLoops, finestResolution);
+        const double factor = std::sqrt(quadsPerLoopsFace * options.faces / static_cast<double>(quads));
+        return std::clamp(static_cast<int>(std::lround(factor * voxels.resolution)), coarsestLoops,
+                          static_cast<int>(std::lround(finestResolution / std::max(share, 0.25))));
     }
     const double triangles = 2 * static_cast<double>(quads);
-    const double share = std::sqrt(enoughTriangles * growth(options) / triangles);
-    return static_cast<int>(std::lround(std::clamp(share, coarsestShare, 1.0) * voxels.resolution));
+    const double factor = std::sqrt(enoughTriangles * growth(options) / triangles);
+    return static_cast<int>(std::lround(std::clamp(factor, coarsestShare, 1.0) * voxels.resolution));
 }
 
 bool hasFewEnoughHandles(const CageOptions& options, const MeshTopology& topology)

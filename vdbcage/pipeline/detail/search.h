@@ -31,6 +31,12 @@ constexpr int hullResolution = 32;                         ///< a hull has no de
 constexpr double leastRadius = 0.03;                       ///< of a closing, of the longest side
 constexpr double greatestRadius = 0.24;                    ///< after three doublings; the option's range ends at 0.25
 
+// Where a speck far away takes most of the longest side, voxels and radii are of the share that the rest of it fills.
+constexpr double fewestTriangles = 3;  ///< of the surface, for a face of the cage; of most models 6 and more
+constexpr double usualTriangles = 8;   ///< that voxels are then made finer for
+constexpr int mostResolution = 2048;   ///< as can be asked for
+constexpr double mostVoxels = 1 << 30; ///< of the bounding box, a bit each in voxelizers
+
 // Loops of quads begin with the quads of coarse voxels, some times as many as are wanted.
 constexpr double loopsResolution =
     1.2; ///< voxels along the longest side, for the root of a face; then as the surface has
@@ -101,15 +107,15 @@ std::vector<CageOptions> competitors(const CageOptions& options);
 ///
 /// Of each ladder the first rung that leads to few enough handles is taken; that of the first ladder competes with
 /// those of the others where mayCoarserBeTighter().
-std::vector<std::vector<Voxels>> ladders(const CageOptions& options);
+std::vector<std::vector<Voxels>> ladders(const CageOptions& options, double share = 1);
 
 /// The first rung of the first ladder.
-Voxels finestVoxels(const CageOptions& options);
+Voxels finestVoxels(const CageOptions& options, double share = 1);
 
 /// Whether halves of the resolution are worth their time. A resolution that is given always competes with them, so that
 /// twice of it is never looser. Others do where gaps stay open or needed a greater radius. `finest` is the rung taken
 /// from the first ladder, `topology` that of its surface.
-bool mayCoarserBeTighter(const CageOptions& options, const Voxels& finest, const MeshTopology& topology);
+bool mayCoarserBeTighter(const CageOptions& options, double share, const Voxels& finest, const MeshTopology& topology);
 
 /// Whether pairs of triangles become quads.
 bool arePaired(const CageOptions& options);
@@ -127,7 +133,7 @@ bool mayBeTurned(const CageOptions& options);
 bool dependsOnSurface(const CageOptions& options);
 /// The resolution of `voxels`, or a coarser one where their surface of `quads` quads is larger than the cage gains
 /// from; of loops that which gives the quads they begin with, which may be finer. \pre dependsOnSurface()
-int affordableResolution(const CageOptions& options, const Voxels& voxels, std::size_t quads);
+int affordableResolution(const CageOptions& options, double share, const Voxels& voxels, std::size_t quads);
 
 /// Whether parts and handles leave faces enough for the shape.
 bool hasFewEnoughHandles(const CageOptions& options, const MeshTopology& topology);
