@@ -56,11 +56,10 @@ py::dict toDict(const CageCheck& check)
     fields["self_intersections"] = check.selfIntersections;
     fields["contact_faces"] = check.contactFaces;
     fields["model_vertices_outside"] = check.modelVerticesOutside;
-    fields["bad_faces"] = py::tuple(py::cast(check.badFaces));
     fields["loose_points"] = check.loosePoints;
+    fields["loose_points_outside"] = check.loosePointsOutside;
     fields["bad_faces"] = py::tuple(py::cast(check.badFaces));
     fields["longest_side"] = check.longestSide;
-    fields["loose_points_outside"] = check.loosePointsOutside;
     fields["diagonal"] = check.diagonal;
     fields["mean_distance"] = check.meanDistance;
     fields["max_distance"] = check.maxDistance;

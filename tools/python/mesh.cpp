@@ -33,12 +33,12 @@ void defineMesh(py::module_& module)
         MeshFile file = resultOfJob(py::none(), [&](Interrupter*) { return readMeshFile(path); });
         return py::make_tuple(std::make_shared<Mesh>(std::move(file.mesh)), std::move(file.summary.warnings));
     });
+    module.def("is_held", [](const Mesh& mesh, const std::string& path) {
+        return resultOfJob(py::none(), [&](Interrupter*) { return asWritten(mesh, path).points == mesh.points; });
+    });
     module.def("write_mesh", [](const Mesh& mesh, const std::string& path) {
         runJob(py::none(), [&](Interrupter*) { writeMesh(mesh, std::filesystem::path(path)); });
     });
 }
-    module.def("is_held", [](const Mesh& mesh, const std::string& path) {
-        return resultOfJob(py::none(), [&](Interrupter*) { return asWritten(mesh, path).points == mesh.points; });
-    });
 
 } // namespace vdbcage::python

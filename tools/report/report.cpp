@@ -282,7 +282,16 @@ std::vector<std::string> remarks(const CageReport& report, const CageOptions& op
                                                                      ? " hollow inside the closing was filled"
                                                                      : " hollows inside the closing were filled"));
     }
+    if (options.bounding && !report.floatSafe && options.precision != Precision::float64) {
+        lines.emplace_back("coordinates are float64: programs that hold float32, as Blender, round them, and the cage "
+                           "may then cut the model; --precision float32 makes one for them, or says by how much to "
+                           "move the model first");
+    }
     const CageCheck& check = report.check;
+    if (check.loosePoints > 0) {
+        lines.push_back("points of the model that no face uses: " + std::to_string(check.loosePoints) +
+                        ", outside of the cage: " + std::to_string(check.loosePointsOutside));
+    }
     const bool isSameThroughout = report.solidParts == report.parts && report.parts == check.components &&
                                   report.solidHandles == report.handles && report.handles == check.genus;
     if (report.start == CageStart::closing && !isSameThroughout) {
@@ -308,16 +317,7 @@ std::string describe(const CageCheck& check)
 {
     std::string text;
     const auto fact = [&](const char* name, const std::string& value) {
-    if (options.bounding && !report.floatSafe && options.precision != Precision::float64) {
-        lines.emplace_back("coordinates are float64: programs that hold float32, as Blender, round them, and the cage "
-                           "may then cut the model; --precision float32 makes one for them, or says by how much to "
-                           "move the model first");
-    }
         text += std::string("  ") + name + std::string(26 - std::char_traits<char>::length(name), ' ') + value + '\n';
-    if (check.loosePoints > 0) {
-        lines.push_back("points of the model that no face uses: " + std::to_string(check.loosePoints) +
-                        ", outside of the cage: " + std::to_string(check.loosePointsOutside));
-    }
     };
     const auto count = [&](const char* name, std::size_t value) { fact(name, std::to_string(value)); };
     const auto percent = [&](const char* name, double fraction) {
@@ -338,6 +338,10 @@ std::string describe(const CageCheck& check)
     count("self-intersections", check.selfIntersections);
     count("faces touching the model", check.contactFaces);
     count("model vertices outside", check.modelVerticesOutside);
+    if (check.loosePoints > 0) {
+        fact("points of no face",
+             std::to_string(check.loosePoints) + ", outside of the cage " + std::to_string(check.loosePointsOutside));
+    }
     percent("mean distance", check.meanDistance);
     percent("largest distance", check.maxDistance);
     char buffer[64];
@@ -349,7 +353,3 @@ std::string describe(const CageCheck& check)
 }
 
 } // namespace vdbcage::tool
-    if (check.loosePoints > 0) {
-        fact("points of no face",
-             std::to_string(check.loosePoints) + ", outside of the cage " + std::to_string(check.loosePointsOutside));
-    }

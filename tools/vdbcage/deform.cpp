@@ -117,6 +117,7 @@ int drawComparison(const fs::path& cagePath, const fs::path& posedPath, const fs
     const Mesh cage = readMesh(cagePath, warnings), posed = readMesh(posedPath, warnings),
                model = readMesh(modelPath, warnings);
     requireSameFaces(posedPath, posed, "the cage " + cagePath.string(), cage);
+    const auto ofModel = [&](Coordinates family) { return forModel(model, optionsOf(family)); };
     const FamilyComparison comparison =
         bindFiles(cagePath, modelPath, [&] { return compareFamilies(cage, posed, model, ofModel, &*progress); });
     const std::string bytes = encodePng(comparison.sheet);
@@ -134,7 +135,6 @@ int drawComparison(const fs::path& cagePath, const fs::path& posedPath, const fs
 
 int runBind(Call call)
 {
-    const auto ofModel = [&](Coordinates family) { return forModel(model, optionsOf(family)); };
     fs::path cagePath, output;
     std::vector<fs::path> modelPaths;
     CLI::App app("vdbcage bind CAGE MODEL... -o WEIGHTS.npy [OPTIONS]\n"
@@ -230,6 +230,7 @@ int runDeform(Call call)
     std::optional<Progress> progress(talk.progressForm());
     std::string warnings;
     const Mesh cage = readMesh(cagePath, warnings), model = readMesh(modelPath, warnings);
+    if (computed) computed = forModel(model, *computed);
     Binding binding = weights.empty() ? bindFiles(cagePath, modelPath,
                                                   [&] { return Binding(cage, model.points, *computed, &*progress); })
                                       : readWeights(weights, cage, model.points);
@@ -248,7 +249,6 @@ int runDeform(Call call)
                          " coordinates; --coordinates asks for " + arguments.familyName());
     }
     if (!weights.empty()) binding = binding.with(arguments.optionsOf(binding.family()).elasticity);
-    if (computed) computed = forModel(model, *computed);
     std::vector<Mesh> posedCages; // kept for what is printed
     for (const Frame& frame : frames) {
         const Mesh posed = readMesh(frame.path, warnings);

@@ -214,7 +214,6 @@ std::vector<CLI::Option*> addCageOptions(CLI::App& app, CageOptions& options)
     return added;
 }
 
-CLI::Option* addMemoryOption(CLI::App& app, std::string& text)
 void setPrecisionFor(const fs::path& cage, CageOptions& options)
 {
     if (precisionOf(cage) == Precision::float64) return;
@@ -226,6 +225,7 @@ void setPrecisionFor(const fs::path& cage, CageOptions& options)
     options.precision = Precision::float32;
 }
 
+CLI::Option* addMemoryOption(CLI::App& app, std::string& text)
 {
     return app.add_option("--memory", text, "refuse what would take more memory [auto]")
         ->type_name("auto|off|SIZE")
@@ -255,8 +255,8 @@ int runMake(Call call)
     if (skipsDone && arguments.report.empty()) {
         throw InputError("--skip-done needs --report FILE.json, which tells what was done");
     }
-    std::optional<Outputs> outputs(std::in_place);
     setPrecisionFor(arguments.cage, arguments.options);
+    std::optional<Outputs> outputs(std::in_place);
     announce(arguments, *outputs);
     std::string text;
     std::optional<SignalHold> hold; // a run that is cancelled leaves a report, too

@@ -128,10 +128,10 @@ CageCheck CageChecker::check(const Mesh& given, const CheckOptions& options, Int
     result.contactFaces = detail::countContacts(faces, model, touched, interrupter);
     result.modelVerticesOutside =
         topology.isCycle() ? detail::countOutside(faces, model, touched, interrupter) : model_->usedVertices;
-
     result.loosePoints = model_->loosePoints.size();
     result.loosePointsOutside =
         topology.isCycle() ? detail::countLooseOutside(faces, model, interrupter) : model_->loosePoints.size();
+
     for (std::uint32_t face = 0; face < faces.bad.size(); ++face) {
         if (detail::isSet(faces.bad[face])) result.badFaces.push_back(face);
     }

@@ -260,13 +260,6 @@ private:
         }
     }
 
-    const std::vector<Vec3d>& points_;
-    const Family& family_;
-    Interrupter* interrupter_;
-    std::size_t columns_;
-    detail::BoundCage cage_;
-    detail::CagePack pack_;
-    std::optional<detail::HarmonicGrid> grid_;         // of harmonic coordinates
     /// Makes the row of a loose point, which has that of the family where it is defined. Mean value coordinates are of
     /// the cage's points, the first handles of every family. False where they are not defined.
     template <typename Number>
@@ -282,14 +275,21 @@ private:
         return isFinite(at) && std::all_of(weights.begin(), weights.end(), [](double w) { return std::isfinite(w); });
     }
 
+    const std::vector<Vec3d>& points_;
+    const Family& family_;
+    Interrupter* interrupter_;
+    std::size_t columns_;
+    detail::BoundCage cage_;
+    detail::CagePack pack_;
+    LoosePoints::Motion looseMotion_;
+    std::vector<bool> isLoose_;
+    std::optional<detail::HarmonicGrid> grid_;         // of harmonic coordinates
     std::optional<detail::BiharmonicCage> biharmonic_; // of biharmonic ones
     std::vector<char> undefined_;
 };
 
 template <typename Number>
 std::vector<Number> computeRows(const Mesh& cage, const std::vector<Vec3d>& points, const CoordinateOptions& options,
-    LoosePoints::Motion looseMotion_;
-    std::vector<bool> isLoose_;
                                 Interrupter* interrupter)
 {
     const Stage stage(interrupter, "bind");
@@ -367,13 +367,6 @@ Elasticity::Rotations rotationsNamed(const std::string& name)
     throw InputError("rotations: '" + name + "' is not allowed; it must be global or local");
 }
 
-bool Elasticity::operator==(const Elasticity& other) const
-{
-    return nu == other.nu && rotations == other.rotations && localBulging == other.localBulging &&
-           globalBulging == other.globalBulging;
-}
-
-Coordinates coordinatesNamed(const std::string& name)
 LoosePoints::Motion looseMotionNamed(const std::string& name)
 {
     if (name == "ride") return LoosePoints::Motion::ride;
@@ -381,6 +374,13 @@ LoosePoints::Motion looseMotionNamed(const std::string& name)
     throw InputError("loose points: '" + name + "' is not allowed; it must be ride or stay");
 }
 
+bool Elasticity::operator==(const Elasticity& other) const
+{
+    return nu == other.nu && rotations == other.rotations && localBulging == other.localBulging &&
+           globalBulging == other.globalBulging;
+}
+
+Coordinates coordinatesNamed(const std::string& name)
 {
     for (const FamilyInfo& family : coordinateFamilies()) {
         if (name == family.name || name == family.nameOnQuads) return family.family;

@@ -129,11 +129,11 @@ void visitOptions(Options& options, Visit&& visit)
     visit(OptionInfo{"bounding", "", "only ever a certified cage", {}, true}, options.bounding);
     visit(OptionInfo{"clearance", "F", "least distance to model", GuardOptions::clearances, true}, options.clearance);
     visit(OptionInfo{"min-angle", "DEG", "floor for triangle angles", GuardOptions::minAngles, true}, options.minAngle);
+    visit(OptionInfo{"precision", "", "numbers that coordinates are", {}, true}, options.precision);
     visit(OptionInfo{"effort", "", "time against tightness"}, options.effort);
 }
 
 /// An option in words, for help and tables.
-    visit(OptionInfo{"precision", "", "numbers that coordinates are", {}, true}, options.precision);
 struct OptionText {
     std::string name;         ///< as OptionInfo
     std::string value;        ///< "N", "F", "sphere|cube"

@@ -236,14 +236,6 @@ class Cage(Mesh):
         self._report = report
         return self
 
-    @property
-    def check(self):
-        """The CageCheck of this cage against its model."""
-        return self._check
-
-    @property
-    def report(self):
-        """How the cage came about, a dict.
     def write(self, path):
         """As Mesh.write, but only to a file that holds its points as they were certified.
 
@@ -256,6 +248,14 @@ class Cage(Mesh):
                              ".off or .ply, or make it with precision='float32'")
         super().write(path)
 
+    @property
+    def check(self):
+        """The CageCheck of this cage against its model."""
+        return self._check
+
+    @property
+    def report(self):
+        """How the cage came about, a dict.
 
         options: every option as asked for; seconds: wall clock; stages: the seconds of each stage; and what
         `vdbcage make --report` has under "result": resolution, close_radius, start, float_safe and more.
@@ -426,11 +426,11 @@ class Binding:
     coordinates: the name of one of coordinate_families(); see docs/DEFORMING.md
     resolution: voxels along the cage, 4 to 256; only of harmonic coordinates [64]
     elasticity: an Elasticity; only of Somigliana coordinates
+    loose: indices of points that need no coordinates of the family, such as a model's loose_points
+    loose_motion: "ride": by mean value coordinates where the family is not defined; "stay": not at all
     Raises InputError; Cancelled.
     """
 
-    loose: indices of points that need no coordinates of the family, such as a model's loose_points
-    loose_motion: "ride": by mean value coordinates where the family is not defined; "stay": not at all
     __slots__ = ("_binding", "_cage")
 
     def __init__(self, cage, points, coordinates="mvc", *, resolution=None, elasticity=None, loose=None,
@@ -447,10 +447,10 @@ class Binding:
                                          _arguments.whole("resolution", 64 if resolution is None else resolution,
                                                           4, 256),
                                          _elasticity(Elasticity() if elasticity is None else elasticity),
+                                         _arguments.places("loose", loose, len(points)), loose_motion,
                                          _arguments.callback(progress))
         self._cage = cage
 
-                                         _arguments.places("loose", loose, len(points)), loose_motion,
     @classmethod
     def read(cls, path, cage, points):
         """Reads weights of `vdbcage bind` or write() for the same cage and points, or a matrix made elsewhere.

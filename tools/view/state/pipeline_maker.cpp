@@ -127,12 +127,12 @@ private:
     OrderedPipeline preview_, full_;
     ModelTree tree_;
     OpenedMeshPtr checked_;
+    double checkedLeastPart_ = 0;
     std::optional<CageChecker> checker_;
 };
 
 } // namespace
 
-    double checkedLeastPart_ = 0;
 std::unique_ptr<CageMaker> makePipelineMaker()
 {
     return std::make_unique<PipelineMaker>();

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include <vdbcage/bounding/detail/guard_model.h>
+#include <vdbcage/bounding/detail/peaks.h>
 #include <vdbcage/bounding/detail/tightening.h>
 #include <vdbcage/bounding/near_coplanar.h>
 #include <vdbcage/bounding/quad_loops.h>
@@ -228,12 +229,18 @@ std::optional<Candidate> BoundingSearch::tightest(const Run& run, const Bounding
         if (!candidate || (best && best->looseness <= candidate->looseness - advance)) return;
         best = std::move(candidate);
     };
-    for (const CageOptions& options : competitors(run.options)) {
     const double share = shareFor(run, guard);
+    for (const CageOptions& options : competitors(run.options)) {
         const Run of{options, run.scale, run.density, run.interrupter, run.isSheet, share};
         take(climb(of, guard), 0);
         // That a cage of more faces lies on the model more closely than a box is not worth them.
         if (isOfFewFaces(options)) take(shrinkOnto(of, simpleSolids(of, guard), guard), options.clearance);
+    }
+    if (isOfFewFaces(run.options) || !best || !mayFewerBeTighter(run.options, best->check)) return best;
+    // Where flat surroundings have no use for more faces, their points only stand out.
+    take(shrinkOnto(run, simpleSolids(run, guard), guard), 0);
+    for (const CageOptions& options : fewerFaces(run.options)) {
+        take(climb({options, run.scale, run.density, run.interrupter, run.isSheet, share}, guard), 0);
     }
     return best;
 }
@@ -327,17 +334,6 @@ BoundingSearch::Candidates BoundingSearch::simpleSolids(const Run& run, const Bo
 int BoundingSearch::resolutionFor(const Run& run, const Voxels& voxels)
 {
     if (!dependsOnSurface(run.options)) return voxels.resolution;
-    ClosingKey key = closingKey(run.options, run.scale, voxels);
-    const auto isIt = [&](const Counted& counted) { return counted.key == key; };
-    const auto known = std::find_if(counted_.begin(), counted_.end(), isIt);
-    if (known != counted_.end()) return known->quads;
-    const auto closing = volumes_.closing(run.options, run.scale, voxels, run.interrupter);
-    const std::size_t quads = faceCount(*surfaceOf(*closing, run.interrupter));
-    constexpr std::size_t most = 64; // of many runs
-    if (counted_.size() >= most) counted_.clear();
-    counted_.push_back({std::move(key), quads});
-    return quads;
-}
     return affordableResolution(run.options, run.share, voxels, quadsOf(run, voxels));
 }
 
@@ -353,6 +349,17 @@ double BoundingSearch::shareFor(const Run& run, const BoundingGuard& guard)
 /// How many faces the surface of a closing has.
 std::size_t BoundingSearch::quadsOf(const Run& run, const Voxels& voxels)
 {
+    ClosingKey key = closingKey(run.options, run.scale, voxels);
+    const auto isIt = [&](const Counted& counted) { return counted.key == key; };
+    const auto known = std::find_if(counted_.begin(), counted_.end(), isIt);
+    if (known != counted_.end()) return known->quads;
+    const auto closing = volumes_.closing(run.options, run.scale, voxels, run.interrupter);
+    const std::size_t quads = faceCount(*surfaceOf(*closing, run.interrupter));
+    constexpr std::size_t most = 64; // of many runs
+    if (counted_.size() >= most) counted_.clear();
+    counted_.push_back({std::move(key), quads});
+    return quads;
+}
 
 /// A candidate with what it is made from: of the run before, or anew.
 Candidate BoundingSearch::begin(const Run& run, const Voxels& voxels, CageStart kind, const BoundingGuard& guard)
@@ -391,6 +398,7 @@ Candidate BoundingSearch::begin(const Run& run, const Voxels& voxels, CageStart 
     candidate.closing = start->closing;
     candidate.surface = start->surface;
     candidate.minAngle = guardOptions_.minAngleDegrees;
+    candidate.sideShare = run.share;
     candidate.topology = start->topology;
     return candidate;
 }
@@ -398,7 +406,6 @@ Candidate BoundingSearch::begin(const Run& run, const Voxels& voxels, CageStart 
 /// Makes cages of the candidates' surfaces, side by side; the tightest that has few enough faces and is certified.
 std::optional<Candidate> BoundingSearch::shrinkOnto(const Run& run, Candidates starts, const BoundingGuard& guard)
 {
-    candidate.sideShare = run.share;
     const CageOptions& options = run.options;
     if (options.mesh == CageFaces::loops) {
         collapseLoops(run, starts, guard);
@@ -490,7 +497,7 @@ void BoundingSearch::decimateAndTighten(const Run& run, Candidates& starts, cons
     if (guard.symmetry()) tightening.perturbations *= policy::symmetricPerturbations;
     if (onlyTriangles) {
         forEach(starts, interrupter, "tighten", [&](Candidate& candidate, Interrupter* piece) {
-            candidate.cage = tighten(candidate.decimated, guard, tightening, piece);
+            candidate.cage = withoutPeaks(tighten(candidate.decimated, guard, tightening, piece), guard, piece);
         });
     } else {
         BoundingTriquadOptions pairing;

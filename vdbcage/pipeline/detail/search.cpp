@@ -61,7 +61,39 @@ std::vector<CageOptions> competitors(const CageOptions& options)
     return list;
 }
 
-std::vector<std::vector<Voxels>> ladders(const CageOptions& options)
+bool mayFewerBeTighter(const CageOptions& options, const CageCheck& check)
+{
+    return check.maxDistance > unevenness * check.meanDistance || check.meanDistance < nearlyOn * options.clearance;
+}
+
+std::vector<CageOptions> fewerFaces(const CageOptions& options)
+{
+    std::vector<CageOptions> list;
+    if (options.mesh == CageFaces::loops) return list;
+    for (int faces = options.faces; faces > fewestUneven;) {
+        faces = std::max(faces / 2, fewestUneven);
+        list.push_back(options);
+        list.back().faces = faces;
+    }
+    return list;
+}
+
+double shareOfSide(const CageOptions& options, double box, const std::function<std::size_t(const Voxels&)>& quads)
+{
+    if (options.resolution) return 1;
+    CageOptions counted = options;
+    if (options.mesh == CageFaces::loops) counted.mesh = CageFaces::quads; // of loops the voxels follow the surface
+    for (double share = 1;; share /= 2) {
+        Voxels voxels = finestVoxels(counted, share);
+        voxels.resolution = static_cast<int>(std::lround(startScales(counted).front() * voxels.resolution));
+        const double finer = 2.0 * finestVoxels(counted, share).resolution;
+        if (finer > mostResolution || box * finer * finer * finer > mostVoxels) return share;
+        const double triangles = 2 * static_cast<double>(quads(voxels));
+        if (triangles >= (share == 1 ? fewestTriangles : usualTriangles) * options.faces) return share;
+    }
+}
+
+std::vector<std::vector<Voxels>> ladders(const CageOptions& options, double share)
 {
     const bool areLoops = options.mesh == CageFaces::loops;
     const double wanted = areLoops ? loopsResolution * std::sqrt(options.faces)
@@ -180,6 +212,7 @@ GuardOptions guardOptions(const CageOptions& options, bool ofSheet)
         options.mesh == CageFaces::triangles && options.effort == Effort::fair && !isOfFewFaces(options);
     GuardOptions guarding;
     guarding.clearance = options.clearance;
+    guarding.precision = options.precision;
     guarding.density = options.density;
     guarding.joints = options.joints.list;
     if (options.mesh == CageFaces::loops) guarding.jointDensity = 1;
@@ -192,4 +225,3 @@ GuardOptions guardOptions(const CageOptions& options, bool ofSheet)
 }
 
 } // namespace vdbcage::detail
-    guarding.precision = options.precision;

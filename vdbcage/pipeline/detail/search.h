@@ -60,6 +60,10 @@ constexpr int competingFaces = 150; ///< up to these, lower efforts' cages and t
 constexpr int competingLoops = 24;  ///< up to so many faces, loops with other quads; they take longer
 constexpr double fewStarts[] = {1.0, 0.85, 0.7, 0.6}, fewestStarts[] = {0.65, 0.5}; ///< shares of the resolution
 
+constexpr double unevenness = 15; ///< largest distance over the mean; 6 to 12 on models that are not flat
+constexpr double nearlyOn = 10;   ///< clearances, of the mean distance
+constexpr int fewestUneven = 12;  ///< faces
+
 // Finer voxels can be worse: they leave gaps open, whose handles take faces. So coarser ones compete with those that
 // are given, and with others where there are handles: 5 % tighter on 30 models of that kind. That takes twice the
 // processor's time, but side by side little longer.
@@ -101,6 +105,17 @@ struct Voxels {
 /// those of all lower efforts, too, so that no effort gives looser cages than a lower one. Among the fewest, loops
 /// compete with other quads from Effort::fair on.
 std::vector<CageOptions> competitors(const CageOptions& options);
+
+/// The share of the longest side that options `auto` of the voxels are fractions of. It is 1, or less where the surface
+/// in such voxels has too few faces for the cage: a power of 1/2. `quads` counts them; `box` is the volume of the
+/// model's box for the cube of its longest side, which keeps voxels few enough for memory.
+/// \throw Cancelled, and what `quads` throws
+double shareOfSide(const CageOptions& options, double box, const std::function<std::size_t(const Voxels&)>& quads);
+/// Whether a cage has more faces than a flat model has a use for: some places are much farther away than most, or it
+/// lies on the model.
+bool mayFewerBeTighter(const CageOptions& options, const CageCheck& check);
+/// The options with fewer and fewer faces, whose cages may be tighter then.
+std::vector<CageOptions> fewerFaces(const CageOptions& options);
 
 /// The voxels to try: one ladder for the finest, and one for each of its halves. Options that are not `auto` are
 /// obeyed.
