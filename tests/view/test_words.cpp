@@ -1,5 +1,6 @@
 #include <boost/test/unit_test.hpp>
 
+#include <cmath>
 #include <random>
 #include <string>
 #include <vector>
@@ -57,6 +58,28 @@ BOOST_AUTO_TEST_CASE(numbers_are_whole_words_and_finite)
     BOOST_TEST(view::wholeNumberOf("20", "x", 0, 20) == 20);
     BOOST_CHECK_THROW(view::wholeNumberOf("21", "x", 0, 20), InputError);
     BOOST_CHECK_THROW(view::switchOf("yes", "x"), InputError);
+}
+
+BOOST_AUTO_TEST_CASE(lengths_have_the_digits_that_tell_a_step_apart)
+{
+    using view::lengthText;
+    BOOST_TEST(lengthText(5800010.25, 1e-3) == "5800010.25");
+    BOOST_TEST(lengthText(-5800010.25, 1000) == "-5800010");
+    BOOST_TEST(lengthText(0.1, 1e-6) == "0.1");
+    BOOST_TEST(lengthText(-1e-9, 1e-6) == "0");
+    BOOST_TEST(lengthText(100, 1) == "100");
+    BOOST_TEST(lengthText(1e300, 1) == "1e+300");
+    BOOST_TEST(lengthText(1.25e-20, 1e-22) == "1.25e-20");
+    std::mt19937 random(2);
+    std::uniform_real_distribution<double> power(-12, 12), share(-1, 1);
+    for (int run = 0; run < 20000; ++run) {
+        const double step = std::pow(10, power(random)), value = share(random) * std::pow(10, power(random));
+        const std::string text = lengthText(value, step);
+        const double read = view::numberOf(text, "it");
+        BOOST_TEST(std::abs(read - value) <= std::max(step / 2, 1e-14 * std::abs(value)) * (1 + 1e-9), text);
+        if (std::abs(read) > 1e-4) BOOST_TEST(text.find('e') == std::string::npos, text);
+        BOOST_TEST(lengthText(read, step) == text);
+    }
 }
 
 BOOST_AUTO_TEST_SUITE_END()

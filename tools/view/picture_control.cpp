@@ -6,7 +6,6 @@
 #include <tools/edit/selection.h>
 #include <tools/view/state/move.h>
 #include <tools/view/state/words.h>
-#include <vdbcage/core/detail/number_text.h>
 #include <vdbcage/core/error.h>
 
 namespace vdbcage::view {
@@ -313,6 +312,13 @@ bool PictureControl::press(const KeyDown& down, const Modifiers& modifiers)
     return true;
 }
 
+double PictureControl::snappingStep() const
+{
+    return grip_->tool == Tool::rotate  ? snappedDegrees
+           : grip_->tool == Tool::scale ? snappedFactor
+                                        : host_.viewport.gridStep() / 10;
+}
+
 /// What is moved by, in world units.
 Amount PictureControl::amount() const
 {
@@ -320,9 +326,7 @@ Amount PictureControl::amount() const
     Amount amount = draggedAmount(grip.frame, grip.tool, grip.handle, grip.from, inPicture());
     if (grip.tool == Tool::move) amount.values *= grip.unit;
     if (grip.isSnapping) {
-        const double step = grip.tool == Tool::rotate  ? snappedDegrees
-                            : grip.tool == Tool::scale ? snappedFactor
-                                                       : host_.viewport.gridStep() / 10;
+        const double step = snappingStep();
         for (int k = 0; k < 3; ++k) amount.values[k] = std::round(amount.values[k] / step) * step;
     }
     const std::vector<double> typed = numbersIn(grip.typed);
@@ -388,13 +392,9 @@ PictureOverlay PictureControl::overlay() const
             grip_->handle.kind == Handle::Kind::axis ? std::string(" along ") + axis : std::string(" across ") + axis;
         overlay.hint += std::string(", ") + orientationNames[static_cast<std::size_t>(state.view.orientation)];
     }
-    char text[96];
-    if (grip_->tool == Tool::rotate) {
-        std::snprintf(text, sizeof text, ": %.2f degrees", by.values[0]);
-    } else {
-        std::snprintf(text, sizeof text, ": %.4g  %.4g  %.4g", by.values[0], by.values[1], by.values[2]);
-    }
-    overlay.hint += text;
+    const auto number = [&](int k) { return lengthText(by.values[k], snappingStep() / 1000); };
+    overlay.hint += ": " + number(0);
+    overlay.hint += grip_->tool == Tool::rotate ? " degrees" : "  " + number(1) + "  " + number(2);
     if (!grip_->typed.empty()) overlay.hint += "   [" + grip_->typed + "]";
     return overlay;
 }

@@ -81,6 +81,7 @@ private:
     void select(const std::vector<openvdb::Index32>& ids, PickAction action);
     std::optional<Grip> gripOf(Tool tool, const Handle& handle, bool isFree) const;
     std::optional<GizmoFrame> gizmoFrame() const;
+    double snappingStep() const;
     Amount amount() const;
     void follow();
     void finish();

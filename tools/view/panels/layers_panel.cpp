@@ -252,12 +252,11 @@ void buildSection(const PanelContext& context)
     context.name("section.flip");
 }
 
-/// In the field a coordinate that is 0 but for rounding is 0.
-std::string coordinateText(double value, double length)
+/// In the field a coordinate that is 0 but for rounding is 0. Others have six digits at least.
+std::string coordinateText(double value, double longest)
 {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.6g", std::abs(value) < 1e-9 * length ? 0.0 : value);
-    return text;
+    if (!(std::abs(value) > 1e-9 * longest)) return "0";
+    return lengthText(value, std::min(1e-6 * longest, 1e-5 * std::abs(value)));
 }
 
 /// Where what is selected is: fields for the mean of its points, which moves to where it is typed.
@@ -276,7 +275,7 @@ void buildSelected(const PanelContext& context, std::map<std::string, std::strin
         muted(std::to_string(count) + ' ' + (count == 1 ? kind.substr(0, kind.size() - 1) : kind) + ", " + points);
     }
     const auto& box = context.content.box;
-    const double longest = box ? box->extents()[box->maxExtent()] : 0;
+    const double longest = box ? box->extents()[box->maxExtent()] : 1;
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {length(8), length(4)});
     for (int k = 0; k < 3; ++k) {
         const std::string name = std::string("selected.") + "xyz"[k];
