@@ -194,6 +194,18 @@ BOOST_AUTO_TEST_CASE(nothing_is_drawn_while_nothing_changes)
     BOOST_TEST(app.needsFrame());
 }
 
+BOOST_AUTO_TEST_CASE(tab_goes_on_from_a_field_and_changes_the_mode_elsewhere)
+{
+    App app(context.api(), setup());
+    run(app, {"open " + quotedWord(files[0]), "wait", "widget layer.model off"});
+    for (const char* mode : {"pose", "shape", "pose", "shape"}) {
+        run(app, {"key tab", std::string("expect mode ") + mode});
+    }
+    run(app, {"mouse move faces", "mouse click", "type 77", "key tab", "expect option.faces 77", "type 33", "key tab",
+              "expect option.resolution 33", "expect mode shape", "mouse move picture", "mouse click", "key tab",
+              "expect mode pose", "key m", "expect layer.model on"});
+}
+
 BOOST_AUTO_TEST_CASE(the_pointer_turns_moves_and_zooms_the_view)
 {
     App app(context.api(), setup());

@@ -73,6 +73,13 @@ BOOST_AUTO_TEST_CASE(fields_and_buttons_do_their_lines)
     BOOST_TEST(app.session().state().view.framesPerSecond == 12);
 }
 
+BOOST_AUTO_TEST_CASE(what_is_typed_is_taken_over_by_tab_and_by_a_click_elsewhere)
+{
+    run(app, {"time 4", "mouse move time", "mouse click", "type 10", "key tab", "expect time 10", "type 30", "key tab",
+              "type first", "mouse move layer.cage", "mouse click", "expect key first", "expect messages 0"});
+    BOOST_TEST(app.session().state().view.framesPerSecond == 30);
+}
+
 BOOST_AUTO_TEST_CASE(it_plays_round_and_round_at_its_rate)
 {
     run(app, {"rate 10", "time 0", "key space", "expect play on"});

@@ -94,6 +94,25 @@ BOOST_AUTO_TEST_CASE(text_fields_take_what_is_typed)
     BOOST_TEST((desk.widgets.pointerShape() == PointerShape::arrow));
 }
 
+BOOST_AUTO_TEST_CASE(tab_begins_no_typing_and_goes_on_with_it)
+{
+    Desk desk;
+    desk.click("button");
+    for (int i = 0; i < 3; ++i) {
+        BOOST_TEST(!desk.does(KeyDown{Key::tab}));
+        desk.does(KeyUp{Key::tab});
+        BOOST_TEST(!desk.widgets.wantsText());
+    }
+    desk.click("field");
+    desk.type(U"ogre");
+    desk.press(Key::tab); // to the number of the slider
+    BOOST_TEST(desk.widgets.wantsText());
+    desk.type(U"40");
+    desk.press(Key::enter);
+    BOOST_TEST(desk.panel.amount == 40);
+    BOOST_TEST(desk.name() == "ogre");
+}
+
 BOOST_AUTO_TEST_CASE(a_double_click_selects_a_word_to_type_over)
 {
     Desk desk;

@@ -414,7 +414,9 @@ bool Widgets::layOut(const InputEvent* event, int width, int height, const Build
         io.KeyShift = event->modifiers.shift;
         io.KeyCtrl = event->modifiers.control;
         io.KeyAlt = event->modifiers.alt;
-        std::visit(Feed{io}, event->what);
+        // Tab goes from field to field. Where nothing is typed into, ImGui would begin to with the first field.
+        const bool isIdleTab = down != nullptr && down->key == Key::tab && !io.WantTextInput && !popupIsOpen();
+        if (!isIdleTab) std::visit(Feed{io}, event->what);
     }
     Drawing last = state_->layOutOnce(width, height, build, event);
     for (int layouts = 1; layouts < mostLayouts; ++layouts) {

@@ -44,6 +44,9 @@ inline void coloured(const draw::Colour& colour, const std::string& text)
     ImGui::PopStyleColor();
 }
 
+/// Of a slider that shows no number: Tab and control do not make a field of it, in which its share would be typed.
+constexpr ImGuiSliderFlags pointerOnly = ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_NoInput;
+
 /// Help for the last item.
 inline void help(const std::string& text)
 {

@@ -57,7 +57,7 @@ void buildLayer(const PanelContext& context, const LayerText& text)
     ImGui::TableNextColumn();
     float opacity = static_cast<float>(look.opacity);
     ImGui::SetNextItemWidth(-1);
-    if (ImGui::SliderFloat("##opacity", &opacity, 0, 1, "", ImGuiSliderFlags_AlwaysClamp)) {
+    if (ImGui::SliderFloat("##opacity", &opacity, 0, 1, "", pointerOnly)) {
         const double hundredths = std::round(100 * double{opacity}) / 100;
         context.ask("opacity " + name + ' ' + detail::numberText(hundredths));
     }
@@ -242,7 +242,7 @@ void buildSection(const PanelContext& context)
     float share =
         high > low ? static_cast<float>((sign * section->offset / section->normal.length() - low) / (high - low)) : 0;
     ImGui::SetNextItemWidth(-length(56));
-    if (ImGui::SliderFloat("##offset", &share, 0, 1, "", ImGuiSliderFlags_AlwaysClamp)) {
+    if (ImGui::SliderFloat("##offset", &share, 0, 1, "", pointerOnly)) {
         ask(normal, sign * (low + (high - low) * double{share}));
     }
     context.followDrag();

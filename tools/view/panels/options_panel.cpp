@@ -130,7 +130,7 @@ private:
         float place = isKnown ? static_cast<float>(placeOf(number, info_.range)) : 0;
         ImGui::SetNextItemWidth(-length(fieldWidth + autoWidth + resetWidth + 18));
         if (isAuto) ImGui::PushStyleVar(ImGuiStyleVar_Alpha, 0.5F);
-        if (ImGui::SliderFloat("##slider", &place, 0, 1, "", ImGuiSliderFlags_AlwaysClamp)) {
+        if (ImGui::SliderFloat("##slider", &place, 0, 1, "", pointerOnly)) {
             const double value = valueAt(double{place}, info_.range);
             ask(textOf(std::clamp(rounded(value), info_.range.least, info_.range.most), isWhole));
         }

@@ -86,7 +86,7 @@ void Panels::build(const PanelContent& content, PanelAnswer& answer)
     if (hasTimeLine) {
         pane("time line", {middle.left, below, middle.width, bottom - below},
              ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse,
-             [&] { buildTimeLine(context, state_->timeLine); });
+             [&] { buildTimeLine(context, state_->typed, state_->timeLine); });
     }
     ImGui::PushStyleColor(ImGuiCol_WindowBg, toImGui(theme::title));
     pane("status", {0, bottom, width, height - bottom},

@@ -29,17 +29,18 @@ struct TimeLineMemory {
     float besideKey = 0;           ///< how far to its right the pointer took it, pixels
 };
 /// Below the picture, in mode pose: playing, the key at this frame, and a track of frames and keys.
-void buildTimeLine(const PanelContext& context, TimeLineMemory& memory);
+void buildTimeLine(const PanelContext& context, std::map<std::string, std::string>& typed, TimeLineMemory& memory);
 void buildStatusLine(const PanelContext& context);
 /// What lies over the picture, or over two: what is shown and what is being made, axes, scale of the grid, legend.
 void buildOverlays(const PanelContext& context, const Rectangle& viewport);
 /// Messages, the question before the end, the file browser, help; one at a time. `isHelpOpen` is set back when it is
 /// closed.
 void buildDialogs(const PanelContext& context, bool& isHelpOpen, FileBrowser& browser);
-/// A field for text that is taken over by Enter, or when another place is clicked; a name, a width in pixels. Returns
-/// what is taken over, if it is another text than `shown`.
+/// A field for text that is taken over by Enter, Tab, or when another place is clicked; a name, a width in pixels, a
+/// hint that is seen while it is empty. Returns what is taken over, if it is another text than `shown`.
 std::optional<std::string> typedField(const PanelContext& context, std::map<std::string, std::string>& typed,
-                                      const std::string& name, const std::string& shown, float width);
+                                      const std::string& name, const std::string& shown, float width,
+                                      const char* hint = "");
 /// The inside of the file browser.
 void buildBrowser(const PanelContext& context, FileBrowser& browser);
 

@@ -38,7 +38,7 @@ struct Track {
     }
 };
 
-void buildControls(const PanelContext& context)
+void buildControls(const PanelContext& context, std::map<std::string, std::string>& typed)
 {
     const State& state = context.content.session.state();
     const ViewState& view = state.view;
@@ -62,37 +62,28 @@ void buildControls(const PanelContext& context)
     ImGui::AlignTextToFramePadding();
     muted("Frame");
     ImGui::SameLine(0, length(6));
-    int frame = view.frame;
-    ImGui::SetNextItemWidth(length(50));
-    if (ImGui::InputInt("##time", &frame, 0, 0, ImGuiInputTextFlags_EnterReturnsTrue)) {
-        context.ask("time " + std::to_string(frame));
+    if (const auto frame = typedField(context, typed, "time", std::to_string(view.frame), length(50))) {
+        context.ask("time " + quotedWord(*frame));
     }
-    context.name("time");
     help("whose pose is seen and changed");
     ImGui::SameLine(0, length(12));
     muted("Rate");
     ImGui::SameLine(0, length(6));
-    double rate = view.framesPerSecond;
-    ImGui::SetNextItemWidth(length(40));
-    if (ImGui::InputDouble("##rate", &rate, 0, 0, "%.4g", ImGuiInputTextFlags_EnterReturnsTrue)) {
-        context.ask("rate " + detail::numberText(rate));
+    if (const auto rate = typedField(context, typed, "rate", detail::numberText(view.framesPerSecond), length(40))) {
+        context.ask("rate " + quotedWord(*rate));
     }
-    context.name("rate");
     help("frames a second, 1 to 240");
     ImGui::SameLine(0, length(18));
 
     const PoseKey* const key = poses.keyAt(view.frame);
-    std::string name = key ? key->name : std::string();
     ImGui::BeginDisabled(!state.cage);
     const float buttonWidth = length(70);
     const float nameWidth = ImGui::GetContentRegionAvail().x - buttonWidth - length(4);
-    ImGui::SetNextItemWidth(std::clamp(nameWidth, length(36), length(200)));
-    if (ImGui::InputTextWithHint("##key", key ? "a name" : "no key here", &name,
-                                 ImGuiInputTextFlags_EnterReturnsTrue)) {
-        context.ask("set-key " + std::to_string(view.frame) + ' ' + quotedWord(name));
+    if (const auto name = typedField(context, typed, "key.name", key ? key->name : std::string(),
+                                     std::clamp(nameWidth, length(36), length(200)), key ? "a name" : "no key here")) {
+        context.ask("set-key " + std::to_string(view.frame) + ' ' + quotedWord(*name));
     }
-    context.name("key.name");
-    help("the name of the key at this frame; Enter keeps it");
+    help("the name of the key at this frame");
     ImGui::SameLine(0, length(4));
     if (ImGui::Button(key ? "Remove" : "Insert", {buttonWidth, 0})) {
         context.ask(key ? "remove-key" : "insert-key");
@@ -190,10 +181,10 @@ void buildTrack(const PanelContext& context, TimeLineMemory& memory)
 
 } // namespace
 
-void buildTimeLine(const PanelContext& context, TimeLineMemory& memory)
+void buildTimeLine(const PanelContext& context, std::map<std::string, std::string>& typed, TimeLineMemory& memory)
 {
     ImGui::BeginDisabled(!context.content.session.state().document.model);
-    buildControls(context);
+    buildControls(context, typed);
     buildTrack(context, memory);
     ImGui::EndDisabled();
 }
