@@ -16,7 +16,7 @@ test_packages=(
     mandoc zsh fish # manual pages and completions
     doxygen        # the reference of the library, where every public name has a comment
     tetgen # fills cages, to see that others can use them
-    xvfb xauth # a display for the window
+    xvfb xauth openbox xdotool # a display for the window, and a hand that uses it
     python3-jsonschema # reports keep to docs/report.schema.json
     python3-mypy    # its stubtest holds the stubs to the Python module
     python3-openvdb # files and arrays go between it and the Python module

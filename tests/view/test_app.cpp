@@ -194,6 +194,18 @@ BOOST_AUTO_TEST_CASE(nothing_is_drawn_while_nothing_changes)
     BOOST_TEST(app.needsFrame());
 }
 
+BOOST_AUTO_TEST_CASE(what_an_event_changes_in_the_panels_asks_for_a_frame)
+{
+    App app(context.api(), setup());
+    run(app, {"open " + quotedWord(files[0]), "wait"});
+    for (const char* line : {"mouse move menu.File", "mouse click", "mouse move menu.Edit", "key escape",
+                             "mouse move faces", "mouse click", "type 7", "key tab", "mouse move faces.slider"}) {
+        while (app.needsFrame()) app.drawFrame();
+        runLine(app, line);
+        BOOST_TEST(app.needsFrame(), line);
+    }
+}
+
 BOOST_AUTO_TEST_CASE(tab_goes_on_from_a_field_and_changes_the_mode_elsewhere)
 {
     App app(context.api(), setup());

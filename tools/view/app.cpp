@@ -168,9 +168,7 @@ public:
         for (int i = 0; i < 3 && !isLaidOut_; ++i) {
             isLaidOut_ = true;
             PanelAnswer answer;
-            const std::uint64_t before = widgets_.version();
             layOutOnce(nullptr, answer);
-            if (widgets_.version() != before) needsFrame_ = true;
             take(answer);
         }
         isLaidOut_ = true;
@@ -179,7 +177,7 @@ public:
     bool needsFrame()
     {
         layOut();
-        return needsFrame_ || (!pictures_.isRefined() && !leavesItRough());
+        return needsFrame_ || widgets_.version() != drawnWidgets_ || (!pictures_.isRefined() && !leavesItRough());
     }
 
     void drawFrame()
@@ -191,6 +189,7 @@ public:
         widgetRenderer_.draw(target, widgets_.drawing());
         gl::throwIfFailed(api_, "drawing the window");
         needsFrame_ = false;
+        drawnWidgets_ = widgets_.version();
         ++frames_;
     }
 
@@ -249,7 +248,8 @@ public:
     std::vector<std::string> messages_, notes_;
     std::vector<fs::path> recent_;
     KeyMap keys_{};
-    bool needsFrame_ = true;
+    bool needsFrame_ = true;         ///< something else than the panels changed since the last frame
+    std::uint64_t drawnWidgets_ = 0; ///< their version in the last frame
     std::uint64_t frames_ = 0;
 
     std::optional<Rectangle> handlePlace(const std::string& name) const
