@@ -292,7 +292,8 @@ BOOST_AUTO_TEST_CASE(off_headers)
           "OFF\n3 1 0\n" + points + "3 0 1 2 255 0 0\n", "OFF\n3 1 0\n" + points + "3 0 1 2 0.5 0.5 0.5 1.0\n",
           "COFF\n3 1 0\n" + fullPoints + "3 0 1 2 17\n", "NOFF\n3 1 0\n" + fullPoints + "3 0 1 2\n",
           "STOFF\n3 1 0\n" + fullPoints + "3 0 1 2\n", "CNOFF\n3 1 0\n" + fullPoints + "3 0 1 2\n",
-          "STCNOFF\n3 1 0\n" + fullPoints + "3 0 1 2\n"}) {
+          "STCNOFF\n3 1 0\n" + fullPoints + "3 0 1 2\n", "NCOFF\n3 1 0\n" + fullPoints + "3 0 1 2\n",
+          "NCSTOFF\n3 1 0\n" + fullPoints + "3 0 1 2\n"}) {
         const Mesh mesh = off(text);
         BOOST_REQUIRE_MESSAGE(mesh.triangles.size() == 1U, text);
         BOOST_CHECK_MESSAGE(mesh.triangles[0] == Vec3I(0, 1, 2), text);

@@ -82,6 +82,7 @@ constexpr const char* utf16Warning = "line 1: the text is UTF-16; it is read as 
 constexpr const char* signWarning =
     ": a number has the sign of its exponent before the e, like 3.1+e2, which is read as 3.1e+2";
 constexpr const char* fortranWarning = ": a number has an exponent of Fortran, like 1.5d3, which is read as 1.5e3";
+constexpr const char* remarkWarning = ": a line begins with a word that the format does not have; it is passed over";
 constexpr const char* offHeaderWarning = ": the header of an OFF file comes before the OBJ file; it is passed over";
 constexpr const char* commentWarning = ": a line of the header has no keyword; it is taken for a comment";
 constexpr const char* moreValuesWarning =
@@ -133,6 +134,29 @@ std::vector<Odd> oddFiles()
     list.push_back({"counts with edges", detail::parseObj, "# tent\n\n5 5 8\n" + obj(), {on(3, offHeaderWarning)}});
     list.push_back({"OFF header", detail::parseObj, "OFF\n5 5 0\n" + obj(), {on(1, offHeaderWarning)}});
     list.push_back({"OFF header on a line", detail::parseObj, "OFF 5 5 0\r\n" + obj(), {on(1, offHeaderWarning)}});
+    for (const char* remark :
+         {"$ remark", "// remark \\", "; C:\\models\\", "%", "*** v 1 2 3 ***", "-- f", "\"quoted\"",
+          "Gr\xC3\xB6\xC3\x9F"
+          "e 12",
+          "\xC2\xA7 2", "made by hand", "made: 2026", "F 1 2 3", "vertex_quality 1 \\\n2"}) {
+        list.push_back({remark, detail::parseObj, std::string(remark) + "\n" + obj(), {on(1, remarkWarning)}});
+    }
+    list.push_back(
+        {"remarks throughout", detail::parseObj, replaced(obj(), "\nf", "\n! v 1 2 3\nf"), {on(6, remarkWarning, 5)}});
+    const std::string stl = asciiStlPyramid();
+    for (const char* remark : {"color 0.5 0.5 0.5", "# this facet is a side", "// facet",
+                               "Fl\xC3\xA4"
+                               "che 1",
+                               "%"}) {
+        list.push_back({remark,
+                        detail::parseStl,
+                        replaced(stl, "endfacet\n", "endfacet\n" + std::string(remark) + "\n"),
+                        {on(9, remarkWarning, 6)}});
+    }
+    list.push_back({"a remark before the first facet",
+                    detail::parseStl,
+                    replaced(stl, "of stone\n", "of stone\n\n  units mm\n"),
+                    {on(3, remarkWarning)}});
     list.push_back(
         {"Blender 2.47",
          detail::parsePly,
@@ -187,7 +211,7 @@ std::vector<Refused> refusedFiles()
             detail::parsePly, plyHeader(lines) + plyBody(), "line 3: ", {"not a line of a PLY header", blender}};
     };
     const std::string body = plyBody();
-    const std::string again = "again";
+    const std::string again = "again", stl = asciiStlPyramid();
     return {
         // Two numbers that touch, or numbers of a country; an exponent alone, twice, or none.
         number("1.5-300"),
@@ -220,6 +244,18 @@ std::vector<Refused> refusedFiles()
         {detail::parseObj, "5 5.0\n" + obj(), "line 1: ", {"cannot begin with \"5\"", "like v or f"}},
         {detail::parseObj, obj() + "5 5\n", "line 11: ", {"cannot begin with \"5\"", "like v or f"}},
         {detail::parseObj, "5 5\n5 5\n" + obj(), "line 2: ", {"cannot begin with \"5\""}},
+        // What may be a part of the model, and files of other formats.
+        {detail::parseObj, "$ remark \\\n-.5 0 0\n" + obj(), "line 2: ", {"cannot begin with \"-.5\""}},
+        {detail::parseObj, obj() + "1/2/3 4\n", "line 11: ", {"cannot begin with \"1/2/3\"", "like v or f"}},
+        {detail::parseObj, "$\x1b[31m\n" + obj(), "line 1: ", {"cannot begin with \"$\\x1b[31m\"", "like v or f"}},
+        {detail::parseObj, "\xDC 2\n" + obj(), "line 1: ", {"cannot begin with \"\\xdc\"", "like v or f"}},
+        {detail::parseObj, "<!DOCTYPE html>\n<p>\n", "line 1: ", {"cannot begin with \"<!DOCTYPE\"", "like v or f"}},
+        {detail::parseObj, "\n{\"asset\": {}}\n", "line 2: ", {"cannot begin with \"{\"asset\":\"", "like v or f"}},
+        {detail::parseStl, replaced(stl, "endfacet\n", "endfacet\n0 0 1\n"), "line 9: ", {"\"0\" stands here"}},
+        {detail::parseStl, replaced(stl, "endfacet\n", "endfacet red\n"), "line 8: ", {"\"red\" stands here"}},
+        {detail::parseStl, replaced(stl, "outer loop", "red\nouter loop"), "line 3: ", {"must be \"outer\""}},
+        {detail::parseStl, replaced(stl, "facet normal", "facette normal"), "line 2: ", {"must be \"facet\""}},
+        {detail::parseStl, replaced(stl, "endsolid", "ensolid"), "line 45: ", {"ends before \"endsolid\"", again}},
         // A line of the header that may be mistyped: what it says of the data must not be lost.
         header("elemnt vertex 5\n"),
         header("fromat ascii 1.0\n"),
@@ -356,6 +392,16 @@ BOOST_AUTO_TEST_CASE(characters_of_utf16_become_those_of_utf8)
     writeMoved(folder / "a.obj", points, folder / "b.obj");
     BOOST_TEST(readText(folder / "b.obj") ==
                "o A\xC3\xA4\xE2\x82\xAC\xF0\x9D\x84\x9E\xEF\xBF\xBD \nv 0 0 1\nv 1 0 1\nv 0 1 1\nf 1 2 3\n");
+}
+
+BOOST_AUTO_TEST_CASE(remarks_stay_where_points_are_moved)
+{
+    const TemporaryFolder folder;
+    const std::string before = "$ C:\\models\\\nv ", after = "\n// v 9 9 9\nv 1 0 0\nmade by hand \\\nv 7 7 7\n"
+                                                             "v 0 1 0\nf 1 2 3\n";
+    writeText(folder / "a.obj", before + "0 0 0" + after);
+    writeMoved(folder / "a.obj", {{0, 0, 5}, {1, 0, 0}, {0, 1, 0}}, folder / "b.obj");
+    BOOST_TEST(readText(folder / "b.obj") == before + "0 0 5" + after);
 }
 
 BOOST_AUTO_TEST_CASE(binary_stl_that_begins_like_utf16_is_binary)

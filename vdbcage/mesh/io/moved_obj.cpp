@@ -57,7 +57,7 @@ Statements read(std::string_view bytes, const std::string& name, Warnings& warni
                                 corner.normal == 0 ? none : resolved(corner.normal, statements.normals.size())});
             }
             statements.faces.push_back(std::move(face));
-        } else if (isObjNameStatement(keyword)) {
+        } else if (endsWithLine(keyword)) {
             in.nextLine();
             continue;
         }

@@ -1,7 +1,7 @@
 // Based on: Wavefront, "Object Files (.obj)", the polygonal part of version 3.0.
-// Differs: statements that carry no polygons are skipped unread, also unknown ones, as programs add their own; a face
-// of one or two corners is ignored, except at the end of a file that was cut off within it; the header of an OFF file
-// may come first.
+// Differs: statements that carry no polygons are skipped unread, also unknown ones, as programs add their own, and
+// remarks without a sign; a face of one or two corners is ignored, except at the end of a file that was cut off within
+// it; the header of an OFF file may come first.
 
 #include <vdbcage/mesh/io/formats.h>
 
@@ -27,17 +27,6 @@ bool isOtherElement(std::string_view keyword)
     return keyword == "p" || keyword == "l" || keyword == "curv" || keyword == "curv2" || keyword == "surf";
 }
 
-/// Words that no program's dialect has: a sign of a file that is no OBJ.
-bool looksLikeKeyword(std::string_view word)
-{
-    const auto isLetter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; };
-    if (!isLetter(word.front())) return false;
-    for (const char c : word) {
-        if (!isLetter(c) && !(c >= '0' && c <= '9') && c != '-' && c != '.') return false;
-    }
-    return true;
-}
-
 class ObjParser {
 public:
     ObjParser(std::string_view bytes, const std::string& name, Warnings& warnings)
@@ -54,6 +43,7 @@ public:
             if (reference.index >= soup_.points.size()) failOutOfRange(reference.where, soup_.points.size());
         }
         if (offHeader_) requireCounts();
+        if (remark_ && soup_.points.empty()) failOther(remark_);
         if (endsWithinLine_) requireAllUsed();
         return toMesh(std::move(soup_), name_, warnings_);
     }
@@ -104,18 +94,30 @@ private:
             point();
         } else if (isObjFace(keyword)) {
             face(start);
-        } else if (isObjNameStatement(keyword)) {
-            in_.nextLine();
-        } else if (isOtherElement(keyword)) {
-            ++soup_.ignoredElements;
-            in_.nextStatement();
-        } else if (looksLikeKeyword(keyword)) {
-            in_.nextStatement();
         } else {
-            const char* remedy = offHeader_ ? "; if this is an OFF file, let its name end in .off"
-                                            : "; lines begin with a keyword, like v or f";
-            in_.fail(start, "a line cannot begin with " + in_.quoted(start) + " in an OBJ file" + remedy);
+            if (isOtherElement(keyword)) ++soup_.ignoredElements;
+            if (!isObjKeyword(keyword)) remark(start, keyword);
+            if (endsWithLine(keyword)) {
+                in_.nextLine();
+            } else {
+                in_.nextStatement();
+            }
         }
+    }
+
+    void remark(const char* start, std::string_view word)
+    {
+        if (!mayBeginRemark(word)) failOther(start);
+        in_.warn(start, remarkWarning);
+        if (!remark_) remark_ = start;
+    }
+
+    /// The file is of another format, or damaged.
+    [[noreturn]] void failOther(const char* start) const
+    {
+        const char* remedy = offHeader_ ? "; if this is an OFF file, let its name end in .off"
+                                        : "; lines begin with a keyword, like v or f";
+        in_.fail(start, "a line cannot begin with " + in_.quoted(start) + " in an OBJ file" + remedy);
     }
 
     void point()
@@ -205,6 +207,7 @@ private:
     Warnings& warnings_;
     bool endsWithinLine_;
     std::optional<OffHeader> offHeader_;
+    const char* remark_ = nullptr; // the first
     PolygonSoup soup_;
     std::size_t faces_ = 0; // also those that are ignored
     std::vector<openvdb::Index32> face_;

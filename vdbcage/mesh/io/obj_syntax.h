@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cstdint>
 #include <string_view>
 
@@ -10,11 +12,26 @@ namespace vdbcage::detail {
 
 constexpr TextSyntax objSyntax{'#', /*continuesLines=*/true};
 
-/// Whether it is a statement of names. The last may be a path that ends with a backslash, which continues no line.
-inline bool isObjNameStatement(std::string_view keyword)
+/// Whether the format has this keyword, also in its older versions.
+inline bool isObjKeyword(std::string_view word)
 {
-    return keyword == "o" || keyword == "g" || keyword == "usemtl" || keyword == "mtllib" || keyword == "usemap" ||
-           keyword == "maplib";
+    constexpr std::array<std::string_view, 45> keywords{
+        "vn",     "vt",     "vp",   "v",      "f",      "fo",       "s",        "g",          "o",
+        "usemtl", "mtllib", "p",    "l",      "curv",   "curv2",    "surf",     "mg",         "cstype",
+        "deg",    "bmat",   "step", "parm",   "trim",   "hole",     "scrv",     "sp",         "end",
+        "con",    "bevel",  "lod",  "usemap", "maplib", "c_interp", "d_interp", "shadow_obj", "trace_obj",
+        "ctech",  "stech",  "call", "csh",    "bsp",    "bzp",      "cdc",      "cdp",        "res"};
+    return std::find(keywords.begin(), keywords.end(), word) != keywords.end();
+}
+
+/// Whether a line that begins so ends its statement, also behind a backslash: statements of names, where the last may
+/// be a path that ends with one, and remarks. Keywords, of the format or of a program's own, are words of letters.
+inline bool endsWithLine(std::string_view word)
+{
+    constexpr std::string_view letters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz_";
+    constexpr std::array<std::string_view, 6> ofNames{"o", "g", "usemtl", "mtllib", "usemap", "maplib"};
+    return letters.find(word.front()) == std::string_view::npos ||
+           std::find(ofNames.begin(), ofNames.end(), word) != ofNames.end();
 }
 
 inline bool isObjFace(std::string_view keyword)

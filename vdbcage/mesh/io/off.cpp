@@ -1,8 +1,8 @@
 // Based on: the OFF format of Geomview's manual, its ascii form in three dimensions.
-// Differs: the word OFF may be missing or stand right before the counts (as in ModelNet's files); the count of edges
-// may be missing; what follows the coordinates or corners on a line (normals, colours) is skipped, so that each point
-// and each face begins a line. Data behind the last face is an error: the counts would silently lose a part of the
-// model.
+// Differs: the word OFF may be missing or stand right before the counts (as in ModelNet's files), and the letters
+// before it in any order (MeshLab's NCOFF); the count of edges may be missing; what follows the coordinates or corners
+// on a line (normals, colours) is skipped, so that each point and each face begins a line. Data behind the last face is
+// an error: the counts would silently lose a part of the model.
 
 #include <vdbcage/mesh/io/formats.h>
 
@@ -65,11 +65,14 @@ private:
         const auto fail = [&](const std::string& problem) { in_.fail(start, in_.quoted(start) + problem); };
         const std::string_view word = TextCursor(in_).word();
         if (word.find_first_not_of("+-0123456789") == std::string_view::npos) return; // the counts
-        if (take('S') && !take('T'))
-            fail(" is not the header of an OFF file; the first line must be OFF, or the counts");
-        take('C');
-        take('N');
-        const bool otherDimension = take('4') || take('n');
+        bool otherDimension = false;
+        for (;;) {
+            if (take('4') || take('n')) {
+                otherDimension = true;
+            } else if (!take('C') && !take('N') && !(take('S') && take('T'))) {
+                break;
+            }
+        }
         if (!take('O') || !take('F') || !take('F'))
             fail(" is not the header of an OFF file; the first line must be OFF, or the counts");
         if (otherDimension) fail(" is of another dimension; only three-dimensional OFF files are supported");

@@ -1,10 +1,11 @@
 // Based on: 3D Systems, "StereoLithography Interface Specification" (1989).
 // Differs: normals and attributes are not read, and coordinates may be negative; the two forms are told apart by what
-// is in the file, as many binary files begin with the word "solid".
+// is in the file, as many binary files begin with the word "solid"; lines of other words may stand between facets.
 
 #include <vdbcage/mesh/io/formats.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -106,7 +107,11 @@ public:
         do {
             expect("solid");
             in_.nextLine(); // the rest is a name
-            while (!next("endsolid")) facet();
+            passRemarks();
+            while (!next("endsolid")) {
+                facet();
+                if (in_.atLineEnd()) passRemarks();
+            }
             in_.nextLine();
         } while (in_.skipToWord()); // some files hold several solids
         return std::move(soup_);
@@ -133,6 +138,28 @@ private:
         expect("endloop");
         expect("endfacet");
         soup_.triangles.push_back(triangle);
+    }
+
+    /// Passes over whole lines: remarks, or what programs add, as colours. A line with a word of the format may be a
+    /// mistyped part of a facet, and stays; not where its first word is a sign that it is a remark.
+    void passRemarks()
+    {
+        constexpr std::array<std::string_view, 9> keywords{"facet",  "endsolid", "normal",   "outer", "loop",
+                                                           "vertex", "endloop",  "endfacet", "solid"};
+        constexpr std::string_view signs = "#$%&!*/;-"; // of remarks in other formats
+        while (in_.skipToWord()) {
+            TextCursor ahead = in_;
+            std::string_view word = ahead.word();
+            if (!mayBeginRemark(word)) return;
+            const bool isSigned = signs.find(word.front()) != std::string_view::npos;
+            char buffer[16];
+            for (; !isSigned && !word.empty(); word = ahead.word()) {
+                const auto found = std::find(keywords.begin(), keywords.end(), lowerCase(word, buffer));
+                if (found != keywords.end()) return;
+            }
+            in_.warn(in_.position(), remarkWarning);
+            in_.nextLine();
+        }
     }
 
     /// Skips the next word, on this line or a later one, if it is `keyword`.

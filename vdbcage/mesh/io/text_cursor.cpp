@@ -5,6 +5,7 @@
 #include <cmath>
 #include <system_error>
 
+#include <vdbcage/core/detail/printable.h>
 #include <vdbcage/core/error.h>
 
 namespace vdbcage::detail {
@@ -100,6 +101,14 @@ std::string quote(std::string_view piece)
         }
     }
     return text + (piece.size() > longest ? "...\"" : "\"");
+}
+
+bool mayBeginRemark(std::string_view word)
+{
+    constexpr std::string_view replacement = "\xEF\xBF\xBD"; // stands for what was no character
+    const std::size_t first = word.find_first_not_of("+-.");
+    const bool isNumber = first != std::string_view::npos && isDigit(word[first]);
+    return !isNumber && word.find(replacement) == std::string_view::npos && printable(word) == word;
 }
 
 TextCursor::TextCursor(std::string_view bytes, const std::string& name, TextSyntax syntax, Warnings* warnings)

@@ -11,6 +11,13 @@ namespace vdbcage::detail {
 /// A piece of a file for a message: in quotes, shortened, with codes for what cannot be printed.
 std::string quote(std::string_view piece);
 
+/// Whether a line that begins with this word may be passed over as a remark: not a number, which may belong to the
+/// model, and text that can be printed, as other bytes show that the file is no text or damaged.
+bool mayBeginRemark(std::string_view word);
+
+/// The warning of such lines.
+constexpr const char* remarkWarning = "a line begins with a word that the format does not have; it is passed over";
+
 /// What differs between the text formats.
 struct TextSyntax {
     char comment = '\0';         ///< starts a comment that ends with the line; '\0' for none
