@@ -48,6 +48,7 @@ POINTS = "v 0 0 0\nv 1 0 0\nv 0 1 0\n"
 OFF_POINTS = "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n"
 FACET = "facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\n"
 XYZ = "property float x\nproperty float y\nproperty float z\n"
+SPLATS = ["f_dc_0", "f_dc_1", "f_dc_2", "opacity", "scale_0", "scale_1", "scale_2", "rot_0", "rot_1", "rot_2", "rot_3"]
 CORNER_LIST = "property list uchar int vertex_indices\n"
 
 
@@ -150,6 +151,8 @@ MODELS = [
               ply("", of_face="property int corners\n")),
              ('line N: the PLY header makes the property "NAME" of "NAME" no list; it must be a list',
               ply("", of_face="property int vertex_indices\n")),
+             ("line N: the PLY header is that of Gaussian splats, which have no faces; make a mesh of them first",
+              ply("", faces=0, of_vertex=XYZ + "".join(f"property float {name}\n" for name in SPLATS))),
              ("line N: binary data follow text of UTF-16; export the file again, as ascii or as binary",
               ply("", form="binary_little_endian").encode("utf-16")),
              ('line N: the header announces N elements "NAME" of at least N bytes, but only N bytes are left; copy '

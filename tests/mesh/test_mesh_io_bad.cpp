@@ -200,6 +200,15 @@ const std::vector<Bad>& badFiles()
         {"cut2.ply", ply("0 0 0\n1 0 0\n"), {"line 3", "3 elements \"vertex\""}},
         {"cut3.ply", ply("0.000 0.000 0.000\n1 0 0\n"), {"line 12", "ends before element \"vertex\" 3 of 3"}},
         {"cut4.ply", binaryPly({0, 0, 0, 1, 0, 0, 0, 1, 0}, {0, 1, 2}).substr(0, 215), {"3 values", "9 bytes"}},
+        {"splats.ply",
+         "ply\nformat ascii 1.0\nelement vertex 9\nproperty float x\nproperty float y\nproperty float z\n"
+         "property float f_dc_0\nproperty float opacity\nproperty float scale_0\nproperty float rot_0\nend_header\n",
+         {"line 3", "Gaussian splats", "make a mesh"}},
+        {"packed.ply",
+         "ply\nformat binary_little_endian 1.0\nelement chunk 1\nproperty float min_x\nelement vertex 9\n"
+         "property uint packed_position\nproperty uint packed_rotation\nproperty uint packed_scale\n"
+         "property uint packed_color\nend_header\n",
+         {"line 5", "Gaussian splats", "make a mesh"}},
         {"none.ply", ply("0 0 0\n1 0 0\n0 1 0\n", "3", "0"), {"no faces"}},
         {"flat.ply", ply("0 0 0\n1 1 1\n2 2 2\n3 0 1 2\n"), {"every face is degenerate"}},
         // STL

@@ -388,6 +388,15 @@ BOOST_AUTO_TEST_CASE(ply_other_elements_and_properties_are_skipped)
     BOOST_TEST(summary.ignoredElements == 1U + 9U + 2U);
 }
 
+BOOST_AUTO_TEST_CASE(ply_with_faces_is_a_mesh_though_its_points_have_what_splats_have)
+{
+    const Mesh mesh = ply(plyHeader("ascii", vertexElement + "property float opacity\nproperty float scale_0\n"
+                                                             "property float rot_0\nelement face 1\n"
+                                                             "property list uchar int vertex_indices\n") +
+                          "0 0 0 1 1 1\n1 0 0 1 1 1\n0 1 0 1 1 1\n3 0 1 2\n");
+    BOOST_TEST(mesh.triangles.size() == 1U);
+}
+
 BOOST_AUTO_TEST_CASE(ply_faces_before_points_polygons_and_faces_without_area)
 {
     const auto [mesh, summary] = detail::parsePly(

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <initializer_list>
 #include <limits>
 #include <utility>
 #include <vector>
@@ -351,14 +352,33 @@ private:
     std::vector<openvdb::Index32> face_;
 };
 
+/// Whether these are the points of Gaussian splats (Kerbl et al., "3D Gaussian Splatting for Real-Time Radiance Field
+/// Rendering", 2023), as the training writes them or packed as SuperSplat does.
+bool areSplats(const PlyElement& points)
+{
+    const auto hasAll = [&](std::initializer_list<std::string_view> names) {
+        return std::all_of(names.begin(), names.end(), [&](std::string_view name) {
+            return std::any_of(points.properties.begin(), points.properties.end(),
+                               [&](const PlyProperty& property) { return property.name == name; });
+        });
+    };
+    return hasAll({"opacity", "scale_0", "rot_0"}) || hasAll({"packed_position", "packed_scale", "packed_rotation"});
+}
+
 void requireGeometry(const PlyHeader& header, const std::string& name)
 {
     const auto fail = [&](std::size_t line, const std::string& problem) {
         throw IoError(name + ": line " + std::to_string(line) + ": the PLY header " + problem);
     };
+    const bool hasFaces = std::any_of(header.elements.begin(), header.elements.end(), [](const PlyElement& element) {
+        return element.count > 0 && (element.name == "face" || element.name == "tristrips");
+    });
     int points = 0;
     for (const PlyElement& element : header.elements) {
         if (element.name != "vertex") continue;
+        if (!hasFaces && areSplats(element)) {
+            fail(element.line, "is that of Gaussian splats, which have no faces; make a mesh of them first");
+        }
         if (++points == 2) fail(element.line, "has two elements \"vertex\"; there must be one");
         for (const char* axis : {"x", "y", "z"}) {
             const auto isAxis = [&](const PlyProperty& property) { return property.name == axis; };
