@@ -149,14 +149,14 @@ private:
         constexpr std::string_view signs = "#$%&!*/;-"; // of remarks in other formats
         while (in_.skipToWord()) {
             TextCursor ahead = in_;
-            std::string_view word = ahead.word();
-            if (!mayBeginRemark(word)) return;
-            const bool isSigned = signs.find(word.front()) != std::string_view::npos;
+            const std::string_view first = ahead.word();
+            const bool isSigned = signs.find(first.front()) != std::string_view::npos;
             char buffer[16];
-            for (; !isSigned && !word.empty(); word = ahead.word()) {
+            for (std::string_view word = first; !isSigned && !word.empty(); word = ahead.word()) {
                 const auto found = std::find(keywords.begin(), keywords.end(), lowerCase(word, buffer));
                 if (found != keywords.end()) return;
             }
+            if (!mayBeginRemark(first)) return;
             in_.warn(in_.position(), remarkWarning);
             in_.nextLine();
         }
