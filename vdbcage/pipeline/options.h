@@ -53,8 +53,9 @@ struct CageOptions {
     std::optional<int> resolution;
     /// Gaps up to twice this wide are bridged, 0 to 0.25. Unset: 0.03, or more where the faces need it.
     std::optional<double> closeRadius;
-    /// Where less than the close radius, the difference is left as an offset; 0 to the close radius, which must be set.
-    /// Unset: equal to it.
+    /// Where less than the close radius, the closing is thicker by the difference: an offset of the cage without
+    /// `bounding`. With it the cage is tightened onto the model all the same, and `clearance` is what makes room.
+    /// 0 to the close radius, which must be set. Unset: equal to it.
     std::optional<double> erodeRadius;
     StructuringElement element = StructuringElement::sphere; ///< of the closing
     /// What the close radius and the erode radius are multiplied by in places; for the sphere only.
@@ -108,7 +109,7 @@ void visitOptions(Options& options, Visit&& visit)
     visit(OptionInfo{"faces", "N", "faces of the cage, at most", {4, 1000000}}, options.faces);
     visit(OptionInfo{"resolution", "N", "voxels along the longest side", {8, 2048}}, options.resolution);
     visit(OptionInfo{"close-radius", "F", "bridges gaps up to twice it", {0, 0.25}}, options.closeRadius);
-    visit(OptionInfo{"erode-radius", "F", "if less, leaves an offset", {0, 0.25}, true}, options.erodeRadius);
+    visit(OptionInfo{"erode-radius", "F", "if less, offset without bounding", {0, 0.25}, true}, options.erodeRadius);
     visit(OptionInfo{"element", "", "shape of the closing", {}, true}, options.element);
     visit(OptionInfo{"scale-field", "FILE.vdb|REGION", "multiplies the close radius in places"}, options.scale);
     visit(OptionInfo{"density", "FILE.vdb|REGION", "more faces in places, fewer in others"}, options.density);
