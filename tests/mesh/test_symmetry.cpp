@@ -73,6 +73,21 @@ BOOST_AUTO_TEST_CASE(a_part_without_a_counterpart_does_not_move_the_plane)
     BOOST_TEST(best.deviation > 0.05);
 }
 
+BOOST_AUTO_TEST_CASE(a_plane_that_the_model_does_not_tell_from_that_through_the_origin_is_that)
+{
+    for (const int axis : {0, 1, 2}) {
+        for (const double scale : {1e-3, 1.0, 317.0}) {
+            const auto offset = [&](double far) {
+                Vec3d along(0.0);
+                along[axis] = scale * far;
+                return bestSymmetry(test::transformed(wedge(axis), scale, along), axis).plane.offset / scale;
+            };
+            for (const double far : {3e-7, -2e-6, 7e-6}) BOOST_TEST(offset(far) == 0); // it is three across
+            for (const double far : {8e-6, -1e-3}) BOOST_TEST(std::abs(offset(far) - far) < 1e-7);
+        }
+    }
+}
+
 BOOST_AUTO_TEST_CASE(of_equally_good_planes_the_first)
 {
     const auto found = findSymmetry(test::box({-1, -1, -1}, {1, 1, 1}), 1e-6);

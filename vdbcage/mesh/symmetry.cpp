@@ -28,6 +28,10 @@ using detail::Corners;
 using detail::TriangleBvh;
 using openvdb::Vec3d;
 
+/// By how much coordinates of six digits are rounded at most, and those of floats less: of the longest side of a model
+/// that lies on both sides of a plane through the origin.
+constexpr double rounding = 2.5e-6;
+
 /// A model as a tree, in units of its longest side from the middle of its box.
 class MirroredModel {
 public:
@@ -48,7 +52,10 @@ public:
     Symmetry best(int axis) const
     {
         const AcrossAxis found = improved(AcrossAxis{axis, 0});
-        return {{axis, centre_[axis] + found.offset * side_}, fit(found).deviation};
+        const double offset = centre_[axis] + found.offset * side_;
+        if (std::abs(offset) > rounding * side_) return {{axis, offset}, fit(found).deviation};
+        // The model is not exact enough to tell the plane from that through the origin: it is meant to be that.
+        return {{axis, 0}, fit(AcrossAxis{axis, -centre_[axis] / side_}).deviation};
     }
 
     TiltedSymmetry bestTilted() const
@@ -310,12 +317,12 @@ TiltedSymmetry bestTiltedSymmetry(const Mesh& model, Interrupter* interrupter)
 
 std::optional<Symmetry> findSymmetry(const Mesh& model, double tolerance, Interrupter* interrupter)
 {
-    constexpr double rounding = 1e-6; // of models in floats: of equally good planes the first
+    constexpr double equallyGood = 1e-6; // the rounding of models in floats: of such planes the first
     const MirroredModel mirrored(model, interrupter);
     Symmetry best = mirrored.best(0);
     for (const int axis : {1, 2}) {
         const Symmetry other = mirrored.best(axis);
-        if (other.deviation < best.deviation - rounding) best = other;
+        if (other.deviation < best.deviation - equallyGood) best = other;
     }
     if (!(best.deviation <= tolerance)) return std::nullopt;
     return best;
