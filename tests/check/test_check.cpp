@@ -521,6 +521,44 @@ BOOST_AUTO_TEST_CASE(measures_of_boxes)
     BOOST_TEST(checkCage(open, model).cageVolume == 0);
 }
 
+BOOST_AUTO_TEST_CASE(hollows_are_counted_by_the_surface_of_the_model)
+{
+    const auto ball = [](double x, double radius) { return sphere({x, 0, 0}, radius, 8); };
+    const auto hollows = [](const Mesh& mesh) { return CageChecker(mesh).hollows(); };
+    const Mesh one = joined(ball(0, 1), turnedInsideOut(ball(0.4, 0.3)));
+    const Mesh two = joined(one, turnedInsideOut(ball(-0.4, 0.3)));
+    Mesh open = ball(0.4, 0.3);
+    open.quads.pop_back();
+    const std::vector<std::pair<Mesh, std::size_t>> cases{
+        {ball(0, 1), 0},
+        {turnedInsideOut(ball(0, 1)), 0},
+        {one, 1},
+        {two, 2},
+        {joined(one, ball(0.4, 0.1)), 1},                                          // a solid in the hollow
+        {joined(joined(one, ball(0.4, 0.2)), turnedInsideOut(ball(0.4, 0.1))), 2}, // with a hollow of its own
+        {joined(joined(one, ball(0, 2)), turnedInsideOut(ball(-1.5, 0.2))),
+         1},                                                  // the first is filled by the larger ball
+        {joined(ball(0, 1), ball(0.4, 0.3)), 0},              // parts that overlap
+        {joined(ball(0, 1), turnedInsideOut(ball(3, 1))), 0}, // side by side
+        {joined(ball(0, 1), turnedInsideOut(box({-2, -2, -2}, {2, 2, 2}))), 1},
+        {joined(ball(0, 1), turnedInsideOut(open)), 0},
+        {joined(ball(0, 1), turnedInsideOut(box({0, 0, 0}, {0.5, 0.5, 0}))), 0}};
+    for (std::size_t i = 0; i < cases.size(); ++i) {
+        BOOST_TEST_CONTEXT("case " << i)
+        {
+            const auto& [mesh, expected] = cases[i];
+            BOOST_TEST(hollows(mesh) == expected);
+            BOOST_TEST(hollows(turnedInsideOut(mesh)) == expected);
+            BOOST_TEST(hollows(triangulated(mesh)) == expected);
+            for (const double scale : {1e-90, 1e90}) {
+                BOOST_TEST(hollows(transformed(mesh, scale, scale * Vec3d(5, -7, 9))) == expected);
+            }
+        }
+    }
+    test::StopAt stop(0);
+    BOOST_CHECK_THROW(CageChecker(two, &stop), Cancelled);
+}
+
 BOOST_AUTO_TEST_CASE(strange_but_allowed)
 {
     const double huge = 1e300;

@@ -598,6 +598,7 @@ BOOST_AUTO_TEST_CASE(cavities_are_filled_and_reported)
     Pipeline pipeline(model);
     pipeline.run(options);
     BOOST_TEST(pipeline.report().cavitiesFilled == 1U);
+    BOOST_TEST(pipeline.report().modelHollows == 0U); // its hollow was open
     BOOST_TEST(pipeline.report().parts == 1U);
 }
 

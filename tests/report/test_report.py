@@ -102,6 +102,18 @@ class Reports(unittest.TestCase):
         self.assertIsNone(report["quads"])
         self.assertIsNotNone(report["result"]["ray_agreement"])
 
+    def test_a_hollow_model(self):
+        inner = [line.split() for line in BOX.splitlines()]
+        points = [f"v {' '.join(str(1 + float(x) / 9) for x in line[1:])}" for line in inner if line[0] == "v"]
+        faces = ["f " + " ".join(str(int(i) + 8) for i in line[:0:-1]) for line in inner if line[0] == "f"]
+        (self.folder / "hollow.obj").write_text(BOX + "\n".join(points + faces) + "\n")
+        asked = ["-o", "cage.obj", "--faces", "20", "--effort", "fast"]
+        for name, hollows in (("box.obj", 0), ("hollow.obj", 1)):
+            report = self.run_command("make", name, *asked)
+            self.assertEqual(report["result"]["model_hollows"], hollows)
+            self.assertEqual(report["result"]["cavities_filled"], 0)
+            self.assertEqual("  1 hollow inside the model became solid\n" in self.error, hollows == 1, self.error)
+
     def test_symmetry_of_both_kinds(self):
         asked = ["-o", "cage.obj", "--faces", "20", "--effort", "fast", "--symmetry"]
         report = self.run_command("make", "box.obj", *asked, "x")

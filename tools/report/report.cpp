@@ -117,6 +117,7 @@ Json toJson(const CageReport& report)
             {"cavities_filled", report.cavitiesFilled},
             {"solid_parts", report.solidParts},
             {"solid_handles", report.solidHandles},
+            {"model_hollows", report.modelHollows},
             {"start_parts", report.parts},
             {"start_handles", report.handles},
             {"solid_voxels", report.solidVoxels},
@@ -277,10 +278,13 @@ std::vector<std::string> remarks(const CageReport& report, const CageOptions& op
     if (!report.voxels.fallback.empty()) {
         lines.push_back("voxels by the CPU: " + detail::printable(report.voxels.fallback));
     }
+    const auto hollows = [](std::size_t count) {
+        return std::to_string(count) + (count == 1 ? " hollow" : " hollows");
+    };
+    if (report.modelHollows > 0) lines.push_back(hollows(report.modelHollows) + " inside the model became solid");
     if (report.cavitiesFilled > 0) {
-        lines.push_back(std::to_string(report.cavitiesFilled) + (report.cavitiesFilled == 1
-                                                                     ? " hollow inside the closing was filled"
-                                                                     : " hollows inside the closing were filled"));
+        lines.push_back(hollows(report.cavitiesFilled) + " inside the closing " +
+                        (report.cavitiesFilled == 1 ? "was" : "were") + " filled");
     }
     if (options.bounding && !report.floatSafe && options.precision != Precision::float64) {
         lines.emplace_back("coordinates are float64: programs that hold float32, as Blender, round them, and the cage "

@@ -139,6 +139,11 @@ CageCheck CageChecker::check(const Mesh& given, const CheckOptions& options, Int
     return result;
 }
 
+std::size_t CageChecker::hollows() const
+{
+    return model_->hollows;
+}
+
 CageCheck checkCage(const Mesh& cage, const Mesh& model, const CheckOptions& options, Interrupter* interrupter)
 {
     return CageChecker(model, interrupter).check(cage, options, interrupter);

@@ -114,6 +114,10 @@ public:
     /// Cost: O(n log m) for ordinary meshes, in parallel.
     CageCheck check(const Mesh& cage, const CheckOptions& options = {}, Interrupter* interrupter = nullptr) const;
 
+    /// How many hollows the model has by its own surface: components that face inward, inside of others. A cage has no
+    /// inner surface, so they are solid to it. Only components that are cycles (see MeshTopology) count.
+    std::size_t hollows() const;
+
 private:
     class Model;
     std::shared_ptr<const Model> model_;

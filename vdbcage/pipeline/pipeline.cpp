@@ -92,7 +92,9 @@ public:
         if (options.bounding && !made.check.bounding()) {
             throw Error("the cage could not be certified; this is a defect of vdbcage, please report the model");
         }
+        const std::size_t hollows = work.certifier.hollows(interrupter);
         report_ = reportOf(made, options, work.certifier.areFloats(options.precision));
+        report_.modelHollows = hollows;
         if (work.parts) {
             report_.partsLeftOut = work.parts->partsLeftOut;
             report_.facesLeftOut = work.parts->facesLeftOut;

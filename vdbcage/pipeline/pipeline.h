@@ -52,6 +52,7 @@ struct CageReport {
     std::size_t cavitiesFilled = 0; ///< hollows inside the closing that were filled
     std::size_t solidParts = 0;     ///< separate surfaces of the model's voxels, inner ones too
     std::int64_t solidHandles = 0;  ///< and handles, tunnels through them, of all of them
+    std::size_t modelHollows = 0;   ///< hollows of the model (CageChecker::hollows), which became solid
     std::size_t parts = 0;          ///< separate surfaces of what the cage was made from: the closing, grown a little
     std::int64_t handles = 0;       ///< tunnels through the surface that the cage was made from
     std::size_t solidVoxels = 0;    ///< of the model

@@ -5,6 +5,7 @@
 #include <sstream>
 #include <string>
 
+#include <vdbcage/check/detail/hollows.h>
 #include <vdbcage/check/detail/measures.h>
 #include <vdbcage/core/detail/asker.h>
 #include <vdbcage/core/detail/parallel.h>
@@ -70,9 +71,9 @@ CheckedModel::CheckedModel(const Mesh& mesh, Interrupter* interrupter)
     parallelInvoke(
         buildTrees, [&] { findParts(mesh, faces, false, interrupter); },
         [&] {
-            if (analyzeTopology(mesh, interrupter).isCycle()) {
-                volume = std::abs(detail::volume(mesh.points, faces));
-            }
+            const MeshTopology topology = analyzeTopology(mesh, interrupter);
+            if (topology.isCycle()) volume = std::abs(detail::volume(mesh.points, faces));
+            hollows = countHollows(mesh.points, faces, topology, interrupter);
         });
     // What touches a copy that was dropped is only known to touch the one that was kept, maybe of another part.
     if (dropped) findParts(mesh, faces, true, interrupter);

@@ -57,6 +57,7 @@ struct CheckedModel {
     std::vector<std::size_t> partFirst;      ///< ... partVertices[partFirst[k + 1] - 1]
     double longestSide = 0, diagonal = 0;    ///< of the bounding box
     double volume = 0;                       ///< 0 if the model has no inside
+    std::size_t hollows = 0;                 ///< countHollows()
 
 private:
     void findParts(const Mesh& mesh, const FaceTriangles& faces, bool joinPlaces, Interrupter* interrupter);

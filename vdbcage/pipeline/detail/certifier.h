@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <memory>
 
 #include <vdbcage/check/check.h>
@@ -23,6 +24,10 @@ public:
     /// not rounded to float.
     /// \throw Cancelled
     bool boundsAsFloats(const Mesh& cage, Precision precision, Interrupter* interrupter);
+
+    /// How many hollows the model has.
+    /// \throw Cancelled
+    std::size_t hollows(Interrupter* interrupter) { return checker(interrupter).hollows(); }
 
     /// Whether coordinates of cages are rounded to float.
     bool areFloats(Precision precision) const { return detail::areFloats(precision, box_); }
