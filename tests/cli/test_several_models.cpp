@@ -62,6 +62,39 @@ BOOST_AUTO_TEST_CASE(one_cage_bounds_them_all_and_each_gets_its_verdict)
     BOOST_TEST(readJson(folder / "checked.json")["models"][1]["check"]["model_vertices_outside"] == far.points.size());
 }
 
+BOOST_AUTO_TEST_CASE(of_models_that_lie_apart_it_says_that_there_is_one_cage)
+{
+    const TemporaryFolder folder;
+    const auto saysSo = [&](const std::vector<Mesh>& models) {
+        std::vector<std::string> words{command, "make"};
+        for (std::size_t i = 0; i < models.size(); ++i) {
+            words.push_back(folder / (std::to_string(i) + ".obj"));
+            writeMesh(models[i], words.back());
+        }
+        words.insert(words.end(),
+                     {"-o", folder / "cage.off", "--faces", "20", "--resolution", "16", "--effort", "fast"});
+        const auto made = runCommand(words);
+        BOOST_REQUIRE(made.status == 0);
+        const std::string line =
+            "  one cage for " + std::to_string(models.size()) + " models; for a cage each: vdbcage jobs\n";
+        BOOST_TEST((made.err.find("vdbcage jobs") != std::string::npos) == (made.err.find(line) != std::string::npos));
+        return made.err.find(line) != std::string::npos;
+    };
+    const auto cube = [](double x) { return test::box({x, 0, 0}, {x + 1, 1, 1}); };
+    BOOST_TEST(!saysSo({cube(0)}));
+    BOOST_TEST(!saysSo({cube(0), cube(0.5)}));
+    BOOST_TEST(!saysSo({cube(0), cube(1.09)}));
+    BOOST_TEST(saysSo({cube(0), cube(1.11)}));
+    BOOST_TEST(saysSo({cube(0), cube(-3)}));
+    BOOST_TEST(!saysSo({cube(0), cube(2), cube(1)})); // the third is between
+    BOOST_TEST(saysSo({cube(0), cube(5), cube(1)}));
+    BOOST_TEST(saysSo({cube(0), cube(1), cube(5), cube(6)}));
+    // A figure: a body, hands beside it, a hat above it, an eye inside.
+    BOOST_TEST(!saysSo({test::box({-0.3, -0.3, 0}, {0.3, 0.3, 2}), test::sphere({0.45, 0, 1}, 0.1, 4),
+                        test::sphere({-0.45, 0, 1}, 0.1, 4), test::box({-0.2, -0.2, 2.15}, {0.2, 0.2, 2.3}),
+                        test::sphere({0, 0, 1.8}, 0.02, 4)}));
+}
+
 BOOST_AUTO_TEST_CASE(the_order_of_models_does_not_change_what_is_bounded)
 {
     const TemporaryFolder folder;

@@ -1,10 +1,13 @@
 #include "models.h"
 
+#include <algorithm>
+#include <cstdint>
 #include <system_error>
 
 #include <tools/report/run_facts.h>
 #include <vdbcage/core/detail/printable.h>
 #include <vdbcage/core/error.h>
+#include <vdbcage/geometry/union_find.h>
 #include <vdbcage/mesh/io/formats.h>
 #include <vdbcage/mesh/parts.h>
 
@@ -26,6 +29,19 @@ void append(const Mesh& mesh, Mesh& all)
     appendFaces(mesh.triangles, all.triangles);
     appendFaces(mesh.quads, all.quads);
     appendFaces(mesh.alternatives, all.alternatives);
+}
+
+/// Whether the boxes overlap, or the gap between them is a small part of the longest side of both. Parts of one thing
+/// touch or nearly do, as a hat above a head.
+bool areNear(const openvdb::BBoxd& a, const openvdb::BBoxd& b)
+{
+    constexpr double smallPart = 0.1;
+    double side = 0, gap = 0; // along the axis where each is largest
+    for (int axis = 0; axis < 3; ++axis) {
+        side = std::max({side, a.extents()[axis], b.extents()[axis]});
+        gap = std::max({gap, a.min()[axis] - b.max()[axis], b.min()[axis] - a.max()[axis]});
+    }
+    return gap <= smallPart * side;
 }
 
 } // namespace
@@ -96,6 +112,25 @@ std::string describe(const std::vector<ModelFile>& models)
         text += '\n';
     }
     return text;
+}
+
+bool lieApart(const std::vector<ModelFile>& models)
+{
+    if (models.size() == 1) return false; // its mesh may be gone
+    std::vector<openvdb::BBoxd> boxes;
+    for (const ModelFile& model : models) {
+        if (faceCount(model.mesh) > 0) boxes.push_back(boundingBox(model.mesh)); // all may have been left out
+    }
+    detail::UnionFind groups(boxes.size());
+    for (std::uint32_t i = 0; i < boxes.size(); ++i) {
+        for (std::uint32_t j = 0; j < i; ++j) {
+            if (areNear(boxes[i], boxes[j])) groups.unite(i, j);
+        }
+    }
+    for (std::uint32_t i = 0; i < boxes.size(); ++i) {
+        if (groups.find(i) != 0) return true;
+    }
+    return false;
 }
 
 std::string warningLines(const std::vector<ModelFile>& models)

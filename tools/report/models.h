@@ -44,6 +44,9 @@ std::string namesOf(const std::vector<ModelFile>& models);
 /// count what is around the others, too. Lines with their ends.
 std::string describe(const std::vector<ModelFile>& models);
 
+/// Whether some of several models lie so far from the others that they may have been meant to get a cage each.
+bool lieApart(const std::vector<ModelFile>& models);
+
 /// The warningLines() of all.
 std::string warningLines(const std::vector<ModelFile>& models);
 

@@ -113,6 +113,9 @@ std::string summaryOf(const MakeArguments& arguments, const std::vector<ModelFil
         << " s\n";
     for (const std::string& remark : remarks(report, arguments.options)) out << "  " << remark << '\n';
     out << describe(models);
+    if (lieApart(models)) {
+        out << "  one cage for " << models.size() << " models; for a cage each: vdbcage jobs\n";
+    }
     if (!arguments.isVerbose) return out.str();
     out << warningLines(models);
     for (const StageTime& stage : stages) {
