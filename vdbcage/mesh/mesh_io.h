@@ -45,8 +45,8 @@ struct MeshFile {
 /// What some programs write otherwise is read where its meaning is plain, with a warning in ReadSummary. That is text
 /// of UTF-16 with a byte order mark; numbers like 3.1+e2 and 1.5d3, which are 310 and 1500; the header of an OFF file
 /// before an OBJ, if its counts are right; in an OBJ, and in an ascii STL between facets, lines that begin with a word
-/// that the format does not have, passed over; in a PLY a line of the header without the word comment, more values in the
-/// line of a face than the header says, and lines that end in CR LF or CR before binary data.
+/// that the format does not have, passed over; in a PLY a line of the header without the word comment, more values in
+/// the line of a face than the header says, and lines that end in CR LF or CR before binary data.
 ///
 /// An OBJ has no mark of its end. One whose last line has no end, and that has points which no face uses, is taken for
 /// truncated. One that was cut off at the end of a line is read as what is left of it.
