@@ -22,6 +22,7 @@
 #include <vdbcage/deform/binding.h>
 #include <vdbcage/deform/distortion.h>
 #include <vdbcage/deform/inversions.h>
+#include <vdbcage/deform/posed_points.h>
 #include <vdbcage/deform/weights_io.h>
 #include <vdbcage/mesh/mesh.h>
 #include <vdbcage/mesh/mesh_io.h>
