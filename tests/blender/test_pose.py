@@ -256,6 +256,30 @@ class Pose(Case):
         finally:
             bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
 
+    def test_points_in_another_order_are_put_into_order_by_the_faces(self):
+        model = load(BISHOP)
+        bpy.ops.vdbcage.make_cage(faces=100, effort="fast")
+        cage = model.vdbcage.cage
+        set_positions(cage, bent(positions(cage, world=False)))
+        bpy.ops.vdbcage.pose(coordinates="mvc")
+        posed, before = key(model), positions(cage, world=False)
+        select(cage)
+        bpy.ops.object.mode_set(mode="EDIT")
+        bpy.ops.mesh.select_all(action="SELECT")
+        bpy.ops.mesh.sort_elements(type="RANDOMIZE", elements={"VERT", "FACE"}, seed=1)
+        bpy.ops.object.mode_set(mode="OBJECT")
+        self.assertGreater(numpy.abs(positions(cage, world=False) - before).max(), 0)
+        bpy.ops.vdbcage.pose(coordinates="mvc")
+        self.assertTrue(numpy.array_equal(key(model), posed))
+        bpy.ops.object.mode_set(mode="EDIT")
+        bpy.ops.mesh.select_all(action="DESELECT")
+        bpy.ops.object.mode_set(mode="OBJECT")
+        cage.data.polygons[0].select = True
+        bpy.ops.object.mode_set(mode="EDIT")
+        bpy.ops.mesh.delete(type="ONLY_FACE")
+        bpy.ops.object.mode_set(mode="OBJECT")
+        self.fails("Error: bishop Cage, posed/0000.ply: it has ", bpy.ops.vdbcage.pose, coordinates="mvc")
+
     def test_wrong_input_changes_nothing(self):
         pose = bpy.ops.vdbcage.pose
         self.fails("Select a model that has a cage, or its cage", pose)

@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <cstring>
+#include <random>
 #include <sstream>
 
 #include <support/read_png.h>
+#include <support/reordered.h>
 #include <support/run_command.h>
 #include <support/shapes.h>
+#include <vdbcage/check/check.h>
 #include <vdbcage/deform/binding.h>
 #include <vdbcage/mesh/mesh_io.h>
 
@@ -306,7 +309,70 @@ BOOST_AUTO_TEST_CASE(sequences)
     expectRefusal(scene,
                   {"deform", scene.at("cage.obj"), scene.at("posed.%04d.obj"), scene.at("model.obj"), "-o",
                    scene.at("next.%d.ply")},
-                  "posed.0010.obj: has 8 points, 0 triangles and 6 quads; the cage");
+                  "posed.0010.obj: it has 8 points, 0 triangles and 6 quads; the cage");
+}
+
+BOOST_AUTO_TEST_CASE(points_in_another_order)
+{
+    Scene scene;
+    std::mt19937 random(1);
+    scene.cage = test::lopsided(scene.cage);
+    const std::string cage = scene.at("cage.obj"), model = scene.at("model.obj"), out = scene.at("out.obj");
+    const auto posedAs = [](Mesh mesh) {
+        for (Vec3d& p : mesh.points) p = Vec3d(openvdb::Vec3s(Vec3d(1.5 * p.x() + 0.25 * p.y(), p.y(), p.z())));
+        return mesh;
+    };
+    const auto posedBy = [&](const std::string& posed, bool isReordered) {
+        const auto result = runCommand({command, "deform", cage, posed, model, "-o", out, "--inversions"});
+        BOOST_TEST(result.status == 0, result.err);
+        const std::string said =
+            "  " + posed + ": the points are in another order than the cage's; matched by the faces\n";
+        BOOST_TEST((result.err.find(said) != std::string::npos) == isReordered, result.err);
+        BOOST_TEST(result.out == posed + ": a valid cage, 0 of 2 triangles inverted\n"); // by the faces of the cage
+        return test::readText(out);
+    };
+    Mesh triangles = scene.cage;
+    triangles.triangles = triangulate(scene.cage);
+    triangles.quads.clear();
+    for (const Mesh& rest : {scene.cage, triangles}) {
+        writeMesh(rest, cage);
+        const Mesh posed = posedAs(rest);
+        writeMesh(posed, scene.at("posed.obj"));
+        const std::string expected = posedBy(scene.at("posed.obj"), false);
+        writeMesh(test::withFacesShuffled(posed, random), scene.at("faces.obj"));
+        BOOST_TEST((posedBy(scene.at("faces.obj"), false) == expected));
+        for (const char* const name : {"a.obj", "a.off", "a.ply", "a.stl"}) {
+            const bool isStl = name == std::string("a.stl");
+            if (isStl && !rest.quads.empty()) continue;
+            writeMesh(test::reordered(posed, random), scene.at(name));
+            BOOST_TEST((posedBy(scene.at(name), true) == expected), name);
+        }
+    }
+    // A frame of several.
+    for (int frame = 8; frame <= 11; ++frame) {
+        writeMesh(frame == 9 ? test::reordered(posedAs(triangles), random) : posedAs(triangles),
+                  scene.at("posed." + std::string(frame < 10 ? "000" : "00") + std::to_string(frame) + ".obj"));
+    }
+    const std::string frames = scene.at("posed.%04d.obj"), outs = scene.at("out.%d.obj");
+    const auto sequence = runCommand({command, "deform", cage, frames, model, "-o", outs});
+    BOOST_TEST(sequence.status == 0, sequence.err);
+    BOOST_TEST(sequence.err.find("  " + frames + ": 1 of 4 frames: the points are in another order") !=
+                   std::string::npos,
+               sequence.err);
+    BOOST_TEST(test::readText(scene.at("out.8.obj")) == test::readText(scene.at("out.9.obj")));
+    const auto compared =
+        runCommand({command, "deform", cage, scene.at("a.stl"), model, "-o", scene.at("sheet.png"), "--compare"});
+    BOOST_TEST(compared.err.find("a.stl: the points are in another order") != std::string::npos, compared.err);
+
+    // No face tells which corner of a box is which.
+    writeMesh(test::box(Vec3d(-2), Vec3d(2)), cage);
+    writeMesh(test::reordered(test::box(Vec3d(-2), Vec3d(2)), random), scene.at("box.obj"));
+    std::filesystem::remove(out);
+    expectRefusal(scene, {"deform", cage, scene.at("box.obj"), model, "-o", out},
+                  scene.at("box.obj") + ": its points are in another order than the cage's, and its faces do not tell "
+                                        "which is which; keep the order");
+    expectRefusal(scene, {"deform", cage, scene.at("box.obj"), model, "-o", scene.at("b.png"), "--compare"},
+                  scene.at("box.obj") + ": its points are in another order");
 }
 
 BOOST_AUTO_TEST_CASE(a_walk_without_inverted_triangles)
@@ -360,7 +426,7 @@ BOOST_AUTO_TEST_CASE(wrong_pairs)
     expectRefusal(scene, {"deform", cage, posed, model, "-o", out, "--weights", weights, "--coordinates", "green"},
                   "has mvc coordinates; --coordinates asks for green");
     expectRefusal(scene, {"deform", cage, posed, model, "-o", out, "--weights", model}, "not a weights file");
-    expectRefusal(scene, {"deform", cage, model, model, "-o", out}, "model.obj: has 4 points");
+    expectRefusal(scene, {"deform", cage, model, model, "-o", out}, "model.obj: it has 4 points");
     expectRefusal(scene, {"deform", cage, posed, model, "-o", model}, "would be overwritten");
     expectRefusal(scene, {"deform", cage, posed, model, "-o", scene.at("out.%d.obj")}, "must have a frame number");
     expectRefusal(scene, {"deform", cage, scene.at("no.%d.obj"), model, "-o", scene.at("out.%d.obj")},

@@ -42,7 +42,7 @@ const std::vector<Mesh>& madeCages()
     static const std::vector<Mesh> cages = [] {
         std::vector<Mesh> made;
         const Mesh model = test::randomCage(test::Kind::both, 5, 0.3, 3);
-        for (const CageFaces kind : {CageFaces::triangles, CageFaces::triquad, CageFaces::quads}) {
+        for (const CageFaces kind : {CageFaces::triangles, CageFaces::quads}) {
             CageOptions options;
             options.faces = 120;
             options.mesh = kind;

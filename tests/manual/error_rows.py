@@ -473,6 +473,12 @@ def deform(message, words, **files):
                {name + ".obj": content for name, content in files.items()})
 
 
+def pose(message, faces):
+    """Of the cage, posed with these faces."""
+    return Row(message, "deform cage.obj posed.obj model.obj -o new.obj", {"posed.obj": obj(CORNERS, faces)})
+
+
+EXCHANGED = BOX_FACES.translate(str.maketrans("12", "21"))
 FAR_OFF = TETRAHEDRON.replace("v 1 0 0", "v 1e200 0 0")
 OUTSIDE = TETRAHEDRON.replace("v 1 0 0", "v 9 0 0")
 # All its points are in the cage. Its face is at a side of it, with the outer side inward.
@@ -526,8 +532,14 @@ OTHERS = [
          "--coordinates biharmonic", cage=sphere(40, 60)),
     bind("coordinates: 'WORD' is not a family; there are NAME", "--coordinates linear"),
     bind("NAME: only NAME coordinates have it; these are NAME", "--resolution 32"),
-    Row("FILE: has N points, N triangles and N quads; WHAT has N points, N triangles and N quads",
+    Row("FILE: it has N points, N triangles and N quads; the cage has N points, N triangles and N quads",
         "deform cage.obj model.obj model.obj -o new.obj"),
+    pose("FILE: N of its N faces are not the cage's, and no other order of its points makes them so",
+         BOX_FACES.replace("1 2 4 3", "1 2 3 4")),
+    pose("FILE: its points are in another order than the cage's, and it has N quads; the cage has N; keep the quads, or "
+         "the order", EXCHANGED.replace("f 2 1 4 3\n", "f 2 1 4\nf 2 4 3\n")),
+    pose("FILE: its points are in another order than the cage's, and its faces do not tell which is which; keep the "
+         "order", EXCHANGED),
     Row("POSED_CAGE and OUT: both or none must have a frame number, as in cage.%04d.obj",
         "deform cage.obj cage.%04d.obj model.obj -o new.obj"),
     Row("--compare is of one pose; POSED_CAGE must not have a frame number",

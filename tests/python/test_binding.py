@@ -2,7 +2,7 @@ import numpy
 
 import vdbcage
 from support import SHELL, Case, command
-from vdbcage import Binding, Elasticity, IoError, Mesh, coordinate_families, make_cage
+from vdbcage import Binding, Elasticity, InputError, IoError, Mesh, coordinate_families, make_cage, posed_points
 
 
 class BindingTest(Case):
@@ -128,6 +128,20 @@ class BindingTest(Case):
         self.refuses("loose: row 0 has the index", Binding, self.cage, model.points, loose=[len(model.points)])
         self.refuses("loose_motion: 3 is not allowed", Binding, self.cage, model.points, loose_motion=3)
         self.refuses("it must be ride or stay", Binding, self.cage, model.points, loose_motion="fly")
+
+    def test_the_faces_of_a_posed_cage_tell_the_order_of_its_points(self):
+        random = numpy.random.default_rng(1)
+        for cage in self.cages.values():
+            moved = cage.points * [1, 1.5, 0.8]
+            order = random.permutation(len(cage.points))
+            now = numpy.argsort(order)  # of each point its new number
+            other = Mesh(moved[order], random.permutation(now[cage.triangles]), random.permutation(now[cage.quads]))
+            for posed in (Mesh(moved, cage.triangles, cage.quads), other):
+                self.assertTrue(numpy.array_equal(posed_points(cage, posed), moved))
+            with self.assertRaisesRegex(InputError, "^posed cage: [0-9]+ of its [0-9]+ faces are not the cage's"):
+                posed_points(cage, Mesh(moved, cage.triangles[:, ::-1], cage.quads[:, ::-1]))
+        with self.assertRaisesRegex(InputError, "^posed: a ndarray is not allowed"):
+            posed_points(cage, moved)
 
     def test_bad_arguments_are_refused(self):
         inside = self.model.points[:5]

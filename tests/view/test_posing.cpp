@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "app_fixture.h"
+#include <support/reordered.h>
 #include <tools/view/state/move.h>
 #include <tools/view/state/words.h>
 #include <vdbcage/core/detail/number_text.h>
@@ -302,6 +303,18 @@ BOOST_AUTO_TEST_CASE(boxes_and_lassos_add_and_take_out)
 BOOST_AUTO_TEST_CASE(without_a_selection_a_grab_says_so)
 {
     run(app, {"key g", "expect messages 1", "key escape", "expect messages 0"});
+}
+
+BOOST_AUTO_TEST_CASE(a_posed_cage_in_another_order_is_noted)
+{
+    std::mt19937 random(1);
+    const Mesh rest = lopsided(sphere({0, 0, 0}, 2, 5));
+    const std::string cage = (folder / "rest.obj").string(), posed = (folder / "posed.obj").string();
+    writeMesh(rest, cage);
+    writeMesh(reordered(rest, random), posed);
+    run(app, {"open-cage " + quotedWord(cage), "wait", "open-pose " + quotedWord(posed), "expect messages 0",
+              "expect note \"posed.obj: the points are in another order than the cage's; matched by the faces\"",
+              "expect posed no"}); // its points are where they were
 }
 
 BOOST_AUTO_TEST_CASE(a_pose_stays_with_another_cage_and_a_scene_keeps_it)

@@ -6,6 +6,7 @@
 #include <random>
 
 #include "orders.h"
+#include <support/reordered.h>
 #include <support/shapes.h>
 #include <support/temporary_folder.h>
 #include <tools/edit/carry.h>
@@ -40,7 +41,12 @@ struct Fixture {
         run("mode pose");
         run("select points 0 1 2");
     }
-    void run(const std::string& line) { session.execute(commandOf(wordsOf(line))); }
+    std::string run(const std::string& line)
+    {
+        std::string remark;
+        session.execute(commandOf(wordsOf(line)), &remark);
+        return remark;
+    }
     const State& state() const { return session.state(); }
     const TimeLine& poses() const { return state().document.poses; }
     std::vector<Vec3d> points() const { return cagePoints(state()); }
@@ -210,6 +216,31 @@ BOOST_AUTO_TEST_CASE(a_sequence_is_opened_by_its_pattern_or_one_of_its_files)
     checkRefused("open-poses " + file("x.1234567.obj"), "x.1234567.obj");
 }
 
+BOOST_AUTO_TEST_CASE(points_in_another_order_are_put_into_order)
+{
+    std::mt19937 random(1);
+    const Mesh rest = test::lopsided(test::torus(2, 1, 8, 6));
+    session.setCage(std::make_shared<const Mesh>(rest));
+    Mesh posed = rest;
+    posed.points[3] += Vec3d(0, 0.5, 0);
+    writeMesh(test::reordered(posed, random), folder / "o.0001.obj");
+    writeMesh(test::withFacesShuffled(posed, random), folder / "o.0002.obj");
+    const std::string said = "the points are in another order than the cage's; matched by the faces";
+    BOOST_TEST(run("open-pose " + file("o.0002.obj")) == "");
+    BOOST_CHECK(points() == posed.points);
+    run("clear-poses");
+    BOOST_TEST(run("open-pose " + file("o.0001.obj")) == "o.0001.obj: " + said);
+    BOOST_CHECK(points() == posed.points);
+    BOOST_TEST(run("open-poses " + file("o.0002.obj")) == "o.%04d.obj: 1 of 2 frames: " + said);
+    for (const int frame : {1, 2}) BOOST_CHECK(at(frame) == posed.points);
+    session.setCage(cage);
+    writeMesh(test::reordered(*cage, random), folder / "box.1.obj");
+    for (const char* line : {"open-pose ", "open-poses "}) {
+        checkRefused(line + file("box.1.obj"), "its points are in another order than the cage's, and its faces do not "
+                                               "tell which is which");
+    }
+}
+
 BOOST_AUTO_TEST_CASE(a_file_of_parameters_gives_two_poses)
 {
     test::writeText(folder / "p.param", "-0.5 2\n2\n0 1 0 0.5\n7 0 -1e-1 0\n");
@@ -289,6 +320,9 @@ BOOST_AUTO_TEST_CASE(a_scene_keeps_all_of_it)
         BOOST_TEST(test::readText(fs::path(scene).replace_extension(ending)) ==
                    test::readText(fs::path(again).replace_extension(ending)));
     }
+    std::mt19937 random(1);
+    writeMesh(test::reordered(*cage, random), folder / "again.pose.0012.obj");
+    BOOST_CHECK_THROW(openScene(again), InputError);
     // A scene of when there was one pose alone.
     std::string one = test::readText(scene);
     one.replace(one.find("\"poses\""), 7,

@@ -1,6 +1,7 @@
 #include <utility>
 
 #include <vdbcage/deform/binding.h>
+#include <vdbcage/deform/posed_points.h>
 #include <vdbcage/deform/weights_io.h>
 
 #include "arrays.h"
@@ -104,6 +105,10 @@ void defineBinding(py::module_& module)
                 writeWeights(binding.cage(), binding.points(), binding.family(), weights, std::filesystem::path(path));
             });
         });
+
+    module.def("posed_points", [](const MeshPtr& cage, const MeshPtr& posed) {
+        return toArray(resultOfJob(py::none(), [&](Interrupter*) { return posedPoints(*cage, *posed).points; }));
+    });
 
     module.def("read_binding", [](const std::string& path, const MeshPtr& cage, const py::array& points) {
         Points rows = toRows<openvdb::Vec3d>(points);

@@ -1,20 +1,31 @@
 #include <tools/report/posed_cage.h>
 
-#include <vdbcage/core/error.h>
-
 namespace vdbcage::tool {
 
-void requireSameFaces(const std::filesystem::path& posedPath, const Mesh& posed, const std::string& cageName,
-                      const Mesh& cage)
+InputError namingFile(const InputError& error, const std::map<std::string, std::filesystem::path>& files)
 {
-    const auto triangles = [](const Mesh& mesh) { return mesh.triangles.size() + 2 * mesh.quads.size(); };
-    const auto counts = [](const Mesh& mesh) {
-        return std::to_string(mesh.points.size()) + " points, " + std::to_string(mesh.triangles.size()) +
-               " triangles and " + std::to_string(mesh.quads.size()) + " quads";
-    };
-    if (posed.points.size() != cage.points.size() || triangles(posed) != triangles(cage)) {
-        throw InputError(posedPath.string() + ": has " + counts(posed) + "; " + cageName + " has " + counts(cage));
+    const std::string text = error.what();
+    const std::size_t colon = text.find(": ");
+    const auto file = files.find(text.substr(0, colon));
+    return colon == std::string::npos || file == files.end() ? error
+                                                             : InputError(file->second.string() + text.substr(colon));
+}
+
+PosedPoints posedPointsOf(const std::filesystem::path& path, const Mesh& posed, const Mesh& cage)
+{
+    try {
+        return posedPoints(cage, posed);
+    } catch (const InputError& error) {
+        throw namingFile(error, {{"posed cage", path}});
     }
+}
+
+std::string describeOrder(const std::filesystem::path& path, std::size_t reordered, std::size_t frames)
+{
+    if (reordered == 0) return {};
+    const std::string which =
+        frames == 1 ? "" : std::to_string(reordered) + " of " + std::to_string(frames) + " frames: ";
+    return path.string() + ": " + which + "the points are in another order than the cage's; matched by the faces";
 }
 
 } // namespace vdbcage::tool

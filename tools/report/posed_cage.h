@@ -1,16 +1,24 @@
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
+#include <map>
 #include <string>
 
-#include <vdbcage/mesh/mesh.h>
+#include <vdbcage/core/error.h>
+#include <vdbcage/deform/posed_points.h>
 
 namespace vdbcage::tool {
 
-/// \throw InputError naming `posedPath` unless the posed cage that was read from there has the faces of the cage at
-/// rest, which is called `cageName`. Readers split quads that are concave, which a pose may make of any: so only the
-/// number of triangles counts, a quad being two.
-void requireSameFaces(const std::filesystem::path& posedPath, const Mesh& posed, const std::string& cageName,
-                      const Mesh& cage);
+/// An objection of the library to one of its arguments, as "cage: it faces inward", with the name of the file that this
+/// was read from: `files` has it by the argument. The objection to any other stays as it is.
+InputError namingFile(const InputError& error, const std::map<std::string, std::filesystem::path>& files);
+
+/// posedPoints() of the cage that was read from `path`. \throw InputError as posedPoints, naming the file
+PosedPoints posedPointsOf(const std::filesystem::path& path, const Mesh& posed, const Mesh& cage);
+
+/// What users are to know of poses that were read: that of `reordered` of these files the points were put into the
+/// order of the cage. Empty if there are none. `path` is the file, or the pattern of all `frames` files.
+std::string describeOrder(const std::filesystem::path& path, std::size_t reordered, std::size_t frames);
 
 } // namespace vdbcage::tool

@@ -33,13 +33,7 @@ auto bindFiles(const fs::path& cagePath, const fs::path& modelPath, const Bind& 
     try {
         return bind();
     } catch (const InputError& error) {
-        const std::string text = error.what();
-        for (const auto& [prefix, path] : {std::pair{std::string("cage: "), cagePath}, {"points: ", modelPath}}) {
-            if (text.compare(0, prefix.size(), prefix) == 0) {
-                throw InputError(path.string() + ": " + text.substr(prefix.size()));
-            }
-        }
-        throw;
+        throw namingFile(error, {{"cage", cagePath}, {"points", modelPath}});
     }
 }
 
@@ -62,18 +56,18 @@ std::string describeLoose(const fs::path& path, const CoordinateOptions& options
 
 /// A line a frame: how many triangles of the model the pose turns inside out, and whether the posed cage is one.
 std::string describeInversions(const Binding& binding, const Mesh& model, const std::vector<Frame>& frames,
-                               const std::vector<Mesh>& posedCages, Interrupter* interrupter)
+                               const std::vector<std::vector<openvdb::Vec3d>>& poses, Interrupter* interrupter)
 {
-    std::vector<std::vector<openvdb::Vec3d>> poses;
-    for (const Mesh& posed : posedCages) poses.push_back(posed.points);
     const auto inverted = invertedTriangles(binding, model, poses, interrupter);
     const CageChecker checker(model, interrupter);
     CheckOptions options;
     options.measure = false;
     const std::size_t triangles = triangulate(model).size();
     std::string text;
+    Mesh posed = binding.cage();
     for (std::size_t i = 0; i < frames.size(); ++i) {
-        const bool valid = checker.check(posedCages[i], options, interrupter).valid();
+        posed.points = poses[i];
+        const bool valid = checker.check(posed, options, interrupter).valid();
         text += printable(frames[i].path) + ": " + (valid ? "a valid cage" : "NOT a valid cage") + ", " +
                 std::to_string(inverted[i].size()) + " of " + std::to_string(triangles) + " triangles inverted\n";
     }
@@ -101,6 +95,13 @@ std::vector<fs::path> weightsFiles(const fs::path& output, const std::vector<fs:
     return files;
 }
 
+/// describeOrder() as a line for the terminal.
+std::string orderLine(const fs::path& posedPath, std::size_t reordered, std::size_t frames)
+{
+    const std::string text = describeOrder(posedPath, reordered, frames);
+    return text.empty() ? text : "  " + printable(text) + '\n';
+}
+
 /// What deform --compare does.
 int drawComparison(const fs::path& cagePath, const fs::path& posedPath, const fs::path& modelPath,
                    const fs::path& picture, const CoordinateArguments& arguments, const TalkArguments& talk)
@@ -114,9 +115,12 @@ int drawComparison(const fs::path& cagePath, const fs::path& posedPath, const fs
     outputs.writes(picture);
     std::optional<Progress> progress(talk.progressForm());
     std::string warnings;
-    const Mesh cage = readMesh(cagePath, warnings), posed = readMesh(posedPath, warnings),
-               model = readMesh(modelPath, warnings);
-    requireSameFaces(posedPath, posed, "the cage " + cagePath.string(), cage);
+    const Mesh cage = readMesh(cagePath, warnings);
+    Mesh posed = readMesh(posedPath, warnings);
+    const Mesh model = readMesh(modelPath, warnings);
+    PosedPoints pose = posedPointsOf(posedPath, posed, cage);
+    posed = cage;
+    posed.points = std::move(pose.points);
     const auto ofModel = [&](Coordinates family) { return forModel(model, optionsOf(family)); };
     const FamilyComparison comparison =
         bindFiles(cagePath, modelPath, [&] { return compareFamilies(cage, posed, model, ofModel, &*progress); });
@@ -128,6 +132,7 @@ int drawComparison(const fs::path& cagePath, const fs::path& posedPath, const fs
     flushOutput();
     outputs.commit();
     if (talk.verbose()) std::cerr << warnings;
+    if (!talk.quiet()) std::cerr << orderLine(posedPath, pose.reordered, 1);
     return exitGood;
 }
 
@@ -249,23 +254,24 @@ int runDeform(Call call)
                          " coordinates; --coordinates asks for " + arguments.familyName());
     }
     if (!weights.empty()) binding = binding.with(arguments.optionsOf(binding.family()).elasticity);
-    std::vector<Mesh> posedCages; // kept for what is printed
+    std::vector<std::vector<openvdb::Vec3d>> poses; // kept for what is printed
+    std::size_t reordered = 0;
     for (const Frame& frame : frames) {
-        const Mesh posed = readMesh(frame.path, warnings);
-        requireSameFaces(frame.path, posed, "the cage " + cagePath.string(), cage);
-        const std::vector<openvdb::Vec3d> points = binding.pose(posed.points);
+        PosedPoints pose = posedPointsOf(frame.path, readMesh(frame.path, warnings), cage);
+        const std::vector<openvdb::Vec3d> points = binding.pose(pose.points);
+        reordered += pose.reordered;
         const fs::path path = framePath(output, frame.number);
         outputs.add(path, [&](std::ostream& out) { writeMoved(modelPath, points, out, path); });
-        if (inversions) posedCages.push_back(posed);
+        if (inversions) poses.push_back(std::move(pose.points));
     }
-    const std::string report = inversions ? describeInversions(binding, model, frames, posedCages, &*progress) : "";
+    const std::string report = inversions ? describeInversions(binding, model, frames, poses, &*progress) : "";
     progress->succeed();
     progress.reset();
     std::cout << report;
     flushOutput();
     std::string text = printable(output) + ": " + std::to_string(frames.size()) +
                        (frames.size() == 1 ? " pose" : " poses") + " of " + std::to_string(model.points.size()) +
-                       " points\n";
+                       " points\n" + orderLine(posedPath, reordered, frames.size());
     if (computed) text += describeLoose(modelPath, *computed);
     if (talk.verbose()) text += warnings;
     outputs.commit();

@@ -290,7 +290,9 @@ private:
     {
         const bool hadModel = session_.state().document.model != nullptr;
         const bool wasSaved = isSaved();
-        session_.execute(command);
+        std::string remark;
+        session_.execute(command, &remark);
+        if (!remark.empty()) note(remark);
         if (std::holds_alternative<OpenModel>(command)) {
             const fs::path& path = session_.state().document.model->path;
             addRecentFile(setup_.recentFiles, path);

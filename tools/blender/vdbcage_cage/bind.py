@@ -170,7 +170,7 @@ class VDBCAGE_OT_bind(bpy.types.Operator):
             modifier.precision = self.precision
         name = modifier.name
         try:
-            found = _bind_to(context, model, modifier, rest.points, cage.matrix_world)
+            found = _bind_to(context, model, modifier, rest.mesh.points, cage.matrix_world)
         except CommandError:
             model.modifiers.remove(modifier)
             raise
@@ -204,8 +204,11 @@ class VDBCAGE_OT_rebind(bpy.types.Operator):
                 try:
                     geometry.evaluated(context, model)  # one that cannot be seen is not unbound
                     rest = links.rest_of(model, cage)
+                    if not rest.mesh.has_faces_of(geometry.rest(cage)):  # and so maybe its points in another order
+                        raise CommandError(f"{cage.name} has other faces than at rest. Press Set Rest while it is as "
+                                           f"{model.name} is")
                     matrix = links.cage_matrix_now(model, rest)
-                    bound.append((model.name, *_bind_to(context, model, modifier, rest.points, matrix)))
+                    bound.append((model.name, *_bind_to(context, model, modifier, rest.mesh.points, matrix)))
                 except CommandError as error:
                     failures.append(str(error))
         if failures:

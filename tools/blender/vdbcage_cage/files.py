@@ -29,10 +29,13 @@ class Polygons:
         last = numpy.repeat(ends - 1, self.counts)
         return Polygons(points, self.counts, self.corners[first + last - numpy.arange(len(self.corners))])
 
+    def has_faces_of(self, other):
+        """Whether both have the same faces, in the same order."""
+        return numpy.array_equal(self.counts, other.counts) and numpy.array_equal(self.corners, other.corners)
+
     def equals(self, other):
         """Whether both have the same points and faces."""
-        return (numpy.array_equal(self.points, other.points) and numpy.array_equal(self.counts, other.counts)
-                and numpy.array_equal(self.corners, other.corners))
+        return numpy.array_equal(self.points, other.points) and self.has_faces_of(other)
 
     def faces(self):
         """A list of corners a face."""

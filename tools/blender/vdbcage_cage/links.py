@@ -7,8 +7,11 @@ from mathutils import Matrix
 
 from . import geometry
 from .command import CommandError
+from .files import Polygons
 
-_rest = "vdbcage_rest"  # a custom property of models: x, y, z of the cage's points at rest, in the cage's own space
+# Custom properties of models: of the cage at rest x, y, z of its points, in its own space; how many corners each face
+# has; and the points at these corners. A model that was linked by an older add-on has the first alone.
+_rest, _rest_counts, _rest_corners = "vdbcage_rest", "vdbcage_rest_counts", "vdbcage_rest_corners"
 
 
 SURFACE = bpy.props.EnumProperty(
@@ -36,10 +39,10 @@ class Link(bpy.types.PropertyGroup):
 
 
 class Rest:
-    """A model and its cage at rest: the cage's points in its own space, (n, 3), and both world matrices, (4, 4)."""
+    """A model and its cage at rest: the cage's mesh in its own space, and both world matrices, (4, 4)."""
 
-    def __init__(self, points, model_matrix, cage_matrix):
-        self.points, self.model_matrix, self.cage_matrix = points, model_matrix, cage_matrix
+    def __init__(self, mesh, model_matrix, cage_matrix):
+        self.mesh, self.model_matrix, self.cage_matrix = mesh, model_matrix, cage_matrix
 
 
 def in_scene(context, thing):
@@ -75,7 +78,7 @@ def seen_rest(context, model, cage):
         raise CommandError(f"{cage.name} has modifiers that change its number of points. Apply them first")
     geometry.inverse(cage.name, cage.matrix_world)
     geometry.inverse(model.name, model.matrix_world)
-    return Rest(shape.points, geometry.matrix(model.matrix_world), geometry.matrix(cage.matrix_world))
+    return Rest(shape, geometry.matrix(model.matrix_world), geometry.matrix(cage.matrix_world))
 
 
 def set_rest(model, cage, rest):
@@ -83,7 +86,8 @@ def set_rest(model, cage, rest):
     link = model.vdbcage
     link.cage = cage
     cage.vdbcage.is_cage = True
-    model[_rest] = rest.points.ravel().tolist()
+    model[_rest] = rest.mesh.points.ravel().tolist()
+    model[_rest_counts], model[_rest_corners] = rest.mesh.counts.tolist(), rest.mesh.corners.tolist()
     link.model_matrix, link.cage_matrix = rest.model_matrix.ravel(), rest.cage_matrix.ravel()
     link.is_at_rest = True
 
@@ -97,7 +101,10 @@ def rest_of(model, cage):
     if len(points) != len(cage.data.vertices):
         raise CommandError(f"{cage.name} has {len(cage.data.vertices)} points, and had {len(points)} at rest. Press "
                            "Set Rest while it is as the model is")
-    return Rest(points, numpy.array(link.model_matrix, numpy.float64).reshape(4, 4),
+    mesh = geometry.rest(cage)
+    faces = [numpy.array(model[name], int) for name in (_rest_counts, _rest_corners) if name in model]
+    counts, corners = faces or (mesh.counts, mesh.corners)
+    return Rest(Polygons(points, counts, corners), numpy.array(link.model_matrix, numpy.float64).reshape(4, 4),
                 numpy.array(link.cage_matrix, numpy.float64).reshape(4, 4))
 
 

@@ -128,23 +128,28 @@ class _Pose:
             mesh = links.unmoved(context, model)
         self.points = len(mesh.points)
         self._model_to_world, self._cage_to_world = rest.model_matrix, rest.cage_matrix
-        self._faces = geometry.rest(cage)
-        place.mkdir()
+        cage_name = files.file_name(cage.name)  # no name of a model has a comma there
+        self._rest_file, self._posed = place / f"{cage_name}, at rest.ply", place / f"{cage_name}, posed"
+        self._cage_points = len(rest.mesh.points)
+        self._posed.mkdir(parents=True)
         files.write_ply(self._model_file, mesh.moved(self._model_to_world))
-        self._write_cage(place / "rest.ply", rest.points)
+        self._write_cage(self._rest_file, rest.mesh)
         self._weights = self._weights_file()
 
-    def write_frame(self, number, points):
-        """Writes the cage's points, in its own space, as a frame. Raises CommandError."""
-        if len(points) != len(self._faces.points):
+    def write_frame(self, number, mesh):
+        """Writes the posed cage, in its own space, as a frame. Raises CommandError.
+
+        By its faces the command sees whether its points are in another order than at rest.
+        """
+        if len(mesh.points) != self._cage_points:
             raise CommandError(f"{self.cage} has modifiers that change its number of points. Apply them first")
-        self._write_cage(self._folder / f"posed.{number:04d}.ply", points)
+        self._write_cage(self._posed / f"{number:04d}.ply", mesh)
 
     def commands(self, program):
         """The commands that leave the posed model in the folder."""
-        cage, model = self._folder / "rest.ply", self._model_file
+        cage, model = self._rest_file, self._model_file
         bind = [program, "bind", cage, model, "-o", self._weights, "--coordinates", self._coordinates, "-v"]
-        deform = [program, "deform", cage, self._folder / "posed.%04d.ply", model, "-o",
+        deform = [program, "deform", cage, self._posed / "%04d.ply", model, "-o",
                   self._folder / "result.%04d.ply", "--weights", self._weights, "-v"]
         return [deform] if self._weights.exists() else [bind, deform]
 
@@ -154,14 +159,13 @@ class _Pose:
         world = numpy.linalg.inv(self._model_to_world)
         return points @ world[:3, :3].T + world[:3, 3]
 
-    def _write_cage(self, path, points):
-        mesh = files.Polygons(points, self._faces.counts, self._faces.corners)
+    def _write_cage(self, path, mesh):
         files.write_ply(path, mesh.moved(self._cage_to_world))
 
     def _weights_file(self):
         """Where the weights of this model and cage are kept until Blender ends: they take longer than a pose."""
         content = hashlib.sha256(self._coordinates.encode())
-        for file in (self._folder / "rest.ply", self._model_file):
+        for file in (self._rest_file, self._model_file):
             content.update(file.read_bytes())
         start = f"vdbcage_weights_{files.file_name(self.model)}_"
         path = pathlib.Path(bpy.app.tempdir) / f"{start}{content.hexdigest()[:32]}.npy"
@@ -180,7 +184,7 @@ def _write_frames(context, poses, frames):
                 context.scene.frame_set(frame)
             for pose in poses:
                 cage = context.scene.objects[pose.cage]
-                pose.write_frame(number, geometry.evaluated(context, cage).points)
+                pose.write_frame(number, geometry.evaluated(context, cage))
     finally:
         if context.scene.frame_current != current:
             context.scene.frame_set(current)

@@ -26,7 +26,7 @@ import numpy
 
 __all__ = ["Binding", "Cage", "CageCheck", "Cancelled", "DeviceError", "Elasticity", "Error", "Family", "InputError",
            "IoError", "Mask", "Mesh", "Pipeline", "check_cage", "close_mask", "coordinate_families", "make_cage",
-           "predicted_memory", "read_vdb", "voxelize", "write_vdb"]
+           "posed_points", "predicted_memory", "read_vdb", "voxelize", "write_vdb"]
 
 
 class Error(Exception):
@@ -552,6 +552,18 @@ class Binding:
 
     def __repr__(self):
         return f"<vdbcage.Binding: {len(self.points)} points, {self.handles} handles, {self.coordinates}>"
+
+
+def posed_points(cage, posed):
+    """The points of a posed cage that another program wrote, in the order of the cage's: float64, shape (n, 3).
+
+    cage: the Mesh at rest
+    posed: a Mesh with the cage's faces, in any order; its points may be in another order too
+    The faces tell which point is which: by them the points are put into order. Arrays have none, so Binding.pose() and
+    Binding.update() trust the order of what they get.
+    Raises InputError where the faces are not the cage's, or points in another order fit in several ways.
+    """
+    return _vdbcage.posed_points(_mesh("cage", cage), _mesh("posed", posed))
 
 
 class Mask:

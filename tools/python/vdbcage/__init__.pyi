@@ -8,7 +8,7 @@ import numpy.typing as npt
 
 __all__ = ["Binding", "Cage", "CageCheck", "Cancelled", "DeviceError", "Elasticity", "Error", "Family", "InputError",
            "IoError", "Mask", "Mesh", "Pipeline", "check_cage", "close_mask", "coordinate_families", "make_cage",
-           "predicted_memory", "read_vdb", "voxelize", "write_vdb"]
+           "posed_points", "predicted_memory", "read_vdb", "voxelize", "write_vdb"]
 
 __version__: str
 
@@ -144,6 +144,8 @@ class Binding:
     def elasticity(self) -> Elasticity: ...
     @property
     def handles(self) -> int: ...
+
+def posed_points(cage: Mesh, posed: Mesh) -> _Points: ...
 
 class Mask:
     def __init__(self, voxels: npt.ArrayLike, voxel_size: float = 1.0,

@@ -484,6 +484,7 @@ private:
 
 struct Apply {
     State& state;
+    std::string* remark;
 
     void operator()(const OpenModel& c) const
     {
@@ -525,8 +526,8 @@ struct Apply {
     }
     void operator()(const EditCage& c) const { state.document = withEdit(state, c.edit); }
     void operator()(const ResetPose& c) const { state.document = withResetPose(state, c.onlySelected); }
-    void operator()(const OpenPose& c) const { state.document = withOpenedPose(state, c.path); }
-    void operator()(const OpenPoses& c) const { state.document = withOpenedPoses(state, c.path, c.frames); }
+    void operator()(const OpenPose& c) const { state.document = withOpenedPose(state, c.path, remark); }
+    void operator()(const OpenPoses& c) const { state.document = withOpenedPoses(state, c.path, c.frames, remark); }
     void operator()(const SetKey& c) const { state.document = withKey(state, c.frame, c.name); }
     void operator()(const DeleteKey& c) const
     {
@@ -648,10 +649,10 @@ std::vector<Command> commandsFor(const ViewState& view)
     return commands;
 }
 
-State applied(const State& state, const Command& command)
+State applied(const State& state, const Command& command, std::string* remark)
 {
     State changed = state;
-    std::visit(Apply{changed}, command);
+    std::visit(Apply{changed, remark}, command);
     return changed;
 }
 

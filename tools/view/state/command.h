@@ -225,7 +225,8 @@ std::vector<std::pair<std::string, std::string>> describeCommands();
 std::vector<Command> commandsFor(const ViewState& view);
 
 /// The state after the command. OpenModel, OpenCage, OpenPose and OpenPoses read their files. What moves or resets
-/// points needs a cage that is shown. \throw InputError, IoError; the state is as it was
-State applied(const State& state, const Command& command);
+/// points needs a cage that is shown. `remark` gets what the user is to know of what was done, if there is anything.
+/// \throw InputError, IoError; the state is as it was
+State applied(const State& state, const Command& command, std::string* remark = nullptr);
 
 } // namespace vdbcage::view

@@ -19,28 +19,32 @@ namespace {
 namespace fs = std::filesystem;
 using openvdb::Vec3d;
 
-std::vector<Vec3d> readPose(const Mesh& cage, const fs::path& path)
+PosedPoints openPosedCage(const Mesh& cage, const fs::path& path)
 {
     const OpenedMeshPtr posed = openMesh(path);
-    tool::requireSameFaces(posed->path, posed->mesh, "the cage that is shown", cage);
-    return posed->mesh.points;
+    return tool::posedPointsOf(posed->path, posed->mesh, cage);
 }
 
-TimeLine openSequence(const MeshPtr& cage, const fs::path& path)
+TimeLine openSequence(const MeshPtr& cage, const fs::path& path, std::string* remark)
 {
     const fs::path pattern = patternOf(path);
     if (!tool::isPattern(pattern)) {
         throw InputError(path.string() + ": its name has no number; a sequence is named as walk.0001.obj");
     }
     TimeLine poses;
-    for (const tool::Frame& frame : tool::findFrames(pattern)) {
+    const std::vector<tool::Frame> frames = tool::findFrames(pattern);
+    std::size_t reordered = 0;
+    for (const tool::Frame& frame : frames) {
         if (frame.number > lastFrame) {
             throw InputError(frame.path.string() + ": the number of a frame must be at most " +
                              std::to_string(lastFrame));
         }
+        PosedPoints pose = openPosedCage(*cage, frame.path);
+        reordered += pose.reordered;
         poses = poses.with(
-            {static_cast<int>(frame.number), poseOf(cage, readPose(*cage, frame.path)), frame.path.stem().string()});
+            {static_cast<int>(frame.number), poseOf(cage, std::move(pose.points)), frame.path.stem().string()});
     }
+    if (remark) *remark = tool::describeOrder(pattern.filename(), reordered, frames.size());
     return poses;
 }
 
@@ -106,16 +110,19 @@ TimeLine openParameters(const MeshPtr& cage, const fs::path& path, int frames)
 
 } // namespace
 
-Document withOpenedPose(const State& state, const fs::path& path)
+Document withOpenedPose(const State& state, const fs::path& path, std::string* remark)
 {
-    return withPose(state, readPose(*cageOf(state), path));
+    PosedPoints pose = openPosedCage(*cageOf(state), path);
+    if (remark) *remark = tool::describeOrder(path.filename(), pose.reordered, 1);
+    return withPose(state, std::move(pose.points));
 }
 
-Document withOpenedPoses(const State& state, const fs::path& path, int frames)
+Document withOpenedPoses(const State& state, const fs::path& path, int frames, std::string* remark)
 {
     const MeshPtr& cage = cageOf(state);
     Document document = state.document;
-    document.poses = path.extension() == ".param" ? openParameters(cage, path, frames) : openSequence(cage, path);
+    document.poses =
+        path.extension() == ".param" ? openParameters(cage, path, frames) : openSequence(cage, path, remark);
     return document;
 }
 

@@ -8,9 +8,10 @@
 /// Poses from files. What poses is the cage that is shown: each function throws InputError where there is none.
 namespace vdbcage::view {
 
-/// The pose of the view's frame is that of the posed cage at `path`.
-/// \throw InputError, IoError naming the file: it has other faces than the cage
-Document withOpenedPose(const State& state, const std::filesystem::path& path);
+/// The pose of the view's frame is that of the posed cage at `path`. `remark` gets what the user is to know of it: that
+/// points were put into the order of the cage.
+/// \throw InputError, IoError naming the file: as posedPoints
+Document withOpenedPose(const State& state, const std::filesystem::path& path, std::string* remark = nullptr);
 
 /// The poses of a sequence, or of a file of parameters (.param), in place of all that were there.
 ///
@@ -21,7 +22,8 @@ Document withOpenedPose(const State& state, const std::filesystem::path& path);
 /// times a point of the cage, from 0, and by what it moves, x y z. The pose at the first of `frames` frames has the
 /// least factor times that, the last one the largest. (This is what CageModeler reads.)
 /// \throw InputError, IoError naming the file, the value and what is allowed
-Document withOpenedPoses(const State& state, const std::filesystem::path& path, int frames);
+Document withOpenedPoses(const State& state, const std::filesystem::path& path, int frames,
+                         std::string* remark = nullptr);
 
 /// The pattern of which `path` is a file: its last number becomes %0Nd, of as many digits, if it begins with 0, and
 /// else that or %d, of which there are more files. The path itself if it is a pattern, or its name has no number.

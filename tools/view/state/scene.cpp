@@ -7,6 +7,7 @@
 
 #include <nlohmann/json.hpp>
 #include <tools/report/frames.h>
+#include <tools/report/posed_cage.h>
 #include <tools/view/state/command.h>
 #include <tools/view/state/words.h>
 #include <vdbcage/core/detail/atomic_file.h>
@@ -102,13 +103,8 @@ private:
     {
         MeshPtr& rest = rests_[restPath];
         if (!rest) rest = std::make_shared<const Mesh>(readMesh(restPath));
-        Pose pose{rest, readMesh(posedPath).points};
-        if (pose.points.size() != rest->points.size()) {
-            throw InputError(posedPath.string() + ": it has " + std::to_string(pose.points.size()) +
-                             " points; the cage at rest " + restPath.string() + " has " +
-                             std::to_string(rest->points.size()));
-        }
-        return std::make_shared<const Pose>(std::move(pose));
+        return std::make_shared<const Pose>(
+            Pose{rest, tool::posedPointsOf(posedPath, readMesh(posedPath), *rest).points});
     }
 
     fs::path folder_;

@@ -17,9 +17,9 @@ void Session::note(History<Value>& history, bool& hasDragged, const Value& befor
     }
 }
 
-void Session::execute(const Command& command)
+void Session::execute(const Command& command, std::string* remark)
 {
-    State changed = applied(state_, command);
+    State changed = applied(state_, command, remark);
     if (changesDocument(command)) {
         note(documents_, hasDraggedDocument_, state_.document, changed.document, command);
     } else {

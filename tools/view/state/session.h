@@ -62,9 +62,9 @@ class Session {
 public:
     const State& state() const { return state_; }
 
-    /// Applies the command. One that changes nothing leaves no step.
+    /// Applies the command. One that changes nothing leaves no step. `remark` as applied().
     /// \throw InputError, IoError; all is as it was
-    void execute(const Command& command);
+    void execute(const Command& command, std::string* remark = nullptr);
 
     /// Between these the commands of each part make one step, as a drag of the mouse does.
     void beginDrag();
