@@ -375,6 +375,31 @@ BOOST_AUTO_TEST_CASE(points_in_another_order)
                   scene.at("box.obj") + ": its points are in another order");
 }
 
+BOOST_AUTO_TEST_CASE(tells_what_is_outside_and_what_crosses)
+{
+    const Scene scene;
+    const std::string model = scene.at("model.obj"), cage = scene.at("cage.obj"), weights = scene.at("w.npy");
+    const auto bound = [&] { return runCommand({command, "bind", cage, model, "-o", weights}).err; };
+    BOOST_TEST(bound().find("  ") == std::string::npos);
+    Mesh crossing = scene.cage;
+    crossing.points[0] = Vec3d(0, 0, -5); // through the other side, and over points of the model
+    writeMesh(crossing, cage);
+    CheckOptions options;
+    options.measure = false;
+    const CageCheck check = checkCage(crossing, scene.model, options);
+    BOOST_TEST(check.selfIntersections > 1);
+    BOOST_TEST(check.modelVerticesOutside > 0);
+    const std::string line = "\n  " + std::to_string(check.modelVerticesOutside) +
+                             " of 4 points are not inside the cage; the cage has " +
+                             std::to_string(check.selfIntersections) + " self-intersections\n";
+    const std::string said = bound();
+    BOOST_TEST(said.find(line) != std::string::npos, said + " lacks " + line);
+    const auto posed = runCommand({command, "deform", cage, cage, model, "-o", scene.at("out.obj")});
+    BOOST_TEST(posed.err.find(line) != std::string::npos, posed.err);
+    const auto quiet = runCommand({command, "bind", cage, model, "-o", weights, "-q"});
+    BOOST_TEST(quiet.err == "");
+}
+
 BOOST_AUTO_TEST_CASE(a_walk_without_inverted_triangles)
 {
     const TemporaryFolder folder;

@@ -305,6 +305,23 @@ BOOST_AUTO_TEST_CASE(without_a_selection_a_grab_says_so)
     run(app, {"key g", "expect messages 1", "key escape", "expect messages 0"});
 }
 
+BOOST_AUTO_TEST_CASE(the_panel_says_why_a_pose_is_not_followed)
+{
+    const std::string cage = (folder / "small.obj").string();
+    writeMesh(lopsided(sphere({0, 0, 0}, 0.5, 5)), cage); // the model is outside
+    run(app, {"open-cage " + quotedWord(cage), "coordinates mvc", "wait", "select points 0", "move 0 0 1", "wait",
+              "expect bound yes"});
+    BOOST_TEST(!app.widget("error.pose"));
+    runLine(app, "mouse move picture 0.01 0.99");
+    const draw::Picture followed = app.picture();
+    run(app, {"coordinates green", "wait", "expect bound no"});
+    BOOST_TEST_REQUIRE(app.widget("error.pose").has_value());
+    BOOST_TEST(app.widget("error.pose")->height > 0);
+    BOOST_TEST(!samePicture(app.picture(), followed));
+    run(app, {"coordinates mvc", "wait", "expect bound yes"});
+    BOOST_TEST(!app.widget("error.pose"));
+}
+
 BOOST_AUTO_TEST_CASE(a_posed_cage_in_another_order_is_noted)
 {
     std::mt19937 random(1);

@@ -54,6 +54,25 @@ std::string describeLoose(const fs::path& path, const CoordinateOptions& options
                 : "; outside of the cage they ride along by mean value coordinates\n");
 }
 
+/// A line where the cage at rest does not bound the model, or crosses itself: such weights pose it less well. Empty: it
+/// does neither.
+std::string describeFit(const Mesh& cage, const Mesh& model, Interrupter* interrupter)
+{
+    CheckOptions options;
+    options.measure = false;
+    const CageCheck check = checkCage(cage, model, options, interrupter);
+    std::string text;
+    if (check.modelVerticesOutside > 0) {
+        text = std::to_string(check.modelVerticesOutside) + " of " + std::to_string(model.points.size()) +
+               " points are not inside the cage";
+    }
+    if (check.selfIntersections > 0) {
+        text += (text.empty() ? "" : "; ") + ("the cage has " + std::to_string(check.selfIntersections)) +
+                (check.selfIntersections == 1 ? " self-intersection" : " self-intersections");
+    }
+    return text.empty() ? text : "  " + text + '\n';
+}
+
 /// A line a frame: how many triangles of the model the pose turns inside out, and whether the posed cage is one.
 std::string describeInversions(const Binding& binding, const Mesh& model, const std::vector<Frame>& frames,
                                const std::vector<std::vector<openvdb::Vec3d>>& poses, Interrupter* interrupter)
@@ -177,7 +196,8 @@ int runBind(Call call)
         });
         text += printable(files[i]) + ": " + std::to_string(model.points.size()) + " points, " +
                 std::to_string(handles) + " handles, " + coordinatesName(coordinates.family) + '\n' +
-                describeLoose(modelPaths[i], ofModel);
+                describeLoose(modelPaths[i], ofModel) +
+                describeFit(cage, model, &*progress);
     }
     outputs.commit();
     progress->succeed();
@@ -253,6 +273,7 @@ int runDeform(Call call)
         throw InputError(weights.string() + ": has " + coordinatesName(binding.family()) +
                          " coordinates; --coordinates asks for " + arguments.familyName());
     }
+    const std::string fit = weights.empty() ? describeFit(cage, model, &*progress) : "";
     if (!weights.empty()) binding = binding.with(arguments.optionsOf(binding.family()).elasticity);
     std::vector<std::vector<openvdb::Vec3d>> poses; // kept for what is printed
     std::size_t reordered = 0;
@@ -271,7 +292,7 @@ int runDeform(Call call)
     flushOutput();
     std::string text = printable(output) + ": " + std::to_string(frames.size()) +
                        (frames.size() == 1 ? " pose" : " poses") + " of " + std::to_string(model.points.size()) +
-                       " points\n" + orderLine(posedPath, reordered, frames.size());
+                       " points\n" + orderLine(posedPath, reordered, frames.size()) + fit;
     if (computed) text += describeLoose(modelPath, *computed);
     if (talk.verbose()) text += warnings;
     outputs.commit();

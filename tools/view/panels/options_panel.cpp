@@ -267,11 +267,15 @@ void buildProgress(const PanelContext& context)
         ImGui::EndDisabled();
     }
     context.name(isMaking ? "cancel" : "make");
-    if (!planner.error().empty()) {
+    const auto complain = [&](const char* name, const std::string& problem) {
         ImGui::PushTextWrapPos(0);
-        coloured(theme::bad, planner.error());
+        coloured(theme::bad, problem);
         ImGui::PopTextWrapPos();
-    }
+        context.name(name);
+    };
+    if (!planner.error().empty()) complain("error.cage", planner.error());
+    const std::string& binding = context.content.bindingError;
+    if (!binding.empty()) complain("error.pose", "The pose is not followed: " + binding);
 }
 
 } // namespace

@@ -63,8 +63,7 @@ void buildBinding(const PanelContext& context)
     if (context.content.session.state().view.mode != Mode::pose) return;
     const PanelContent& content = context.content;
     if (!content.bindingError.empty()) {
-        coloured(theme::bad, "the pose is not followed");
-        help(content.bindingError);
+        coloured(theme::bad, "the pose is not followed"); // why is in the panel of options
         return ImGui::SameLine(0, length(18));
     }
     if (!content.binding) return;
