@@ -71,8 +71,8 @@ inline Mesh lopsided(Mesh mesh)
         mesh.quads.erase(mesh.quads.begin() + static_cast<std::ptrdiff_t>(quad));
         return q;
     };
-    for (const std::size_t quad : {0, 1}) { // by a point in the middle
-        const openvdb::Vec4I q = taken(quad);
+    for (int k = 0; k < 2; ++k) { // by a point in the middle
+        const openvdb::Vec4I q = taken(0);
         const auto middle = static_cast<openvdb::Index32>(mesh.points.size());
         mesh.points.push_back((mesh.points[q[0]] + mesh.points[q[1]] + mesh.points[q[2]] + mesh.points[q[3]]) * 0.25);
         for (int i = 0; i < 4; ++i) mesh.triangles.emplace_back(q[i], q[(i + 1) % 4], middle);
