@@ -110,7 +110,7 @@ LIBRARY_ONLY = {
 HAND_ERRORS_ON = {
     "vdbcage/core/error.cpp", "vdbcage/core/detail/atomic_file.cpp", "vdbcage/gl/offscreen.cpp",
     "vdbcage/pipeline/options.cpp", "tools/report/posed_cage.cpp", "tools/vdbcage/compare_families.cpp",
-    "tools/vdbcage/make.cpp", "tools/vdbcage/render_command.cpp",
+    "tools/vdbcage/deform.cpp", "tools/vdbcage/make.cpp", "tools/vdbcage/render_command.cpp",
 }
 
 NUMBER = r"(?:[-+]?[0-9][-+.0-9e]*|-?nan|-?inf)"

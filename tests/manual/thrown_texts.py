@@ -216,7 +216,7 @@ class Sources:
         plain = r"[^a-z]*"
         # Values are also an s, where there are several of a thing, and parts that functions return.
         parts = "|".join(part.replace(VALUE, plain) for part in self.parts)
-        text = re.sub(r"^(model|cage|posed cage|points):", r"(?:\1|FILE):", thrown.text) # the command names the file
+        text = re.sub(r"^(model|cage|posed\\ cage|points):", r"(?:\1|FILE):", thrown.text) # the command names the file
         inner = plain + text.replace(VALUE, rf"{plain}(?:(?:s|{parts}){plain})?") + plain
         if longest_words(text) not in message: # soon told: expressions take long
             return False

@@ -1,22 +1,23 @@
 #include <tools/report/posed_cage.h>
 
+#include <vdbcage/core/error.h>
+
 namespace vdbcage::tool {
 
-InputError namingFile(const InputError& error, const std::map<std::string, std::filesystem::path>& files)
+std::string namingFile(const std::string& text, const std::map<std::string, std::filesystem::path>& files)
 {
-    const std::string text = error.what();
     const std::size_t colon = text.find(": ");
     const auto file = files.find(text.substr(0, colon));
-    return colon == std::string::npos || file == files.end() ? error
-                                                             : InputError(file->second.string() + text.substr(colon));
+    return colon == std::string::npos || file == files.end() ? text : file->second.string() + text.substr(colon);
 }
 
 PosedPoints posedPointsOf(const std::filesystem::path& path, const Mesh& posed, const Mesh& cage)
 {
+    const std::map<std::string, std::filesystem::path> files{{"posed cage", path}};
     try {
         return posedPoints(cage, posed);
     } catch (const InputError& error) {
-        throw namingFile(error, {{"posed cage", path}});
+        throw InputError(namingFile(error.what(), files));
     }
 }
 

@@ -5,14 +5,13 @@
 #include <map>
 #include <string>
 
-#include <vdbcage/core/error.h>
 #include <vdbcage/deform/posed_points.h>
 
 namespace vdbcage::tool {
 
-/// An objection of the library to one of its arguments, as "cage: it faces inward", with the name of the file that this
-/// was read from: `files` has it by the argument. The objection to any other stays as it is.
-InputError namingFile(const InputError& error, const std::map<std::string, std::filesystem::path>& files);
+/// What the library objects to one of its arguments, as "cage: it faces inward", with the name of the file that this
+/// was read from: `files` has it by the argument. Any other text stays as it is.
+std::string namingFile(const std::string& text, const std::map<std::string, std::filesystem::path>& files);
 
 /// posedPoints() of the cage that was read from `path`. \throw InputError as posedPoints, naming the file
 PosedPoints posedPointsOf(const std::filesystem::path& path, const Mesh& posed, const Mesh& cage);

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <iostream>
+#include <map>
 #include <optional>
 
 #include <tools/report/frames.h>
@@ -30,10 +31,11 @@ namespace fs = std::filesystem;
 template <typename Bind>
 auto bindFiles(const fs::path& cagePath, const fs::path& modelPath, const Bind& bind)
 {
+    const std::map<std::string, fs::path> files{{"cage", cagePath}, {"points", modelPath}};
     try {
         return bind();
     } catch (const InputError& error) {
-        throw namingFile(error, {{"cage", cagePath}, {"points", modelPath}});
+        throw InputError(namingFile(error.what(), files));
     }
 }
 
