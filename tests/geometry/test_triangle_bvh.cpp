@@ -11,6 +11,7 @@
 #include <tbb/global_control.h>
 #include <vdbcage/core/error.h>
 #include <vdbcage/geometry/triangle_bvh.h>
+#include <vdbcage/geometry/triangle_distance.h>
 
 using namespace vdbcage;
 using namespace vdbcage::detail;
@@ -64,6 +65,38 @@ Soup manyQuads()
         soup.triangles.emplace_back(first, first + 2, first + 3);
         soup.triangles.emplace_back(first, first + 1, first + 3);
         soup.triangles.emplace_back(first + 1, first + 2, first + 3);
+    }
+    return soup;
+}
+
+// Tubes of eight sides, much longer than wide, side by side: all along `direction`, or in any directions where it is 0.
+// Some sides are so narrow that they are a line, and some there twice.
+Soup needles(std::size_t count, const Vec3d& direction, double length = 100)
+{
+    std::mt19937 random(19);
+    std::uniform_real_distribution<double> unit(-1, 1);
+    Soup soup;
+    for (std::size_t i = 0; i < count; ++i) {
+        Vec3d along = direction;
+        if (direction.isZero()) along = Vec3d(unit(random), unit(random), 0.1 * unit(random));
+        along.normalize();
+        const Vec3d across = Vec3d(0, 0, 1).cross(along).unit(), up = along.cross(across);
+        const Vec3d centre = 0.4 * unit(random) * across + 0.03 * unit(random) * up;
+        const double width = i % 10 == 0 ? 0 : 0.012;
+        const auto first = static_cast<unsigned>(soup.points.size());
+        for (const double end : {-0.5, 0.5}) {
+            for (int side = 0; side < 8; ++side) {
+                const double angle = side * std::acos(-1) / 4;
+                soup.points.push_back(centre + end * length * along +
+                                      width * (std::cos(angle) * across + std::sin(angle) * up));
+            }
+        }
+        for (unsigned side = 0; side < 8; ++side) {
+            const unsigned a = first + side, b = first + (side + 1) % 8;
+            soup.triangles.emplace_back(a, b, b + 8);
+            soup.triangles.emplace_back(a, b + 8, a + 8);
+        }
+        if (i % 7 == 0) soup.triangles.push_back(Vec3I(soup.triangles.back()));
     }
     return soup;
 }
@@ -315,6 +348,107 @@ BOOST_AUTO_TEST_CASE(any_size_and_place_of_the_coordinates)
     std::size_t found = 0;
     tree.forEachOverlap(tree.box(), [&](const auto&) { return ++found, true; });
     BOOST_TEST(found == soup.triangles.size());
+}
+
+// Long thin triangles at an angle to the axes are in boxes along themselves.
+BOOST_AUTO_TEST_CASE(needles_answer_as_brute_force_does, *boost::unit_test::label("property"))
+{
+    std::mt19937 random(20);
+    std::uniform_real_distribution<double> unit(-1, 1);
+    std::vector<Soup> soups{needles(60, {0.6, 0.75, 0.27}), needles(60, {-1, 1, 1e-3}, 1e4),
+                            needles(60, Vec3d(0.0), 10)};
+    soups.push_back(randomSoup(21, 300)); // needles among others
+    const Soup among = needles(40, {1, 1, 1});
+    for (const Vec3I& t : among.triangles) {
+        const auto first = static_cast<unsigned>(soups.back().points.size());
+        for (int i = 0; i < 3; ++i) soups.back().points.push_back(0.01 * among.points[t[i]]);
+        soups.back().triangles.emplace_back(first, first + 1, first + 2);
+    }
+    for (const Soup& soup : soups) {
+        const TriangleBvh tree = soup.tree();
+        std::uint32_t seed = TriangleBvh::none;
+        for (int i = 0; i < 60; ++i) {
+            // Near a triangle, or anywhere, also far away.
+            const Corners any = soup.corners(random() % soup.triangles.size());
+            const double place = std::abs(unit(random)), size = std::pow(10, -3 + 3 * std::abs(unit(random)));
+            const auto near = [&](const Vec3d& p) {
+                return p + size * Vec3d(unit(random), unit(random), unit(random));
+            };
+            const Vec3d p = i % 20 == 0 ? 1e5 * near(any[0]) : near(place * any[0] + (1 - place) * any[1]);
+            const Corners query{p, near(p), i % 5 == 0 ? p : near(p)};
+            const std::array<Vec3d, 4> corners{p, near(p), near(p), near(p)};
+            const double maxDistance = i % 2 == 0 ? 0 : 0.1 * size;
+            Box box = Box::of(p);
+            box.expand(Box::of(query[1]));
+            if (i % 3 == 0) box.hi[0] = std::numeric_limits<double>::infinity();
+            Numbers nearby, inside, overlapping;
+            const auto takeInto = [](Numbers& numbers) {
+                return [&numbers](const TriangleBvh::Item& item) { return numbers.insert(item.triangle), true; };
+            };
+            tree.traverse(tree.near(query, maxDistance), takeInto(nearby));
+            tree.traverse(tree.inTetrahedron(corners), takeInto(inside));
+            tree.forEachOverlap(box, takeInto(overlapping));
+            double nearest = std::numeric_limits<double>::infinity();
+            for (std::uint32_t t = 0; t < soup.triangles.size(); ++t) {
+                const Corners triangle = soup.corners(t);
+                nearest = std::min(nearest, (closestPointOnTriangle(p, triangle) - p).lengthSqr());
+                const bool isNear = nearness(query, triangle).squaredDistance <= maxDistance * maxDistance;
+                BOOST_REQUIRE_LE(nearby.count(t), 1U);
+                BOOST_REQUIRE_GE(nearby.count(t), isNear ? 1U : 0U);
+                // Points of the triangle that are in the tetrahedron or in the box.
+                bool isInside = false, isInBox = false;
+                for (const Vec3d& centre : {corners[0], box.lo, box.hi}) {
+                    if (!centre.isFinite()) continue;
+                    const Vec3d q = closestPointOnTriangle(centre, triangle);
+                    isInBox = isInBox || box.meets(Box::of(q));
+                    openvdb::Mat3d edges;
+                    for (int k = 0; k < 3; ++k) edges.setCol(k, corners[static_cast<std::size_t>(k) + 1] - corners[0]);
+                    const Vec3d weights = std::abs(edges.det()) > 1e-12 * size * size * size
+                                              ? edges.inverse(0.0) * (q - corners[0])
+                                              : Vec3d(-1);
+                    isInside = isInside || (weights[0] >= 0 && weights[1] >= 0 && weights[2] >= 0 &&
+                                            weights[0] + weights[1] + weights[2] <= 1);
+                }
+                BOOST_REQUIRE_LE(inside.count(t), 1U);
+                BOOST_REQUIRE_GE(inside.count(t), isInside ? 1U : 0U);
+                BOOST_REQUIRE_GE(overlapping.count(t), isInBox ? 1U : 0U);
+                BOOST_REQUIRE_LE(overlapping.count(t), box.meets(Box::of(triangle)) ? 1U : 0U);
+            }
+            const TriangleBvh::Closest closest = tree.closest(p, seed);
+            seed = closest.item;
+            BOOST_TEST((closest.point - p).lengthSqr() == closest.squaredDistance);
+            BOOST_TEST(std::sqrt(closest.squaredDistance) == std::sqrt(nearest), boost::test_tools::tolerance(1e-9));
+            const TriangleBvh::Closest rough = tree.closest(p, TriangleBvh::none, 0.3);
+            BOOST_TEST(rough.squaredDistance <= 1.3 * 1.3 * nearest * (1 + 1e-9));
+        }
+        const tbb::global_control control(tbb::global_control::max_allowed_parallelism, 1);
+        const TriangleBvh one = soup.tree();
+        BOOST_TEST(std::equal(tree.items().begin(), tree.items().end(), one.items().begin(), one.items().end(),
+                              [](const auto& a, const auto& b) { return a.triangle == b.triangle; }));
+    }
+}
+
+BOOST_AUTO_TEST_CASE(needles_at_an_angle_are_told_apart_as_others_are)
+{
+    const auto visits = [](const Vec3d& direction) {
+        const Soup soup = needles(300, direction);
+        const TriangleBvh tree(soup.points, soup.triangles, nullptr, TriangleBvh::Copies::drop);
+        std::mt19937 random(22);
+        std::uniform_real_distribution<double> unit(-1, 1);
+        std::size_t count = 0;
+        for (int i = 0; i < 200; ++i) {
+            const Corners any = soup.corners(random() % soup.triangles.size());
+            const double place = std::abs(unit(random));
+            const Vec3d p = place * any[0] + (1 - place) * any[2];
+            const auto near = [&] { return p + 0.05 * Vec3d(unit(random), unit(random), unit(random)); };
+            tree.traverse(tree.near({near(), near(), near()}), [&](const auto&) { return ++count, true; });
+        }
+        return count;
+    };
+    const std::size_t along = visits({1, 0, 0});
+    for (const Vec3d& direction : {Vec3d(0.6, 0.75, 0.27), Vec3d(1, -1, 0), Vec3d(0.3, -0.2, 0.9)}) {
+        BOOST_TEST(visits(direction) < 3 * along);
+    }
 }
 
 BOOST_AUTO_TEST_CASE(the_number_of_threads_does_not_matter)

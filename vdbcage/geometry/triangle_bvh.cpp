@@ -1,13 +1,18 @@
 // Based on: I. Wald, "On fast Construction of SAH-based Bounding Volume Hierarchies", 2007 (binned splits);
 //           C. Ericson, "Real-Time Collision Detection", 2005, 5.1.5 (closest point on a triangle).
 //           I. Wald, C. Benthin, S. Boulos, "Getting Rid of Packets", 2008 (trees of four children for SIMD).
-// Differs: bins along one axis only (the longest of the centroids).
+//           S. Woop et al., "Exploiting Local Orientation Similarity for Efficient Ray Traversal of Hair and Fur",
+//           2014 (boxes along what they hold, triangles told apart by direction).
+// Differs: bins along one axis only (the longest of the centroids); all boxes below a node are along the same axes.
 #include <vdbcage/geometry/triangle_bvh.h>
 
 #include <algorithm>
 #include <atomic>
 #include <cstring>
 #include <functional>
+#include <mutex>
+#include <numeric>
+#include <optional>
 #include <string>
 #include <unordered_set>
 #include <utility>
@@ -30,6 +35,10 @@ constexpr std::size_t parallelBinSize = 1U << 17; // leaves in a node that are w
 constexpr std::size_t manyTriangles = 1U << 19;
 constexpr std::uint32_t leafSize = 4;
 constexpr float leafGrowth = 1.6F; // how much a leaf's box may outdo the largest of its triangles', in area
+// A needle is what has so many times the area in a box along x, y and z that it has in one along itself. Of needles
+// side by side so many boxes have to meet in a place, or other axes gain too little.
+constexpr float needle = 4;
+constexpr std::uint32_t crowd = 32;
 
 // A leaf's box while the tree is built, in the tree's units. The fourth component of lo and hi means nothing. Not
 // initialized by default.
@@ -37,6 +46,7 @@ struct Ref {
     Floats lo, hi;
     std::uint32_t triangle; // the first of those that it holds
     std::uint32_t count;
+    float leastArea; // of a box along its triangles, about
 
     Floats twiceCentre() const { return lo + hi; }
 };
@@ -253,6 +263,48 @@ void TriangleBvh::Query::addSlab(const Vec3d& normal, double low, double high, d
     slab.twiceHigh = Floats{} + static_cast<float>(std::clamp(2 * (high + slack), -1e30, 1e30));
 }
 
+TriangleBvh::Query TriangleBvh::Query::along(const Frame& frame) const
+{
+    // Places are within 4 in each direction, and what has been turned within 7: wrong by less than 3e-6 in float.
+    // Projections of nodes, twice, are wrong by less than 5e-6 by the boxes, and by 4e-6 by the normal.
+    constexpr float boxSlack = 4e-6F, twiceSlack = 1e-5F;
+    std::array<std::array<Floats, 3>, 3> axes;
+    for (std::size_t i = 0; i < 3; ++i) {
+        for (std::size_t j = 0; j < 3; ++j) {
+            axes[i][j] = Floats{} + static_cast<float>(frame.axes[i][static_cast<int>(j)]);
+        }
+    }
+    const auto turned = [&](std::size_t i, const std::array<Floats, 3>& v) {
+        return axes[i][0] * v[0] + axes[i][1] * v[1] + axes[i][2] * v[2];
+    };
+    const auto absolute = [](Floats v) { return greatest(v, -v); };
+    std::array<Floats, 3> middle, half;
+    for (std::size_t i = 0; i < 3; ++i) {
+        middle[i] = (lo_[i] + hi_[i]) * 0.5F;
+        half[i] = (hi_[i] - lo_[i]) * 0.5F;
+    }
+    Query query;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const Floats centre = turned(i, middle);
+        const Floats reach =
+            absolute(axes[i][0]) * half[0] + absolute(axes[i][1]) * half[1] + absolute(axes[i][2]) * half[2] + boxSlack;
+        query.lo_[i] = centre - reach;
+        query.hi_[i] = centre + reach;
+    }
+    query.slabs_ = slabs_;
+    for (std::size_t k = 0; k < slabs_; ++k) {
+        const Slab& from = slab_[k];
+        Slab& to = query.slab_[k];
+        for (std::size_t i = 0; i < 3; ++i) {
+            to.normal[i] = turned(i, from.normal);
+            to.absolute[i] = absolute(to.normal[i]);
+        }
+        to.twiceLow = from.twiceLow - twiceSlack;
+        to.twiceHigh = from.twiceHigh + twiceSlack;
+    }
+    return query;
+}
+
 TriangleBvh::Query TriangleBvh::inBox(const Box& box) const
 {
     return Query({inUnits(box.lo), inUnits(box.hi)});
@@ -316,10 +368,11 @@ public:
     void build()
     {
         setUnits();
+        tree_.frames_.emplace_back();
         makeRefs();
         tree_.nodes_.reset(new TriangleBvh::Node[refCount_]); // not initialized: few pages are touched
         nodeCount_ = 1;
-        buildNode(0, {0, refCount_, 0});
+        buildNode(0, {0, refCount_, 0, 0});
         placeItems();
     }
 
@@ -352,7 +405,7 @@ private:
     {
         const std::size_t blocks = (triangles_.size() + blockSize - 1) / blockSize;
         const std::uint32_t most = triangles_.size() < manyTriangles ? 1 : leafSize;
-        std::vector<std::uint32_t> counts(blocks);
+        std::vector<std::uint32_t> counts(blocks), needles(blocks);
         parallelFor(std::size_t(0), blocks, [&](std::size_t block) {
             throwIfInterrupted(interrupter_);
             Ref* const first = refs_.get() + block * blockSize;
@@ -369,6 +422,7 @@ private:
                     last->lo = both.lo;
                     last->hi = both.hi;
                     ++last->count;
+                    last->leastArea += next.leastArea;
                     largest = std::max(largest, area);
                 } else {
                     *++last = next;
@@ -376,7 +430,9 @@ private:
                 }
             }
             counts[block] = static_cast<std::uint32_t>(last + 1 - first);
+            needles[block] = static_cast<std::uint32_t>(std::count_if(first, last + 1, isNeedle));
         });
+        hasNeedles_ = std::accumulate(needles.begin(), needles.end(), std::size_t(0)) >= crowd;
         for (std::size_t block = 0; block < blocks; ++block) {
             const Ref* const first = refs_.get() + block * blockSize;
             if (refCount_ < block * blockSize) std::copy(first, first + counts[block], refs_.get() + refCount_);
@@ -386,14 +442,63 @@ private:
 
     Ref refOf(std::size_t triangle) const
     {
-        const Box item = itemBox(triangle);
-        const Vec3d lo = tree_.inUnits(item.lo), hi = tree_.inUnits(item.hi);
-        Ref ref;
-        ref.lo = Floats{roundedDown(lo[0]), roundedDown(lo[1]), roundedDown(lo[2]), 0};
-        ref.hi = Floats{roundedUp(hi[0]), roundedUp(hi[1]), roundedUp(hi[2]), 0};
+        const Corners t = cornersInUnits(triangle);
+        Ref ref = boxed(Box::of(t));
         ref.triangle = static_cast<std::uint32_t>(triangle);
         ref.count = 1;
+        // However thin it is, boxes are rounded outward, by less than 3e-7.
+        const Vec3d u = t[1] - t[0], v = t[2] - t[0];
+        const double length = std::max(maxAbs(u), maxAbs(v));
+        ref.leastArea = static_cast<float>(u.cross(v).length() + 1e-6 * length + 1e-12);
         return ref;
+    }
+
+    static Ref boxed(const Box& box)
+    {
+        Ref ref;
+        ref.lo = Floats{roundedDown(box.lo[0]), roundedDown(box.lo[1]), roundedDown(box.lo[2]), 0};
+        ref.hi = Floats{roundedUp(box.hi[0]), roundedUp(box.hi[1]), roundedUp(box.hi[2]), 0};
+        return ref;
+    }
+
+    // The box of the same triangles along other axes.
+    FloatBox boxAlong(const TriangleBvh::Frame& frame, const Ref& ref) const
+    {
+        // Turning a point within [-1, 1] adds an error of less than 2e-15, in a query and here.
+        const Vec3d rounding(4e-15);
+        FloatBox sum;
+        for (std::uint32_t i = 0; i < ref.count; ++i) {
+            const Corners t = cornersInUnits(ref.triangle + i);
+            const Box box = Box::of({frame.of(t[0]), frame.of(t[1]), frame.of(t[2])});
+            const Ref rounded = boxed({box.lo - rounding, box.hi + rounding});
+            sum.expand(rounded.lo, rounded.hi);
+        }
+        return sum;
+    }
+
+    // Along the longest edge of the ref's first triangle, and along its plane.
+    TriangleBvh::Frame frameOf(const Ref& ref) const
+    {
+        const Corners t = cornersInUnits(ref.triangle);
+        std::array<Vec3d, 3> edges{t[1] - t[0], t[2] - t[1], t[0] - t[2]};
+        std::sort(edges.begin(), edges.end(),
+                  [](const Vec3d& a, const Vec3d& b) { return a.lengthSqr() > b.lengthSqr(); });
+        TriangleBvh::Frame frame;
+        frame.axes[0] = edges[0].unit();
+        const Vec3d across = frame.axes[0].cross(edges[1]);
+        // A sliver without a plane may lie in any.
+        const bool hasPlane = across.length() > leastSine * edges[0].length();
+        frame.axes[2] = hasPlane ? across.unit() : anyAcross(frame.axes[0]);
+        frame.axes[1] = frame.axes[2].cross(frame.axes[0]).unit();
+        frame.axes[2] = frame.axes[0].cross(frame.axes[1]).unit();
+        return frame;
+    }
+
+    static Vec3d anyAcross(const Vec3d& direction)
+    {
+        Vec3d axis(0.0);
+        axis[openvdb::math::MinIndex(openvdb::math::Abs(direction))] = 1;
+        return direction.cross(axis).unit();
     }
 
     static FloatBox boxOf(const Ref& ref)
@@ -435,6 +540,13 @@ private:
         });
     }
 
+    Corners cornersInUnits(std::size_t triangle) const
+    {
+        const Vec3I& t = triangles_[triangle];
+        return {tree_.inUnits(tree_.points_[t[0]]), tree_.inUnits(tree_.points_[t[1]]),
+                tree_.inUnits(tree_.points_[t[2]])};
+    }
+
     Box itemBox(std::size_t triangle) const
     {
         const Vec3I& t = triangles_[triangle];
@@ -443,26 +555,43 @@ private:
 
     struct Range {
         std::uint32_t begin, end;
-        std::size_t depth; // of binary splits
+        std::size_t depth;   // of binary splits
+        std::uint32_t frame; // what the boxes of its refs are along
 
         std::uint32_t size() const { return end - begin; }
     };
 
-    // Returns the box of the node.
-    FloatBox buildNode(std::uint32_t nodeIndex, const Range& whole)
+    // Returns the box of the node, along the axes that its range came with.
+    FloatBox buildNode(std::uint32_t nodeIndex, Range whole)
     {
         const bool large = whole.size() > taskSize;
-        std::array<Range, 4> ranges{whole};
-        std::size_t count = 1;
+        std::array<Range, 4> ranges;
+        std::size_t count = 0;
+        FloatBox before; // if it is turned
+        const bool isTurned = [&] {
+            if (!hasNeedles_ || whole.size() < crowd || whole.depth >= binnedDepth) return false;
+            const auto needles = crowdedNeedles(whole);
+            if (!needles) return false;
+            if (needles->end == whole.end) {
+                before = boxOf(whole);
+                turn(whole, needles->frame);
+                return true;
+            }
+            // They are turned once they are a node of their own.
+            ranges[count++] = {whole.begin, needles->end, whole.depth + 1, whole.frame};
+            return false;
+        }();
+        const std::size_t fixed = count;
+        ranges[count++] = {fixed == 0 ? whole.begin : ranges[0].end, whole.end, whole.depth + fixed, whole.frame};
         while (count < 4) {
-            Range* const largest = std::max_element(ranges.begin(), ranges.begin() + count,
+            Range* const largest = std::max_element(ranges.begin() + fixed, ranges.begin() + count,
                                                     [](const Range& a, const Range& b) { return a.size() < b.size(); });
             if (largest->size() == 1) break;
             const std::size_t depth = largest->depth + 1;
             const std::uint32_t middle = whole.size() <= 4 ? largest->begin + 1 : split(*largest);
             if (middle == largest->end) continue; // all were copies: one is left
-            ranges[count++] = {middle, largest->end, depth};
-            *largest = {largest->begin, middle, depth};
+            ranges[count++] = {middle, largest->end, depth, whole.frame};
+            *largest = {largest->begin, middle, depth, whole.frame};
         }
         std::array<FloatBox, 4> boxes;
         std::array<std::uint32_t, 4> child{};
@@ -483,6 +612,7 @@ private:
         }
         TriangleBvh::Node& node = tree_.nodes_[nodeIndex];
         node.child = child;
+        node.frame = whole.frame;
         FloatBox sum;
         for (std::size_t i = 0; i < 4; ++i) {
             for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -491,7 +621,91 @@ private:
             }
             if (i < count) sum.expand(boxes[i].lo, boxes[i].hi);
         }
+        return isTurned ? before : sum;
+    }
+
+    FloatBox boxOf(const Range& range) const
+    {
+        FloatBox sum;
+        for (std::uint32_t i = range.begin; i < range.end; ++i) sum.expand(refs_[i].lo, refs_[i].hi);
         return sum;
+    }
+
+    static bool isNeedle(const Ref& ref) { return boxOf(ref).area() > needle * ref.leastArea; }
+
+    struct Group {
+        FloatBox around;
+        double area = 0;
+        std::uint32_t count = 0;
+
+        void add(const Ref& ref)
+        {
+            around.expand(ref.lo, ref.hi);
+            area += boxOf(ref).area();
+            ++count;
+        }
+        bool isCrowded() const { return count >= crowd && area > crowd * around.area(); }
+    };
+
+    // The first refs of a range, up to `end`, are better along other axes.
+    struct Needles {
+        std::uint32_t end;
+        TriangleBvh::Frame frame;
+    };
+
+    // Puts needles side by side in the range to its beginning, if there are any.
+    std::optional<Needles> crowdedNeedles(const Range& range)
+    {
+        constexpr std::uint32_t tries = 8; // directions
+        Asker ask(interrupter_);
+        Ref* const first = refs_.get() + range.begin;
+        Ref* const last = refs_.get() + range.end;
+        // A place is in as many boxes as their areas are together by that of the box around them.
+        Group all;
+        for (const Ref* ref = first; ref != last; ++ref) {
+            ask();
+            all.around.expand(ref->lo, ref->hi);
+            if (isNeedle(*ref)) all.add(*ref);
+        }
+        if (!all.isCrowded()) return std::nullopt;
+        const auto gains = [&](const Ref& ref, const TriangleBvh::Frame& frame) {
+            return isNeedle(ref) && boxOf(ref).area() > needle * boxAlong(frame, ref).area();
+        };
+        TriangleBvh::Frame bestFrame;
+        Group best;
+        std::uint32_t needles = 0;
+        for (const Ref* along = first; along != last; ++along) {
+            if (!isNeedle(*along) || needles++ % (all.count / tries) != 0) continue;
+            const TriangleBvh::Frame frame = frameOf(*along);
+            Group group;
+            for (const Ref* ref = first; ref != last; ++ref) {
+                ask();
+                if (gains(*ref, frame)) group.add(*ref);
+            }
+            if (!group.isCrowded() || !(group.area > best.area)) continue;
+            best = group;
+            bestFrame = frame;
+        }
+        if (best.count == 0) return std::nullopt;
+        const Ref* const end = std::partition(first, last, [&](const Ref& ref) {
+            ask();
+            return gains(ref, bestFrame);
+        });
+        return Needles{range.begin + static_cast<std::uint32_t>(end - first), bestFrame};
+    }
+
+    void turn(Range& range, const TriangleBvh::Frame& frame)
+    {
+        Asker ask(interrupter_);
+        for (std::uint32_t i = range.begin; i < range.end; ++i) {
+            ask();
+            const FloatBox box = boxAlong(frame, refs_[i]);
+            refs_[i].lo = box.lo;
+            refs_[i].hi = box.hi;
+        }
+        const std::lock_guard lock(framesMutex_);
+        range.frame = static_cast<std::uint32_t>(tree_.frames_.size());
+        tree_.frames_.push_back(frame);
     }
 
     // Sorts the range of refs into two sides and returns where the second begins. Copies come together at last in a
@@ -590,6 +804,8 @@ private:
     std::unique_ptr<Ref[]> refs_;
     std::uint32_t refCount_ = 0;
     std::atomic<std::uint32_t> nodeCount_{0};
+    bool hasNeedles_ = false;
+    std::mutex framesMutex_;
 };
 
 TriangleBvh::TriangleBvh(std::vector<Vec3d> points, const std::vector<Vec3I>& triangles, Interrupter* interrupter,
@@ -618,12 +834,16 @@ TriangleBvh::Closest TriangleBvh::closest(const Vec3d& p, std::uint32_t seed, do
 
     // In the tree's units, in float: what is within `maxSquaredDistance`, which is rounded up, may be nearer. Points
     // far away are taken for nearer ones.
+    const Vec3d place = openvdb::math::minComponent(Vec3d(1e15), openvdb::math::maxComponent(Vec3d(-1e15), inUnits(p)));
     std::array<float, 3> lo, hi;
-    for (std::size_t i = 0; i < 3; ++i) {
-        const double x = std::clamp(inUnits(p)[static_cast<int>(i)], -1e15, 1e15);
-        lo[i] = roundedDown(x);
-        hi[i] = roundedUp(x);
-    }
+    const auto round = [&](const Vec3d& inFrame) {
+        for (std::size_t i = 0; i < 3; ++i) {
+            lo[i] = roundedDown(inFrame[static_cast<int>(i)]);
+            hi[i] = roundedUp(inFrame[static_cast<int>(i)]);
+        }
+    };
+    round(place);
+    std::uint32_t frame = 0; // of these
     const auto limitOf = [&](double squaredDistance) {
         const double distance = std::sqrt(squaredDistance) * scale_ / (1 + slack);
         return static_cast<float>(std::min(1.00001 * distance * distance + 1e-30, 1e38));
@@ -643,6 +863,10 @@ TriangleBvh::Closest TriangleBvh::closest(const Vec3d& p, std::uint32_t seed, do
             continue;
         }
         const Node& node = nodes_[child];
+        if (node.frame != frame) {
+            frame = node.frame;
+            round(frames_[frame].of(place));
+        }
         Floats squaredDistance{};
         for (std::size_t i = 0; i < 3; ++i) {
             const Floats below = node.lo[i] - hi[i], above = lo[i] - node.hi[i];

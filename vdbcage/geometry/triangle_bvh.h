@@ -57,6 +57,9 @@ Vec3d closestPointOnTriangle(const Vec3d& p, const Corners& triangle);
 /// Nodes have up to four children, whose boxes are compared at once, in float. They are rounded outward, so that no
 /// triangle is missed; what is left is told apart in double. Leaves hold a triangle. In large trees they hold up to
 /// four that follow each other in the list in about the same box.
+///
+/// Boxes are along x, y and z, but where long thin triangles lie side by side at an angle to these: below such a node
+/// they are along the triangles. Else each box would hold all the others.
 class TriangleBvh {
 public:
     static constexpr std::uint32_t none = ~std::uint32_t(0);
@@ -103,13 +106,14 @@ public:
     /// What meets a tetrahedron, which may be flat.
     Query inTetrahedron(const std::array<Vec3d, 4>& corners) const;
 
-    /// Calls `visit(item)` for each triangle whose box meets `query`, and perhaps for some more beside it, always in
-    /// the same order. `visit` answers whether to go on; returns false if it stopped. `visit` may make `query`
-    /// narrower: what is left out then is not looked at any more.
+    /// Calls `visit(item)` for each triangle that meets `query`, and for some more beside it, always in the same order.
+    /// `visit` answers whether to go on; returns false if it stopped. `visit` may make `query` narrower: what is left
+    /// out then is not looked at any more.
     template <typename Visit>
     bool traverse(const Query& query, const Visit& visit) const;
 
-    /// Calls `visit(item)` for each triangle whose box meets `box`, exactly, until it answers false.
+    /// Calls `visit(item)` for each triangle that meets `box`, and for some more whose boxes do, until it answers
+    /// false.
     template <typename Visit>
     bool forEachOverlap(const Box& box, const Visit& visit) const;
 
@@ -122,6 +126,13 @@ private:
     friend class TreeBuilder;
     struct alignas(64) Node : FourBoxes {   // two cache lines
         std::array<std::uint32_t, 4> child; // a node, or a leaf
+        std::uint32_t frame;                // what the boxes are along: of frames_
+    };
+    // Orthonormal axes, through the middle of the tree's units.
+    struct Frame {
+        std::array<Vec3d, 3> axes{Vec3d(1, 0, 0), Vec3d(0, 1, 0), Vec3d(0, 0, 1)};
+
+        Vec3d of(const Vec3d& p) const { return {axes[0].dot(p), axes[1].dot(p), axes[2].dot(p)}; }
     };
     static constexpr std::uint32_t isLeaf = std::uint32_t(1) << 31;
     static constexpr std::uint32_t maxItems = std::uint32_t(1) << 29;
@@ -162,6 +173,7 @@ private:
     std::vector<Vec3d> points_;
     std::vector<Item> items_;
     std::unique_ptr<Node[]> nodes_; // the root first
+    std::vector<Frame> frames_;     // the first is the tree's own
     Box box_;
     Vec3d centre_{0.0};
     double scale_ = 1;
@@ -186,9 +198,12 @@ public:
         }
         return bits(met);
     }
+    /// The same query for nodes whose boxes are along other axes: perhaps a little wider.
+    Query along(const Frame& frame) const;
 
 private:
     friend class TriangleBvh;
+    Query() = default; // not initialized
     struct Slab {
         std::array<Floats, 3> normal, absolute; // absolute: each component's size
         Floats twiceLow, twiceHigh;
@@ -225,7 +240,7 @@ bool TriangleBvh::traverse(const Query& query, const Visit& visit) const
     stack.push(0);
     while (!stack.empty()) {
         const Node& node = nodes_[stack.pop()];
-        const unsigned met = query.meets(node);
+        const unsigned met = node.frame == 0 ? query.meets(node) : query.along(frames_[node.frame]).meets(node);
         for (std::size_t i = 0; i < 4; ++i) {
             if (!(met >> i & 1U)) continue;
             const std::uint32_t child = node.child[i];
