@@ -265,9 +265,6 @@ void TriangleBvh::Query::addSlab(const Vec3d& normal, double low, double high, d
 
 TriangleBvh::Query TriangleBvh::Query::along(const Frame& frame) const
 {
-    // Places are within 4 in each direction, and what has been turned within 7: wrong by less than 3e-6 in float.
-    // Projections of nodes, twice, are wrong by less than 5e-6 by the boxes, and by 4e-6 by the normal.
-    constexpr float boxSlack = 4e-6F, twiceSlack = 1e-5F;
     std::array<std::array<Floats, 3>, 3> axes;
     for (std::size_t i = 0; i < 3; ++i) {
         for (std::size_t j = 0; j < 3; ++j) {
@@ -278,18 +275,21 @@ TriangleBvh::Query TriangleBvh::Query::along(const Frame& frame) const
         return axes[i][0] * v[0] + axes[i][1] * v[1] + axes[i][2] * v[2];
     };
     const auto absolute = [](Floats v) { return greatest(v, -v); };
-    std::array<Floats, 3> middle, half;
-    for (std::size_t i = 0; i < 3; ++i) {
-        middle[i] = (lo_[i] + hi_[i]) * 0.5F;
-        half[i] = (hi_[i] - lo_[i]) * 0.5F;
-    }
-    Query query;
-    for (std::size_t i = 0; i < 3; ++i) {
-        const Floats centre = turned(i, middle);
-        const Floats reach =
-            absolute(axes[i][0]) * half[0] + absolute(axes[i][1]) * half[1] + absolute(axes[i][2]) * half[2] + boxSlack;
-        query.lo_[i] = centre - reach;
-        query.hi_[i] = centre + reach;
+    Query query = aroundPoints(frame);
+    if (query.count_ == 0) {
+        // Places are within 4 in each direction, and what has been turned within 7: wrong by less than 4e-6 in float.
+        std::array<Floats, 3> middle, half;
+        for (std::size_t i = 0; i < 3; ++i) {
+            middle[i] = (lo_[i] + hi_[i]) * 0.5F;
+            half[i] = (hi_[i] - lo_[i]) * 0.5F;
+        }
+        for (std::size_t i = 0; i < 3; ++i) {
+            const Floats centre = turned(i, middle);
+            const Floats reach = absolute(axes[i][0]) * half[0] + absolute(axes[i][1]) * half[1] +
+                                 absolute(axes[i][2]) * half[2] + 4e-6F;
+            query.lo_[i] = centre - reach;
+            query.hi_[i] = centre + reach;
+        }
     }
     query.slabs_ = slabs_;
     for (std::size_t k = 0; k < slabs_; ++k) {
@@ -299,9 +299,30 @@ TriangleBvh::Query TriangleBvh::Query::along(const Frame& frame) const
             to.normal[i] = turned(i, from.normal);
             to.absolute[i] = absolute(to.normal[i]);
         }
-        to.twiceLow = from.twiceLow - twiceSlack;
-        to.twiceHigh = from.twiceHigh + twiceSlack;
+        // Projections of nodes, twice, are wrong by less than 5e-6 by the boxes, and by 4e-6 by the normal.
+        to.twiceLow = from.twiceLow - 1e-5F;
+        to.twiceHigh = from.twiceHigh + 1e-5F;
     }
+    return query;
+}
+
+/// Without slabs; without points where these are none, or too far away to compute with.
+TriangleBvh::Query TriangleBvh::Query::aroundPoints(const Frame& frame) const
+{
+    if (count_ == 0) return {};
+    Box box = Box::of(frame.of(points_[0]));
+    double farthest = 1;
+    for (std::size_t i = 0; i < count_; ++i) {
+        box.expand(Box::of(frame.of(points_[i])));
+        farthest = std::max(farthest, maxAbs(points_[i]));
+    }
+    // Turning a point adds an error of less than 2e-15 of its size.
+    const Vec3d reach(margin_ + 4e-15 * farthest);
+    if (!(farthest < 1e300) || !reach.isFinite()) return {};
+    Query query({box.lo - reach, box.hi + reach});
+    query.points_ = points_;
+    query.count_ = count_;
+    query.margin_ = margin_;
     return query;
 }
 
@@ -317,12 +338,14 @@ TriangleBvh::Query TriangleBvh::near(const Corners& triangle, double maxDistance
     box.hi += Vec3d(maxDistance);
     Query query = inBox(box);
     const Corners t{inUnits(triangle[0]), inUnits(triangle[1]), inUnits(triangle[2])};
+    for (const Vec3d& p : t) query.addPoint(p);
+    query.margin_ = maxDistance * scale_;
     const Vec3d u = t[1] - t[0], v = t[2] - t[0];
     Vec3d normal = u.cross(v);
     const double length = normal.length();
     if (!(length > leastSine * u.length() * v.length()) || !(length > smallest)) return query;
     normal /= length;
-    const double margin = maxDistance * scale_, farthest = std::max({maxAbs(t[0]), maxAbs(t[1]), maxAbs(t[2])});
+    const double margin = query.margin_, farthest = std::max({maxAbs(t[0]), maxAbs(t[1]), maxAbs(t[2])});
     const double height = normal.dot(t[0]);
     query.addSlab(normal, height - margin, height + margin, farthest);
     for (std::size_t i = 0; i < 3; ++i) {
@@ -342,6 +365,7 @@ TriangleBvh::Query TriangleBvh::inTetrahedron(const std::array<Vec3d, 4>& corner
     double farthest = 0;
     for (std::size_t i = 0; i < 4; ++i) {
         p[i] = inUnits(corners[i]);
+        query.addPoint(p[i]);
         farthest = std::max(farthest, maxAbs(p[i]));
     }
     for (std::size_t i = 0; i < 4; ++i) {
@@ -691,7 +715,32 @@ private:
             ask();
             return gains(ref, bestFrame);
         });
-        return Needles{range.begin + static_cast<std::uint32_t>(end - first), bestFrame};
+        return Needles{range.begin + static_cast<std::uint32_t>(end - first), rolled(bestFrame, first, end)};
+    }
+
+    // Turned about its first axis, so that the box of the refs is small.
+    TriangleBvh::Frame rolled(const TriangleBvh::Frame& frame, const Ref* first, const Ref* last) const
+    {
+        constexpr int tries = 8;
+        constexpr double right = 1.57079632679489662;
+        Asker ask(interrupter_);
+        TriangleBvh::Frame best;
+        float least = std::numeric_limits<float>::infinity();
+        for (int i = 0; i < tries; ++i) {
+            const double cosine = std::cos(i * right / tries), sine = std::sin(i * right / tries);
+            const TriangleBvh::Frame turned{{frame.axes[0], cosine * frame.axes[1] + sine * frame.axes[2],
+                                             cosine * frame.axes[2] - sine * frame.axes[1]}};
+            FloatBox sum;
+            for (const Ref* ref = first; ref != last; ++ref) {
+                ask();
+                const FloatBox box = boxAlong(turned, *ref);
+                sum.expand(box.lo, box.hi);
+            }
+            if (!(sum.area() < least)) continue;
+            least = sum.area();
+            best = turned;
+        }
+        return best;
     }
 
     void turn(Range& range, const TriangleBvh::Frame& frame)

@@ -179,7 +179,8 @@ private:
     double scale_ = 1;
 };
 
-/// Where a tree is to look: a box, cut by up to four slabs, in the units of the tree that made it.
+/// Where a tree is to look: a box, cut by up to four slabs, in the units of the tree that made it. Along other axes the
+/// box is that of up to four points with a margin, if it came from these.
 class TriangleBvh::Query {
 public:
     /// Which of the node's children it meets, a bit each. Never wrongly denied.
@@ -200,6 +201,12 @@ public:
     }
     /// The same query for nodes whose boxes are along other axes: perhaps a little wider.
     Query along(const Frame& frame) const;
+    /// Whether it is sure that both came from the same points, if perhaps along other axes.
+    bool isFromSamePoints(const Query& other) const
+    {
+        return count_ > 0 && count_ == other.count_ && margin_ == other.margin_ &&
+               std::equal(points_.begin(), points_.begin() + count_, other.points_.begin());
+    }
 
 private:
     friend class TriangleBvh;
@@ -210,10 +217,15 @@ private:
     };
     explicit Query(const Box& box);
     void addSlab(const Vec3d& normal, double low, double high, double farthest);
+    void addPoint(const Vec3d& p) { points_[count_++] = p; }
+    Query aroundPoints(const Frame& frame) const;
 
     std::array<Floats, 3> lo_, hi_;
     std::array<Slab, 4> slab_; // not initialized
     std::size_t slabs_ = 0;
+    std::array<Vec3d, 4> points_; // not initialized
+    std::size_t count_ = 0;
+    double margin_ = 0;
 };
 
 template <typename T>
@@ -236,11 +248,17 @@ template <typename Visit>
 bool TriangleBvh::traverse(const Query& query, const Visit& visit) const
 {
     if (empty()) return true;
+    Query turned; // along the axes of the last node that has some of its own
+    std::uint32_t frame = 0;
     Stack<std::uint32_t> stack;
     stack.push(0);
     while (!stack.empty()) {
         const Node& node = nodes_[stack.pop()];
-        const unsigned met = node.frame == 0 ? query.meets(node) : query.along(frames_[node.frame]).meets(node);
+        if (node.frame != 0 && (node.frame != frame || !turned.isFromSamePoints(query))) {
+            frame = node.frame;
+            turned = query.along(frames_[frame]);
+        }
+        const unsigned met = (node.frame == 0 ? query : turned).meets(node);
         for (std::size_t i = 0; i < 4; ++i) {
             if (!(met >> i & 1U)) continue;
             const std::uint32_t child = node.child[i];
