@@ -37,8 +37,10 @@ class CallsTest(Case):
         self.assertGreater(len(calls), 0)
         for stage, percent, thread in calls:
             self.assertIn(stage, ["", *cage.report["stages"]])
-            self.assertTrue(0 <= percent <= 100)
+            self.assertTrue(0 <= percent < 100)
             self.assertEqual(thread, threading.get_ident())
+        percents = [percent for _, percent, _ in calls]
+        self.assertEqual(percents, sorted(percents), "it goes back")
 
     def raised_by(self, answer, error):
         """What comes out of every long call whose callback does `answer`."""

@@ -10,6 +10,7 @@
 #include <string>
 #include <thread>
 
+#include <tools/report/run_progress.h>
 #include <vdbcage/core/error.h>
 
 namespace py = pybind11;
@@ -27,12 +28,18 @@ public:
     {
         const std::lock_guard lock(mutex_);
         stage_ = name ? name : "";
-        percent_ = 0;
+        run_.start(stage_, 0);
+        told_ = 0;
     }
     void end() override {}
     bool wasInterrupted(int percent = -1) override
     {
-        if (percent >= 0) percent_ = std::min(percent, 100);
+        // Called from many threads, some million times a second: only a greater number takes the lock.
+        if (percent > told_.load(std::memory_order_relaxed)) {
+            const std::lock_guard lock(mutex_);
+            told_ = percent;
+            run_.advance(percent, 0);
+        }
         return stopped_;
     }
 
@@ -40,13 +47,14 @@ public:
     std::pair<std::string, int> progress() const
     {
         const std::lock_guard lock(mutex_);
-        return {stage_, percent_};
+        return {stage_, run_.percent()};
     }
 
 private:
     mutable std::mutex mutex_;
     std::string stage_;
-    std::atomic<int> percent_{0};
+    tool::RunProgress run_;
+    std::atomic<int> told_{0}; // of the stage
     std::atomic<bool> stopped_{false};
 };
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
-#include <cmath>
 #include <csignal>
 #include <cstdio>
 #include <string_view>
@@ -39,38 +38,7 @@ extern "C" void onSignal(int signal, siginfo_t* info, void* /*context*/)
     ::_exit(cancelledStatus());
 }
 
-/// Where a stage begins and ends in its command, in percent, from how long they take in most.
-struct StageShare {
-    std::string_view name;
-    int from, to;
-};
-constexpr std::array<StageShare, 14> stageShares{{{"read", 0, 2},
-                                                  {"interior", 2, 3},
-                                                  {"voxelize", 3, 6},
-                                                  {"guard", 6, 8},
-                                                  {"close", 8, 10},
-                                                  {"surface", 10, 12},
-                                                  {"smooth", 12, 13},
-                                                  {"decimate", 13, 60},
-                                                  {"loops", 13, 92},
-                                                  {"tighten", 60, 90},
-                                                  {"quads", 60, 92},
-                                                  {"certify", 92, 98},
-                                                  {"bind", 2, 95},
-                                                  {"write", 98, 99}}};
-
-/// 0 for other stages.
-int percentOfAll(std::string_view stage, int percent)
-{
-    for (const StageShare& share : stageShares) {
-        if (share.name == stage) return share.from + (share.to - share.from) * percent / 100;
-    }
-    return 0;
-}
-
 constexpr std::size_t barWidth = 24;
-constexpr int leastPercent = 5; // below, and in the first second, what is left is a guess
-constexpr double leastSeconds = 1;
 
 } // namespace
 
@@ -142,19 +110,23 @@ void Progress::succeed()
     if (form_ == ProgressForm::farm) drawForFarm(100);
 }
 
+double Progress::seconds() const
+{
+    return std::chrono::duration<double>(Clock::now() - began_).count();
+}
+
 void Progress::start(const char* name)
 {
     const std::lock_guard lock(mutex_);
     stage_ = name ? name : "";
-    stageBegan_ = Clock::now();
-    percent_ = 0;
+    run_.start(stage_, seconds());
     draw();
 }
 
 void Progress::end()
 {
     const std::lock_guard lock(mutex_);
-    percent_ = 100;
+    run_.advance(100, seconds());
     if (form_ != ProgressForm::lines) draw(); // there the next stage says as much
 }
 
@@ -163,7 +135,7 @@ bool Progress::wasInterrupted(int percent)
     if (form_ != ProgressForm::none && mutex_.try_lock()) {
         const std::lock_guard lock(mutex_, std::adopt_lock);
         const std::chrono::milliseconds pause(form_ == ProgressForm::bar ? 100 : 1000);
-        if (percent >= 0) percent_ = percent;
+        if (percent >= 0) run_.advance(percent, seconds());
         if (Clock::now() - drawn_ >= pause) draw();
     }
     return signalled();
@@ -174,23 +146,19 @@ void Progress::draw()
 {
     if (form_ == ProgressForm::none) return;
     drawn_ = Clock::now();
-    const double seconds = std::chrono::duration<double>(drawn_ - began_).count();
-    const int done = std::clamp(percent_, 0, 100);
-    if (form_ == ProgressForm::farm) return drawForFarm(percentOfAll(stage_, done));
+    const int done = run_.percent();
+    if (form_ == ProgressForm::farm) return drawForFarm(done);
     std::array<char, 24> left{};
-    const double inStage = std::chrono::duration<double>(drawn_ - stageBegan_).count();
-    if (done >= leastPercent && done < 100 && inStage >= leastSeconds) {
-        std::snprintf(left.data(), left.size(), ", %.0f s left", std::ceil(inStage * (100 - done) / done));
-    }
+    if (const auto more = run_.secondsLeft(seconds())) std::snprintf(left.data(), left.size(), ", %d s left", *more);
     if (form_ == ProgressForm::lines) {
         if (stage_.empty()) return;
-        std::fprintf(stderr, "%3d %%  %-10s %6.1f s%s\n", done, stage_.c_str(), seconds, left.data());
+        std::fprintf(stderr, "%3d %%  %-10s %6.1f s%s\n", done, stage_.c_str(), seconds(), left.data());
         return;
     }
     std::array<char, barWidth + 1> bar{};
     std::fill_n(bar.begin(), barWidth, '.');
     std::fill_n(bar.begin(), barWidth * static_cast<std::size_t>(done) / 100, '#');
-    std::fprintf(stderr, "\r\033[K[%s] %3d %%  %-10s %6.1f s%s", bar.data(), done, stage_.c_str(), seconds,
+    std::fprintf(stderr, "\r\033[K[%s] %3d %%  %-10s %6.1f s%s", bar.data(), done, stage_.c_str(), seconds(),
                  left.data());
     std::fflush(stderr);
     lineOnScreen = true;

@@ -4,6 +4,7 @@
 #include <mutex>
 #include <string>
 
+#include <tools/report/run_progress.h>
 #include <vdbcage/core/interrupter.h>
 
 namespace vdbcage::tool {
@@ -40,11 +41,11 @@ enum class ProgressForm {
     none,
     bar,   ///< one line on standard error, redrawn at most ten times a second
     lines, ///< on standard error a line for every stage and every second of it, `PERCENT % STAGE SECONDS s`, for logs
-    farm   ///< on standard output `Progress: 42%` and `ALF_PROGRESS 42%`, of the whole command, as it rises
+    farm   ///< on standard output `Progress: 42%` and `ALF_PROGRESS 42%`, as it rises
 };
 
-/// Shows how far the work is, and passes a signal on to it. Where a stage says how far it is, bar and lines have `, N s
-/// left`: of the stage, as fast as it went so far.
+/// Shows how far the whole command is, by RunProgress, and passes a signal on to it. Where that knows, bar and lines
+/// have `, N s left`.
 class Progress : public Interrupter {
 public:
     explicit Progress(ProgressForm form);
@@ -60,15 +61,16 @@ public:
 private:
     void draw();
     void drawForFarm(int percent);
+    double seconds() const; // since the command began
 
     using Clock = std::chrono::steady_clock;
     const ProgressForm form_;
     const Clock::time_point began_ = Clock::now();
     std::mutex mutex_; // guards what follows: wasInterrupted is called from many threads
     std::string stage_;
-    int percent_ = 0; // of the stage, as far as it says
+    RunProgress run_;
     int shownToFarm_ = -1;
-    Clock::time_point drawn_, stageBegan_;
+    Clock::time_point drawn_;
 };
 
 } // namespace vdbcage::tool

@@ -9,8 +9,9 @@ Points are in world space, as files have them. Indices of points begin with 0. F
 outside.
 
 Functions that can take long have an argument `progress`: a function that is called 20 times a second, in the thread of
-the caller, with the name of the stage (str) and its percentage (int, 0 where it is not known). Where it returns False
-the work ends with Cancelled; what it raises ends the work too, and so does Ctrl-C. Several threads may work at once.
+the caller, with the name of the stage (str) and how far the whole call is, in percent (int, 0 to 99, never less than
+before). Where it returns False the work ends with Cancelled; what it raises ends the work too, and so does Ctrl-C.
+Several threads may work at once.
 """
 
 import contextlib

@@ -11,6 +11,7 @@
 #include <thread>
 #include <utility>
 
+#include <tools/report/run_progress.h>
 #include <vdbcage/core/error.h>
 #include <vdbcage/core/interrupter.h>
 
@@ -19,7 +20,7 @@ namespace vdbcage::view {
 /// How far a job is.
 struct WorkProgress {
     std::string stage; ///< empty before the first
-    int percent = -1;  ///< of the stage, 0 to 100; -1: unknown
+    int percent = -1;  ///< of the job, 0 to 99; -1: unknown
 };
 
 /// Does one job at a time on a thread of its own. All its functions are for one thread, the owner's, and none of them
@@ -98,30 +99,38 @@ private:
 
         void start(const char* name) override
         {
-            {
-                const std::lock_guard<std::mutex> lock(worker_.mutex_);
-                worker_.progress_ = {name ? name : "", -1};
-            }
-            percent_ = -1;
-            worker_.wake_();
+            told_ = -1;
+            change([&] {
+                worker_.progress_.stage = name ? name : "";
+                run_.start(worker_.progress_.stage, 0);
+            });
         }
         void end() override {}
         bool wasInterrupted(int percent) override
         {
-            // Called from many threads, some million times a second: only a new number takes the lock.
-            if (percent >= 0 && percent_.exchange(percent, std::memory_order_relaxed) != percent) {
-                {
-                    const std::lock_guard<std::mutex> lock(worker_.mutex_);
-                    worker_.progress_.percent = percent;
-                }
-                worker_.wake_();
+            // Called from many threads, some million times a second: only a greater number takes the lock.
+            if (percent > told_.load(std::memory_order_relaxed)) {
+                told_ = percent;
+                change([&] { run_.advance(percent, 0); });
             }
             return worker_.stop_.load(std::memory_order_relaxed);
         }
 
     private:
+        template <typename Change>
+        void change(const Change& change)
+        {
+            {
+                const std::lock_guard<std::mutex> lock(worker_.mutex_);
+                change();
+                worker_.progress_.percent = run_.percent() > 0 ? run_.percent() : -1;
+            }
+            worker_.wake_();
+        }
+
         Worker& worker_;
-        std::atomic<int> percent_{-1};
+        tool::RunProgress run_;     ///< guarded by the worker's mutex
+        std::atomic<int> told_{-1}; ///< of the stage
     };
 
     void run()
