@@ -71,6 +71,20 @@ Soup plane(int n)
     return soup;
 }
 
+/// Long thin triangles side by side along `direction`, some of them a line.
+Soup needles(Random& random, std::size_t count, Vec3d direction)
+{
+    direction.normalize();
+    const Vec3d across = Vec3d(0, 0, 1).cross(direction).unit(), up = direction.cross(across);
+    Soup soup;
+    for (std::size_t i = 0; i < count; ++i) {
+        const Vec3d p = random.between(-40, 40) * across + random.between(-3, 3) * up;
+        const Vec3d side = i % 10 == 0 ? Vec3d(0.0) : random.between(-1, 1) * across + random.between(-1, 1) * up;
+        soup.add({p - 5000 * direction, p + 5000 * direction, p + side - 5000 * direction});
+    }
+    return soup;
+}
+
 using Found = std::multiset<std::uint32_t>;
 
 Found inBox(const BoxTree& tree, const Box& box)
@@ -163,6 +177,54 @@ BOOST_AUTO_TEST_CASE(finds_points_on_edges)
             const BoxTree tree(soup.points, soup.triangles, BoxTree::Copies::keep, nullptr);
             BOOST_TEST(nearTo(tree, triangle, 0).size() == 1U);
         }
+    }
+}
+
+BOOST_AUTO_TEST_CASE(needles_that_come_near_are_found, *boost::unit_test::label("property"))
+{
+    Random random(12);
+    for (const Vec3d& direction : {Vec3d(0.6, 0.75, 0.27), Vec3d(1, -1, 1e-3), Vec3d(1, 0, 0)}) {
+        Soup soup = needles(random, 300, direction);
+        for (int i = 0; i < 30; ++i) soup.add(random.triangle(100)); // and others
+        for (const double unit : {1.0, 1e-9, 1e290}) {
+            Soup scaled = soup;
+            for (Vec3d& p : scaled.points) p *= unit;
+            const BoxTree tree(scaled.points, scaled.triangles, BoxTree::Copies::keep, nullptr);
+            for (int i = 0; i < 60; ++i) {
+                // A corner on a triangle, to within rounding, or as far from it as is asked for.
+                const auto t = static_cast<std::uint32_t>(random.between(0, 330));
+                const Corners other = scaled.corners(t);
+                const double place = random.between(0, 1), far = i % 3 == 0 ? 1e307 : 100 * unit;
+                const double distance = i % 2 == 0 ? 0 : unit * random.between(0, 5);
+                Vec3d p = place * other[0] + (1 - place) * other[1];
+                if (i % 2 == 1) p += 0.999 * distance * random.point().unit();
+                if (i % 2 == 0) p = other[static_cast<std::size_t>(i) % 3];
+                const Found found = nearTo(tree, {p, p + far * random.point(), p + far * random.point()}, distance);
+                BOOST_TEST(found.count(t) == 1U);
+                BOOST_TEST(isSet(found));
+            }
+        }
+    }
+}
+
+BOOST_AUTO_TEST_CASE(looks_at_few_needles_also_at_an_angle)
+{
+    const auto looks = [](const Vec3d& direction) {
+        Random random(13);
+        const Soup soup = needles(random, 3000, direction);
+        const BoxTree tree(soup.points, soup.triangles, BoxTree::Copies::drop, nullptr);
+        const Vec3d along = direction.unit(), across = Vec3d(0, 0, 1).cross(along).unit();
+        std::size_t found = 0;
+        for (int i = 0; i < 100; ++i) {
+            const Vec3d p = random.between(-4000, 4000) * along + random.between(-40, 40) * across;
+            found += nearTo(tree, {p, p + 400 * along, p + 5 * across}, 0.5).size();
+        }
+        return found;
+    };
+    const std::size_t straight = looks({1, 0, 0});
+    for (const Vec3d& direction : {Vec3d(0.6, 0.75, 0.27), Vec3d(1, -1, 0)}) {
+        BOOST_TEST(looks(direction) < 10 * straight);
+        BOOST_TEST(looks(direction) < 60000U); // of 300000
     }
 }
 

@@ -57,6 +57,13 @@ Box joined(Box a, const Box& b)
     return a;
 }
 
+/// Half the area of its sides.
+double areaOf(const Box& box)
+{
+    const Vec3d size = box.hi - box.lo;
+    return size[0] * size[1] + size[1] * size[2] + size[2] * size[0];
+}
+
 struct Coded {
     std::uint64_t code;
     std::uint32_t triangle;
@@ -131,7 +138,13 @@ BoxTree::BoxTree(const std::vector<Vec3d>& points, const std::vector<Vec3I>& tri
 {
     if (triangles.empty()) return;
     sort(points, triangles, copies, interrupter);
-    buildBoxes(points, interrupter);
+    const auto cornersOfItem = [&](std::size_t i) { return cornersOf(points, items_[i].corners); };
+    levels_ = boxes([&](std::size_t i) { return Box::of(cornersOfItem(i)); }, interrupter);
+    farthest_ = farthestOf(levels_.back().front());
+    if (const auto axes = axesOfNeedles(points, interrupter)) {
+        needles_ = *axes;
+        alongNeedles_ = boxes([&](std::size_t i) { return boxAlong(needles_, cornersOfItem(i)); }, interrupter);
+    }
 }
 
 void BoxTree::sort(const std::vector<Vec3d>& points, const std::vector<Vec3I>& triangles, Copies copies,
@@ -153,30 +166,75 @@ void BoxTree::sort(const std::vector<Vec3d>& points, const std::vector<Vec3I>& t
     for (const Coded& coded : order) items_.push_back({triangles[coded.triangle], coded.triangle});
 }
 
-void BoxTree::buildBoxes(const std::vector<Vec3d>& points, Interrupter* interrupter)
+template <typename BoxOf>
+BoxTree::Levels BoxTree::boxes(const BoxOf& boxOf, Interrupter* interrupter) const
 {
     std::vector<Box> leaves((items_.size() + leafSize - 1) / leafSize);
     parallelFor(Range(0, leaves.size(), 1024), [&](const Range& range) {
         throwIfInterrupted(interrupter);
         for (std::size_t leaf = range.begin(); leaf < range.end(); ++leaf) {
             const std::size_t first = leaf * leafSize, last = std::min(first + leafSize, items_.size());
-            leaves[leaf] = Box::of(cornersOf(points, items_[first].corners));
-            for (std::size_t i = first + 1; i < last; ++i) {
-                leaves[leaf] = joined(leaves[leaf], Box::of(cornersOf(points, items_[i].corners)));
-            }
+            leaves[leaf] = boxOf(first);
+            for (std::size_t i = first + 1; i < last; ++i) leaves[leaf] = joined(leaves[leaf], boxOf(i));
         }
     });
-    levels_.push_back(std::move(leaves));
-    while (levels_.back().size() > 1) {
-        const std::vector<Box>& below = levels_.back();
+    Levels levels;
+    levels.push_back(std::move(leaves));
+    while (levels.back().size() > 1) {
+        const std::vector<Box>& below = levels.back();
         std::vector<Box> level((below.size() + 1) / 2);
         for (std::size_t i = 0; i < level.size(); ++i) {
             level[i] = 2 * i + 1 < below.size() ? joined(below[2 * i], below[2 * i + 1]) : below[2 * i];
         }
-        levels_.push_back(std::move(level));
+        levels.push_back(std::move(level));
     }
-    const Box& all = levels_.back().front();
-    for (int i = 0; i < 3; ++i) farthest_ = std::max({farthest_, std::abs(all.lo[i]), std::abs(all.hi[i])});
+    return levels;
+}
+
+std::optional<BoxTree::Axes> BoxTree::axesOfNeedles(const std::vector<Vec3d>& points, Interrupter* interrupter) const
+{
+    constexpr double muchLess = 0.25; // of the area of all boxes
+    Asker ask(interrupter);
+    double sum = 0, least = 0, most = 0;
+    Corners longest{};
+    for (const Item& item : items_) {
+        ask();
+        const Corners t = cornersOf(points, item.corners);
+        const double area = areaOf(Box::of(t)), own = (t[1] - t[0]).cross(t[2] - t[0]).length();
+        sum += area;
+        least += own;
+        if (!(area - own > most)) continue;
+        most = area - own;
+        longest = t;
+    }
+    if (!(least < muchLess * sum) || !(sum < 1e300) || !(farthest_ < 1e300)) return std::nullopt;
+    Axes axes{longest[1] - longest[0], longest[2] - longest[1], longest[0] - longest[2]};
+    std::sort(axes.begin(), axes.end(), [](const Vec3d& a, const Vec3d& b) { return a.lengthSqr() > b.lengthSqr(); });
+    axes[2] = axes[0].cross(axes[1]);
+    axes[1] = axes[2].cross(axes[0]);
+    for (Vec3d& axis : axes) {
+        if (!axis.normalize(0)) return std::nullopt;
+    }
+    double turned = 0;
+    for (const Item& item : items_) {
+        ask();
+        turned += areaOf(boxAlong(axes, cornersOf(points, item.corners)));
+    }
+    return turned < muchLess * sum ? std::optional(axes) : std::nullopt;
+}
+
+Box BoxTree::boxAlong(const Axes& axes, const Corners& triangle)
+{
+    // The rounding of such a dot product is at most 3 eps (|a0| + |a1| + |a2|) farthest, below 6 eps farthest, as the
+    // axis has length 1 within 4 eps. It is the same points that come near, so axes need not be across each other.
+    Corners turned;
+    for (std::size_t k = 0; k < 3; ++k) {
+        turned[k] = {axes[0].dot(triangle[k]), axes[1].dot(triangle[k]), axes[2].dot(triangle[k])};
+    }
+    const Box box = Box::of(turned);
+    const Vec3d rounding(8 * std::numeric_limits<double>::epsilon() * farthestOf(Box::of(triangle)) +
+                         std::numeric_limits<double>::min());
+    return {box.lo - rounding, box.hi + rounding};
 }
 
 BoxTree::Slab BoxTree::slabOf(const Corners& triangle, double maxDistance) const

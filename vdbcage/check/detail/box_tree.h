@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include <vdbcage/core/interrupter.h>
@@ -12,6 +14,9 @@
 namespace vdbcage::detail {
 
 /// Triangles in the order of a space-filling curve, under a complete binary tree of their boxes, in double.
+///
+/// Where most of them are long and thin, and side by side at an angle to the axes, each node has a second box, along
+/// them.
 ///
 /// It is how the check finds what may meet. The guard has TriangleBvh for that: two ways, so that a triangle which one
 /// of them misses does not deceive both.
@@ -59,17 +64,30 @@ private:
 
     void sort(const std::vector<Vec3d>& points, const std::vector<Vec3I>& triangles, Copies copies,
               Interrupter* interrupter);
-    void buildBoxes(const std::vector<Vec3d>& points, Interrupter* interrupter);
+    using Axes = std::array<Vec3d, 3>;
+    using Levels = std::vector<std::vector<Box>>;
+    /// Along the triangle that loses most in boxes along x, y and z, if all lose much by these.
+    std::optional<Axes> axesOfNeedles(const std::vector<Vec3d>& points, Interrupter* interrupter) const;
+    /// Of what `boxOf` gives for each item.
+    template <typename BoxOf>
+    Levels boxes(const BoxOf& boxOf, Interrupter* interrupter) const;
     Slab slabOf(const Corners& triangle, double maxDistance) const;
+    /// The largest absolute coordinate.
+    static double farthestOf(const Box& box);
+    /// Rounded outward: two triangles that meet have boxes that meet, and those of two nearer than some distance are no
+    /// farther apart along any axis.
+    static Box boxAlong(const Axes& axes, const Corners& triangle);
 
-    /// Calls visit(item) for those in leaves whose boxes, and those above them, are `wanted`.
+    /// Calls visit(item) for those in leaves that are `wanted(level, index)`, as all above them are.
     template <typename Wanted, typename Visit>
     bool traverse(const Wanted& wanted, const Visit& visit) const;
 
     std::vector<Item> items_;
     /// Boxes of leafSize items that follow each other; then of two boxes each that follow each other there; and so on
     /// up to the box of all.
-    std::vector<std::vector<Box>> levels_;
+    Levels levels_;
+    Levels alongNeedles_; ///< the same along needles_, if there are
+    Axes needles_;
     double farthest_ = 0; ///< the largest absolute coordinate
 };
 
@@ -85,7 +103,7 @@ bool BoxTree::traverse(const Wanted& wanted, const Visit& visit) const
     stack[size++] = {levels_.size() - 1, 0};
     while (size > 0) {
         const Place place = stack[--size];
-        if (!wanted(levels_[place.level][place.index])) continue;
+        if (!wanted(place.level, place.index)) continue;
         if (place.level > 0) {
             const std::size_t first = 2 * place.index, count = levels_[place.level - 1].size();
             if (first + 1 < count) stack[size++] = {place.level - 1, first + 1};
@@ -103,18 +121,35 @@ bool BoxTree::traverse(const Wanted& wanted, const Visit& visit) const
 template <typename Visit>
 bool BoxTree::inBox(const Box& box, const Visit& visit) const
 {
-    return traverse([&](const Box& node) { return box.meets(node); }, visit);
+    return traverse([&](std::size_t level, std::size_t index) { return box.meets(levels_[level][index]); }, visit);
 }
 
 template <typename Visit>
 bool BoxTree::near(const Corners& triangle, double maxDistance, const Visit& visit) const
 {
-    Box box = Box::of(triangle);
     const Vec3d margin(1.001 * maxDistance); // however it is rounded
-    box.lo -= margin;
-    box.hi += margin;
+    const auto around = [&](Box box) { return Box{box.lo - margin, box.hi + margin}; };
+    const Box box = around(Box::of(triangle));
     const Slab slab = slabOf(triangle, maxDistance);
-    return traverse([&](const Box& node) { return box.meets(node) && !slab.isBeside(node); }, visit);
+    const auto wanted = [&](std::size_t level, std::size_t index) {
+        const Box& node = levels_[level][index];
+        return box.meets(node) && !slab.isBeside(node);
+    };
+    // Where what is turned may overflow it tells nothing.
+    if (alongNeedles_.empty() || !(farthestOf(box) < 1e300)) return traverse(wanted, visit);
+    const Box turned = around(boxAlong(needles_, triangle));
+    return traverse(
+        [&](std::size_t level, std::size_t index) {
+            return turned.meets(alongNeedles_[level][index]) && wanted(level, index);
+        },
+        visit);
+}
+
+inline double BoxTree::farthestOf(const Box& box)
+{
+    double farthest = 0;
+    for (int i = 0; i < 3; ++i) farthest = std::max({farthest, std::abs(box.lo[i]), std::abs(box.hi[i])});
+    return farthest;
 }
 
 inline bool BoxTree::Slab::isBeside(const Box& box) const
