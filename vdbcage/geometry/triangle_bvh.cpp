@@ -291,10 +291,9 @@ TriangleBvh::Query TriangleBvh::Query::along(const Frame& frame) const
             query.hi_[i] = centre + reach;
         }
     }
-    query.slabs_ = slabs_;
     for (std::size_t k = 0; k < slabs_; ++k) {
         const Slab& from = slab_[k];
-        Slab& to = query.slab_[k];
+        Slab& to = query.slab_[query.slabs_++];
         for (std::size_t i = 0; i < 3; ++i) {
             to.normal[i] = turned(i, from.normal);
             to.absolute[i] = absolute(to.normal[i]);
@@ -306,23 +305,42 @@ TriangleBvh::Query TriangleBvh::Query::along(const Frame& frame) const
     return query;
 }
 
-/// Without slabs; without points where these are none, or too far away to compute with.
+/// With slabs along the first axis alone; without points where these are none, or too far away to compute with.
 TriangleBvh::Query TriangleBvh::Query::aroundPoints(const Frame& frame) const
 {
     if (count_ == 0) return {};
-    Box box = Box::of(frame.of(points_[0]));
+    std::array<Vec3d, 4> turned;
     double farthest = 1;
     for (std::size_t i = 0; i < count_; ++i) {
-        box.expand(Box::of(frame.of(points_[i])));
+        turned[i] = frame.of(points_[i]);
         farthest = std::max(farthest, maxAbs(points_[i]));
     }
+    Box box = Box::of(turned[0]);
+    for (std::size_t i = 1; i < count_; ++i) box.expand(Box::of(turned[i]));
     // Turning a point adds an error of less than 2e-15 of its size.
     const Vec3d reach(margin_ + 4e-15 * farthest);
-    if (!(farthest < 1e300) || !reach.isFinite()) return {};
+    if (!(farthest < 1e150) || !reach.isFinite()) return {};
     Query query({box.lo - reach, box.hi + reach});
     query.points_ = points_;
     query.count_ = count_;
     query.margin_ = margin_;
+    // A needle is long: whether it passes by shows along it.
+    for (std::size_t i = 0; i < count_; ++i) {
+        for (std::size_t j = 0; j < i; ++j) {
+            const Vec3d edge = turned[i] - turned[j];
+            const double length = std::hypot(edge[1], edge[2]);
+            if (!(length > leastSine * edge.length()) || !(length > smallest)) continue;
+            const Vec3d normal = Vec3d(0, edge[2], -edge[1]) / length;
+            double low = infinity, high = -infinity;
+            for (std::size_t k = 0; k < count_; ++k) {
+                low = std::min(low, normal.dot(turned[k]));
+                high = std::max(high, normal.dot(turned[k]));
+            }
+            // Nodes are within 2 here, so their projections are wrong by twice as much as addSlab() takes for it.
+            constexpr double rounding = 4e-6;
+            query.addSlab(normal, low - reach[0] - rounding, high + reach[0] + rounding, farthest);
+        }
+    }
     return query;
 }
 

@@ -179,8 +179,9 @@ private:
     double scale_ = 1;
 };
 
-/// Where a tree is to look: a box, cut by up to four slabs, in the units of the tree that made it. Along other axes the
-/// box is that of up to four points with a margin, if it came from these.
+/// Where a tree is to look: a box, cut by slabs, in the units of the tree that made it. Along other axes the box is
+/// that of up to four points with a margin, if it came from these. Other slabs are along needles and edges between
+/// points.
 class TriangleBvh::Query {
 public:
     /// Which of the node's children it meets, a bit each. Never wrongly denied.
@@ -221,7 +222,7 @@ private:
     Query aroundPoints(const Frame& frame) const;
 
     std::array<Floats, 3> lo_, hi_;
-    std::array<Slab, 4> slab_; // not initialized
+    std::array<Slab, 10> slab_; // not initialized
     std::size_t slabs_ = 0;
     std::array<Vec3d, 4> points_; // not initialized
     std::size_t count_ = 0;
