@@ -1,6 +1,9 @@
+#include <iomanip>
 #include <iostream>
 #include <optional>
 #include <sstream>
+#include <string>
+#include <utility>
 
 #include <tools/report/report.h>
 #include <tools/report/run_facts.h>
@@ -19,17 +22,84 @@ namespace vdbcage::tool {
 
 namespace {
 
+Json toJson(const RepairMeasures& measures)
+{
+    return {{"faces", measures.faces}, {"parts", measures.parts}, {"area", measures.area}, {"volume", measures.volume}};
+}
+
 Json toJson(const RepairReport& report)
 {
     return {{"merged_points", report.mergedPoints},
             {"removed_faces", report.removedFaces},
+            {"hanging_faces", report.hangingFaces},
             {"split_vertices", report.splitVertices},
             {"stitched_edges", report.stitchedEdges},
             {"filled_holes", report.filledHoles},
             {"unfilled_holes", report.unfilledHoles},
+            {"moved_points", report.movedPoints},
+            {"cut_faces", report.cutFaces},
             {"self_intersections_before", report.selfIntersectionsBefore},
             {"self_intersections_after", report.selfIntersectionsAfter},
-            {"reoriented", report.reoriented}};
+            {"reoriented", report.reoriented},
+            {"before", toJson(report.before)},
+            {"after", toJson(report.after)}};
+}
+
+/// A mesh as it is in its file. What a format rounds or leaves out is so here, too.
+struct WrittenMesh {
+    std::string bytes;
+    CageCheck check; ///< of what is read from them
+};
+
+WrittenMesh written(const Mesh& mesh, const std::filesystem::path& path, const Mesh& model, Interrupter* interrupter)
+{
+    std::ostringstream bytes;
+    writeMesh(mesh, bytes, path);
+    CheckOptions options;
+    options.measure = false;
+    return {bytes.str(), checkCage(detail::parseMesh(bytes.str(), path).mesh, model, options, interrupter)};
+}
+
+/// What keeps a mesh from being a valid cage.
+std::string defects(const CageCheck& check)
+{
+    const std::pair<std::size_t, const char*> counts[] = {
+        {check.boundaryEdges, "boundary edges"},        {check.nonManifoldEdges, "non-manifold edges"},
+        {check.misorientedEdges, "misoriented edges"},  {check.nonManifoldVertices, "non-manifold vertices"},
+        {check.inwardComponents, "inward components"},  {check.degenerateFaces, "degenerate faces"},
+        {check.selfIntersections, "self-intersections"}};
+    std::string text;
+    for (const auto& [count, name] : counts) {
+        if (count > 0) text += (text.empty() ? "" : ", ") + std::to_string(count) + ' ' + name;
+    }
+    return text;
+}
+
+/// What became of the cage, for a person: how much there is of it, and what was done, as far as there is any.
+std::string describe(const RepairReport& report)
+{
+    std::ostringstream text;
+    text << std::setprecision(4);
+    const Json facts = toJson(report);
+    for (const auto& measure : facts["before"].items()) {
+        const Json& after = facts["after"][measure.key()];
+        text << "  " << measure.key() << ": ";
+        if (after.is_number_float()) {
+            text << measure.value().get<double>() << " -> " << after.get<double>() << '\n';
+        } else {
+            text << measure.value() << " -> " << after << '\n';
+        }
+    }
+    for (const auto& fact : facts.items()) {
+        const bool isSaid = fact.value().is_boolean() ? fact.value().get<bool>() : fact.value() != 0;
+        if (!fact.value().is_object() && isSaid) text << "  " << fact.key() << ": " << fact.value() << '\n';
+    }
+    return text.str();
+}
+
+bool areEqual(const Mesh& a, const Mesh& b)
+{
+    return a.points == b.points && a.triangles == b.triangles && a.quads == b.quads;
 }
 
 } // namespace
@@ -38,8 +108,8 @@ int runRepair(Call call)
 {
     std::filesystem::path cagePath, outputPath, reportPath;
     CLI::App app("vdbcage repair CAGE -o OUT [OPTIONS]\n"
-                 "Stitches, orients, fills holes and removes self-intersections.\n"
-                 "The result is triangles.",
+                 "Stitches, orients, fills holes and resolves self-intersections.\n"
+                 "Exit status 2: OUT is what could be mended, and not a valid cage.",
                  "repair");
     app.add_option("cage", cagePath)->required()->type_name("CAGE");
     app.add_option("-o,--output", outputPath, "the mended cage to write")->required()->type_name("OUT");
@@ -58,27 +128,37 @@ int runRepair(Call call)
     std::optional<Progress> progress(talk.progressForm());
     const MeshFile cage = readMeshFile(cagePath);
     const RepairedCage mended = repair(cage.mesh, &*progress);
-    outputs.add(outputPath, [&](std::ostream& out) { writeMesh(mended.cage, out, outputPath); });
+    const WrittenMesh result = written(mended.cage, outputPath, cage.mesh, &*progress);
+    const bool isValid = result.check.valid();
+    outputs.add(outputPath, [&](std::ostream& out) { out << result.bytes; });
     if (!reportPath.empty()) {
         Json facts = runFacts("repair", arguments);
         facts["cage"] = cagePath.string();
         facts["cage_warnings"] = cage.summary.warnings;
         facts["repaired"] = outputPath.string();
+        facts["valid"] = isValid;
         facts["repair"] = toJson(mended.report);
         outputs.add(reportPath, [&](std::ostream& out) { out << toText(facts); });
     }
-    std::ostringstream lines;
-    if (!talk.quiet()) {
-        const Json facts = toJson(mended.report);
-        for (const auto& fact : facts.items()) lines << "  " << fact.key() << ": " << fact.value() << '\n';
-        lines << warningLines(cagePath, cage.summary);
-    }
-    const std::string text = lines.str();
-    outputs.commit();
     progress->succeed();
     progress.reset();
-    std::cerr << text;
-    return exitGood;
+    if (!talk.quiet()) {
+        std::cout << printable(outputPath) << ": "
+                  << (isValid ? "a valid cage" : "not a valid cage: " + defects(result.check)) << '\n';
+        if (areEqual(mended.cage, cage.mesh)) {
+            std::cout << (isValid ? "  nothing had to be mended" : "  nothing could be mended")
+                      << ": it is the same mesh\n";
+        } else {
+            std::cout << describe(mended.report);
+        }
+        if (!isValid) {
+            std::cout << "  a new cage around it is made by: vdbcage make " << printable(cagePath) << " -o CAGE\n";
+        }
+        std::cout << warningLines(cagePath, cage.summary);
+        flushOutput();
+    }
+    outputs.commit();
+    return isValid ? exitGood : exitNotBounding;
 }
 
 } // namespace vdbcage::tool

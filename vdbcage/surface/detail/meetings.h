@@ -1,0 +1,70 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include <vdbcage/core/interrupter.h>
+#include <vdbcage/geometry/dynamic_bvh.h>
+#include <vdbcage/mesh/mesh.h>
+
+namespace vdbcage::detail {
+
+/// A triangle that a face stands for: a quad has two of each diagonal. Faces are numbered triangles first, then quads.
+struct SplitTriangle {
+    Vec3I corners;
+    std::uint32_t face;
+    std::uint32_t diagonal; ///< 0: of the quad's corners 0 and 2, 1: of the other two; 0 for a triangle
+
+    bool has(std::uint32_t point) const { return corners[0] == point || corners[1] == point || corners[2] == point; }
+};
+
+/// Which triangles of a surface meet in more than the corners and edges that they share, by exact predicates. Its
+/// points may be moved.
+///
+/// Points are the same only if their index is. Degenerate triangles meet nothing. The triangles of a quad meet only
+/// where it is folded over their diagonal.
+class Meetings {
+public:
+    /// Two places in triangles(), the smaller one first.
+    using Pair = std::array<std::uint32_t, 2>;
+    /// More pairs are not looked for: n triangles have up to n^2 / 2.
+    static constexpr std::size_t most = 1'000'000;
+
+    /// `mesh` must outlive this.
+    /// \pre all indices are valid, and all points finite
+    explicit Meetings(Mesh& mesh);
+
+    const std::vector<SplitTriangle>& triangles() const { return triangles_; }
+    /// The triangles with a corner at `point`.
+    const std::vector<std::uint32_t>& around(std::uint32_t point) const { return around_[point]; }
+    /// All pairs, sorted; or the first `most` that were found. \throw Cancelled
+    std::vector<Pair> pairs(Interrupter* interrupter) const;
+    /// Calls visit(other) for each triangle that `triangle` meets.
+    template <typename Visit>
+    void forEachMeeting(std::uint32_t triangle, const Visit& visit) const
+    {
+        if (isDegenerate(triangle)) return;
+        tree_.forEachOverlap(boxOf(triangle), [&](std::uint32_t other, const Box&) {
+            if (meet(triangle, other)) visit(other);
+            return true;
+        });
+    }
+    /// Whether it has no area, exactly.
+    bool isDegenerate(std::uint32_t triangle) const;
+    /// Moves a point of the mesh.
+    void move(std::uint32_t point, const Vec3d& place);
+
+private:
+    Box boxOf(std::uint32_t triangle) const;
+    bool meet(std::uint32_t a, std::uint32_t b) const;
+    bool isEdge(std::uint32_t face, std::uint32_t a, std::uint32_t b) const;
+
+    Mesh& mesh_;
+    std::vector<SplitTriangle> triangles_;
+    std::vector<std::vector<std::uint32_t>> around_;
+    DynamicBvh tree_;
+};
+
+} // namespace vdbcage::detail
