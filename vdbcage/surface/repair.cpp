@@ -279,7 +279,10 @@ void removeHanging(Soup& soup, RepairReport& report, Interrupter* interrupter)
         std::vector<bool> gone(soup.faces.size());
         for (const Piece* piece : order) {
             const auto& at = piece->counts;
-            const bool hangs = std::any_of(at.begin(), at.end(), [](const std::size_t* n) { return *n > 2; });
+            // Two faces of other pieces share an edge with it.
+            const bool hangs = std::any_of(at.begin(), at.end(), [&](const std::size_t* n) {
+                return *n >= 2 + static_cast<std::size_t>(std::count(at.begin(), at.end(), n));
+            });
             const bool touches =
                 std::any_of(at.begin(), at.end(), [](const std::size_t* n) { return *n > 2 && *n % 2 == 0; });
             if (!hangs || (touches && !piece->isOpen)) continue;
@@ -292,7 +295,8 @@ void removeHanging(Soup& soup, RepairReport& report, Interrupter* interrupter)
     }
 }
 
-void orientOutward(Soup& soup)
+/// Turns parts that enclose a negative volume.
+void turnOutward(Soup& soup)
 {
     UnionFind parts = partsOf(soup.faces);
     std::map<Index, double> volumes;
@@ -343,7 +347,7 @@ void sew(Soup& soup, RepairReport& report)
         for (const Surface::Vertex_index v : surface.vertices_around_face(surface.halfedge(f))) corners.push_back(v);
         soup.faces.push_back(std::move(corners));
     }
-    orientOutward(soup);
+    turnOutward(soup);
     // Faces keep their order; those of filled holes come last.
     for (std::size_t f = 0; f < firstEdges.size(); ++f) {
         report.reoriented |= isReversed(soup, soup.faces[f], firstEdges[f]);
@@ -631,6 +635,13 @@ private:
     std::vector<Piece> pieces_;
 };
 
+Mesh turnedOutward(const Mesh& mesh)
+{
+    Soup soup = toSoup(mesh);
+    turnOutward(soup);
+    return toMesh(soup);
+}
+
 std::size_t countMeetings(Mesh mesh, Interrupter* interrupter)
 {
     return facesThatMeet(Meetings(mesh), interrupter).size();
@@ -669,7 +680,7 @@ Soup resolved(const Soup& group, RepairReport& report, Interrupter* interrupter)
         sew(outside, ofPieces);
         Mesh mesh = toMesh(outside);
         const std::size_t moved = detail::pullApart(mesh, false, interrupter);
-        mesh = withQuadsSplit(std::move(mesh), true, interrupter);
+        mesh = turnedOutward(withQuadsSplit(std::move(mesh), true, interrupter));
         const std::size_t left = countMeetings(mesh, interrupter);
         if (left >= least || ofPieces.unfilledHoles > 0) break;
         best = std::move(mesh);
@@ -747,6 +758,7 @@ RepairedCage repair(const Mesh& cage, Interrupter* interrupter)
         mesh = withQuadsSplit(std::move(mesh), false, interrupter);
         throwIfInterrupted(interrupter, 40);
         report.movedPoints = detail::pullApart(mesh, true, interrupter);
+        mesh = turnedOutward(mesh); // what was pulled through decided before
         throwIfInterrupted(interrupter, 60);
         mesh = withGroupsResolved(std::move(mesh), report, interrupter);
     }
