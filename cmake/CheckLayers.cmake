@@ -17,7 +17,7 @@ endforeach()
 set(floor_bounding 5)
 set(floor_pipeline 6)
 
-set(gpl "CGAL/(Surface_mesh|AABB_|Side_of_triangle_mesh|Polygon_mesh_processing|Polyhedron_3|convex_hull_3|Nef_)")
+set(gpl "CGAL/(Surface_mesh|AABB_|Side_of_triangle_mesh|Polygon_mesh_processing|Polyhedron_3|convex_hull_3|Nef_|[A-Za-z_]*[Tt]riangulation_)")
 # library header pattern | files that may include it
 set(confined
     "OpenMesh/|^vdbcage/(mesh/detail/open_mesh\\.h|surface/[a-z_]+\\.cpp)$"

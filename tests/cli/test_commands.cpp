@@ -316,6 +316,47 @@ BOOST_AUTO_TEST_CASE(repair_mends_a_cage)
     BOOST_TEST(checkCage(mended, test::sphere({0, 0, 0}, 0.5, 8)).bounding());
 }
 
+BOOST_AUTO_TEST_CASE(repair_says_what_is_still_wrong)
+{
+    if (!hasRepair()) return;
+    const TemporaryFolder folder;
+    Mesh tips = test::sphere({0, 0, 0}, 1, 4); // two cones, tip to tip
+    for (openvdb::Vec3d& p : tips.points) p = openvdb::Vec3d(p[0] * p[2], p[1] * p[2], p[2]);
+    writeMesh(tips, folder / "tips.obj");
+    const auto result = runCommand({command, "repair", folder / "tips.obj", "-o", folder / "mended.obj"});
+    BOOST_TEST(result.status == 2, result.err);
+    BOOST_TEST(result.out.find("mended.obj: not a valid cage: ") != std::string::npos, result.out);
+    BOOST_TEST(result.out.find("vdbcage make ") != std::string::npos, result.out);
+    const CageCheck check = checkCage(readMesh(folder / "mended.obj"), tips); // it is there, to be looked at
+    BOOST_TEST(!check.valid());
+    BOOST_TEST(result.out.find(std::to_string(check.selfIntersections) + " self-intersections") != std::string::npos);
+    const auto quiet = runCommand({command, "repair", folder / "tips.obj", "-o", folder / "mended.obj", "-q"});
+    BOOST_TEST(quiet.status == 2);
+    BOOST_TEST(quiet.out + quiet.err == "");
+}
+
+BOOST_AUTO_TEST_CASE(repair_judges_what_it_wrote)
+{
+    if (!hasRepair()) return;
+    // Valid in double, but the points of a face are one as floats.
+    const TemporaryFolder folder;
+    Mesh fine = test::sphere({0, 0, 0}, 1, 8);
+    fine.points[1] = fine.points[2] + 1e-9 * (fine.points[1] - fine.points[2]);
+    writeMesh(fine, folder / "fine.obj");
+    const auto repaired = [&](const char* name) {
+        const auto result = runCommand({command, "repair", folder / "fine.obj", "-o", folder / name});
+        const CageCheck check = checkCage(readMesh(folder / name), test::sphere({0, 0, 0}, 0.1, 4));
+        BOOST_TEST((result.status == 0) == check.valid(), result.out);
+        return result;
+    };
+    const auto same = repaired("mended.obj");
+    BOOST_TEST(same.status == 0);
+    BOOST_TEST(same.out.find("nothing had to be mended") != std::string::npos, same.out);
+    const Mesh mended = readMesh(folder / "mended.obj");
+    BOOST_TEST((mended.points == fine.points && mended.triangles == fine.triangles && mended.quads == fine.quads));
+    BOOST_TEST(repaired("mended.stl").status == 2);
+}
+
 BOOST_AUTO_TEST_CASE(ctrl_c_stops_cleanly)
 {
     const TemporaryFolder folder;

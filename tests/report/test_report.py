@@ -173,7 +173,11 @@ class Reports(unittest.TestCase):
 
     @unittest.skipIf(os.environ["VDBCAGE_HAS_GPL_PART"] != "1", "without repair")
     def test_a_repair(self):
-        self.assertEqual(self.run_command("repair", "open.obj", "-o", "mended.obj")["repair"]["filled_holes"], 1)
+        report = self.run_command("repair", "open.obj", "-o", "mended.obj")
+        self.assertEqual((report["valid"], report["repair"]["filled_holes"]), (True, 1))
+        self.assertEqual(report["repair"]["before"]["faces"] + 2, report["repair"]["after"]["faces"])
+        report = self.run_command("repair", "mended.obj", "-o", "again.obj")
+        self.assertEqual(report["repair"]["before"], report["repair"]["after"])
 
     @unittest.skipUnless(os.environ["VDBCAGE_WINDOW"], "without the window")
     def test_what_the_window_saves(self):

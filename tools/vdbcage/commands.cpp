@@ -50,7 +50,9 @@ const std::vector<Command>& commands()
         {"repair",
          "mend a cage that was made elsewhere",
          runRepair,
-         "Needs a vdbcage that was built with its GPL part (VDBCAGE_WITH_CGAL_GPL).",
+         "A valid cage comes back as it came. Points that were pulled through other faces go back between their "
+         "neighbours. Parts that overlap become one. What is written is examined as by check, but for the model. Needs "
+         "a vdbcage that was built with its GPL part (VDBCAGE_WITH_CGAL_GPL).",
          {{"Closed, oriented and free of self-intersections, if it can be:", "vdbcage repair cage.obj -o mended.obj"}}},
         {"jobs",
          "print a command for each of many models, for farms",
