@@ -4,7 +4,6 @@
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/intersections.h>
-#include <vdbcage/geometry/triangle_pair.h>
 
 namespace vdbcage::detail {
 
@@ -33,6 +32,7 @@ Meetings::Meetings(Mesh& mesh) : mesh_(mesh), around_(mesh.points.size())
     for (std::uint32_t i = 0; i < triangles_.size(); ++i) {
         for (int k = 0; k < 3; ++k) around_[triangles_[i].corners[k]].push_back(i);
         boxes.push_back(boxOf(i));
+        degenerate_.push_back(hasNoArea(cornersOf(i)));
     }
     tree_ = DynamicBvh(std::move(boxes));
 }
@@ -50,23 +50,19 @@ std::vector<Meetings::Pair> Meetings::pairs(Interrupter* interrupter) const
     return result;
 }
 
-bool Meetings::isDegenerate(std::uint32_t triangle) const
-{
-    const Vec3I& t = triangles_[triangle].corners;
-    return hasNoArea({mesh_.points[t[0]], mesh_.points[t[1]], mesh_.points[t[2]]});
-}
-
 void Meetings::move(std::uint32_t point, const Vec3d& place)
 {
     mesh_.points[point] = place;
-    for (const std::uint32_t i : around_[point]) tree_.update(i, boxOf(i));
+    for (const std::uint32_t i : around_[point]) {
+        tree_.update(i, boxOf(i));
+        degenerate_[i] = hasNoArea(cornersOf(i));
+    }
     tree_.refit();
 }
 
 Box Meetings::boxOf(std::uint32_t triangle) const
 {
-    const Vec3I& t = triangles_[triangle].corners;
-    return Box::of(Corners{mesh_.points[t[0]], mesh_.points[t[1]], mesh_.points[t[2]]});
+    return Box::of(cornersOf(triangle));
 }
 
 bool Meetings::isEdge(std::uint32_t face, std::uint32_t a, std::uint32_t b) const

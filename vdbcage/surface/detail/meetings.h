@@ -7,6 +7,7 @@
 
 #include <vdbcage/core/interrupter.h>
 #include <vdbcage/geometry/dynamic_bvh.h>
+#include <vdbcage/geometry/triangle_pair.h>
 #include <vdbcage/mesh/mesh.h>
 
 namespace vdbcage::detail {
@@ -46,17 +47,30 @@ public:
     void forEachMeeting(std::uint32_t triangle, const Visit& visit) const
     {
         if (isDegenerate(triangle)) return;
+        const Plane plane(cornersOf(triangle));
         tree_.forEachOverlap(boxOf(triangle), [&](std::uint32_t other, const Box&) {
-            if (meet(triangle, other)) visit(other);
+            if (!isBeside(plane, other) && meet(triangle, other)) visit(other);
             return true;
         });
     }
     /// Whether it has no area, exactly.
-    bool isDegenerate(std::uint32_t triangle) const;
+    bool isDegenerate(std::uint32_t triangle) const { return degenerate_[triangle]; }
     /// Moves a point of the mesh.
     void move(std::uint32_t point, const Vec3d& place);
 
 private:
+    Corners cornersOf(std::uint32_t triangle) const
+    {
+        const Vec3I& t = triangles_[triangle].corners;
+        return {mesh_.points[t[0]], mesh_.points[t[1]], mesh_.points[t[2]]};
+    }
+    /// Whether it lies on one side of the plane for certain: most of what is in the box of a long triangle does.
+    bool isBeside(const Plane& plane, std::uint32_t triangle) const
+    {
+        const Corners t = cornersOf(triangle);
+        const int side = plane.side(t[0], 0);
+        return side != 0 && plane.side(t[1], 0) == side && plane.side(t[2], 0) == side;
+    }
     Box boxOf(std::uint32_t triangle) const;
     bool meet(std::uint32_t a, std::uint32_t b) const;
     bool isEdge(std::uint32_t face, std::uint32_t a, std::uint32_t b) const;
@@ -64,6 +78,7 @@ private:
     Mesh& mesh_;
     std::vector<SplitTriangle> triangles_;
     std::vector<std::vector<std::uint32_t>> around_;
+    std::vector<char> degenerate_;
     DynamicBvh tree_;
 };
 
