@@ -45,19 +45,11 @@ Json toJson(const RepairReport& report)
             {"after", toJson(report.after)}};
 }
 
-/// A mesh as it is in its file. What a format rounds or leaves out is so here, too.
-struct WrittenMesh {
-    std::string bytes;
-    CageCheck check; ///< of what is read from them
-};
-
-WrittenMesh written(const Mesh& mesh, const std::filesystem::path& path, const Mesh& model, Interrupter* interrupter)
+std::string bytesOf(const Mesh& mesh, const std::filesystem::path& path)
 {
     std::ostringstream bytes;
     writeMesh(mesh, bytes, path);
-    CheckOptions options;
-    options.measure = false;
-    return {bytes.str(), checkCage(detail::parseMesh(bytes.str(), path).mesh, model, options, interrupter)};
+    return bytes.str();
 }
 
 /// What keeps a mesh from being a valid cage.
@@ -127,10 +119,16 @@ int runRepair(Call call)
 
     std::optional<Progress> progress(talk.progressForm());
     const MeshFile cage = readMeshFile(cagePath);
-    const RepairedCage mended = repair(cage.mesh, &*progress);
-    const WrittenMesh result = written(mended.cage, outputPath, cage.mesh, &*progress);
-    const bool isValid = result.check.valid();
-    outputs.add(outputPath, [&](std::ostream& out) { out << result.bytes; });
+    // As the format of the output has it: what that rounds or leaves out is mended too.
+    const Mesh given = detail::parseMesh(bytesOf(cage.mesh, outputPath), outputPath).mesh;
+    const RepairedCage mended = repair(given, &*progress);
+    const std::string bytes = bytesOf(mended.cage, outputPath);
+    // The verdict is on what is written, by itself: any model does.
+    CheckOptions unmeasured;
+    unmeasured.measure = false;
+    const CageCheck check = checkCage(detail::parseMesh(bytes, outputPath).mesh, given, unmeasured, &*progress);
+    const bool isValid = check.valid();
+    outputs.add(outputPath, [&](std::ostream& out) { out << bytes; });
     if (!reportPath.empty()) {
         Json facts = runFacts("repair", arguments);
         facts["cage"] = cagePath.string();
@@ -143,9 +141,9 @@ int runRepair(Call call)
     progress->succeed();
     progress.reset();
     if (!talk.quiet()) {
-        std::cout << printable(outputPath) << ": "
-                  << (isValid ? "a valid cage" : "not a valid cage: " + defects(result.check)) << '\n';
-        if (areEqual(mended.cage, cage.mesh)) {
+        std::cout << printable(outputPath) << ": " << (isValid ? "a valid cage" : "not a valid cage: " + defects(check))
+                  << '\n';
+        if (areEqual(mended.cage, given)) {
             std::cout << (isValid ? "  nothing had to be mended" : "  nothing could be mended")
                       << ": it is the same mesh\n";
         } else {
@@ -154,10 +152,10 @@ int runRepair(Call call)
         if (!isValid) {
             std::cout << "  a new cage around it is made by: vdbcage make " << printable(cagePath) << " -o CAGE\n";
         }
-        std::cout << warningLines(cagePath, cage.summary);
         flushOutput();
     }
     outputs.commit();
+    if (!talk.quiet()) std::cerr << warningLines(cagePath, cage.summary);
     return isValid ? exitGood : exitNotBounding;
 }
 
