@@ -279,8 +279,15 @@ FILES = [
     Row("FILE: its cage would replace it; choose another folder", "jobs model.obj -o ."),
     Row("'WORD': a job is a line, and cannot have control characters", ["jobs", "mo\ndel.obj", "-o", "new"]),
     Row("FILE: WHAT of point N is N, which does not fit the floats of an STL file",
+        "repair large.obj -o new.stl", {"large.obj": BOX.replace("v -1 -1 -1", "v 1e50 -1 -1")}),
+    Row("FILE: it is too large or too small for float32; .obj, .off and .ply files hold float64",
         "make model.obj -o new.stl --effort fast --faces 20 --resolution 16",
         {"model.obj": TETRAHEDRON.replace("1 0 0", "1e50 0 0").replace("0 1 0", "0 1e50 0")}),
+    Row("FILE: it is so far from the origin that float32 rounds coordinates by up to N % of its longest side; at most N % "
+        "is allowed: move it by WORD first; .obj, .off and .ply files hold float64", "make model.obj -o new.stl",
+        {"model.obj": TETRAHEDRON.replace("v ", "v 50000")}),
+    Row("--precision: 'float64' is not allowed with FILE: NAME files hold float32; it must be auto or float32, or the "
+        "file .obj, .off or .ply", "make model.obj -o new.stl --precision float64"),
     Row("FILE: point N is not finite", "deform cage.obj posed.obj model.obj -o new.obj",
         {"posed.obj": obj([[1e60 * c for c in p] for p in CORNERS], BOX_FACES)}),
 ]
@@ -526,6 +533,7 @@ OTHERS = [
          "--coordinates harmonic --resolution 16", model=OUTSIDE),
     bind("FILE: NAME coordinates are not defined at N of N points, first at point N, WORD; none may be so far away",
          "--coordinates mvc", model=FAR_OFF),
+    bind("loose points: 'WORD' is not allowed; it must be ride or stay", "--loose fly"),
     deform("inversions: two points are looked at for each triangle; REASON",
            "--inversions --coordinates harmonic --resolution 16", model=AT_A_SIDE),
     bind("FILE: it has N points and N triangles; biharmonic coordinates allow N of both together",

@@ -80,7 +80,7 @@ LIBRARY_ONLY = {
         "colours were given; the mesh has", "it has … points; … has …", "posed points: there are",
         "model: it has … points; the binding has", "weights: there are …; … points and",
         "there are … values for … points", "picture: … points were given", "picture: … … were given",
-        "a layer has … colours of points",
+        "a layer has … colours of points", "loose points: there is no point",
     ],
     "the command makes the surfaces, voxels and planes that it works on": [
         "surface: ", "the surface is not a 2-manifold", "has no length", "has two faces on the same side", "axis: …",

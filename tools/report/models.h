@@ -40,8 +40,8 @@ Json entryOf(const std::vector<ModelFile>& models);
 /// Their names for messages: "body.obj, shirt.obj".
 std::string namesOf(const std::vector<ModelFile>& models);
 
-/// Where there are several: the verdict of each, with what speaks against it. Distances from the cage to one model would
-/// count what is around the others, too. Lines with their ends.
+/// Where there are several: the verdict of each, with what speaks against it. Distances from the cage to one model
+/// would count what is around the others, too. Lines with their ends.
 std::string describe(const std::vector<ModelFile>& models);
 
 /// Whether some of several models lie so far from the others that they may have been meant to get a cage each.

@@ -237,10 +237,9 @@ std::vector<std::string> remarks(const CageReport& report, const CageOptions& op
     }
     if (report.sideShare < 1) {
         std::ostringstream out;
-        out << "little of the longest side, " << report.check.longestSide
-            << ", is filled: voxels and radii were chosen as for " << report.sideShare
-            << " of it; the mean distance is " << std::setprecision(3)
-            << report.check.meanDistance * report.check.longestSide
+        out << "all parts are small beside the longest side, " << report.check.longestSide
+            << ": voxels and radii were chosen as for " << report.sideShare << " of it; the mean distance is "
+            << std::setprecision(3) << report.check.meanDistance * report.check.longestSide
             << "; --least-part leaves out parts that are small and far away";
         lines.push_back(out.str());
     }

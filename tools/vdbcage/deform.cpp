@@ -198,8 +198,7 @@ int runBind(Call call)
         });
         text += printable(files[i]) + ": " + std::to_string(model.points.size()) + " points, " +
                 std::to_string(handles) + " handles, " + coordinatesName(coordinates.family) + '\n' +
-                describeLoose(modelPaths[i], ofModel) +
-                describeFit(cage, model, &*progress);
+                describeLoose(modelPaths[i], ofModel) + describeFit(cage, model, &*progress);
     }
     outputs.commit();
     progress->succeed();

@@ -64,12 +64,13 @@ void requireFinitePoints(const std::vector<openvdb::Vec3d>& points, const std::s
 Mesh rounded(Mesh mesh, const Format& format, const std::string& name)
 {
     if (format.precision == Precision::float64) return mesh;
+    constexpr const char* coordinateNames[3] = {"the x coordinate", "the y coordinate", "the z coordinate"};
     constexpr double largest = double(std::numeric_limits<float>::max());
     for (std::size_t i = 0; i < mesh.points.size(); ++i) {
         for (int axis = 0; axis < 3; ++axis) {
             const double value = mesh.points[i][axis];
             if (!(std::abs(value) > largest)) continue;
-            throw IoError(name + ": the " + "xyz"[axis] + " coordinate of point " + std::to_string(i) + " is " +
+            throw IoError(name + ": " + coordinateNames[axis] + " of point " + std::to_string(i) + " is " +
                           detail::numberText(value) + ", which does not fit the floats of an STL file");
         }
     }

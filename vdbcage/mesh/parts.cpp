@@ -120,6 +120,11 @@ LargeParts withoutSmall(const Mesh& mesh, Parts& parts, double side)
 
 } // namespace
 
+double largestPart(const Mesh& mesh)
+{
+    return Parts(mesh).largest();
+}
+
 LargeParts largeParts(const Mesh& mesh, double leastPart)
 {
     Parts parts(mesh);

@@ -15,6 +15,11 @@ struct LargeParts {
     std::size_t facesLeftOut = 0; ///< the triangles and quads of these
 };
 
+/// Returns the longest side of the box of a mesh's largest part, world units.
+/// \pre as largeParts()
+/// Cost: as largeParts().
+VDBCAGE_API double largestPart(const Mesh& mesh);
+
 /// Leaves out the parts of `mesh` whose boxes have a longest side below `leastPart`, 0 to 1, times that of the largest.
 /// \pre the points of faces are finite
 /// Cost: O(n log n) for n points.

@@ -54,8 +54,12 @@ public:
         const auto quadsOf = [&](const detail::Voxels& voxels) {
             return surfaceOf(*volumes.closing(counted, scale, voxels, &questions), &questions)->quads.size();
         };
-        const openvdb::Vec3d extents = boundingBox(model).extents() / detail::longestSide(boundingBox(model));
-        if (options.bounding) share_ = detail::shareOfSide(options, extents[0] * extents[1] * extents[2], quadsOf);
+        const double longest = detail::longestSide(boundingBox(model));
+        const openvdb::Vec3d extents = boundingBox(model).extents() / longest;
+        const auto largest = [&] { return largestPart(model) / longest; };
+        if (options.bounding) {
+            share_ = detail::shareOfSide(options, {extents[0] * extents[1] * extents[2], largest, quadsOf});
+        }
         detail::Voxels voxels = detail::finestVoxels(options, share_);
         voxels.resolution = std::min(voxels.resolution, static_cast<int>(countedResolution / share_));
         const double side = voxels.resolution;

@@ -20,6 +20,7 @@
 #include <vdbcage/core/detail/parallel.h>
 #include <vdbcage/core/detail/stage_parts.h>
 #include <vdbcage/core/error.h>
+#include <vdbcage/mesh/parts.h>
 #include <vdbcage/pipeline/detail/simple_solids.h>
 #include <vdbcage/pipeline/detail/starting_surface.h>
 #include <vdbcage/pipeline/detail/tilted_search.h>
@@ -339,11 +340,17 @@ int BoundingSearch::resolutionFor(const Run& run, const Voxels& voxels)
 
 double BoundingSearch::shareFor(const Run& run, const BoundingGuard& guard)
 {
-    const openvdb::Vec3d extents = boundingBox(model_).extents() / longestSide(boundingBox(model_));
-    return shareOfSide(run.options, extents[0] * extents[1] * extents[2], [&](Voxels voxels) {
+    const double side = longestSide(boundingBox(model_));
+    const openvdb::Vec3d extents = boundingBox(model_).extents() / side;
+    const auto largest = [&] {
+        if (!largestPart_) largestPart_ = largestPart(model_) / side;
+        return *largestPart_;
+    };
+    const auto quads = [&](Voxels voxels) {
         voxels.plane = guard.symmetry();
         return quadsOf(run, voxels);
-    });
+    };
+    return shareOfSide(run.options, {extents[0] * extents[1] * extents[2], largest, quads});
 }
 
 /// How many faces the surface of a closing has.

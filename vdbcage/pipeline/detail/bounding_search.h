@@ -100,6 +100,7 @@ private:
         ClosingKey key;
         std::size_t quads = 0;
     };
+    std::optional<double> largestPart_;                    // of the longest side, once it was asked for
     std::vector<Counted> counted_;                         // closings whose faces were counted
     std::vector<std::shared_ptr<StartingSurface>> starts_; // of the last run, under guard_
 };

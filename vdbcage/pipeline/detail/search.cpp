@@ -78,18 +78,19 @@ std::vector<CageOptions> fewerFaces(const CageOptions& options)
     return list;
 }
 
-double shareOfSide(const CageOptions& options, double box, const std::function<std::size_t(const Voxels&)>& quads)
+double shareOfSide(const CageOptions& options, const ShareQuestions& model)
 {
     if (options.resolution) return 1;
     CageOptions counted = options;
     if (options.mesh == CageFaces::loops) counted.mesh = CageFaces::quads; // of loops the voxels follow the surface
     for (double share = 1;; share /= 2) {
         Voxels voxels = finestVoxels(counted, share);
+        const double finer = 2.0 * voxels.resolution;
         voxels.resolution = static_cast<int>(std::lround(startScales(counted).front() * voxels.resolution));
-        const double finer = 2.0 * finestVoxels(counted, share).resolution;
-        if (finer > mostResolution || box * finer * finer * finer > mostVoxels) return share;
-        const double triangles = 2 * static_cast<double>(quads(voxels));
+        if (finer > mostResolution || model.box * finer * finer * finer > mostVoxels) return share;
+        const double triangles = 2 * static_cast<double>(model.quadsOf(voxels));
         if (triangles >= (share == 1 ? fewestTriangles : usualTriangles) * options.faces) return share;
+        if (share / 2 < model.largestPart()) return share;
     }
 }
 

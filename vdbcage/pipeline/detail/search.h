@@ -106,11 +106,17 @@ struct Voxels {
 /// compete with other quads from Effort::fair on.
 std::vector<CageOptions> competitors(const CageOptions& options);
 
+/// What shareOfSide() asks of a model.
+struct ShareQuestions {
+    double box;                                        ///< volume, for the cube of the longest side
+    std::function<double()> largestPart;               ///< its longest side, for that of all
+    std::function<std::size_t(const Voxels&)> quadsOf; ///< of the surface in such voxels
+};
 /// The share of the longest side that options `auto` of the voxels are fractions of. It is 1, or less where the surface
-/// in such voxels has too few faces for the cage: a power of 1/2. `quads` counts them; `box` is the volume of the
-/// model's box for the cube of its longest side, which keeps voxels few enough for memory.
-/// \throw Cancelled, and what `quads` throws
-double shareOfSide(const CageOptions& options, double box, const std::function<std::size_t(const Voxels&)>& quads);
+/// in such voxels has too few faces for the cage and all parts are small: a power of 1/2, not below the largest part,
+/// nor so small that voxels take too much memory.
+/// \throw Cancelled, and what the questions throw
+double shareOfSide(const CageOptions& options, const ShareQuestions& model);
 /// Whether a cage has more faces than a flat model has a use for: some places are much farther away than most, or it
 /// lies on the model.
 bool mayFewerBeTighter(const CageOptions& options, const CageCheck& check);
