@@ -88,7 +88,7 @@ class CageTest(Case):
         self.assertEqual(len(fields["bad_faces"]), fields["contact_faces"])
         for name, value in fields.items():
             if name != "bad_faces":
-                self.assertEqual(value, expected["model_diagonal" if name == "diagonal" else name], name)
+                self.assertEqual(value, expected[f"model_{name}" if name in ("diagonal", "longest_side") else name], name)
 
     def test_a_check_takes_its_options(self):
         model = Mesh.read(BISHOP)

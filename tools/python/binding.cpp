@@ -1,5 +1,6 @@
 #include <utility>
 
+#include <pybind11/stl.h>
 #include <vdbcage/deform/binding.h>
 #include <vdbcage/deform/posed_points.h>
 #include <vdbcage/deform/weights_io.h>

@@ -245,7 +245,7 @@ class Cage(Mesh):
         """
         path = _arguments.path(path)
         if not _vdbcage.is_held(self._mesh, path):
-            raise InputError(f"{path}: its file would hold float32, and the cage was certified in float64; write .obj, "
+            raise InputError(f"{os.fsdecode(path)}: its file would hold float32, and the cage was certified in float64; write .obj, "
                              ".off or .ply, or make it with precision='float32'")
         super().write(path)
 
