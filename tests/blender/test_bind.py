@@ -93,7 +93,7 @@ class Bind(Case):
         bpy.ops.vdbcage.bind()
         modifier = model.modifiers[0]
         self.assertTrue(modifier.is_bound)
-        found = bind.not_following(bpy.context, model, modifier, links.rest_of(model, cage).points,
+        found = bind.not_following(bpy.context, model, modifier, links.rest_of(model, cage).mesh.points,
                                    cage.matrix_world)
         self.assertEqual(found, (len(out[::100]), len(out)))
 
@@ -148,7 +148,7 @@ class Bind(Case):
         moved = positions(model)
         self.fails("would follow", bpy.ops.vdbcage.bind, precision=2)
         self.assertNear(positions(model), moved, 1e-6)
-        self.assertNear(links.rest_of(model, cage).points, shape, 1e-6)
+        self.assertNear(links.rest_of(model, cage).mesh.points, shape, 1e-6)
         self.assertEqual([modifier.precision for modifier in model.modifiers], [5])
 
     def test_a_second_cage_takes_the_place_of_the_first(self):

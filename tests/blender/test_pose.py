@@ -289,7 +289,7 @@ class Pose(Case):
         model.vdbcage.cage = cube
         self.fails("bishop has no shape at rest. Press Set Rest", pose)
         bpy.ops.vdbcage.set_rest()
-        self.fails("Error: bishop.ply: point 38 at", pose, coordinates="green")
+        self.fails("Error: bishop.ply: green coordinates are not defined", pose, coordinates="green")
         bpy.ops.object.mode_set(mode="EDIT")
         bpy.ops.mesh.subdivide()
         bpy.ops.object.mode_set(mode="OBJECT")

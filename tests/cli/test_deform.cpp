@@ -463,7 +463,7 @@ BOOST_AUTO_TEST_CASE(wrong_pairs)
     writeMesh(test::box(Vec3d(1), Vec3d(3)), scene.at("outside.obj"));
     for (const char* family : {"green", "mlc", "harmonic", "biharmonic", "somigliana"}) {
         expectRefusal(scene, {"bind", cage, scene.at("outside.obj"), "-o", scene.at("v.npy"), "--coordinates", family},
-                      "outside.obj: point ");
+                      "outside.obj: " + std::string(family) + " coordinates are not defined at ");
     }
 }
 

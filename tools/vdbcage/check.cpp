@@ -27,7 +27,7 @@ int runCheck(Call call)
     app.add_option("models", modelPaths)->required()->type_name("MODEL...");
     app.add_option("--report", reportPath, "the verdict as JSON")->type_name("FILE.json");
     double leastPart = 0;
-    app.add_option("--least-part", leastPart, "leaves smaller parts of the model out, 0 to 1 [0]")->type_name("F");
+    app.add_option("--least-part", leastPart, "leaves smaller parts out, 0 to 1 [0]")->type_name("F");
     const TalkArguments talk(app);
     const std::vector<std::string> arguments = call.words;
     if (!parse(app, std::move(call))) return exitGood;

@@ -28,7 +28,7 @@ CoordinateArguments::CoordinateArguments(CLI::App& app, For use, const std::stri
                                        "of harmonic: voxels along the cage [" + std::to_string(resolution_) + "]")
                             ->type_name("N"))
 {
-    app.add_option("--loose", loose_, "points that no face uses, where they have none [ride]")->type_name("ride|stay");
+    app.add_option("--loose", loose_, "points that no face uses [ride]")->type_name("ride|stay");
     app.footer(familyHelp());
     if (use == For::weights) return;
     const auto add = [&](const char* name, auto& value, const std::string& help, const char* type) {
