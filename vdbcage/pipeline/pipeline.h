@@ -79,6 +79,8 @@ struct CageReport {
 /// the clearance as closely as other cages, it is the cage. Up to 24 faces loops compete with other quads, but not with
 /// Effort::fast. Loops are also begun with voxels along the model's own axes, where these have a smaller surface.
 /// These axes are those along which the model's faces lie flattest.
+/// Beyond 150 faces boxes and cages of fewer faces compete where the cage lies on the model, or some of its places are
+/// much farther away than most.
 ///
 /// Where a plane of symmetry is found or given, voxels are united with their mirror image. Everything after is done on
 /// one half, under a guard that knows the plane. The cage is then symmetric, point for point and face for face: exactly
