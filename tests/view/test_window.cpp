@@ -105,7 +105,10 @@ public:
         await("a display", [this] { return server_.output().find('\n') != std::string::npos; });
         name_ = ':' + server_.output();
         name_.pop_back();
-        manager_.emplace(folder_.path(), "manager", withDisplay({"openbox"}));
+        // A window that is there before its manager never gets the keyboard.
+        const fs::path begun = folder_ / "begun";
+        manager_.emplace(folder_.path(), "manager", withDisplay({"openbox", "--startup", "touch " + begun.string()}));
+        await("a window manager", [&] { return fs::exists(begun); });
     }
 
     /// A command on this display; the files of a user are in a folder of its own.
