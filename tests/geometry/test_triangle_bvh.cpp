@@ -70,8 +70,8 @@ Soup manyQuads()
 }
 
 // Tubes of eight sides, much longer than wide, side by side: all along `direction`, or in any directions where it is 0.
-// Some sides are so narrow that they are a line, and some there twice.
-Soup needles(std::size_t count, const Vec3d& direction, double length = 100)
+// Some sides are so narrow that they are a line, and some there twice. Capped ends are there in every split.
+Soup needles(std::size_t count, const Vec3d& direction, double length = 100, bool isCapped = false)
 {
     std::mt19937 random(19);
     std::uniform_real_distribution<double> unit(-1, 1);
@@ -97,6 +97,13 @@ Soup needles(std::size_t count, const Vec3d& direction, double length = 100)
             soup.triangles.emplace_back(a, b + 8, a + 8);
         }
         if (i % 7 == 0) soup.triangles.push_back(Vec3I(soup.triangles.back()));
+    }
+    for (unsigned first = 0; isCapped && first < soup.points.size(); first += 8) {
+        for (unsigned c = 2; c < 8; ++c) {
+            for (unsigned b = 1; b < c; ++b) {
+                for (unsigned a = 0; a < b; ++a) soup.triangles.emplace_back(first + c, first + b, first + a);
+            }
+        }
     }
     return soup;
 }
@@ -430,24 +437,30 @@ BOOST_AUTO_TEST_CASE(needles_answer_as_brute_force_does, *boost::unit_test::labe
 
 BOOST_AUTO_TEST_CASE(needles_at_an_angle_are_told_apart_as_others_are)
 {
-    const auto visits = [](const Vec3d& direction) {
-        const Soup soup = needles(300, direction);
+    const auto visits = [](const Vec3d& direction, bool isCapped, bool isAbove) {
+        const Soup soup = needles(300, direction, 100, isCapped);
         const TriangleBvh tree(soup.points, soup.triangles, nullptr, TriangleBvh::Copies::drop);
+        const Vec3d along = direction.unit(), across = Vec3d(0, 0, 1).cross(along).unit(), up = along.cross(across);
         std::mt19937 random(22);
         std::uniform_real_distribution<double> unit(-1, 1);
         std::size_t count = 0;
         for (int i = 0; i < 200; ++i) {
-            const Corners any = soup.corners(random() % soup.triangles.size());
-            const double place = std::abs(unit(random));
-            const Vec3d p = place * any[0] + (1 - place) * any[2];
-            const auto near = [&] { return p + 0.05 * Vec3d(unit(random), unit(random), unit(random)); };
-            tree.traverse(tree.near({near(), near(), near()}), [&](const auto&) { return ++count, true; });
+            const Vec3d middle = 45 * unit(random) * along + 0.4 * unit(random) * across;
+            const auto corner = [&] {
+                const double height = isAbove ? 0.1 + 0.04 * unit(random) : 0.05 * unit(random);
+                return middle + unit(random) * along + 0.4 * unit(random) * across + height * up;
+            };
+            tree.traverse(tree.near({corner(), corner(), corner()}), [&](const auto&) { return ++count, true; });
         }
         return count;
     };
-    const std::size_t along = visits({1, 0, 0});
-    for (const Vec3d& direction : {Vec3d(0.6, 0.75, 0.27), Vec3d(1, -1, 0), Vec3d(0.3, -0.2, 0.9)}) {
-        BOOST_TEST(visits(direction) < 3 * along);
+    for (const bool isCapped : {false, true}) {
+        for (const bool isAbove : {false, true}) {
+            const std::size_t along = visits({1, 0, 0}, isCapped, isAbove);
+            for (const Vec3d& direction : {Vec3d(0.6, 0.75, 0.27), Vec3d(1, -1, 0), Vec3d(0.3, -0.2, 0.9)}) {
+                BOOST_TEST(visits(direction, isCapped, isAbove) <= 2 * along);
+            }
+        }
     }
 }
 

@@ -733,7 +733,24 @@ private:
             ask();
             return gains(ref, bestFrame);
         });
-        return Needles{range.begin + static_cast<std::uint32_t>(end - first), rolled(bestFrame, first, end)};
+        return Needles{range.begin + static_cast<std::uint32_t>(end - first),
+                       rolled(alongLongest(bestFrame, first, end), first, end)};
+    }
+
+    // The same axes, first the one along which most of the refs are long: it may be across the one that they came from.
+    TriangleBvh::Frame alongLongest(const TriangleBvh::Frame& frame, const Ref* first, const Ref* last) const
+    {
+        Asker ask(interrupter_);
+        std::array<double, 3> lengths{};
+        for (const Ref* ref = first; ref != last; ++ref) {
+            ask();
+            const FloatBox box = boxAlong(frame, *ref);
+            for (std::size_t i = 0; i < 3; ++i) lengths[i] += double{box.hi[i]} - double{box.lo[i]};
+        }
+        const auto longest = std::max_element(lengths.begin(), lengths.end()) - lengths.begin();
+        TriangleBvh::Frame ordered = frame;
+        std::rotate(ordered.axes.begin(), ordered.axes.begin() + longest, ordered.axes.end());
+        return ordered;
     }
 
     // Turned about its first axis, so that the box of the refs is small.
