@@ -42,6 +42,21 @@ BOOST_AUTO_TEST_CASE(a_certified_stl_bounds_a_model_far_from_the_origin)
     }
 }
 
+BOOST_AUTO_TEST_CASE(a_plane_is_told_with_the_digits_that_it_needs)
+{
+    const TemporaryFolder folder;
+    const auto isTold = [&](const Vec3d& centre, double radius, const std::string& plane) {
+        const std::string model = folder / "jug.obj";
+        writeMesh(test::sphere(centre, radius, 6), model);
+        const auto made = runCommand({command, "make", model, "-o", folder / "cage.obj", "--faces", "60", "--effort",
+                                      "fast", "--symmetry", "x"});
+        BOOST_TEST(made.err.find("symmetric in the plane x = " + plane + ',') != std::string::npos, made.err);
+    };
+    isTold({5800010, 3e5, 0}, 1234, "5800010");
+    isTold({0.1234567, 0, 0}, 1e-3, "0.1234567");
+    isTold({0, 0, 0}, 1, "0");
+}
+
 BOOST_AUTO_TEST_CASE(a_file_that_cannot_hold_the_cage_is_refused_with_what_can)
 {
     const TemporaryFolder folder;

@@ -1,6 +1,8 @@
 #include <tools/report/report.h>
 #include <tools/report/run_facts.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <iomanip>
 #include <optional>
@@ -56,6 +58,19 @@ std::string textOf(const CageOptions& options, const char* name)
         if (option.first == name) return option.second;
     }
     return {};
+}
+
+/// A coordinate with the digits that tell places apart on a model of such a size, and no more.
+std::string placeText(double coordinate, double longestSide)
+{
+    constexpr double step = 1e-4; // of the side
+    const int decimals = std::clamp(static_cast<int>(std::ceil(-std::log10(step * longestSide))), 0, 300);
+    std::ostringstream out;
+    out << std::fixed << std::setprecision(decimals) << coordinate;
+    std::string text = out.str();
+    if (decimals > 0) text.erase(text.find_last_not_of('0') + 1);
+    if (!text.empty() && text.back() == '.') text.pop_back();
+    return text == "-0" ? "0" : text;
 }
 
 /// What was taken for the inside of an open model, where others might have taken the other; else empty.
@@ -256,18 +271,19 @@ std::vector<std::string> remarks(const CageReport& report, const CageOptions& op
     if (report.symmetry) {
         const SymmetryPlane& plane = report.symmetry->plane;
         const bool isFound = options.symmetry == CageSymmetry::automatic;
-        std::ostringstream out; // the offset with as many digits as it needs
+        std::ostringstream out;
         out << "symmetric in the plane "
-            << "xyz"[plane.axis] << " = " << plane.offset << (isFound ? ", found" : ", asked for")
-            << "; the model is, within " << std::fixed << std::setprecision(2) << 100 * report.symmetry->deviation
-            << " % of its longest side";
+            << "xyz"[plane.axis] << " = " << placeText(plane.offset, report.check.longestSide)
+            << (isFound ? ", found" : ", asked for") << "; the model is, within " << std::fixed << std::setprecision(2)
+            << 100 * report.symmetry->deviation << " % of its longest side";
         lines.push_back(out.str());
     } else if (report.tiltedSymmetry) {
         const TiltedSymmetry& plane = *report.tiltedSymmetry;
         std::ostringstream out;
         out << "symmetric in the plane across (" << std::setprecision(4) << plane.normal[0] << ", " << plane.normal[1]
-            << ", " << plane.normal[2] << ") at " << plane.offset << ", found; the model is, within " << std::fixed
-            << std::setprecision(2) << 100 * plane.deviation << " % of its longest side";
+            << ", " << plane.normal[2] << ") at " << placeText(plane.offset, report.check.longestSide)
+            << ", found; the model is, within " << std::fixed << std::setprecision(2) << 100 * plane.deviation
+            << " % of its longest side";
         lines.push_back(out.str());
     } else if (!report.noSymmetry.empty()) {
         lines.push_back("not symmetric: " + report.noSymmetry);

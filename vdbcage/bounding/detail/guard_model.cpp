@@ -89,6 +89,7 @@ void requireValid(const Joint& joint, const openvdb::BBoxd& box)
 {
     const auto refuse = [&](const char* why) {
         std::ostringstream text;
+        text.precision(15); // as the user wrote it
         text << "joints: the one at " << joint.place << ' ' << why;
         throw InputError(text.str());
     };

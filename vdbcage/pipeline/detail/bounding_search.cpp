@@ -118,9 +118,8 @@ Candidate BoundingSearch::find(const Run& run)
     if (run.options.symmetry != CageSymmetry::off) {
         if (auto candidate = findSymmetric(run, noSymmetry)) return *std::move(candidate);
     }
-    const BoundingGuard& guard = guardFor(run, std::nullopt);
-    std::optional<Candidate> found = tightest(run, guard);
-    Candidate candidate = found ? *std::move(found) : box(run, guard);
+    std::optional<Candidate> found = tightest(run, std::nullopt);
+    Candidate candidate = found ? *std::move(found) : box(run, guardFor(run, std::nullopt));
     candidate.noSymmetry = noSymmetry;
     return candidate;
 }
@@ -138,9 +137,8 @@ std::optional<Candidate> BoundingSearch::findSymmetric(const Run& run, std::stri
                          "; it may be at most " + detail::numberText(100 * limit) + " %");
     }
     if (best.deviation <= limit) {
-        const BoundingGuard& guard = guardFor(run, best.plane);
-        if (auto candidate = tightest(run, guard)) {
-            best.plane = *guard.symmetry();
+        if (auto candidate = tightest(run, best.plane)) {
+            best.plane = *guardFor(run, best.plane).symmetry();
             candidate->symmetry = best;
             return candidate;
         }
@@ -222,8 +220,28 @@ const BoundingGuard& BoundingSearch::guardFor(const Run& run, const std::optiona
     return *guard_;
 }
 
+/// The tightest cage; nothing if there is none.
+std::optional<Candidate> BoundingSearch::tightest(const Run& run, const std::optional<SymmetryPlane>& plane)
+{
+    std::optional<Candidate> best = tightestOfCompeting(run, guardFor(run, plane));
+    if (!best || !mayFewerBeTighter(run.options, best->check, faceCount(model_))) return best;
+    // Where flat surroundings have no use for more faces, their points only stand out.
+    std::optional<Candidate> worthIt;
+    const auto offer = [&](std::optional<Candidate> candidate) {
+        if (!candidate) return;
+        if (worthIt && !areWorthTheirFaces(candidate->check, worthIt->check, run.options.clearance)) return;
+        worthIt = std::move(candidate);
+    };
+    for (const CageOptions& options : fewerFaces(run.options)) {
+        const Run fewer{options, run.scale, run.density, run.interrupter, run.isSheet};
+        offer(tightestOfCompeting(fewer, guardFor(fewer, plane)));
+    }
+    offer(std::move(best));
+    return worthIt;
+}
+
 /// The tightest of the cages that compete; nothing if there is none.
-std::optional<Candidate> BoundingSearch::tightest(const Run& run, const BoundingGuard& guard)
+std::optional<Candidate> BoundingSearch::tightestOfCompeting(const Run& run, const BoundingGuard& guard)
 {
     std::optional<Candidate> best;
     const auto take = [&](std::optional<Candidate> candidate, double advance) {
@@ -236,12 +254,6 @@ std::optional<Candidate> BoundingSearch::tightest(const Run& run, const Bounding
         take(climb(of, guard), 0);
         // That a cage of more faces lies on the model more closely than a box is not worth them.
         if (isOfFewFaces(options)) take(shrinkOnto(of, simpleSolids(of, guard), guard), options.clearance);
-    }
-    if (isOfFewFaces(run.options) || !best || !mayFewerBeTighter(run.options, best->check)) return best;
-    // Where flat surroundings have no use for more faces, their points only stand out.
-    take(shrinkOnto(run, simpleSolids(run, guard), guard), 0);
-    for (const CageOptions& options : fewerFaces(run.options)) {
-        take(climb({options, run.scale, run.density, run.interrupter, run.isSheet, share}, guard), 0);
     }
     return best;
 }

@@ -60,7 +60,8 @@ private:
     std::optional<Candidate> findTilted(const Run& run, std::string& objection);
     const Symmetry& planeFor(const Run& run);
     const BoundingGuard& guardFor(const Run& run, const std::optional<SymmetryPlane>& plane);
-    std::optional<Candidate> tightest(const Run& run, const BoundingGuard& guard);
+    std::optional<Candidate> tightest(const Run& run, const std::optional<SymmetryPlane>& plane);
+    std::optional<Candidate> tightestOfCompeting(const Run& run, const BoundingGuard& guard);
     std::optional<Candidate> climb(const Run& run, const BoundingGuard& guard);
     const AlignedAxes& axesFor(const Run& run, const BoundingGuard& guard);
     Turned& turnedModel();

@@ -61,21 +61,31 @@ std::vector<CageOptions> competitors(const CageOptions& options)
     return list;
 }
 
-bool mayFewerBeTighter(const CageOptions& options, const CageCheck& check)
+bool mayFewerBeTighter(const CageOptions& options, const CageCheck& check, std::size_t modelFaces)
 {
-    return check.maxDistance > unevenness * check.meanDistance || check.meanDistance < nearlyOn * options.clearance;
+    const bool hasModelFewer = modelFaces <= static_cast<std::size_t>(options.faces);
+    if (isOfFewFaces(options) && !hasModelFewer) return false;
+    const double near = (hasModelFewer ? nearlyOnFaces : nearlyOn) * options.clearance;
+    return check.maxDistance > unevenness * check.meanDistance || check.meanDistance < near;
 }
 
 std::vector<CageOptions> fewerFaces(const CageOptions& options)
 {
     std::vector<CageOptions> list;
     if (options.mesh == CageFaces::loops) return list;
-    for (int faces = options.faces; faces > fewestUneven;) {
-        faces = std::max(faces / 2, fewestUneven);
+    for (double faces = fewestUneven; faces < options.faces; faces *= 2) {
         list.push_back(options);
-        list.back().faces = faces;
+        list.back().faces = static_cast<int>(faces);
     }
     return list;
+}
+
+bool areWorthTheirFaces(const CageCheck& more, const CageCheck& fewer, double clearance)
+{
+    const auto unevenDistance = [](const CageCheck& c) { return c.meanDistance + c.maxDistance / unevenness; };
+    const bool isNowhereLooser =
+        more.meanDistance <= fewer.meanDistance + clearance && more.maxDistance <= fewer.maxDistance + clearance;
+    return isNowhereLooser || unevenDistance(more) < muchTighter * unevenDistance(fewer);
 }
 
 double shareOfSide(const CageOptions& options, const ShareQuestions& model)

@@ -60,9 +60,11 @@ constexpr int competingFaces = 150; ///< up to these, lower efforts' cages and t
 constexpr int competingLoops = 24;  ///< up to so many faces, loops with other quads; they take longer
 constexpr double fewStarts[] = {1.0, 0.85, 0.7, 0.6}, fewestStarts[] = {0.65, 0.5}; ///< shares of the resolution
 
-constexpr double unevenness = 15; ///< largest distance over the mean; 6 to 12 on models that are not flat
-constexpr double nearlyOn = 10;   ///< clearances, of the mean distance
-constexpr int fewestUneven = 12;  ///< faces
+constexpr double unevenness = 15;     ///< largest distance over the mean; 6 to 12 on models that are not flat
+constexpr double nearlyOn = 10;       ///< clearances, of the mean distance
+constexpr double nearlyOnFaces = 30;  ///< the same, for models of fewer faces than the cage
+constexpr double fewestUneven = 12.5; ///< faces, then twice as many and so on
+constexpr double muchTighter = 0.8;   ///< of the mean distance with a share of the largest
 
 // Finer voxels can be worse: they leave gaps open, whose handles take faces. So coarser ones compete with those that
 // are given, and with others where there are handles: 5 % tighter on 30 models of that kind. That takes twice the
@@ -117,11 +119,14 @@ struct ShareQuestions {
 /// nor so small that voxels take too much memory.
 /// \throw Cancelled, and what the questions throw
 double shareOfSide(const CageOptions& options, const ShareQuestions& model);
-/// Whether a cage has more faces than a flat model has a use for: some places are much farther away than most, or it
-/// lies on the model.
-bool mayFewerBeTighter(const CageOptions& options, const CageCheck& check);
-/// The options with fewer and fewer faces, whose cages may be tighter then.
+/// Whether a cage may have more faces than a flat model has a use for: some places are much farther away than most, or
+/// it lies on the model. Among few faces, where lower efforts compete, only of models that have fewer faces themselves.
+bool mayFewerBeTighter(const CageOptions& options, const CageCheck& check, std::size_t modelFaces);
+/// The options with fewer faces, whose cages may be tighter then: the fewest first, and the same for all counts that
+/// have more.
 std::vector<CageOptions> fewerFaces(const CageOptions& options);
+/// Whether a cage of more faces is to be preferred: it is nowhere looser, or much tighter as a whole.
+bool areWorthTheirFaces(const CageCheck& more, const CageCheck& fewer, double clearance);
 
 /// The voxels to try: one ladder for the finest, and one for each of its halves. Options that are not `auto` are
 /// obeyed.
