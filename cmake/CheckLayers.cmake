@@ -21,7 +21,6 @@ set(gpl "CGAL/(Surface_mesh|AABB_|Side_of_triangle_mesh|Polygon_mesh_processing|
 # library header pattern | files that may include it
 set(confined
     "OpenMesh/|^vdbcage/(mesh/detail/open_mesh\\.h|surface/[a-z_]+\\.cpp)$"
-    "GL/osmesa|^vdbcage/gl/detail/osmesa\\.cpp$"
     "EGL/|^vdbcage/gl/detail/egl\\.cpp$"
     "tbb/parallel_|^(vdbcage/core/detail/parallel\\.h|tools/.*|tests/.*)$"
     "tbb/task_group|^(vdbcage/core/detail/parallel\\.h|tools/.*|tests/.*)$"
@@ -31,7 +30,7 @@ set(confined
     "tools/draw/|^(tools/(draw|edit|vdbcage|view|bench)/.*|tests/.*)$"
     "tools/edit/|^(tools/(edit|view|bench)/.*|tests/.*)$"
     "tools/view/|^(tools/(view|bench)/.*|tests/.*)$"
-    "imgui|^(tools/view/widgets\\.cpp|tools/view/panels/.*|tests/view/.*)$"
+    "imgui|^(tools/view/(widgets|imgui_versions)\\.(cpp|h)|tools/view/panels/.*|tests/view/.*)$"
     "GLFW/|^tools/view/window\\.cpp$"
     "openssl/|^tools/report/run_facts\\.cpp$"
     "pybind11/|^tools/python/.*$"

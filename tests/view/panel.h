@@ -6,6 +6,7 @@
 
 #include <imgui.h>
 
+#include <tools/view/imgui_versions.h>
 #include <tools/view/widgets.h>
 
 namespace vdbcage::test {
@@ -54,7 +55,7 @@ struct Panel {
         }
         note("combo");
         // As a shortcut of a panel asks.
-        if (ImGui::IsKeyPressed(static_cast<int>(view::Key::del))) ++deletes;
+        if (view::imgui::isPressed(view::Key::del)) ++deletes;
         ImGui::End();
     }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <tools/draw/canvas.h>
+#include <tools/view/imgui_versions.h>
 #include <tools/view/theme.h>
 #include <tools/view/widget_renderer.h>
 #include <vdbcage/gl/offscreen.h>
@@ -169,7 +170,7 @@ BOOST_AUTO_TEST_CASE(the_font_has_the_letters_of_names_and_figures)
     widgets.layOut(nullptr, 100, 100, [&inkOf] {
         const std::u16string letters = u"Ag\u00e4\u00df\u0141\u03a9\u0436\u2192\u2713\u2264\u2026\u00d7\u2013\u201c";
         for (const char16_t letter : letters) {
-            const ImFontGlyph* glyph = ImGui::GetFont()->FindGlyphNoFallback(letter);
+            const ImFontGlyph* glyph = imgui::glyphOf(letter);
             const int code = letter;
             BOOST_REQUIRE_MESSAGE(glyph != nullptr, "no glyph of " << code);
             BOOST_TEST(inkOf(*glyph) > 3, code);
@@ -235,7 +236,7 @@ BOOST_AUTO_TEST_CASE(pictures_in_panels_are_textures_of_opengl)
         ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0, 0});
         ImGui::SetNextWindowPos({0, 0});
         ImGui::Begin("w", nullptr, ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoBackground);
-        ImGui::Image(reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(texture.name())), {side, side});
+        ImGui::Image(imgui::textureNamed(texture.name()), {side, side});
         ImGui::End();
         ImGui::PopStyleVar();
     });

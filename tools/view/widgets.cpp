@@ -6,15 +6,14 @@
 #include <cmath>
 #include <initializer_list>
 #include <utility>
+#include <vector>
 
 #include <imgui.h>
-#include <imgui_internal.h>
 
 #include <embedded/fonts.h>
+#include <tools/view/imgui_versions.h>
 #include <tools/view/theme.h>
 #include <vdbcage/core/error.h>
-
-static_assert(IMGUI_VERSION_NUM >= 18600 && IMGUI_VERSION_NUM < 18700, "later versions take their input another way");
 
 namespace vdbcage::view {
 
@@ -61,35 +60,6 @@ Context makeContext()
     // ImGui makes a new context current if none is.
     const Use use(nullptr);
     return Context(ImGui::CreateContext());
-}
-
-void setKeys(ImGuiIO& io)
-{
-    constexpr std::array<std::pair<ImGuiKey_, Key>, ImGuiKey_COUNT> keys{{
-        {ImGuiKey_Tab, Key::tab},
-        {ImGuiKey_LeftArrow, Key::left},
-        {ImGuiKey_RightArrow, Key::right},
-        {ImGuiKey_UpArrow, Key::up},
-        {ImGuiKey_DownArrow, Key::down},
-        {ImGuiKey_PageUp, Key::pageUp},
-        {ImGuiKey_PageDown, Key::pageDown},
-        {ImGuiKey_Home, Key::home},
-        {ImGuiKey_End, Key::end},
-        {ImGuiKey_Insert, Key::insert},
-        {ImGuiKey_Delete, Key::del},
-        {ImGuiKey_Backspace, Key::backspace},
-        {ImGuiKey_Space, Key::space},
-        {ImGuiKey_Enter, Key::enter},
-        {ImGuiKey_Escape, Key::escape},
-        {ImGuiKey_KeyPadEnter, Key::keypadEnter},
-        {ImGuiKey_A, Key::a},
-        {ImGuiKey_C, Key::c},
-        {ImGuiKey_V, Key::v},
-        {ImGuiKey_X, Key::x},
-        {ImGuiKey_Y, Key::y},
-        {ImGuiKey_Z, Key::z},
-    }};
-    for (const auto& [theirs, ours] : keys) io.KeyMap[theirs] = static_cast<int>(ours);
 }
 
 /// A length of so many pixels at least as wide as one.
@@ -239,7 +209,7 @@ void append(Drawing& drawing, const ImDrawList& list)
         batch.right = pixel(command.ClipRect.z, drawing.width);
         batch.bottom = pixel(command.ClipRect.w, drawing.height);
         if (command.UserCallback != nullptr || batch.left >= batch.right || batch.top >= batch.bottom) continue;
-        batch.texture = static_cast<std::uint32_t>(reinterpret_cast<std::uintptr_t>(command.GetTexID()));
+        batch.texture = imgui::textureOf(command);
         batch.firstIndex = static_cast<std::uint32_t>(drawing.indices.size());
         batch.indexCount = command.ElemCount;
         for (unsigned i = 0; i < command.ElemCount; ++i) {
@@ -265,10 +235,10 @@ struct Feed {
 
     void operator()(const PointerMoved& moved) const
     {
-        io.MousePos = ImVec2(static_cast<float>(moved.x), static_cast<float>(moved.y));
+        imgui::movePointer(static_cast<float>(moved.x), static_cast<float>(moved.y));
     }
 
-    void operator()(const PointerLeft&) const { io.MousePos = ImVec2(-FLT_MAX, -FLT_MAX); }
+    void operator()(const PointerLeft&) const { imgui::movePointer(-FLT_MAX, -FLT_MAX); }
 
     void operator()(const ButtonDown& down) const
     {
@@ -276,19 +246,18 @@ struct Feed {
         // ImGui counts by its clock. It takes a press for another one of a row if that is younger than this time.
         io.MouseDoubleClickTime = down.clicks > 1 ? FLT_MAX : 0;
         io.MouseClickedLastCount[button] = static_cast<ImU16>(std::clamp(down.clicks, 1, 100) - 1);
-        io.MouseDown[button] = true;
+        imgui::setButton(down.button, true);
     }
 
-    void operator()(const ButtonUp& up) const { io.MouseDown[static_cast<std::size_t>(up.button)] = false; }
+    void operator()(const ButtonUp& up) const { imgui::setButton(up.button, false); }
 
     void operator()(const WheelTurned& turned) const
     {
-        io.MouseWheelH += static_cast<float>(turned.x);
-        io.MouseWheel += static_cast<float>(turned.y);
+        imgui::turnWheel(static_cast<float>(turned.x), static_cast<float>(turned.y));
     }
 
-    void operator()(const KeyDown& down) const { io.KeysDown[static_cast<std::size_t>(down.key)] = true; }
-    void operator()(const KeyUp& up) const { io.KeysDown[static_cast<std::size_t>(up.key)] = false; }
+    void operator()(const KeyDown& down) const { imgui::setKey(down.key, true); }
+    void operator()(const KeyUp& up) const { imgui::setKey(up.key, false); }
     void operator()(const Typed& typed) const { io.AddInputCharacter(typed.character); }
 };
 
@@ -328,6 +297,7 @@ struct Widgets::State {
     Context context = makeContext();
     Glyphs glyphs;
     Drawing drawing;
+    std::vector<bool> held = std::vector<bool>(allKeys().size(), false); ///< keys
     std::uint64_t version = 0;
     bool eventIsTaken = false;
 };
@@ -346,8 +316,7 @@ Widgets::State::State(float scaleIn, Clipboard clipboardIn) : scale(scaleIn), cl
     io.ConfigInputTextCursorBlink = false;
     io.ConfigWindowsMoveFromTitleBarOnly = true;
     io.ConfigMemoryCompactTimer = -1; // seconds of a clock that tells nothing
-    io.MousePos = ImVec2(-FLT_MAX, -FLT_MAX);
-    io.UserData = &scale; // for view::scale
+    io.UserData = &scale;             // for view::scale
     if (clipboard.get && clipboard.set) {
         io.ClipboardUserData = this;
         io.GetClipboardTextFn = [](void* state) {
@@ -357,7 +326,7 @@ Widgets::State::State(float scaleIn, Clipboard clipboardIn) : scale(scaleIn), cl
         };
         io.SetClipboardTextFn = [](void* state, const char* text) { static_cast<State*>(state)->clipboard.set(text); };
     }
-    setKeys(io);
+    imgui::setUp();
     setStyle(ImGui::GetStyle(), scale);
     glyphs = makeGlyphs(*io.Fonts, scale);
 }
@@ -371,7 +340,7 @@ Drawing Widgets::State::layOutOnce(int width, int height, const Build& build, co
     const bool choosing = popupIsOpen();
     io.ConfigFlags = choosing ? ImGuiConfigFlags_NavEnableKeyboard : ImGuiConfigFlags_None;
     if (choosing && event != nullptr && isEnterDown(*event)) {
-        io.NavInputs[ImGuiNavInput_Activate] = 1; // ImGui itself chooses by the space bar only
+        imgui::chooseByEnter();
     }
     const bool tookPointer = io.WantCaptureMouse;
     ImGui::NewFrame();
@@ -379,8 +348,7 @@ Drawing Widgets::State::layOutOnce(int width, int height, const Build& build, co
     try {
         build();
     } catch (...) {
-        ImGui::ErrorCheckEndFrameRecover(nullptr);
-        ImGui::EndFrame();
+        imgui::abandonFrame();
         throw;
     }
     ImGui::Render();
@@ -406,17 +374,17 @@ bool Widgets::layOut(const InputEvent* event, int width, int height, const Build
     state_->eventIsTaken = false;
     if (event != nullptr) {
         const auto* down = std::get_if<KeyDown>(&event->what);
-        if (down != nullptr && io.KeysDown[static_cast<std::size_t>(down->key)]) {
+        if (down != nullptr && state_->held[static_cast<std::size_t>(down->key)]) {
             // ImGui sees a repeated key only if it goes up before.
-            Feed{io}(KeyUp{down->key});
+            imgui::setKey(down->key, false);
             state_->layOutOnce(width, height, build, nullptr);
         }
-        io.KeyShift = event->modifiers.shift;
-        io.KeyCtrl = event->modifiers.control;
-        io.KeyAlt = event->modifiers.alt;
+        imgui::setModifiers(event->modifiers);
         // Tab goes from field to field. Where nothing is typed into, ImGui would begin to with the first field.
         const bool isIdleTab = down != nullptr && down->key == Key::tab && !io.WantTextInput && !popupIsOpen();
         if (!isIdleTab) std::visit(Feed{io}, event->what);
+        if (down != nullptr) state_->held[static_cast<std::size_t>(down->key)] = !isIdleTab;
+        if (const auto* up = std::get_if<KeyUp>(&event->what)) state_->held[static_cast<std::size_t>(up->key)] = false;
     }
     Drawing last = state_->layOutOnce(width, height, build, event);
     for (int layouts = 1; layouts < mostLayouts; ++layouts) {
@@ -505,7 +473,7 @@ private:
 
 void heading(const std::string& text)
 {
-    ImGui::PushFont(ImGui::GetIO().Fonts->Fonts[headingFont]);
+    imgui::pushFont(ImGui::GetIO().Fonts->Fonts[headingFont]);
     ImGui::TextUnformatted(text.c_str(), text.c_str() + text.size());
     ImGui::PopFont();
 }
@@ -517,7 +485,7 @@ bool section(const std::string& title, bool open)
                           {ImGuiCol_HeaderActive, theme::buttonActive}};
     ImGui::PushStyleVar(ImGuiStyleVar_FrameBorderSize, 0.0F);
     ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(5 * scale(), 4 * scale())); // the title nearer to its arrow
-    ImGui::PushFont(ImGui::GetIO().Fonts->Fonts[headingFont]);
+    imgui::pushFont(ImGui::GetIO().Fonts->Fonts[headingFont]);
     const bool shown = ImGui::CollapsingHeader(title.c_str(), open ? ImGuiTreeNodeFlags_DefaultOpen : 0);
     ImGui::PopFont();
     ImGui::PopStyleVar(2);
