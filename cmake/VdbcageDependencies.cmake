@@ -8,6 +8,7 @@
 # TBB's own package must be found before it (after it is a hard error).
 function(vdbcage_find_dependencies missing)
     cmake_parse_arguments(PARSE_ARGV 1 argument "ALL" "" "")
+    set(CMAKE_POLICY_DEFAULT_CMP0167 NEW) # FindOpenVDB looks for Boost, and knows no policies of later versions of CMake
     set(CMAKE_MESSAGE_LOG_LEVEL NOTICE) # FindOpenVDB reports every optional file that it does not need
     find_package(TBB CONFIG QUIET)
     # Its package configuration, or a module of the user's; else the module that OpenVDB installs beside its library.

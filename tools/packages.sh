@@ -1,11 +1,12 @@
 # Sourced by tools/demo and tools/test: installs the Debian packages that the build, the programs and the tests need.
+# Known: Debian 12 (bookworm), Debian 13 (trixie) and sid.
 
 packages=(
     g++ cmake ninja-build ccache # the library is compiled once, also for the tests that build it otherwise
     libopenvdb-dev libtbb-dev libblosc-dev zlib1g-dev                          # volumes
     libboost-dev libboost-iostreams-dev
     libopenmesh-dev libcgal-dev libgmp-dev libmpfr-dev libqhull-dev            # surfaces
-    libgl-dev libegl-dev libosmesa6-dev libgl1-mesa-dri libpng-dev             # pictures, voxels by OpenGL
+    libgl-dev libegl-dev libegl1 libgl1-mesa-dri libpng-dev                     # pictures, voxels by OpenGL
     libcli11-dev nlohmann-json3-dev libssl-dev                                 # the command
     libimgui-dev libglfw3-dev fonts-inter pkg-config                           # the window
     python3-dev python3-numpy pybind11-dev                                     # the Python module
@@ -26,6 +27,11 @@ test_packages=(
     python3-pip python3-setuptools python3-wheel python3-venv # the wheel of the Python module, and where it is tried
     parallel openssh-client openssh-server rsync slurm-wlm munge # farms, which run lists of jobs
 )
+
+# Software that draws without EGL, which Mesa gave up in 2025.
+case $(. /etc/os-release && echo "${VERSION_CODENAME-}") in
+bookworm | trixie) test_packages+=(libosmesa6) ;;
+esac
 
 # install_packages NAME...: by apt-get, as root or through sudo; silent and quick when nothing is missing.
 install_packages() {

@@ -1,14 +1,24 @@
 #include <vdbcage/gl/detail/platform.h>
 
 #include <array>
-#include <type_traits>
 
-#include <GL/osmesa.h>
+#include <GL/glcorearb.h>
 #include <vdbcage/core/error.h>
 
 namespace vdbcage::gl::detail {
 
 namespace {
+
+// As OSMesa's binary interface has them. Mesa gave OSMesa up in 2025, and its header with it; where the library is, it
+// works as ever.
+using Context = struct OpaqueOsmesaContext*;
+enum Attribute : int {
+    format = 0x22,
+    profile = 0x33,
+    coreProfile = 0x34,
+    contextMajorVersion = 0x36,
+    contextMinorVersion = 0x37
+};
 
 struct Library {
     Library() : file("libOSMesa.so.8")
@@ -20,10 +30,10 @@ struct Library {
         file.find("OSMesaGetProcAddress", getProc);
     }
     SharedLibrary file;
-    decltype(&OSMesaCreateContextAttribs) create = nullptr;
-    decltype(&OSMesaDestroyContext) destroy = nullptr;
-    decltype(&OSMesaMakeCurrent) makeCurrent = nullptr;
-    decltype(&OSMesaGetCurrentContext) current = nullptr;
+    Context (*create)(const int* attributes, Context shared) = nullptr;
+    void (*destroy)(Context) = nullptr;
+    GLboolean (*makeCurrent)(Context, void* buffer, GLenum type, GLsizei width, GLsizei height) = nullptr;
+    Context (*current)() = nullptr;
     GetProc getProc = nullptr;
 };
 
@@ -32,15 +42,7 @@ public:
     OsmesaPlatform()
     {
         constexpr std::array<int, 9> attributes{
-            OSMESA_FORMAT,
-            OSMESA_RGBA,
-            OSMESA_PROFILE,
-            OSMESA_CORE_PROFILE,
-            OSMESA_CONTEXT_MAJOR_VERSION,
-            4,
-            OSMESA_CONTEXT_MINOR_VERSION,
-            5,
-            0,
+            format, GL_RGBA, profile, coreProfile, contextMajorVersion, 4, contextMinorVersion, 5, 0,
         };
         context_ = library_.create(attributes.data(), nullptr);
         if (!context_) throw DeviceError("OpenGL: OSMesa cannot make a 4.5 core context");
@@ -63,7 +65,7 @@ public:
 private:
     const Library library_;
     std::array<GLubyte, 4> pixel_{}; // OSMesa insists on a default framebuffer
-    OSMesaContext context_ = nullptr;
+    Context context_ = nullptr;
 };
 
 } // namespace
