@@ -9,6 +9,7 @@
 #include <support/shapes.h>
 #include <support/topology_count.h>
 #include <vdbcage/check/check.h>
+#include <vdbcage/core/detail/held_by.h>
 
 using namespace vdbcage;
 
@@ -59,11 +60,11 @@ bool collide(const Mesh& mesh, const Face& f, const Face& g, const Face& s, cons
 {
     const auto meet = CGAL::intersection(triangle(mesh, s), triangle(mesh, t));
     if (!meet) return false;
-    if (const Point* p = boost::get<Point>(&*meet)) {
+    if (const Point* p = detail::heldBy<Point>(*meet)) {
         return std::none_of(s.begin(), s.end(),
                             [&](Index i) { return at(mesh, i) == *p && std::find(t.begin(), t.end(), i) != t.end(); });
     }
-    if (const auto* segment = boost::get<Kernel::Segment_3>(&*meet)) {
+    if (const auto* segment = detail::heldBy<Kernel::Segment_3>(*meet)) {
         const std::set<Edge> ofF = edgesOf(f), ofG = edgesOf(g), ofS = edgesOf(s), ofT = edgesOf(t);
         for (const Edge& edge : ofF) {
             if (ofG.count(edge) && ofS.count(edge) && ofT.count(edge) &&
@@ -80,7 +81,7 @@ bool isFolded(const Mesh& mesh, const Face& quad)
     const std::vector<Face> parts = trianglesOf(quad);
     for (const std::size_t first : {0U, 2U}) {
         const auto meet = CGAL::intersection(triangle(mesh, parts[first]), triangle(mesh, parts[first + 1]));
-        if (!meet || !boost::get<Kernel::Segment_3>(&*meet)) return true; // more than the diagonal
+        if (!meet || !detail::heldBy<Kernel::Segment_3>(*meet)) return true; // more than the diagonal
     }
     return false;
 }

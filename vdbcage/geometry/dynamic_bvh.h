@@ -159,7 +159,7 @@ private:
         std::array<std::uint32_t, 4> child{}; // a node, or isThing and a thing
         Place place;                          // its own; none: the root
 
-        explicit Node(Place own) : place(own)
+        explicit Node(Place own) : FourBoxes{}, place(own)
         {
             for (std::size_t i = 0; i < 4; ++i) set(i, FloatBox());
         }

@@ -15,10 +15,15 @@
 #include <utility>
 #include <vector>
 
+#include <CGAL/config.h>
+#if CGAL_VERSION_NR < 1060200000
+#include <CGAL/Polygon_mesh_processing/border.h>
+#else
+#include <CGAL/boost/graph/border.h>
+#endif
 #include <CGAL/Constrained_Delaunay_triangulation_2.h>
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-#include <CGAL/Polygon_mesh_processing/border.h>
 #include <CGAL/Polygon_mesh_processing/orient_polygon_soup.h>
 #include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
 #include <CGAL/Polygon_mesh_processing/repair_polygon_soup.h>
@@ -26,6 +31,7 @@
 #include <CGAL/Polygon_mesh_processing/triangulate_hole.h>
 #include <CGAL/Surface_mesh.h>
 #include <CGAL/intersections.h>
+#include <vdbcage/core/detail/held_by.h>
 #include <vdbcage/geometry/union_find.h>
 #include <vdbcage/mesh/topology.h>
 #include <vdbcage/surface/detail/meetings.h>
@@ -332,11 +338,19 @@ void sew(Soup& soup, RepairReport& report)
     pmp::polygon_soup_to_polygon_mesh(soup.points, soup.faces, surface);
     report.stitchedEdges += pmp::stitch_borders(surface);
     std::vector<Surface::Halfedge_index> borders;
+#if CGAL_VERSION_NR < 1060200000
     pmp::extract_boundary_cycles(surface, std::back_inserter(borders));
+#else
+    CGAL::extract_boundary_cycles(surface, std::back_inserter(borders));
+#endif
     report.unfilledHoles = 0;
     for (const Surface::Halfedge_index border : borders) {
         std::vector<Surface::Face_index> patch;
+#if CGAL_VERSION_MAJOR < 6
         pmp::triangulate_hole(surface, border, std::back_inserter(patch));
+#else
+        pmp::triangulate_hole(surface, border, CGAL::parameters::face_output_iterator(std::back_inserter(patch)));
+#endif
         ++(patch.empty() ? report.unfilledHoles : report.filledHoles);
     }
     surface.collect_garbage();
@@ -532,8 +546,8 @@ private:
                 throwIfInterrupted(interrupter_);
                 const auto meeting = CGAL::intersection(triangle(f), triangle(other));
                 if (!meeting) continue;
-                if (const auto* point = boost::get<Exact::Point_3>(&*meeting)) cuts.insert(flat(*point));
-                if (const auto* segment = boost::get<Exact::Segment_3>(&*meeting)) {
+                if (const auto* point = detail::heldBy<Exact::Point_3>(*meeting)) cuts.insert(flat(*point));
+                if (const auto* segment = detail::heldBy<Exact::Segment_3>(*meeting)) {
                     cuts.insert_constraint(flat(segment->source()), flat(segment->target()));
                 }
             }

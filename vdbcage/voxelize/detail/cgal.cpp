@@ -6,10 +6,17 @@
 #include <iterator>
 #include <vector>
 
+#include <CGAL/config.h>
+#if CGAL_VERSION_MAJOR < 6
 #include <CGAL/AABB_segment_primitive.h>
 #include <CGAL/AABB_traits.h>
-#include <CGAL/AABB_tree.h>
 #include <CGAL/AABB_triangle_primitive.h>
+#else
+#include <CGAL/AABB_segment_primitive_3.h>
+#include <CGAL/AABB_traits_3.h>
+#include <CGAL/AABB_triangle_primitive_3.h>
+#endif
+#include <CGAL/AABB_tree.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <tbb/blocked_range3d.h>
 #include <vdbcage/core/detail/parallel.h>
@@ -27,10 +34,17 @@ using Point = Kernel::Point_3;
 using Point2 = Kernel::Point_2;
 using Triangle = Kernel::Triangle_3;
 using Segment = Kernel::Segment_3;
+#if CGAL_VERSION_MAJOR < 6
 template <typename Primitive>
 using Tree = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, Primitive>>;
 using TriangleBvh = Tree<CGAL::AABB_triangle_primitive<Kernel, std::vector<Triangle>::const_iterator>>;
 using SegmentTree = Tree<CGAL::AABB_segment_primitive<Kernel, std::vector<Segment>::const_iterator>>;
+#else
+template <typename Primitive>
+using Tree = CGAL::AABB_tree<CGAL::AABB_traits_3<Kernel, Primitive>>;
+using TriangleBvh = Tree<CGAL::AABB_triangle_primitive_3<Kernel, std::vector<Triangle>::const_iterator>>;
+using SegmentTree = Tree<CGAL::AABB_segment_primitive_3<Kernel, std::vector<Segment>::const_iterator>>;
+#endif
 using openvdb::Coord;
 using openvdb::CoordBBox;
 
