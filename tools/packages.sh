@@ -28,9 +28,11 @@ test_packages=(
     parallel openssh-client openssh-server rsync slurm-wlm munge # farms, which run lists of jobs
 )
 
-# Software that draws without EGL, which Mesa gave up in 2025.
-case $(. /etc/os-release && echo "${VERSION_CODENAME-}") in
-bookworm | trixie) test_packages+=(libosmesa6) ;;
+system=$(. /etc/os-release 2>/dev/null && echo "${VERSION_CODENAME-}")
+case $system in
+bookworm | trixie) test_packages+=(libosmesa6) ;; # draws without EGL; Mesa gave it up in 2025
+forky | sid) ;;
+*) echo "This system is not known (Debian 12, 13 and sid are): names of packages may differ; docs/INSTALL.md says what is needed." >&2 ;;
 esac
 
 # install_packages NAME...: by apt-get, as root or through sudo; silent and quick when nothing is missing.
@@ -40,6 +42,10 @@ install_packages() {
         dpkg-query -W -f='${Status}' "$name" 2>/dev/null | grep -q 'ok installed' || missing+=("$name")
     done
     [ ${#missing[@]} -eq 0 ] && return 0
+    if ! command -v apt-get >/dev/null; then
+        echo "There is no apt-get here to install: ${missing[*]}" >&2
+        return 1
+    fi
     local root=()
     if [ "$(id -u)" -ne 0 ]; then
         if ! command -v sudo >/dev/null; then
