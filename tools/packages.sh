@@ -28,7 +28,7 @@ test_packages=(
     parallel openssh-client openssh-server rsync slurm-wlm munge # farms, which run lists of jobs
 )
 
-system=$(. /etc/os-release 2>/dev/null && echo "${VERSION_CODENAME-}")
+system=$(. /etc/os-release 2>/dev/null && echo "${VERSION_CODENAME-}") || system=unknown
 case $system in
 bookworm | trixie) test_packages+=(libosmesa6) ;; # draws without EGL; Mesa gave it up in 2025
 forky | sid) ;;
