@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <tools/view/state/words.h>
+#include <vdbcage/core/detail/length_text.h>
 #include <vdbcage/core/error.h>
 
 using namespace vdbcage;
@@ -62,7 +63,7 @@ BOOST_AUTO_TEST_CASE(numbers_are_whole_words_and_finite)
 
 BOOST_AUTO_TEST_CASE(lengths_have_the_digits_that_tell_a_step_apart)
 {
-    using view::lengthText;
+    using detail::lengthText;
     BOOST_TEST(lengthText(5800010.25, 1e-3) == "5800010.25");
     BOOST_TEST(lengthText(-5800010.25, 1000) == "-5800010");
     BOOST_TEST(lengthText(0.1, 1e-6) == "0.1");

@@ -1,8 +1,6 @@
 #include <tools/report/report.h>
 #include <tools/report/run_facts.h>
 
-#include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <iomanip>
 #include <optional>
@@ -11,6 +9,7 @@
 
 #include <sys/resource.h>
 
+#include <vdbcage/core/detail/length_text.h>
 #include <vdbcage/core/detail/number_text.h>
 #include <vdbcage/core/detail/printable.h>
 
@@ -58,19 +57,6 @@ std::string textOf(const CageOptions& options, const char* name)
         if (option.first == name) return option.second;
     }
     return {};
-}
-
-/// A coordinate with the digits that tell places apart on a model of such a size, and no more.
-std::string placeText(double coordinate, double longestSide)
-{
-    constexpr double step = 1e-4; // of the side
-    const int decimals = std::clamp(static_cast<int>(std::ceil(-std::log10(step * longestSide))), 0, 300);
-    std::ostringstream out;
-    out << std::fixed << std::setprecision(decimals) << coordinate;
-    std::string text = out.str();
-    if (decimals > 0) text.erase(text.find_last_not_of('0') + 1);
-    if (!text.empty() && text.back() == '.') text.pop_back();
-    return text == "-0" ? "0" : text;
 }
 
 /// What was taken for the inside of an open model, where others might have taken the other; else empty.
@@ -268,12 +254,13 @@ std::vector<std::string> remarks(const CageReport& report, const CageOptions& op
     } else if (report.start == CageStart::box) {
         lines.emplace_back("this is a box around the model: nothing tighter with so few faces was certified");
     }
+    constexpr double aPlace = 1e-4; // of the longest side: what planes are told apart by
     if (report.symmetry) {
         const SymmetryPlane& plane = report.symmetry->plane;
         const bool isFound = options.symmetry == CageSymmetry::automatic;
         std::ostringstream out;
         out << "symmetric in the plane "
-            << "xyz"[plane.axis] << " = " << placeText(plane.offset, report.check.longestSide)
+            << "xyz"[plane.axis] << " = " << detail::lengthText(plane.offset, aPlace * report.check.longestSide)
             << (isFound ? ", found" : ", asked for") << "; the model is, within " << std::fixed << std::setprecision(2)
             << 100 * report.symmetry->deviation << " % of its longest side";
         lines.push_back(out.str());
@@ -281,7 +268,7 @@ std::vector<std::string> remarks(const CageReport& report, const CageOptions& op
         const TiltedSymmetry& plane = *report.tiltedSymmetry;
         std::ostringstream out;
         out << "symmetric in the plane across (" << std::setprecision(4) << plane.normal[0] << ", " << plane.normal[1]
-            << ", " << plane.normal[2] << ") at " << placeText(plane.offset, report.check.longestSide)
+            << ", " << plane.normal[2] << ") at " << detail::lengthText(plane.offset, aPlace * report.check.longestSide)
             << ", found; the model is, within " << std::fixed << std::setprecision(2) << 100 * plane.deviation
             << " % of its longest side";
         lines.push_back(out.str());

@@ -95,6 +95,16 @@ bool isPressed(Key key)
 
 #else
 
+namespace {
+
+const std::pair<ImGuiKey, Key>* find(Key key)
+{
+    const auto known = std::find_if(keys.begin(), keys.end(), [&](const auto& pair) { return pair.second == key; });
+    return known == keys.end() ? nullptr : &*known;
+}
+
+} // namespace
+
 void setUp()
 {
     ImGuiIO& io = ImGui::GetIO();
@@ -124,8 +134,7 @@ void turnWheel(float x, float y)
 
 void setKey(Key key, bool isDown)
 {
-    const auto known = std::find_if(keys.begin(), keys.end(), [&](const auto& pair) { return pair.second == key; });
-    if (known != keys.end()) ImGui::GetIO().AddKeyEvent(known->first, isDown);
+    if (const auto* const known = find(key)) ImGui::GetIO().AddKeyEvent(known->first, isDown);
 }
 
 void setModifiers(const Modifiers& modifiers)
@@ -142,8 +151,8 @@ void chooseByEnter()
 
 bool isPressed(Key key)
 {
-    const auto known = std::find_if(keys.begin(), keys.end(), [&](const auto& pair) { return pair.second == key; });
-    return known != keys.end() && ImGui::IsKeyPressed(known->first);
+    const auto* const known = find(key);
+    return known && ImGui::IsKeyPressed(known->first);
 }
 
 #endif

@@ -6,6 +6,7 @@
 #include <tools/edit/selection.h>
 #include <tools/view/state/move.h>
 #include <tools/view/state/words.h>
+#include <vdbcage/core/detail/length_text.h>
 #include <vdbcage/core/error.h>
 
 namespace vdbcage::view {
@@ -392,7 +393,7 @@ PictureOverlay PictureControl::overlay() const
             grip_->handle.kind == Handle::Kind::axis ? std::string(" along ") + axis : std::string(" across ") + axis;
         overlay.hint += std::string(", ") + orientationNames[static_cast<std::size_t>(state.view.orientation)];
     }
-    const auto number = [&](int k) { return lengthText(by.values[k], snappingStep() / 1000); };
+    const auto number = [&](int k) { return detail::lengthText(by.values[k], snappingStep() / 1000); };
     overlay.hint += ": " + number(0);
     overlay.hint += grip_->tool == Tool::rotate ? " degrees" : "  " + number(1) + "  " + number(2);
     if (!grip_->typed.empty()) overlay.hint += "   [" + grip_->typed + "]";

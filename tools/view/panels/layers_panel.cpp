@@ -4,6 +4,7 @@
 #include <tools/view/panels/parts.h>
 #include <tools/view/state/command.h>
 #include <tools/view/state/words.h>
+#include <vdbcage/core/detail/length_text.h>
 #include <vdbcage/core/detail/number_text.h>
 #include <vdbcage/core/error.h>
 
@@ -256,7 +257,7 @@ void buildSection(const PanelContext& context)
 std::string coordinateText(double value, double longest)
 {
     if (!(std::abs(value) > 1e-9 * longest)) return "0";
-    return lengthText(value, std::min(1e-6 * longest, 1e-5 * std::abs(value)));
+    return detail::lengthText(value, std::min(1e-6 * longest, 1e-5 * std::abs(value)));
 }
 
 /// Where what is selected is: fields for the mean of its points, which moves to where it is typed.

@@ -6,6 +6,7 @@
 #include <tools/view/distance_colours.h>
 #include <tools/view/panels/parts.h>
 #include <tools/view/state/words.h>
+#include <vdbcage/core/detail/length_text.h>
 
 namespace vdbcage::view {
 
@@ -193,7 +194,7 @@ void buildOverlays(const PanelContext& context, const Rectangle& viewport)
         drawPictures(list, content);
         if (view.axes) drawAxes(list, viewport, content.axes);
         if (view.ground) {
-            const std::string text = "grid " + lengthText(content.gridStep, content.gridStep);
+            const std::string text = "grid " + detail::lengthText(content.gridStep, content.gridStep);
             list.AddText({static_cast<float>(viewport.left) + length(92),
                           static_cast<float>(viewport.top + viewport.height) - length(30)},
                          packed(inkColour), text.c_str());

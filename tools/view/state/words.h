@@ -21,9 +21,6 @@ std::string quotedWord(const std::string& word);
 double numberOf(const std::string& word, const std::string& what);
 /// \throw InputError naming `what` and the range
 int wholeNumberOf(const std::string& word, const std::string& what, int least, int most);
-/// A length or coordinate to be read: with the digits that tell `step` apart, and no zeros behind them.
-/// \pre step is above 0
-std::string lengthText(double value, double step);
 /// Reads "on" or "off". \throw InputError naming `what`
 bool switchOf(const std::string& word, const std::string& what);
 
