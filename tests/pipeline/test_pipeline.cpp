@@ -441,6 +441,31 @@ BOOST_AUTO_TEST_CASE(what_is_left_to_the_pipeline_is_in_its_report)
     BOOST_CHECK(sameMesh(made.run(options), cage));
 }
 
+// The help once promised an offset by the erode radius with bounding on, too, where tightening takes it back.
+BOOST_AUTO_TEST_CASE(room_around_the_model_is_left_as_the_options_say)
+{
+    const Mesh model = test::sphere({0, 0, 0}, 1, 24);
+    const double offset = 0.1; // of the longest side, as distances are
+    CageOptions closed = coarse();
+    closed.closeRadius = 0.1;
+    CageOptions lessEroded = closed;
+    lessEroded.erodeRadius = 0;
+    for (const OptionText& option : describeOptions()) {
+        if (option.name == "erode-radius") BOOST_TEST(option.help.find("offset without bounding") != std::string::npos);
+    }
+    const auto meanDistance = [&](CageOptions options, bool bounding) {
+        options.bounding = bounding;
+        return checkCage(Pipeline(model).run(options), model).meanDistance;
+    };
+    BOOST_TEST(meanDistance(lessEroded, false) - meanDistance(closed, false) > 0.7 * offset);
+    BOOST_TEST(meanDistance(lessEroded, true) - meanDistance(closed, true) < 0.05 * offset);
+    CageOptions apart = closed;
+    apart.clearance = 0.1;
+    const CageCheck check = checkCage(Pipeline(model).run(apart), model);
+    BOOST_TEST(check.bounding());
+    BOOST_TEST(check.minDistance >= offset);
+}
+
 BOOST_AUTO_TEST_CASE(the_smoothed_stage_is_what_smoothing_gave)
 {
     CageOptions options = coarse();
