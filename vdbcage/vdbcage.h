@@ -3,6 +3,7 @@
 /// \file
 /// The whole public interface of vdbcage.
 
+#include <openvdb/openvdb.h>
 #include <vdbcage/bounding/bounding_guard.h>
 #include <vdbcage/bounding/decimate.h>
 #include <vdbcage/bounding/effort.h>

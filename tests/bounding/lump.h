@@ -3,6 +3,7 @@
 #include <support/shapes.h>
 #include <support/solids.h>
 #include <vdbcage/bounding/bounding_guard.h>
+#include <vdbcage/core/detail/grids.h>
 #include <vdbcage/volume/extract.h>
 
 namespace vdbcage::test {

@@ -13,6 +13,7 @@
 #include <vdbcage/bounding/quad_loops.h>
 #include <vdbcage/bounding/triquad.h>
 #include <vdbcage/check/check.h>
+#include <vdbcage/core/detail/grids.h>
 #include <vdbcage/core/error.h>
 #include <vdbcage/volume/extract.h>
 

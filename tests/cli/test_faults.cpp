@@ -16,6 +16,7 @@
 #include <support/process.h>
 #include <support/run_command.h>
 #include <support/shapes.h>
+#include <vdbcage/core/detail/grids.h>
 #include <vdbcage/deform/weights_io.h>
 #include <vdbcage/mesh/mesh_io.h>
 #include <vdbcage/volume/vdb_io.h>

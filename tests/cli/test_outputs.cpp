@@ -9,6 +9,7 @@
 
 #include <support/run_command.h>
 #include <support/shapes.h>
+#include <vdbcage/core/detail/grids.h>
 #include <vdbcage/mesh/mesh_io.h>
 #include <vdbcage/volume/vdb_io.h>
 

@@ -13,6 +13,7 @@
 #include <support/temporary_folder.h>
 #include <tbb/global_control.h>
 #include <vdbcage/check/check.h>
+#include <vdbcage/core/detail/grids.h>
 #include <vdbcage/core/error.h>
 #include <vdbcage/mesh/mesh_io.h>
 #include <vdbcage/pipeline/pipeline.h>

@@ -11,6 +11,7 @@
 #include <support/shapes.h>
 #include <support/symmetric.h>
 #include <vdbcage/check/check.h>
+#include <vdbcage/core/detail/grids.h>
 #include <vdbcage/core/error.h>
 #include <vdbcage/pipeline/pipeline.h>
 #include <vdbcage/volume/scale_field.h>

@@ -11,6 +11,7 @@
 #include <support/shapes.h>
 #include <support/stop_at.h>
 #include <tools/view/state/runner.h>
+#include <vdbcage/core/detail/grids.h>
 #include <vdbcage/core/error.h>
 
 using namespace vdbcage;

@@ -16,6 +16,7 @@
 #include <tools/report/run_facts.h>
 #include <tools/vdbcage/render.h>
 #include <vdbcage/core/detail/atomic_file.h>
+#include <vdbcage/core/detail/grids.h>
 #include <vdbcage/core/error.h>
 #include <vdbcage/deform/binding.h>
 #include <vdbcage/deform/distortion.h>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <openvdb/openvdb.h>
+#include <vdbcage/core/detail/grids.h>
 
 /// What a user would close masks with otherwise; exact, TBB-parallel.
 namespace vdbcage::bench {

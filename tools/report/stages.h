@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include <openvdb/openvdb.h>
 #include <vdbcage/core/detail/atomic_file.h>
+#include <vdbcage/core/grids.h>
 #include <vdbcage/core/interrupter.h>
 #include <vdbcage/pipeline/pipeline.h>
 

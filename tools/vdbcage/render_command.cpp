@@ -6,6 +6,7 @@
 
 #include <tools/draw/diverging_colours.h>
 #include <tools/report/models.h>
+#include <vdbcage/core/detail/grids.h>
 #include <vdbcage/core/error.h>
 #include <vdbcage/deform/binding.h>
 #include <vdbcage/mesh/mesh_io.h>

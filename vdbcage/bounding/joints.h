@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include <openvdb/openvdb.h>
+#include <openvdb/Types.h>
 #include <vdbcage/core/export.h>
 
 namespace vdbcage {

@@ -3,6 +3,7 @@
 // Differs: surfaces are changed under a guard that keeps the model inside, and a cage is certified before it is
 // returned.
 
+#include <vdbcage/core/detail/grids.h>
 #include <vdbcage/pipeline/pipeline.h>
 
 #include <optional>

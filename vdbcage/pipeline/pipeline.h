@@ -6,9 +6,9 @@
 #include <optional>
 #include <string>
 
-#include <openvdb/openvdb.h>
 #include <vdbcage/check/check.h>
 #include <vdbcage/core/export.h>
+#include <vdbcage/core/grids.h>
 #include <vdbcage/core/interrupter.h>
 #include <vdbcage/mesh/mesh.h>
 #include <vdbcage/mesh/symmetry.h>
@@ -120,9 +120,10 @@ public:
 
     /// The voxelized model; null before the first run. Its voxels lie along x, y and z, or along a plane of symmetry
     /// that lies across none of them.
-    openvdb::MaskGrid::ConstPtr solid() const;
-    openvdb::MaskGrid::ConstPtr closed() const; ///< the closing of solid(), cavities filled; null before the first run
-    const Mesh& surface() const;                ///< what the cage was made from: quads, or a tetrahedron
+    std::shared_ptr<const openvdb::MaskGrid> solid() const;
+    std::shared_ptr<const openvdb::MaskGrid>
+    closed() const;              ///< the closing of solid(), cavities filled; null before the first run
+    const Mesh& surface() const; ///< what the cage was made from: quads, or a tetrahedron
     /// What smoothing gave: the cage, before edges that are almost flat are bent. Bounding off: the surface.
     const Mesh& smoothed() const;
     /// The surface with fewer faces. Triangles, about twice the faces where pairs become quads; of loops the cage

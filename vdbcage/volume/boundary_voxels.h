@@ -1,7 +1,9 @@
 #pragma once
 
-#include <openvdb/openvdb.h>
+#include <memory>
+
 #include <vdbcage/core/export.h>
+#include <vdbcage/core/grids.h>
 #include <vdbcage/core/interrupter.h>
 
 namespace vdbcage {
@@ -11,6 +13,7 @@ namespace vdbcage {
 /// \throw InputError active voxels outside [-2^30, 2^30)
 /// \throw Cancelled
 /// Cost: O(nodes of the tree + entries on the faces of tiles), in parallel.
-VDBCAGE_API openvdb::MaskGrid::Ptr contour(const openvdb::MaskGrid& mask, Interrupter* interrupter = nullptr);
+VDBCAGE_API std::shared_ptr<openvdb::MaskGrid> contour(const openvdb::MaskGrid& mask,
+                                                       Interrupter* interrupter = nullptr);
 
 } // namespace vdbcage

@@ -1,16 +1,17 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 
-#include <openvdb/openvdb.h>
 #include <vdbcage/core/export.h>
+#include <vdbcage/core/grids.h>
 #include <vdbcage/core/interrupter.h>
 
 namespace vdbcage {
 
 /// What fillCavities() returns.
 struct FilledMask {
-    openvdb::MaskGrid::Ptr mask; ///< same transform, no other metadata
+    std::shared_ptr<openvdb::MaskGrid> mask; ///< same transform, no other metadata
     /// How many separate cavities were filled. Two that touch by an edge or corner only are two.
     std::size_t cavities = 0;
 };

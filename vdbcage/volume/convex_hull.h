@@ -1,7 +1,9 @@
 #pragma once
 
-#include <openvdb/openvdb.h>
+#include <memory>
+
 #include <vdbcage/core/export.h>
+#include <vdbcage/core/grids.h>
 #include <vdbcage/core/interrupter.h>
 
 namespace vdbcage {
@@ -14,6 +16,7 @@ namespace vdbcage {
 /// \throw Cancelled
 /// Cost: O(a + c * f) for a active voxels (of a tile, those of one side), c columns of voxels along z in the bounding
 /// box, and f facets of the hull. Serial; 8 bytes a column.
-VDBCAGE_API openvdb::MaskGrid::Ptr convexHull(const openvdb::MaskGrid& mask, Interrupter* interrupter = nullptr);
+VDBCAGE_API std::shared_ptr<openvdb::MaskGrid> convexHull(const openvdb::MaskGrid& mask,
+                                                          Interrupter* interrupter = nullptr);
 
 } // namespace vdbcage

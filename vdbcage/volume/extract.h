@@ -1,7 +1,9 @@
 #pragma once
 
-#include <openvdb/openvdb.h>
+#include <memory>
+
 #include <vdbcage/core/export.h>
+#include <vdbcage/core/grids.h>
 #include <vdbcage/core/interrupter.h>
 #include <vdbcage/mesh/mesh.h>
 
@@ -15,7 +17,8 @@ namespace vdbcage {
 /// \throw InputError as extractSurface, but for the transform and the quads
 /// \throw Cancelled
 /// Based on: Latecki, 3D Well-Composed Pictures, 1997.
-VDBCAGE_API openvdb::MaskGrid::Ptr makeWellComposed(const openvdb::MaskGrid& solid, Interrupter* interrupter = nullptr);
+VDBCAGE_API std::shared_ptr<openvdb::MaskGrid> makeWellComposed(const openvdb::MaskGrid& solid,
+                                                                Interrupter* interrupter = nullptr);
 
 /// The boundary of makeWellComposed(solid) as quads in world space, one for each face between an active and an inactive
 /// voxel.

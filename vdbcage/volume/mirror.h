@@ -1,7 +1,9 @@
 #pragma once
 
-#include <openvdb/openvdb.h>
+#include <memory>
+
 #include <vdbcage/core/export.h>
+#include <vdbcage/core/grids.h>
 #include <vdbcage/core/interrupter.h>
 
 namespace vdbcage {
@@ -13,7 +15,7 @@ namespace vdbcage {
 /// \throw InputError `axis` out of range
 /// \throw Cancelled
 /// Cost: O(active voxels outside of tiles), serial.
-VDBCAGE_API openvdb::MaskGrid::Ptr withMirrorImage(const openvdb::MaskGrid& mask, int axis, int sum,
-                                                   Interrupter* interrupter = nullptr);
+VDBCAGE_API std::shared_ptr<openvdb::MaskGrid> withMirrorImage(const openvdb::MaskGrid& mask, int axis, int sum,
+                                                               Interrupter* interrupter = nullptr);
 
 } // namespace vdbcage

@@ -1,7 +1,9 @@
 #pragma once
 
-#include <openvdb/openvdb.h>
+#include <memory>
+
 #include <vdbcage/core/export.h>
+#include <vdbcage/core/grids.h>
 #include <vdbcage/core/interrupter.h>
 
 /// \addtogroup volume
@@ -36,30 +38,30 @@ struct CloseOptions {
 /// The dilation of `mask`: every voxel within the radius of an active voxel, by the element's measure.
 /// \throw InputError a radius that is negative, not finite or above 512 voxels; coordinates out of range
 /// \throw Cancelled
-VDBCAGE_API openvdb::MaskGrid::Ptr dilate(const openvdb::MaskGrid& mask, double radiusVoxels,
-                                          StructuringElement element = StructuringElement::sphere,
-                                          Interrupter* interrupter = nullptr);
+VDBCAGE_API std::shared_ptr<openvdb::MaskGrid> dilate(const openvdb::MaskGrid& mask, double radiusVoxels,
+                                                      StructuringElement element = StructuringElement::sphere,
+                                                      Interrupter* interrupter = nullptr);
 
 /// dilate() of the active voxels of any BoolGrid.
 /// \throw InputError as of a mask
 /// \throw Cancelled
-VDBCAGE_API openvdb::MaskGrid::Ptr dilate(const openvdb::BoolGrid& mask, double radiusVoxels,
-                                          StructuringElement element = StructuringElement::sphere,
-                                          Interrupter* interrupter = nullptr);
+VDBCAGE_API std::shared_ptr<openvdb::MaskGrid> dilate(const openvdb::BoolGrid& mask, double radiusVoxels,
+                                                      StructuringElement element = StructuringElement::sphere,
+                                                      Interrupter* interrupter = nullptr);
 
 /// The erosion of `mask`: every voxel whose element lies wholly in the active voxels of `mask`.
 /// \throw InputError as dilate
 /// \throw Cancelled
-VDBCAGE_API openvdb::MaskGrid::Ptr erode(const openvdb::MaskGrid& mask, double radiusVoxels,
-                                         StructuringElement element = StructuringElement::sphere,
-                                         Interrupter* interrupter = nullptr);
+VDBCAGE_API std::shared_ptr<openvdb::MaskGrid> erode(const openvdb::MaskGrid& mask, double radiusVoxels,
+                                                     StructuringElement element = StructuringElement::sphere,
+                                                     Interrupter* interrupter = nullptr);
 
 /// erode() of the active voxels of any BoolGrid.
 /// \throw InputError as of a mask
 /// \throw Cancelled
-VDBCAGE_API openvdb::MaskGrid::Ptr erode(const openvdb::BoolGrid& mask, double radiusVoxels,
-                                         StructuringElement element = StructuringElement::sphere,
-                                         Interrupter* interrupter = nullptr);
+VDBCAGE_API std::shared_ptr<openvdb::MaskGrid> erode(const openvdb::BoolGrid& mask, double radiusVoxels,
+                                                     StructuringElement element = StructuringElement::sphere,
+                                                     Interrupter* interrupter = nullptr);
 
 /// The opening of `mask`: the dilation of its erosion.
 ///
@@ -67,16 +69,16 @@ VDBCAGE_API openvdb::MaskGrid::Ptr erode(const openvdb::BoolGrid& mask, double r
 /// spikes and specks.
 /// \throw InputError as dilate
 /// \throw Cancelled
-VDBCAGE_API openvdb::MaskGrid::Ptr openMask(const openvdb::MaskGrid& mask, double radiusVoxels,
-                                            StructuringElement element = StructuringElement::sphere,
-                                            Interrupter* interrupter = nullptr);
+VDBCAGE_API std::shared_ptr<openvdb::MaskGrid> openMask(const openvdb::MaskGrid& mask, double radiusVoxels,
+                                                        StructuringElement element = StructuringElement::sphere,
+                                                        Interrupter* interrupter = nullptr);
 
 /// openMask() of the active voxels of any BoolGrid.
 /// \throw InputError as of a mask
 /// \throw Cancelled
-VDBCAGE_API openvdb::MaskGrid::Ptr openMask(const openvdb::BoolGrid& mask, double radiusVoxels,
-                                            StructuringElement element = StructuringElement::sphere,
-                                            Interrupter* interrupter = nullptr);
+VDBCAGE_API std::shared_ptr<openvdb::MaskGrid> openMask(const openvdb::BoolGrid& mask, double radiusVoxels,
+                                                        StructuringElement element = StructuringElement::sphere,
+                                                        Interrupter* interrupter = nullptr);
 
 /// The closing of `solid`: the erosion (by the erode radius) of its dilation (by the close radius).
 ///
@@ -86,13 +88,13 @@ VDBCAGE_API openvdb::MaskGrid::Ptr openMask(const openvdb::BoolGrid& mask, doubl
 /// \throw InputError a radius out of range; the erode radius above the close radius; coordinates out of range
 /// \throw Cancelled
 /// Based on: Calderon and Boubekeur, Bounding Proxies for Shape Approximation, 2017 (asymmetric closing).
-VDBCAGE_API openvdb::MaskGrid::Ptr closeMask(const openvdb::MaskGrid& solid, const CloseOptions& options = {},
-                                             Interrupter* interrupter = nullptr);
+VDBCAGE_API std::shared_ptr<openvdb::MaskGrid>
+closeMask(const openvdb::MaskGrid& solid, const CloseOptions& options = {}, Interrupter* interrupter = nullptr);
 
 /// closeMask() of the active voxels of any BoolGrid.
 /// \throw InputError as of a mask
 /// \throw Cancelled
-VDBCAGE_API openvdb::MaskGrid::Ptr closeMask(const openvdb::BoolGrid& solid, const CloseOptions& options = {},
-                                             Interrupter* interrupter = nullptr);
+VDBCAGE_API std::shared_ptr<openvdb::MaskGrid>
+closeMask(const openvdb::BoolGrid& solid, const CloseOptions& options = {}, Interrupter* interrupter = nullptr);
 
 } // namespace vdbcage

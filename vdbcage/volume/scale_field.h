@@ -1,11 +1,12 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
-#include <openvdb/openvdb.h>
 #include <vdbcage/core/export.h>
+#include <vdbcage/core/grids.h>
 #include <vdbcage/core/interrupter.h>
 #include <vdbcage/volume/morphology.h>
 
@@ -34,10 +35,11 @@ struct ScaleRegion {
 /// of every region around the place. The grid is in world space, so its voxels may be of any size. No grid counts as 1
 /// everywhere.
 struct ScaleField {
-    openvdb::FloatGrid::ConstPtr grid; ///< values cut to 0 to 8; its background holds outside; a linear transform
-    std::vector<ScaleRegion> regions;  ///< their scales are multiplied where they overlap
-    std::string source = {};           ///< the text that it was read from; empty if it was made otherwise
-    std::filesystem::path file = {};   ///< that `grid` was read from; empty if it was not read
+    std::shared_ptr<const openvdb::FloatGrid>
+        grid;                         ///< values cut to 0 to 8; its background holds outside; a linear transform
+    std::vector<ScaleRegion> regions; ///< their scales are multiplied where they overlap
+    std::string source = {};          ///< the text that it was read from; empty if it was made otherwise
+    std::filesystem::path file = {};  ///< that `grid` was read from; empty if it was not read
 };
 
 /// A field from text; "none" is no field.
@@ -55,15 +57,15 @@ VDBCAGE_API ScaleField readScaleField(const std::string& text, const std::string
 /// \throw InputError not as many values as points; a value that is not finite; `voxelSize` or `radius` out of range
 /// \throw Cancelled
 /// Cost: O(points (radius / voxelSize)^3).
-VDBCAGE_API openvdb::FloatGrid::Ptr scaleFromPoints(const std::vector<openvdb::Vec3d>& points,
-                                                    const std::vector<float>& values, double voxelSize, double radius,
-                                                    Interrupter* interrupter = nullptr);
+VDBCAGE_API std::shared_ptr<openvdb::FloatGrid> scaleFromPoints(const std::vector<openvdb::Vec3d>& points,
+                                                                const std::vector<float>& values, double voxelSize,
+                                                                double radius, Interrupter* interrupter = nullptr);
 
 /// Every voxel with an active voxel of `mask` within its own radius: `radiusVoxels` times the field, clamped as below.
 /// \throw InputError as closeMask
 /// \throw Cancelled
-VDBCAGE_API openvdb::MaskGrid::Ptr dilate(const openvdb::MaskGrid& mask, double radiusVoxels, const ScaleField& scale,
-                                          Interrupter* interrupter = nullptr);
+VDBCAGE_API std::shared_ptr<openvdb::MaskGrid> dilate(const openvdb::MaskGrid& mask, double radiusVoxels,
+                                                      const ScaleField& scale, Interrupter* interrupter = nullptr);
 
 /// The closing of `solid` by spheres, both radii of the options multiplied by the field and clamped.
 ///
@@ -84,7 +86,7 @@ VDBCAGE_API openvdb::MaskGrid::Ptr dilate(const openvdb::MaskGrid& mask, double 
 /// \throw Cancelled
 /// Cost: about three times that of one radius, and 4 / h^3 bytes for each voxel of the box where the field is not the
 /// same.
-VDBCAGE_API openvdb::MaskGrid::Ptr closeMask(const openvdb::MaskGrid& solid, const CloseOptions& options,
-                                             const ScaleField& scale, Interrupter* interrupter = nullptr);
+VDBCAGE_API std::shared_ptr<openvdb::MaskGrid> closeMask(const openvdb::MaskGrid& solid, const CloseOptions& options,
+                                                         const ScaleField& scale, Interrupter* interrupter = nullptr);
 
 } // namespace vdbcage

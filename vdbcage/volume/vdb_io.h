@@ -3,10 +3,11 @@
 #include <filesystem>
 #include <iosfwd>
 #include <map>
+#include <memory>
 #include <string>
 
-#include <openvdb/openvdb.h>
 #include <vdbcage/core/export.h>
+#include <vdbcage/core/grids.h>
 
 namespace vdbcage {
 
@@ -40,13 +41,14 @@ VDBCAGE_API void writeVdb(const openvdb::MaskGrid& mask, std::ostream& out, cons
 /// offsets (a streamed one) the grids before the wanted one must be of types that can be read too.
 /// \throw IoError naming the path: cannot be read; no regular file; not a .vdb; truncated or damaged; no grid `density`
 /// among several, or none at all; a grid of another type; a grid whose background is inside (it fills all of space)
-VDBCAGE_API openvdb::MaskGrid::Ptr readVdb(const std::filesystem::path& path);
+VDBCAGE_API std::shared_ptr<openvdb::MaskGrid> readVdb(const std::filesystem::path& path);
 
 /// Reads a FloatGrid from a .vdb, with its metadata: its first grid of this name, or else its only grid.
 ///
 /// The file need not be trusted, as for readVdb. Memory is at most 40 times its size plus 1 MiB. Values can be infinite
 /// or not a number.
 /// \throw IoError naming the path, as readVdb
-VDBCAGE_API openvdb::FloatGrid::Ptr readFloatGrid(const std::filesystem::path& path, const std::string& gridName);
+VDBCAGE_API std::shared_ptr<openvdb::FloatGrid> readFloatGrid(const std::filesystem::path& path,
+                                                              const std::string& gridName);
 
 } // namespace vdbcage

@@ -1,10 +1,11 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 
-#include <openvdb/openvdb.h>
 #include <vdbcage/core/export.h>
+#include <vdbcage/core/grids.h>
 #include <vdbcage/core/interrupter.h>
 #include <vdbcage/core/range.h>
 #include <vdbcage/mesh/mesh.h>
@@ -41,8 +42,9 @@ struct VoxelizeReport {
 
 /// What voxelize() returns.
 struct Voxelization {
-    openvdb::MaskGrid::Ptr mask; ///< the solid is its active voxels; its transform says where they lie in the world
-    VoxelizeReport report;       ///< how they were made
+    std::shared_ptr<openvdb::MaskGrid>
+        mask;              ///< the solid is its active voxels; its transform says where they lie in the world
+    VoxelizeReport report; ///< how they were made
 };
 
 /// Turns any polygon soup into a solid: the voxels that a face touches, and those inside.

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include <vdbcage/core/detail/grids.h>
 #include <vdbcage/core/error.h>
 #include <vdbcage/volume/extract.h>
 

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include <openvdb/openvdb.h>
+#include <vdbcage/core/grids.h>
 #include <vdbcage/geometry/triangle_bvh.h>
 #include <vdbcage/pipeline/pipeline.h>
 
@@ -19,7 +19,7 @@ struct DistanceMap {
 DistanceMap measureDistances(const Mesh& cage, const detail::TriangleBvh& model);
 
 struct Intermediates {
-    openvdb::MaskGrid::ConstPtr solid, closed;
+    std::shared_ptr<const openvdb::MaskGrid> solid, closed;
     Mesh solidFaces, closedFaces; ///< their exposed faces; empty where they are too many to be drawn
     Mesh solidNodes, closedNodes; ///< a box for each node of their trees, but the root
     Mesh surface, smoothed, decimated;

@@ -4,7 +4,7 @@
 #include <type_traits>
 #include <utility>
 
-#include <openvdb/openvdb.h>
+#include <vdbcage/core/detail/grids.h>
 
 namespace vdbcage::detail {
 

@@ -1,3 +1,4 @@
+#include <vdbcage/core/detail/grids.h>
 #include <vdbcage/pipeline/detail/tilted_search.h>
 
 #include <memory>

@@ -27,7 +27,7 @@ public:
 
 private:
     Mesh turnedBack(Mesh mesh) const;
-    openvdb::MaskGrid::ConstPtr turnedBack(const openvdb::MaskGrid& mask) const;
+    std::shared_ptr<const openvdb::MaskGrid> turnedBack(const openvdb::MaskGrid& mask) const;
 
     const TiltedSymmetry plane_;
     Certifier& certifier_;

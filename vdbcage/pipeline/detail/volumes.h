@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include <openvdb/openvdb.h>
+#include <vdbcage/core/grids.h>
 #include <vdbcage/core/interrupter.h>
 #include <vdbcage/mesh/mesh.h>
 #include <vdbcage/pipeline/detail/search.h>
@@ -48,7 +48,7 @@ struct ClosingKey {
 /// The voxelized model.
 struct Solid {
     SolidKey key;
-    openvdb::MaskGrid::ConstPtr mask;
+    std::shared_ptr<const openvdb::MaskGrid> mask;
     VoxelizeReport report;
     std::size_t voxels = 0; ///< active ones
     BoundaryTopology boundary;
@@ -58,7 +58,7 @@ struct Solid {
 struct Closing {
     ClosingKey key;
     std::shared_ptr<const Solid> solid;
-    openvdb::MaskGrid::ConstPtr mask;
+    std::shared_ptr<const openvdb::MaskGrid> mask;
     std::size_t cavitiesFilled = 0;
     std::size_t voxels = 0;                   ///< active ones
     std::shared_ptr<const Mesh> surface = {}; ///< once surfaceOf() was asked for it

@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include <openvdb/openvdb.h>
+#include <vdbcage/core/grids.h>
 #include <vdbcage/core/interrupter.h>
 
 namespace vdbcage::detail {

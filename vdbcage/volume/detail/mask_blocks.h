@@ -6,7 +6,7 @@
 #include <memory>
 #include <vector>
 
-#include <openvdb/openvdb.h>
+#include <vdbcage/core/detail/grids.h>
 #include <vdbcage/volume/detail/progress.h>
 
 /// A sparse mask seen as the nodes of its tree, the view that every algorithm of this room works on.

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include <openvdb/openvdb.h>
+#include <vdbcage/core/detail/grids.h>
 #include <vdbcage/volume/detail/progress.h>
 #include <vdbcage/volume/scale_field.h>
 

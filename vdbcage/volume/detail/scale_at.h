@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include <openvdb/openvdb.h>
 #include <openvdb/tools/Interpolation.h>
+#include <vdbcage/core/detail/grids.h>
 #include <vdbcage/core/interrupter.h>
 #include <vdbcage/volume/scale_field.h>
 

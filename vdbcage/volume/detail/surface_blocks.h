@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <vector>
 
-#include <openvdb/openvdb.h>
 #include <openvdb/tree/ValueAccessor.h>
 #include <tbb/blocked_range.h>
+#include <vdbcage/core/detail/grids.h>
 #include <vdbcage/core/detail/parallel.h>
 #include <vdbcage/core/interrupter.h>
 

@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include <openvdb/openvdb.h>
+#include <vdbcage/core/detail/grids.h>
 #include <vdbcage/volume/detail/byte_cursor.h>
 
 namespace vdbcage::detail {

@@ -7,7 +7,7 @@
 
 #include <openvdb/math/Coord.h>
 #include <openvdb/math/Transform.h>
-#include <openvdb/openvdb.h>
+#include <vdbcage/core/detail/grids.h>
 #include <vdbcage/core/interrupter.h>
 
 namespace vdbcage::detail {

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <openvdb/openvdb.h>
+
+/// OpenVDB's grids in full. The two kinds that vdbcage makes are compiled once, in grids.cpp: their virtual functions,
+/// some hundred, would else be compiled again with every file that makes a grid.
+namespace openvdb {
+OPENVDB_USE_VERSION_NAMESPACE
+namespace OPENVDB_VERSION_NAME {
+
+extern template class tree::Tree<FloatTree::RootNodeType>;
+extern template class tree::Tree<MaskTree::RootNodeType>;
+extern template class Grid<FloatTree>;
+extern template class Grid<MaskTree>;
+
+} // namespace OPENVDB_VERSION_NAME
+} // namespace openvdb
