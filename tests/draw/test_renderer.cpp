@@ -3,6 +3,7 @@
 #include <cmath>
 #include <functional>
 #include <memory>
+#include <support/gl_sources.h>
 #include <vector>
 
 #include <draw/meshes.h>
@@ -329,11 +330,11 @@ BOOST_AUTO_TEST_CASE(software_draws_the_same_bytes_by_every_way)
     bool software = false;
     const Pixels any = draw(gl::OffscreenContext::Source::any, software);
     bool always = false;
-    const Pixels own = draw(gl::OffscreenContext::Source::osmesa, always);
+    const Pixels own = draw(test::softwareSource(), always);
     BOOST_TEST(always);
     if (software) BOOST_TEST((any == own));
     bool again = false;
-    BOOST_TEST((draw(gl::OffscreenContext::Source::osmesa, again) == own));
+    BOOST_TEST((draw(test::softwareSource(), again) == own));
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -77,6 +77,8 @@ def wait_until(condition, what):
     """Returns what the condition returns, once that is true. The limit is for what never comes."""
     limit = time.monotonic() + 120
     while not (result := condition()):
+        if ended := [daemon.args[0] for daemon in _daemons if daemon.poll() is not None]:
+            raise TimeoutError(f"{what}, since {ended[0]} has ended")
         if time.monotonic() > limit:
             raise TimeoutError(what)
         time.sleep(0.05)

@@ -65,6 +65,10 @@ def start_cluster(environment):
     key = CLUSTER / "munge.key"
     key.write_bytes(os.urandom(128))
     key.chmod(0o600)
+    # Containers have none that may be written. Before 23.02 Slurm cannot be told so, but only looks where it needs them.
+    version = subprocess.run(["slurmd", "-V"], env=environment, capture_output=True, text=True, check=True).stdout
+    plugin = "disabled" if int(version.split()[1].split(".")[0]) >= 23 else "cgroup/v1"
+    (CLUSTER / "cgroup.conf").write_text(f"CgroupPlugin={plugin}\n")
     file = CLUSTER / "slurm.conf"
     file.write_text(configuration())
     munged = [f"--{name}={CLUSTER}/munge.{end}" for name, end in (

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include <support/gl_sources.h>
 #include <support/run_command.h>
 #include <vdbcage/mesh/mesh_io.h>
 
@@ -35,12 +36,13 @@ void expectError(const std::vector<std::string>& words, const std::string& menti
     }
 }
 
-/// The files that a script of docs writes, the same by EGL, by OSMesa and in a window under Xvfb.
+/// The files that a script of docs writes, the same by EGL, by OSMesa where there is any, and in a window under Xvfb.
 std::map<std::string, std::string> walkEverywhere(const std::string& script, const std::vector<std::string>& names)
 {
     std::map<std::string, std::string> first;
-    for (const std::vector<std::string>& how :
-         std::vector<std::vector<std::string>>{{"--without-window", "egl"}, {"--without-window", "osmesa"}, {}}) {
+    std::vector<std::vector<std::string>> ways{{"--without-window", "egl"}, {}};
+    if (test::hasOsmesa()) ways.push_back({"--without-window", "osmesa"});
+    for (const std::vector<std::string>& how : ways) {
         const test::TemporaryFolder folder;
         fs::create_directory(folder / "build");
         fs::create_directory_symlink(source + "/data", folder / "data");

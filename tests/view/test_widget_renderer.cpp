@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <cstdlib>
 #include <initializer_list>
+#include <support/gl_sources.h>
 #include <vector>
 
 #include <tools/draw/canvas.h>
@@ -190,11 +191,11 @@ BOOST_AUTO_TEST_CASE(software_draws_the_same_bytes_by_every_way)
     bool software = false;
     bool always = false;
     const Pixels egl = draw(Source::egl, software);
-    const Pixels osmesa = draw(Source::osmesa, always);
+    const Pixels osmesa = draw(test::softwareSource(), always);
     BOOST_TEST(always);
     if (software) BOOST_TEST((egl == osmesa));
     bool again = false;
-    BOOST_TEST((draw(Source::osmesa, again) == osmesa));
+    BOOST_TEST((draw(test::softwareSource(), again) == osmesa));
 }
 
 BOOST_AUTO_TEST_CASE(a_batch_is_seen_inside_its_rectangle_only)

@@ -18,6 +18,7 @@
 
 #include <csignal>
 
+#include <support/gl_sources.h>
 #include <support/process.h>
 #include <support/run_command.h>
 #include <support/shapes.h>
@@ -382,7 +383,7 @@ private:
     draw::Picture onScreen() const { return display_.part(left_, top_, seen_.width, seen_.height); }
 
     // OSMesa draws with what Mesa has in Xvfb, whatever device EGL would find.
-    gl::OffscreenContext context_{gl::OffscreenContext::Debug::off, gl::OffscreenContext::Source::osmesa};
+    gl::OffscreenContext context_{gl::OffscreenContext::Debug::off, test::softwareSource()};
     gl::OffscreenContext::Current current_ = context_.makeCurrent();
     App twin_{context_.api(), setup()};
     Display& display_ = theDisplay();

@@ -3,10 +3,12 @@
 #include <boost/test/unit_test.hpp>
 
 #include <array>
+#include <array>
 #include <cmath>
 #include <thread>
 #include <tuple>
 
+#include <support/gl_sources.h>
 #include <support/stop_at.h>
 #include <tbb/parallel_for.h>
 #include <vdbcage/core/error.h>
@@ -39,10 +41,13 @@ std::ostream& operator<<(std::ostream& out, const Way& way)
                << (way.path == Path::compute ? ", compute" : ", raster");
 }
 
-const std::array<Way, 4> ways{{{Source::osmesa, Path::compute},
-                               {Source::osmesa, Path::raster},
-                               {Source::egl, Path::compute},
-                               {Source::egl, Path::raster}}};
+const std::vector<Way> ways = [] {
+    std::vector<Way> all;
+    for (const Source source : test::everySource()) {
+        for (const Path path : {Path::compute, Path::raster}) all.push_back({source, path});
+    }
+    return all;
+}();
 
 /// A context with debug messages on, and its voxelizer.
 class Device {
@@ -173,7 +178,7 @@ BOOST_DATA_TEST_CASE(touched_voxels_are_those_of_the_cpu, boost::unit_test::data
 BOOST_DATA_TEST_CASE(models_get_the_voxels_of_the_cpu, boost::unit_test::data::make(ways), way)
 {
     // Without hardware both contexts have one rasterizer: large grids for one of them.
-    const bool all = way.source == Source::osmesa;
+    const bool all = way.source == test::softwareSource();
     const Device device(way);
     for (const char* name : {"bench", "bishop", "botijo", "creature", "open_shell", "soup"}) {
         const Mesh model = dataModel(name);
@@ -199,7 +204,7 @@ BOOST_DATA_TEST_CASE(extreme_triangles_get_the_voxels_of_the_cpu, boost::unit_te
     same("standing, all steps that an item may take", standingTriangle(false), 4096);
     same("walls", walls(60), 200);
     same("box on voxel corners", test::box(Vec3d(0.5), Vec3d(96.5, 63.5, 32.5)), 96);
-    const bool many = way.source == Source::osmesa && way.path == Path::compute;
+    const bool many = way.source == test::softwareSource() && way.path == Path::compute;
     same("needles", test::needles(many ? 100000 : 3000, 1e4), 128);
 }
 
@@ -207,7 +212,7 @@ BOOST_AUTO_TEST_CASE(a_million_triangles_get_the_voxels_of_the_cpu)
 {
     const Mesh model = test::sphere(Vec3d(0.1, 0.2, 0.3), 1, 708);
     BOOST_TEST(faceCount(model) * 2 > 1000000U); // quads
-    const Device device({Source::osmesa, Path::compute});
+    const Device device({test::softwareSource(), Path::compute});
     BOOST_TEST(difference(device.run(model, 200), onCpu(model, 200)) == 0U);
 }
 
@@ -230,7 +235,7 @@ BOOST_AUTO_TEST_CASE(grids_may_be_larger_than_a_buffer)
 {
     Mesh rod = test::sphere(Vec3d(0), 1, 30);
     for (Vec3d& point : rod.points) point = Vec3d(point.x(), 0.2 * point.y(), 0.2 * point.z());
-    const Device device({Source::osmesa, Path::compute});
+    const Device device({test::softwareSource(), Path::compute});
     for (const int resolution : {2048, 4096}) {
         const BitGrid bits = onCpu(rod, resolution);
         BOOST_TEST(4 * 8 * bits.wordCount() > GlVoxelizer::usualGridBytes);
@@ -297,7 +302,7 @@ BOOST_AUTO_TEST_CASE(automatic_is_the_cpu_where_the_device_fails_or_does_not_pay
 BOOST_AUTO_TEST_CASE(every_question_can_cancel)
 {
     const Mesh model = test::torus(1, 0.4, 40, 20);
-    const Device device({Source::osmesa, Path::compute}, 10 * 4 * 61 * 8);
+    const Device device({test::softwareSource(), Path::compute}, 10 * 4 * 61 * 8);
     constexpr int many = 1 << 20;
     test::StopAt counter(many);
     const BitGrid bits = device.run(model, 60, &counter);

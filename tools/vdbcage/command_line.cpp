@@ -101,6 +101,42 @@ void requireKnown(const CLI::App& app, const std::vector<std::string>& words)
     }
 }
 
+/// The option that CLI11 speaks of: all its versions name it, in words of their own.
+const CLI::Option* optionOf(const CLI::App& app, const CLI::ParseError& error)
+{
+    const std::string words = error.what();
+    const CLI::Option* found = nullptr;
+    for (const CLI::Option* option : app.get_options()) {
+        const bool isLonger = !found || option->get_name().size() > found->get_name().size();
+        if (isLonger && words.find(option->get_name()) != std::string::npos) found = option;
+    }
+    return found;
+}
+
+/// Says in our words what is wrong with the words of a call. \throw InputError always
+[[noreturn]] void refuse(const CLI::App& app, const CLI::ParseError& error)
+{
+    for (const CLI::Option* option : app.get_options()) {
+        if (option->get_required() && option->count() == 0 && dynamic_cast<const CLI::RequiredError*>(&error)) {
+            throw InputError(option->get_name() + " is required");
+        }
+    }
+    const CLI::Option* option = optionOf(app, error);
+    if (!option) throw InputError(error.what());
+    const std::string name = option->get_name();
+    const int most = option->get_items_expected_max();
+    if (most == 0) throw InputError(name + ": it takes no value");
+    if (option->results().empty()) throw InputError(name + ": it needs a value, " + option->get_type_name());
+    if (option->count() > static_cast<std::size_t>(most)) {
+        throw InputError(name + ": it is given " + std::to_string(option->count()) + " times; once is allowed");
+    }
+    const std::string given = "'" + option->results().front() + "'";
+    if (option->get_type_name() == "N") {
+        throw InputError(name + ": " + given + " is not allowed; it must be a whole number");
+    }
+    throw InputError(name + ": " + given + " is not allowed; it must be a number");
+}
+
 } // namespace
 
 std::string didYouMean(const std::string& word, const std::vector<std::string>& known)
@@ -127,6 +163,7 @@ bool parse(CLI::App& app, Call call)
         return false;
     }
     requireKnown(app, call.words);
+    app.allow_extras();
     std::reverse(call.words.begin(), call.words.end()); // CLI11 takes them from the back
     try {
         app.parse(std::move(call.words));
@@ -136,6 +173,11 @@ bool parse(CLI::App& app, Call call)
     } catch (const CLI::CallForAllHelp&) {
         std::cout << helpOf(app, true);
         return false;
+    } catch (const CLI::ParseError& error) {
+        refuse(app, error);
+    }
+    if (const std::vector<std::string> extras = app.remaining(); !extras.empty()) {
+        throw InputError("there is no place for '" + extras.front() + "'; see vdbcage " + app.get_name() + " --help");
     }
     if (app.count("--threads") > 0) {
         requireWithin({1, 1024}, threads, "threads");

@@ -39,7 +39,7 @@ struct Call {
 
 /// Reads the words of `call` into `app`, whose description is the usage, then a line end or ": ", then what the command
 /// does. Returns false if nothing else is to be done: the command was described, or help was asked for and printed.
-/// \throw InputError, CLI::ParseError
+/// \throw InputError
 bool parse(CLI::App& app, Call call);
 
 /// "; did you mean make?" where one of `known` is near to `word`, else "".

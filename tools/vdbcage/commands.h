@@ -21,7 +21,7 @@ inline std::string printable(const std::filesystem::path& text)
 /// Sends what was printed on standard output on its way. \throw IoError if it does not arrive
 void flushOutput();
 
-/// Each does what it is called for and returns the exit status. \throw Error, CLI::Error
+/// Each does what it is called for and returns the exit status. \throw Error
 int runMake(Call call);
 int runCheck(Call call);
 int runRender(Call call);

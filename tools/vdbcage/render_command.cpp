@@ -8,6 +8,7 @@
 #include <tools/report/models.h>
 #include <vdbcage/core/detail/grids.h>
 #include <vdbcage/core/error.h>
+#include <vdbcage/core/range.h>
 #include <vdbcage/deform/binding.h>
 #include <vdbcage/mesh/mesh_io.h>
 #include <vdbcage/volume/extract.h>
@@ -109,12 +110,6 @@ Mesh readVoxels(const fs::path& path)
     }
 }
 
-/// The option's text names the range itself.
-CLI::Validator inRange(int least, int most)
-{
-    return CLI::Range(least, most).description("");
-}
-
 } // namespace
 
 void requirePngExtension(const fs::path& path)
@@ -145,15 +140,10 @@ int runRender(Call call)
     app.add_option("files", files)->required()->type_name("FILE...");
     app.add_option("-o,--output", picture, "the picture to write")->required()->type_name("PICTURE.png");
     app.add_option("--size", sizeText, "in pixels [1200x900]")->type_name("WIDTHxHEIGHT");
-    app.add_option("--columns", scene.columns, "panels side by side, 0 to 100 [0: as fits]")
-        ->type_name("N")
-        ->check(inRange(0, 100));
+    app.add_option("--columns", scene.columns, "panels side by side, 0 to 100 [0: as fits]")->type_name("N");
     app.add_option("--azimuth", scene.view.azimuthDegrees, "to the right of the front, -360 to 360 [35]")
-        ->type_name("DEG")
-        ->check(inRange(-360, 360));
-    app.add_option("--elevation", scene.view.elevationDegrees, "above the horizon, -90 to 90 [18]")
-        ->type_name("DEG")
-        ->check(inRange(-90, 90));
+        ->type_name("DEG");
+    app.add_option("--elevation", scene.view.elevationDegrees, "above the horizon, -90 to 90 [18]")->type_name("DEG");
     int vertex = 0;
     CLI::Option* influence =
         app.add_option("--influence", vertex, "colour models by a cage vertex's weight")->type_name("VERTEX");
@@ -162,6 +152,9 @@ int runRender(Call call)
     bool isVerbose = false;
     app.add_flag("-v,--verbose", isVerbose, "print warnings of what is odd in the files");
     if (!parse(app, std::move(call))) return exitGood;
+    requireWithin({0, 100}, scene.columns, "--columns");
+    requireWithin({-360, 360}, scene.view.azimuthDegrees, "--azimuth");
+    requireWithin({-90, 90}, scene.view.elevationDegrees, "--elevation");
     requirePngExtension(picture);
     Outputs outputs;
     const std::vector<std::vector<PanelFile>> panels = panelsOf(files);

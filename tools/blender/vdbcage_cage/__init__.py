@@ -1,4 +1,4 @@
-# SPDX-License-Identifier: Apache-2.0
+# SPDX-License-Identifier: Apache-2.0 OR GPL-3.0-or-later
 """Cages in Blender: made, bound, posed and looked into, by the command `vdbcage`."""
 
 bl_info = {  # of Blender 3.4 to 4.1; later ones read blender_manifest.toml

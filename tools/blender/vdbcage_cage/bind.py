@@ -1,4 +1,4 @@
-# SPDX-License-Identifier: Apache-2.0
+# SPDX-License-Identifier: Apache-2.0 OR GPL-3.0-or-later
 """Bind and Rebind: Blender's own modifiers, Mesh Deform and Surface Deform, let a cage move its models."""
 
 import contextlib

@@ -1,4 +1,4 @@
-# SPDX-License-Identifier: Apache-2.0
+# SPDX-License-Identifier: Apache-2.0 OR GPL-3.0-or-later
 """Runs the command `vdbcage`. Nothing here knows Blender.
 
 The command is a process of its own: no matter what Python Blender has, nothing of it crashes with the work, and a

@@ -1,4 +1,4 @@
-# SPDX-License-Identifier: Apache-2.0
+# SPDX-License-Identifier: Apache-2.0 OR GPL-3.0-or-later
 """The files that go between Blender and the command, and Blender's point caches. Nothing here knows Blender."""
 
 import os

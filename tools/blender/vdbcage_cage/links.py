@@ -1,4 +1,4 @@
-# SPDX-License-Identifier: Apache-2.0
+# SPDX-License-Identifier: Apache-2.0 OR GPL-3.0-or-later
 """Which cage a model has, how both were at rest, and by what cages move a model."""
 
 import bpy

@@ -1,4 +1,4 @@
-# SPDX-License-Identifier: Apache-2.0
+# SPDX-License-Identifier: Apache-2.0 OR GPL-3.0-or-later
 """Pose: vdbcage's own coordinates move the models, also Green's, which Blender does not have."""
 
 import hashlib

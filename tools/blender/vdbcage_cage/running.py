@@ -1,4 +1,4 @@
-# SPDX-License-Identifier: Apache-2.0
+# SPDX-License-Identifier: Apache-2.0 OR GPL-3.0-or-later
 """Operators that run the command. The window stays alive meanwhile: a timer looks at the process ten times a second."""
 
 import bpy

@@ -1,4 +1,4 @@
-# SPDX-License-Identifier: Apache-2.0
+# SPDX-License-Identifier: Apache-2.0 OR GPL-3.0-or-later
 """Show Stages: the volumes from which the cage of the selected objects is made."""
 
 import os
