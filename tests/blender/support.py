@@ -1,5 +1,6 @@
 """What the tests have in common."""
 
+import importlib
 import os
 import pathlib
 import subprocess
@@ -17,10 +18,25 @@ CREATURE = SOURCE / "data" / "creature.obj"
 BISHOP = SOURCE / "data" / "bishop.obj"
 
 
-# The zip is installed as users do it, into the folder that BLENDER_USER_SCRIPTS names.
-if not addon_utils.check("vdbcage_cage")[1]:
-    bpy.ops.preferences.addon_install(filepath=ADDON, overwrite=True)
-    bpy.ops.preferences.addon_enable(module="vdbcage_cage")
+# The zip is installed as users do it, into the folders that BLENDER_USER_EXTENSIONS and BLENDER_USER_SCRIPTS name.
+IS_EXTENSION = bpy.app.version >= (4, 2, 0)
+MODULE = "bl_ext.user_default.vdbcage_cage" if IS_EXTENSION else "vdbcage_cage"
+if not addon_utils.check(MODULE)[1]:
+    if IS_EXTENSION:
+        bpy.ops.extensions.package_install_files(filepath=ADDON, repo="user_default", overwrite=True)
+    else:
+        bpy.ops.preferences.addon_install(filepath=ADDON, overwrite=True)
+    bpy.ops.preferences.addon_enable(module=MODULE)
+
+
+def part(name):
+    """A module of the add-on."""
+    return importlib.import_module(f"{MODULE}.{name}")
+
+
+def preferences():
+    """The add-on's own."""
+    return bpy.context.preferences.addons[MODULE].preferences
 
 
 def command(*words, status=0):
@@ -87,7 +103,7 @@ class Case(unittest.TestCase):
     """An empty scene, the add-on, and a folder."""
 
     def setUp(self):
-        bpy.context.preferences.addons["vdbcage_cage"].preferences.command = COMMAND
+        preferences().command = COMMAND
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
         self.folder = pathlib.Path(folder.name)

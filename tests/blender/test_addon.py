@@ -2,12 +2,14 @@
 
 import ast
 import re
+import subprocess
 import tomllib
+import unittest
 import zipfile
 
 import addon_utils
 import bpy
-from support import ADDON, SOURCE, Case
+from support import ADDON, IS_EXTENSION, MODULE, SOURCE, Case
 
 OPERATORS = {"bind", "cancel", "make_cage", "pose", "rebind", "set_rest", "show_stages"}
 
@@ -15,13 +17,13 @@ OPERATORS = {"bind", "cancel", "make_cage", "pose", "rebind", "set_rest", "show_
 class Addon(Case):
     def test_it_is_installed_and_can_be_disabled(self):
         self.assertEqual(set(dir(bpy.ops.vdbcage)), OPERATORS)
-        bpy.ops.preferences.addon_disable(module="vdbcage_cage")
+        bpy.ops.preferences.addon_disable(module=MODULE)
         self.assertEqual(set(dir(bpy.ops.vdbcage)), set())
         for kind, name in ((bpy.types.Scene, "vdbcage"), (bpy.types.Scene, "vdbcage_bind"),
                            (bpy.types.Scene, "vdbcage_pose"), (bpy.types.Scene, "vdbcage_stages"),
                            (bpy.types.Object, "vdbcage"), (bpy.types.WindowManager, "vdbcage")):
             self.assertFalse(hasattr(kind, name), name)
-        bpy.ops.preferences.addon_enable(module="vdbcage_cage")
+        bpy.ops.preferences.addon_enable(module=MODULE)
         self.assertEqual(set(dir(bpy.ops.vdbcage)), OPERATORS)
 
     def test_every_operator_and_property_is_described(self):
@@ -61,8 +63,22 @@ class Addon(Case):
         self.assertLessEqual(set(manifest["tags"]), {"3D View", "Add Mesh", "Animation", "Import-Export", "Mesh",
                                                      "Modeling", "Object", "Rigging"})
 
+    @unittest.skipUnless(IS_EXTENSION, "Blender before 4.2 has no extensions")
+    def test_blender_takes_it_for_a_valid_extension(self):
+        def extension(*words):
+            done = subprocess.run([bpy.app.binary_path, "--command", "extension", *map(str, words)],
+                                  stdin=subprocess.DEVNULL, capture_output=True, text=True)
+            self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        extension("validate", ADDON)
+        extension("build", "--source-dir", SOURCE / "tools" / "blender" / "vdbcage_cage", "--output-dir", self.folder)
+        built, = self.folder.glob("*.zip")
+        extension("validate", built)
+        with zipfile.ZipFile(ADDON) as ours, zipfile.ZipFile(built) as theirs:
+            self.assertEqual({name.removeprefix("vdbcage_cage/"): ours.read(name) for name in ours.namelist()},
+                             {name: theirs.read(name) for name in theirs.namelist()})
+
     def test_all_versions_are_the_same(self):
-        addon = next(module for module in addon_utils.modules() if module.__name__ == "vdbcage_cage")
+        addon = next(module for module in addon_utils.modules() if module.__name__ == MODULE)
         version = ".".join(map(str, addon.bl_info["version"]))
         header = (SOURCE / "vdbcage" / "core" / "version.h").read_text()
         self.assertIn(f'#define VDBCAGE_VERSION "{version}"', header)

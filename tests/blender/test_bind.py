@@ -2,8 +2,9 @@
 
 import bpy
 import numpy
-from support import BISHOP, CREATURE, Case, load, positions, select, set_positions, size
-from vdbcage_cage import bind, links
+from support import BISHOP, CREATURE, Case, load, part, positions, select, set_positions, size
+
+bind, links = part("bind"), part("links")
 
 
 def bound_bishop():

@@ -6,8 +6,9 @@ import unittest.mock
 
 import bpy
 import numpy
-from support import BISHOP, COMMAND, CREATURE, Case, command, load, positions, select, write_obj
-from vdbcage_cage import files
+from support import BISHOP, COMMAND, CREATURE, Case, command, load, part, positions, preferences, select, write_obj
+
+files = part("files")
 
 
 class Make(Case):
@@ -138,12 +139,12 @@ class Make(Case):
 
     def test_the_command_is_that_of_the_preferences_or_of_path(self):
         load(BISHOP)
-        make, preferences = bpy.ops.vdbcage.make_cage, bpy.context.preferences.addons["vdbcage_cage"].preferences
-        preferences.command = "/no/such/program"
+        make, own = bpy.ops.vdbcage.make_cage, preferences()
+        own.command = "/no/such/program"
         self.fails("/no/such/program is not a program", make)
-        preferences.command = str(BISHOP)
+        own.command = str(BISHOP)
         self.fails("is not a program", make)
-        preferences.command = ""
+        own.command = ""
         with unittest.mock.patch.dict(os.environ, PATH=str(self.folder)):
             self.fails("There is no command vdbcage in PATH", make)
             os.symlink(COMMAND, self.folder / "vdbcage")

@@ -10,7 +10,7 @@ from mathutils import Quaternion, Vector
 
 sys.path.insert(0, str(pathlib.Path(__file__).parent))
 from documented import Documented  # noqa: E402
-from support import BISHOP, COMMAND, load, positions, select  # noqa: E402
+from support import BISHOP, COMMAND, MODULE, load, part, positions, preferences, select  # noqa: E402
 
 LONG = {"faces": 2000, "effort": "best", "mesh": "quads"}  # no machine is done before it is cancelled
 pictures = pathlib.Path(sys.argv[sys.argv.index("--") + 1])
@@ -69,7 +69,7 @@ def invoke(window, operator, **options):
 
 def open_tab(window):
     """Opens the sidebar and clicks along its tabs until the panel is drawn."""
-    from vdbcage_cage import panel
+    panel = part("panel")
 
     drawn = []
     draw = panel.VDBCAGE_PT_cage.draw
@@ -131,10 +131,10 @@ def cancelling(window):
 
     invoke(window, bpy.ops.vdbcage.make_cage, **LONG)
     yield
-    bpy.ops.preferences.addon_disable(module="vdbcage_cage")
+    bpy.ops.preferences.addon_disable(module=MODULE)
     check(temporary() == [], "it ends with the add-on")
-    bpy.ops.preferences.addon_enable(module="vdbcage_cage")
-    bpy.context.preferences.addons["vdbcage_cage"].preferences.command = COMMAND
+    bpy.ops.preferences.addon_enable(module=MODULE)
+    preferences().command = COMMAND
     yield
     check(not running(), "and does not seem to run after that")
 
@@ -223,5 +223,5 @@ def tick(all_steps=steps()):
 
 
 bpy.context.preferences.view.show_splash = False
-bpy.context.preferences.addons["vdbcage_cage"].preferences.command = COMMAND
+preferences().command = COMMAND
 bpy.app.timers.register(tick, first_interval=1)

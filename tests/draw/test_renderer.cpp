@@ -3,10 +3,10 @@
 #include <cmath>
 #include <functional>
 #include <memory>
-#include <support/gl_sources.h>
 #include <vector>
 
 #include <draw/meshes.h>
+#include <support/gl_sources.h>
 #include <tools/draw/canvas.h>
 #include <tools/draw/renderer.h>
 #include <vdbcage/core/error.h>

@@ -6,9 +6,9 @@
 #include <cstdint>
 #include <cstdlib>
 #include <initializer_list>
-#include <support/gl_sources.h>
 #include <vector>
 
+#include <support/gl_sources.h>
 #include <tools/draw/canvas.h>
 #include <tools/view/imgui_versions.h>
 #include <tools/view/theme.h>

@@ -3,10 +3,10 @@
 #include <boost/test/unit_test.hpp>
 
 #include <array>
-#include <array>
 #include <cmath>
 #include <thread>
 #include <tuple>
+#include <vector>
 
 #include <support/gl_sources.h>
 #include <support/stop_at.h>
