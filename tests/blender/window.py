@@ -2,10 +2,12 @@
 
 import os
 import pathlib
+import struct
 import sys
 import traceback
 
 import bpy
+import numpy
 from mathutils import Quaternion, Vector
 
 sys.path.insert(0, str(pathlib.Path(__file__).parent))
@@ -46,8 +48,19 @@ class Window:
         view.view_distance = distance
 
     def picture(self, name):
-        with self.context():
-            bpy.ops.screen.screenshot(filepath=str(pictures / f"{name}.png"))
+        """Keeps what is on the display. By software Blender's own screenshots are black from 4.3 on."""
+        xwd = (pictures / "Xvfb_screen0").read_bytes()
+        header = struct.unpack(">25I", xwd[:100])
+        start, width, height, row, colours = (header[i] for i in (0, 4, 5, 12, 19))
+        rows = numpy.frombuffer(xwd, numpy.uint8, height * row, start + 12 * colours).reshape(height, row)
+        pixels = rows[::-1, :4 * width].reshape(height, width, 4)[..., [2, 1, 0, 3]] / numpy.float32(255)
+        pixels[..., 3] = 1
+        check(pixels.std() > 0.1, f"there is something to see: {name}")
+        image = bpy.data.images.new(name, width, height)
+        image.pixels.foreach_set(pixels.ravel())
+        image.filepath_raw, image.file_format = str(pictures / f"{name}.png"), "PNG"
+        image.save()
+        bpy.data.images.remove(image)
 
 
 def running():

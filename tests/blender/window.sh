@@ -5,7 +5,7 @@
 set -u
 rm -rf "$2" && mkdir -p "$2"
 export LIBGL_ALWAYS_SOFTWARE=1
-xvfb-run -a -s "-noreset -screen 0 1400x900x24" "$1" --factory-startup --enable-event-simulate --window-geometry 0 0 1400 900 \
+xvfb-run -a -s "-noreset -screen 0 1400x900x24 -fbdir $2" "$1" --factory-startup --enable-event-simulate --window-geometry 0 0 1400 900 \
     --python "$(dirname "$0")/window.py" -- "$2" 2>&1 | tee "$2/output.txt"
 status=${PIPESTATUS[0]}
 if grep -q "Traceback\|Error: Python" "$2/output.txt"; then

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0 OR GPL-3.0-or-later
 """Show Stages: the volumes from which the cage of the selected objects is made."""
 
+import hashlib
 import os
 
 import bpy
@@ -16,6 +17,17 @@ _folder = "vdbcage_folder"  # a custom property of the collection: where its vol
 DIRECTORY = bpy.props.StringProperty(
     name="Folder", subtype="DIR_PATH",
     description="Where the volumes are kept. If this is empty, it is a folder beside the .blend")
+
+
+def named_by_content(path):
+    """Renames a file so that another content has another name; the name. From 4.2 on Blender reads a volume of a name
+    once, whatever becomes of the file."""
+    with open(path, "rb") as file:
+        digest = hashlib.sha256(file.read()).hexdigest()
+    stem, extension = os.path.splitext(path)
+    named = f"{stem}_{digest[:8]}{extension}"
+    os.replace(path, named)
+    return named
 
 
 class VDBCAGE_OT_show_stages(MakingOperator, bpy.types.Operator):
@@ -52,10 +64,9 @@ class VDBCAGE_OT_show_stages(MakingOperator, bpy.types.Operator):
 
     def _volumes(self, context, first):
         """The volumes by their stages, loaded. Raises CommandError."""
-        context.view_layer.update()  # Blender keeps a file that it has read for as long as something shows it
         volumes = {}
         for name in _names:
-            path = os.path.join(self._directory, f"{name}.vdb")
+            path = named_by_content(os.path.join(self._directory, f"{name}.vdb"))
             volume = volumes[name] = bpy.data.volumes.new(f"{first.name} {name}")
             volume.filepath = stored(path)
             if not volume.grids.load():
