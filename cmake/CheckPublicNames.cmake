@@ -24,6 +24,8 @@ foreach(header IN LISTS headers)
     file(READ ${root}/${header} text)
     string(REGEX REPLACE "[][;]" "" text "${text}")
     string(REGEX REPLACE "\\\\\n" " " text "${text}")
+    string(REGEX REPLACE "namespace openvdb {.*} // namespace openvdb" "" text "${text}") # the names are OpenVDB's
+    string(REGEX REPLACE "(\nVDBCAGE_API [^(\n]*)\n" "\\1 " text "${text}") # the type on a line of its own
     string(REPLACE "\n" ";" lines "${text}")
     foreach(line IN LISTS lines)
         foreach(pattern IN LISTS declarations)

@@ -34,7 +34,7 @@ private:
     std::map<std::pair<int, CageFaces>, Mesh> cages_;
 };
 
-inline CagedModel& caged(const std::string& name)
+inline CagedModel& caged(const char* name)
 {
     static std::map<std::string, CagedModel> models;
     const auto found = models.find(name);

@@ -5,6 +5,7 @@
 
 #include <cstring>
 #include <stdexcept>
+#include <string_view>
 
 #include <mesh/mesh_samples.h>
 #include <support/temporary_folder.h>
@@ -32,12 +33,12 @@ std::string utf16(const std::string& text, bool isLittleEndian)
     return bytes;
 }
 
-const Sample& sample(const std::string& kind)
+const Sample& sample(std::string_view kind)
 {
     for (const Sample& each : samples()) {
         if (each.kind == kind) return each;
     }
-    throw std::logic_error("there is no sample " + kind);
+    throw std::logic_error("there is no sample " + std::string(kind));
 }
 
 std::string obj()

@@ -113,10 +113,10 @@ std::optional<std::string> Saver::take()
     return outcome->result;
 }
 
-const CageResult& currentCage(const Planner& planner, const std::string& verb)
+const CageResult& currentCage(const Planner& planner, std::string_view verb)
 {
     if (planner.standing() != Planner::Standing::current) {
-        throw InputError(verb + ": the cage of these options is not made yet");
+        throw InputError(std::string(verb) + ": the cage of these options is not made yet");
     }
     return *planner.shown();
 }

@@ -4,6 +4,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include <tools/view/state/posing.h>
 #include <tools/view/state/worker.h>
@@ -50,6 +51,6 @@ private:
 bool isSequence(const std::string& verb);
 
 /// The cage of the options that are set now, or that was opened. \throw InputError naming the verb: it is not there yet
-const CageResult& currentCage(const Planner& planner, const std::string& verb);
+const CageResult& currentCage(const Planner& planner, std::string_view verb);
 
 } // namespace vdbcage::view

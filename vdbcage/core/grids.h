@@ -5,6 +5,7 @@
 /// \file
 /// The names of OpenVDB's grids. Whoever looks into one includes <openvdb/openvdb.h>, which takes seconds to compile.
 
+/// \cond
 namespace openvdb {
 OPENVDB_USE_VERSION_NAMESPACE
 namespace OPENVDB_VERSION_NAME {
@@ -31,3 +32,4 @@ using MaskGrid = Grid<MaskTree>;
 
 } // namespace OPENVDB_VERSION_NAME
 } // namespace openvdb
+/// \endcond
