@@ -37,7 +37,10 @@ using Debug = OffscreenContext::Debug;
 using Source = OffscreenContext::Source;
 
 const auto everySource = boost::unit_test::data::make(test::everySource());
-const auto ifOsmesa = boost::unit_test::precondition([](boost::unit_test::test_unit_id) { return test::hasOsmesa(); });
+boost::test_tools::assertion_result thereIsOsmesa(boost::unit_test::test_unit_id)
+{
+    return test::hasOsmesa();
+}
 
 constexpr ShaderSource cornerVert{GL_VERTEX_SHADER, "corner.vert", R"(#version 450 core
 layout(location = 0) in vec2 position;
@@ -210,7 +213,7 @@ BOOST_DATA_TEST_CASE(a_context_is_current_once, everySource, source)
     BOOST_CHECK_NO_THROW((void)one.makeCurrent());
 }
 
-BOOST_AUTO_TEST_CASE(contexts_of_two_drivers_do_not_mix, *ifOsmesa)
+BOOST_AUTO_TEST_CASE(contexts_of_two_drivers_do_not_mix, *boost::unit_test::precondition(thereIsOsmesa))
 {
     const OffscreenContext egl(Debug::off, Source::egl);
     const OffscreenContext osmesa(Debug::off, Source::osmesa);
@@ -236,7 +239,7 @@ BOOST_AUTO_TEST_CASE(a_context_says_where_it_comes_from)
     }
 }
 
-BOOST_AUTO_TEST_CASE(osmesa_is_software, *ifOsmesa)
+BOOST_AUTO_TEST_CASE(osmesa_is_software, *boost::unit_test::precondition(thereIsOsmesa))
 {
     const OffscreenContext osmesa(Debug::off, Source::osmesa);
     BOOST_TEST(osmesa.description().find("OSMesa: ") == 0U);
