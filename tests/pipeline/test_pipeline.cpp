@@ -451,9 +451,11 @@ BOOST_AUTO_TEST_CASE(room_around_the_model_is_left_as_the_options_say)
     closed.closeRadius = 0.1;
     CageOptions lessEroded = closed;
     lessEroded.erodeRadius = 0;
+    std::string help;
     for (const OptionText& option : describeOptions()) {
-        if (option.name == "erode-radius") BOOST_TEST(option.help.find("offset without bounding") != std::string::npos);
+        if (option.name == "erode-radius") help = option.help;
     }
+    BOOST_TEST(help.find("offset without bounding") != std::string::npos, help);
     const auto meanDistance = [&](CageOptions options, bool bounding) {
         options.bounding = bounding;
         return checkCage(Pipeline(model).run(options), model).meanDistance;

@@ -382,7 +382,7 @@ private:
 
     draw::Picture onScreen() const { return display_.part(left_, top_, seen_.width, seen_.height); }
 
-    // OSMesa draws with what Mesa has in Xvfb, whatever device EGL would find.
+    // Software draws with what Mesa has in Xvfb, whatever device EGL would find.
     gl::OffscreenContext context_{gl::OffscreenContext::Debug::off, test::softwareSource()};
     gl::OffscreenContext::Current current_ = context_.makeCurrent();
     App twin_{context_.api(), setup()};

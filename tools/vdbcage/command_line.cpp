@@ -116,14 +116,10 @@ const CLI::Option* optionOf(const CLI::App& app, const CLI::ParseError& error)
 /// Says in our words what is wrong with the words of a call. \throw InputError always
 [[noreturn]] void refuse(const CLI::App& app, const CLI::ParseError& error)
 {
-    for (const CLI::Option* option : app.get_options()) {
-        if (option->get_required() && option->count() == 0 && dynamic_cast<const CLI::RequiredError*>(&error)) {
-            throw InputError(option->get_name() + " is required");
-        }
-    }
     const CLI::Option* option = optionOf(app, error);
     if (!option) throw InputError(error.what());
     const std::string name = option->get_name();
+    if (dynamic_cast<const CLI::RequiredError*>(&error)) throw InputError(name + " is required");
     const int most = option->get_items_expected_max();
     if (most == 0) throw InputError(name + ": it takes no value");
     if (option->results().empty()) throw InputError(name + ": it needs a value, " + option->get_type_name());

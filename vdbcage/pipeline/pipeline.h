@@ -121,8 +121,8 @@ public:
     /// The voxelized model; null before the first run. Its voxels lie along x, y and z, or along a plane of symmetry
     /// that lies across none of them.
     std::shared_ptr<const openvdb::MaskGrid> solid() const;
-    std::shared_ptr<const openvdb::MaskGrid>
-    closed() const;              ///< the closing of solid(), cavities filled; null before the first run
+    /// The closing of solid(), cavities filled; null before the first run.
+    std::shared_ptr<const openvdb::MaskGrid> closed() const;
     const Mesh& surface() const; ///< what the cage was made from: quads, or a tetrahedron
     /// What smoothing gave: the cage, before edges that are almost flat are bent. Bounding off: the surface.
     const Mesh& smoothed() const;

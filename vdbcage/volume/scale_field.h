@@ -35,8 +35,8 @@ struct ScaleRegion {
 /// of every region around the place. The grid is in world space, so its voxels may be of any size. No grid counts as 1
 /// everywhere.
 struct ScaleField {
-    std::shared_ptr<const openvdb::FloatGrid>
-        grid;                         ///< values cut to 0 to 8; its background holds outside; a linear transform
+    /// Values cut to 0 to 8; its background holds outside; a linear transform.
+    std::shared_ptr<const openvdb::FloatGrid> grid;
     std::vector<ScaleRegion> regions; ///< their scales are multiplied where they overlap
     std::string source = {};          ///< the text that it was read from; empty if it was made otherwise
     std::filesystem::path file = {};  ///< that `grid` was read from; empty if it was not read
