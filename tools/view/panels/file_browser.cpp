@@ -192,7 +192,9 @@ void buildBrowser(const PanelContext& context, FileBrowser& browser)
     buildList(context, browser);
     muted(browser.extensions.empty() ? "Folder, or a path:" : "Name, or a path:");
     ImGui::SetNextItemWidth(-1);
-    if (ImGui::InputText("##name", &browser.name, ImGuiInputTextFlags_EnterReturnsTrue)) {
+    if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere(); // a name can be typed at once
+    if (ImGui::InputText("##name", &browser.name,
+                         ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll)) {
         choose(context, browser, false);
     }
     context.name("browser.name");
