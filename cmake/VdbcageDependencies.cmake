@@ -12,8 +12,10 @@ function(vdbcage_find_dependencies missing)
     set(CMAKE_MESSAGE_LOG_LEVEL NOTICE) # FindOpenVDB reports every optional file that it does not need
     find_package(TBB CONFIG QUIET)
     # Its package configuration, or a module of the user's; else the module that OpenVDB installs beside its library.
-    find_package(OpenVDB QUIET COMPONENTS openvdb)
-    if(NOT TARGET OpenVDB::openvdb)
+    if(TARGET TBB::tbb) # else the module ends in an error of its own
+        find_package(OpenVDB QUIET COMPONENTS openvdb)
+    endif()
+    if(TARGET TBB::tbb AND NOT TARGET OpenVDB::openvdb)
         find_library(OpenVDB_openvdb_LIBRARY openvdb HINTS ${OpenVDB_ROOT} $ENV{OpenVDB_ROOT} PATH_SUFFIXES lib lib64)
         if(OpenVDB_openvdb_LIBRARY)
             get_filename_component(folder ${OpenVDB_openvdb_LIBRARY} DIRECTORY)
