@@ -23,7 +23,7 @@ std::vector<std::string> linesOf(const std::string& text)
     return lines;
 }
 
-/// The long flags that a text mentions at the start of a line (help) or of a table row (README).
+/// The long flags that a text mentions at the start of a line (help) or of a table row (docs/OPTIONS.md).
 std::set<std::string> flagsOf(const std::vector<std::string>& lines, const std::string& start)
 {
     std::set<std::string> flags;
@@ -93,14 +93,14 @@ BOOST_AUTO_TEST_CASE(the_short_help_leaves_out_rare_options_only_and_names_the_f
     BOOST_TEST(std::includes(all.begin(), all.end(), flags.begin(), flags.end()));
 }
 
-BOOST_AUTO_TEST_CASE(the_readme_lists_the_same_options_with_the_same_defaults)
+BOOST_AUTO_TEST_CASE(the_page_of_options_lists_the_same_options_with_the_same_defaults)
 {
-    const auto readme = linesOf(test::readText(VDBCAGE_SOURCE_DIR "/README.md"));
+    const auto page = linesOf(test::readText(VDBCAGE_SOURCE_DIR "/docs/OPTIONS.md"));
     const auto help = linesOf(runCommand({command, "make", "--help-all"}).out);
     auto inHelp = flagsOf(help, "  ");
     inHelp.erase("--help");
     BOOST_TEST(inHelp.size() > 10U);
-    BOOST_TEST(flagsOf(readme, "\\| `") == inHelp, boost::test_tools::per_element());
+    BOOST_TEST(flagsOf(page, "\\| `") == inHelp, boost::test_tools::per_element());
     for (const OptionText& option : describeOptions()) {
         std::string values = option.value;
         for (std::size_t at = values.find('|'); at != std::string::npos; at = values.find('|', at + 2)) {
@@ -109,7 +109,7 @@ BOOST_AUTO_TEST_CASE(the_readme_lists_the_same_options_with_the_same_defaults)
         std::string row = "| `--" + option.name + " " + values + "` | " + option.help;
         if (!option.range.empty()) row += ", " + option.range;
         row += " | " + option.defaultValue + " |";
-        BOOST_TEST(std::count(readme.begin(), readme.end(), row) == 1, "README lacks the row: " + row);
+        BOOST_TEST(std::count(page.begin(), page.end(), row) == 1, "OPTIONS.md lacks the row: " + row);
     }
 }
 
@@ -121,11 +121,11 @@ BOOST_AUTO_TEST_CASE(without_arguments_there_is_a_short_help)
     BOOST_TEST(runCommand({command, "--version"}).out.rfind("vdbcage ", 0) == 0U);
 }
 
-BOOST_AUTO_TEST_CASE(the_readme_has_every_command)
+BOOST_AUTO_TEST_CASE(the_page_of_options_has_every_command)
 {
-    const std::string readme = test::readText(VDBCAGE_SOURCE_DIR "/README.md");
+    const std::string page = test::readText(VDBCAGE_SOURCE_DIR "/docs/OPTIONS.md");
     for (const std::string& name : commands()) {
-        BOOST_TEST(readme.find("\n    vdbcage " + name + ' ') != std::string::npos, name);
+        BOOST_TEST(page.find("\n    vdbcage " + name + ' ') != std::string::npos, name);
     }
 }
 
