@@ -313,9 +313,28 @@ BOOST_AUTO_TEST_CASE(grids_that_share_a_tree)
 BOOST_AUTO_TEST_CASE(versions)
 {
     const std::string bytes = smallFile(7);
-    for (const std::uint32_t version : {222U, 223U, 224U}) BOOST_TEST(parse(withValue(bytes, 8, version)));
-    for (const std::uint32_t version : {0U, 221U, 225U, 0xFFFFFFFFU}) {
-        BOOST_CHECK_EXCEPTION(parse(withValue(bytes, 8, version)), IoError, says("222 to 224 can be read"));
+    for (const std::uint32_t version : {222U, 223U, 224U, 225U}) BOOST_TEST(parse(withValue(bytes, 8, version)));
+    for (const std::uint32_t version : {0U, 221U, 226U, 0xFFFFFFFFU}) {
+        BOOST_CHECK_EXCEPTION(parse(withValue(bytes, 8, version)), IoError, says("222 to 225 can be read"));
+    }
+}
+
+// Written by OpenVDB 13, which has grids of half floats and version 225 of the format.
+BOOST_AUTO_TEST_CASE(half_grids_are_read_as_floats)
+{
+    const std::string bytes = readText(VDBCAGE_SOURCE_DIR "/tests/fuzz/corpus/read_vdb/half_grid_of_openvdb_13");
+    const auto half = [](float value) { return static_cast<float>(openvdb::math::half(value)); };
+    const auto expected = openvdb::FloatGrid::create(half(0.25F));
+    auto accessor = expected->getAccessor();
+    accessor.setValue(Coord(1, 2, 3), half(1.5F));
+    accessor.setValueOff(Coord(1, 2, 4), half(0.75F));
+    accessor.setValue(Coord(9, 9, 9), half(-2.0F));
+    expected->fill({Coord(128, 0, 0), Coord(255, 127, 127)}, half(0.1F), true);
+    expected->fill({Coord(16, 0, 0), Coord(23, 7, 7)}, half(3.0F), false);
+    for (const VdbValues values : {VdbValues::scalars, VdbValues::floats}) {
+        const GridBase::Ptr read = parse(bytes, "density", values);
+        BOOST_REQUIRE(read->isType<openvdb::FloatGrid>());
+        BOOST_TEST(sameValues(static_cast<const openvdb::FloatGrid&>(*read).tree(), expected->tree()));
     }
 }
 

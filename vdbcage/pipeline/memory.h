@@ -19,7 +19,7 @@ public:
 
 /// About how many bytes a process holds at most that makes a cage: `vdbcage make`, with nothing else in it.
 ///
-/// It is meant as an upper bound: in 30 runs the peak was 55 to 93 % of it (docs/OPTIONS.md). Most is taken by the
+/// It is meant as an upper bound: docs/OPTIONS.md has how near the peak came. Most is taken by the
 /// surface of the closing, which is counted in coarse voxels. Grids of fields are not counted, nor is what a program
 /// makes of the result, as pictures.
 /// \throw InputError as Pipeline::run

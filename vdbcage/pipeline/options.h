@@ -48,7 +48,7 @@ enum class CageSymmetry {
 struct CageOptions {
     /// Faces of the cage, at most: leastFaces() to 1000000. A quad counts once.
     int faces = 400;
-    /// Voxels along the model's longest side, 8 to 2048. Halves of it down to 32 compete with it, so that doubling it
+    /// Voxels along the model's longest side, 8 to 2048. Halves of it down to 24 compete with it, so that doubling it
     /// never gives a looser cage. Unset: by the faces and the effort.
     std::optional<int> resolution;
     /// Gaps up to twice this wide are bridged, 0 to 0.25. Unset: 0.03, or more where the faces need it.
@@ -93,7 +93,7 @@ struct CageOptions {
     bool bounding = true;
 };
 
-/// What is known of an option beside its value: one entry serves flags, help, range checks, README and metadata.
+/// What is known of an option beside its value: one entry serves flags, help, range checks, docs/OPTIONS.md and metadata.
 struct OptionInfo {
     const char* name;    ///< lower case with dashes: the flag without its leading dashes
     const char* symbol;  ///< stands for a number in the help ("N"); empty for names out of a list

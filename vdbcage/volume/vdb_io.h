@@ -37,7 +37,7 @@ VDBCAGE_API void writeVdb(const openvdb::MaskGrid& mask, std::ostream& out, cons
 /// The file need not be trusted. OpenVDB's reader, which in 10.0.1 can be made to write over the heap, is not used.
 /// Memory is at most 80 times the file's size plus 2 MiB. Tiles of little memory can be as large as space, though.
 ///
-/// Files of versions 222 (2013) to 224 of the format can be read, and trees of levels 5, 4 and 3. In a file without
+/// Files of versions 222 (2013) to 225 of the format can be read, and trees of levels 5, 4 and 3. In a file without
 /// offsets (a streamed one) the grids before the wanted one must be of types that can be read too.
 /// \throw IoError naming the path: cannot be read; no regular file; not a .vdb; truncated or damaged; no grid `density`
 /// among several, or none at all; a grid of another type; a grid whose background is inside (it fills all of space)

@@ -17,7 +17,7 @@ namespace vdbcage::detail {
 
 /// Every constant of policy: they decide what the options leave to us.
 ///
-/// Where one was measured, its comment says what others cost. `vdbcage-bench cage` and `vdbcage-bench stages` measure
+/// Where one was measured, its comment says what others cost. `vdbcage-bench cage` and plain `vdbcage-bench` measure
 /// it again.
 namespace policy {
 

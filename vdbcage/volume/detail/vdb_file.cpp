@@ -1,5 +1,5 @@
 // Based on: the file format of OpenVDB (Museth, VDB: High-Resolution Sparse Volumes with Dynamic Topology, ACM
-// Transactions on Graphics 32(3), 2013), versions 222 to 224, as the headers of OpenVDB 10.0.1 describe it;
+// Transactions on Graphics 32(3), 2013), versions 222 to 225, as the headers of OpenVDB 10.0.1 and 13.0.0 describe it;
 // c-blosc 1.21; zlib.
 #include <vdbcage/volume/detail/vdb_file.h>
 
@@ -23,14 +23,21 @@ using openvdb::Coord;
 using openvdb::GridBase;
 using openvdb::Index;
 
-constexpr std::uint32_t firstVersion = 222, lastVersion = 224;
+constexpr std::uint32_t firstVersion = 222, lastVersion = 225;
 constexpr char suffixSeparator = '\x1E'; // makes names of one file unique
-constexpr std::string_view halfSuffix = "_HalfFloat";
+constexpr std::string_view halfSuffix = "_HalfFloat", halfTree = "Tree_half_5_4_3";
+
+/// How the values of a tree are stored.
+enum class Stored {
+    asTheyAre,
+    halfArrays, ///< those of nodes as half floats, single values as they are
+    halves,     ///< all as half floats: the half grids of OpenVDB 13, read as grids of floats
+};
 
 /// What the file tells about a grid before the grid itself.
 struct Descriptor {
     std::string uniqueName, type, parent; // parent: the unique name of the grid whose tree it shares, else empty
-    bool isHalf = false;
+    Stored stored = Stored::asTheyAre;
     std::size_t begin = 0, end = 0; // of the grid, if the file has offsets
 
     std::string name() const { return uniqueName.substr(0, uniqueName.find(suffixSeparator)); }
@@ -43,8 +50,13 @@ Descriptor readDescriptor(ByteCursor& in)
     result.type = in.string();
     result.parent = in.string();
     const std::size_t size = result.type.size();
-    result.isHalf = size > halfSuffix.size() && result.type.substr(size - halfSuffix.size()) == halfSuffix;
-    if (result.isHalf) result.type.resize(size - halfSuffix.size());
+    if (result.type == halfTree) {
+        result.type = openvdb::FloatGrid::gridType();
+        result.stored = Stored::halves;
+    } else if (size > halfSuffix.size() && result.type.substr(size - halfSuffix.size()) == halfSuffix) {
+        result.type.resize(size - halfSuffix.size());
+        result.stored = Stored::halfArrays;
+    }
     return result;
 }
 
@@ -237,8 +249,8 @@ Mask readMask(ByteCursor& in)
 template <class Tree>
 class TreeReader {
 public:
-    TreeReader(ByteCursor& in, std::uint32_t compression, bool isHalf)
-        : in_(in), compression_(compression), isHalf_(isHalf), values_(new Value[Upper::NUM_VALUES])
+    TreeReader(ByteCursor& in, std::uint32_t compression, Stored stored)
+        : in_(in), compression_(compression), stored_(stored), values_(new Value[Upper::NUM_VALUES])
     {
     }
 
@@ -291,6 +303,8 @@ private:
     {
         if constexpr (std::is_same_v<Value, bool>) {
             return in_.flag("a value");
+        } else if (stored_ == Stored::halves) {
+            return static_cast<Value>(static_cast<float>(in_.value<Half>()));
         } else {
             return in_.value<Value>();
         }
@@ -371,8 +385,8 @@ private:
             if (std::any_of(bytes, bytes + count, [](unsigned char byte) { return byte > 1; })) {
                 in_.damaged("a value is neither 0 nor 1");
             }
-        } else if (isHalf_) {
-            if (count == 0) return; // not even a chunk's length
+        } else if (stored_ != Stored::asTheyAre) {
+            if (count == 0 && stored_ == Stored::halfArrays) return; // not even a chunk's length
             halves_.resize(count);
             read(halves_.data());
             std::transform(halves_.begin(), halves_.end(), out,
@@ -384,7 +398,7 @@ private:
 
     ByteCursor& in_;
     std::uint32_t compression_;
-    bool isHalf_;
+    Stored stored_;
     Value background_{};
     std::set<Coord> origins_;
     std::unique_ptr<Value[]> values_; // of an internal node
@@ -420,13 +434,13 @@ GridBase::Ptr readGrid(ByteCursor& in, const Descriptor& descriptor)
     if (compression & ~known) in.damaged("its compression is " + std::to_string(compression));
     const openvdb::MetaMap metadata = readMetadata(in);
     const auto saved = metadata[GridBase::META_SAVE_HALF_FLOAT];
-    if ((saved && saved->asBool()) != descriptor.isHalf) in.damaged("it is said to be both of half floats and not");
+    if ((saved && saved->asBool()) != (descriptor.stored == Stored::halfArrays)) in.damaged("it is said to be both of half floats and not");
     const auto transform = readTransform(in);
     GridBase::Ptr result;
     forType(descriptor.type, [&](auto* none) {
         using Grid = std::decay_t<decltype(*none)>;
         result = descriptor.parent.empty()
-                     ? Grid::create(TreeReader<typename Grid::TreeType>(in, compression, descriptor.isHalf).read())
+                     ? Grid::create(TreeReader<typename Grid::TreeType>(in, compression, descriptor.stored).read())
                      : Grid::create();
     });
     result->insertMeta(metadata);

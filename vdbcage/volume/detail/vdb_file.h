@@ -21,7 +21,7 @@ enum class VdbValues { scalars /* float, double, bool and mask */, floats };
 /// \param name  of the file, for messages
 /// \param fields  if not null gets the places of all values, for the fuzzer
 /// \pre OpenVDB is initialized
-/// \throw IoError naming the file: not a .vdb; truncated; damaged; a version before 222 (2013) or after 224; no such
+/// \throw IoError naming the file: not a .vdb; truncated; damaged; a version before 222 (2013) or after 225; no such
 /// grid; a grid of another type
 /// Cost: memory of at most 40 times `bytes`, plus 1 MiB. Worst are nodes of which the file has little more than masks.
 /// An upper internal node has 264 KiB in memory for 8 KiB in the file, a lower one 33 KiB for 1 KiB. A leaf node of
