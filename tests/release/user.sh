@@ -22,15 +22,16 @@ picture)
     ls -l "$HOME/picture.png"
     ;;
 window)
-    Xvfb :7 -screen 0 1400x900x24 &
+    Xvfb -displayfd 3 -screen 0 1400x900x24 3>"$HOME/display" & # a free one: chroots share them
     server=$!
     trap 'kill $server' EXIT
-    sleep 3
+    sleep 5
+    export DISPLAY=:$(cat "$HOME/display")
     cd "$folder"/vdbcage-*/
     printf 'open data/bishop.obj\nwait\nexpect bounding yes\nscreenshot %s\n' "$HOME/window.png" >"$HOME/walk.view"
-    DISPLAY=:7 vdbcage-view --script "$HOME/walk.view"
+    vdbcage-view --script "$HOME/walk.view"
     ls -l "$HOME/window.png"
-    DISPLAY=:7 vdbcage-view data/bishop.obj & # one that stays open
+    vdbcage-view data/bishop.obj & # one that stays open
     window=$!
     sleep 10
     grep -o '/[^ ]*\(libGLX_mesa\|libX11\|libXi\|_dri\|libgallium\|libstdc++\)[^ ]*' /proc/$window/maps | sort -u
