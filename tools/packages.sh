@@ -1,4 +1,5 @@
-# Sourced by tools/demo and tools/test: installs the Debian packages that the build, the programs and the tests need.
+# Sourced by tools/demo, tools/test and tools/release: installs the Debian packages that the build, the programs, the tests
+# and what is released need.
 # Known: Debian 12 (bookworm), Debian 13 (trixie) and sid.
 
 packages=(
@@ -26,6 +27,10 @@ test_packages=(
     abigail-tools # lists the binary interface
     python3-pip python3-setuptools python3-wheel python3-venv # the wheel of the Python module, and where it is tried
     parallel openssh-client openssh-server rsync slurm-wlm munge # farms, which run lists of jobs
+)
+release_packages=(
+    binutils patchelf          # libraries: what they need, and where they find it
+    python3-setuptools python3-wheel xz-utils zip
 )
 
 system=$(. /etc/os-release 2>/dev/null && echo "${VERSION_CODENAME-}") || system=unknown

@@ -149,3 +149,14 @@ class Make(Case):
             self.fails("There is no command vdbcage in PATH", make)
             os.symlink(COMMAND, self.folder / "vdbcage")
             self.assertEqual(make(faces=100), {"FINISHED"})
+
+    def test_a_command_in_the_add_on_is_taken_before_path_and_after_the_preferences(self):
+        found = part("command").found
+        own, program = self.folder / "bin" / "vdbcage", self.folder / "lib" / "vdbcage" / "vdbcage"
+        for file in (own, program):
+            file.parent.mkdir(parents=True)
+            file.touch(mode=0o644)  # so Blender unpacks them
+        self.assertEqual(found(COMMAND, own), COMMAND)
+        self.assertEqual(found("", own), str(own))
+        for file in (own, program):
+            self.assertTrue(os.access(file, os.X_OK), file)

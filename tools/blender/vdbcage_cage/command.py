@@ -14,12 +14,17 @@ import tempfile
 import threading
 
 
+OWN = pathlib.Path(__file__).parent / "bin" / "vdbcage"  # of the add-on that tools/release makes
+
+
 class CommandError(Exception):
     """What went wrong, in one line for the user."""
 
 
-def found(path):
-    """The command: `path`, or the `vdbcage` of PATH if that is empty. Raises CommandError."""
+def found(path, own=OWN):
+    """The command: `path`, or if that is empty the add-on's `own`, or else the `vdbcage` of PATH. Raises CommandError."""
+    if not path and own.exists():
+        return _own(own)
     if not path:
         path = shutil.which("vdbcage")
         if path is None:
@@ -28,6 +33,18 @@ def found(path):
         raise CommandError(f"{path} is not a program. Set the path of the command vdbcage in the preferences of the "
                            "add-on")
     return path
+
+
+def _own(launcher):
+    """The launcher. Blender unpacks files without the right to run them."""
+    for program in (launcher, launcher.parent.parent / "lib" / "vdbcage" / "vdbcage"):
+        if not os.access(program, os.X_OK):
+            try:
+                program.chmod(program.stat().st_mode | 0o111)
+            except OSError as error:
+                raise CommandError(f"{program} cannot be made a program: {error.strerror}. Set the path of the command "
+                                   "vdbcage in the preferences of the add-on") from None
+    return str(launcher)
 
 
 class Job:

@@ -20,7 +20,7 @@ class Preferences(bpy.types.AddonPreferences):
 
     command: bpy.props.StringProperty(
         name="Command", subtype="FILE_PATH",
-        description="The command vdbcage. If this is empty, it is looked for in PATH")
+        description="The command vdbcage. If this is empty, it is the add-on's own, or else looked for in PATH")
 
     def draw(self, context):
         self.layout.prop(self, "command")
