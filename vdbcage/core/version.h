@@ -2,7 +2,7 @@
 
 /// \ingroup core
 /// Version of these headers, "MAJOR.MINOR.PATCH". CMakeLists.txt reads it from here too.
-#define VDBCAGE_VERSION "0.1.0"
+#define VDBCAGE_VERSION "0.2.0"
 /// \ingroup core
 /// The day of this version, "YYYY-MM-DD". Manual pages bear it.
 #define VDBCAGE_VERSION_DATE "2026-11-26"

@@ -5,7 +5,7 @@ bl_info = {  # of Blender 3.4 to 4.1; later ones read blender_manifest.toml
     "name": "vdbcage",
     "description": "Coarse, tight cages that are certified to bound a model, and posing by them",
     "author": "The vdbcage authors",
-    "version": (0, 1, 0),
+    "version": (0, 2, 0),
     "blender": (3, 4, 0),
     "location": "3D Viewport > Sidebar > Cage",
     "category": "Rigging",
