@@ -93,7 +93,8 @@ struct CageOptions {
     bool bounding = true;
 };
 
-/// What is known of an option beside its value: one entry serves flags, help, range checks, docs/OPTIONS.md and metadata.
+/// What is known of an option beside its value: one entry serves flags, help, range checks, docs/OPTIONS.md and
+/// metadata.
 struct OptionInfo {
     const char* name;    ///< lower case with dashes: the flag without its leading dashes
     const char* symbol;  ///< stands for a number in the help ("N"); empty for names out of a list
