@@ -544,7 +544,7 @@ BOOST_AUTO_TEST_CASE(threads_do_not_matter)
 
 BOOST_AUTO_TEST_CASE(cancelling_at_any_question_throws)
 {
-    const Mesh model = test::sphere({0, 0, 0}, 0.4, 8), start = test::ball(10);
+    const Mesh model = test::sphere({0, 0, 0}, 0.4, 8), start = test::ball(7);
     const BoundingGuard guard(model);
     test::StopAt never(1000000);
     quadLoops(start, guard, to(40), &never);
