@@ -214,16 +214,16 @@ private:
         for (auto i = things.begin + 1; i != things.end; ++i) centres.expand(Box::of(i->twiceCentre));
         const Vec3d extent = centres.hi - centres.lo;
         const int axis = extent[0] >= extent[1] && extent[0] >= extent[2] ? 0 : extent[1] >= extent[2] ? 1 : 2;
-        const auto [low, high] = halves(things);
-        std::nth_element(things.begin, high.begin, things.end, [&](const Thing& a, const Thing& b) {
+        const auto parts = halves(things);
+        std::nth_element(things.begin, parts[1].begin, things.end, [&](const Thing& a, const Thing& b) {
             const double ca = a.twiceCentre[axis], cb = b.twiceCentre[axis];
             return ca != cb ? ca < cb : a.number < b.number;
         });
         if (things.size() < taskSize) {
-            sort(low);
-            sort(high);
+            sort(parts[0]);
+            sort(parts[1]);
         } else {
-            parallelInvoke([low = low] { sort(low); }, [high = high] { sort(high); });
+            parallelInvoke([&] { sort(parts[0]); }, [&] { sort(parts[1]); });
         }
     }
 
