@@ -1,8 +1,8 @@
 # Everything that the build needs and does not find is said at once, with Debian's package that has it and the option
 # that does without it: whoever has none of it should not need ten tries.
 
-# vdbcage_need(FOUND NAME PACKAGE [OPTION]): the variable FOUND says whether NAME was found, which -DOPTION=OFF does not
-# need. The build goes on without it until vdbcage_stop_if_missing().
+# vdbcage_need(FOUND NAME PACKAGE [OPTION]): FOUND, a variable or FALSE, says whether NAME was found, which -DOPTION=OFF
+# does not need. The build goes on without it until vdbcage_stop_if_missing().
 function(vdbcage_need found name package)
     if(NOT ${found})
         set(without "")

@@ -50,3 +50,11 @@ class TextTest(Case):
     def test_the_version_is_that_of_the_library(self):
         header = (SOURCE / "vdbcage" / "core" / "version.h").read_text()
         self.assertIn(f'VDBCAGE_VERSION "{vdbcage.__version__}"', header)
+
+    def test_the_change_log_and_the_citation_are_of_this_version_and_day(self):
+        header = (SOURCE / "vdbcage" / "core" / "version.h").read_text()
+        version, date = re.findall(r'define VDBCAGE_VERSION(?:_DATE)? "(.*)"', header)
+        citation = (SOURCE / "CITATION.cff").read_text()
+        self.assertIn(f"\nversion: {version}\ndate-released: {date}\n", citation)
+        newest = re.search("^## (.*)$", (SOURCE / "CHANGELOG.md").read_text(), re.MULTILINE)[1]
+        self.assertIn(newest, (f"{version}, {date}", "Unreleased"))

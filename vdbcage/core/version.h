@@ -5,4 +5,4 @@
 #define VDBCAGE_VERSION "0.2.0"
 /// \ingroup core
 /// The day of this version, "YYYY-MM-DD". Manual pages bear it.
-#define VDBCAGE_VERSION_DATE "2026-11-26"
+#define VDBCAGE_VERSION_DATE "2026-11-28"

@@ -434,8 +434,9 @@ GridBase::Ptr readGrid(ByteCursor& in, const Descriptor& descriptor)
     if (compression & ~known) in.damaged("its compression is " + std::to_string(compression));
     const openvdb::MetaMap metadata = readMetadata(in);
     const auto saved = metadata[GridBase::META_SAVE_HALF_FLOAT];
-    if ((saved && saved->asBool()) != (descriptor.stored == Stored::halfArrays))
+    if ((saved && saved->asBool()) != (descriptor.stored == Stored::halfArrays)) {
         in.damaged("it is said to be both of half floats and not");
+    }
     const auto transform = readTransform(in);
     GridBase::Ptr result;
     forType(descriptor.type, [&](auto* none) {
