@@ -325,6 +325,21 @@ BOOST_AUTO_TEST_CASE(files_are_browsed_and_not_written_over_without_a_question)
               "expect model \"model 3.obj\""});
 }
 
+BOOST_AUTO_TEST_CASE(a_name_without_an_extension_gets_the_first_that_is_allowed)
+{
+    App app(context.api(), setup());
+    run(app, {"open " + quotedWord(files[0]), "wait"});
+    const std::string name = quotedWord((folder / "named").string());
+    for (const auto& [verb, file] : {std::pair("save-cage", "named.obj"), std::pair("save-scene", "named.json")}) {
+        run(app, {std::string("browse ") + verb, "widget browser.name " + name, "wait", "expect messages 0"});
+        BOOST_TEST(fs::exists(folder / file), file);
+        test::writeText(folder / file, "old");
+        run(app, {std::string("browse ") + verb, "widget browser.name " + name, "widget browser.no press"}); // asked
+        BOOST_TEST(test::readText(folder / file) == "old", file);
+        run(app, {"key escape"});
+    }
+}
+
 BOOST_AUTO_TEST_CASE(stages_report_options_and_pictures_are_saved)
 {
     App app(context.api(), setup(false));

@@ -101,17 +101,19 @@ void readFolder(FileBrowser& browser)
     }
 }
 
-/// Takes what is typed: goes to a folder, asks before a file is written over, or asks for the line.
+/// Takes what is typed: goes to a folder, asks before a file is written over, or asks for the line. A name to save by
+/// gets an extension if it has none.
 void choose(const PanelContext& context, FileBrowser& browser, bool isConfirmed)
 {
     if (browser.name.empty()) return;
-    const fs::path path = (browser.folder / browser.name).lexically_normal();
+    fs::path path = (browser.folder / browser.name).lexically_normal();
     std::error_code error;
     if (!browser.extensions.empty() && fs::is_directory(path, error)) {
         goTo(browser, path);
         browser.name.clear();
         return;
     }
+    if (browser.saves && !browser.extensions.empty() && !path.has_extension()) path += browser.extensions.front();
     const bool isThere =
         isSequence(browser.verb) ? tool::countFrames(tool::patternFor(path)) > 0 : fs::exists(path, error);
     if (browser.saves && !isConfirmed && isThere) {
