@@ -17,6 +17,12 @@ endforeach()
 set(floor_bounding 5)
 set(floor_pipeline 6)
 
+# Rooms have folders; one includes those that come before it in its list, and itself. "." is the room's own folder.
+set(folders_vdbcage/bounding/detail guard triangles quads loops)
+set(folders_vdbcage/volume/detail vdb . cube sphere)
+set(folders_vdbcage/deform/detail kernels . families)
+set(folders_tools/view state jobs files input widgets picture panels .)
+
 set(gpl "CGAL/(Surface_mesh|AABB_|Side_of_triangle_mesh|Polygon_mesh_processing|Polyhedron_3|convex_hull_3|Nef_|[A-Za-z_]*[Tt]riangulation_)")
 # library header pattern | files that may include it
 set(confined
@@ -25,19 +31,21 @@ set(confined
     "tbb/parallel_|^(vdbcage/core/detail/parallel\\.h|tools/.*|tests/.*)$"
     "tbb/task_group|^(vdbcage/core/detail/parallel\\.h|tools/.*|tests/.*)$"
     "png\\.h|^(tools/draw/picture\\.cpp|tests/.*)$"
-    "tools/report/|^(tools/(report|vdbcage|view|python|bench)/.*|tests/.*)$"
-    "tools/vdbcage/|^(tools/(vdbcage|bench)/.*|tests/.*)$"
-    "tools/draw/|^(tools/(draw|edit|vdbcage|view|bench)/.*|tests/.*)$"
+    "tools/report/|^(tools/(report|cli|view|python|bench)/.*|tests/.*)$"
+    "tools/files/|^(tools/(files|cli|view)/.*|tests/.*)$"
+    "tools/manual/|^(tools/(manual|cli|view)/.*|tests/.*)$"
+    "tools/cli/|^(tools/(cli|bench)/.*|tests/.*)$"
+    "tools/draw/|^(tools/(draw|edit|cli|view|bench)/.*|tests/.*)$"
     "tools/edit/|^(tools/(edit|view|bench)/.*|tests/.*)$"
     "tools/view/|^(tools/(view|bench)/.*|tests/.*)$"
-    "imgui|^(tools/view/(widgets|imgui_versions)\\.(cpp|h)|tools/view/panels/.*|tests/view/.*)$"
+    "imgui|^(tools/view/(widgets|panels)/.*|tests/view/.*)$"
     "GLFW/|^tools/view/window\\.cpp$"
     "openssl/|^tools/report/run_facts\\.cpp$"
     "pybind11/|^tools/python/.*$"
     "Python\\.h|^tools/python/.*$"
     "CGAL/|^(vdbcage/.*\\.cpp|tests/.*)$")
 
-set(ofInstructionSets "^vdbcage/deform/detail/(lanes\\.h|packed_cage\\.h|row_kernels\\.h|row_kernels_.*)$")
+set(ofInstructionSets "^vdbcage/deform/detail/kernels/(lanes\\.h|packed_cage\\.h|row_kernels\\.h|row_kernels_.*)$")
 
 set(problems "")
 set(checked 0)
@@ -61,7 +69,7 @@ foreach(file IN LISTS files)
         set(header ${CMAKE_MATCH_1})
         # A function that a header defines could be the linker's choice for sources of all instruction sets.
         if(file MATCHES "${ofInstructionSets}" AND
-           NOT header MATCHES "^(cstddef|cstdint|immintrin\\.h|vdbcage/deform/detail/(lanes|packed_cage|row_kernels(_of_set)?)\\.h)$")
+           NOT header MATCHES "^(cstddef|cstdint|immintrin\\.h|vdbcage/deform/detail/kernels/(lanes|packed_cage|row_kernels(_of_set)?)\\.h)$")
             list(APPEND problems "${file}: it is compiled for several instruction sets and must not include ${header}")
         endif()
         if(room AND header STREQUAL "vdbcage/vdbcage.h")
@@ -70,6 +78,24 @@ foreach(file IN LISTS files)
         if(room AND header MATCHES "^(support|tools|tests)/")
             list(APPEND problems "${file}: the library includes ${header}")
         endif()
+        foreach(parent IN ITEMS vdbcage/bounding/detail vdbcage/volume/detail vdbcage/deform/detail tools/view)
+            if(file MATCHES "^${parent}/" AND header MATCHES "^${parent}/")
+                foreach(side IN ITEMS file header)
+                    if(${side} MATCHES "^${parent}/([a-z]+)/")
+                        set(folder ${CMAKE_MATCH_1})
+                    else()
+                        set(folder .)
+                    endif()
+                    list(FIND folders_${parent} ${folder} level_${side})
+                    if(level_${side} EQUAL -1)
+                        list(APPEND problems "${file}: the folder ${parent}/${folder} has no place in the order")
+                    endif()
+                endforeach()
+                if(level_header GREATER level_file)
+                    list(APPEND problems "${file}: ${header} comes after its folder")
+                endif()
+            endif()
+        endforeach()
         if(room AND header MATCHES "^vdbcage/([a-z]+)/")
             set(other ${CMAKE_MATCH_1})
             if(NOT other STREQUAL room AND NOT floor_${other} LESS floor_${room})

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include <vdbcage/bounding/bounding_guard.h>
-#include <vdbcage/bounding/detail/admissible.h>
-#include <vdbcage/bounding/detail/contact_planes.h>
-#include <vdbcage/bounding/detail/guard_model.h>
+#include <vdbcage/bounding/detail/guard/admissible.h>
+#include <vdbcage/bounding/detail/guard/contact_planes.h>
+#include <vdbcage/bounding/detail/guard/guard_model.h>
 #include <vdbcage/core/error.h>
 #include <vdbcage/mesh/topology.h>
 

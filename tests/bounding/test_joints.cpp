@@ -8,8 +8,8 @@
 #include <support/stop_at.h>
 #include <support/symmetric.h>
 #include <tbb/global_control.h>
-#include <vdbcage/bounding/detail/guard_model.h>
-#include <vdbcage/bounding/detail/joint_rings.h>
+#include <vdbcage/bounding/detail/guard/guard_model.h>
+#include <vdbcage/bounding/detail/loops/joint_rings.h>
 #include <vdbcage/bounding/quad_loops.h>
 #include <vdbcage/bounding/triquad.h>
 #include <vdbcage/check/check.h>

@@ -10,7 +10,7 @@
 
 #include <tbb/global_control.h>
 #include <vdbcage/bounding/decimate.h>
-#include <vdbcage/bounding/detail/recorded_decimation.h>
+#include <vdbcage/bounding/detail/triangles/recorded_decimation.h>
 #include <vdbcage/bounding/smooth.h>
 #include <vdbcage/bounding/tighten.h>
 #include <vdbcage/bounding/triquad.h>

@@ -6,7 +6,7 @@
 #include <random>
 
 #include <support/shapes.h>
-#include <vdbcage/bounding/detail/peaks.h>
+#include <vdbcage/bounding/detail/triangles/peaks.h>
 #include <vdbcage/check/check.h>
 
 using namespace vdbcage;

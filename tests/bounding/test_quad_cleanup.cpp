@@ -10,11 +10,11 @@
 #include <set>
 
 #include <vdbcage/bounding/decimate.h>
-#include <vdbcage/bounding/detail/admissible.h>
-#include <vdbcage/bounding/detail/face_queries.h>
-#include <vdbcage/bounding/detail/quad_change.h>
-#include <vdbcage/bounding/detail/quad_cleanup.h>
-#include <vdbcage/bounding/detail/quad_making.h>
+#include <vdbcage/bounding/detail/guard/admissible.h>
+#include <vdbcage/bounding/detail/guard/face_queries.h>
+#include <vdbcage/bounding/detail/quads/quad_change.h>
+#include <vdbcage/bounding/detail/quads/quad_cleanup.h>
+#include <vdbcage/bounding/detail/quads/quad_making.h>
 #include <vdbcage/bounding/triquad.h>
 #include <vdbcage/check/check.h>
 #include <vdbcage/volume/extract.h>

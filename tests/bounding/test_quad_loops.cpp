@@ -12,10 +12,10 @@
 #include <set>
 
 #include <tbb/global_control.h>
-#include <vdbcage/bounding/detail/face_queries.h>
-#include <vdbcage/bounding/detail/loop_collapse.h>
-#include <vdbcage/bounding/detail/loop_split.h>
-#include <vdbcage/bounding/detail/quad_shape_term.h>
+#include <vdbcage/bounding/detail/guard/face_queries.h>
+#include <vdbcage/bounding/detail/loops/loop_collapse.h>
+#include <vdbcage/bounding/detail/loops/loop_split.h>
+#include <vdbcage/bounding/detail/quads/quad_shape_term.h>
 #include <vdbcage/bounding/quad_loops.h>
 #include <vdbcage/check/check.h>
 #include <vdbcage/core/error.h>

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include <vdbcage/bounding/decimate.h>
-#include <vdbcage/bounding/detail/admissible.h>
-#include <vdbcage/bounding/detail/redistribute.h>
-#include <vdbcage/bounding/detail/relax.h>
+#include <vdbcage/bounding/detail/guard/admissible.h>
+#include <vdbcage/bounding/detail/triangles/redistribute.h>
+#include <vdbcage/bounding/detail/triangles/relax.h>
 #include <vdbcage/check/check.h>
 
 #include "support/manifold.h"

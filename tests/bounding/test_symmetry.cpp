@@ -9,9 +9,9 @@
 
 #include <tbb/global_control.h>
 #include <vdbcage/bounding/decimate.h>
-#include <vdbcage/bounding/detail/admissible.h>
-#include <vdbcage/bounding/detail/guard_model.h>
-#include <vdbcage/bounding/detail/quad_pairing.h>
+#include <vdbcage/bounding/detail/guard/admissible.h>
+#include <vdbcage/bounding/detail/guard/guard_model.h>
+#include <vdbcage/bounding/detail/quads/pairing/quad_pairing.h>
 #include <vdbcage/bounding/smooth.h>
 #include <vdbcage/bounding/tighten.h>
 #include <vdbcage/bounding/triquad.h>

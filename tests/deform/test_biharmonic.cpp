@@ -10,7 +10,7 @@
 #include <tbb/global_control.h>
 #include <vdbcage/core/error.h>
 #include <vdbcage/deform/binding.h>
-#include <vdbcage/deform/detail/biharmonic.h>
+#include <vdbcage/deform/detail/families/biharmonic.h>
 #include <vdbcage/deform/weights_io.h>
 
 using namespace vdbcage;

@@ -9,7 +9,7 @@
 #include <tbb/global_control.h>
 #include <vdbcage/core/error.h>
 #include <vdbcage/deform/binding.h>
-#include <vdbcage/deform/detail/harmonic.h>
+#include <vdbcage/deform/detail/families/harmonic.h>
 
 using namespace vdbcage;
 using detail::BoundCage;

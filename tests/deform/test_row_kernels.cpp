@@ -8,11 +8,11 @@
 #include <deform/cages.h>
 #include <vdbcage/deform/detail/bound_cage.h>
 #include <vdbcage/deform/detail/cage_pack.h>
-#include <vdbcage/deform/detail/green.h>
-#include <vdbcage/deform/detail/likelihood.h>
-#include <vdbcage/deform/detail/mean_value.h>
-#include <vdbcage/deform/detail/row_kernels.h>
-#include <vdbcage/deform/detail/somigliana.h>
+#include <vdbcage/deform/detail/families/green.h>
+#include <vdbcage/deform/detail/families/likelihood.h>
+#include <vdbcage/deform/detail/families/mean_value.h>
+#include <vdbcage/deform/detail/families/somigliana.h>
+#include <vdbcage/deform/detail/kernels/row_kernels.h>
 
 using namespace vdbcage;
 using namespace vdbcage::detail;

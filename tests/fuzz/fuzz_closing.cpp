@@ -6,7 +6,7 @@
 
 #include <fuzz/bytes.h>
 #include <vdbcage/core/error.h>
-#include <vdbcage/volume/detail/sphere_pass.h>
+#include <vdbcage/volume/detail/sphere/sphere_pass.h>
 #include <vdbcage/volume/scale_field.h>
 #include <volume/by_definition.h>
 

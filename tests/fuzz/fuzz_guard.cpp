@@ -10,7 +10,7 @@
 #include <pipeline/runs.h>
 #include <support/surface_models.h>
 #include <support/symmetric.h>
-#include <vdbcage/bounding/detail/admissible.h>
+#include <vdbcage/bounding/detail/guard/admissible.h>
 #include <vdbcage/check/check.h>
 #include <vdbcage/core/error.h>
 #include <vdbcage/mesh/topology.h>

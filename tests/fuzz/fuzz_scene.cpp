@@ -7,7 +7,7 @@
 
 #include <fuzz/bytes.h>
 #include <support/shapes.h>
-#include <tools/view/state/scene.h>
+#include <tools/view/files/scene.h>
 #include <vdbcage/core/error.h>
 #include <vdbcage/mesh/mesh_io.h>
 

@@ -10,9 +10,9 @@
 #include <support/shapes.h>
 #include <tools/draw/picture.h>
 #include <tools/report/job_results.h>
-#include <tools/view/state/folder.h>
+#include <tools/view/files/folder.h>
+#include <tools/view/files/preferences.h>
 #include <tools/view/state/pose_files.h>
-#include <tools/view/state/preferences.h>
 #include <tools/view/state/preset.h>
 #include <vdbcage/core/error.h>
 
@@ -53,9 +53,9 @@ void readParameters(const std::filesystem::path& path)
 
 void readReport(const std::filesystem::path& path)
 {
-    const auto results = tool::readJobResults({path});
+    const auto results = report::readJobResults({path});
     require(results.size() == 1);
-    require(!tool::tableOf(results).empty() && !tool::csvOf(results).empty() && !tool::sumOf(results).empty());
+    require(!report::tableOf(results).empty() && !report::csvOf(results).empty() && !report::sumOf(results).empty());
 }
 
 void readPicture(const std::string& bytes)

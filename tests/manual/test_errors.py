@@ -14,7 +14,7 @@ from error_rows import FOLDER, PIPE, READ_ONLY
 from support import SOURCE
 from thrown_texts import Sources
 
-ROOMS = ["vdbcage", "tools/vdbcage", "tools/report", "tools/draw"]
+ROOMS = ["vdbcage", "tools/cli", "tools/report", "tools/files", "tools/draw"]
 
 # Messages of the page that no row causes, with why not.
 NOT_CAUSED = {
@@ -102,9 +102,9 @@ LIBRARY_ONLY = {
 # Files that throw what other errors said, with more about it. In any other the scanner would miss words.
 HAND_ERRORS_ON = {
     "vdbcage/core/error.cpp", "vdbcage/core/detail/atomic_file.cpp", "vdbcage/gl/offscreen.cpp",
-    "vdbcage/pipeline/options.cpp", "tools/report/posed_cage.cpp", "tools/vdbcage/command_line.cpp",
-    "tools/vdbcage/compare_families.cpp", "tools/vdbcage/deform.cpp", "tools/vdbcage/make.cpp",
-    "tools/vdbcage/render_command.cpp",
+    "vdbcage/pipeline/options.cpp", "tools/files/posed_cage.cpp", "tools/cli/command_line.cpp",
+    "tools/cli/commands/compare_families.cpp", "tools/cli/commands/deform.cpp", "tools/cli/commands/make.cpp",
+    "tools/cli/commands/render.cpp",
 }
 
 NUMBER = r"(?:[-+]?[0-9][-+.0-9e]*|-?nan|-?inf)"

@@ -7,7 +7,7 @@
 #include <thread>
 
 #include <draw/meshes.h>
-#include <tools/vdbcage/render.h>
+#include <tools/cli/render.h>
 #include <vdbcage/core/error.h>
 
 using namespace vdbcage;

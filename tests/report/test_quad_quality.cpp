@@ -6,8 +6,8 @@
 
 using namespace vdbcage;
 using openvdb::Vec3d;
-using tool::QuadQuality;
-using tool::quadQuality;
+using report::QuadQuality;
+using report::quadQuality;
 
 namespace {
 
@@ -47,7 +47,7 @@ BOOST_AUTO_TEST_SUITE(quad_quality)
 
 BOOST_AUTO_TEST_CASE(a_cube_has_three_loops)
 {
-    const QuadQuality quality = quadQuality(cube());
+    const report::QuadQuality quality = report::quadQuality(cube());
     BOOST_TEST(quality.share == 1);
     BOOST_TEST(quality.irregular == 1);
     BOOST_TEST(quality.valences.size() == 1U);
@@ -61,15 +61,15 @@ BOOST_AUTO_TEST_CASE(a_cube_has_three_loops)
 
 BOOST_AUTO_TEST_CASE(rings_of_a_tube_are_loops_and_its_staves_are_not)
 {
-    const QuadQuality tube = quadQuality(grid(6, 5, 2, true));
+    const report::QuadQuality tube = report::quadQuality(grid(6, 5, 2, true));
     BOOST_TEST(tube.loops == 5U);
     BOOST_TEST(tube.inLoops == 1);
     BOOST_TEST(tube.aspect == 2, boost::test_tools::tolerance(1e-12));
     BOOST_TEST(tube.irregular == 2.0 / 6); // those on both rims have three edges
-    BOOST_TEST(quadQuality(grid(6, 5, 1, false)).loops == 0U);
-    BOOST_TEST(quadQuality(grid(6, 5, 1, false)).inLoops == 0);
+    BOOST_TEST(report::quadQuality(grid(6, 5, 1, false)).loops == 0U);
+    BOOST_TEST(report::quadQuality(grid(6, 5, 1, false)).inLoops == 0);
     // 30 quads in one ring are more than 4 times the root of 30.
-    BOOST_TEST(quadQuality(grid(30, 1, 1, true)).loops == 0U);
+    BOOST_TEST(report::quadQuality(grid(30, 1, 1, true)).loops == 0U);
 }
 
 BOOST_AUTO_TEST_CASE(a_triangle_ends_a_polychord)
@@ -78,7 +78,7 @@ BOOST_AUTO_TEST_CASE(a_triangle_ends_a_polychord)
     const openvdb::Vec4I cut = mesh.quads.back();
     mesh.quads.pop_back();
     mesh.triangles = {{cut[0], cut[1], cut[2]}, {cut[0], cut[2], cut[3]}};
-    const QuadQuality quality = quadQuality(mesh);
+    const report::QuadQuality quality = report::quadQuality(mesh);
     BOOST_TEST(quality.loops == 1U);
     BOOST_TEST(quality.inLoops == 4.0 / 5);
     BOOST_TEST(quality.share == 5.0 / 7);
@@ -92,12 +92,12 @@ BOOST_AUTO_TEST_CASE(corners_and_folds_are_measured)
     const double h = std::sqrt(0.75), d = std::sqrt(0.5);
     mesh.points = {{0, 0, 0}, {1, 0, 0}, {1.5, h, 0}, {0.5, h, 0}};
     mesh.quads = {{0, 1, 2, 3}};
-    const QuadQuality rhombus = quadQuality(mesh);
+    const report::QuadQuality rhombus = report::quadQuality(mesh);
     BOOST_TEST(rhombus.cornerMean == 30, boost::test_tools::tolerance(1e-12));
     BOOST_TEST(rhombus.corner95th == 30, boost::test_tools::tolerance(1e-12));
     BOOST_TEST(rhombus.fold95th < 1e-6);
     mesh.points = {{-d, 0, 0}, {0, -d, 0}, {d, 0, 0}, {0, 0, d}};
-    BOOST_TEST(quadQuality(mesh).foldMean == 90, boost::test_tools::tolerance(1e-12));
+    BOOST_TEST(report::quadQuality(mesh).foldMean == 90, boost::test_tools::tolerance(1e-12));
 }
 
 BOOST_AUTO_TEST_CASE(without_quads_all_is_zero_but_vertices)
@@ -105,12 +105,12 @@ BOOST_AUTO_TEST_CASE(without_quads_all_is_zero_but_vertices)
     Mesh mesh;
     mesh.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {5, 5, 5}};
     mesh.triangles = {{0, 1, 2}};
-    const QuadQuality quality = quadQuality(mesh);
+    const report::QuadQuality quality = report::quadQuality(mesh);
     BOOST_TEST(quality.valences.at(2) == 3U);
     BOOST_TEST(quality.irregular == 1);
     BOOST_TEST(quality.share == 0);
     BOOST_TEST(quality.inLoops == 0);
-    BOOST_TEST(quadQuality({}).valences.empty());
+    BOOST_TEST(report::quadQuality({}).valences.empty());
 }
 
 BOOST_AUTO_TEST_SUITE_END()

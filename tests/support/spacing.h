@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <vector>
 
-#include <vdbcage/bounding/detail/guard_model.h>
+#include <vdbcage/bounding/detail/guard/guard_model.h>
 #include <vdbcage/geometry/triangle_pair.h>
 #include <vdbcage/mesh/mesh.h>
 

@@ -2,7 +2,7 @@
 
 #include <memory>
 
-#include <tools/view/state/cage_result.h>
+#include <tools/view/jobs/cage_result.h>
 #include <tools/view/state/opened_mesh.h>
 #include <vdbcage/mesh/mesh.h>
 

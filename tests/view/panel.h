@@ -6,8 +6,8 @@
 
 #include <imgui.h>
 
-#include <tools/view/imgui_versions.h>
-#include <tools/view/widgets.h>
+#include <tools/view/widgets/imgui_versions.h>
+#include <tools/view/widgets/widgets.h>
 
 namespace vdbcage::test {
 

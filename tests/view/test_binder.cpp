@@ -7,7 +7,7 @@
 
 #include "orders.h"
 #include <support/shapes.h>
-#include <tools/view/state/binder.h>
+#include <tools/view/jobs/binder.h>
 #include <vdbcage/core/error.h>
 
 using namespace vdbcage;

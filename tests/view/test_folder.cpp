@@ -3,7 +3,7 @@
 #include <filesystem>
 
 #include <support/temporary_folder.h>
-#include <tools/view/state/folder.h>
+#include <tools/view/files/folder.h>
 #include <vdbcage/core/error.h>
 
 using namespace vdbcage;

@@ -7,10 +7,10 @@
 #include "orders.h"
 #include <support/shapes.h>
 #include <support/temporary_folder.h>
-#include <tools/view/state/follower.h>
-#include <tools/view/state/model_values.h>
+#include <tools/view/jobs/follower.h>
+#include <tools/view/jobs/model_values.h>
+#include <tools/view/jobs/posing.h>
 #include <tools/view/state/move.h>
-#include <tools/view/state/posing.h>
 #include <tools/view/state/session.h>
 #include <tools/view/state/words.h>
 #include <vdbcage/core/error.h>

@@ -4,7 +4,7 @@
 #include <random>
 
 #include <tools/edit/motion.h>
-#include <tools/view/gizmo.h>
+#include <tools/view/picture/gizmo.h>
 
 using namespace vdbcage;
 using namespace vdbcage::view;

@@ -3,7 +3,7 @@
 #include <set>
 #include <string>
 
-#include <tools/view/input.h>
+#include <tools/view/input/input.h>
 #include <vdbcage/core/error.h>
 
 using namespace vdbcage;

@@ -6,7 +6,7 @@
 #include <set>
 
 #include "app_fixture.h"
-#include <tools/view/key_map.h>
+#include <tools/view/input/key_map.h>
 #include <tools/view/state/words.h>
 #include <vdbcage/core/error.h>
 

@@ -7,7 +7,7 @@
 
 #include "orders.h"
 #include <support/shapes.h>
-#include <tools/view/state/planner.h>
+#include <tools/view/jobs/planner.h>
 
 using namespace vdbcage;
 using namespace vdbcage::view;

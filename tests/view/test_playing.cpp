@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "app_fixture.h"
+#include <tools/view/input/verbs.h>
 #include <tools/view/state/move.h>
 #include <tools/view/state/words.h>
-#include <tools/view/verbs.h>
 #include <vdbcage/core/error.h>
 
 using namespace vdbcage;

@@ -9,9 +9,9 @@
 #include <support/shapes.h>
 #include <tools/edit/mirror.h>
 #include <tools/edit/topology.h>
-#include <tools/view/state/model_values.h>
+#include <tools/view/jobs/model_values.h>
+#include <tools/view/jobs/posed_model.h>
 #include <tools/view/state/move.h>
-#include <tools/view/state/posed_model.h>
 #include <tools/view/state/session.h>
 #include <tools/view/state/words.h>
 #include <vdbcage/core/error.h>

@@ -10,7 +10,7 @@
 #include "orders.h"
 #include <support/shapes.h>
 #include <support/stop_at.h>
-#include <tools/view/state/runner.h>
+#include <tools/view/jobs/runner.h>
 #include <vdbcage/core/detail/grids.h>
 #include <vdbcage/core/error.h>
 

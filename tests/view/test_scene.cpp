@@ -7,7 +7,7 @@
 #include "random_command.h"
 #include <support/shapes.h>
 #include <support/temporary_folder.h>
-#include <tools/view/state/scene.h>
+#include <tools/view/files/scene.h>
 #include <vdbcage/core/error.h>
 #include <vdbcage/mesh/mesh_io.h>
 

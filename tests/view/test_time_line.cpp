@@ -10,10 +10,10 @@
 #include <support/shapes.h>
 #include <support/temporary_folder.h>
 #include <tools/edit/carry.h>
-#include <tools/view/state/carrier.h>
+#include <tools/view/files/scene.h>
+#include <tools/view/jobs/carrier.h>
 #include <tools/view/state/move.h>
 #include <tools/view/state/pose_files.h>
-#include <tools/view/state/scene.h>
 #include <tools/view/state/session.h>
 #include <tools/view/state/words.h>
 #include <vdbcage/core/error.h>

@@ -10,9 +10,9 @@
 
 #include <support/gl_sources.h>
 #include <tools/draw/canvas.h>
-#include <tools/view/imgui_versions.h>
-#include <tools/view/theme.h>
-#include <tools/view/widget_renderer.h>
+#include <tools/view/widgets/imgui_versions.h>
+#include <tools/view/widgets/theme.h>
+#include <tools/view/widgets/widget_renderer.h>
 #include <vdbcage/gl/offscreen.h>
 #include <view/panel.h>
 

@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <string>
 
-#include <tools/view/theme.h>
+#include <tools/view/widgets/theme.h>
 #include <vdbcage/core/error.h>
 #include <view/panel.h>
 

@@ -25,9 +25,9 @@
 #include <support/temporary_folder.h>
 #include <tools/draw/picture.h>
 #include <tools/view/app.h>
+#include <tools/view/files/scene.h>
 #include <tools/view/script.h>
 #include <tools/view/state/command.h>
-#include <tools/view/state/scene.h>
 #include <tools/view/state/session.h>
 #include <tools/view/state/words.h>
 #include <vdbcage/core/error.h>

@@ -8,7 +8,7 @@
 
 #include <tbb/global_control.h>
 #include <vdbcage/core/error.h>
-#include <vdbcage/volume/detail/sphere_pass.h>
+#include <vdbcage/volume/detail/sphere/sphere_pass.h>
 #include <vdbcage/volume/morphology.h>
 
 namespace vdbcage {

@@ -8,8 +8,8 @@
 
 #include <tbb/global_control.h>
 #include <vdbcage/core/error.h>
-#include <vdbcage/volume/detail/radius_field.h>
-#include <vdbcage/volume/detail/sphere_pass.h>
+#include <vdbcage/volume/detail/sphere/radius_field.h>
+#include <vdbcage/volume/detail/sphere/sphere_pass.h>
 #include <vdbcage/volume/scale_field.h>
 
 using namespace vdbcage;

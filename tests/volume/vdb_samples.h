@@ -11,7 +11,7 @@
 #include <openvdb/io/Archive.h>
 #include <openvdb/openvdb.h>
 #include <openvdb/tools/LevelSetSphere.h>
-#include <vdbcage/volume/detail/vdb_file.h>
+#include <vdbcage/volume/detail/vdb/vdb_file.h>
 
 /// .vdb files in memory, as OpenVDB writes them, and what can be changed about them.
 namespace vdbcage::test {

@@ -100,8 +100,8 @@ std::string logPlot(const std::string& title, const std::string& xName, const st
     const Axis across = axisOf(series, &PlotPoint::x, left, width - right);
     const Axis up = axisOf(series, &PlotPoint::y, floor, top);
     std::string svg = printed(R"(<svg class="plot" viewBox="0 0 %g %g" role="img" aria-label="%s">)", width,
-                              height + line * static_cast<double>(series.size()), tool::htmlText(title).c_str());
-    svg += printed(R"(<text x="%g" y="18" class="title">%s</text>)", left, tool::htmlText(title).c_str());
+                              height + line * static_cast<double>(series.size()), report::htmlText(title).c_str());
+    svg += printed(R"(<text x="%g" y="18" class="title">%s</text>)", left, report::htmlText(title).c_str());
     for (const double mark : marksOf(across)) {
         const double x = across.place(mark);
         svg += printed(R"(<line x1="%.1f" y1="%g" x2="%.1f" y2="%g" class="grid"/>)", x, top, x, floor);
@@ -114,9 +114,9 @@ std::string logPlot(const std::string& title, const std::string& xName, const st
         svg += printed(R"(<text x="%g" y="%.1f" text-anchor="end">%s</text>)", left - 6, y + 4, numberOf(mark).c_str());
     }
     svg += printed(R"(<text x="%g" y="%g" text-anchor="middle">%s</text>)", (left + width - right) / 2, floor + 36,
-                   tool::htmlText(xName).c_str());
+                   report::htmlText(xName).c_str());
     svg += printed(R"-(<text transform="translate(14 %g) rotate(-90)" text-anchor="middle">%s</text>)-",
-                   (top + floor) / 2, tool::htmlText(yName).c_str());
+                   (top + floor) / 2, report::htmlText(yName).c_str());
     for (std::size_t i = 0; i < series.size(); ++i) {
         const PlotSeries& one = series[i];
         const char* colour = colours[i % colours.size()];
@@ -133,7 +133,7 @@ std::string logPlot(const std::string& title, const std::string& xName, const st
         svg += markOf(left, y - 4, colour, one.isPublished);
         std::string text = one.name;
         if (one.points.size() > 1) text += printed(": exponent %.2f", fittedExponent(one.points));
-        svg += printed(R"(<text x="%g" y="%g">%s</text>)", left + 12, y, tool::htmlText(text).c_str());
+        svg += printed(R"(<text x="%g" y="%g">%s</text>)", left + 12, y, report::htmlText(text).c_str());
     }
     return svg + "</svg>\n";
 }

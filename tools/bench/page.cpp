@@ -8,7 +8,7 @@ namespace vdbcage::bench {
 
 namespace {
 
-using tool::htmlText;
+using report::htmlText;
 
 constexpr const char* style = R"(
 body { font: 15px/1.5 system-ui, sans-serif; margin: 2rem auto; max-width: 70rem; padding: 0 1rem; color: #1d2530;
@@ -45,21 +45,22 @@ bool isNumber(const std::string& cell)
 
 void Page::heading(const std::string& text)
 {
-    body_ += "<h2>" + htmlText(text) + "</h2>\n";
+    body_ += "<h2>" + report::htmlText(text) + "</h2>\n";
 }
 
 void Page::paragraph(const std::string& text)
 {
-    body_ += "<p>" + htmlText(text) + "</p>\n";
+    body_ += "<p>" + report::htmlText(text) + "</p>\n";
 }
 
 void Page::table(const std::string& caption, const std::vector<std::string>& head,
                  const std::vector<std::vector<std::string>>& rows)
 {
     const auto cell = [](const char* kind, const std::string& text, bool isRight) {
-        return std::string("<") + kind + (isRight ? " class=\"number\">" : ">") + htmlText(text) + "</" + kind + ">";
+        return std::string("<") + kind + (isRight ? " class=\"number\">" : ">") + report::htmlText(text) + "</" + kind +
+               ">";
     };
-    body_ += "<div class=\"wide\"><table>\n<caption>" + htmlText(caption) + "</caption>\n<tr>";
+    body_ += "<div class=\"wide\"><table>\n<caption>" + report::htmlText(caption) + "</caption>\n<tr>";
     for (std::size_t i = 0; i < head.size(); ++i) {
         bool isRight = false;
         for (const auto& row : rows) isRight = isRight || isNumber(row[i]);
@@ -76,7 +77,7 @@ void Page::table(const std::string& caption, const std::vector<std::string>& hea
 
 void Page::picture(const std::string& png, const std::string& caption)
 {
-    body_ += "<figure>\n" + tool::htmlPicture(png, caption) + "<figcaption>" + htmlText(caption) +
+    body_ += "<figure>\n" + report::htmlPicture(png, caption) + "<figcaption>" + report::htmlText(caption) +
              "</figcaption>\n</figure>\n";
 }
 
@@ -84,15 +85,15 @@ void Page::plots(const std::vector<std::string>& svg, const std::string& caption
 {
     body_ += "<figure>\n<div class=\"plots\">\n";
     for (const std::string& plot : svg) body_ += plot;
-    body_ += "</div>\n<figcaption>" + htmlText(caption) + "</figcaption>\n</figure>\n";
+    body_ += "</div>\n<figcaption>" + report::htmlText(caption) + "</figcaption>\n</figure>\n";
 }
 
 std::string Page::text(const std::string& title) const
 {
     return "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" "
            "content=\"width=device-width\">\n<title>" +
-           htmlText(title) + "</title>\n<style>" + style + "</style>\n</head>\n<body>\n<h1>" + htmlText(title) +
-           "</h1>\n" + body_ + "</body>\n</html>\n";
+           report::htmlText(title) + "</title>\n<style>" + style + "</style>\n</head>\n<body>\n<h1>" +
+           report::htmlText(title) + "</h1>\n" + body_ + "</body>\n</html>\n";
 }
 
 } // namespace vdbcage::bench

@@ -12,9 +12,9 @@
 #include <data/poses.h>
 #include <tbb/global_control.h>
 #include <tbb/info.h>
+#include <tools/cli/render.h>
 #include <tools/report/report.h>
 #include <tools/report/run_facts.h>
-#include <tools/vdbcage/render.h>
 #include <vdbcage/core/detail/atomic_file.h>
 #include <vdbcage/core/detail/grids.h>
 #include <vdbcage/core/error.h>
@@ -124,21 +124,21 @@ CageOptions textbook(int resolution)
 }
 
 /// A whole run in a process of its own, as `vdbcage-bench MODEL` prints it.
-Json wholeRun(const Arguments& arguments, const fs::path& model, const std::vector<std::string>& options)
+report::Json wholeRun(const Arguments& arguments, const fs::path& model, const std::vector<std::string>& options)
 {
     std::vector<std::string> words{arguments.self, model.string(), "--threads", std::to_string(arguments.threads)};
     words.insert(words.end(), options.begin(), options.end());
-    return Json::parse(runSelf(words));
+    return report::Json::parse(runSelf(words));
 }
 
-Json textbookRun(const Arguments& arguments, const fs::path& model, int resolution)
+report::Json textbookRun(const Arguments& arguments, const fs::path& model, int resolution)
 {
     return wholeRun(arguments, model,
                     {"--resolutions", std::to_string(resolution), "--bounding", "off", "--element", "cube",
                      "--close-radius", "0.0625", "--erode-radius", "0.025"});
 }
 
-double stageSeconds(const Json& run, const char* stage)
+double stageSeconds(const report::Json& run, const char* stage)
 {
     return run["stage_seconds"].value(stage, 0.0);
 }
@@ -172,7 +172,7 @@ std::string processorName()
 
 void addMachine(Page& page, const Arguments& arguments, const std::vector<Subject>& subjects)
 {
-    const Json facts = tool::runFacts("paper", {});
+    const report::Json facts = report::runFacts("paper", {});
     page.paragraph("What the paper \"Cage Generation with User Interaction in Cage Modeler\" measures, measured on "
                    "vdbcage. Its models are not public, so these are our own of the same kinds and sizes. Its figures "
                    "stand beside ours where there are any; they are wall seconds on four cores of an i7-8550U.");
@@ -197,7 +197,7 @@ void addMachine(Page& page, const Arguments& arguments, const std::vector<Subjec
 struct StageRow {
     int resolution = 0;
     double voxelize = 0, dilate = 0, erode = 0, close = 0;
-    std::optional<Json> plain, bounding; ///< whole runs
+    std::optional<report::Json> plain, bounding; ///< whole runs
 };
 
 StageRow stagesAt(const Arguments& arguments, const Subject& subject, int resolution)
@@ -233,8 +233,8 @@ PlotSeries seriesOf(const std::string& name, const std::vector<StageRow>& rows, 
     return series;
 }
 
-PlotSeries seriesOf(const std::string& name, const std::vector<StageRow>& rows, std::optional<Json> StageRow::*run,
-                    const char* field)
+PlotSeries seriesOf(const std::string& name, const std::vector<StageRow>& rows,
+                    std::optional<report::Json> StageRow::*run, const char* field)
 {
     PlotSeries series{name, {}};
     for (const StageRow& row : rows) {
@@ -262,7 +262,7 @@ void addStages(Page& page, const Arguments& arguments, const std::vector<Subject
                                           secondsText(row.erode),
                                           secondsText(row.close)};
             if (row.plain) {
-                const Json& run = *row.plain;
+                const report::Json& run = *row.plain;
                 line.push_back(secondsText(stageSeconds(run, "surface") + stageSeconds(run, "smooth") +
                                            stageSeconds(run, "decimate")));
                 line.push_back(secondsText(run["wall_seconds"]));
@@ -317,7 +317,7 @@ void addVoxelizers(Page& page, const Arguments& arguments, const std::vector<Sub
             runSelf({arguments.self, "voxelize", subject.path.string(), "--resolutions", list, "--voxelizers",
                      VDBCAGE_BENCH_VOXELIZERS, "--threads", std::to_string(arguments.threads)}));
         for (std::string text; std::getline(lines, text);) {
-            const Json line = Json::parse(text);
+            const report::Json line = report::Json::parse(text);
             if (line.contains("device")) device = line["device"];
             if (!line.contains("resolution")) continue;
             const int resolution = line["resolution"];
@@ -491,14 +491,14 @@ void addScaling(Page& page, const Arguments& arguments, const fs::path& folder)
                    "and the certificate.");
     std::vector<std::vector<std::string>> rows;
     PlotSeries time{"a whole run", {}}, rest{"all but decimate, tighten", {}}, memory{"a whole run", {}};
-    Mesh mesh = readMesh(folder / "creature.obj");
+    Mesh mesh = cli::readMesh(folder / "creature.obj");
     mesh.triangles = triangulate(mesh);
     mesh.quads.clear();
     for (int i = 0; i <= arguments.divisions; ++i) {
         if (i > 0) mesh = divided(mesh);
         const fs::path path = folder / "divided.ply";
         writeMesh(mesh, path);
-        const Json run = wholeRun(arguments, path, {"--resolutions", "64"});
+        const report::Json run = wholeRun(arguments, path, {"--resolutions", "64"});
         const auto triangles = static_cast<double>(mesh.triangles.size());
         const double seconds = run["wall_seconds"],
                      other = seconds - stageSeconds(run, "decimate") - stageSeconds(run, "tighten");
@@ -559,7 +559,7 @@ int runPaper(int argc, char** argv)
     for (Subject& subject : subjects) {
         subject.path = folder.path() / (std::string(subject.name) + ".obj");
         data::writeObj(subject.make(), subject.name, subject.path);
-        subject.mesh = readMesh(subject.path);
+        subject.mesh = cli::readMesh(subject.path);
     }
     Page page;
     addMachine(page, arguments, subjects);

@@ -89,9 +89,9 @@ Made make(Pipeline& pipeline, const CageOptions& options, Interrupter* interrupt
     return {std::make_shared<Mesh>(cage), pipeline.report(), seconds, clock.stages()};
 }
 
-py::object toPython(const tool::Json& json)
+py::object toPython(const report::Json& json)
 {
-    return py::module_::import("json").attr("loads")(tool::toText(json));
+    return py::module_::import("json").attr("loads")(report::toText(json));
 }
 
 /// (cage, the fields of its CageCheck, its report)
@@ -100,10 +100,10 @@ py::tuple toTuple(const Made& made, const CageOptions& options)
     py::dict stages;
     for (const StageTime& stage : made.stages) stages[py::str(stage.name)] = stage.seconds;
     py::dict report;
-    report["options"] = toPython(tool::toJson(options));
+    report["options"] = toPython(report::toJson(options));
     report["seconds"] = made.seconds;
     report["stages"] = stages;
-    report.attr("update")(toPython(tool::toJson(made.report)));
+    report.attr("update")(toPython(report::toJson(made.report)));
     return py::make_tuple(made.cage, toDict(made.report.check), report);
 }
 

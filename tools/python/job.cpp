@@ -53,7 +53,7 @@ public:
 private:
     mutable std::mutex mutex_;
     std::string stage_;
-    tool::RunProgress run_;
+    report::RunProgress run_;
     std::atomic<int> told_{0}; // of the stage
     std::atomic<bool> stopped_{false};
 };

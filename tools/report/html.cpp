@@ -2,7 +2,7 @@
 
 #include <vdbcage/core/detail/printable.h>
 
-namespace vdbcage::tool {
+namespace vdbcage::report {
 
 namespace {
 
@@ -38,4 +38,4 @@ std::string htmlPicture(const std::string& png, const std::string& description)
     return "<img alt=\"" + htmlText(description) + "\" src=\"data:image/png;base64," + base64(png) + "\">\n";
 }
 
-} // namespace vdbcage::tool
+} // namespace vdbcage::report

@@ -12,7 +12,7 @@
 #include <vdbcage/core/detail/read_file.h>
 #include <vdbcage/core/error.h>
 
-namespace vdbcage::tool {
+namespace vdbcage::report {
 
 namespace {
 
@@ -175,4 +175,4 @@ std::string sumOf(const std::vector<JobResult>& results)
     return text + (failed > 0 ? ", " + std::to_string(failed) + " failed" : "");
 }
 
-} // namespace vdbcage::tool
+} // namespace vdbcage::report

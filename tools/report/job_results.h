@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace vdbcage::tool {
+namespace vdbcage::report {
 
 /// What a report of `make` tells.
 struct JobResult {
@@ -34,4 +34,4 @@ std::string csvOf(const std::vector<JobResult>& results);
 /// "6 jobs: 5 certified, 1 failed"
 std::string sumOf(const std::vector<JobResult>& results);
 
-} // namespace vdbcage::tool
+} // namespace vdbcage::report

@@ -9,7 +9,7 @@
 #include <openvdb/math/Vec3.h>
 #include <vdbcage/mesh/detail/half_edges.h>
 
-namespace vdbcage::tool {
+namespace vdbcage::report {
 
 namespace {
 
@@ -136,4 +136,4 @@ QuadQuality quadQuality(const Mesh& mesh)
     return quality;
 }
 
-} // namespace vdbcage::tool
+} // namespace vdbcage::report

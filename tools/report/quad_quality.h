@@ -5,7 +5,7 @@
 
 #include <vdbcage/mesh/mesh.h>
 
-namespace vdbcage::tool {
+namespace vdbcage::report {
 
 /// Shape and flow of the quads of a mesh. Angles are in degrees; shares are 0 to 1.
 struct QuadQuality {
@@ -26,4 +26,4 @@ struct QuadQuality {
 /// Cost: O(n log n).
 QuadQuality quadQuality(const Mesh& mesh);
 
-} // namespace vdbcage::tool
+} // namespace vdbcage::report

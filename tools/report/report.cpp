@@ -13,7 +13,7 @@
 #include <vdbcage/core/detail/number_text.h>
 #include <vdbcage/core/detail/printable.h>
 
-namespace vdbcage::tool {
+namespace vdbcage::report {
 
 Json toJson(const CageCheck& check)
 {
@@ -358,4 +358,4 @@ std::string describe(const CageCheck& check)
     return text;
 }
 
-} // namespace vdbcage::tool
+} // namespace vdbcage::report

@@ -11,7 +11,7 @@
 #include <vdbcage/mesh/mesh_io.h>
 #include <vdbcage/pipeline/pipeline.h>
 
-namespace vdbcage::tool {
+namespace vdbcage::report {
 
 using Json = nlohmann::ordered_json;
 
@@ -26,8 +26,8 @@ Json toJson(const CageOptions& options);
 /// What was asked for, by the command or in the window.
 struct CageOrder {
     std::vector<std::string> arguments; ///< see runFacts()
-    Json models;                        ///< see entryOf()
-    std::string inputs;                 ///< fingerprint() of what it was to be made from; empty: not known
+    Json models;                        ///< see cli::entryOf()
+    std::string inputs;                 ///< cli::fingerprint() of what it was to be made from; empty: not known
     std::filesystem::path cage;         ///< where it is, or will be, written; empty: nowhere
     const CageOptions& options;
 };
@@ -58,4 +58,4 @@ std::vector<std::string> remarks(const CageReport& report, const CageOptions& op
 /// What the file has otherwise than its format: "  warning: FILE: line 7: ...", one line each with its end.
 std::string warningLines(const std::filesystem::path& path, const ReadSummary& summary);
 
-} // namespace vdbcage::tool
+} // namespace vdbcage::report

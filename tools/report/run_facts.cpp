@@ -10,7 +10,7 @@
 #include <tools/report/commit.h>
 #include <vdbcage/core/version.h>
 
-namespace vdbcage::tool {
+namespace vdbcage::report {
 
 namespace {
 
@@ -49,4 +49,4 @@ std::string sha256Of(const std::string& bytes)
     return text;
 }
 
-} // namespace vdbcage::tool
+} // namespace vdbcage::report

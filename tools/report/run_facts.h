@@ -5,7 +5,7 @@
 
 #include <tools/report/report.h>
 
-namespace vdbcage::tool {
+namespace vdbcage::report {
 
 /// What every report begins with: its form, what made it, where. `arguments` are the command's words without its name;
 /// empty if it was no command.
@@ -14,4 +14,4 @@ Json runFacts(const std::string& kind, const std::vector<std::string>& arguments
 /// SHA-256 in 64 hexadecimal digits, as the program sha256sum prints it.
 std::string sha256Of(const std::string& bytes);
 
-} // namespace vdbcage::tool
+} // namespace vdbcage::report

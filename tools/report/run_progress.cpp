@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-namespace vdbcage::tool {
+namespace vdbcage::report {
 
 namespace {
 
@@ -99,4 +99,4 @@ std::optional<int> RunProgress::secondsLeft(double seconds) const
     return static_cast<int>(std::min(1e9, std::ceil(*end_ - seconds)));
 }
 
-} // namespace vdbcage::tool
+} // namespace vdbcage::report

@@ -3,7 +3,7 @@
 #include <optional>
 #include <string_view>
 
-namespace vdbcage::tool {
+namespace vdbcage::report {
 
 /// Turns the stages that an interrupter is told into how far the whole run is, and how long it will still take.
 ///
@@ -45,4 +45,4 @@ private:
     std::optional<double> end_;
 };
 
-} // namespace vdbcage::tool
+} // namespace vdbcage::report

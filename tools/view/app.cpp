@@ -7,21 +7,21 @@
 #include <map>
 #include <system_error>
 
-#include <tools/view/animation.h>
-#include <tools/view/picture_control.h>
-#include <tools/view/pictures.h>
-#include <tools/view/saver.h>
-#include <tools/view/saving.h>
-#include <tools/view/state/folder.h>
+#include <tools/view/files/folder.h>
+#include <tools/view/files/preferences.h>
+#include <tools/view/files/saver.h>
+#include <tools/view/files/saving.h>
+#include <tools/view/files/scene.h>
+#include <tools/view/input/verb_commands.h>
+#include <tools/view/input/verbs.h>
+#include <tools/view/jobs/posing.h>
+#include <tools/view/picture/picture_control.h>
+#include <tools/view/picture/pictures.h>
+#include <tools/view/state/animation.h>
 #include <tools/view/state/move.h>
-#include <tools/view/state/posing.h>
-#include <tools/view/state/preferences.h>
-#include <tools/view/state/scene.h>
 #include <tools/view/state/words.h>
 #include <tools/view/values.h>
-#include <tools/view/verb_commands.h>
-#include <tools/view/verbs.h>
-#include <tools/view/widget_renderer.h>
+#include <tools/view/widgets/widget_renderer.h>
 #include <vdbcage/core/detail/number_text.h>
 #include <vdbcage/core/error.h>
 

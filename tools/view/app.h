@@ -9,12 +9,12 @@
 
 #include <tools/draw/canvas.h>
 #include <tools/draw/picture.h>
-#include <tools/view/input.h>
+#include <tools/view/input/input.h>
+#include <tools/view/jobs/binder.h>
+#include <tools/view/jobs/runner.h>
 #include <tools/view/panels/panels.h>
-#include <tools/view/state/binder.h>
-#include <tools/view/state/runner.h>
 #include <tools/view/state/session.h>
-#include <tools/view/widgets.h>
+#include <tools/view/widgets/widgets.h>
 
 namespace vdbcage::view {
 

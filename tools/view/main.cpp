@@ -8,13 +8,13 @@
 
 #include <CLI/CLI.hpp>
 
-#include <tools/report/manual_page.h>
+#include <tools/manual/manual_page.h>
+#include <tools/view/files/folder.h>
+#include <tools/view/files/preferences.h>
+#include <tools/view/input/verbs.h>
 #include <tools/view/script.h>
 #include <tools/view/state/command.h>
-#include <tools/view/state/folder.h>
-#include <tools/view/state/preferences.h>
 #include <tools/view/state/words.h>
-#include <tools/view/verbs.h>
 #include <tools/view/window.h>
 #include <vdbcage/core/detail/atomic_file.h>
 #include <vdbcage/core/detail/printable.h>
@@ -89,7 +89,7 @@ void printHelp()
 
 void printManual()
 {
-    tool::ManualPage page("vdbcage-view", summary);
+    manual::ManualPage page("vdbcage-view", summary);
     page.section("SYNOPSIS");
     page.code(usage);
     page.section("DESCRIPTION");

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include <tools/view/state/posing.h>
-#include <tools/view/state/preferences.h>
+#include <tools/view/files/preferences.h>
+#include <tools/view/jobs/posing.h>
 #include <tools/view/state/session.h>
 
 namespace vdbcage::view {

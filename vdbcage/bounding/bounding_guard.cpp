@@ -9,7 +9,7 @@
 #include <vector>
 
 #include <tbb/blocked_range.h>
-#include <vdbcage/bounding/detail/guard_model.h>
+#include <vdbcage/bounding/detail/guard/guard_model.h>
 #include <vdbcage/core/detail/parallel.h>
 
 namespace vdbcage {

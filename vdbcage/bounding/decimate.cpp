@@ -1,9 +1,9 @@
 #include <vdbcage/bounding/decimate.h>
 
-#include <vdbcage/bounding/detail/recorded_decimation.h>
-#include <vdbcage/bounding/detail/redistribute.h>
-#include <vdbcage/bounding/detail/relax.h>
-#include <vdbcage/bounding/detail/tightening.h>
+#include <vdbcage/bounding/detail/triangles/recorded_decimation.h>
+#include <vdbcage/bounding/detail/triangles/redistribute.h>
+#include <vdbcage/bounding/detail/triangles/relax.h>
+#include <vdbcage/bounding/detail/triangles/tightening.h>
 #include <vdbcage/core/detail/stage_parts.h>
 
 namespace vdbcage {

@@ -10,8 +10,8 @@
 #include <optional>
 #include <vector>
 
-#include <vdbcage/bounding/detail/admissible.h>
-#include <vdbcage/bounding/detail/face_queries.h>
+#include <vdbcage/bounding/detail/guard/admissible.h>
+#include <vdbcage/bounding/detail/guard/face_queries.h>
 #include <vdbcage/core/error.h>
 
 namespace vdbcage {

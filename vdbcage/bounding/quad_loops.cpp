@@ -5,13 +5,13 @@
 #include <utility>
 #include <vector>
 
-#include <vdbcage/bounding/detail/joint_rings.h>
-#include <vdbcage/bounding/detail/loop_decimation.h>
-#include <vdbcage/bounding/detail/loop_exchange.h>
-#include <vdbcage/bounding/detail/quad_making.h>
-#include <vdbcage/bounding/detail/quad_relax.h>
-#include <vdbcage/bounding/detail/relax.h>
-#include <vdbcage/bounding/detail/tightening.h>
+#include <vdbcage/bounding/detail/loops/joint_rings.h>
+#include <vdbcage/bounding/detail/loops/loop_decimation.h>
+#include <vdbcage/bounding/detail/loops/loop_exchange.h>
+#include <vdbcage/bounding/detail/quads/quad_making.h>
+#include <vdbcage/bounding/detail/quads/quad_relax.h>
+#include <vdbcage/bounding/detail/triangles/relax.h>
+#include <vdbcage/bounding/detail/triangles/tightening.h>
 #include <vdbcage/core/detail/stage_parts.h>
 #include <vdbcage/core/error.h>
 

@@ -1,6 +1,6 @@
 #include <vdbcage/bounding/smooth.h>
 
-#include <vdbcage/bounding/detail/relax.h>
+#include <vdbcage/bounding/detail/triangles/relax.h>
 
 namespace vdbcage {
 

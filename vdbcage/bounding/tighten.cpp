@@ -1,7 +1,7 @@
 #include <vdbcage/bounding/tighten.h>
 
-#include <vdbcage/bounding/detail/relax.h>
-#include <vdbcage/bounding/detail/tightening.h>
+#include <vdbcage/bounding/detail/triangles/relax.h>
+#include <vdbcage/bounding/detail/triangles/tightening.h>
 #include <vdbcage/core/detail/stage_parts.h>
 #include <vdbcage/core/error.h>
 

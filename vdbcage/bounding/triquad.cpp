@@ -5,14 +5,14 @@
 #include <optional>
 #include <utility>
 
-#include <vdbcage/bounding/detail/collapse.h>
-#include <vdbcage/bounding/detail/quad_cleanup.h>
-#include <vdbcage/bounding/detail/quad_making.h>
-#include <vdbcage/bounding/detail/quad_pairing.h>
-#include <vdbcage/bounding/detail/quad_relax.h>
-#include <vdbcage/bounding/detail/quad_table.h>
-#include <vdbcage/bounding/detail/relax.h>
-#include <vdbcage/bounding/detail/tightening.h>
+#include <vdbcage/bounding/detail/quads/pairing/quad_pairing.h>
+#include <vdbcage/bounding/detail/quads/quad_cleanup.h>
+#include <vdbcage/bounding/detail/quads/quad_making.h>
+#include <vdbcage/bounding/detail/quads/quad_relax.h>
+#include <vdbcage/bounding/detail/quads/quad_table.h>
+#include <vdbcage/bounding/detail/triangles/collapse.h>
+#include <vdbcage/bounding/detail/triangles/relax.h>
+#include <vdbcage/bounding/detail/triangles/tightening.h>
 #include <vdbcage/core/detail/stage_parts.h>
 
 namespace vdbcage {

@@ -17,16 +17,16 @@
 #include <vdbcage/core/detail/number_text.h>
 #include <vdbcage/core/detail/parallel.h>
 #include <vdbcage/core/error.h>
-#include <vdbcage/deform/detail/biharmonic.h>
 #include <vdbcage/deform/detail/bound_cage.h>
 #include <vdbcage/deform/detail/cage_pack.h>
 #include <vdbcage/deform/detail/cage_triangles.h>
-#include <vdbcage/deform/detail/green.h>
-#include <vdbcage/deform/detail/harmonic.h>
-#include <vdbcage/deform/detail/likelihood.h>
-#include <vdbcage/deform/detail/mean_value.h>
-#include <vdbcage/deform/detail/row_kernels.h>
-#include <vdbcage/deform/detail/somigliana.h>
+#include <vdbcage/deform/detail/families/biharmonic.h>
+#include <vdbcage/deform/detail/families/green.h>
+#include <vdbcage/deform/detail/families/harmonic.h>
+#include <vdbcage/deform/detail/families/likelihood.h>
+#include <vdbcage/deform/detail/families/mean_value.h>
+#include <vdbcage/deform/detail/families/somigliana.h>
+#include <vdbcage/deform/detail/kernels/row_kernels.h>
 #include <vdbcage/deform/detail/weight_blocks.h>
 #include <vdbcage/deform/detail/weight_matrix.h>
 

@@ -8,8 +8,8 @@
 #include <vdbcage/core/detail/mask_grid.h>
 #include <vdbcage/core/error.h>
 #include <vdbcage/volume/detail/close_options.h>
-#include <vdbcage/volume/detail/cube_pass.h>
-#include <vdbcage/volume/detail/sphere_pass.h>
+#include <vdbcage/volume/detail/cube/cube_pass.h>
+#include <vdbcage/volume/detail/sphere/sphere_pass.h>
 
 namespace vdbcage {
 

@@ -11,9 +11,9 @@
 #include <vdbcage/core/detail/parallel.h>
 #include <vdbcage/core/error.h>
 #include <vdbcage/volume/detail/close_options.h>
-#include <vdbcage/volume/detail/radius_field.h>
 #include <vdbcage/volume/detail/scale_at.h>
-#include <vdbcage/volume/detail/sphere_pass.h>
+#include <vdbcage/volume/detail/sphere/radius_field.h>
+#include <vdbcage/volume/detail/sphere/sphere_pass.h>
 #include <vdbcage/volume/vdb_io.h>
 
 namespace vdbcage {

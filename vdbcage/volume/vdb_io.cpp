@@ -12,7 +12,7 @@
 #include <vdbcage/core/detail/read_file.h>
 #include <vdbcage/core/error.h>
 #include <vdbcage/core/version.h>
-#include <vdbcage/volume/detail/vdb_file.h>
+#include <vdbcage/volume/detail/vdb/vdb_file.h>
 
 namespace vdbcage {
 

@@ -8,8 +8,8 @@
 #include <imgui_stdlib.h> // needs the one above
 
 #include <tools/view/panels/panels.h>
-#include <tools/view/theme.h>
-#include <tools/view/widgets.h>
+#include <tools/view/widgets/theme.h>
+#include <tools/view/widgets/widgets.h>
 
 /// What the parts of the panels share.
 namespace vdbcage::view {

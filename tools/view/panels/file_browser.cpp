@@ -5,9 +5,9 @@
 #include <cstdio>
 #include <system_error>
 
-#include <tools/report/frames.h>
+#include <tools/files/frames.h>
+#include <tools/view/files/saver.h>
 #include <tools/view/panels/parts.h>
-#include <tools/view/saver.h>
 #include <tools/view/state/words.h>
 #include <vdbcage/core/error.h>
 
@@ -115,7 +115,7 @@ void choose(const PanelContext& context, FileBrowser& browser, bool isConfirmed)
     }
     if (browser.saves && !browser.extensions.empty() && !path.has_extension()) path += browser.extensions.front();
     const bool isThere =
-        isSequence(browser.verb) ? tool::countFrames(tool::patternFor(path)) > 0 : fs::exists(path, error);
+        isSequence(browser.verb) ? files::countFrames(files::patternFor(path)) > 0 : fs::exists(path, error);
     if (browser.saves && !isConfirmed && isThere) {
         browser.question =
             path.filename().string() + (browser.extensions.empty() ? " is there already. Write the stages into it?"

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include <tools/view/state/folder.h>
+#include <tools/view/files/folder.h>
 
 namespace vdbcage::view {
 

@@ -3,8 +3,8 @@
 #include <cstdio>
 #include <numeric>
 
-#include <tools/view/distance_colours.h>
 #include <tools/view/panels/parts.h>
+#include <tools/view/picture/distance_colours.h>
 #include <tools/view/state/words.h>
 #include <vdbcage/core/detail/length_text.h>
 

@@ -9,20 +9,16 @@
 #include <vector>
 
 #include <openvdb/math/Vec3.h>
-#include <tools/view/key_map.h>
-#include <tools/view/picture_overlay.h>
+#include <tools/view/input/key_map.h>
+#include <tools/view/jobs/planner.h>
+#include <tools/view/jobs/pose_checker.h>
+#include <tools/view/jobs/runner.h>
+#include <tools/view/picture/picture_overlay.h>
+#include <tools/view/picture/rectangle.h>
 #include <tools/view/state/move.h>
-#include <tools/view/state/planner.h>
-#include <tools/view/state/pose_checker.h>
-#include <tools/view/state/runner.h>
 #include <tools/view/state/session.h>
 
 namespace vdbcage::view {
-
-/// A rectangle of the window, in pixels from its top left.
-struct Rectangle {
-    int left = 0, top = 0, width = 0, height = 0;
-};
 
 /// How many of each a mesh has.
 struct Counts {

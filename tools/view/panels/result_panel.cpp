@@ -128,7 +128,7 @@ void buildResult(const PanelContext& context)
     }
     if (!shown->order.cage) {
         ImGui::PushTextWrapPos(0);
-        for (const std::string& remark : tool::remarks(shown->report, shown->order.options)) muted(remark);
+        for (const std::string& remark : report::remarks(shown->report, shown->order.options)) muted(remark);
         ImGui::PopTextWrapPos();
     }
     const bool showsTimes = context.content.session.state().view.times;

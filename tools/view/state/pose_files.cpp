@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include <tools/report/frames.h>
-#include <tools/report/posed_cage.h>
+#include <tools/files/frames.h>
+#include <tools/files/posed_cage.h>
 #include <tools/view/state/move.h>
 #include <tools/view/state/words.h>
 #include <vdbcage/core/detail/read_file.h>
@@ -22,19 +22,19 @@ using openvdb::Vec3d;
 PosedPoints openPosedCage(const Mesh& cage, const fs::path& path)
 {
     const OpenedMeshPtr posed = openMesh(path);
-    return tool::posedPointsOf(posed->path, posed->mesh, cage);
+    return files::posedPointsOf(posed->path, posed->mesh, cage);
 }
 
 TimeLine openSequence(const MeshPtr& cage, const fs::path& path, std::string* remark)
 {
     const fs::path pattern = patternOf(path);
-    if (!tool::isPattern(pattern)) {
+    if (!files::isPattern(pattern)) {
         throw InputError(path.string() + ": its name has no number; a sequence is named as walk.0001.obj");
     }
     TimeLine poses;
-    const std::vector<tool::Frame> frames = tool::findFrames(pattern);
+    const std::vector<files::Frame> frames = files::findFrames(pattern);
     std::size_t reordered = 0;
-    for (const tool::Frame& frame : frames) {
+    for (const files::Frame& frame : frames) {
         if (frame.number > lastFrame) {
             throw InputError(frame.path.string() + ": the number of a frame must be at most " +
                              std::to_string(lastFrame));
@@ -44,7 +44,7 @@ TimeLine openSequence(const MeshPtr& cage, const fs::path& path, std::string* re
         poses = poses.with(
             {static_cast<int>(frame.number), poseOf(cage, std::move(pose.points)), frame.path.stem().string()});
     }
-    if (remark) *remark = tool::describeOrder(pattern.filename(), reordered, frames.size());
+    if (remark) *remark = files::describeOrder(pattern.filename(), reordered, frames.size());
     return poses;
 }
 
@@ -113,7 +113,7 @@ TimeLine openParameters(const MeshPtr& cage, const fs::path& path, int frames)
 Document withOpenedPose(const State& state, const fs::path& path, std::string* remark)
 {
     PosedPoints pose = openPosedCage(*cageOf(state), path);
-    if (remark) *remark = tool::describeOrder(path.filename(), pose.reordered, 1);
+    if (remark) *remark = files::describeOrder(path.filename(), pose.reordered, 1);
     return withPose(state, std::move(pose.points));
 }
 
@@ -128,7 +128,7 @@ Document withOpenedPoses(const State& state, const fs::path& path, int frames, s
 
 fs::path patternOf(const fs::path& path)
 {
-    if (tool::isPattern(path)) return path;
+    if (files::isPattern(path)) return path;
     const std::string name = path.filename().string(), stem = path.stem().string();
     const std::size_t last = stem.find_last_of("0123456789");
     if (last == std::string::npos) return path;
@@ -140,7 +140,7 @@ fs::path patternOf(const fs::path& path)
     };
     const fs::path plain = with("%d"), padded = with("%0" + std::to_string(digits) + 'd');
     if (digits == 1) return plain;
-    return name[first] == '0' || tool::countFrames(plain) <= tool::countFrames(padded) ? padded : plain;
+    return name[first] == '0' || files::countFrames(plain) <= files::countFrames(padded) ? padded : plain;
 }
 
 } // namespace vdbcage::view

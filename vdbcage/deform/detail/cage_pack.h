@@ -3,7 +3,7 @@
 #include <vector>
 
 #include <vdbcage/deform/detail/bound_cage.h>
-#include <vdbcage/deform/detail/packed_cage.h>
+#include <vdbcage/deform/detail/kernels/packed_cage.h>
 
 namespace vdbcage::detail {
 

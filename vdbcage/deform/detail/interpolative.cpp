@@ -10,7 +10,7 @@
 #include <limits>
 #include <numeric>
 
-#include <vdbcage/deform/detail/row_kernels.h>
+#include <vdbcage/deform/detail/kernels/row_kernels.h>
 
 namespace vdbcage::detail {
 

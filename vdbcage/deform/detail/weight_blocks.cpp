@@ -11,7 +11,7 @@
 #include <vdbcage/core/detail/parallel.h>
 #include <vdbcage/core/error.h>
 #include <vdbcage/deform/detail/interpolative.h>
-#include <vdbcage/deform/detail/row_kernels.h>
+#include <vdbcage/deform/detail/kernels/row_kernels.h>
 
 namespace vdbcage::detail {
 

@@ -8,9 +8,9 @@
 #include <sstream>
 #include <utility>
 
-#include <vdbcage/bounding/detail/guard_model.h>
-#include <vdbcage/bounding/detail/peaks.h>
-#include <vdbcage/bounding/detail/tightening.h>
+#include <vdbcage/bounding/detail/guard/guard_model.h>
+#include <vdbcage/bounding/detail/triangles/peaks.h>
+#include <vdbcage/bounding/detail/triangles/tightening.h>
 #include <vdbcage/bounding/near_coplanar.h>
 #include <vdbcage/bounding/quad_loops.h>
 #include <vdbcage/bounding/smooth.h>

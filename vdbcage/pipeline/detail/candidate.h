@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include <vdbcage/bounding/detail/recorded_decimation.h>
+#include <vdbcage/bounding/detail/triangles/recorded_decimation.h>
 #include <vdbcage/mesh/symmetry.h>
 #include <vdbcage/mesh/topology.h>
 #include <vdbcage/pipeline/detail/search.h>

@@ -1,0 +1,239 @@
+#include <tools/view/files/scene.h>
+
+#include <algorithm>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+#include <tools/files/frames.h>
+#include <tools/files/posed_cage.h>
+#include <tools/view/state/command.h>
+#include <tools/view/state/words.h>
+#include <vdbcage/core/detail/atomic_file.h>
+#include <vdbcage/core/detail/read_file.h>
+#include <vdbcage/core/error.h>
+#include <vdbcage/core/version.h>
+#include <vdbcage/mesh/mesh_io.h>
+
+namespace vdbcage::view {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+namespace {
+
+constexpr int formatVersion = 1;
+
+/// A file as it is named in a scene: from the scene's folder where both have a common one, so that a folder with a
+/// scene can be moved.
+report::Json fileOf(const fs::path& path, const fs::path& scene)
+{
+    const fs::path folder = fs::absolute(scene).lexically_normal().parent_path();
+    const fs::path relative = path.lexically_relative(folder);
+    const bool isBelow = !relative.empty() && *relative.begin() != "..";
+    return {{"file", (isBelow ? relative : path).string()}, {"digest", digestOf(path)}};
+}
+
+/// Where it is. \throw InputError it is another one now
+fs::path sameFile(const report::Json& file, const fs::path& scene)
+{
+    const fs::path path = scene.parent_path() / file.at("file").get<std::string>();
+    const std::string digest = digestOf(path);
+    const auto saved = file.at("digest").get<std::string>();
+    if (digest != saved) {
+        throw InputError(path.string() + ": it is not the file that the scene " + scene.string() +
+                         " was saved with (its digest is " + digest + ", not " + saved + ")");
+    }
+    return path;
+}
+
+report::Json report::toJson(const Elasticity& elasticity)
+{
+    return {{"nu", elasticity.nu},
+            {"rotations", rotationsName(elasticity.rotations)},
+            {"local_bulging", elasticity.localBulging},
+            {"global_bulging", elasticity.globalBulging}};
+}
+
+/// \throw InputError
+Elasticity elasticityOf(const report::Json& json)
+{
+    const Elasticity elasticity{json.at("nu").get<double>(), rotationsNamed(json.at("rotations").get<std::string>()),
+                                json.at("local_bulging").get<double>(), json.at("global_bulging").get<double>()};
+    requireElasticity(elasticity);
+    return elasticity;
+}
+
+/// A cage that was edited has no file of its own.
+OpenedMeshPtr editedCage(const fs::path& file)
+{
+    OpenedMesh edited;
+    edited.mesh = cli::readMesh(file);
+    return std::make_shared<const OpenedMesh>(std::move(edited));
+}
+
+/// Poses to and from files beside a scene. Those of one cage at rest share its file.
+class PoseReader {
+public:
+    explicit PoseReader(fs::path folder) : folder_(std::move(folder)) {}
+
+    TimeLine read(const report::Json& list)
+    {
+        TimeLine poses;
+        for (const report::Json& entry : list) {
+            PoseKey key;
+            key.frame = entry.at("frame").get<int>();
+            if (key.frame < 0 || key.frame > lastFrame) {
+                throw InputError("poses: frame " + std::to_string(key.frame) +
+                                 " is not allowed; it must be from 0 to " + std::to_string(lastFrame));
+            }
+            key.name = entry.at("name").get<std::string>();
+            if (!entry.at("posed").is_null()) {
+                key.pose = readPose(folder_ / entry.at("rest").get<std::string>(),
+                                    folder_ / entry.at("posed").get<std::string>());
+            }
+            poses = poses.with(std::move(key));
+        }
+        return poses;
+    }
+
+private:
+    PosePtr readPose(const fs::path& restPath, const fs::path& posedPath)
+    {
+        MeshPtr& rest = rests_[restPath];
+        if (!rest) rest = std::make_shared<const Mesh>(cli::readMesh(restPath));
+        return std::make_shared<const Pose>(
+            Pose{rest, files::posedPointsOf(posedPath, cli::readMesh(posedPath), *rest).points});
+    }
+
+    fs::path folder_;
+    std::map<fs::path, MeshPtr> rests_;
+};
+
+} // namespace
+
+fs::path cageBeside(const fs::path& scene)
+{
+    return fs::path(scene).replace_extension(".cage.obj");
+}
+
+fs::path restBeside(const fs::path& scene, std::size_t number)
+{
+    return fs::path(scene).replace_extension(".rest" + (number == 0 ? "" : '.' + std::to_string(number)) + ".obj");
+}
+
+fs::path poseBeside(const fs::path& scene, int frame)
+{
+    return files::framePath(fs::path(scene).replace_extension(".pose.%04d.obj"), frame);
+}
+
+void saveScene(const State& state, const CageResult* current, const fs::path& path)
+{
+    if (path.extension() != ".json") throw InputError(path.string() + ": scenes are written as .json");
+    const Document& document = state.document;
+    if (!document.model) throw InputError(path.string() + ": there is no model yet, so there is no scene to save");
+    report::Json options = report::Json::object(), view = report::Json::array();
+    for (const auto& [name, value] : optionValues(document.options)) options[name] = value;
+    for (const Command& command : commandsFor(state.view)) view.push_back(report::toText(command));
+    const bool hasMade = current && !document.cage;
+    const bool isEdited = document.cage && document.cage->path.empty();
+    const auto nameOf = [](const fs::path& file) { return file.filename().string(); };
+    report::Json poses = report::Json::array();
+    std::vector<MeshPtr> rests;
+    std::vector<Mesh> posed; // one for each key that has a pose
+    for (const PoseKey& key : document.poses.keys()) {
+        report::Json entry{{"frame", key.frame}, {"name", key.name}, {"rest", nullptr}, {"posed", nullptr}};
+        if (key.pose) {
+            auto rest = std::find(rests.begin(), rests.end(), key.pose->rest);
+            if (rest == rests.end()) rest = rests.insert(rest, key.pose->rest);
+            entry["rest"] = nameOf(restBeside(path, static_cast<std::size_t>(rest - rests.begin())));
+            entry["posed"] = nameOf(poseBeside(path, key.frame));
+            posed.push_back(*key.pose->rest);
+            posed.back().points = key.pose->points;
+        }
+        poses.push_back(std::move(entry));
+    }
+    const report::Json scene{
+        {"vdbcage_scene", formatVersion},
+        {"version", VDBCAGE_VERSION},
+        {"model", fileOf(document.model->path, path)},
+        {"options", options},
+        {"opened_cage", document.cage && !isEdited ? fileOf(document.cage->path, path) : report::Json()},
+        {"made_cage", hasMade ? report::Json(nameOf(cageBeside(path))) : report::Json()},
+        {"edited_cage", isEdited ? report::Json(nameOf(cageBeside(path))) : report::Json()},
+        {"poses", poses},
+        {"coordinates", coordinatesName(document.coordinates)},
+        {"weights", document.weights ? fileOf(document.weights->path, path) : report::Json()},
+        {"elasticity", report::toJson(document.elasticity)},
+        {"view", view}};
+    std::string text;
+    try {
+        text = scene.dump(2) + '\n';
+    } catch (const report::Json::exception&) {
+        throw InputError(path.string() + ": a name of a file is not UTF-8, as JSON must be");
+    }
+    PendingFiles files;
+    const auto add = [&](const Mesh& mesh, const fs::path& file) {
+        files.add(file, [&mesh, file](std::ostream& out) { writeMesh(mesh, out, file); });
+    };
+    if (hasMade) add(current->cage, cageBeside(path));
+    if (isEdited) add(document.cage->mesh, cageBeside(path));
+    for (std::size_t i = 0; i < rests.size(); ++i) add(*rests[i], restBeside(path, i));
+    std::size_t next = 0;
+    for (const PoseKey& key : document.poses.keys()) {
+        if (key.pose) add(posed[next++], poseBeside(path, key.frame));
+    }
+    files.add(path, [&](std::ostream& out) { out << text; });
+    files.commit();
+}
+
+State openScene(const fs::path& given)
+{
+    const fs::path path = fs::absolute(given).lexically_normal();
+    const std::string text = detail::readFile(path);
+    State state;
+    try {
+        const report::Json scene = report::Json::parse(text);
+        const int version = scene.at("vdbcage_scene").get<int>();
+        if (version != formatVersion) {
+            throw InputError("it is a scene of version " + std::to_string(version) + "; only version " +
+                             std::to_string(formatVersion) + " is known");
+        }
+        for (const auto& option : scene.at("options").items()) {
+            setOption(state.document.options, option.key(), option.value().get<std::string>());
+        }
+        for (const report::Json& line : scene.at("view")) {
+            const Command command = commandOf(wordsOf(line.get<std::string>()));
+            if (changesDocument(command)) throw InputError("view: '" + line.get<std::string>() + "' is not of a view");
+            state = applied(state, command);
+        }
+        state.document.model = openMesh(sameFile(scene.at("model"), path));
+        if (!scene.at("opened_cage").is_null()) state.document.cage = openMesh(sameFile(scene.at("opened_cage"), path));
+        // Scenes of before have none of these.
+        if (scene.contains("edited_cage") && !scene["edited_cage"].is_null()) {
+            state.document.cage = editedCage(path.parent_path() / scene["edited_cage"].get<std::string>());
+        }
+        PoseReader poses(path.parent_path());
+        if (scene.contains("poses")) state.document.poses = poses.read(scene["poses"]);
+        if (scene.contains("pose") && !scene["pose"].is_null()) { // there was one alone
+            const report::Json& one = scene["pose"];
+            state.document.poses = poses.read(report::Json::array(
+                {report::Json{{"frame", 0}, {"name", ""}, {"rest", one.at("rest")}, {"posed", one.at("posed")}}}));
+        }
+        if (scene.contains("weights") && !scene["weights"].is_null()) {
+            state.document.weights = openWeights(sameFile(scene["weights"], path));
+            state.document.coordinates = Coordinates::given;
+        } else if (scene.contains("coordinates")) {
+            state.document.coordinates = coordinatesNamed(scene["coordinates"].get<std::string>());
+        }
+        if (scene.contains("elasticity")) state.document.elasticity = elasticityOf(scene["elasticity"]);
+    } catch (const report::Json::exception& error) {
+        throw InputError(path.string() + ": it is no scene: " + error.what());
+    } catch (const InputError& error) {
+        throw InputError(path.string() + ": " + error.what());
+    }
+    return state;
+}
+
+} // namespace vdbcage::view

@@ -1,0 +1,95 @@
+#include <tools/view/jobs/follower.h>
+
+#include <tools/view/jobs/model_values.h>
+#include <tools/view/state/move.h>
+
+namespace vdbcage::view {
+
+void Follower::follow(const State& state, const std::vector<openvdb::Vec3d>& cagePoints, const Effort& effort)
+{
+    if (!effort.isPosing) {
+        binder_.want(std::nullopt);
+    } else if (effort.isToStay) {
+        binder_.want(bindOrder(state));
+    }
+    followMaterial(state.document.elasticity);
+    if (!effort.isPosing || cagePoints == state.cage->points) {
+        model_.update(nullptr, {});
+    } else if (bound_ && bound_->order == bindOrder(state)) {
+        model_.update(bound_, cagePoints);
+    }
+    followCheck(state, cagePoints, effort.isPosing && effort.standsStill);
+    followValues(state);
+}
+
+void Follower::followMaterial(const Elasticity& elasticity)
+{
+    if (boundByBinder_ == binder_.bound() && elasticity_ == elasticity) return;
+    boundByBinder_ = binder_.bound();
+    elasticity_ = elasticity;
+    bound_ = withMaterial(boundByBinder_, elasticity);
+}
+
+void Follower::followCheck(const State& state, const std::vector<openvdb::Vec3d>& cagePoints, bool standsStill)
+{
+    std::optional<PoseCheckOrder> order;
+    if (standsStill && cagePoints != state.cage->points) {
+        order = PoseCheckOrder{bindOrder(state), cagePoints, nullptr};
+        // Given weights are not known at the points that are looked at to count them.
+        const bool areCounted =
+            state.view.modelColours == ModelColours::inverted && state.document.coordinates != Coordinates::given;
+        if (areCounted) order->binding = bindingOf(state);
+        // It is counted once it is bound.
+        if (areCounted && !order->binding && !binder_.isHalted()) order.reset();
+    }
+    checker_.want(order);
+}
+
+void Follower::followValues(const State& state)
+{
+    const bool isBound = bound_ && bound_->whole && bound_->order == bindOrder(state);
+    ModelColours colours = isBound && state.view.mode == Mode::pose ? state.view.modelColours : ModelColours::plain;
+    if (colours == ModelColours::stretch && !model_.isWhole()) colours = ModelColours::plain; // it is at rest
+    std::vector<openvdb::Index32> points;
+    if (colours == ModelColours::influence) points = selectedPoints(state);
+    const std::uint64_t version = colours == ModelColours::stretch ? model_.version() : 0;
+    const PoseCheckPtr check = colours == ModelColours::inverted ? checker_.result() : nullptr;
+    // Until the next pose is checked the colours are those of the last one.
+    if (colours == ModelColours::inverted && valuesOf_ == colours && model_.bound() && !check) return;
+    if (colours == valuesOf_ && bound_ == valuesBound_ && points == valuesPoints_ && version == valuesVersion_ &&
+        check == valuesCheck_) {
+        return;
+    }
+    valuesOf_ = colours;
+    valuesBound_ = bound_;
+    valuesPoints_ = points;
+    valuesVersion_ = version;
+    valuesCheck_ = check;
+    values_.reset();
+    if (colours == ModelColours::influence) {
+        values_ = std::make_shared<const std::vector<double>>(influence(*bound_->whole, points));
+    } else if (colours == ModelColours::stretch) {
+        values_ = std::make_shared<const std::vector<double>>(stretch(bound_->order.model->mesh, model_.points()));
+    } else if (check && check->inverted) {
+        values_ = std::make_shared<const std::vector<double>>(cornersOf(*check->inverted, bound_->order.model->mesh));
+    }
+}
+
+void Follower::update()
+{
+    binder_.update();
+    checker_.update();
+}
+
+void Follower::waitForNews(double seconds)
+{
+    if (!binder_.isSettled()) return binder_.waitForNews(seconds);
+    checker_.waitForNews(seconds);
+}
+
+std::shared_ptr<const Binding> Follower::bindingOf(const State& state) const
+{
+    return bound_ && bound_->order == bindOrder(state) ? bound_->whole : nullptr;
+}
+
+} // namespace vdbcage::view

@@ -1,0 +1,141 @@
+#include <chrono>
+#include <optional>
+#include <utility>
+
+#include <tools/view/jobs/runner.h>
+#include <vdbcage/check/check.h>
+#include <vdbcage/core/error.h>
+#include <vdbcage/mesh/parts.h>
+
+namespace vdbcage::view {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double secondsSince(Clock::time_point began)
+{
+    return std::chrono::duration<double>(Clock::now() - began).count();
+}
+
+/// The tree of the model's triangles, for distances.
+class ModelTree {
+public:
+    const detail::TriangleBvh& of(const OpenedMeshPtr& model, Interrupter& interrupter)
+    {
+        if (model != model_) {
+            tree_ = detail::TriangleBvh(model->mesh.points, triangulate(model->mesh), &interrupter);
+            model_ = model;
+        }
+        return tree_;
+    }
+
+private:
+    OpenedMeshPtr model_;
+    detail::TriangleBvh tree_;
+};
+
+/// A pipeline with the order that it has carried out last.
+class OrderedPipeline {
+public:
+    CageResultPtr make(const Job& job, ModelTree& trees, Interrupter& interrupter)
+    {
+        const auto began = Clock::now();
+        const Order& order = job.order;
+        StageClock clock(&interrupter);
+        if (!model_ || model_ != order.model) {
+            done_.reset();
+            pipeline_.reset();
+            pipeline_.emplace(order.model->mesh);
+            model_ = order.model;
+        }
+        if (!done_ || done_->order != order) {
+            pipeline_->run(order.options, &clock);
+            CageResult result;
+            result.order = order;
+            result.cage = pipeline_->cage();
+            result.report = pipeline_->report();
+            result.stages = clock.stages();
+            result.seconds = secondsSince(began);
+            done_ = std::make_shared<const CageResult>(std::move(result));
+        }
+        // They may be asked for when the cage is made already.
+        if (job.intermediates && !done_->intermediates) {
+            const Stage stage(&interrupter, "layers");
+            CageResult result = *done_;
+            result.intermediates = std::make_shared<const Intermediates>(
+                intermediatesOf(*pipeline_, trees.of(order.model, interrupter), &interrupter));
+            done_ = std::make_shared<const CageResult>(std::move(result));
+        }
+        return done_;
+    }
+
+private:
+    OpenedMeshPtr model_;
+    std::optional<Pipeline> pipeline_;
+    CageResultPtr done_; ///< what the pipeline holds; null: nothing that is known
+};
+
+class PipelineMaker : public CageMaker {
+public:
+    CageResultPtr make(const Job& job, Interrupter& interrupter) override
+    {
+        if (job.order.cage) return check(job, interrupter);
+        OrderedPipeline& pipeline = job.order == previewOf(job.order) ? preview_ : full_;
+        try {
+            return pipeline.make(job, tree_, interrupter);
+        } catch (const InputError& error) { // of the pipeline, which does not know the file
+            const std::string text = error.what(), prefix = "model: ";
+            if (text.compare(0, prefix.size(), prefix) != 0) throw;
+            throw InputError(job.order.model->path.string() + ": " + text.substr(prefix.size()));
+        }
+    }
+
+private:
+    CageResultPtr check(const Job& job, Interrupter& interrupter)
+    {
+        const Order& order = job.order;
+        const auto began = Clock::now();
+        StageClock clock(&interrupter);
+        CageResult result;
+        result.order = order;
+        result.cage = order.cage->mesh;
+        const double leastPart = order.options.leastPart;
+        if (!checker_ || checked_ != order.model || checkedLeastPart_ != leastPart) {
+            checker_.reset();
+            const Stage stage(&clock, "guard");
+            const Mesh& model = order.model->mesh;
+            checker_ =
+                leastPart > 0 ? CageChecker(largeParts(model, leastPart).mesh, &clock) : CageChecker(model, &clock);
+            checked_ = order.model;
+            checkedLeastPart_ = leastPart;
+        }
+        {
+            const Stage stage(&clock, "certify");
+            result.report.check = checker_->check(result.cage, {}, &clock);
+        }
+        if (job.intermediates) {
+            Intermediates made;
+            made.distance = measureDistances(result.cage, tree_.of(order.model, interrupter));
+            result.intermediates = std::make_shared<const Intermediates>(std::move(made));
+        }
+        result.stages = clock.stages();
+        result.seconds = secondsSince(began);
+        return std::make_shared<const CageResult>(std::move(result));
+    }
+
+    OrderedPipeline preview_, full_;
+    ModelTree tree_;
+    OpenedMeshPtr checked_;
+    double checkedLeastPart_ = 0;
+    std::optional<CageChecker> checker_;
+};
+
+} // namespace
+
+std::unique_ptr<CageMaker> makePipelineMaker()
+{
+    return std::make_unique<PipelineMaker>();
+}
+
+} // namespace vdbcage::view

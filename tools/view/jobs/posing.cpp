@@ -1,0 +1,124 @@
+#include <tools/view/jobs/posing.h>
+
+#include <algorithm>
+#include <utility>
+
+#include <tools/view/state/move.h>
+
+namespace vdbcage::view {
+
+CageResultPtr Posing::cageOf(const State& state, const Planner& planner)
+{
+    const TimeLine& poses = state.document.poses;
+    const CageResultPtr wanted = wantedCage(state.document, planner);
+    if (!wanted) {
+        carried_.reset();
+    } else if (state.view.mode == Mode::pose) {
+        if (wanted == shown_ && areCarried(poses, *carried_)) return shown_;
+        auto carried = carrier_.carried(MeshPtr(wanted, &wanted->cage), poses);
+        if (!carried) return shown_;
+        carried_ = std::move(carried);
+    } else if (wanted != shown_) {
+        carried_ = std::make_shared<CarriedPoses>(MeshPtr(wanted, &wanted->cage));
+    }
+    shown_ = wanted;
+    return shown_;
+}
+
+CageResultPtr Posing::wantedCage(const Document& document, const Planner& planner)
+{
+    const CageResultPtr& made = planner.shown();
+    if (!document.cage || (made && made->order.cage == document.cage)) return made;
+    if (!unchecked_ || unchecked_->order.cage != document.cage) {
+        CageResult result;
+        result.order = {document.model, document.options, document.cage};
+        result.cage = document.cage->mesh;
+        unchecked_ = std::make_shared<const CageResult>(std::move(result));
+    }
+    return unchecked_;
+}
+
+void Posing::follow(const State& state, const Planner& planner, bool standsStill)
+{
+    const Document& document = state.document;
+    Follower::Effort effort;
+    effort.isPosing = state.view.mode == Mode::pose && document.model && state.cage;
+    if (effort.isPosing && !areCarried(document.poses, *carried_)) return;
+    // A preview's cage is gone in a moment.
+    effort.isToStay = planner.standing() == Planner::Standing::current || planner.isHalted();
+    effort.standsStill = standsStill;
+    if (document.poses != poses_ || state.cage != cage_ || state.view.mode != mode_ || state.view.frame != frame_) {
+        poses_ = document.poses;
+        cage_ = state.cage;
+        mode_ = state.view.mode;
+        frame_ = state.view.frame;
+        cagePoints_ = view::cagePoints(state);
+    }
+    follower_.follow(state, cagePoints_, effort);
+    if (!effort.isPosing || !state.view.compared) {
+        compared_.reset();
+        return;
+    }
+    if (!compared_) compared_ = std::make_unique<Follower>(work_, wake_);
+    State other = state;
+    other.document.coordinates = *state.view.compared;
+    other.document.weights.reset();
+    compared_->follow(other, cagePoints_, effort);
+}
+
+bool Posing::isPosed(const State& state) const
+{
+    return !cagePoints_.empty() && state.view.mode == Mode::pose && state.cage && cagePoints_ != state.cage->points;
+}
+
+bool Posing::hasMaterial(const State& state) const
+{
+    if (state.view.mode != Mode::pose) return false;
+    const BoundModelPtr& bound = follower_.bound(); // weights from a file can be of the family
+    return state.document.coordinates == Coordinates::somigliana || state.view.compared == Coordinates::somigliana ||
+           (bound && bound->whole && bound->whole->family() == Coordinates::somigliana);
+}
+
+void Posing::update()
+{
+    carrier_.update();
+    follower_.update();
+    if (compared_) compared_->update();
+}
+
+bool Posing::isSettled() const
+{
+    return !carrier_.isBusy() && follower_.isSettled() && (!compared_ || compared_->isSettled());
+}
+
+void Posing::waitForNews(double seconds)
+{
+    if (carrier_.isBusy()) {
+        carrier_.waitForNews(seconds);
+    } else if (!follower_.isSettled()) {
+        follower_.waitForNews(seconds);
+    } else if (compared_) {
+        compared_->waitForNews(seconds);
+    }
+}
+
+void Posing::again()
+{
+    follower_.binder().again();
+    if (compared_) compared_->binder().again();
+}
+
+void Posing::cancel()
+{
+    follower_.binder().cancel();
+    if (compared_) compared_->binder().cancel();
+}
+
+const std::string& Posing::error() const
+{
+    const auto isGivenUp = [&](const PoseKey& key) { return carried_ && carried_->isGivenUp(key.pose); };
+    if (std::any_of(poses_.keys().begin(), poses_.keys().end(), isGivenUp)) return carrier_.error();
+    return compared_ && follower_.error().empty() ? compared_->error() : follower_.error();
+}
+
+} // namespace vdbcage::view

@@ -1,0 +1,186 @@
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <exception>
+#include <functional>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+#include <utility>
+
+#include <tools/report/run_progress.h>
+#include <vdbcage/core/error.h>
+#include <vdbcage/core/interrupter.h>
+
+namespace vdbcage::view {
+
+/// How far a job is.
+struct WorkProgress {
+    std::string stage; ///< empty before the first
+    int percent = -1;  ///< of the job, 0 to 99; -1: unknown
+};
+
+/// Does one job at a time on a thread of its own. All its functions are for one thread, the owner's, and none of them
+/// waits but waitForNews().
+template <class Job, class Result>
+class Worker {
+public:
+    /// How a job ended, or a part of it.
+    struct Outcome {
+        std::optional<Result> result; ///< none: it failed, or was stopped
+        std::string error;            ///< why it failed; empty if it was stopped
+        bool isLast = true;           ///< more of the same job comes
+    };
+    /// Takes a part of what the job gives before it is done.
+    using Publish = std::function<void(Result)>;
+    /// Does a job, on the worker's thread. \throw std::exception, Cancelled
+    using Work = std::function<Result(const Job&, Interrupter&, const Publish&)>;
+
+    /// `wake` is called, from any thread, whenever there is an outcome to take or progress has changed; it must only
+    /// wake the owner's thread.
+    Worker(Work work, std::function<void()> wake)
+        : work_(std::move(work)), wake_(std::move(wake)), thread_([this] { run(); })
+    {
+    }
+    /// Stops what is under way.
+    ~Worker()
+    {
+        stop_ = true;
+        {
+            const std::lock_guard<std::mutex> lock(mutex_);
+            quits_ = true;
+        }
+        changed_.notify_all();
+        thread_.join();
+    }
+    Worker(const Worker&) = delete;
+    Worker& operator=(const Worker&) = delete;
+
+    /// \pre no job is under way: the last outcome of the one before was taken
+    void start(Job job)
+    {
+        stop_ = false;
+        {
+            const std::lock_guard<std::mutex> lock(mutex_);
+            progress_ = {};
+            job_ = std::move(job);
+        }
+        changed_.notify_all();
+    }
+    /// Asks the job under way to stop. Its outcome still comes.
+    void stop() { stop_ = true; }
+
+    /// What has ended since the last call. What came before it of the same job and was not taken is left out.
+    std::optional<Outcome> take()
+    {
+        const std::lock_guard<std::mutex> lock(mutex_);
+        return std::exchange(outcome_, std::nullopt);
+    }
+    /// Waits until there is an outcome, or `seconds` have passed.
+    void waitForNews(double seconds)
+    {
+        std::unique_lock<std::mutex> lock(mutex_);
+        changed_.wait_for(lock, std::chrono::duration<double>(seconds), [&] { return outcome_.has_value(); });
+    }
+    WorkProgress progress() const
+    {
+        const std::lock_guard<std::mutex> lock(mutex_);
+        return progress_;
+    }
+
+private:
+    /// Passes progress to the owner's thread and its wish to stop to the job.
+    class Reporter : public Interrupter {
+    public:
+        explicit Reporter(Worker& worker) : worker_(worker) {}
+
+        void start(const char* name) override
+        {
+            told_ = -1;
+            change([&] {
+                worker_.progress_.stage = name ? name : "";
+                run_.start(worker_.progress_.stage, 0);
+            });
+        }
+        void end() override {}
+        bool wasInterrupted(int percent) override
+        {
+            // Called from many threads, some million times a second: only a greater number takes the lock.
+            if (percent > told_.load(std::memory_order_relaxed)) {
+                told_ = percent;
+                change([&] { run_.advance(percent, 0); });
+            }
+            return worker_.stop_.load(std::memory_order_relaxed);
+        }
+
+    private:
+        template <typename Change>
+        void change(const Change& change)
+        {
+            {
+                const std::lock_guard<std::mutex> lock(worker_.mutex_);
+                change();
+                worker_.progress_.percent = run_.percent() > 0 ? run_.percent() : -1;
+            }
+            worker_.wake_();
+        }
+
+        Worker& worker_;
+        report::RunProgress run_;   ///< guarded by the worker's mutex
+        std::atomic<int> told_{-1}; ///< of the stage
+    };
+
+    void run()
+    {
+        std::unique_lock<std::mutex> lock(mutex_);
+        for (;;) {
+            changed_.wait(lock, [&] { return quits_ || job_; });
+            if (quits_) return;
+            const Job job = *std::exchange(job_, std::nullopt);
+            lock.unlock();
+            publish(resultOf(job));
+            lock.lock();
+        }
+    }
+
+    Outcome resultOf(const Job& job)
+    {
+        Reporter reporter(*this);
+        try {
+            return {work_(job, reporter, [this](Result part) { publish({std::move(part), {}, false}); }), {}, true};
+        } catch (const Cancelled&) {
+            return {};
+        } catch (const std::exception& error) { // of memory too: the window stays, with what it has
+            const std::string text = error.what();
+            return {std::nullopt, text.empty() ? "it cannot be done" : text, true};
+        }
+    }
+
+    void publish(Outcome outcome)
+    {
+        {
+            const std::lock_guard<std::mutex> lock(mutex_);
+            outcome_ = std::move(outcome);
+        }
+        changed_.notify_all();
+        wake_();
+    }
+
+    Work work_; ///< the thread's alone
+    std::function<void()> wake_;
+
+    mutable std::mutex mutex_; ///< guards what follows
+    std::condition_variable changed_;
+    std::optional<Job> job_;         ///< for the thread to take
+    std::optional<Outcome> outcome_; ///< for the owner to take
+    WorkProgress progress_;
+    bool quits_ = false;
+
+    std::atomic<bool> stop_{false}; ///< asks the thread to stop what it does
+    std::thread thread_;
+};
+
+} // namespace vdbcage::view

@@ -1,0 +1,47 @@
+#include <tools/view/picture/pictures.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace vdbcage::view {
+
+bool Pictures::show(const Rectangle& place, Shown shown, const Follower& follower, const Follower* compared,
+                    const ViewState& view)
+{
+    Rectangle left = place, right = place;
+    if (compared) {
+        left.width = std::max(1, place.width / 2);
+        right.left += left.width;
+        right.width = std::max(1, place.width - left.width);
+    }
+    bool changed = (compared != nullptr) != (second_ != nullptr);
+    if (!compared) second_.reset();
+    if (compared && !second_) second_ = std::make_unique<Viewport>(api_, isSoftware_);
+    places_.assign(1, left);
+    shown.modelValues = follower.values();
+    shown.posed = &follower.model();
+    first_.resize(left.width, left.height);
+    changed |= first_.show(shown, view);
+    if (!second_) return changed;
+    places_.push_back(right);
+    shown.modelValues = compared->values();
+    shown.posed = &compared->model();
+    second_->resize(right.width, right.height);
+    return second_->show(shown, view) || changed;
+}
+
+void Pictures::draw(bool isMoving)
+{
+    first_.draw(isMoving);
+    if (second_) second_->draw(isMoving);
+}
+
+void Pictures::copyTo(GLuint framebuffer, int height) const
+{
+    for (const Rectangle& place : places_) {
+        const Viewport& picture = &place == &places_.front() ? first_ : *second_;
+        picture.copyTo(framebuffer, place.left, height - place.top - place.height);
+    }
+}
+
+} // namespace vdbcage::view

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include <tools/view/jobs/posing.h>
+#include <tools/view/picture/rectangle.h>
+#include <tools/view/picture/viewport.h>
+
+namespace vdbcage::view {
+
+/// The picture of the window, or two side by side where two families of coordinates are compared. Both have one camera.
+///
+/// Its context must be current whenever it is used, and must outlive it.
+class Pictures {
+public:
+    /// See Viewport. \throw DeviceError
+    Pictures(const gl::Api& api, bool isSoftware) : api_(api), isSoftware_(isSoftware), first_(api, isSoftware) {}
+
+    /// Takes over what is to be seen within `place`, with the model as it follows the cage, and as `compared` has it
+    /// if that is not null. Returns whether anything changed. \throw DeviceError
+    bool show(const Rectangle& place, Shown shown, const Follower& follower, const Follower* compared,
+              const ViewState& view);
+
+    /// See Viewport.
+    void draw(bool isMoving);
+    bool isRefined() const { return first_.isRefined() && (!second_ || second_->isRefined()); }
+    bool isDrawn() const { return first_.isDrawn() && (!second_ || second_->isDrawn()); }
+    /// Copies what was drawn to a window of that height.
+    void copyTo(GLuint framebuffer, int height) const;
+
+    /// Where they are in the window: one, or two.
+    const std::vector<Rectangle>& places() const { return places_; }
+    /// That of the model as it follows the cage: the left one.
+    Viewport& first() { return first_; }
+    const Viewport& first() const { return first_; }
+
+private:
+    const gl::Api& api_;
+    bool isSoftware_;
+    Viewport first_;
+    std::unique_ptr<Viewport> second_; ///< null: nothing is compared
+    std::vector<Rectangle> places_{Rectangle{0, 0, 1, 1}};
+};
+
+} // namespace vdbcage::view

@@ -1,0 +1,110 @@
+#include <vdbcage/bounding/detail/guard/contact_planes.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include <vdbcage/geometry/triangle_pair.h>
+
+namespace vdbcage::detail {
+
+namespace {
+
+/// The weights of t's corners that give p's foot in its plane; zeros for a degenerate t.
+Vec3d barycentric(const Vec3d& p, const Corners& t)
+{
+    const Vec3d u = t[1] - t[0], v = t[2] - t[0], w = p - t[0];
+    const double uu = u.dot(u), uv = u.dot(v), vv = v.dot(v), wu = w.dot(u), wv = w.dot(v);
+    const double determinant = uu * vv - uv * uv;
+    if (!(determinant > 0)) return Vec3d(0.0);
+    const double b = (wu * vv - wv * uv) / determinant, c = (wv * uu - wu * uv) / determinant;
+    return {1 - b - c, b, c};
+}
+
+/// What a triangle hits first when its corner 0 moves in a straight line.
+struct Impact {
+    double time = 1;   ///< 0 to 1
+    Vec3d normal{0.0}; ///< of the plane through the contact that the corner must stay above, any length
+    double weight = 0; ///< of the corner at the contact
+};
+
+} // namespace
+
+bool addImpacts(const GuardModel& guard, const Corners& now, const Vec3d& to, bool corner, double clearance,
+                std::vector<HalfSpace>& halfSpaces)
+{
+    const Vec3d &c = now[0], &a = now[1], &b = now[2];
+    const Vec3d step = to - c, across = b - a;
+    Impact face, edge, vertex;
+    const auto meetFace = [&](const Vec3d& p) {
+        const Vec3d arm = p - a, normal = across.cross(arm);
+        const double time = -normal.dot(c - a) / normal.dot(step);
+        if (!(time > 0 && time < face.time)) return;
+        const Vec3d at = c + time * step, up = across.cross(at - a), n = across.cross(up);
+        const double weight = n.dot(arm) / n.dot(at - a);
+        const Vec3d foot = arm - weight * (at - a);
+        const double along = foot.dot(across);
+        if (weight > 0 && weight <= 1 && along >= 0 && along <= (1 - weight) * across.dot(across)) {
+            face = {time, normal, weight};
+        }
+    };
+    const auto meetEdge = [&](const Vec3d& first, const Vec3d& second) { // the one from a to the corner
+        const Vec3d p = first - a, q = second - a, normal = p.cross(q);
+        const double time = -normal.dot(c - a) / normal.dot(step);
+        if (!(time > 0 && time < edge.time)) return;
+        const Vec3d arm = c + time * step - a;
+        const double s = arm.cross(p).dot(normal), t = arm.cross(q).dot(normal);
+        const double weight = p.cross(q - p).dot(normal) / arm.cross(q - p).dot(normal);
+        if ((s > 0) != (t > 0) && weight > 0 && weight <= 1) edge = {time, normal, weight};
+    };
+    const auto meetCorner = [&](const Corners& m) {
+        const Vec3d normal = (m[1] - m[0]).cross(m[2] - m[0]);
+        const double time = normal.dot(m[0] - c) / normal.dot(step);
+        if (!(time > 0 && time < vertex.time)) return;
+        const Vec3d at = c + time * step;
+        for (std::size_t i = 0; i < 3; ++i) {
+            if (!((m[(i + 1) % 3] - m[i]).cross(at - m[i]).dot(normal) >= 0)) return;
+        }
+        vertex = {time, normal, 1};
+    };
+    const TriangleBvh& tree = guard.tree();
+    tree.traverse(tree.near({a, c, to}), [&](const TriangleBvh::Item& item) {
+        const Corners m = tree.corners(item);
+        for (std::size_t i = 0; i < 3; ++i) meetEdge(m[i], m[(i + 1) % 3]);
+        if (corner) meetCorner(m);
+        return true;
+    });
+    // The face of a long way meets much of the model: what is left of the way counts, once something stops it.
+    double way = 1;
+    TriangleBvh::Query query = tree.inTetrahedron({c, to, a, b});
+    tree.traverse(query, [&](const TriangleBvh::Item& item) {
+        for (const Vec3d& p : tree.corners(item)) meetFace(p);
+        if (face.time < 0.9 * way) {
+            way = face.time;
+            query = tree.inTetrahedron({c, c + way * step, a, b});
+        }
+        return true;
+    });
+    const std::size_t before = halfSpaces.size();
+    for (const Impact& impact : {face, edge, vertex}) {
+        if (!(impact.weight > 0)) continue;
+        Vec3d normal = impact.normal / impact.normal.length();
+        if (normal.dot(step) > 0) normal = -normal;
+        const double offset = normal.dot(c + impact.time * step) + clearance / impact.weight;
+        const double least = std::min(offset, normal.dot(c));
+        if (normal.dot(to) < least - 1e-3 * clearance) halfSpaces.push_back({normal, least});
+    }
+    return halfSpaces.size() > before;
+}
+
+void addApproach(const Corners& star, const Corners& other, const Vec3d& at, double clearance,
+                 std::vector<HalfSpace>& halfSpaces)
+{
+    const Nearness near = nearness(star, other);
+    const double distance = std::sqrt(near.squaredDistance);
+    const double weight = barycentric(near.onFirst, star)[0];
+    if (!(distance > 0) || !(weight > 1e-6)) return;
+    const Vec3d apart = (near.onFirst - near.onSecond) / distance;
+    halfSpaces.push_back({apart, apart.dot(at) + (clearance - distance) / weight});
+}
+
+} // namespace vdbcage::detail

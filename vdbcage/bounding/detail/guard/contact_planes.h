@@ -1,0 +1,29 @@
+#pragma once
+
+#include <vector>
+
+#include <vdbcage/bounding/detail/guard/guard_model.h>
+
+/// Half-spaces that a vertex must stay in so that its triangles keep clear of what they meet on its way; to first
+/// order.
+namespace vdbcage::detail {
+
+/// The points with normal . point >= offset.
+struct HalfSpace {
+    Vec3d normal;
+    double offset;
+};
+
+/// Adds the half-spaces of the first contacts with the model when corner 0 of `now` moves straight to `to`. Returns
+/// whether there are any.
+///
+/// There is one of each kind: vertex with face, edge with edge and, if `corner`, face with vertex.
+bool addImpacts(const GuardModel& guard, const Corners& now, const Vec3d& to, bool corner, double clearance,
+                std::vector<HalfSpace>& halfSpaces);
+
+/// Adds the half-space that keeps corner 0 of `star`, now at `at`, where `star` is at least `clearance` from `other`.
+/// It adds none if they cross.
+void addApproach(const Corners& star, const Corners& other, const Vec3d& at, double clearance,
+                 std::vector<HalfSpace>& halfSpaces);
+
+} // namespace vdbcage::detail

@@ -1,0 +1,283 @@
+#include <vdbcage/bounding/detail/guard/guard_model.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <string>
+#include <utility>
+
+#include <vdbcage/core/detail/asker.h>
+#include <vdbcage/core/detail/nearest_float.h>
+#include <vdbcage/core/error.h>
+#include <vdbcage/geometry/union_find.h>
+#include <vdbcage/mesh/detail/precision.h>
+#include <vdbcage/volume/detail/scale_at.h>
+
+namespace vdbcage::detail {
+
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+
+/// The signed solid angle of a triangle seen from p (van Oosterom and Strackee 1983).
+double solidAngle(const Corners& t, const Vec3d& p)
+{
+    const Vec3d a = t[0] - p, b = t[1] - p, c = t[2] - p;
+    const double la = a.length(), lb = b.length(), lc = c.length();
+    return 2 * std::atan2(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
+}
+
+bool comesTooNear(const Corners& triangle, const Separator& separator, const Corners& other, double clearance)
+{
+    return !separator.separates(other, clearance) && !Separator(other).separates(triangle, clearance) &&
+           comeWithin(triangle, other, clearance);
+}
+
+/// Adds the mirror image in a plane, and leaves out the triangles behind it, where coordinates are less.
+void addMirrorImage(const SymmetryPlane& plane, std::vector<Vec3d>& points, std::vector<Vec3I>& triangles)
+{
+    const auto count = static_cast<openvdb::Index32>(points.size());
+    points.reserve(2 * points.size());
+    for (openvdb::Index32 i = 0; i < count; ++i) {
+        points.push_back(points[i]);
+        points.back()[plane.axis] = 2 * plane.offset - points[i][plane.axis];
+    }
+    std::vector<Vec3I> kept;
+    kept.reserve(2 * triangles.size());
+    for (const Vec3I& t : triangles) {
+        const auto [low, high] =
+            std::minmax({points[t[0]][plane.axis], points[t[1]][plane.axis], points[t[2]][plane.axis]});
+        if (high >= plane.offset) kept.push_back(t);
+        if (low < plane.offset) kept.emplace_back(t[0] + count, t[2] + count, t[1] + count);
+    }
+    triangles = std::move(kept);
+}
+
+/// The faces of a model as triangles, and how far beyond them the model lies at most.
+struct Faces {
+    std::vector<Vec3I> triangles;
+    double beyond = 0;
+};
+
+/// Both splits of each quad count, but of many quads the second is left out where it is within `maxDistance` of the
+/// first. It is as near as the points p and q of the diagonals that are nearest to each other: the four triangles from
+/// q to the quad's edges are the second split, those from p are the first, and what maps one onto the other moves no
+/// point by more than |p - q|.
+Faces facesOf(const Mesh& model, const std::vector<Vec3d>& points, double maxDistance)
+{
+    constexpr std::size_t many = std::size_t(1) << 18; // fewer cost too little to give away any clearance for
+    if (model.quads.size() < many) return {everySplit(model), 0};
+    Faces faces;
+    faces.triangles = triangulate(model);
+    double squared = 0;
+    for (const openvdb::Vec4I& q : model.quads) {
+        const double apart = segmentNearness(points[q[0]], points[q[2]], points[q[1]], points[q[3]]).squaredDistance;
+        if (apart <= maxDistance * maxDistance) {
+            squared = std::max(squared, apart);
+        } else {
+            faces.triangles.emplace_back(q[0], q[1], q[3]);
+            faces.triangles.emplace_back(q[1], q[2], q[3]);
+        }
+    }
+    faces.triangles.insert(faces.triangles.end(), model.alternatives.begin(), model.alternatives.end());
+    faces.beyond = std::sqrt(squared);
+    return faces;
+}
+
+/// \throw InputError
+void requireValid(const Joint& joint, const openvdb::BBoxd& box)
+{
+    const auto refuse = [&](const char* why) {
+        std::ostringstream text;
+        text.precision(15); // as the user wrote it
+        text << "joints: the one at " << joint.place << ' ' << why;
+        throw InputError(text.str());
+    };
+    if (!joint.place.isFinite()) refuse("is not at a finite place");
+    if (!box.isInside(joint.place)) refuse("is outside of the model's bounding box; it must be inside of a limb");
+    if (joint.axis && !(joint.axis->isFinite() && joint.axis->lengthSqr() > 0)) refuse("has an axis without length");
+}
+
+} // namespace
+
+GuardModel::GuardModel(const Mesh& model, const GuardOptions& options, Interrupter* interrupter)
+    : density_(options.density)
+{
+    requireUsable(model, "model");
+    requireValidDensity(density_, interrupter);
+    requireWithin(GuardOptions::clearances, options.clearance, "clearance");
+    requireWithin(GuardOptions::minAngles, options.minAngleDegrees, "min angle");
+    requireWithin(GuardOptions::spacings, options.spacing, "spacing");
+    requireWithin(GuardOptions::jointDensities, options.jointDensity, "joint density");
+    openvdb::BBoxd box = boundingBox(model);
+    if (options.symmetry) {
+        const int axis = options.symmetry->axis;
+        if (axis < 0 || axis > 2) {
+            throw InputError("symmetry axis: " + std::to_string(axis) + " is not allowed; it must be 0, 1 or 2");
+        }
+        const double twice = 2 * options.symmetry->offset;
+        openvdb::Vec3d low = box.min(), high = box.max();
+        low[axis] = twice - box.max()[axis];
+        high[axis] = twice - box.min()[axis];
+        box.expand(openvdb::BBoxd(low, high));
+    }
+    const double side = box.extents()[static_cast<int>(box.maxExtent())];
+    scale_ = std::ldexp(1.0, -std::ilogb(side));
+    clearance_ = options.clearance * side * scale_;
+    // Below the least sine the orientation tests have no room.
+    minSine_ = std::max(1e-6, std::sin(options.minAngleDegrees * pi / 180));
+    requireHeld(options.precision, box);
+    roundsToFloat_ = areFloats(options.precision, box);
+    if (roundsToFloat_) clearance_ = std::max(clearance_, 4 * floatRounding(box) * scale_);
+    const double narrowness = options.spacing / GuardOptions{}.spacing; // of triangles to each other
+    spacing_ = {options.spacing * side * scale_, 0.05 * narrowness, std::sin(narrowness * pi / 180)};
+    std::vector<Vec3d> points;
+    points.reserve(model.points.size());
+    for (const Vec3d& p : model.points) points.push_back(scaled(p));
+    auto [triangles, beyond] = facesOf(model, points, clearance_ / 4);
+    clearance_ += beyond;
+    throwIfInterrupted(interrupter);
+    if (options.symmetry) {
+        // Surfaces are little larger than the model: multiples of the step up to four times as far are floats, or
+        // doubles with some bits to spare for the rounding of points that are to be symmetric.
+        step_ = std::ldexp(scale_, std::ilogb(farthest(box)) + (roundsToFloat_ ? 2 - 23 : 2 - 50));
+        const double offset = step_ * std::round(options.symmetry->offset * scale_ / step_);
+        symmetry_ = SymmetryPlane{options.symmetry->axis, offset};
+        addMirrorImage(*symmetry_, points, triangles);
+    }
+    tree_ = TriangleBvh(points, triangles, interrupter, TriangleBvh::Copies::drop);
+    for (Joint joint : options.joints) {
+        constexpr double spread = 1.5;
+        requireValid(joint, box);
+        throwIfInterrupted(interrupter);
+        joint.place = scaled(joint.place);
+        if (joint.axis) joint.axis->normalize(0);
+        if (symmetry_ && joint.place[symmetry_->axis] < symmetry_->offset) {
+            joint.place = mirrored(joint.place);
+            if (joint.axis) (*joint.axis)[symmetry_->axis] *= -1;
+        }
+        limbs_.push_back(limbAt(tree_, joint));
+        if (options.jointDensity == 1) continue;
+        const double inside = std::sqrt(tree_.closest(joint.place).squaredDistance) / scale_;
+        aroundJoints_.push_back(
+            {ScaleRegion::Shape::sphere, unscaled(joint.place), Vec3d(0), spread * inside, options.jointDensity});
+    }
+
+    UnionFind sets(points.size());
+    Asker ask(interrupter);
+    for (const Vec3I& t : triangles) {
+        ask();
+        sets.unite(t[0], t[1]);
+        sets.unite(t[1], t[2]);
+    }
+    std::vector<bool> seen(points.size(), false);
+    std::vector<Vec3I> partPoints;
+    for (const Vec3I& t : triangles) {
+        const std::uint32_t root = sets.find(t[0]);
+        if (!seen[root]) partPoints.emplace_back(t[0], t[0], t[0]);
+        seen[root] = true;
+    }
+    parts_ = TriangleBvh(std::move(points), partPoints, interrupter, TriangleBvh::Copies::drop);
+}
+
+Vec3d GuardModel::scaled(const Vec3d& p) const
+{
+    return p * scale_;
+}
+
+Vec3d GuardModel::unscaled(const Vec3d& p) const
+{
+    return p / scale_;
+}
+
+Vec3d GuardModel::rounded(const Vec3d& p) const
+{
+    Vec3d rounded = p;
+    if (roundsToFloat_) {
+        rounded = {nearestFloat(p[0] / scale_) * scale_, nearestFloat(p[1] / scale_) * scale_,
+                   nearestFloat(p[2] / scale_) * scale_};
+    }
+    if (symmetry_) {
+        const auto [axis, offset] = *symmetry_;
+        rounded[axis] = offset + step_ * std::round((p[axis] - offset) / step_);
+    }
+    return rounded;
+}
+
+Vec3d GuardModel::mirrored(Vec3d p) const
+{
+    p[symmetry_->axis] = 2 * symmetry_->offset - p[symmetry_->axis];
+    return p;
+}
+
+double GuardModel::density(const Vec3d& onModel) const
+{
+    constexpr double least = 1.0 / 8;
+    const auto at = [&](const Vec3d& p) {
+        const openvdb::FloatTree* const tree = density_.grid ? &density_.grid->constTree() : nullptr;
+        const Vec3d world = unscaled(p);
+        const auto joint = std::find_if(aroundJoints_.begin(), aroundJoints_.end(),
+                                        [&](const ScaleRegion& region) { return contains(region, world); });
+        return std::clamp((joint == aroundJoints_.end() ? 1 : joint->scale) * scaleAt(density_, tree, world), least,
+                          largestScale);
+    };
+    const double here = at(onModel);
+    if (!symmetry_) return here;
+    const double there = at(mirrored(onModel));
+    return std::abs(std::log(there)) > std::abs(std::log(here)) ? there : here;
+}
+
+double GuardModel::distanceWeight(const Vec3d& onModel) const
+{
+    if (!hasDensity()) return 1;
+    const double d = density(onModel);
+    return d * d * d;
+}
+
+double GuardModel::quadricWeight(const Vec3d& onModel) const
+{
+    if (!hasDensity()) return 1;
+    return std::pow(density(onModel), 5);
+}
+
+bool GuardModel::clear(const Corners& triangle, std::uint32_t hint, std::uint32_t* blocker) const
+{
+    const Separator separator(triangle);
+    const auto blocks = [&](const TriangleBvh::Item& item) {
+        return comesTooNear(triangle, separator, tree_.corners(item), clearance_);
+    };
+    const auto found = [&](const TriangleBvh::Item& item) {
+        if (blocker) *blocker = static_cast<std::uint32_t>(&item - tree_.items().data());
+        return false;
+    };
+    if (hint != TriangleBvh::none && blocks(tree_.items()[hint])) return found(tree_.items()[hint]);
+    return tree_.traverse(tree_.near(triangle, clearance_),
+                          [&](const TriangleBvh::Item& item) { return !blocks(item) || found(item); });
+}
+
+void GuardModel::forEachBlocker(const Corners& triangle, const std::function<bool(const Corners&)>& visit) const
+{
+    const Separator separator(triangle);
+    tree_.traverse(tree_.near(triangle, clearance_), [&](const TriangleBvh::Item& item) {
+        const Corners other = tree_.corners(item);
+        return !comesTooNear(triangle, separator, other, clearance_) || visit(other);
+    });
+}
+
+bool GuardModel::mayHoldPart(const Box& box) const
+{
+    return !parts_.forEachOverlap(box, [](const TriangleBvh::Item&) { return false; });
+}
+
+bool GuardModel::swept(const std::vector<Corners>& surface, const Box& box) const
+{
+    return !parts_.forEachOverlap(box, [&](const TriangleBvh::Item& item) {
+        // The point keeps its distance to both stars, so the sum is near a whole multiple of 4 pi.
+        const Vec3d& point = parts_.points()[item.corners[0]];
+        double angle = 0;
+        for (const Corners& t : surface) angle += solidAngle(t, point);
+        return std::abs(angle) < 2 * pi;
+    });
+}
+
+} // namespace vdbcage::detail

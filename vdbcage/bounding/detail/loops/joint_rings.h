@@ -1,0 +1,68 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include <vdbcage/bounding/detail/loops/limb.h>
+#include <vdbcage/bounding/detail/loops/quad_loop.h>
+#include <vdbcage/core/interrupter.h>
+
+namespace vdbcage::detail {
+
+/// Which loops of quads are rings around a limb at its joints.
+///
+/// A ring is a loop that closes, is short, and goes around the limb: once around the joint, seen along its normal,
+/// which is within 60 degrees of the limb's axis; it is at most twice as wide as the limb, and its plane at most the
+/// limb's radius away from the joint. Widths are of circles of the same area. On the plane of symmetry half a ring
+/// counts with its mirror image. A surface that is not of quads only has no rings.
+class JointRings {
+public:
+    static constexpr std::size_t wanted = 3; ///< across each joint
+
+    /// At the joints of its guard. The arguments must outlive this.
+    JointRings(const GuardedMesh& surface, const QuadTable& table) : surface_(surface), table_(table) {}
+
+    /// How many rings each joint has now.
+    /// Cost: O(quads + joints rungs).
+    std::vector<std::size_t> count() const;
+
+    /// Whether each joint has as many rings as before, or as are wanted.
+    static bool areKept(const std::vector<std::size_t>& before, const std::vector<std::size_t>& after);
+
+    /// A vertex that is to stay near a plane.
+    struct Hold {
+        std::uint32_t vertex;
+        Vec3d normal;
+        double offset, width; ///< normal . place is to be `offset`; a deviation is measured in widths
+    };
+    /// What holds the nearest three rings of each joint, or brings them there, by vertex, ascending: without it
+    /// relaxation would make all rings of a limb alike.
+    std::vector<Hold> holds() const;
+
+    /// Loops that may be split for another ring at a joint, nearest first; none if it has enough.
+    std::vector<QuadLoop> toSplit(const Limb& limb) const;
+
+private:
+    /// There are joints, and nothing but quads: the ends of other loops are at the plane of symmetry.
+    bool mayHaveRings() const
+    {
+        return !surface_.guard().limbs().empty() && surface_.liveFaces() == 2 * table_.count();
+    }
+
+    struct Ring {
+        const QuadLoop* loop;
+        double height; ///< of its middle over the joint, along the axis of the limb
+    };
+    /// What is a ring but that planes may be so many radii of the limb away, nearest first.
+    std::vector<Ring> ringsAround(const std::vector<QuadLoop>& loops, const Limb& limb, double radii) const;
+
+    const GuardedMesh& surface_;
+    const QuadTable& table_;
+};
+
+/// Splits loops until each joint has the rings that are wanted, as far as the guard allows.
+/// \throw Cancelled
+void addRings(GuardedMesh& surface, QuadTable& table, Interrupter* interrupter);
+
+} // namespace vdbcage::detail

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include <vdbcage/bounding/detail/guard/guarded_mesh.h>
+
+namespace vdbcage::detail {
+
+/// What the last two faces of a path become.
+enum class PathEnd { quad, collapse };
+
+struct PathOptions {
+    double mergeAngleDegrees; ///< of quads, at most
+    double maxGrowth;         ///< of the enclosed volume
+    std::size_t maxPairs;     ///< of faces on a path; a path without a quad has one
+    PathEnd end;
+};
+
+/// Pairs a triangle with another by taking the quads on a path between them apart and pairing the faces otherwise.
+///
+/// Each quad on the path is split along either diagonal. With PathEnd::collapse the last pair vanishes, by collapsing
+/// the edge between its faces. The first path that the guard allows is taken; if there is none nothing changes.
+/// Cost: O(faces) for each path that is tried, of a fixed number at most.
+/// Based on: Edmonds, Paths, Trees, and Flowers, 1965.
+void pairAlongPath(GuardedMesh& surface, std::uint32_t triangle, const PathOptions& options);
+
+} // namespace vdbcage::detail

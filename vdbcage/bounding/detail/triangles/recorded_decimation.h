@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstddef>
+
+#include <vdbcage/bounding/decimate.h>
+#include <vdbcage/bounding/detail/triangles/collapse.h>
+
+namespace vdbcage::detail {
+
+/// Decimations of one surface under a guard, to any number of face counts.
+///
+/// What they share, the way from the surface to a few times the faces, is done once. That is a third of the time (fair)
+/// to a half (fast).
+class RecordedDecimation {
+public:
+    /// \pre `guard` outlives this
+    /// \throw InputError not closed and 2-manifold
+    /// \throw Cancelled
+    RecordedDecimation(const Mesh& surface, const BoundingGuard& guard, Interrupter* interrupter);
+
+    /// The same as decimate(), whatever was asked for before.
+    /// \throw InputError fewer than 4 faces asked for
+    /// \throw Cancelled; it can be asked again then
+    Mesh to(const BoundingDecimateOptions& options, Interrupter* interrupter);
+
+private:
+    std::size_t copies_;
+    CollapseSequence sequence_;
+};
+
+} // namespace vdbcage::detail

@@ -1,0 +1,109 @@
+// Based on: Lipman, Levin, Cohen-Or, "Green Coordinates", 2008; Thiery, Boubekeur, "Green Coordinates for Triquad Cages
+// in 3D", 2022.
+// Differs: the integrals over bilinear patches are integrated adaptively to a tolerance. All faces around an inner
+// point cover the whole sphere; what the computed solid angles lack of that (near edges rounding leaves 1e-16 over the
+// distance) belongs to the faces next to the point, so to the nearest place of the cage. This also defines points on
+// the cage, as the limit from inside. What is still missing of affine precision is restored at the end.
+
+#include <vdbcage/deform/detail/families/green.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include <vdbcage/deform/detail/families/patch_quadrature.h>
+#include <vdbcage/deform/detail/kernels/row_kernels.h>
+#include <vdbcage/deform/detail/triangle_potentials.h>
+
+namespace vdbcage::detail {
+
+using openvdb::Vec3d;
+
+namespace {
+
+/// Of a face: what its corners' positions and its normals (a triangle has one) weigh.
+struct FacePart {
+    std::array<double, 4> positions{}, normals{};
+};
+
+FacePart integrated(const PatchCorners& corners)
+{
+    FacePart part;
+    // What is left out next to the point counts for the solid angle only, which is completed at the nearest place.
+    samplePatch(corners, 1e-10, [&](const PatchSample& sample) {
+        const double square = sample.point.lengthSqr();
+        const double inverse = 1 / (fourPi * std::sqrt(square));
+        const double solid = sample.point.dot(sample.normal) / square * inverse;
+        for (std::size_t i = 0; i < 4; ++i) {
+            part.positions[i] += solid * sample.basis[i];
+            part.normals[i] += sample.area * inverse * sample.basis[i];
+        }
+    });
+    return part;
+}
+
+FacePart closedForm(const PatchCorners& c, bool onFace)
+{
+    const TrianglePotentials t = trianglePotentials({c[0], c[1], c[2]}, onFace);
+    FacePart part;
+    for (std::size_t i = 0; i < 3; ++i) part.positions[i] = t.hatSolid[i] / fourPi;
+    part.normals[0] = t.single / (fourPi * t.area);
+    return part;
+}
+
+FacePart facePart(const PatchCorners& corners, bool quad, bool onFace)
+{
+    if (quad) return integrated(corners);
+    if (!isSliver(corners[1] - corners[0], corners[2] - corners[0])) return closedForm(corners, onFace);
+    FacePart part = integrated(corners); // nearly degenerate
+    part.positions[2] += part.positions[3];
+    part.normals[0] += part.normals[1]; // the density of (u, v) on the triangle
+    return part;
+}
+
+} // namespace
+
+Vec3d stretchedNormal(const Vec3d& a, const Vec3d& b, const Vec3d& posedA, const Vec3d& posedB)
+{
+    const Vec3d normal = posedA.cross(posedB);
+    const double length = normal.length();
+    if (!(length > 0)) return Vec3d(0);
+    // The norm of the matrix posedA b^T - posedB a^T, which does not cancel for slivers as its expansion does.
+    double square = 0;
+    for (int i = 0; i < 3; ++i) square += (posedA[i] * b - posedB[i] * a).lengthSqr();
+    return std::sqrt(0.5 * square) / length * normal;
+}
+
+bool exactGreen(const BoundCage& cage, std::size_t face, const double (&x)[3], double (&positions)[3], double& normal)
+{
+    const Vec3d from(x);
+    if (cage.nearestOf(face, from).distance < tooNear) return false;
+    const FacePart part = facePart(cage.cornersFrom(cage.faces()[face], from), false, false);
+    std::copy_n(part.positions.begin(), 3, positions);
+    normal = part.normals[0];
+    return true;
+}
+
+bool greenRow(const BoundCage& cage, const Vec3d& x, double* row)
+{
+    const std::size_t count = cage.points().size();
+    const BoundCage::Place nearest = cage.nearest(x);
+    const bool touches = nearest.distance <= BoundCage::touching;
+    std::fill(row, row + count, 0.0);
+    Vec3d missing = x;
+    double* normals = row + count;
+    for (std::size_t i = 0; i < cage.faces().size(); ++i) {
+        const BoundCage::Face& face = cage.faces()[i];
+        const PatchCorners c = cage.cornersFrom(face, x);
+        const bool onFace = touches && !face.quad && cage.nearestOf(i, x).distance <= 2 * BoundCage::touching;
+        const FacePart part = facePart(c, face.quad, onFace);
+        for (std::size_t k = 0; k < 4; ++k) row[face.at[k]] += part.positions[k];
+        for (std::size_t k = 0; k < (face.quad ? 4 : 1); ++k) {
+            const std::size_t next = (k + 1) % 4, before = (k + 3) % 4;
+            *normals++ = part.normals[k];
+            missing -= part.normals[k] * (c[next] - c[k]).cross(c[before] - c[k]);
+        }
+    }
+    return cage.completeSolidAngles(nearest, missing, row);
+}
+
+} // namespace vdbcage::detail

@@ -1,3 +1,0 @@
-#define VDBCAGE_KERNELS avx2Kernels
-#define VDBCAGE_INSTRUCTIONS "AVX2"
-#include <vdbcage/deform/detail/row_kernels_of_set.h>

@@ -1,3 +1,0 @@
-#define VDBCAGE_KERNELS avx512Kernels
-#define VDBCAGE_INSTRUCTIONS "AVX-512"
-#include <vdbcage/deform/detail/row_kernels_of_set.h>

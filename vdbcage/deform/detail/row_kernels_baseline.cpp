@@ -1,3 +1,0 @@
-#define VDBCAGE_KERNELS baselineKernels
-#define VDBCAGE_INSTRUCTIONS "baseline"
-#include <vdbcage/deform/detail/row_kernels_of_set.h>
