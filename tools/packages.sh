@@ -33,8 +33,7 @@ release_packages=(
     python3-setuptools python3-wheel xz-utils zip
 )
 
-system=$(. /etc/os-release 2>/dev/null && echo "${VERSION_CODENAME-}") || system=unknown
-case $system in
+case $(. /etc/os-release 2>/dev/null && echo "${VERSION_CODENAME-}" || echo unknown) in # sets nothing for its caller
 bookworm | trixie) test_packages+=(libosmesa6) ;; # draws without EGL; Mesa gave it up in 2025
 forky | sid) ;;
 *) echo "This system is not known (Debian 12, 13 and sid are): names of packages may differ; docs/INSTALL.md says what is needed." >&2 ;;

@@ -25,8 +25,15 @@ file(WRITE ${work}/apt.conf "${settings};\n")
 file(GLOB packages ${build}/packages/*.deb)
 file(COPY ${packages} ${source}/data/bishop.obj ${source}/tests/install/consumer
     ${CMAKE_CURRENT_LIST_DIR}/in_new_debian.sh DESTINATION ${work}/input)
+# Who is not root makes a system in a name space of its own, or where there is none, as root through sudo.
+set(asRoot)
+execute_process(COMMAND id -u OUTPUT_VARIABLE user OUTPUT_STRIP_TRAILING_WHITESPACE)
+execute_process(COMMAND unshare --user --map-root-user --mount true RESULT_VARIABLE unshared OUTPUT_QUIET ERROR_QUIET)
+if(NOT user EQUAL 0 AND NOT unshared EQUAL 0)
+    set(asRoot sudo --non-interactive)
+endif()
 # mmdebstrap removes what it made, also when a hook fails.
-run(${CMAKE_COMMAND} -E env --unset=LIBRARY_PATH TMPDIR=${work} mmdebstrap --variant=apt --format=null
+run(${asRoot} ${CMAKE_COMMAND} -E env --unset=LIBRARY_PATH TMPDIR=${work} mmdebstrap --variant=apt --format=null
     --aptopt=${work}/apt.conf --dpkgopt=force-unsafe-io "--customize-hook=copy-in ${work}/input /"
     "--customize-hook=chroot \"$1\" env -i HOME=/root PATH=/usr/sbin:/usr/bin:/sbin:/bin sh /input/in_new_debian.sh"
     ${codename} - ${work}/sources.list)
