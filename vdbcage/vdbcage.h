@@ -42,9 +42,9 @@
 #include <vdbcage/volume/cavities.h>
 #include <vdbcage/volume/convex_hull.h>
 #include <vdbcage/volume/extract.h>
+#include <vdbcage/volume/factor_field.h>
 #include <vdbcage/volume/mirror.h>
 #include <vdbcage/volume/morphology.h>
-#include <vdbcage/volume/scale_field.h>
 #include <vdbcage/volume/vdb_io.h>
 #include <vdbcage/voxelize/interior.h>
 #include <vdbcage/voxelize/voxelize.h>

@@ -9,7 +9,7 @@
 #include <support/symmetric.h>
 #include <tbb/global_control.h>
 #include <vdbcage/bounding/detail/guard/guard_model.h>
-#include <vdbcage/bounding/detail/loops/joint_rings.h>
+#include <vdbcage/bounding/detail/quads/joint_rings.h>
 #include <vdbcage/bounding/quad_loops.h>
 #include <vdbcage/bounding/triquad.h>
 #include <vdbcage/check/check.h>
@@ -35,12 +35,18 @@ struct Bar {
     }
 };
 
-GuardOptions with(const std::vector<Joint>& joints)
+/// For slender triangles.
+GuardOptions guarding(const std::optional<SymmetryPlane>& plane = {})
 {
     GuardOptions options;
-    options.joints = joints;
     options.minAngleDegrees = 1;
+    options.symmetry = plane;
     return options;
+}
+
+FaceWishes with(const std::vector<Joint>& joints, const BoundingGuard& guard, double density = 2)
+{
+    return FaceWishes(guard, {{}, joints, density});
 }
 
 QuadLoopsOptions to(std::size_t faces)
@@ -82,8 +88,9 @@ std::size_t countedRings(const Bar& bar, const openvdb::CoordBBox& voxels, const
     auto mask = openvdb::MaskGrid::create();
     mask->fill(voxels, true);
     mask->tree().voxelizeActiveTiles();
-    const BoundingGuard guard(bar.model, with({joint}));
-    const detail::GuardedMesh surface(extractSurface(*mask), detail::modelOf(guard));
+    const BoundingGuard guard(bar.model, guarding());
+    const detail::GuardedMesh surface(extractSurface(*mask), detail::modelOf(guard), detail::GuardedMesh::Quads::split,
+                                      with({joint}, guard));
     const detail::QuadTable table(surface);
     return detail::JointRings(surface, table).count().at(0);
 }
@@ -96,13 +103,13 @@ BOOST_AUTO_TEST_CASE(loops_get_three_rings_at_a_joint)
 {
     const Bar bar;
     const Mesh surface = extractSurface(*bar.voxels);
-    const Mesh other = quadLoops(surface, BoundingGuard(bar.model, with({})), to(60));
+    const BoundingGuard guard(bar.model, guarding());
+    const Mesh other = quadLoops(surface, guard, to(60));
     for (const double place : {-9.0, 0.0, 6.5}) {
         BOOST_TEST(ringsAt(other, place) < 3U, "without a joint at " << place);
         for (const bool hasAxis : {false, true}) {
             const Joint joint{{place, 0, 0}, hasAxis ? std::optional(Vec3d(1, 0, 0)) : std::nullopt};
-            const BoundingGuard guard(bar.model, with({joint}));
-            const Mesh cage = quadLoops(surface, guard, to(60));
+            const Mesh cage = quadLoops(surface, guard, to(60), with({joint}, guard));
             BOOST_TEST(cage.triangles.empty());
             BOOST_TEST(faceCount(cage) <= 60U);
             BOOST_TEST(checkCage(cage, bar.model).bounding());
@@ -127,10 +134,11 @@ BOOST_AUTO_TEST_CASE(a_limb_is_as_wide_as_the_model_across_its_axis)
 {
     const Bar bar;
     const Vec3d slanted(3, 4, 0);
-    const BoundingGuard guard(bar.model, with({{{3, 0.5, 0}, std::nullopt}, {{3, 0, 0}, slanted}}));
-    const detail::GuardModel& model = detail::modelOf(guard);
-    const double unit = model.scaled({1, 0, 0})[0];
-    const detail::Limb &found = model.limbs().at(0), &given = model.limbs().at(1);
+    const BoundingGuard guard(bar.model, guarding());
+    const FaceWishes wishes = with({{{3, 0.5, 0}, std::nullopt}, {{3, 0, 0}, slanted}}, guard);
+    const double unit = detail::modelOf(guard).scaled({1, 0, 0})[0];
+    const auto& limbs = detail::wishesOf(wishes).limbs();
+    const detail::Limb &found = limbs.at(0), &given = limbs.at(1);
     BOOST_TEST(std::abs(found.axis[0]) > 0.95);
     BOOST_TEST(found.radius == radius * unit, boost::test_tools::tolerance(0.1));
     BOOST_TEST((given.axis - 0.2 * slanted).length() < 1e-12);
@@ -140,11 +148,9 @@ BOOST_AUTO_TEST_CASE(a_limb_is_as_wide_as_the_model_across_its_axis)
 BOOST_AUTO_TEST_CASE(symmetric_loops_get_them_on_both_sides)
 {
     const Bar bar;
-    GuardOptions options = with({{{-8, 0, 0}, std::nullopt}});
-    options.symmetry = SymmetryPlane{0, 0};
-    const BoundingGuard guard(bar.model, options);
+    const BoundingGuard guard(bar.model, guarding(SymmetryPlane{0, 0}));
     const Mesh surface = guard.symmetrized(extractSurface(*bar.voxels), 0.25);
-    const Mesh cage = quadLoops(surface, guard, to(80));
+    const Mesh cage = quadLoops(surface, guard, to(80), with({{{-8, 0, 0}, std::nullopt}}, guard));
     BOOST_TEST(test::isSymmetric(cage, *guard.symmetry()));
     for (const double place : {-8.0, 8.0}) BOOST_TEST(ringsAt(cage, place) >= 3U);
 }
@@ -162,15 +168,12 @@ BOOST_AUTO_TEST_CASE(other_cages_have_no_rings_but_more_faces)
         return count;
     };
     for (const bool isSymmetric : {false, true}) {
-        GuardOptions options = with({{{8, 0, 0}, std::nullopt}});
-        if (isSymmetric) options.symmetry = SymmetryPlane{1, 0};
-        const BoundingGuard guard(bar.model, options);
-        options.joints.clear();
-        const BoundingGuard plain(bar.model, options);
+        const BoundingGuard guard(bar.model, guarding(isSymmetric ? std::optional(SymmetryPlane{1, 0}) : std::nullopt));
+        const FaceWishes wishes = with({{{8, 0, 0}, std::nullopt}}, guard);
         const Mesh start = isSymmetric ? guard.symmetrized(surface, 0.25) : surface;
         BoundingTriquadOptions pairing;
         pairing.faces = 80;
-        const Mesh cage = triquad(start, guard, pairing), other = triquad(start, plain, pairing);
+        const Mesh cage = triquad(start, guard, pairing, wishes), other = triquad(start, guard, pairing);
         BOOST_TEST(checkCage(cage, bar.model).bounding());
         BOOST_TEST(near(cage, 8) > near(other, 8));
     }
@@ -179,47 +182,48 @@ BOOST_AUTO_TEST_CASE(other_cages_have_no_rings_but_more_faces)
 BOOST_AUTO_TEST_CASE(density_around_joints_counts_once_however_many_there_are)
 {
     const Bar bar;
-    GuardOptions options = with({{{8, 0, 0}, std::nullopt}, {{8.2, 0, 0}, std::nullopt}, {{-8, 0, 0}, std::nullopt}});
-    options.symmetry = SymmetryPlane{0, 0};
-    const BoundingGuard guard(bar.model, options);
+    const std::vector<Joint> three{{{8, 0, 0}, std::nullopt}, {{8.2, 0, 0}, std::nullopt}, {{-8, 0, 0}, std::nullopt}};
+    const BoundingGuard guard(bar.model, guarding(SymmetryPlane{0, 0}));
     const detail::GuardModel& model = detail::modelOf(guard);
-    const double at = model.distanceWeight(model.scaled({8, 2.4, 0})),
-                 far = model.distanceWeight(model.scaled({0, 2.4, 0}));
+    const FaceWishes wishes = with(three, guard);
+    const double at = detail::wishesOf(wishes).distanceWeight(model.scaled({8, 2.4, 0})),
+                 far = detail::wishesOf(wishes).distanceWeight(model.scaled({0, 2.4, 0}));
     BOOST_TEST(at == 8); // the cube of 2
     BOOST_TEST(far == 1);
-    options.jointDensity = 1;
-    BOOST_TEST(!detail::modelOf(BoundingGuard(bar.model, options)).hasDensity());
+    BOOST_TEST(detail::wishesOf(wishes).hasDensity());
+    BOOST_TEST(!detail::wishesOf(with(three, guard, 1)).hasDensity());
+    BOOST_TEST(!detail::wishesOf(FaceWishes()).hasDensity());
 }
 
 BOOST_AUTO_TEST_CASE(bad_joints_are_refused)
 {
     const Bar bar;
-    GuardOptions options;
-    options.jointDensity = 0.5;
-    BOOST_CHECK_THROW(BoundingGuard(bar.model, options), InputError);
+    const BoundingGuard guard(bar.model, guarding());
+    BOOST_CHECK_THROW(with({}, guard, 0.5), InputError);
     const double nan = std::nan(""), infinite = std::numeric_limits<double>::infinity();
     const Joint bad[] = {{{nan, 0, 0}, std::nullopt},
                          {{0, 30, 0}, std::nullopt},
                          {{0, 0, 0}, Vec3d(0.0)},
                          {{0, 0, 0}, Vec3d(0, infinite, 0)}};
-    for (const Joint& joint : bad) BOOST_CHECK_THROW(BoundingGuard(bar.model, with({joint})), InputError);
+    for (const Joint& joint : bad) BOOST_CHECK_THROW(with({joint}, guard), InputError);
 }
 
 BOOST_AUTO_TEST_CASE(threads_do_not_matter_and_every_question_can_cancel)
 {
     const Bar bar;
     const Mesh surface = extractSurface(*bar.voxels);
-    const BoundingGuard guard(bar.model, with({{{3, 0, 0}, std::nullopt}}));
+    const BoundingGuard guard(bar.model, guarding());
+    const FaceWishes wishes = with({{{3, 0, 0}, std::nullopt}}, guard);
     constexpr int start = 1000000;
     test::StopAt watcher(start);
-    const Mesh many = quadLoops(surface, guard, to(60), &watcher);
+    const Mesh many = quadLoops(surface, guard, to(60), wishes, &watcher);
     const int all = test::questions(watcher, start);
     const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
-    const Mesh single = quadLoops(surface, guard, to(60));
+    const Mesh single = quadLoops(surface, guard, to(60), wishes);
     BOOST_TEST((many.points == single.points && many.quads == single.quads));
     for (const int k : {0, all / 7, all / 3, all / 2, all - 1}) {
         test::StopAt stop(k);
-        BOOST_CHECK_THROW(quadLoops(surface, guard, to(60), &stop), Cancelled);
+        BOOST_CHECK_THROW(quadLoops(surface, guard, to(60), wishes, &stop), Cancelled);
     }
 }
 

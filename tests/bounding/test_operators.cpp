@@ -127,7 +127,7 @@ BOOST_AUTO_TEST_CASE(a_recorded_decimation_gives_the_same_whatever_was_asked_bef
         if (isHalved) guarding.symmetry = SymmetryPlane{0, 0};
         const BoundingGuard guard(test::sphere({0, 0, 0}, 0.4, 12), guarding);
         const Mesh surface = isHalved ? guard.symmetrized(start, 1e-3) : start;
-        detail::RecordedDecimation recorded(surface, guard, nullptr);
+        detail::RecordedDecimation recorded(surface, guard, {}, nullptr);
         for (const std::size_t faces : {100U, 300U, 40U, 300U}) {
             for (const Effort effort : {Effort::fast, Effort::fair}) {
                 BOOST_CHECK(same(recorded.to(to(faces, effort), nullptr), decimate(surface, guard, to(faces, effort))));
@@ -408,8 +408,8 @@ BOOST_AUTO_TEST_CASE(cancelling_at_any_question_throws)
     const Mesh model = test::sphere({0, 0, 0}, 0.4, 8), start = ball(12);
     const auto make = [&](Interrupter* interrupter) {
         const BoundingGuard guard(model, {}, interrupter);
-        const Mesh cage = decimate(start, guard, to(40, Effort::best), interrupter);
-        const Mesh tight = tighten(triquad(cage, guard, quads(20, 30), interrupter), guard, {}, interrupter);
+        const Mesh cage = decimate(start, guard, to(40, Effort::best), {}, interrupter);
+        const Mesh tight = tighten(triquad(cage, guard, quads(20, 30), {}, interrupter), guard, {}, {}, interrupter);
         return smooth(tight, guard, {2}, interrupter);
     };
     test::StopAt never(1000000);

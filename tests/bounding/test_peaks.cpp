@@ -54,14 +54,14 @@ BOOST_AUTO_TEST_CASE(what_sticks_out_is_flattened_and_the_cage_still_bounds)
     const BoundingGuard guard(model);
     const Mesh even = test::transformed(squaredCube(6), 1.001, Vec3d(0));
     BOOST_TEST(checkCage(even, model).bounding());
-    BOOST_TEST((detail::withoutPeaks(even, guard, nullptr).points == even.points)); // nothing sticks out
+    BOOST_TEST((detail::withoutPeaks(even, guard, {}, nullptr).points == even.points)); // nothing sticks out
     std::mt19937 random(7);
     for (int i = 0; i < 20; ++i) {
         Mesh cage = even;
         for (int k = 0; k < 3; ++k) cage.points[random() % cage.points.size()] *= 1.05 + 0.05 * k;
         const CageCheck before = checkCage(cage, model);
         BOOST_TEST_REQUIRE(before.bounding());
-        const Mesh flat = detail::withoutPeaks(cage, guard, nullptr);
+        const Mesh flat = detail::withoutPeaks(cage, guard, {}, nullptr);
         const CageCheck after = checkCage(flat, model);
         BOOST_TEST_CONTEXT(i)
         {

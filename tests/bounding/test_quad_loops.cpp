@@ -547,12 +547,12 @@ BOOST_AUTO_TEST_CASE(cancelling_at_any_question_throws)
     const Mesh model = test::sphere({0, 0, 0}, 0.4, 8), start = test::ball(7);
     const BoundingGuard guard(model);
     test::StopAt never(1000000);
-    quadLoops(start, guard, to(40), &never);
+    quadLoops(start, guard, to(40), {}, &never);
     const int asked = test::questions(never, 1000000);
     BOOST_TEST(asked > 50);
     for (int i = 0; i < 50; ++i) {
         test::StopAt stop(asked * i / 50);
-        BOOST_CHECK_THROW(quadLoops(start, guard, to(40), &stop), Cancelled);
+        BOOST_CHECK_THROW(quadLoops(start, guard, to(40), {}, &stop), Cancelled);
     }
 }
 
@@ -575,7 +575,7 @@ BOOST_AUTO_TEST_CASE(progress_grows)
     bar->fill(openvdb::CoordBBox({0, 0, 0}, {39, 2, 2}), true);
     bar->tree().voxelizeActiveTiles();
     const BoundingGuard guard(test::box({0, 0, 0}, {39, 2, 2}));
-    quadLoops(extractSurface(*bar), guard, to(150), &watcher);
+    quadLoops(extractSurface(*bar), guard, to(150), {}, &watcher);
     BOOST_TEST(watcher.grows);
     BOOST_TEST(watcher.times > 5);
     BOOST_TEST(watcher.last >= 70);

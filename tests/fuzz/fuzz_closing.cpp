@@ -7,7 +7,7 @@
 #include <fuzz/bytes.h>
 #include <vdbcage/core/error.h>
 #include <vdbcage/volume/detail/sphere/sphere_pass.h>
-#include <vdbcage/volume/scale_field.h>
+#include <vdbcage/volume/factor_field.h>
 #include <volume/by_definition.h>
 
 using namespace vdbcage;
@@ -83,11 +83,11 @@ void requireSimd(const MaskGrid& grid, double radius)
 void requireClosingByField(const MaskGrid& grid, double radius, Choices& choices)
 {
     const CoordBBox box = grid.evalActiveVoxelBoundingBox();
-    ScaleField field;
-    ScaleRegion region;
+    FactorField field;
+    FactorRegion region;
     region.lower = box.min().asVec3d();
     region.radius = side * choices.share();
-    region.scale = 3 * choices.share();
+    region.factor = 3 * choices.share();
     field.regions.push_back(region);
     const CloseOptions options{radius, radius, StructuringElement::sphere};
     const MaskGrid::Ptr closed = closeMask(grid, options, field);

@@ -82,15 +82,15 @@ Name named(Choices& choices, int count)
     return static_cast<Name>(choices.below(count));
 }
 
-ScaleField fieldOf(Choices& choices)
+FactorField fieldOf(Choices& choices)
 {
-    ScaleField field;
-    ScaleRegion region;
-    region.shape = named<ScaleRegion::Shape>(choices, 2);
+    FactorField field;
+    FactorRegion region;
+    region.shape = named<FactorRegion::Shape>(choices, 2);
     region.lower = choices.direction();
     region.upper = region.lower + 2.0 * choices.direction();
     region.radius = 2 * choices.share();
-    region.scale = 8 * choices.share();
+    region.factor = 8 * choices.share();
     field.regions.push_back(region);
     return field;
 }

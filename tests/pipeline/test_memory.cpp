@@ -105,6 +105,27 @@ BOOST_AUTO_TEST_CASE(bad_options_and_models_are_refused_as_by_a_run)
     BOOST_CHECK_THROW(predictedMemory({}), InputError);
 }
 
+BOOST_AUTO_TEST_CASE(a_run_refuses_before_it_makes_surfaces_and_predicts_nothing_without_a_limit)
+{
+    CageOptions options;
+    options.resolution = 128;
+    options.effort = Effort::fast;
+    options.faces = 100;
+    for (const bool isBounding : {true, false}) {
+        options.bounding = isBounding;
+        Pipeline made(test::saturn());
+        test::Watcher refused;
+        BOOST_CHECK_THROW(made.run(options, &refused, 60 * mebibyte), MemoryError);
+        BOOST_TEST(refused.open() == 0);
+        BOOST_TEST(refused.runs["decimate"] == 0);
+        test::Watcher without, within;
+        const Mesh cage = Pipeline(test::saturn()).run(options, &without);
+        BOOST_CHECK(test::sameMesh(Pipeline(test::saturn()).run(options, &within, 8192 * mebibyte), cage));
+        BOOST_CHECK(test::sameMesh(made.run(options), cage));
+        BOOST_TEST(within.runs["close"] == without.runs["close"] + 1); // of coarser voxels, to predict
+    }
+}
+
 BOOST_AUTO_TEST_CASE(counting_can_be_cancelled_and_is_no_stage)
 {
     test::Watcher watcher(1L << 40);

@@ -69,15 +69,15 @@ BOOST_AUTO_TEST_CASE(a_scale_field_is_given_as_text)
     const auto values = optionValues(options);
     BOOST_TEST(std::count(values.begin(), values.end(), std::pair(std::string("scale-field"), text)) == 1);
     BOOST_REQUIRE(options.scale.regions.size() == 2U);
-    const ScaleRegion &sphere = options.scale.regions[0], &box = options.scale.regions[1];
-    BOOST_CHECK(sphere.shape == ScaleRegion::Shape::sphere);
+    const FactorRegion &sphere = options.scale.regions[0], &box = options.scale.regions[1];
+    BOOST_CHECK(sphere.shape == FactorRegion::Shape::sphere);
     BOOST_TEST(sphere.lower == openvdb::Vec3d(0, 1, -2.5));
     BOOST_TEST(sphere.radius == 0.5);
-    BOOST_TEST(sphere.scale == 0.25);
-    BOOST_CHECK(box.shape == ScaleRegion::Shape::box);
+    BOOST_TEST(sphere.factor == 0.25);
+    BOOST_CHECK(box.shape == FactorRegion::Shape::box);
     BOOST_TEST(box.lower == openvdb::Vec3d(0, 1, 0));
     BOOST_TEST(box.upper == openvdb::Vec3d(1, 3, 1));
-    BOOST_TEST(box.scale == 0);
+    BOOST_TEST(box.factor == 0);
     BOOST_CHECK_NO_THROW(requireValid(options));
     setOption(options, "element", "cube");
     BOOST_CHECK_EXCEPTION(requireValid(options), InputError,
@@ -97,7 +97,7 @@ BOOST_AUTO_TEST_CASE(a_density_is_given_as_text_and_needs_the_guard)
     CageOptions options;
     setOption(options, "density", "sphere:0,1,-2.5,0.5,2");
     BOOST_REQUIRE(options.density.regions.size() == 1U);
-    BOOST_TEST(options.density.regions[0].scale == 2);
+    BOOST_TEST(options.density.regions[0].factor == 2);
     BOOST_TEST(options.scale.regions.empty());
     BOOST_CHECK_NO_THROW(requireValid(options));
     options.bounding = false;

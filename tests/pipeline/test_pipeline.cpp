@@ -17,7 +17,7 @@
 #include <vdbcage/core/error.h>
 #include <vdbcage/mesh/mesh_io.h>
 #include <vdbcage/pipeline/pipeline.h>
-#include <vdbcage/volume/scale_field.h>
+#include <vdbcage/volume/factor_field.h>
 
 using namespace vdbcage;
 using test::coarse;
@@ -592,10 +592,10 @@ BOOST_AUTO_TEST_CASE(a_scale_field_keeps_a_handle_that_closes_otherwise)
     BOOST_TEST(pipeline.report().solidHandles == 2);
     BOOST_TEST(pipeline.report().parts == 1U);
     BOOST_TEST(pipeline.report().handles == 0);
-    ScaleRegion region;
+    FactorRegion region;
     region.lower = openvdb::Vec3d(0, 0, 0);
     region.radius = 1.2;
-    region.scale = 0;
+    region.factor = 0;
     options.scale.regions = {region};
     pipeline.run(options);
     BOOST_TEST(pipeline.report().handles == 1);

@@ -19,7 +19,7 @@
 #include <vdbcage/pipeline/detail/bounding_search.h>
 #include <vdbcage/pipeline/detail/volumes.h>
 #include <vdbcage/pipeline/pipeline.h>
-#include <vdbcage/volume/scale_field.h>
+#include <vdbcage/volume/factor_field.h>
 
 using namespace vdbcage;
 using test::coarse;
@@ -196,7 +196,7 @@ BOOST_AUTO_TEST_CASE(cages_are_whole_where_the_host_has_cancelled)
     runs[0].effort = Effort::fast;
     runs[1].mesh = CageFaces::triquad;
     runs[1].symmetry = CageSymmetry::automatic;
-    runs[2].scale = readScaleField("sphere:0,0,0,2,0.5");
+    runs[2].scale = readFactorField("sphere:0,0,0,2,0.5");
     runs[2].faces = 12;
     runs[2].parts = CageParts::merge; // from the hull
     runs[3].bounding = false;
@@ -304,8 +304,10 @@ BOOST_AUTO_TEST_CASE(a_density_puts_faces_where_it_is_above_1)
         options.mesh = mesh;
         Pipeline made(model);
         const long before = facesAbove(made.run(options));
-        options.density = readScaleField("box:-2,-2,0.6,2,2,2,2", "density");
-        const Mesh denser = made.run(options);
+        options.density = readFactorField("box:-2,-2,0.6,2,2,2,2", "density");
+        Watcher watcher;
+        const Mesh denser = made.run(options, &watcher);
+        for (const char* stage : {"guard", "voxelize", "close", "surface"}) BOOST_TEST(watcher.runs[stage] == 0, stage);
         BOOST_TEST(10 * facesAbove(denser) >= 14 * before);
         BOOST_TEST(faceCount(denser) <= 120U);
         BOOST_TEST(checkCage(denser, model).bounding());
@@ -329,8 +331,10 @@ BOOST_AUTO_TEST_CASE(large_surfaces_give_the_same_cages)
         CageOptions other = options;
         other.faces += 50;
         detail::BoundingSearch search(model, volumes, certifier, {}, largest);
-        search.run(other, {}, {}, nullptr);
-        BOOST_CHECK(sameMesh(search.run(options, {}, {}, nullptr).cage, makeCage(model, options)));
+        const detail::FieldVersion none;
+        search.run({other, none, none, unlimitedMemory, nullptr});
+        BOOST_CHECK(
+            sameMesh(search.run({options, none, none, unlimitedMemory, nullptr}).cage, makeCage(model, options)));
     }
 }
 

@@ -14,7 +14,7 @@
 #include <vdbcage/core/detail/grids.h>
 #include <vdbcage/core/error.h>
 #include <vdbcage/pipeline/pipeline.h>
-#include <vdbcage/volume/scale_field.h>
+#include <vdbcage/volume/factor_field.h>
 
 using namespace vdbcage;
 using test::coarse;
@@ -155,7 +155,7 @@ BOOST_AUTO_TEST_CASE(a_model_that_stands_askew_gets_a_symmetric_cage)
         BOOST_CHECK(sameMesh(cage, makeCage(model, options)));
     }
     // A field that varies in space is laid out along the axes.
-    options.scale = readScaleField("sphere:7,-3,0,1,2");
+    options.scale = readFactorField("sphere:7,-3,0,1,2");
     Pipeline made(model);
     made.run(options);
     BOOST_CHECK(!made.report().tiltedSymmetry);
@@ -212,7 +212,7 @@ BOOST_AUTO_TEST_CASE(voxels_are_symmetric_whatever_the_scale_and_are_kept)
     CageOptions options = coarse();
     options.symmetry = CageSymmetry::y;
     options.closeRadius = 0.03;
-    options.scale = readScaleField("sphere:0,1,0,0.5,0.25");
+    options.scale = readFactorField("sphere:0,1,0,0.5,0.25");
     Pipeline made(saturn());
     made.run(options);
     BOOST_REQUIRE(made.report().symmetry);

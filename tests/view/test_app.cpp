@@ -43,7 +43,7 @@ BOOST_AUTO_TEST_CASE(each_option_goes_through_its_widget_to_its_ends_and_back)
         const std::string name = info.name;
         std::vector<std::string> values;
         using Field = std::decay_t<decltype(field)>;
-        if constexpr (std::is_same_v<Field, ScaleField>) {
+        if constexpr (std::is_same_v<Field, FactorField>) {
             values = {"sphere:0,0,0,1,0.5", "box:0,0,0,1,1,1,2"};
         } else if constexpr (std::is_same_v<Field, Joints>) {
             // of a file: none is the only text that needs no other

@@ -128,7 +128,7 @@ void defineVolume(py::module_& module)
         options.closeRadiusVoxels = closeRadius;
         options.erodeRadiusVoxels = erodeRadius;
         options.element = optionsWith("element", element).element;
-        const ScaleField field = optionsWith("scale-field", scale).scale;
+        const FactorField field = optionsWith("scale-field", scale).scale;
         const bool isUniform = !field.grid && field.regions.empty();
         return VolumeMask{resultOfJob(progress, [&](Interrupter* interrupter) {
             return isUniform ? closeMask(*mask.grid, options, interrupter)

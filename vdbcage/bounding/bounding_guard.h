@@ -5,14 +5,12 @@
 #include <optional>
 #include <vector>
 
-#include <vdbcage/bounding/joints.h>
 #include <vdbcage/core/export.h>
 #include <vdbcage/core/interrupter.h>
 #include <vdbcage/core/precision.h>
 #include <vdbcage/core/range.h>
 #include <vdbcage/mesh/mesh.h>
 #include <vdbcage/mesh/symmetry.h>
-#include <vdbcage/volume/scale_field.h>
 
 namespace vdbcage {
 
@@ -23,12 +21,11 @@ class GuardModel;
 const GuardModel& modelOf(const BoundingGuard& guard);
 } // namespace detail
 
-/// What a BoundingGuard keeps.
+/// Names what a BoundingGuard keeps.
 struct GuardOptions {
     static constexpr Range clearances{1e-7, 0.1}; ///< of `clearance`
     static constexpr Range minAngles{0, 30};      ///< of `minAngleDegrees`
     static constexpr Range spacings{1e-4, 0.01};  ///< of `spacing`
-    static constexpr Range jointDensities{1, 8};  ///< of `jointDensity`
 
     /// Least distance from model to surface, fraction of the model's longest side. Where points are rounded to float,
     /// at least four times the rounding of the largest coordinate. Models of a quarter of a million quads and more may
@@ -41,15 +38,13 @@ struct GuardOptions {
     Precision precision = Precision::automatic; ///< of the surface's coordinates; moves are decided as rounded
     /// If set, surfaces are exactly symmetric in it and stay so, and bound the model and its mirror image.
     std::optional<SymmetryPlane> symmetry = {};
-    /// Where faces go: the operators give a part of the model about as many times the faces as this says, at the cost
-    /// of the others. It counts at the nearest point of the model, at least 1/8. With a plane of symmetry that side
-    /// counts which is farther from 1. They do so by counting distance for more, or for less.
-    ScaleField density = {};
-    /// Where the model is to bend: quadLoops() makes three rings across the limb there, as far as the guard allows.
-    std::vector<Joint> joints = {};
-    /// The density within 1.5 times the distance of a joint from the model's surface. quadLoops() needs none: all it
-    /// would add are quads around the limb.
-    double jointDensity = 2;
+
+    /// Whether all are equal.
+    bool operator==(const GuardOptions& other) const
+    {
+        return clearance == other.clearance && minAngleDegrees == other.minAngleDegrees && spacing == other.spacing &&
+               precision == other.precision && symmetry == other.symmetry;
+    }
 };
 
 /// Keeps a surface bounding while it is changed. Built once from a model, any polygon soup. It lets smooth, decimate,

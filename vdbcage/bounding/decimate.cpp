@@ -12,9 +12,9 @@ namespace detail {
 
 namespace {
 
-GuardedMesh shrunk(const Mesh& surface, const BoundingGuard& guard, Interrupter* interrupter)
+GuardedMesh shrunk(const Mesh& surface, const BoundingGuard& guard, const FaceWishes& wishes, Interrupter* interrupter)
 {
-    GuardedMesh guarded(surface, detail::modelOf(guard), GuardedMesh::Quads::split);
+    GuardedMesh guarded(surface, detail::modelOf(guard), GuardedMesh::Quads::split, wishes);
     shrink(guarded, interrupter);
     return guarded;
 }
@@ -77,8 +77,9 @@ Mesh decimated(const Collapsed& collapsed, std::size_t copies, const BoundingDec
 
 } // namespace
 
-RecordedDecimation::RecordedDecimation(const Mesh& surface, const BoundingGuard& guard, Interrupter* interrupter)
-    : copies_(guard.symmetry() ? 2 : 1), sequence_(shrunk(surface, guard, interrupter))
+RecordedDecimation::RecordedDecimation(const Mesh& surface, const BoundingGuard& guard, const FaceWishes& wishes,
+                                       Interrupter* interrupter)
+    : copies_(guard.symmetry() ? 2 : 1), sequence_(shrunk(surface, guard, wishes, interrupter))
 {
 }
 
@@ -92,10 +93,10 @@ Mesh RecordedDecimation::to(const BoundingDecimateOptions& options, Interrupter*
 } // namespace detail
 
 Mesh decimate(const Mesh& surface, const BoundingGuard& guard, const BoundingDecimateOptions& options,
-              Interrupter* interrupter)
+              const FaceWishes& wishes, Interrupter* interrupter)
 {
     detail::requireFaces(options.faces);
-    detail::GuardedMesh start = detail::shrunk(surface, guard, interrupter);
+    detail::GuardedMesh start = detail::shrunk(surface, guard, wishes, interrupter);
     const std::size_t copies = start.copies();
     return detail::decimated(
         [&](std::size_t faces, Interrupter* passedOn) {

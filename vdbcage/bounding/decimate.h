@@ -4,6 +4,7 @@
 
 #include <vdbcage/bounding/bounding_guard.h>
 #include <vdbcage/bounding/effort.h>
+#include <vdbcage/bounding/face_wishes.h>
 #include <vdbcage/core/export.h>
 #include <vdbcage/core/interrupter.h>
 #include <vdbcage/mesh/mesh.h>
@@ -32,6 +33,6 @@ struct BoundingDecimateOptions {
 /// 2 s (best) on two threads.
 /// Based on: Garland and Heckbert, Surface Simplification Using Quadric Error Metrics, 1997.
 VDBCAGE_API Mesh decimate(const Mesh& surface, const BoundingGuard& guard, const BoundingDecimateOptions& options = {},
-                          Interrupter* interrupter = nullptr);
+                          const FaceWishes& wishes = {}, Interrupter* interrupter = nullptr);
 
 } // namespace vdbcage

@@ -5,9 +5,10 @@
 #include <utility>
 #include <vector>
 
-#include <vdbcage/bounding/detail/loops/joint_rings.h>
+#include <vdbcage/bounding/detail/loops/add_rings.h>
 #include <vdbcage/bounding/detail/loops/loop_decimation.h>
 #include <vdbcage/bounding/detail/loops/loop_exchange.h>
+#include <vdbcage/bounding/detail/quads/joint_rings.h>
 #include <vdbcage/bounding/detail/quads/quad_making.h>
 #include <vdbcage/bounding/detail/quads/quad_relax.h>
 #include <vdbcage/bounding/detail/triangles/relax.h>
@@ -75,7 +76,7 @@ void tightenSquarely(GuardedMesh& surface, const QuadTable& table, const QuadLoo
 } // namespace
 
 Mesh quadLoops(const Mesh& surface, const BoundingGuard& guard, const QuadLoopsOptions& options,
-               Interrupter* interrupter)
+               const FaceWishes& wishes, Interrupter* interrupter)
 {
     if (options.faces < 6) {
         throw InputError("faces: " + std::to_string(options.faces) +
@@ -86,7 +87,7 @@ Mesh quadLoops(const Mesh& surface, const BoundingGuard& guard, const QuadLoopsO
     requireWithin(QuadLoopsOptions::exchangeCounts, options.exchanges, "exchanges");
     requireValid(options.tightening);
     if (!surface.triangles.empty()) throw InputError("surface: it has triangles; it must be of quads only");
-    GuardedMesh guarded(surface, modelOf(guard), GuardedMesh::Quads::split);
+    GuardedMesh guarded(surface, modelOf(guard), GuardedMesh::Quads::split, wishes);
     QuadTable table(guarded);
     if (table.count() == 0) return guarded.mesh();
     constexpr int mostPercent = 70; // the rest comes after

@@ -3,6 +3,7 @@
 #include <cstddef>
 
 #include <vdbcage/bounding/bounding_guard.h>
+#include <vdbcage/bounding/face_wishes.h>
 #include <vdbcage/bounding/tighten.h>
 #include <vdbcage/core/export.h>
 #include <vdbcage/core/interrupter.h>
@@ -41,6 +42,6 @@ struct QuadLoopsOptions {
 /// Cost: O(n sqrt(n) log m) for n quads and m faces of the model.
 /// Based on: Daniels, Silva, Shepherd, Cohen, Quadrilateral Mesh Simplification, 2008.
 VDBCAGE_API Mesh quadLoops(const Mesh& surface, const BoundingGuard& guard, const QuadLoopsOptions& options = {},
-                           Interrupter* interrupter = nullptr);
+                           const FaceWishes& wishes = {}, Interrupter* interrupter = nullptr);
 
 } // namespace vdbcage

@@ -22,16 +22,16 @@ void requireValid(const TightenOptions& options)
     requireWithin(TightenOptions::sampleCounts, options.samples, "samples");
 }
 
-double meanDistance(const Mesh& cage, const BoundingGuard& guard, Interrupter* interrupter)
+double meanDistance(const Mesh& cage, const BoundingGuard& guard, const FaceWishes& wishes, Interrupter* interrupter)
 {
     constexpr int samples = 8;
-    const GuardedMesh surface(cage, modelOf(guard), GuardedMesh::Quads::split);
+    const GuardedMesh surface(cage, modelOf(guard), GuardedMesh::Quads::split, wishes);
     const double perSample = areaPerSample(surface, surface.liveFaces(), samples);
     return integratedDistance(surface, perSample, interrupter) / area(surface);
 }
 
 void tightenAndPerturb(GuardedMesh& surface, const TightenOptions& options, Interrupter* interrupter,
-                       const QuadShapeTerm* shape)
+                       const ShapeTerm* shape)
 {
     const auto perSample = [&] { return areaPerSample(surface, surface.liveFaces(), options.samples); };
     const int tightened = 100 / (1 + 2 * options.perturbations); // percent: a perturbation is tightened twice
@@ -55,10 +55,11 @@ TightenOptions tightenOptions(Effort effort)
     return options;
 }
 
-Mesh tighten(const Mesh& cage, const BoundingGuard& guard, const TightenOptions& options, Interrupter* interrupter)
+Mesh tighten(const Mesh& cage, const BoundingGuard& guard, const TightenOptions& options, const FaceWishes& wishes,
+             Interrupter* interrupter)
 {
     detail::requireValid(options);
-    detail::GuardedMesh guarded(cage, detail::modelOf(guard), detail::GuardedMesh::Quads::keep);
+    detail::GuardedMesh guarded(cage, detail::modelOf(guard), detail::GuardedMesh::Quads::keep, wishes);
     if (guarded.liveFaces() == 0) return guarded.mesh();
     detail::tightenAndPerturb(guarded, options, interrupter);
     return guarded.mesh();

@@ -2,6 +2,7 @@
 
 #include <vdbcage/bounding/bounding_guard.h>
 #include <vdbcage/bounding/effort.h>
+#include <vdbcage/bounding/face_wishes.h>
 #include <vdbcage/core/export.h>
 #include <vdbcage/core/interrupter.h>
 #include <vdbcage/core/range.h>
@@ -36,6 +37,6 @@ struct TightenOptions {
 /// \throw Cancelled
 /// Cost: O(sweeps * (1 + perturbations) * n log m) for n faces and m of the model.
 VDBCAGE_API Mesh tighten(const Mesh& cage, const BoundingGuard& guard, const TightenOptions& options = {},
-                         Interrupter* interrupter = nullptr);
+                         const FaceWishes& wishes = {}, Interrupter* interrupter = nullptr);
 
 } // namespace vdbcage

@@ -128,7 +128,7 @@ private:
 } // namespace
 
 Mesh triquad(const Mesh& surface, const BoundingGuard& guard, const BoundingTriquadOptions& options,
-             Interrupter* interrupter)
+             const FaceWishes& wishes, Interrupter* interrupter)
 {
     constexpr int attempts = 8;
     constexpr double aim = 0.99, goodEnough = 0.97;        // of the faces
@@ -138,7 +138,7 @@ Mesh triquad(const Mesh& surface, const BoundingGuard& guard, const BoundingTriq
     requireWithin(BoundingTriquadOptions::quadShares, options.quads, "quads");
     requireWithin(BoundingTriquadOptions::quadShapes, options.quadShape, "quad shape");
     detail::requireValid(options.tightening);
-    const detail::GuardedMesh fine(surface, detail::modelOf(guard), detail::GuardedMesh::Quads::split);
+    const detail::GuardedMesh fine(surface, detail::modelOf(guard), detail::GuardedMesh::Quads::split, wishes);
     if (fine.liveFaces() == 0) return fine.mesh();
 
     // How many triangles become the faces wanted shows when they are paired; `low` of them do not become too many.

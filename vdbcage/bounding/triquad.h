@@ -3,6 +3,7 @@
 #include <cstddef>
 
 #include <vdbcage/bounding/bounding_guard.h>
+#include <vdbcage/bounding/face_wishes.h>
 #include <vdbcage/bounding/tighten.h>
 #include <vdbcage/core/export.h>
 #include <vdbcage/core/interrupter.h>
@@ -46,6 +47,6 @@ struct BoundingTriquadOptions {
 /// Cost: O(n log n log m) for n faces and m of the model.
 /// Based on: Tarini, Pietroni, Cignoni, Panozzo, Puppo, Practical Quad Mesh Simplification, 2010 (the clean-up).
 VDBCAGE_API Mesh triquad(const Mesh& surface, const BoundingGuard& guard, const BoundingTriquadOptions& options = {},
-                         Interrupter* interrupter = nullptr);
+                         const FaceWishes& wishes = {}, Interrupter* interrupter = nullptr);
 
 } // namespace vdbcage

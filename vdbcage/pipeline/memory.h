@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 
 #include <vdbcage/core/error.h>
 #include <vdbcage/core/export.h>
@@ -10,7 +11,10 @@
 
 namespace vdbcage {
 
-/// Making a cage would take more memory than is allowed. Thrown before any work is done.
+/// As many bytes as there may be.
+constexpr std::size_t unlimitedMemory = std::numeric_limits<std::size_t>::max();
+
+/// Making a cage would take more memory than is allowed. Thrown before surfaces are made, which take most of it.
 class VDBCAGE_API MemoryError : public Error {
 public:
     using Error::Error;

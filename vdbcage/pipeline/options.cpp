@@ -97,7 +97,7 @@ struct ToText {
     {
         return value ? (*this)(*value) : "auto";
     }
-    std::string operator()(const ScaleField& value) const
+    std::string operator()(const FactorField& value) const
     {
         if (!value.source.empty()) return value.source;
         return value.grid || !value.regions.empty() ? "given" : "none";
@@ -157,11 +157,11 @@ struct FromText {
             field = parseNumber<Number>(info, text, whole ? "auto or a whole number" : "auto or a number");
         }
     }
-    void operator()(ScaleField& field) const
+    void operator()(FactorField& field) const
     {
         try {
             const std::string name = info.name;
-            field = readScaleField(text, name == "scale-field" ? "scale" : name);
+            field = readFactorField(text, name == "scale-field" ? "scale" : name);
         } catch (const InputError& error) {
             throw InputError("--" + std::string(info.name) + ": " + error.what());
         }
@@ -206,7 +206,7 @@ struct Placeholder {
     {
         return "auto|" + std::string(info.symbol);
     }
-    std::string operator()(const ScaleField& /*value*/) const { return info.symbol; }
+    std::string operator()(const FactorField& /*value*/) const { return info.symbol; }
     std::string operator()(const Joints& /*value*/) const { return info.symbol; }
     template <typename Name>
     std::string operator()(Name /*value*/) const

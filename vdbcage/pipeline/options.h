@@ -12,8 +12,8 @@
 #include <vdbcage/core/export.h>
 #include <vdbcage/core/precision.h>
 #include <vdbcage/core/range.h>
+#include <vdbcage/volume/factor_field.h>
 #include <vdbcage/volume/morphology.h>
-#include <vdbcage/volume/scale_field.h>
 #include <vdbcage/voxelize/voxelize.h>
 
 namespace vdbcage {
@@ -59,9 +59,9 @@ struct CageOptions {
     std::optional<double> erodeRadius;
     StructuringElement element = StructuringElement::sphere; ///< of the closing
     /// What the close radius and the erode radius are multiplied by in places; for the sphere only.
-    ScaleField scale;
+    FactorField scale;
     /// About how many times the faces a place of the model gets, at the cost of the others. Needs `bounding`.
-    ScaleField density;
+    FactorField density;
     /// Where it is to bend: three rings of quads with CageFaces::loops, twice the faces with others. Needs `bounding`.
     Joints joints;
     /// Sweeps of smoothing, 0 to 100: rounder, and less tight, with more. Of the cage, or of the surface before it is

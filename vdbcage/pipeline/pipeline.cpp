@@ -20,7 +20,7 @@
 namespace vdbcage {
 
 using detail::Candidate;
-using detail::ScaleVersion;
+using detail::FieldVersion;
 
 namespace {
 
@@ -32,7 +32,7 @@ bool areEqual(const CageOptions& a, const CageOptions& b)
         visitOptions(b, [&](const OptionInfo& other, const auto& second) {
             using First = std::decay_t<decltype(first)>;
             using Second = std::decay_t<decltype(second)>;
-            if constexpr (std::is_same_v<First, Second> && !std::is_same_v<First, ScaleField>) {
+            if constexpr (std::is_same_v<First, Second> && !std::is_same_v<First, FactorField>) {
                 if (std::string_view(of.name) == other.name) equal = equal && first == second;
             }
         });
@@ -59,6 +59,7 @@ CageReport reportOf(const Candidate& made, const CageOptions& options, bool areF
     report.symmetry = made.symmetry;
     report.tiltedSymmetry = made.tiltedSymmetry;
     report.noSymmetry = made.noSymmetry;
+    report.plan = made.plan;
     report.repaired = made.repaired;
     report.sideShare = made.sideShare;
     report.startFaces = faceCount(*made.surface);
@@ -78,18 +79,18 @@ class Pipeline::Impl {
 public:
     explicit Impl(Mesh model) : model_((requireUsable(model, "model"), std::move(model))) {}
 
-    void run(const CageOptions& options, Interrupter* interrupter)
+    void run(const CageOptions& options, Interrupter* interrupter, std::size_t memoryLimit)
     {
         requireValid(options);
-        ScaleVersion scale(options.scale), density(options.density);
+        FieldVersion scale(options.scale), density(options.density);
         if (last_ && scale == last_->scale && density == last_->density && areEqual(options, last_->options)) return;
         Work& work = workFor(options.leastPart);
         detail::requireHeld(options.precision, boundingBox(work.model));
         CageOptions decided = options;
         if (options.interior == Interior::automatic) decided.interior = work.interior(interrupter);
-        Candidate made = options.bounding
-                             ? work.search.run(decided, scale, density, interrupter)
-                             : detail::textbookCage(decided, scale, work.volumes, work.certifier, interrupter);
+        Candidate made = options.bounding ? work.search.run({decided, scale, density, memoryLimit, interrupter})
+                                          : detail::textbookCage(decided, scale, work.volumes, work.certifier,
+                                                                 memoryLimit, interrupter);
         if (options.bounding && !made.check.bounding()) {
             throw Error("the cage could not be certified; this is a defect of vdbcage, please report the model");
         }
@@ -148,7 +149,7 @@ private:
     /// What the cage was made with.
     struct Last {
         CageOptions options;
-        ScaleVersion scale, density;
+        FieldVersion scale, density;
     };
 
     static Candidate nothing()
@@ -172,10 +173,10 @@ Pipeline::~Pipeline() = default;
 Pipeline::Pipeline(Pipeline&&) noexcept = default;
 Pipeline& Pipeline::operator=(Pipeline&&) noexcept = default;
 
-const Mesh& Pipeline::run(const CageOptions& options, Interrupter* interrupter)
+const Mesh& Pipeline::run(const CageOptions& options, Interrupter* interrupter, std::size_t memoryLimit)
 {
     // Even the destructors of OpenVDB's trees crash in a task of the host that was cancelled.
-    detail::isolated([&] { impl_->run(options, interrupter); });
+    detail::isolated([&] { impl_->run(options, interrupter, memoryLimit); });
     return cage();
 }
 

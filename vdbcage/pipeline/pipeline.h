@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <vdbcage/check/check.h>
 #include <vdbcage/core/export.h>
@@ -12,6 +13,7 @@
 #include <vdbcage/core/interrupter.h>
 #include <vdbcage/mesh/mesh.h>
 #include <vdbcage/mesh/symmetry.h>
+#include <vdbcage/pipeline/memory.h>
 #include <vdbcage/pipeline/options.h>
 
 namespace vdbcage {
@@ -42,13 +44,14 @@ struct CageReport {
     std::optional<Symmetry> symmetry; ///< the plane in which the cage is exactly symmetric, and how far the model is
     /// If the plane lies across no axis: the cage is symmetric in it but for the rounding of its coordinates.
     std::optional<TiltedSymmetry> tiltedSymmetry;
-    std::string noSymmetry;         ///< why there is none; empty if there is, or it was not asked for
-    bool repaired = false;          ///< an unguarded cage was not valid and went through repair()
-    std::size_t partsLeftOut = 0;   ///< of the model, smaller than CageOptions::leastPart: it bounds the others
-    std::size_t facesLeftOut = 0;   ///< the model's triangles and quads in these
-    double leastPartSide = 0;       ///< the longest side that was asked of a part, world units
-    double sideShare = 1;           ///< of the longest side, that voxels and radii of `auto` were chosen for
-    std::size_t startFaces = 0;     ///< of what it was shrunk from
+    std::string noSymmetry;        ///< why there is none; empty if there is, or it was not asked for
+    bool repaired = false;         ///< an unguarded cage was not valid and went through repair()
+    std::size_t partsLeftOut = 0;  ///< of the model, smaller than CageOptions::leastPart: it bounds the others
+    std::size_t facesLeftOut = 0;  ///< the model's triangles and quads in these
+    double leastPartSide = 0;      ///< the longest side that was asked of a part, world units
+    std::vector<std::string> plan; ///< what the search tried, a line for each kind of cage that competed; bounding only
+    double sideShare = 1;          ///< of the longest side, that voxels and radii of `auto` were chosen for
+    std::size_t startFaces = 0;    ///< of what it was shrunk from
     std::size_t cavitiesFilled = 0; ///< hollows inside the closing that were filled
     std::size_t solidParts = 0;     ///< separate surfaces of the model's voxels, inner ones too
     std::int64_t solidHandles = 0;  ///< and handles, tunnels through them, of all of them
@@ -107,10 +110,13 @@ public:
     /// \throw InputError what requireValid, voxelize or closeMask refuses; float32 is asked for and rounds by more than a
     /// thousandth of the longest side; the model misses the plane of symmetry that
     /// is asked for by more than 0.3 of its longest side
+    /// \throw MemoryError a process that makes this cage would hold more than `memoryLimit` bytes, as predictedMemory()
+    /// predicts; with unlimitedMemory nothing is predicted
     /// \throw DeviceError the voxelizer asked for is missing or fails
     /// \throw Error the cage could not be certified, which is a defect of vdbcage
     /// \throw Cancelled
-    const Mesh& run(const CageOptions& options, Interrupter* interrupter = nullptr);
+    const Mesh& run(const CageOptions& options, Interrupter* interrupter = nullptr,
+                    std::size_t memoryLimit = unlimitedMemory);
 
     /// The model as it was given.
     const Mesh& model() const;

@@ -13,7 +13,6 @@
 #include <vdbcage/core/detail/read_file.h>
 #include <vdbcage/core/error.h>
 #include <vdbcage/mesh/mesh_io.h>
-#include <vdbcage/pipeline/memory.h>
 #include <vdbcage/pipeline/pipeline.h>
 
 #include <tools/cli/commands.h>
@@ -75,8 +74,7 @@ Pipeline makePipeline(std::vector<ModelFile>& models, const MakeArguments& argum
 {
     try {
         Pipeline pipeline(takeMesh(models));
-        requireMemory(pipeline.model(), arguments.options, arguments.memoryLimit, &interrupter);
-        pipeline.run(arguments.options, &interrupter);
+        pipeline.run(arguments.options, &interrupter, arguments.memoryLimit);
         return pipeline;
     } catch (const InputError& error) {
         const std::string text = error.what(), prefix = "model: ";
@@ -122,6 +120,7 @@ std::string summaryOf(const MakeArguments& arguments, const std::vector<ModelFil
         out << "  " << std::left << std::setw(10) << stage.name << std::right << std::setw(8) << stage.seconds
             << " s\n";
     }
+    for (const std::string& line : report.plan) out << "  tried " << line << '\n';
     out << "  close radius " << detail::numberText(report.closeRadius) << ", erode radius "
         << detail::numberText(report.erodeRadius);
     if (report.minAngle) out << ", least angle " << detail::numberText(*report.minAngle);

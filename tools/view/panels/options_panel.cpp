@@ -77,7 +77,7 @@ public:
         const double shown = number ? static_cast<double>(*number) : came.value_or(info_.range.least);
         buildNumber(shown, std::is_integral_v<Number>, Auto{!number.has_value(), came});
     }
-    void build(const ScaleField&, const std::optional<double>&) const { buildText(); }
+    void build(const FactorField&, const std::optional<double>&) const { buildText(); }
     void build(const Joints&, const std::optional<double>&) const { buildText(); }
     template <class Name>
     void build(Name, const std::optional<double>&) const

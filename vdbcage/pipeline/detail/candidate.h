@@ -3,8 +3,8 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
-#include <vdbcage/bounding/detail/triangles/recorded_decimation.h>
 #include <vdbcage/mesh/symmetry.h>
 #include <vdbcage/mesh/topology.h>
 #include <vdbcage/pipeline/detail/search.h>
@@ -16,23 +16,22 @@ namespace vdbcage::detail {
 /// What bounding cages of any face count begin with: a surface around a closing or its convex hull, or a simple solid.
 struct StartingSurface {
     CageStart kind = CageStart::closing;
-    std::shared_ptr<Closing>
-        closing; ///< of a simple solid that which it competes with; of a turned start as if it were not
-    bool turned = false;
+    /// Of a simple solid that which it competes with; of a turned start as if it were not.
+    std::shared_ptr<const Closing> closing;
     double offsetVoxels = 0; ///< by how much all of it was grown to keep the clearance
     std::shared_ptr<const Mesh> surface;
     MeshTopology topology;
-    std::optional<RecordedDecimation> decimation; ///< once it was asked for
-    bool isUsed = true;                           ///< in this run
 };
+
+struct KeptStart;
 
 /// A cage and what it was made from.
 struct Candidate {
     Voxels voxels;
     CageStart start = CageStart::closing;
     double offsetVoxels = 0;
-    std::shared_ptr<StartingSurface> from; ///< bounding only
-    std::shared_ptr<Closing> closing;
+    std::shared_ptr<KeptStart> from; ///< bounding only
+    std::shared_ptr<const Closing> closing;
     std::shared_ptr<const Mesh> surface;
     MeshTopology topology; ///< of the surface
     Mesh decimated, smoothed, cage;
@@ -45,6 +44,7 @@ struct Candidate {
     std::optional<Symmetry> symmetry = {};
     std::optional<TiltedSymmetry> tiltedSymmetry = {};
     std::string noSymmetry = {};
+    std::vector<std::string> plan = {}; ///< describe() of the search's
 };
 
 } // namespace vdbcage::detail

@@ -17,6 +17,7 @@ public:
     /// `model` must outlive this.
     explicit Certifier(const Mesh& model);
 
+    const Mesh& model() const { return model_; }
     /// Verdict and measures of a cage, against the model as given.
     /// \throw Cancelled
     CageCheck check(const Mesh& cage, Interrupter* interrupter);

@@ -4,6 +4,10 @@
 #include <cmath>
 #include <iterator>
 
+#include <vdbcage/bounding/face_wishes.h>
+#include <vdbcage/mesh/parts.h>
+#include <vdbcage/pipeline/detail/simple_solids.h>
+
 namespace vdbcage::detail {
 
 using namespace policy;
@@ -88,19 +92,25 @@ bool areWorthTheirFaces(const CageCheck& more, const CageCheck& fewer, double cl
     return isNowhereLooser || unevenDistance(more) < muchTighter * unevenDistance(fewer);
 }
 
-double shareOfSide(const CageOptions& options, const ShareQuestions& model)
+double shareOfSide(const CageOptions& options, const Mesh& model,
+                   const std::function<std::size_t(const Voxels&)>& quadsOf)
 {
     if (options.resolution) return 1;
+    const double side = longestSide(boundingBox(model));
+    const openvdb::Vec3d extents = boundingBox(model).extents() / side;
+    const double box = extents[0] * extents[1] * extents[2];
+    std::optional<double> largest; // part, once it was asked for
     CageOptions counted = options;
     if (options.mesh == CageFaces::loops) counted.mesh = CageFaces::quads; // of loops the voxels follow the surface
     for (double share = 1;; share /= 2) {
         Voxels voxels = finestVoxels(counted, share);
         const double finer = 2.0 * voxels.resolution;
         voxels.resolution = static_cast<int>(std::lround(startScales(counted).front() * voxels.resolution));
-        if (finer > mostResolution || model.box * finer * finer * finer > mostVoxels) return share;
-        const double triangles = 2 * static_cast<double>(model.quadsOf(voxels));
+        if (finer > mostResolution || box * finer * finer * finer > mostVoxels) return share;
+        const double triangles = 2 * static_cast<double>(quadsOf(voxels));
         if (triangles >= (share == 1 ? fewestTriangles : usualTriangles) * options.faces) return share;
-        if (share / 2 < model.largestPart()) return share;
+        if (!largest) largest = largestPart(model) / side;
+        if (share / 2 < *largest) return share;
     }
 }
 
@@ -224,15 +234,17 @@ GuardOptions guardOptions(const CageOptions& options, bool ofSheet)
     GuardOptions guarding;
     guarding.clearance = options.clearance;
     guarding.precision = options.precision;
-    guarding.density = options.density;
-    guarding.joints = options.joints.list;
-    if (options.mesh == CageFaces::loops) guarding.jointDensity = 1;
     const bool areSlenderAllowed = ofSheet || options.mesh == CageFaces::loops;
     guarding.minAngleDegrees = options.minAngle.value_or(!areSlenderAllowed ? (isWide ? wideAngle : usualAngle)
                                                          : ofSheet          ? sheetAngle
                                                                             : loopsAngle);
     if (ofSheet) guarding.spacing = sheetSpacing;
     return guarding;
+}
+
+double jointDensity(const CageOptions& options)
+{
+    return options.mesh == CageFaces::loops ? 1 : FaceWishOptions{}.jointDensity;
 }
 
 } // namespace vdbcage::detail

@@ -108,17 +108,13 @@ struct Voxels {
 /// compete with other quads from Effort::fair on.
 std::vector<CageOptions> competitors(const CageOptions& options);
 
-/// What shareOfSide() asks of a model.
-struct ShareQuestions {
-    double box;                                        ///< volume, for the cube of the longest side
-    std::function<double()> largestPart;               ///< its longest side, for that of all
-    std::function<std::size_t(const Voxels&)> quadsOf; ///< of the surface in such voxels
-};
 /// The share of the longest side that options `auto` of the voxels are fractions of. It is 1, or less where the surface
 /// in such voxels has too few faces for the cage and all parts are small: a power of 1/2, not below the largest part,
 /// nor so small that voxels take too much memory.
-/// \throw Cancelled, and what the questions throw
-double shareOfSide(const CageOptions& options, const ShareQuestions& model);
+/// `quadsOf` gives the number of quads of the closing's surface in some voxels.
+/// \throw what `quadsOf` throws
+double shareOfSide(const CageOptions& options, const Mesh& model,
+                   const std::function<std::size_t(const Voxels&)>& quadsOf);
 /// Whether a cage may have more faces than a flat model has a use for: some places are much farther away than most, or
 /// it lies on the model. Among few faces, where lower efforts compete, only of models that have fewer faces themselves.
 bool mayFewerBeTighter(const CageOptions& options, const CageCheck& check, std::size_t modelFaces);
@@ -183,5 +179,8 @@ bool isSheet(std::size_t voxels, std::size_t inner, int resolution);
 
 /// Without a plane of symmetry. `ofSheet`: of a model that isSheet.
 GuardOptions guardOptions(const CageOptions& options, bool ofSheet);
+
+/// The density at joints.
+double jointDensity(const CageOptions& options);
 
 } // namespace vdbcage::detail

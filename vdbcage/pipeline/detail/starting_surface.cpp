@@ -50,9 +50,9 @@ Mesh symmetricSurface(const openvdb::MaskGrid& mask, const SolidKey& voxels, Int
 
 } // namespace
 
-StartingSurface startingSurface(std::shared_ptr<Closing> closing, CageStart kind,
-                                const std::optional<openvdb::Mat3d>& axes, const BoundingGuard& guard,
-                                Interrupter* interrupter)
+StartingSurface startingSurface(std::shared_ptr<const Closing> closing, CageStart kind,
+                                const std::optional<openvdb::Mat3d>& axes, std::shared_ptr<const Mesh> extracted,
+                                const BoundingGuard& guard, Interrupter* interrupter)
 {
     StartingSurface start;
     start.kind = kind;
@@ -68,14 +68,15 @@ StartingSurface startingSurface(std::shared_ptr<Closing> closing, CageStart kind
     const auto turnedBack = [&](Mesh mesh) { return axes ? turned(std::move(mesh), axes->transpose()) : mesh; };
     openvdb::MaskGrid::Ptr mask; // the solid itself until it has to grow
     if (start.offsetVoxels > 0) mask = grownBy(start.offsetVoxels, *solid);
+    if (mask || kind != CageStart::closing) extracted.reset();
     for (;;) {
         throwIfInterrupted(interrupter);
         const openvdb::MaskGrid& now = mask ? *mask : *solid;
         if (guard.symmetry()) {
             const Mesh whole = turnedBack(symmetricSurface(now, voxels, interrupter));
             start.surface = std::make_shared<const Mesh>(guard.symmetrized(whole, now.voxelSize()[0] / 4));
-        } else if (!mask && kind == CageStart::closing && start.closing->surface) {
-            start.surface = start.closing->surface;
+        } else if (extracted) {
+            start.surface = std::exchange(extracted, nullptr); // it is of the solid as it is
         } else {
             start.surface = std::make_shared<const Mesh>(turnedBack(extractSurface(now, interrupter)));
         }
@@ -84,12 +85,11 @@ StartingSurface startingSurface(std::shared_ptr<Closing> closing, CageStart kind
         if (!mask) mask = maskGridLike(*solid, maskTreeLike(solid->tree()));
         if (addVoxelsOutside(*start.surface, tooNear, axes, *mask) == 0) mask = grownBy(1, *mask);
     }
-    start.closing->surface.reset(); // it was for this
     start.topology = analyzeTopology(*start.surface, interrupter);
     return start;
 }
 
-StartingSurface simpleSolid(std::shared_ptr<Closing> closing, CageStart kind, const Mesh& model,
+StartingSurface simpleSolid(std::shared_ptr<const Closing> closing, CageStart kind, const Mesh& model,
                             const openvdb::Mat3d& axes, double thinnest, const BoundingGuard& guard,
                             Interrupter* interrupter)
 {

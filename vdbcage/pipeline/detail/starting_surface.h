@@ -13,16 +13,17 @@ namespace vdbcage::detail {
 ///
 /// All of it grows by as many whole voxels as the clearance has. Then places where that is not enough grow until it is.
 /// The surface is symmetric where the guard has a plane. A closing of the model turned by `axes` is turned back.
+/// `extracted` is the surface of the closing, where it is known already, or null.
 /// \throw Cancelled
-StartingSurface startingSurface(std::shared_ptr<Closing> closing, CageStart kind,
-                                const std::optional<openvdb::Mat3d>& axes, const BoundingGuard& guard,
-                                Interrupter* interrupter);
+StartingSurface startingSurface(std::shared_ptr<const Closing> closing, CageStart kind,
+                                const std::optional<openvdb::Mat3d>& axes, std::shared_ptr<const Mesh> extracted,
+                                const BoundingGuard& guard, Interrupter* interrupter);
 
 /// The box around the model along `axes`, six quads, or a tetrahedron around that. As near as the clearance allows, but
 /// no side is shorter than `thinnest`, a fraction of the longest. The box is symmetric where the guard has a plane, to
 /// which one of the axes is square.
 /// \pre `kind` is orientedBox or tetrahedron
-StartingSurface simpleSolid(std::shared_ptr<Closing> closing, CageStart kind, const Mesh& model,
+StartingSurface simpleSolid(std::shared_ptr<const Closing> closing, CageStart kind, const Mesh& model,
                             const openvdb::Mat3d& axes, double thinnest, const BoundingGuard& guard,
                             Interrupter* interrupter);
 

@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <utility>
 
+#include <vdbcage/pipeline/detail/memory_demand.h>
+#include <vdbcage/pipeline/memory.h>
 #include <vdbcage/surface/decimate.h>
 #include <vdbcage/surface/repair.h>
 #include <vdbcage/surface/smooth.h>
 #include <vdbcage/surface/triquad.h>
+#include <vdbcage/volume/extract.h>
 
 namespace vdbcage::detail {
 
@@ -18,15 +21,24 @@ Mesh merged(const Mesh& triangles, const CageOptions& options)
     return triquad(triangles, merging);
 }
 
-Candidate textbookCage(const CageOptions& options, const ScaleVersion& scale, Volumes& volumes, Certifier& certifier,
-                       Interrupter* interrupter)
+Candidate textbookCage(const CageOptions& options, const FieldVersion& scale, Volumes& volumes, Certifier& certifier,
+                       std::size_t memoryLimit, Interrupter* interrupter)
 {
+    if (memoryLimit < unlimitedMemory) {
+        const auto quadsOf = [&](const Voxels& voxels) {
+            return faceCount(extractSurface(*volumes.closing(options, scale, voxels, interrupter)->mask, interrupter));
+        };
+        MemoryDemand(certifier.model(), options, 1, quadsOf).requireWithin(memoryLimit);
+    }
+
     Candidate candidate;
     if (options.symmetry != CageSymmetry::off) candidate.noSymmetry = "bounding is off";
     candidate.voxels = finestVoxels(options);
     candidate.closing = volumes.closing(options, scale, candidate.voxels, interrupter);
-    candidate.surface = surfaceOf(*candidate.closing, interrupter);
-    candidate.closing->surface.reset();
+    {
+        const Stage stage(interrupter, "surface");
+        candidate.surface = std::make_shared<const Mesh>(extractSurface(*candidate.closing->mask, interrupter));
+    }
     candidate.topology = analyzeTopology(*candidate.surface, interrupter);
     {
         const Stage stage(interrupter, "smooth");

@@ -9,8 +9,8 @@ namespace vdbcage::detail {
 /// \throw InputError as Pipeline::run
 /// \throw DeviceError
 /// \throw Cancelled
-Candidate textbookCage(const CageOptions& options, const ScaleVersion& scale, Volumes& volumes, Certifier& certifier,
-                       Interrupter* interrupter);
+Candidate textbookCage(const CageOptions& options, const FieldVersion& scale, Volumes& volumes, Certifier& certifier,
+                       std::size_t memoryLimit, Interrupter* interrupter);
 
 /// Quads by merging alone, as the options ask.
 Mesh merged(const Mesh& triangles, const CageOptions& options);

@@ -32,11 +32,13 @@ TiltedSearch::TiltedSearch(const Mesh& model, const TiltedSymmetry& plane, Certi
 {
 }
 
-std::optional<Candidate> TiltedSearch::run(const CageOptions& options, Interrupter* interrupter)
+std::optional<Candidate> TiltedSearch::run(const CageOptions& options, std::size_t memoryLimit,
+                                           Interrupter* interrupter)
 {
     CageOptions acrossX = options;
     acrossX.symmetry = CageSymmetry::x;
-    Candidate candidate = search_.run(acrossX, {}, {}, interrupter);
+    const FieldVersion none;
+    Candidate candidate = search_.run({acrossX, none, none, memoryLimit, interrupter});
     if (!candidate.symmetry) return std::nullopt;
     candidate.cage = certifier_.rounded(turnedBack(std::move(candidate.cage)), options.precision);
     candidate.check = certifier_.check(candidate.cage, interrupter);

@@ -19,9 +19,10 @@ public:
     /// A symmetric cage that is certified where it is; nothing if there is none with so few faces.
     /// \pre the options have no field that varies in space
     /// \throw InputError as Pipeline::run
+    /// \throw MemoryError
     /// \throw DeviceError
     /// \throw Cancelled
-    std::optional<Candidate> run(const CageOptions& options, Interrupter* interrupter);
+    std::optional<Candidate> run(const CageOptions& options, std::size_t memoryLimit, Interrupter* interrupter);
 
     const TiltedSymmetry& plane() const { return plane_; }
 

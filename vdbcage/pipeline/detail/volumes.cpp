@@ -8,7 +8,6 @@
 #include <vdbcage/core/detail/parallel.h>
 #include <vdbcage/pipeline/detail/simple_solids.h>
 #include <vdbcage/volume/cavities.h>
-#include <vdbcage/volume/extract.h>
 #include <vdbcage/volume/mirror.h>
 #include <vdbcage/volume/morphology.h>
 
@@ -67,16 +66,16 @@ std::uint64_t digestOf(const openvdb::FloatGrid& grid)
 
 } // namespace
 
-ScaleVersion::ScaleVersion(const ScaleField& scale)
+FieldVersion::FieldVersion(const FactorField& scale)
     : regions(scale.regions), grid(scale.grid ? isolated([&] { return digestOf(*scale.grid); }) : 0)
 {
 }
 
-bool ScaleVersion::operator==(const ScaleVersion& other) const
+bool FieldVersion::operator==(const FieldVersion& other) const
 {
-    const auto areEqual = [](const ScaleRegion& a, const ScaleRegion& b) {
+    const auto areEqual = [](const FactorRegion& a, const FactorRegion& b) {
         return a.shape == b.shape && a.lower == b.lower && a.upper == b.upper && a.radius == b.radius &&
-               a.scale == b.scale;
+               a.factor == b.factor;
     };
     return grid == other.grid &&
            std::equal(regions.begin(), regions.end(), other.regions.begin(), other.regions.end(), areEqual);
@@ -94,22 +93,13 @@ bool ClosingKey::operator==(const ClosingKey& other) const
            element == other.element && scale == other.scale;
 }
 
-ClosingKey closingKey(const CageOptions& options, const ScaleVersion& scale, const Voxels& voxels)
+ClosingKey closingKey(const CageOptions& options, const FieldVersion& scale, const Voxels& voxels)
 {
     return {{voxels.resolution, options.voxelizer, options.interior, voxels.plane},
             voxels.closeRadius,
             options.erodeRadius.value_or(voxels.closeRadius),
             options.element,
             scale};
-}
-
-const std::shared_ptr<const Mesh>& surfaceOf(Closing& closing, Interrupter* interrupter)
-{
-    if (!closing.surface) {
-        const Stage stage(interrupter, "surface");
-        closing.surface = std::make_shared<const Mesh>(extractSurface(*closing.mask, interrupter));
-    }
-    return closing.surface;
 }
 
 std::size_t countOf(const openvdb::MaskGrid& mask)
@@ -140,8 +130,8 @@ std::shared_ptr<const Solid> Volumes::solid(const SolidKey& key, Interrupter* in
     return solid_;
 }
 
-std::shared_ptr<Closing> Volumes::closing(const CageOptions& options, const ScaleVersion& scale, const Voxels& voxels,
-                                          Interrupter* interrupter)
+std::shared_ptr<const Closing> Volumes::closing(const CageOptions& options, const FieldVersion& scale,
+                                                const Voxels& voxels, Interrupter* interrupter)
 {
     const ClosingKey key = closingKey(options, scale, voxels);
     if (closing_ && closing_->key == key) return closing_;

@@ -16,15 +16,15 @@
 /// The volumes that cages are made from. They are kept from run to run under typed keys: equal keys, equal volumes.
 namespace vdbcage::detail {
 
-/// What a scale field says. The grid counts by its content, as whoever holds it may write to it between two runs.
-struct ScaleVersion {
-    std::vector<ScaleRegion> regions;
+/// What a field says. The grid counts by its content, as whoever holds it may write to it between two runs.
+struct FieldVersion {
+    std::vector<FactorRegion> regions;
     std::uint64_t grid = 0; ///< digest of transform, background, tiles and leaves; 0 without a grid
 
-    ScaleVersion() = default;
+    FieldVersion() = default;
     /// Cost: O(values of the grid).
-    explicit ScaleVersion(const ScaleField& scale);
-    bool operator==(const ScaleVersion& other) const;
+    explicit FieldVersion(const FactorField& scale);
+    bool operator==(const FieldVersion& other) const;
 };
 
 struct SolidKey {
@@ -40,7 +40,7 @@ struct ClosingKey {
     SolidKey solid;
     double closeRadius = 0, erodeRadius = 0;
     StructuringElement element = StructuringElement::sphere;
-    ScaleVersion scale;
+    FieldVersion scale;
 
     bool operator==(const ClosingKey& other) const;
 };
@@ -60,13 +60,8 @@ struct Closing {
     std::shared_ptr<const Solid> solid;
     std::shared_ptr<const openvdb::MaskGrid> mask;
     std::size_t cavitiesFilled = 0;
-    std::size_t voxels = 0;                   ///< active ones
-    std::shared_ptr<const Mesh> surface = {}; ///< once surfaceOf() was asked for it
+    std::size_t voxels = 0; ///< active ones
 };
-
-/// The surface of a closing, made once.
-/// \throw Cancelled
-const std::shared_ptr<const Mesh>& surfaceOf(Closing& closing, Interrupter* interrupter);
 
 /// Makes volumes of one model. The last of each kind is kept. What was given out stays as it is.
 class Volumes {
@@ -78,8 +73,8 @@ public:
     /// \throw InputError as voxelize, closeMask
     /// \throw DeviceError
     /// \throw Cancelled
-    std::shared_ptr<Closing> closing(const CageOptions& options, const ScaleVersion& scale, const Voxels& voxels,
-                                     Interrupter* interrupter);
+    std::shared_ptr<const Closing> closing(const CageOptions& options, const FieldVersion& scale, const Voxels& voxels,
+                                           Interrupter* interrupter);
 
     /// The model's voxels.
     /// \throw InputError as voxelize
@@ -90,11 +85,11 @@ public:
 private:
     const Mesh& model_;
     std::shared_ptr<const Solid> solid_;
-    std::shared_ptr<Closing> closing_;
+    std::shared_ptr<const Closing> closing_;
 };
 
 /// The key of the closing that Volumes::closing gives.
-ClosingKey closingKey(const CageOptions& options, const ScaleVersion& scale, const Voxels& voxels);
+ClosingKey closingKey(const CageOptions& options, const FieldVersion& scale, const Voxels& voxels);
 
 /// How many active voxels `mask` has.
 std::size_t countOf(const openvdb::MaskGrid& mask);

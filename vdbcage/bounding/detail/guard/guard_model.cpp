@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 #include <string>
 #include <utility>
 
@@ -11,7 +10,6 @@
 #include <vdbcage/core/error.h>
 #include <vdbcage/geometry/union_find.h>
 #include <vdbcage/mesh/detail/precision.h>
-#include <vdbcage/volume/detail/scale_at.h>
 
 namespace vdbcage::detail {
 
@@ -84,51 +82,34 @@ Faces facesOf(const Mesh& model, const std::vector<Vec3d>& points, double maxDis
     return faces;
 }
 
-/// \throw InputError
-void requireValid(const Joint& joint, const openvdb::BBoxd& box)
-{
-    const auto refuse = [&](const char* why) {
-        std::ostringstream text;
-        text.precision(15); // as the user wrote it
-        text << "joints: the one at " << joint.place << ' ' << why;
-        throw InputError(text.str());
-    };
-    if (!joint.place.isFinite()) refuse("is not at a finite place");
-    if (!box.isInside(joint.place)) refuse("is outside of the model's bounding box; it must be inside of a limb");
-    if (joint.axis && !(joint.axis->isFinite() && joint.axis->lengthSqr() > 0)) refuse("has an axis without length");
-}
-
 } // namespace
 
 GuardModel::GuardModel(const Mesh& model, const GuardOptions& options, Interrupter* interrupter)
-    : density_(options.density)
 {
     requireUsable(model, "model");
-    requireValidDensity(density_, interrupter);
     requireWithin(GuardOptions::clearances, options.clearance, "clearance");
     requireWithin(GuardOptions::minAngles, options.minAngleDegrees, "min angle");
     requireWithin(GuardOptions::spacings, options.spacing, "spacing");
-    requireWithin(GuardOptions::jointDensities, options.jointDensity, "joint density");
-    openvdb::BBoxd box = boundingBox(model);
+    box_ = boundingBox(model);
     if (options.symmetry) {
         const int axis = options.symmetry->axis;
         if (axis < 0 || axis > 2) {
             throw InputError("symmetry axis: " + std::to_string(axis) + " is not allowed; it must be 0, 1 or 2");
         }
         const double twice = 2 * options.symmetry->offset;
-        openvdb::Vec3d low = box.min(), high = box.max();
-        low[axis] = twice - box.max()[axis];
-        high[axis] = twice - box.min()[axis];
-        box.expand(openvdb::BBoxd(low, high));
+        openvdb::Vec3d low = box_.min(), high = box_.max();
+        low[axis] = twice - box_.max()[axis];
+        high[axis] = twice - box_.min()[axis];
+        box_.expand(openvdb::BBoxd(low, high));
     }
-    const double side = box.extents()[static_cast<int>(box.maxExtent())];
+    const double side = box_.extents()[static_cast<int>(box_.maxExtent())];
     scale_ = std::ldexp(1.0, -std::ilogb(side));
     clearance_ = options.clearance * side * scale_;
     // Below the least sine the orientation tests have no room.
     minSine_ = std::max(1e-6, std::sin(options.minAngleDegrees * pi / 180));
-    requireHeld(options.precision, box);
-    roundsToFloat_ = areFloats(options.precision, box);
-    if (roundsToFloat_) clearance_ = std::max(clearance_, 4 * floatRounding(box) * scale_);
+    requireHeld(options.precision, box_);
+    roundsToFloat_ = areFloats(options.precision, box_);
+    if (roundsToFloat_) clearance_ = std::max(clearance_, 4 * floatRounding(box_) * scale_);
     const double narrowness = options.spacing / GuardOptions{}.spacing; // of triangles to each other
     spacing_ = {options.spacing * side * scale_, 0.05 * narrowness, std::sin(narrowness * pi / 180)};
     std::vector<Vec3d> points;
@@ -140,29 +121,12 @@ GuardModel::GuardModel(const Mesh& model, const GuardOptions& options, Interrupt
     if (options.symmetry) {
         // Surfaces are little larger than the model: multiples of the step up to four times as far are floats, or
         // doubles with some bits to spare for the rounding of points that are to be symmetric.
-        step_ = std::ldexp(scale_, std::ilogb(farthest(box)) + (roundsToFloat_ ? 2 - 23 : 2 - 50));
+        step_ = std::ldexp(scale_, std::ilogb(farthest(box_)) + (roundsToFloat_ ? 2 - 23 : 2 - 50));
         const double offset = step_ * std::round(options.symmetry->offset * scale_ / step_);
         symmetry_ = SymmetryPlane{options.symmetry->axis, offset};
         addMirrorImage(*symmetry_, points, triangles);
     }
     tree_ = TriangleBvh(points, triangles, interrupter, TriangleBvh::Copies::drop);
-    for (Joint joint : options.joints) {
-        constexpr double spread = 1.5;
-        requireValid(joint, box);
-        throwIfInterrupted(interrupter);
-        joint.place = scaled(joint.place);
-        if (joint.axis) joint.axis->normalize(0);
-        if (symmetry_ && joint.place[symmetry_->axis] < symmetry_->offset) {
-            joint.place = mirrored(joint.place);
-            if (joint.axis) (*joint.axis)[symmetry_->axis] *= -1;
-        }
-        limbs_.push_back(limbAt(tree_, joint));
-        if (options.jointDensity == 1) continue;
-        const double inside = std::sqrt(tree_.closest(joint.place).squaredDistance) / scale_;
-        aroundJoints_.push_back(
-            {ScaleRegion::Shape::sphere, unscaled(joint.place), Vec3d(0), spread * inside, options.jointDensity});
-    }
-
     UnionFind sets(points.size());
     Asker ask(interrupter);
     for (const Vec3I& t : triangles) {
@@ -202,42 +166,6 @@ Vec3d GuardModel::rounded(const Vec3d& p) const
         rounded[axis] = offset + step_ * std::round((p[axis] - offset) / step_);
     }
     return rounded;
-}
-
-Vec3d GuardModel::mirrored(Vec3d p) const
-{
-    p[symmetry_->axis] = 2 * symmetry_->offset - p[symmetry_->axis];
-    return p;
-}
-
-double GuardModel::density(const Vec3d& onModel) const
-{
-    constexpr double least = 1.0 / 8;
-    const auto at = [&](const Vec3d& p) {
-        const openvdb::FloatTree* const tree = density_.grid ? &density_.grid->constTree() : nullptr;
-        const Vec3d world = unscaled(p);
-        const auto joint = std::find_if(aroundJoints_.begin(), aroundJoints_.end(),
-                                        [&](const ScaleRegion& region) { return contains(region, world); });
-        return std::clamp((joint == aroundJoints_.end() ? 1 : joint->scale) * scaleAt(density_, tree, world), least,
-                          largestScale);
-    };
-    const double here = at(onModel);
-    if (!symmetry_) return here;
-    const double there = at(mirrored(onModel));
-    return std::abs(std::log(there)) > std::abs(std::log(here)) ? there : here;
-}
-
-double GuardModel::distanceWeight(const Vec3d& onModel) const
-{
-    if (!hasDensity()) return 1;
-    const double d = density(onModel);
-    return d * d * d;
-}
-
-double GuardModel::quadricWeight(const Vec3d& onModel) const
-{
-    if (!hasDensity()) return 1;
-    return std::pow(density(onModel), 5);
 }
 
 bool GuardModel::clear(const Corners& triangle, std::uint32_t hint, std::uint32_t* blocker) const

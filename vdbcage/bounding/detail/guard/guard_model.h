@@ -6,12 +6,18 @@
 #include <vector>
 
 #include <vdbcage/bounding/bounding_guard.h>
-#include <vdbcage/bounding/detail/loops/limb.h>
 #include <vdbcage/geometry/triangle_bvh.h>
 #include <vdbcage/geometry/triangle_distance.h>
 #include <vdbcage/geometry/triangle_pair.h>
 
 namespace vdbcage::detail {
+
+/// The mirror image of a point in a plane.
+inline Vec3d mirrored(const SymmetryPlane& plane, Vec3d p)
+{
+    p[plane.axis] = 2 * plane.offset - p[plane.axis];
+    return p;
+}
 
 /// What a guard knows of the model.
 ///
@@ -27,6 +33,7 @@ public:
     /// From the world's units to these; exact, as is the way back.
     Vec3d scaled(const Vec3d& p) const;
     Vec3d unscaled(const Vec3d& p) const;
+    double scale() const { return scale_; }
     /// `p` as it will be written.
     Vec3d rounded(const Vec3d& p) const;
     /// In these units. Only the side of the plane where coordinates are larger is kept, with what lies across it: no
@@ -34,7 +41,7 @@ public:
     const std::optional<SymmetryPlane>& symmetry() const { return symmetry_; }
     /// The mirror image; exact if `p` is rounded.
     /// \pre there is a plane of symmetry
-    Vec3d mirrored(Vec3d p) const;
+    Vec3d mirrored(const Vec3d& p) const { return detail::mirrored(*symmetry_, p); }
     /// Whether `triangle` keeps the clearance. If not, and `blocker` is set, that is the item of a face it comes too
     /// near to. `hint` is an item to try first, or TriangleBvh::none.
     bool clear(const Corners& triangle, std::uint32_t hint, std::uint32_t* blocker) const;
@@ -45,22 +52,9 @@ public:
     /// Whether a change sweeps over a part of the model: `surface` is the new star and the reversed old one.
     bool swept(const std::vector<Corners>& surface, const Box& box) const;
 
-    /// Whether distance counts more in some places than in others.
-    bool hasDensity() const { return density_.grid || !density_.regions.empty() || !aroundJoints_.empty(); }
-    /// What distance counts for at a point of the model: the third power of the density.
-    ///
-    /// Of faces of the size h the distance is about h^2. Its integral is least where h^4 times the weight is the same
-    /// everywhere, which asks for the second power, and that of its square for the third. But faces do not come all
-    /// the way, and the others have to give them: with one and two more, a sphere with a quarter of the faces gets 1.8
-    /// times as many for a density of 2.
-    double distanceWeight(const Vec3d& onModel) const;
-    /// The same for squared distance: the fifth power.
-    double quadricWeight(const Vec3d& onModel) const;
-
-    /// At the joints, in these units, beyond the plane of symmetry.
-    const std::vector<Limb>& limbs() const { return limbs_; }
-
     const TriangleBvh& tree() const { return tree_; }
+    /// In the world's units, with its mirror image.
+    const openvdb::BBoxd& box() const { return box_; }
     double clearance() const { return clearance_; }
     double minSine() const { return minSine_; }
     /// What triangles of a surface keep between each other.
@@ -71,8 +65,7 @@ public:
     bool roundsToFloat() const { return roundsToFloat_; }
 
 private:
-    double density(const Vec3d& onModel) const;
-
+    openvdb::BBoxd box_;
     TriangleBvh tree_;
     TriangleBvh parts_; // a point of each connected part, as a degenerate triangle
     double scale_ = 1, clearance_ = 0, minSine_ = 0;
@@ -80,9 +73,6 @@ private:
     double step_ = 0; // across the plane coordinates are rounded to multiples of it
     bool roundsToFloat_ = false;
     Spacing spacing_;
-    ScaleField density_;                    // in the world's units
-    std::vector<ScaleRegion> aroundJoints_; // the same; where they overlap they count once
-    std::vector<Limb> limbs_;
 };
 
 const GuardModel& modelOf(const BoundingGuard& guard);

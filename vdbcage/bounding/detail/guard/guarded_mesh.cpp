@@ -23,8 +23,8 @@ Vec3I fromLeast(const Vec3I& t)
 
 } // namespace
 
-GuardedMesh::GuardedMesh(const Mesh& surface, const GuardModel& guard, Quads quads)
-    : guard_(guard), faces_(triangulate(surface))
+GuardedMesh::GuardedMesh(const Mesh& surface, const GuardModel& guard, Quads quads, const FaceWishes& wishes)
+    : guard_(guard), wishes_(wishes), faces_(triangulate(surface))
 {
     points_.reserve(surface.points.size());
     for (const Vec3d& p : surface.points) points_.push_back(guard.rounded(guard.scaled(p)));

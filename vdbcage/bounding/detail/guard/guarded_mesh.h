@@ -9,6 +9,7 @@
 #include <boost/container/small_vector.hpp>
 #include <openvdb/math/Vec4.h>
 #include <vdbcage/bounding/detail/guard/guard_model.h>
+#include <vdbcage/bounding/detail/guard/wishes.h>
 #include <vdbcage/geometry/dynamic_bvh.h>
 
 namespace vdbcage::detail {
@@ -36,7 +37,8 @@ public:
     };
     /// Points are rounded as the guard asks.
     /// \throw InputError not a closed 2-manifold, or not symmetric where the guard has a plane
-    GuardedMesh(const Mesh& surface, const GuardModel& guard, Quads quads = Quads::split);
+    GuardedMesh(const Mesh& surface, const GuardModel& guard, Quads quads = Quads::split,
+                const FaceWishes& wishes = {});
 
     /// 2 where the guard has a plane of symmetry, so that the surface is twice this, else 1.
     std::size_t copies() const { return guard().symmetry() ? 2 : 1; }
@@ -127,6 +129,8 @@ public:
     /// The live triangles and quads, in order, without points that no face uses. Then the mirror image of them all.
     Mesh mesh() const;
     const GuardModel& guard() const { return guard_; }
+    /// Where its faces should go.
+    const Wishes& wishes() const { return wishesOf(wishes_); }
 
 private:
     /// Keeps the faces beyond the plane; returns the number of the first half of a quad among them.
@@ -140,6 +144,7 @@ private:
     };
 
     std::reference_wrapper<const GuardModel> guard_;
+    FaceWishes wishes_;
     std::vector<Vec3d> points_;
     std::vector<Vec3I> faces_;
     std::vector<char> life_;

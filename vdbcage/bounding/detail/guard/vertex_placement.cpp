@@ -7,7 +7,6 @@
 #include <vdbcage/bounding/detail/guard/vertex_placement.h>
 
 #include <vdbcage/bounding/detail/guard/admissible.h>
-#include <vdbcage/bounding/detail/quads/quad_shape_term.h>
 
 #include <algorithm>
 #include <cmath>
@@ -142,7 +141,8 @@ void DistanceMeasure::forEachSample(const Corners& t, std::uint32_t& seed, const
         const Vec3d s = b0 * t[0] + b1 * t[1] + b2 * t[2];
         const TriangleBvh::Closest closest = guard_.tree().closest(s, seed, slack);
         if (closest.item != TriangleBvh::none) seed = closest.item;
-        visit(weight * guard_.distanceWeight(closest.point), b0, s - closest.point, std::sqrt(closest.squaredDistance));
+        visit(weight * wishes_.distanceWeight(closest.point), b0, s - closest.point,
+              std::sqrt(closest.squaredDistance));
     };
     for (int i = 0; i < k; ++i) {
         for (int j = 0; i + j < k; ++j) {

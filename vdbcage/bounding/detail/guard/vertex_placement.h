@@ -14,7 +14,17 @@ struct Quadratic {
     Vec3d slope{0.0};
 };
 
-class QuadShapeTerm;
+/// A cost of the places of vertices beside the distance, such as the shape of quads.
+class ShapeTerm {
+public:
+    virtual ~ShapeTerm() = default;
+    /// Returns the sum over what changes when the star's centre moves, with the centre at `centre`. Adds how it changes
+    /// to `change` (Gauss-Newton).
+    virtual double add(const GuardedMesh& surface, const StarChange& star, const Vec3d& centre,
+                       Quadratic& change) const = 0;
+    /// Returns whether faces that are fit stay so when the star's centre moves there.
+    virtual bool keepsFit(const GuardedMesh& surface, const StarChange& star, const Vec3d& centre) const = 0;
+};
 
 /// How far a centre may go at once.
 struct StepLimit {
@@ -31,15 +41,16 @@ struct StepLimit {
 bool descend(const GuardedMesh& surface, const StarChange& star, Vec3d& p, const Quadratic& change,
              const StepLimit& limit, const std::function<bool(const Vec3d&)>& accepts);
 
-/// How far a surface is from the model: the integral of the distance over triangles, by sampling. Where the guard has a
-/// density, distance counts for more or less.
+/// How far a surface is from the model: the integral of the distance over triangles, by sampling. Where its wishes have
+/// a density, distance counts for more or less.
 ///
 /// A triangle is cut into k x k equal ones, each counted at its centroid. k grows with the triangle's size.
 class DistanceMeasure {
 public:
     /// `areaPerSample` is in the guard's units, squared. If `shape` is given, fit() and improve() count it, too.
-    DistanceMeasure(const GuardModel& guard, double areaPerSample, const QuadShapeTerm* shape = nullptr)
-        : guard_(guard), areaPerSample_(areaPerSample), shape_(shape)
+    /// What `surface` refers to, and `shape`, must outlive this.
+    DistanceMeasure(const GuardedMesh& surface, double areaPerSample, const ShapeTerm* shape = nullptr)
+        : guard_(surface.guard()), wishes_(surface.wishes()), areaPerSample_(areaPerSample), shape_(shape)
     {
     }
 
@@ -73,8 +84,9 @@ private:
     void forEachSample(const Corners& t, std::uint32_t& seed, const Visit& visit) const;
 
     const GuardModel& guard_;
+    const Wishes& wishes_;
     double areaPerSample_;
-    const QuadShapeTerm* shape_;
+    const ShapeTerm* shape_;
 };
 
 } // namespace vdbcage::detail

@@ -4,7 +4,7 @@
 #include <functional>
 #include <vector>
 
-#include <vdbcage/bounding/detail/loops/quad_loop.h>
+#include <vdbcage/bounding/detail/quads/quad_loop.h>
 #include <vdbcage/bounding/detail/triangles/vertex_quadrics.h>
 
 namespace vdbcage::detail {

@@ -11,8 +11,8 @@
 #include <vector>
 
 #include <vdbcage/bounding/detail/guard/face_queries.h>
-#include <vdbcage/bounding/detail/loops/joint_rings.h>
 #include <vdbcage/bounding/detail/loops/loop_collapse.h>
+#include <vdbcage/bounding/detail/quads/joint_rings.h>
 #include <vdbcage/bounding/detail/quads/quad_relax.h>
 #include <vdbcage/bounding/detail/triangles/relax.h>
 #include <vdbcage/core/detail/parallel.h>
@@ -113,7 +113,7 @@ private:
         throwIfInterrupted(interrupter);
         const double sample = areaPerSample(surface_);
         const double perQuad = distancePerPolygon(surface_, table_, sample, interrupter);
-        const DistanceMeasure measure(surface_.guard(), sample);
+        const DistanceMeasure measure(surface_, sample);
         const QuadShapeTerm term = shapeTerm(surface_, table_, shape_, sample, interrupter);
         const std::size_t most = table_.count() / 20, tooMany = table_.count() - target;
         std::size_t removed = 0, refused = 0;

@@ -40,7 +40,7 @@ std::vector<QuadLoop> candidates(const Quads& now, std::size_t most, std::size_t
     std::vector<QuadLoop> loops = straightLoops(now.table);
     const auto isTooLong = [&](const QuadLoop& loop) { return loop.quads.size() > most; };
     loops.erase(std::remove_if(loops.begin(), loops.end(), isTooLong), loops.end());
-    const DistanceMeasure measure(now.surface.guard(), areaPerSample);
+    const DistanceMeasure measure(now.surface, areaPerSample);
     std::vector<std::pair<double, std::size_t>> ranking(loops.size());
     parallelFor(std::size_t(0), loops.size(), [&](std::size_t i) {
         throwIfInterrupted(interrupter);

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include <vdbcage/bounding/detail/loops/quad_loop.h>
+#include <vdbcage/bounding/detail/quads/quad_loop.h>
 
 namespace vdbcage::detail {
 

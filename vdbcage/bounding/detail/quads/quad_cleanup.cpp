@@ -41,7 +41,7 @@ public:
           perFace_(distancePerPolygon(surface, table, sample_, interrupter)),
           meanDistance_(perFace_ * static_cast<double>(faceCount()) / area(surface)),
           rough_(table, scaled({2, 0.1, 0, 2, unfitWeight}, perFace_)),
-          fine_(table, scaled({0.5, 0.15, 0, 0.35, unfitWeight}, perFace_)), measure_(surface.guard(), sample_),
+          fine_(table, scaled({0.5, 0.15, 0, 0.35, unfitWeight}, perFace_)), measure_(surface, sample_),
           least_(std::min(faceCount(), most_ - most_ / 20)), triesLeft_(faceCount() + faceCount() / 2)
     {
     }

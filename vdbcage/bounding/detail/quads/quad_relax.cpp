@@ -1,8 +1,9 @@
 #include <vdbcage/bounding/detail/quads/quad_relax.h>
 
 #include <vdbcage/bounding/detail/guard/face_queries.h>
-#include <vdbcage/bounding/detail/loops/joint_rings.h>
+#include <vdbcage/bounding/detail/quads/joint_rings.h>
 #include <vdbcage/bounding/detail/triangles/relax.h>
+#include <vdbcage/bounding/detail/triangles/sweep.h>
 
 namespace vdbcage::detail {
 
@@ -29,7 +30,7 @@ QuadShapeTerm shapeTerm(const GuardedMesh& surface, const QuadTable& table, cons
                         double areaPerSample, Interrupter* interrupter)
 {
     return {table, scaled(weights, distancePerPolygon(surface, table, areaPerSample, interrupter)),
-            weights.hold > 0 ? JointRings(surface, table).holds() : std::vector<JointRings::Hold>()};
+            weights.hold > 0 ? JointRings(surface, table).holds() : std::vector<PlaneHold>()};
 }
 
 void relaxQuads(GuardedMesh& surface, const QuadTable& table, const ShapeWeights& weights, int sweeps,
@@ -51,6 +52,30 @@ void relaxQuads(GuardedMesh& surface, const QuadTable& table, const std::vector<
     const double sample = areaPerSample(surface);
     const QuadShapeTerm term = shapeTerm(surface, table, usualShape, sample, interrupter);
     tighten(surface, vertices, sweeps, sample, interrupter, &term);
+}
+
+void straighten(GuardedMesh& surface, const QuadTable& table, const std::vector<std::uint32_t>& vertices,
+                Interrupter* interrupter)
+{
+    sweep(
+        surface, vertices, interrupter,
+        [&](std::uint32_t v, const StarChange& star) -> std::optional<Vec3d> {
+            const auto& quads = table.quadsOf(v);
+            if (quads.empty()) return std::nullopt;
+            Vec3d by(0.0);
+            for (const std::uint32_t q : quads) {
+                const Vec4I& ids = table.corners(q);
+                int i = 0;
+                while (ids[i] != v) ++i;
+                const auto corner = [&](int k) { return surface.point(ids[(i + k) % 4]); };
+                by += corner(1) - corner(2) + corner(3) - corner(0);
+            }
+            by /= static_cast<double>(quads.size());
+            const Vec3d up = outward(surface, star);
+            by -= by.dot(up) * up;
+            return towards(surface, star, surface.point(v) + by, {0.5, 0.25, 0.1});
+        },
+        [](std::uint32_t, const StarChange&, bool) {});
 }
 
 std::size_t countUnfit(const GuardedMesh& surface, const QuadTable& table)

@@ -37,4 +37,9 @@ void relaxQuads(GuardedMesh& surface, const QuadTable& table, const std::vector<
 void relaxQuads(GuardedMesh& surface, const QuadTable& table, const ShapeWeights& weights, int sweeps,
                 Interrupter* interrupter);
 
+/// Moves some vertices, each once, along the surface to where the quads of a table around them are nearer to
+/// parallelograms. That gets quads convex that are not, which no small step does.
+void straighten(GuardedMesh& surface, const QuadTable& table, const std::vector<std::uint32_t>& vertices,
+                Interrupter* interrupter);
+
 } // namespace vdbcage::detail

@@ -90,7 +90,7 @@ double QuadShapeTerm::add(const GuardedMesh& surface, const StarChange& star, co
     }
     const auto hold =
         std::lower_bound(holds_.begin(), holds_.end(), star.centre,
-                         [](const JointRings::Hold& entry, std::uint32_t vertex) { return entry.vertex < vertex; });
+                         [](const PlaneHold& entry, std::uint32_t vertex) { return entry.vertex < vertex; });
     if (hold != holds_.end() && hold->vertex == star.centre) {
         sum.add(weights_.hold, (hold->normal.dot(centre) - hold->offset) / hold->width, hold->normal / hold->width);
     }

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include <vdbcage/bounding/detail/guard/vertex_placement.h>
-#include <vdbcage/bounding/detail/loops/joint_rings.h>
 #include <vdbcage/bounding/detail/quads/quad_table.h>
 
 namespace vdbcage::detail {
@@ -20,31 +19,36 @@ struct ShapeWeights {
     double hold = 10; ///< of a vertex of a joint's ring that is a limb's radius away from its plane, squared
 };
 
+/// A vertex that is to stay near a plane.
+struct PlaneHold {
+    std::uint32_t vertex;
+    Vec3d normal;
+    double offset, width; ///< normal . place is to be `offset`; a deviation is measured in widths
+};
+
 /// Whether a quad is convex, folded no more than the surface allows, and both its splits have only angles that the
 /// guard allows, of at least 5 degrees.
 bool isFit(const GuardedMesh& surface, const std::array<Vec3d, 4>& corners);
 
 /// How far quads are from flat ones with square corners, as a term beside the integral of the distance.
-class QuadShapeTerm {
+class QuadShapeTerm final : public ShapeTerm {
 public:
     /// `table` must outlive this.
-    QuadShapeTerm(const QuadTable& table, const ShapeWeights& weights, std::vector<JointRings::Hold> holds = {})
+    QuadShapeTerm(const QuadTable& table, const ShapeWeights& weights, std::vector<PlaneHold> holds = {})
         : table_(table), weights_(weights), holds_(std::move(holds))
     {
     }
 
-    /// The sum over what changes when the star's centre moves, with the centre at `centre`. How it changes
-    /// is added to `change` (Gauss-Newton).
-    double add(const GuardedMesh& surface, const StarChange& star, const Vec3d& centre, Quadratic& change) const;
-    /// What it is for one quad.
+    double add(const GuardedMesh& surface, const StarChange& star, const Vec3d& centre,
+               Quadratic& change) const override;
+    bool keepsFit(const GuardedMesh& surface, const StarChange& star, const Vec3d& centre) const override;
+    /// Returns the term of one quad.
     double of(const GuardedMesh& surface, std::uint32_t quad) const;
-    /// Whether quads that are fit stay so when the star's centre moves there.
-    bool keepsFit(const GuardedMesh& surface, const StarChange& star, const Vec3d& centre) const;
 
 private:
     const QuadTable& table_;
     ShapeWeights weights_;
-    std::vector<JointRings::Hold> holds_;
+    std::vector<PlaneHold> holds_;
 };
 
 /// How far the corners of all quads are from square, in degrees.

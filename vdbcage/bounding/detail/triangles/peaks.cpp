@@ -102,9 +102,9 @@ bool flatten(GuardedMesh& surface, std::uint32_t peak)
 
 } // namespace
 
-Mesh withoutPeaks(const Mesh& cage, const BoundingGuard& guard, Interrupter* interrupter)
+Mesh withoutPeaks(const Mesh& cage, const BoundingGuard& guard, const FaceWishes& wishes, Interrupter* interrupter)
 {
-    GuardedMesh surface(cage, modelOf(guard));
+    GuardedMesh surface(cage, modelOf(guard), GuardedMesh::Quads::split, wishes);
     if (surface.liveFaces() == 0) return cage;
     const double perSample = areaPerSample(surface, surface.liveFaces(), samples);
     const double mean = integratedDistance(surface, perSample, interrupter) / area(surface);

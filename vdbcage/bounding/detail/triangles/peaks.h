@@ -1,6 +1,6 @@
 #pragma once
 
-#include <vdbcage/bounding/bounding_guard.h>
+#include <vdbcage/bounding/face_wishes.h>
 #include <vdbcage/core/interrupter.h>
 #include <vdbcage/mesh/mesh.h>
 
@@ -12,6 +12,6 @@ namespace vdbcage::detail {
 /// \pre as tighten(), and there are no quads
 /// \throw Cancelled
 /// Cost: O(n log m) for n faces and m of the model where there are few of them.
-Mesh withoutPeaks(const Mesh& cage, const BoundingGuard& guard, Interrupter* interrupter);
+Mesh withoutPeaks(const Mesh& cage, const BoundingGuard& guard, const FaceWishes& wishes, Interrupter* interrupter);
 
 } // namespace vdbcage::detail

@@ -16,7 +16,8 @@ public:
     /// \pre `guard` outlives this
     /// \throw InputError not closed and 2-manifold
     /// \throw Cancelled
-    RecordedDecimation(const Mesh& surface, const BoundingGuard& guard, Interrupter* interrupter);
+    RecordedDecimation(const Mesh& surface, const BoundingGuard& guard, const FaceWishes& wishes,
+                       Interrupter* interrupter);
 
     /// The same as decimate(), whatever was asked for before.
     /// \throw InputError fewer than 4 faces asked for

@@ -68,7 +68,7 @@ void findPlace(const GuardedMesh& surface, const DistanceMeasure& measure, EdgeC
 void makeBest(GuardedMesh& surface, std::vector<EdgeChange> changes, std::size_t faces, double areaPerSample,
               Interrupter* interrupter)
 {
-    const DistanceMeasure measure(surface.guard(), areaPerSample);
+    const DistanceMeasure measure(surface, areaPerSample);
     parallelFor(std::size_t(0), changes.size(), [&](std::size_t i) {
         throwIfInterrupted(interrupter);
         findPlace(surface, measure, changes[i]);

@@ -3,6 +3,8 @@
 
 #include <vdbcage/bounding/detail/triangles/relax.h>
 
+#include <vdbcage/bounding/detail/triangles/sweep.h>
+
 #include <vdbcage/bounding/detail/guard/admissible.h>
 
 #include <algorithm>
@@ -15,78 +17,11 @@
 
 #include <vdbcage/bounding/detail/guard/face_queries.h>
 #include <vdbcage/bounding/detail/guard/vertex_placement.h>
-#include <vdbcage/bounding/detail/quads/quad_shape_term.h>
 #include <vdbcage/core/detail/parallel.h>
 
 namespace vdbcage::detail {
 
 namespace {
-
-/// Vertices in groups without neighbours among each other: greedy colouring in index order.
-std::vector<std::vector<std::uint32_t>> independentGroups(const GuardedMesh& surface,
-                                                          const std::vector<std::uint32_t>& vertices)
-{
-    constexpr std::uint32_t uncoloured = ~std::uint32_t(0);
-    std::vector<std::uint32_t> colour(surface.vertices(), uncoloured);
-    std::vector<std::vector<std::uint32_t>> groups;
-    std::vector<std::uint32_t> takenBy; // for each colour the last vertex with a neighbour of it
-    for (const std::uint32_t v : vertices) {
-        for (const std::uint32_t w : surface.neighbours(v)) {
-            if (colour[w] != uncoloured) takenBy[colour[w]] = v;
-        }
-        std::uint32_t free = 0;
-        while (free < groups.size() && takenBy[free] == v) ++free;
-        if (free == groups.size()) {
-            groups.emplace_back();
-            takenBy.push_back(uncoloured);
-        }
-        colour[v] = free;
-        groups[free].push_back(v);
-    }
-    return groups;
-}
-
-/// Asks propose(v, star), which may run on any thread, for the allowed new place of each vertex, and moves it there.
-template <typename Propose, typename Moved>
-void sweep(GuardedMesh& surface, const std::vector<std::uint32_t>& vertices, Interrupter* interrupter,
-           const Propose& propose, const Moved& moved)
-{
-    constexpr std::size_t batch = 128;
-    struct Proposal {
-        StarChange star;
-        std::optional<Vec3d> place;
-    };
-    std::vector<Proposal> proposals;
-    for (const auto& group : independentGroups(surface, vertices)) {
-        // Numbers mostly follow the place: vertices spread over the group, so that the changes of a batch are far
-        // apart.
-        const std::size_t batches = (group.size() + batch - 1) / batch;
-        for (std::size_t first = 0; first < batches; ++first) {
-            const std::size_t count = (group.size() - first + batches - 1) / batches;
-            proposals.assign(count, {});
-            parallelFor(std::size_t(0), count, [&](std::size_t i) {
-                throwIfInterrupted(interrupter); // each time: a place may take a millisecond
-                const std::uint32_t v = group[first + i * batches];
-                proposals[i].star = starOf(surface, v);
-                proposals[i].place = propose(v, proposals[i].star);
-            });
-            Batch changes(surface);
-            for (std::size_t i = 0; i < count; ++i) {
-                const bool done = proposals[i].place && changes.apply(proposals[i].star, *proposals[i].place);
-                moved(group[first + i * batches], proposals[i].star, done);
-            }
-        }
-    }
-}
-
-std::vector<std::uint32_t> allVertices(const GuardedMesh& surface)
-{
-    std::vector<std::uint32_t> list;
-    for (std::uint32_t v = 0; v < surface.vertices(); ++v) {
-        if (surface.isVertex(v)) list.push_back(v);
-    }
-    return list;
-}
 
 /// The mean of a value, added to a zero `sum`, of the vertices around the star's centre; on the plane of symmetry of
 /// both halves' together, as far as it is not turned over by the mirror image.
@@ -112,24 +47,10 @@ double meanIncidentEdge(const GuardedMesh& surface, const StarChange& star)
                     [&](std::uint32_t v) { return (surface.point(v) - surface.point(star.centre)).length(); });
 }
 
-/// The first of the places on the way to `goal` that is allowed, and at which `shape`, if given, keeps quads fit.
-std::optional<Vec3d> towards(const GuardedMesh& surface, const StarChange& star, const Vec3d& goal,
-                             std::initializer_list<double> steps, const QuadShapeTerm* shape = nullptr)
-{
-    const Vec3d& p = surface.point(star.centre);
-    Obstacle obstacle;
-    for (const double step : steps) {
-        const Vec3d target = rounded(surface, star, p + step * (goal - p));
-        if (shape && !shape->keepsFit(surface, star, target)) continue;
-        if (allows(surface, star, target, &obstacle)) return target;
-    }
-    return std::nullopt;
-}
-
 } // namespace
 
 void inflate(GuardedMesh& surface, const std::vector<std::uint32_t>& vertices, double by, Interrupter* interrupter,
-             const QuadShapeTerm* shape)
+             const ShapeTerm* shape)
 {
     sweep(
         surface, vertices, interrupter,
@@ -144,7 +65,7 @@ namespace {
 /// The integral of the distance to the model over each face and each quad's other, by number.
 std::vector<double> distances(const GuardedMesh& surface, double areaPerSample, Interrupter* interrupter)
 {
-    const DistanceMeasure measure(surface.guard(), areaPerSample);
+    const DistanceMeasure measure(surface, areaPerSample);
     std::vector<double> integrals(surface.faces(), 0);
     parallelFor(std::uint32_t(0), surface.vertices(), [&](std::uint32_t v) {
         throwIfInterrupted(interrupter);
@@ -252,30 +173,6 @@ void inflateTriangles(GuardedMesh& surface, double by, Interrupter* interrupter)
     inflate(surface, vertices, by, interrupter);
 }
 
-void straighten(GuardedMesh& surface, const QuadTable& table, const std::vector<std::uint32_t>& vertices,
-                Interrupter* interrupter)
-{
-    sweep(
-        surface, vertices, interrupter,
-        [&](std::uint32_t v, const StarChange& star) -> std::optional<Vec3d> {
-            const auto& quads = table.quadsOf(v);
-            if (quads.empty()) return std::nullopt;
-            Vec3d by(0.0);
-            for (const std::uint32_t q : quads) {
-                const Vec4I& ids = table.corners(q);
-                int i = 0;
-                while (ids[i] != v) ++i;
-                const auto corner = [&](int k) { return surface.point(ids[(i + k) % 4]); };
-                by += corner(1) - corner(2) + corner(3) - corner(0);
-            }
-            by /= static_cast<double>(quads.size());
-            const Vec3d up = outward(surface, star);
-            by -= by.dot(up) * up;
-            return towards(surface, star, surface.point(v) + by, {0.5, 0.25, 0.1});
-        },
-        [](std::uint32_t, const StarChange&, bool) {});
-}
-
 void roundOff(GuardedMesh& surface, int sweeps, Interrupter* interrupter)
 {
     constexpr double outwardShare = 0.02; // of the edges' length: a tight surface has no room to move in
@@ -319,19 +216,18 @@ double integratedDistance(const GuardedMesh& surface, double areaPerSample, Inte
     return sum(distances(surface, areaPerSample, interrupter));
 }
 
-void tighten(GuardedMesh& surface, int sweeps, double areaPerSample, Interrupter* interrupter,
-             const QuadShapeTerm* shape)
+void tighten(GuardedMesh& surface, int sweeps, double areaPerSample, Interrupter* interrupter, const ShapeTerm* shape)
 {
     tighten(surface, allVertices(surface), sweeps, areaPerSample, interrupter, shape);
 }
 
 void tighten(GuardedMesh& surface, const std::vector<std::uint32_t>& vertices, int sweeps, double areaPerSample,
-             Interrupter* interrupter, const QuadShapeTerm* shape)
+             Interrupter* interrupter, const ShapeTerm* shape)
 {
     constexpr double sleepBelow = 0.002; // a smaller part gained: not tried again until a neighbour moves
     constexpr double stopBelow = 0.002;  // the same for a whole sweep
     constexpr int gentleSweeps = 6;
-    const DistanceMeasure measure(surface.guard(), areaPerSample, shape);
+    const DistanceMeasure measure(surface, areaPerSample, shape);
     const std::size_t n = surface.vertices();
     std::vector<std::uint32_t> seed(n, TriangleBvh::none);
     std::vector<double> before(n, 0), after(n, 0);
@@ -366,13 +262,13 @@ void tighten(GuardedMesh& surface, const std::vector<std::uint32_t>& vertices, i
     }
 }
 
-void relaxFinally(GuardedMesh& surface, double areaPerSample, Interrupter* interrupter, const QuadShapeTerm* shape)
+void relaxFinally(GuardedMesh& surface, double areaPerSample, Interrupter* interrupter, const ShapeTerm* shape)
 {
     constexpr int sweeps = 2;
     DistanceMeasure::Pace pace;
     pace.least = 1e-5;
     pace.gain = 1e-4;
-    const DistanceMeasure measure(surface.guard(), areaPerSample, shape);
+    const DistanceMeasure measure(surface, areaPerSample, shape);
     std::vector<std::uint32_t> seed(surface.vertices(), TriangleBvh::none);
     for (int i = 0; i < sweeps; ++i) {
         sweep(
@@ -388,7 +284,7 @@ void relaxFinally(GuardedMesh& surface, double areaPerSample, Interrupter* inter
 }
 
 void perturb(GuardedMesh& surface, int times, int sweeps, double areaPerSample, Interrupter* interrupter,
-             const QuadShapeTerm* shape)
+             const ShapeTerm* shape)
 {
     if (surface.liveFaces() == 0) return;
     std::vector<double> now = distances(surface, areaPerSample, interrupter);

@@ -11,8 +11,7 @@
 /// of threads. All that take an interrupter throw Cancelled.
 namespace vdbcage::detail {
 
-class QuadShapeTerm;
-class QuadTable;
+class ShapeTerm;
 
 /// Moves every vertex once, half way between the average of its neighbours and the model.
 void shrink(GuardedMesh& surface, Interrupter* interrupter);
@@ -23,24 +22,24 @@ void shrink(GuardedMesh& surface, Interrupter* interrupter);
 /// `areaPerSample` is as in DistanceMeasure. The first sweeps go half of the way only: a vertex that used up all the
 /// room would stop its neighbours short of a better place. If `shape` is given, it is part of what is to be less.
 void tighten(GuardedMesh& surface, int sweeps, double areaPerSample, Interrupter* interrupter,
-             const QuadShapeTerm* shape = nullptr);
+             const ShapeTerm* shape = nullptr);
 
 /// tighten() for some vertices; the others stay.
 void tighten(GuardedMesh& surface, const std::vector<std::uint32_t>& vertices, int sweeps, double areaPerSample,
-             Interrupter* interrupter, const QuadShapeTerm* shape);
+             Interrupter* interrupter, const ShapeTerm* shape);
 
 /// Moves every vertex of a tightened surface twice more, by steps and for gains too small for tighten().
 ///
 /// It becomes half a percent tighter. It becomes flatter over flat parts of the model, where such steps are all that
 /// there is. `shape` is as in tighten().
 void relaxFinally(GuardedMesh& surface, double areaPerSample, Interrupter* interrupter,
-                  const QuadShapeTerm* shape = nullptr);
+                  const ShapeTerm* shape = nullptr);
 
 void inflate(GuardedMesh& surface, double by, Interrupter* interrupter);
 
 /// inflate() for some vertices, where `shape`, if given, keeps quads fit.
 void inflate(GuardedMesh& surface, const std::vector<std::uint32_t>& vertices, double by, Interrupter* interrupter,
-             const QuadShapeTerm* shape = nullptr);
+             const ShapeTerm* shape = nullptr);
 
 /// inflate() for the vertices of faces that are in no quad.
 void inflateTriangles(GuardedMesh& surface, double by, Interrupter* interrupter);
@@ -51,12 +50,7 @@ void inflateTriangles(GuardedMesh& surface, double by, Interrupter* interrupter)
 /// whole, it is undone everywhere, and the next push is smaller. `shape` is as in tighten(). It
 /// reports 0 to 100 % of a stage.
 void perturb(GuardedMesh& surface, int times, int sweeps, double areaPerSample, Interrupter* interrupter,
-             const QuadShapeTerm* shape = nullptr);
-
-/// Moves some vertices, each once, along the surface to where the quads of a table around them are nearer to
-/// parallelograms. That gets quads convex that are not, which no small step does.
-void straighten(GuardedMesh& surface, const QuadTable& table, const std::vector<std::uint32_t>& vertices,
-                Interrupter* interrupter);
+             const ShapeTerm* shape = nullptr);
 
 /// Sweeps of HC Laplacian smoothing: towards the average of the neighbours, less what that would shrink the surface.
 /// Based on: Vollmer, Mencl, Muller, Improved Laplacian Smoothing of Noisy Surface Meshes, 1999.

@@ -8,20 +8,20 @@
 /// What several operators under the guard have in common.
 namespace vdbcage::detail {
 
-class QuadShapeTerm;
+class ShapeTerm;
 
 /// \throw InputError fewer than 4
 void requireFaces(std::size_t faces);
 /// \throw InputError an option out of range
 void requireValid(const TightenOptions& options);
 
-/// The mean distance of a cage from the model, as the guard's density counts it.
+/// The mean distance of a cage from the model, as the density of the wishes counts it.
 /// \throw Cancelled
-double meanDistance(const Mesh& cage, const BoundingGuard& guard, Interrupter* interrupter);
+double meanDistance(const Mesh& cage, const BoundingGuard& guard, const FaceWishes& wishes, Interrupter* interrupter);
 
 /// What vdbcage::tighten() does; it reports 0 to 100 % of a stage. If `shape` is given, it is part of what is to be
 /// less. \throw Cancelled
 void tightenAndPerturb(GuardedMesh& surface, const TightenOptions& options, Interrupter* interrupter,
-                       const QuadShapeTerm* shape = nullptr);
+                       const ShapeTerm* shape = nullptr);
 
 } // namespace vdbcage::detail

@@ -9,9 +9,9 @@ VertexQuadrics::VertexQuadrics(const GuardedMesh& surface) : surface_(surface), 
 {
     if (surface.vertices() > 0) origin_ = surface.point(0);
     if (surface.guard().symmetry()) origin_ = surface.ontoPlane(origin_);
-    const GuardModel& guard = surface.guard();
+    const Wishes& wishes = surface.wishes();
     const auto weightAt = [&](const Vec3d& p) {
-        return guard.hasDensity() ? guard.quadricWeight(guard.tree().closest(p).point) : 1;
+        return wishes.hasDensity() ? wishes.quadricWeight(surface.guard().tree().closest(p).point) : 1;
     };
     for (std::uint32_t v = 0; v < surface.vertices(); ++v) {
         for (const std::uint32_t f : surface.facesOf(v)) {

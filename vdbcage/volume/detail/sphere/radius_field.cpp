@@ -6,8 +6,8 @@
 
 #include <vdbcage/core/detail/parallel.h>
 #include <vdbcage/core/error.h>
+#include <vdbcage/volume/detail/factor_at.h>
 #include <vdbcage/volume/detail/mask_blocks.h>
-#include <vdbcage/volume/detail/scale_at.h>
 
 namespace vdbcage::detail {
 
@@ -58,7 +58,7 @@ double largestValue(const openvdb::FloatGrid& grid, const Progress& progress)
         if (!std::isfinite(*value)) throw InputError("the scale field has a value that is not finite");
         largest = std::max(largest, *value);
     }
-    return std::clamp(static_cast<double>(largest), 0.0, largestScale);
+    return std::clamp(static_cast<double>(largest), 0.0, largestFactor);
 }
 
 void expand(BBoxd& box, const openvdb::math::Transform& voxels, const Vec3d& lower, const Vec3d& upper)
@@ -71,12 +71,12 @@ void expand(BBoxd& box, const openvdb::math::Transform& voxels, const Vec3d& low
 }
 
 // Where the field may differ from its outside, in the index space of `voxels`.
-BBoxd extentOf(const ScaleField& scale, const openvdb::math::Transform& voxels)
+BBoxd extentOf(const FactorField& scale, const openvdb::math::Transform& voxels)
 {
     BBoxd box;
-    for (const ScaleRegion& region : scale.regions) {
+    for (const FactorRegion& region : scale.regions) {
         requireValid(region);
-        if (region.shape == ScaleRegion::Shape::box) {
+        if (region.shape == FactorRegion::Shape::box) {
             expand(box, voxels, region.lower, region.upper);
         } else {
             expand(box, voxels, region.lower - Vec3d(region.radius), region.lower + Vec3d(region.radius));
@@ -105,20 +105,20 @@ BBoxd extentOf(const ScaleField& scale, const openvdb::math::Transform& voxels)
 
 } // namespace
 
-RadiusField::RadiusField(const ScaleField& scale, const openvdb::math::Transform& voxels, double radius,
+RadiusField::RadiusField(const FactorField& scale, const openvdb::math::Transform& voxels, double radius,
                          const CoordBBox& box, const Progress& progress)
     : shift_(spacingShift(radius))
 {
     const double background = scale.grid ? static_cast<double>(scale.grid->background()) : 1.0;
     if (!std::isfinite(background)) throw InputError("the background of the scale field is not finite");
-    outside_ = static_cast<float>(radius * std::clamp(background, 0.0, largestScale));
-    largest_ = radius * std::clamp(background, 0.0, largestScale);
+    outside_ = static_cast<float>(radius * std::clamp(background, 0.0, largestFactor));
+    largest_ = radius * std::clamp(background, 0.0, largestFactor);
     BBoxd extent = extentOf(scale, voxels);
     if (!box.empty() && !extent.empty()) {
         // A small radius spreads until it has grown to the largest one, from beyond the box too.
         double scales = scale.grid ? largestValue(*scale.grid, progress) : 1.0;
-        for (const ScaleRegion& region : scale.regions) scales *= std::max(1.0, region.scale);
-        const double most = radius * std::min(scales, largestScale);
+        for (const FactorRegion& region : scale.regions) scales *= std::max(1.0, region.factor);
+        const double most = radius * std::min(scales, largestFactor);
         if (most > largestRadius) {
             std::ostringstream text;
             text << "the radius times the largest scale of the field is " << most << " voxels; it must be at most "
@@ -159,7 +159,7 @@ RadiusField::RadiusField(const ScaleField& scale, const openvdb::math::Transform
     }
 }
 
-void RadiusField::sample(const ScaleField& scale, const openvdb::math::Transform& voxels, double radius,
+void RadiusField::sample(const FactorField& scale, const openvdb::math::Transform& voxels, double radius,
                          const Progress& progress)
 {
     nodes_.resize(static_cast<std::size_t>(size_.x()) * static_cast<std::size_t>(size_.y()) *
@@ -172,7 +172,7 @@ void RadiusField::sample(const ScaleField& scale, const openvdb::math::Transform
             for (int z = 0; z < size_.z(); ++z) {
                 const Coord c = first_ + Coord(x, y, z);
                 const Vec3d world = voxels.indexToWorld(c.asVec3d() * static_cast<double>(1 << shift_));
-                nodes_[node({x, y, z})] = static_cast<float>(radius * scaleAt(scale, &accessor, world));
+                nodes_[node({x, y, z})] = static_cast<float>(radius * factorAt(scale, &accessor, world));
             }
         }
     });

@@ -5,7 +5,7 @@
 
 #include <vdbcage/core/detail/grids.h>
 #include <vdbcage/volume/detail/progress.h>
-#include <vdbcage/volume/scale_field.h>
+#include <vdbcage/volume/factor_field.h>
 
 namespace vdbcage::detail {
 
@@ -23,7 +23,7 @@ public:
     /// For the voxels of `box`, in the index space of `voxels`.
     /// \throw InputError as closeMask with a scale field
     /// \throw Cancelled
-    RadiusField(const ScaleField& scale, const openvdb::math::Transform& voxels, double radius,
+    RadiusField(const FactorField& scale, const openvdb::math::Transform& voxels, double radius,
                 const openvdb::CoordBBox& box, const Progress& progress);
 
     /// Whether the radius is `largest()` everywhere.
@@ -41,7 +41,7 @@ public:
 
 private:
     float radiusAt(const openvdb::Coord& voxel) const;
-    void sample(const ScaleField& scale, const openvdb::math::Transform& voxels, double radius,
+    void sample(const FactorField& scale, const openvdb::math::Transform& voxels, double radius,
                 const Progress& progress);
     void clamp(const Progress& progress);
     void findRanges(const Progress& progress);

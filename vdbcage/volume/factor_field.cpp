@@ -1,5 +1,5 @@
 // Based on: adjunctions of varying structuring elements, Serra, Image Analysis and Mathematical Morphology II, 1988.
-#include <vdbcage/volume/scale_field.h>
+#include <vdbcage/volume/factor_field.h>
 
 #include <algorithm>
 #include <charconv>
@@ -11,7 +11,7 @@
 #include <vdbcage/core/detail/parallel.h>
 #include <vdbcage/core/error.h>
 #include <vdbcage/volume/detail/close_options.h>
-#include <vdbcage/volume/detail/scale_at.h>
+#include <vdbcage/volume/detail/factor_at.h>
 #include <vdbcage/volume/detail/sphere/radius_field.h>
 #include <vdbcage/volume/detail/sphere/sphere_pass.h>
 #include <vdbcage/volume/vdb_io.h>
@@ -65,8 +65,8 @@ openvdb::CoordBBox boxOf(const MaskGrid& mask)
 
 } // namespace
 
-FloatGrid::Ptr scaleFromPoints(const std::vector<Vec3d>& points, const std::vector<float>& values, double voxelSize,
-                               double radius, Interrupter* interrupter)
+FloatGrid::Ptr factorsFromPoints(const std::vector<Vec3d>& points, const std::vector<float>& values, double voxelSize,
+                                 double radius, Interrupter* interrupter)
 {
     if (points.size() != values.size()) {
         std::ostringstream text;
@@ -102,9 +102,9 @@ FloatGrid::Ptr scaleFromPoints(const std::vector<Vec3d>& points, const std::vect
     return scale;
 }
 
-ScaleField readScaleField(const std::string& text, const std::string& name)
+FactorField readFactorField(const std::string& text, const std::string& name)
 {
-    ScaleField field;
+    FactorField field;
     if (text == "none") return field;
     field.source = text;
     for (std::size_t begin = 0; begin <= text.size();) {
@@ -113,10 +113,10 @@ ScaleField readScaleField(const std::string& text, const std::string& name)
         begin = end + 1;
         if (part.rfind("sphere:", 0) == 0) {
             const auto n = numbers(part, name, 5);
-            field.regions.push_back({ScaleRegion::Shape::sphere, Vec3d(n[0], n[1], n[2]), Vec3d(0), n[3], n[4]});
+            field.regions.push_back({FactorRegion::Shape::sphere, Vec3d(n[0], n[1], n[2]), Vec3d(0), n[3], n[4]});
         } else if (part.rfind("box:", 0) == 0) {
             const auto n = numbers(part, name, 7);
-            field.regions.push_back({ScaleRegion::Shape::box,
+            field.regions.push_back({FactorRegion::Shape::box,
                                      Vec3d(std::min(n[0], n[3]), std::min(n[1], n[4]), std::min(n[2], n[5])),
                                      Vec3d(std::max(n[0], n[3]), std::max(n[1], n[4]), std::max(n[2], n[5])), 0, n[6]});
         } else if (std::filesystem::path(part).extension() == ".vdb") {
@@ -131,7 +131,7 @@ ScaleField readScaleField(const std::string& text, const std::string& name)
     return field;
 }
 
-MaskGrid::Ptr dilate(const MaskGrid& mask, double radiusVoxels, const ScaleField& scale, Interrupter* interrupter)
+MaskGrid::Ptr dilate(const MaskGrid& mask, double radiusVoxels, const FactorField& scale, Interrupter* interrupter)
 {
     detail::requireValid({radiusVoxels, 0, StructuringElement::sphere});
     const detail::Progress progress{interrupter};
@@ -141,7 +141,7 @@ MaskGrid::Ptr dilate(const MaskGrid& mask, double radiusVoxels, const ScaleField
     return detail::maskGridLike(mask, detail::dilateByField(mask.tree(), field, {interrupter, 10, 100}));
 }
 
-MaskGrid::Ptr closeMask(const MaskGrid& solid, const CloseOptions& options, const ScaleField& scale,
+MaskGrid::Ptr closeMask(const MaskGrid& solid, const CloseOptions& options, const FactorField& scale,
                         Interrupter* interrupter)
 {
     detail::requireValid(options);

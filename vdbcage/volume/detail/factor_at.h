@@ -6,27 +6,27 @@
 #include <openvdb/tools/Interpolation.h>
 #include <vdbcage/core/detail/grids.h>
 #include <vdbcage/core/interrupter.h>
-#include <vdbcage/volume/scale_field.h>
+#include <vdbcage/volume/factor_field.h>
 
-/// What a scale field says at a place.
+/// The value of a factor field at a place.
 namespace vdbcage::detail {
 
-constexpr double largestScale = 8;
+constexpr double largestFactor = 8;
 
-/// \throw InputError a scale or a radius out of range; a coordinate that is not finite
-void requireValid(const ScaleRegion& region);
+/// \throw InputError a factor or a radius out of range; a coordinate that is not finite
+void requireValid(const FactorRegion& region);
 
 /// \throw InputError the same of a region; a value of the grid that is not finite; a transform that is not linear
 /// \throw Cancelled
 /// Cost: O(values of the grid).
-void requireValidDensity(const ScaleField& field, Interrupter* interrupter);
+void requireValidDensity(const FactorField& field, Interrupter* interrupter);
 
-bool contains(const ScaleRegion& region, const openvdb::Vec3d& point);
+bool contains(const FactorRegion& region, const openvdb::Vec3d& point);
 
 /// The field at a point of world space, cut to 0 to 8. `values` is the tree of the grid or an accessor of it; without a
 /// grid it does not count.
 template <typename Values>
-double scaleAt(const ScaleField& field, const Values* values, const openvdb::Vec3d& world)
+double factorAt(const FactorField& field, const Values* values, const openvdb::Vec3d& world)
 {
     double value = 1;
     if (field.grid) {
@@ -36,10 +36,10 @@ double scaleAt(const ScaleField& field, const Values* values, const openvdb::Vec
         value = static_cast<double>(mayBeVoxel ? openvdb::tools::BoxSampler::sample(*values, index)
                                                : field.grid->background());
     }
-    for (const ScaleRegion& region : field.regions) {
-        if (contains(region, world)) value *= region.scale;
+    for (const FactorRegion& region : field.regions) {
+        if (contains(region, world)) value *= region.factor;
     }
-    return std::clamp(value, 0.0, largestScale);
+    return std::clamp(value, 0.0, largestFactor);
 }
 
 } // namespace vdbcage::detail

@@ -1,4 +1,4 @@
-#include <vdbcage/volume/detail/scale_at.h>
+#include <vdbcage/volume/detail/factor_at.h>
 
 #include <sstream>
 
@@ -7,7 +7,7 @@
 
 namespace vdbcage::detail {
 
-void requireValid(const ScaleRegion& region)
+void requireValid(const FactorRegion& region)
 {
     const auto require = [](bool isRight, const char* name, const auto& value, const auto&... allowed) {
         if (isRight) return;
@@ -17,16 +17,16 @@ void requireValid(const ScaleRegion& region)
         throw InputError(text.str());
     };
     // NaN is refused by every comparison.
-    require(region.scale >= 0 && region.scale <= largestScale, "the scale", region.scale, "between 0 and ",
-            largestScale);
+    require(region.factor >= 0 && region.factor <= largestFactor, "the factor", region.factor, "between 0 and ",
+            largestFactor);
     require(region.radius >= 0 && std::isfinite(region.radius), "the radius", region.radius, "at least 0");
     require(region.lower.isFinite(), "the place", region.lower, "finite");
     require(region.upper.isFinite(), "the upper corner", region.upper, "finite");
 }
 
-void requireValidDensity(const ScaleField& field, Interrupter* interrupter)
+void requireValidDensity(const FactorField& field, Interrupter* interrupter)
 {
-    for (const ScaleRegion& region : field.regions) requireValid(region);
+    for (const FactorRegion& region : field.regions) requireValid(region);
     if (!field.grid) return;
     if (!field.grid->transform().isLinear()) throw InputError("the transform of the density must be linear");
     Asker ask(interrupter);
@@ -39,9 +39,9 @@ void requireValidDensity(const ScaleField& field, Interrupter* interrupter)
     }
 }
 
-bool contains(const ScaleRegion& region, const openvdb::Vec3d& point)
+bool contains(const FactorRegion& region, const openvdb::Vec3d& point)
 {
-    if (region.shape == ScaleRegion::Shape::sphere) {
+    if (region.shape == FactorRegion::Shape::sphere) {
         return (point - region.lower).lengthSqr() <= region.radius * region.radius;
     }
     for (int axis = 0; axis < 3; ++axis) {

@@ -10,7 +10,7 @@
 #include <vdbcage/core/error.h>
 #include <vdbcage/volume/detail/sphere/radius_field.h>
 #include <vdbcage/volume/detail/sphere/sphere_pass.h>
-#include <vdbcage/volume/scale_field.h>
+#include <vdbcage/volume/factor_field.h>
 
 using namespace vdbcage;
 using namespace vdbcage::test;
@@ -30,28 +30,28 @@ static std::ostream& operator<<(std::ostream& out, Simd simd)
 
 namespace {
 
-ScaleRegion sphereRegion(const Vec3d& centre, double radius, double scale)
+FactorRegion sphereRegion(const Vec3d& centre, double radius, double scale)
 {
-    ScaleRegion region;
-    region.shape = ScaleRegion::Shape::sphere;
+    FactorRegion region;
+    region.shape = FactorRegion::Shape::sphere;
     region.lower = centre;
     region.radius = radius;
-    region.scale = scale;
+    region.factor = scale;
     return region;
 }
 
-ScaleRegion boxRegion(const Vec3d& lower, const Vec3d& upper, double scale)
+FactorRegion boxRegion(const Vec3d& lower, const Vec3d& upper, double scale)
 {
-    ScaleRegion region;
-    region.shape = ScaleRegion::Shape::box;
+    FactorRegion region;
+    region.shape = FactorRegion::Shape::box;
     region.lower = lower;
     region.upper = upper;
-    region.scale = scale;
+    region.factor = scale;
     return region;
 }
 
 // A field with all that there is: a grid whose voxels are not those of the masks, a sphere, a box.
-ScaleField mixedField(const Vec3d& middle, unsigned seed)
+FactorField mixedField(const Vec3d& middle, unsigned seed)
 {
     std::mt19937 random(seed);
     auto grid = FloatGrid::create(1.0F);
@@ -127,7 +127,7 @@ BOOST_DATA_TEST_CASE(closing_equals_the_definition,
         const DenseSet set = randomBlobs(cubeAt(corners[seed], 13), seed);
         const auto grid = toGrid(set);
         const Vec3d middle = corners[seed].asVec3d() + Vec3d(6.5);
-        const ScaleField scale = mixedField(middle, seed);
+        const FactorField scale = mixedField(middle, seed);
         const detail::RadiusField field(scale, grid->transform(), radius, grid->evalActiveVoxelBoundingBox(), {});
         BOOST_TEST(!field.isUniform());
         const DenseSet dilated = gathered(set, field);
@@ -157,7 +157,7 @@ BOOST_DATA_TEST_CASE(closing_by_large_radii_equals_the_definition, data::make({1
     for (const int x : {20, 26}) grid->sparseFill(CoordBBox(Coord(x, -130, 130), Coord(x, -125, 135)), true);
     grid->tree().voxelizeActiveTiles();
     const DenseSet set(*grid, grid->evalActiveVoxelBoundingBox());
-    const ScaleField scale = mixedField(Vec3d(12, -128, 132), 1);
+    const FactorField scale = mixedField(Vec3d(12, -128, 132), 1);
     const detail::RadiusField field(scale, grid->transform(), radius, set.box(), {});
     const DenseSet dilated = gathered(set, field);
     BOOST_TEST(holds(*dilate(*grid, radius, scale), dilated));
@@ -186,7 +186,7 @@ BOOST_AUTO_TEST_CASE(tiles_and_threads_make_no_difference)
     tiles->sparseFill(cubeAt(Coord(136, 0, 0), 24), true);
     const auto dense = tiles->deepCopy();
     dense->tree().voxelizeActiveTiles();
-    const ScaleField scale{nullptr, {sphereRegion(Vec3d(132, 12, 12), 14, 0.3)}};
+    const FactorField scale{nullptr, {sphereRegion(Vec3d(132, 12, 12), 14, 0.3)}};
     const CloseOptions options{9, 8, StructuringElement::sphere};
     MaskGrid::Ptr results[2];
     for (const std::size_t threads : {1U, 2U}) {
@@ -205,7 +205,7 @@ BOOST_AUTO_TEST_CASE(far_from_the_origin)
         const auto grid = toGrid(randomBlobs(cubeAt(corner, 12), 3));
         const auto near = shifted(*grid, Coord(0) - corner);
         const auto field = [](const Coord& at) {
-            return ScaleField{nullptr, {sphereRegion(at.asVec3d() + Vec3d(5), 3, 0.25)}};
+            return FactorField{nullptr, {sphereRegion(at.asVec3d() + Vec3d(5), 3, 0.25)}};
         };
         const CloseOptions options{4, 4, StructuringElement::sphere};
         BOOST_TEST(sameSet(*shifted(*closeMask(*grid, options, field(corner)), Coord(0) - corner),
@@ -221,7 +221,7 @@ BOOST_DATA_TEST_CASE(closing_is_extensive_idempotent_and_increasing, data::make(
 {
     const auto small = fatBlobs(90, 3), large = fatBlobs(90, 4);
     large->topologyUnion(*small);
-    const ScaleField scale{nullptr, {sphereRegion(Vec3d(20, 0, 0), 25, 0.2), boxRegion(Vec3d(-50), Vec3d(-10), 1.5)}};
+    const FactorField scale{nullptr, {sphereRegion(Vec3d(20, 0, 0), 25, 0.2), boxRegion(Vec3d(-50), Vec3d(-10), 1.5)}};
     const CloseOptions options{radius, radius, StructuringElement::sphere};
     const auto closed = closeMask(*small, options, scale);
     BOOST_TEST(isSubset(*small, *closed));
@@ -237,7 +237,7 @@ BOOST_AUTO_TEST_CASE(radii_obey_the_field_and_the_slope)
 {
     const CoordBBox box = cubeAt(Coord(-20), 40);
     for (const double radius : {3.0, 10.0, 40.0}) {
-        const ScaleField scale{nullptr, {sphereRegion(Vec3d(0), 9, 0.25)}};
+        const FactorField scale{nullptr, {sphereRegion(Vec3d(0), 9, 0.25)}};
         const detail::RadiusField field(scale, openvdb::math::Transform(), radius, box, {});
         BOOST_TEST(field.largest() == radius);
         BOOST_TEST(field.square(Coord(0), 1) <= 0.0625 * radius * radius);
@@ -263,12 +263,12 @@ BOOST_AUTO_TEST_CASE(a_field_of_one_value_is_one_radius)
 {
     const auto grid = fatBlobs(60, 5);
     const CloseOptions options{7.3, 6, StructuringElement::sphere};
-    BOOST_TEST(sameTree(*closeMask(*grid, options, ScaleField{}), *closeMask(*grid, options)));
-    BOOST_TEST(sameTree(*closeMask(*grid, {7.3, 6, StructuringElement::cube}, ScaleField{}),
+    BOOST_TEST(sameTree(*closeMask(*grid, options, FactorField{}), *closeMask(*grid, options)));
+    BOOST_TEST(sameTree(*closeMask(*grid, {7.3, 6, StructuringElement::cube}, FactorField{}),
                         *closeMask(*grid, {7.3, 6, StructuringElement::cube})));
     BOOST_TEST(sameTree(*closeMask(*grid, options, {FloatGrid::create(0.5F), {}}),
                         *closeMask(*grid, {3.65, 3, StructuringElement::sphere})));
-    const ScaleField elsewhere{nullptr, {sphereRegion(Vec3d(5000, 0, 0), 10, 0)}};
+    const FactorField elsewhere{nullptr, {sphereRegion(Vec3d(5000, 0, 0), 10, 0)}};
     BOOST_TEST(sameTree(*closeMask(*grid, options, elsewhere), *closeMask(*grid, options)));
 }
 
@@ -295,7 +295,7 @@ BOOST_AUTO_TEST_CASE(a_hole_stays_where_the_field_is_zero)
 BOOST_AUTO_TEST_CASE(values_at_points_become_a_grid)
 {
     const std::vector<Vec3d> points{Vec3d(0, 0, 0), Vec3d(1, 0, 0), Vec3d(0.1, 0, 0)};
-    const auto scale = scaleFromPoints(points, {0.25F, 0.5F, 0.75F}, 0.1, 0.3);
+    const auto scale = factorsFromPoints(points, {0.25F, 0.5F, 0.75F}, 0.1, 0.3);
     const auto at = [&](const Vec3d& p) { return scale->tree().getValue(Coord::round(scale->worldToIndex(p))); };
     BOOST_TEST(at(points[0]) == 0.25F);
     BOOST_TEST(at(points[1]) == 0.5F);
@@ -304,19 +304,19 @@ BOOST_AUTO_TEST_CASE(values_at_points_become_a_grid)
     BOOST_TEST(at(Vec3d(1.3, 0.2, 0)) == 1.0F);
     BOOST_TEST(at(Vec3d(-0.2, 0, 0)) == 0.25F);
     BOOST_TEST(scale->background() == 1.0F);
-    BOOST_CHECK_THROW(scaleFromPoints(points, {1.0F}, 0.1, 0.3), InputError);
-    BOOST_CHECK_THROW(scaleFromPoints(points, {1.0F, 1.0F, std::nanf("")}, 0.1, 0.3), InputError);
-    BOOST_CHECK_THROW(scaleFromPoints({}, {}, 0, 0.3), InputError);
-    BOOST_CHECK_THROW(scaleFromPoints({}, {}, 0.1, 6.5), InputError);
+    BOOST_CHECK_THROW(factorsFromPoints(points, {1.0F}, 0.1, 0.3), InputError);
+    BOOST_CHECK_THROW(factorsFromPoints(points, {1.0F, 1.0F, std::nanf("")}, 0.1, 0.3), InputError);
+    BOOST_CHECK_THROW(factorsFromPoints({}, {}, 0, 0.3), InputError);
+    BOOST_CHECK_THROW(factorsFromPoints({}, {}, 0.1, 6.5), InputError);
     StopOnce stop(0);
-    BOOST_CHECK_THROW(scaleFromPoints(points, {1.0F, 1.0F, 1.0F}, 0.1, 0.3, &stop), Cancelled);
+    BOOST_CHECK_THROW(factorsFromPoints(points, {1.0F, 1.0F, 1.0F}, 0.1, 0.3, &stop), Cancelled);
 }
 
 BOOST_AUTO_TEST_CASE(bad_input_is_refused)
 {
     const auto grid = toGrid(randomBlobs(cubeAt(Coord(0), 10), 2));
     const CloseOptions options;
-    const auto refused = [&](const ScaleField& scale, const CloseOptions& with) {
+    const auto refused = [&](const FactorField& scale, const CloseOptions& with) {
         BOOST_CHECK_THROW(closeMask(*grid, with, scale), InputError);
     };
     refused({nullptr, {sphereRegion(Vec3d(0), 5, -0.1)}}, options);
@@ -345,7 +345,7 @@ BOOST_AUTO_TEST_CASE(bad_input_is_refused)
 BOOST_AUTO_TEST_CASE(stops_at_any_check)
 {
     const auto grid = toGrid(randomBlobs(cubeAt(Coord(-6), 12), 9));
-    const ScaleField scale{nullptr, {sphereRegion(Vec3d(0), 5, 0.5)}};
+    const FactorField scale{nullptr, {sphereRegion(Vec3d(0), 5, 0.5)}};
     const CloseOptions options{3, 3, StructuringElement::sphere};
     StopOnce never(-1);
     closeMask(*grid, options, scale, &never);

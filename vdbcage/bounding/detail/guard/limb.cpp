@@ -1,4 +1,4 @@
-#include <vdbcage/bounding/detail/loops/limb.h>
+#include <vdbcage/bounding/detail/guard/limb.h>
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,6 @@
 // Based on: Daniels, Silva, Shepherd, Cohen, "Quadrilateral Mesh Simplification", 2008 (polychords and their collapse).
 
-#include <vdbcage/bounding/detail/loops/quad_loop.h>
+#include <vdbcage/bounding/detail/quads/quad_loop.h>
 
 #include <algorithm>
 #include <array>

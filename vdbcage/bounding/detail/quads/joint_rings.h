@@ -4,8 +4,9 @@
 #include <cstdint>
 #include <vector>
 
-#include <vdbcage/bounding/detail/loops/limb.h>
-#include <vdbcage/bounding/detail/loops/quad_loop.h>
+#include <vdbcage/bounding/detail/guard/limb.h>
+#include <vdbcage/bounding/detail/quads/quad_loop.h>
+#include <vdbcage/bounding/detail/quads/quad_shape_term.h>
 #include <vdbcage/core/interrupter.h>
 
 namespace vdbcage::detail {
@@ -20,7 +21,7 @@ class JointRings {
 public:
     static constexpr std::size_t wanted = 3; ///< across each joint
 
-    /// At the joints of its guard. The arguments must outlive this.
+    /// At the joints of its wishes. The arguments must outlive this.
     JointRings(const GuardedMesh& surface, const QuadTable& table) : surface_(surface), table_(table) {}
 
     /// How many rings each joint has now.
@@ -30,15 +31,9 @@ public:
     /// Whether each joint has as many rings as before, or as are wanted.
     static bool areKept(const std::vector<std::size_t>& before, const std::vector<std::size_t>& after);
 
-    /// A vertex that is to stay near a plane.
-    struct Hold {
-        std::uint32_t vertex;
-        Vec3d normal;
-        double offset, width; ///< normal . place is to be `offset`; a deviation is measured in widths
-    };
     /// What holds the nearest three rings of each joint, or brings them there, by vertex, ascending: without it
     /// relaxation would make all rings of a limb alike.
-    std::vector<Hold> holds() const;
+    std::vector<PlaneHold> holds() const;
 
     /// Loops that may be split for another ring at a joint, nearest first; none if it has enough.
     std::vector<QuadLoop> toSplit(const Limb& limb) const;
@@ -47,7 +42,7 @@ private:
     /// There are joints, and nothing but quads: the ends of other loops are at the plane of symmetry.
     bool mayHaveRings() const
     {
-        return !surface_.guard().limbs().empty() && surface_.liveFaces() == 2 * table_.count();
+        return !surface_.wishes().limbs().empty() && surface_.liveFaces() == 2 * table_.count();
     }
 
     struct Ring {
@@ -60,9 +55,5 @@ private:
     const GuardedMesh& surface_;
     const QuadTable& table_;
 };
-
-/// Splits loops until each joint has the rings that are wanted, as far as the guard allows.
-/// \throw Cancelled
-void addRings(GuardedMesh& surface, QuadTable& table, Interrupter* interrupter);
 
 } // namespace vdbcage::detail

@@ -1,12 +1,9 @@
-#include <vdbcage/bounding/detail/loops/joint_rings.h>
+#include <vdbcage/bounding/detail/quads/joint_rings.h>
 
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <utility>
-
-#include <vdbcage/bounding/detail/loops/loop_split.h>
-#include <vdbcage/bounding/detail/quads/quad_relax.h>
 
 namespace vdbcage::detail {
 
@@ -84,7 +81,7 @@ std::vector<std::size_t> JointRings::count() const
     std::vector<std::size_t> counts;
     if (!mayHaveRings()) return counts;
     const std::vector<QuadLoop> loops = straightLoops(table_);
-    for (const Limb& limb : surface_.guard().limbs()) counts.push_back(ringsAround(loops, limb, reach).size());
+    for (const Limb& limb : surface_.wishes().limbs()) counts.push_back(ringsAround(loops, limb, reach).size());
     return counts;
 }
 
@@ -96,18 +93,18 @@ bool JointRings::areKept(const std::vector<std::size_t>& before, const std::vect
     return true;
 }
 
-std::vector<JointRings::Hold> JointRings::holds() const
+std::vector<PlaneHold> JointRings::holds() const
 {
-    std::vector<Hold> holds;
+    std::vector<PlaneHold> holds;
     if (!mayHaveRings()) return holds;
     const std::vector<QuadLoop> loops = straightLoops(table_);
     struct Sum {
-        Hold hold;
+        PlaneHold hold;
         const Limb* of;
         int count;
     };
     std::map<std::uint32_t, Sum> sums;
-    for (const Limb& limb : surface_.guard().limbs()) {
+    for (const Limb& limb : surface_.wishes().limbs()) {
         std::vector<Ring> rings = ringsAround(loops, limb, far);
         if (rings.size() > wanted) rings.erase(rings.begin() + wanted, rings.end());
         std::stable_sort(rings.begin(), rings.end(), [](const Ring& a, const Ring& b) { return a.height < b.height; });
@@ -120,7 +117,7 @@ std::vector<JointRings::Hold> JointRings::holds() const
                 const bool isUp = axis.dot(surface_.point(rung[0])) > axis.dot(surface_.point(rung[1]));
                 for (const std::size_t end : {0U, 1U}) {
                     const double offset = (end == 0) == isUp ? middle + 0.5 * width : middle - 0.5 * width;
-                    const Sum first{Hold{rung[end], axis, 0, limb.radius}, &limb, 0};
+                    const Sum first{PlaneHold{rung[end], axis, 0, limb.radius}, &limb, 0};
                     Sum& sum = sums.try_emplace(rung[end], first).first->second;
                     if (sum.of != &limb) continue; // another one holds it
                     sum.hold.offset += offset;
@@ -144,38 +141,6 @@ std::vector<QuadLoop> JointRings::toSplit(const Limb& limb) const
     if (ringsAround(loops, limb, near).size() >= wanted) return nearest;
     for (const Ring& ring : ringsAround(loops, limb, far)) nearest.push_back(*ring.loop);
     return nearest;
-}
-
-namespace {
-
-/// Splits the first of some loops that the guard allows to. Returns the new vertices; none if there is no such loop.
-std::vector<std::uint32_t> splitOneOf(const std::vector<QuadLoop>& loops, GuardedMesh& surface, QuadTable& table)
-{
-    for (const QuadLoop& loop : loops) {
-        GuardedMesh changed = surface;
-        QuadTable changedTable = table;
-        std::vector<std::uint32_t> middle = splitLoop(changed, changedTable, loop);
-        if (middle.empty()) continue;
-        surface = std::move(changed);
-        table = std::move(changedTable);
-        return middle;
-    }
-    return {};
-}
-
-} // namespace
-
-void addRings(GuardedMesh& surface, QuadTable& table, Interrupter* interrupter)
-{
-    constexpr int mostSplits = 4, sweeps = 2; // of one joint
-    for (const Limb& limb : surface.guard().limbs()) {
-        for (int i = 0; i < mostSplits; ++i) {
-            throwIfInterrupted(interrupter);
-            const auto middle = splitOneOf(JointRings(surface, table).toSplit(limb), surface, table);
-            if (middle.empty()) break;
-            relaxQuads(surface, table, middle, sweeps, interrupter);
-        }
-    }
 }
 
 } // namespace vdbcage::detail

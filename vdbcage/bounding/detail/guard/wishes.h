@@ -1,0 +1,46 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include <vdbcage/bounding/detail/guard/guard_model.h>
+#include <vdbcage/bounding/detail/guard/limb.h>
+#include <vdbcage/bounding/face_wishes.h>
+
+namespace vdbcage::detail {
+
+/// Where faces should go, in the units of a guard's model.
+class Wishes {
+public:
+    /// None.
+    Wishes() = default;
+    /// \throw InputError as FaceWishes
+    /// \throw Cancelled
+    Wishes(const GuardModel& guard, const FaceWishOptions& options, Interrupter* interrupter);
+
+    /// Whether distance counts more in some places than in others.
+    bool hasDensity() const { return density_.grid || !density_.regions.empty() || !aroundJoints_.empty(); }
+    /// Returns what distance counts for at a point of the model: the third power of the density.
+    ///
+    /// Of faces of the size h the distance is about h^2. Its integral is least where h^4 times the weight is the same
+    /// everywhere, which asks for the second power, and that of its square for the third. But faces do not come all
+    /// the way, and the others have to give them: with one and two more, a sphere with a quarter of the faces gets 1.8
+    /// times as many for a density of 2.
+    double distanceWeight(const Vec3d& onModel) const;
+    /// Returns the same for squared distance: the fifth power.
+    double quadricWeight(const Vec3d& onModel) const;
+
+    /// At the joints, beyond the plane of symmetry.
+    const std::vector<Limb>& limbs() const { return limbs_; }
+
+private:
+    double density(const Vec3d& onModel) const;
+
+    FactorField density_;                    // in the world's units
+    std::vector<FactorRegion> aroundJoints_; // the same; where they overlap they count once
+    std::vector<Limb> limbs_;
+    double scale_ = 1;                      // from the world's units to the guard's
+    std::optional<SymmetryPlane> symmetry_; // in the guard's
+};
+
+} // namespace vdbcage::detail

@@ -1,0 +1,342 @@
+#include <vdbcage/pipeline/detail/contest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <utility>
+
+#include <vdbcage/bounding/detail/guard/wishes.h>
+#include <vdbcage/bounding/detail/triangles/peaks.h>
+#include <vdbcage/bounding/detail/triangles/tightening.h>
+#include <vdbcage/bounding/near_coplanar.h>
+#include <vdbcage/bounding/quad_loops.h>
+#include <vdbcage/bounding/smooth.h>
+#include <vdbcage/bounding/tighten.h>
+#include <vdbcage/bounding/triquad.h>
+#include <vdbcage/core/detail/parallel.h>
+#include <vdbcage/core/detail/stage_parts.h>
+#include <vdbcage/pipeline/detail/memory_demand.h>
+#include <vdbcage/pipeline/detail/simple_solids.h>
+
+namespace vdbcage::detail {
+
+namespace {
+
+/// Side by side. \throw Cancelled
+template <typename Change>
+void forEach(std::vector<Candidate>& candidates, Interrupter* interrupter, const char* name, const Change& change)
+{
+    const Stage stage(interrupter, name);
+    StagesSideBySide pieces(interrupter, std::vector<double>(candidates.size(), 1.0));
+    parallelFor(std::size_t(0), candidates.size(), [&](std::size_t i) { change(candidates[i], pieces.passedOn(i)); });
+}
+
+void keepAtMost(std::size_t most, const Mesh Candidate::*mesh, std::vector<Candidate>& candidates)
+{
+    const auto hasTooMany = [&](const Candidate& candidate) { return faceCount(candidate.*mesh) > most; };
+    candidates.erase(std::remove_if(candidates.begin(), candidates.end(), hasTooMany), candidates.end());
+}
+
+} // namespace
+
+Rules Contest::rulesFor(const CageOptions& options)
+{
+    return cache_.rules(options, request_.density, ofSheet_, plane_, request_.interrupter);
+}
+
+std::optional<Candidate> Contest::tightest()
+{
+    const CageOptions& options = request_.options;
+    std::optional<Candidate> best = tightestFor(options);
+    if (!best || !mayFewerBeTighter(options, best->check, faceCount(cache_.model()))) return best;
+    // Where flat surroundings have no use for more faces, their points only stand out.
+    std::optional<Candidate> worthIt;
+    const auto offer = [&](std::optional<Candidate> candidate) {
+        if (!candidate) return;
+        if (worthIt && !areWorthTheirFaces(candidate->check, worthIt->check, options.clearance)) return;
+        worthIt = std::move(candidate);
+    };
+    for (const CageOptions& fewer : fewerFaces(options)) offer(tightestFor(fewer));
+    offer(std::move(best));
+    return worthIt;
+}
+
+/// The tightest of the cages that compete; nothing if there is none.
+std::optional<Candidate> Contest::tightestFor(const CageOptions& options)
+{
+    const Rules rules = rulesFor(options);
+    const auto quads = [&](const Voxels& voxels) { return quadsOf(options, rules, voxels); };
+    const SearchPlan plan = searchPlan(options, shareOfSide(options, cache_.model(), quads));
+    if (request_.memoryLimit < unlimitedMemory) {
+        MemoryDemand(cache_.model(), options, plan.share, quads).requireWithin(request_.memoryLimit);
+    }
+    std::optional<Candidate> best;
+    const auto take = [&](std::optional<Candidate> candidate, double advance) {
+        if (!candidate || (best && best->looseness <= candidate->looseness - advance)) return;
+        best = std::move(candidate);
+    };
+    for (const SearchPlan::Competitor& competitor : plan.competitors) {
+        const Entry entry{competitor, plan.share, rules};
+        take(climb(entry), 0);
+        // That a cage of more faces lies on the model more closely than a box is not worth them.
+        if (competitor.hasSimpleSolids) take(shrinkOnto(entry, simpleSolids(entry)), options.clearance);
+    }
+    if (best) best->plan = describe(plan);
+    return best;
+}
+
+/// The tightest cage from the first rungs of the ladders that lead to few enough faces, or else from the convex hull;
+/// nothing if that has too many too.
+std::optional<Candidate> Contest::climb(const Entry& entry)
+{
+    const std::vector<std::vector<Voxels>>& all = entry.competitor.ladders;
+    std::vector<std::size_t> next(all.size(), 0); // rung of each
+    std::size_t climbed = 1;                      // the first alone, until others may be tighter
+    for (;;) {
+        Candidates starts;
+        for (std::size_t i = 0; i < climbed; ++i) {
+            Candidates found;
+            while (found.empty() && next[i] < all[i].size()) {
+                Voxels voxels = all[i][next[i]++];
+                voxels.plane = entry.guard().symmetry();
+                found = startsFrom(entry, voxels);
+            }
+            if (found.empty() ||
+                mayCoarserBeTighter(entry.options(), entry.share, found.front().voxels, found.front().topology)) {
+                climbed = all.size();
+            }
+            std::move(found.begin(), found.end(), std::back_inserter(starts));
+        }
+        if (starts.empty()) break;
+        if (auto candidate = shrinkOnto(entry, std::move(starts))) return candidate;
+    }
+    Voxels voxels = all.front().front();
+    voxels.resolution = std::min(voxels.resolution, policy::hullResolution);
+    voxels.plane = entry.guard().symmetry();
+    return shrinkOnto(entry, {begin(entry, voxels, CageStart::hull)});
+}
+
+/// What cages may be shrunk from with voxels like these: nothing if there are too many handles.
+Contest::Candidates Contest::startsFrom(const Entry& entry, const Voxels& voxels)
+{
+    const CageOptions& options = entry.options();
+    int resolution = voxels.resolution;
+    if (entry.competitor.followsSurface) {
+        resolution = affordableResolution(options, entry.share, voxels, quadsOf(options, entry.rules, voxels));
+    }
+    Candidates starts;
+    const auto beginWith = [&](double scale, bool isTurned) {
+        Voxels scaled = voxels;
+        scaled.resolution = static_cast<int>(std::lround(scale * resolution));
+        scaled.turned = isTurned;
+        Candidate candidate = begin(entry, scaled, CageStart::closing);
+        if (hasFewEnoughHandles(options, candidate.topology)) starts.push_back(std::move(candidate));
+    };
+    for (const double scale : entry.competitor.startScales) {
+        beginWith(scale, false);
+        if (starts.empty()) break;
+    }
+    if (entry.competitor.mayBeTurned) {
+        const auto plane = entry.guard().symmetry();
+        const double share = cache_.axes(plane, request_.interrupter).share;
+        // About as many quads as along x, y and z.
+        if (share <= policy::worthTurning) {
+            beginWith(cache_.turnedSide(plane, request_.interrupter) / std::sqrt(share), true);
+        }
+    }
+    return starts;
+}
+
+/// What cages of few faces may be shrunk from beside closings.
+Contest::Candidates Contest::simpleSolids(const Entry& entry)
+{
+    const CageOptions& options = entry.options();
+    Voxels voxels = entry.competitor.ladders.front().front();
+    voxels.plane = entry.guard().symmetry();
+    Candidates starts{begin(entry, voxels, CageStart::orientedBox)};
+    const bool isBoxTooMuch = options.mesh == CageFaces::triangles && options.faces < policy::trianglesOfBox;
+    if (isBoxTooMuch && !entry.guard().symmetry()) starts.push_back(begin(entry, voxels, CageStart::tetrahedron));
+    return starts;
+}
+
+/// How many quads the surface of a closing has.
+std::size_t Contest::quadsOf(const CageOptions& options, const Rules& rules, Voxels voxels)
+{
+    voxels.plane = rules.guard->symmetry();
+    return cache_.quadsOf(options, request_.scale, voxels, request_.interrupter);
+}
+
+/// A candidate with what it is made from.
+Candidate Contest::begin(const Entry& entry, const Voxels& voxels, CageStart kind)
+{
+    Candidate candidate;
+    candidate.from = cache_.start(entry.options(), request_.scale, voxels, kind, entry.rules, request_.interrupter);
+    const StartingSurface& start = candidate.from->start;
+    candidate.voxels = voxels;
+    candidate.start = kind;
+    candidate.offsetVoxels = start.offsetVoxels;
+    candidate.closing = start.closing;
+    candidate.surface = start.surface;
+    candidate.minAngle = entry.rules.key.guard.minAngleDegrees;
+    candidate.sideShare = entry.share;
+    candidate.topology = start.topology;
+    return candidate;
+}
+
+/// Makes cages of the candidates' surfaces, side by side; the tightest that has few enough faces and is certified.
+std::optional<Candidate> Contest::shrinkOnto(const Entry& entry, Candidates starts)
+{
+    const CageOptions& options = entry.options();
+    if (options.mesh == CageFaces::loops) {
+        collapseLoops(entry, starts);
+    } else {
+        decimateAndTighten(entry, starts);
+    }
+    keepAtMost(static_cast<std::size_t>(options.faces), &Candidate::cage, starts);
+    if (const int sweeps = smoothing(options); sweeps > 0) {
+        forEach(starts, request_.interrupter, "smooth", [&](Candidate& candidate, Interrupter* piece) {
+            candidate.cage = smooth(candidate.cage, entry.guard(), {sweeps}, piece);
+        });
+    }
+    for (Candidate& candidate : starts) candidate.smoothed = candidate.cage;
+    if (options.mesh == CageFaces::triangles) {
+        const Stage stage(request_.interrupter, "coplanar");
+        for (Candidate& candidate : starts) {
+            candidate.cage = bendNearCoplanarEdges(candidate.cage, entry.guard(), request_.interrupter);
+        }
+    }
+    return tightestCertified(entry, std::move(starts));
+}
+
+/// Those whose surfaces are large one after the other, then the others side by side. \throw Cancelled
+template <typename Change>
+void Contest::forEachSurface(Candidates& candidates, const char* name, const Change& change) const
+{
+    const Stage stage(request_.interrupter, name);
+    std::vector<double> faces;
+    for (const Candidate& candidate : candidates) faces.push_back(static_cast<double>(faceCount(*candidate.surface)));
+    StagesSideBySide pieces(request_.interrupter, faces);
+    const auto changeOne = [&](std::size_t i) { change(candidates[i], pieces.passedOn(i)); };
+    for (std::size_t i = 0; i < candidates.size(); ++i) {
+        if (isLarge(candidates[i])) changeOne(i);
+    }
+    parallelFor(std::size_t(0), candidates.size(), [&](std::size_t i) {
+        if (!isLarge(candidates[i])) changeOne(i);
+    });
+}
+
+/// Cages of quads in loops; what is not of quads only is left out.
+void Contest::collapseLoops(const Entry& entry, Candidates& starts) const
+{
+    QuadLoopsOptions options;
+    options.faces = static_cast<std::size_t>(entry.options().faces);
+    options.tightening = tightenOptions(entry.options().effort);
+    options.exchanges = loopExchanges(entry.options().effort);
+    forEachSurface(starts, "loops", [&](Candidate& candidate, Interrupter* piece) {
+        candidate.cage = quadLoops(*candidate.surface, entry.guard(), options, entry.rules.wishes, piece);
+        candidate.decimated = candidate.cage;
+    });
+    const auto hasTriangles = [](const Candidate& candidate) { return !candidate.cage.triangles.empty(); };
+    starts.erase(std::remove_if(starts.begin(), starts.end(), hasTriangles), starts.end());
+}
+
+/// Cages of triangles, or of triangles and quads.
+void Contest::decimateAndTighten(const Entry& entry, Candidates& starts) const
+{
+    const CageOptions& options = entry.options();
+    const BoundingGuard& guard = entry.guard();
+    const FaceWishes& wishes = entry.rules.wishes;
+    Interrupter* const interrupter = request_.interrupter;
+    const auto faces = static_cast<std::size_t>(options.faces);
+    const bool onlyTriangles = options.mesh == CageFaces::triangles;
+    BoundingDecimateOptions decimation;
+    decimation.faces = onlyTriangles ? faces : policy::trianglesPerQuad * faces;
+    decimation.effort = options.effort;
+    // Simple solids are cages as they are.
+    const auto isCage = [&](const Candidate& candidate) {
+        const Mesh& surface = *candidate.surface;
+        const bool isSimple = candidate.start == CageStart::orientedBox || candidate.start == CageStart::tetrahedron;
+        return isSimple && surface.triangles.size() + (onlyTriangles ? 2 : 1) * surface.quads.size() <= faces;
+    };
+    forEachSurface(starts, "decimate", [&](Candidate& candidate, Interrupter* piece) {
+        const Mesh& surface = *candidate.surface;
+        if (isCage(candidate)) {
+            candidate.decimated = onlyTriangles ? triangulated(surface) : surface;
+            return;
+        }
+        if (isLarge(candidate)) {
+            candidate.decimated = decimate(surface, guard, decimation, wishes, piece);
+            return;
+        }
+        RecordedDecimation& recorded = candidate.from->decimation.of(
+            entry.rules.key, [&] { return RecordedDecimation(surface, guard, wishes, piece); });
+        candidate.decimated = recorded.to(decimation, piece);
+    });
+    keepAtMost(decimation.faces, &Candidate::decimated, starts);
+
+    TightenOptions tightening = tightenOptions(options.effort);
+    if (guard.symmetry()) tightening.perturbations *= policy::symmetricPerturbations;
+    if (onlyTriangles) {
+        forEach(starts, interrupter, "tighten", [&](Candidate& candidate, Interrupter* piece) {
+            candidate.cage =
+                withoutPeaks(tighten(candidate.decimated, guard, tightening, wishes, piece), guard, wishes, piece);
+        });
+    } else {
+        BoundingTriquadOptions pairing;
+        pairing.mergeAngleDegrees = mergeAngle(options);
+        pairing.faces = faces;
+        pairing.quadShape = options.quadShape;
+        if (options.mesh == CageFaces::quads) pairing.quads = policy::mostlyQuads;
+        pairing.tightening = tightening;
+        forEach(starts, interrupter, "quads", [&](Candidate& candidate, Interrupter* piece) {
+            const Mesh& decimated = candidate.decimated;
+            candidate.cage = isCage(candidate) ? tighten(decimated, guard, tightening, wishes, piece)
+                                               : triquad(decimated, guard, pairing, wishes, piece);
+        });
+    }
+}
+
+std::optional<Candidate> Contest::tightestCertified(const Entry& entry, Candidates candidates)
+{
+    const bool isWeighted = wishesOf(entry.rules.wishes).hasDensity();
+    for (Candidate& candidate : candidates) {
+        candidate.check = certifier_.check(candidate.cage, request_.interrupter);
+        candidate.looseness =
+            isWeighted ? meanDistance(candidate.cage, entry.guard(), entry.rules.wishes, request_.interrupter)
+                       : candidate.check.meanDistance;
+    }
+    std::stable_sort(candidates.begin(), candidates.end(),
+                     [](const Candidate& a, const Candidate& b) { return a.looseness < b.looseness; });
+    for (Candidate& candidate : candidates) {
+        if (!candidate.check.bounding()) continue;
+        candidate.boundsAsFloats =
+            certifier_.boundsAsFloats(candidate.cage, entry.options().precision, request_.interrupter);
+        if (candidate.boundsAsFloats) return std::move(candidate);
+    }
+    return std::nullopt;
+}
+
+Candidate Contest::box()
+{
+    const CageOptions& options = request_.options;
+    const BoundingGuard& guard = *rules().guard;
+    openvdb::BBoxd box = boundingBox(cache_.model());
+    box.expand(std::max(2 * guard.clearance(), policy::boxMargin * longestSide(box)));
+    Candidate candidate;
+    candidate.voxels = ladders(options).back().back();
+    candidate.start = CageStart::box;
+    candidate.closing = cache_.volumes().closing(options, request_.scale, candidate.voxels, request_.interrupter);
+    const bool areTriangles = options.mesh == CageFaces::triangles;
+    const bool isBoxTooMuch = areTriangles && options.faces < policy::trianglesOfBox;
+    Mesh surface = isBoxTooMuch ? tetrahedronMesh(box) : boxMesh(box);
+    if (areTriangles) surface = triangulated(std::move(surface));
+    candidate.surface = std::make_shared<const Mesh>(std::move(surface));
+    candidate.topology = analyzeTopology(*candidate.surface, nullptr);
+    candidate.decimated = candidate.smoothed = candidate.cage =
+        certifier_.rounded(*candidate.surface, options.precision);
+    candidate.check = certifier_.check(candidate.cage, request_.interrupter);
+    candidate.boundsAsFloats = certifier_.boundsAsFloats(candidate.cage, options.precision, request_.interrupter);
+    return candidate;
+}
+
+} // namespace vdbcage::detail

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include <vdbcage/pipeline/detail/bounding_search.h>
+#include <vdbcage/pipeline/detail/search_plan.h>
+#include <vdbcage/pipeline/detail/stage_cache.h>
+
+namespace vdbcage::detail {
+
+/// Makes the cages that compete under one plane of symmetry, or none, and takes the tightest.
+class Contest {
+public:
+    /// All but `plane` must outlive this. `largeSurface` is as for BoundingSearch.
+    Contest(StageCache& cache, Certifier& certifier, const BoundingSearch::Request& request, std::size_t largeSurface,
+            bool ofSheet, const std::optional<SymmetryPlane>& plane)
+        : cache_(cache), certifier_(certifier), request_(request), largeSurface_(largeSurface), ofSheet_(ofSheet),
+          plane_(plane)
+    {
+    }
+
+    /// Returns the tightest certified cage; nothing if there is none.
+    /// \throw MemoryError
+    /// \throw Cancelled
+    std::optional<Candidate> tightest();
+    /// Returns the model's bounding box, the last resort, with its verdict.
+    Candidate box();
+    /// Returns what the cages are made under.
+    Rules rules() { return rulesFor(request_.options); }
+
+private:
+    using Candidates = std::vector<Candidate>;
+    /// A competitor of a plan, with what all of them share.
+    struct Entry {
+        const SearchPlan::Competitor& competitor;
+        double share;
+        const Rules& rules;
+
+        const CageOptions& options() const { return competitor.options; }
+        const BoundingGuard& guard() const { return *rules.guard; }
+    };
+
+    Rules rulesFor(const CageOptions& options);
+    std::optional<Candidate> tightestFor(const CageOptions& options);
+    std::optional<Candidate> climb(const Entry& entry);
+    Candidates startsFrom(const Entry& entry, const Voxels& voxels);
+    Candidates simpleSolids(const Entry& entry);
+    Candidate begin(const Entry& entry, const Voxels& voxels, CageStart kind);
+    std::size_t quadsOf(const CageOptions& options, const Rules& rules, Voxels voxels);
+    std::optional<Candidate> shrinkOnto(const Entry& entry, Candidates starts);
+    void collapseLoops(const Entry& entry, Candidates& starts) const;
+    void decimateAndTighten(const Entry& entry, Candidates& starts) const;
+    bool isLarge(const Candidate& candidate) const { return faceCount(*candidate.surface) > largeSurface_; }
+    template <typename Change>
+    void forEachSurface(Candidates& candidates, const char* name, const Change& change) const;
+    std::optional<Candidate> tightestCertified(const Entry& entry, Candidates candidates);
+
+    StageCache& cache_;
+    Certifier& certifier_;
+    const BoundingSearch::Request& request_;
+    const std::size_t largeSurface_;
+    const bool ofSheet_;
+    const std::optional<SymmetryPlane> plane_;
+};
+
+} // namespace vdbcage::detail

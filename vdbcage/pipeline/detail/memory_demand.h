@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cstddef>
+#include <functional>
+
+#include <vdbcage/mesh/mesh.h>
+#include <vdbcage/pipeline/detail/search.h>
+
+namespace vdbcage::detail {
+
+/// Predicts the memory of a process that makes a cage, at any resolution.
+class MemoryDemand {
+public:
+    /// `share` is shareOfSide(). `quadsOf` is asked once for the number of quads of the surface of a closing, in voxels
+    /// of at most 64 along the share: finer ones add less than a third to the surface, mostly nothing.
+    /// \throw what `quadsOf` throws
+    MemoryDemand(const Mesh& model, const CageOptions& options, double share,
+                 const std::function<std::size_t(const Voxels&)>& quadsOf);
+
+    /// Returns the bytes, with another resolution or, if it is 0, with that of the options.
+    double bytes(int resolution = 0) const;
+    /// \throw MemoryError more than `limit` bytes; it names the finest resolution that fits
+    void requireWithin(std::size_t limit) const;
+
+private:
+    int finestWithin(double limit) const;
+
+    CageOptions options_;
+    double modelTriangles_;
+    double share_;
+    double quads_ = 0; ///< of the closing's surface, for the square of the resolution
+    double box_ = 1;   ///< its volume, for the cube of the longest side
+};
+
+} // namespace vdbcage::detail

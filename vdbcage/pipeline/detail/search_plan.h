@@ -1,0 +1,31 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <vdbcage/pipeline/detail/search.h>
+
+namespace vdbcage::detail {
+
+/// What a search for a cage tries, in its order. What a run will take, in time and memory, follows from it.
+struct SearchPlan {
+    /// Options whose cages compete with those of the others for the tightest.
+    struct Competitor {
+        CageOptions options;
+        std::vector<std::vector<Voxels>> ladders; ///< ladders()
+        std::vector<double> startScales;          ///< startScales()
+        bool mayBeTurned = false;                 ///< mayBeTurned()
+        bool followsSurface = false;              ///< dependsOnSurface()
+        bool hasSimpleSolids = false;             ///< the box along the model's own axes competes, too
+    };
+    double share = 1; ///< shareOfSide()
+    std::vector<Competitor> competitors;
+};
+
+/// The plan for some options. \pre `share` is shareOfSide() of these
+SearchPlan searchPlan(const CageOptions& options, double share);
+
+/// A line for each competitor, for people.
+std::vector<std::string> describe(const SearchPlan& plan);
+
+} // namespace vdbcage::detail
