@@ -1,4 +1,4 @@
-"""The wheel of the Python module: CMake builds the extension, for the Python that runs this. See docs/PYTHON.md."""
+"""The wheel of the Python module: CMake builds the extension, for the Python that runs this. See PYTHON.md."""
 
 import os
 import pathlib

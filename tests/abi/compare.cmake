@@ -1,11 +1,11 @@
 # cmake [-DTAKE=ON] -Dbuild=build/release -P tests/abi/compare.cmake: compares the binary interface of the library with
-# the list docs/ABI.txt; with TAKE it writes the list instead. A program that was built with an older library of the same
+# docs/dev/ABI.txt; with TAKE it writes the list instead. A program that was built with an older library of the same
 # SOVERSION must still run: it depends on symbols, and on sizes and offsets in public types.
 cmake_minimum_required(VERSION 3.25)
 include(${CMAKE_CURRENT_LIST_DIR}/../support/run.cmake)
 get_filename_component(root ${CMAKE_CURRENT_LIST_DIR}/../.. ABSOLUTE)
 get_filename_component(build ${build} ABSOLUTE)
-set(kept ${root}/docs/ABI.txt)
+set(kept ${root}/docs/dev/ABI.txt)
 set(work ${build}/tests/abi)
 run(${CMAKE_COMMAND} --build ${build} --target vdbcage_abi)
 
@@ -39,7 +39,7 @@ if(count LESS 300)
 endif()
 execute_process(COMMAND diff -U0 ${kept} ${work}/now.txt RESULT_VARIABLE status OUTPUT_VARIABLE changes)
 if(NOT status EQUAL 0)
-    message(FATAL_ERROR "The binary interface is not what docs/ABI.txt has.\n"
+    message(FATAL_ERROR "The binary interface is not what docs/dev/ABI.txt has.\n"
         "Where functions are only added, write the list anew. Else programs that were built before would fail: give the "
         "library a new SOVERSION first, by the version in vdbcage/core/version.h. To write it:\n"
         "  cmake -DTAKE=ON -Dbuild=build/release -P tests/abi/compare.cmake\n${changes}")

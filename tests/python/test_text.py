@@ -1,4 +1,4 @@
-"""The examples in README.md and docs/PYTHON.md, and the docstrings."""
+"""The examples in README.md and docs/user/PYTHON.md, and the docstrings."""
 
 import contextlib
 import inspect
@@ -33,7 +33,7 @@ class TextTest(Case):
         self.assertEqual(len(vdbcage.Mesh.read(self.folder / "posed.obj")), len(names["model"]))
 
     def test_the_examples_of_the_page_run(self):
-        self.run_examples("docs/PYTHON.md")
+        self.run_examples("docs/user/PYTHON.md")
 
     def test_every_public_name_has_a_docstring(self):
         for name in vdbcage.__all__:

@@ -270,7 +270,7 @@ def make_cage(model, /, *, progress=None, **options):
     model: a Mesh of any kind: open, self-intersecting, badly oriented, in many parts
     progress: see the help of vdbcage
     options: those of `vdbcage make`, with underscores: faces=400, close_radius=0.02, mesh="triquad", bounding=False.
-        None stands for auto. Lengths are fractions of the model's longest side. docs/OPTIONS.md has all of them.
+        None stands for auto. Lengths are fractions of the model's longest side. OPTIONS.md has all of them.
     Raises InputError, DeviceError, Cancelled.
     """
     texts, progress = _option_texts(options), _arguments.callback(progress)
@@ -424,7 +424,7 @@ class Binding:
 
     cage: a Mesh, closed and facing outward
     points: array-like, shape (n, 3): world space
-    coordinates: the name of one of coordinate_families(); see docs/DEFORMING.md
+    coordinates: the name of one of coordinate_families(); see DEFORMING.md
     resolution: voxels along the cage, 4 to 256; only of harmonic coordinates [64]
     elasticity: an Elasticity; only of Somigliana coordinates
     loose: indices of points that need no coordinates of the family, such as a model's loose_points
@@ -684,7 +684,7 @@ def close_mask(mask, close_radius, erode_radius=None, *, element="sphere", scale
     mask: a Mask
     close_radius, erode_radius: voxels, 0 to 512; the erode radius is at most the close radius, which None stands for
     element: "sphere" or "cube"
-    scale_field: None, or what the radii are multiplied by in places, as in docs/VOLUMES.md
+    scale_field: None, or what the radii are multiplied by in places, as in VOLUMES.md
     Raises InputError, IoError for the file of a scale field, Cancelled.
     """
     mask = _mask("mask", mask)
