@@ -47,6 +47,16 @@ class TextTest(Case):
                             self.assertTrue(inspect.getdoc(getattr(thing, member)), f"{name}.{member}")
         self.assertEqual(sorted(vdbcage.__all__), list(vdbcage.__all__))
 
+    def test_every_public_function_tells_its_types(self):
+        for name in vdbcage.__all__:
+            thing = getattr(vdbcage, name)
+            functions = [thing] if inspect.isfunction(thing) else [
+                getattr(member, "__func__", getattr(member, "fget", member)) for key, member in vars(thing).items()
+                if key == "__init__" or not key.startswith("_")]
+            for function in filter(inspect.isfunction, functions):
+                names = {*inspect.signature(function).parameters, "return"}
+                self.assertEqual(names - {"self", "cls", *function.__annotations__}, set(), function.__qualname__)
+
     def test_the_version_is_that_of_the_library(self):
         header = (SOURCE / "vdbcage" / "core" / "version.h").read_text()
         self.assertIn(f'VDBCAGE_VERSION "{vdbcage.__version__}"', header)
