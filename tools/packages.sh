@@ -20,7 +20,8 @@ test_packages=(
     tetgen # fills cages, to see that others can use them
     xvfb xauth openbox xdotool # a display for the window, and a hand that uses it
     python3-jsonschema # reports keep to docs/user/report.schema.json
-    python3-mypy    # its stubtest holds the stubs to the Python module
+    python3-matplotlib # plots of the page of tools/bench/paper.py
+    python3-mypy    # the types of the Python module
     python3-openvdb # files and arrays go between it and the Python module
     blender         # runs the add-on, and opens the volumes
     dpkg-dev fakeroot lintian mmdebstrap # packages, and a Debian without anything else to try them in

@@ -65,7 +65,7 @@ class Links(unittest.TestCase):
         missing = {target for page in pages for target, file, _ in links(page)
                    if not file.exists() and file not in pictures}
         self.assertEqual(missing, {"CHANGELOG.md", "CITATION.cff", "CONTRIBUTING.md", "../CONTRIBUTING.md",
-                                   "../CONTRIBUTING.md#figures", "../data/README.md", "../data/walk.cpp"})
+                                   "../CONTRIBUTING.md#figures", "../data/README.md", "../tests/models/walk.cpp"})
 
 
 if __name__ == "__main__":

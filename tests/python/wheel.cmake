@@ -6,7 +6,7 @@ set(work ${build}/python_wheel) # build/wheel of the copy is as deep as this bui
 set(copy ${work}/source)
 file(REMOVE_RECURSE ${work}/wheels ${work}/venv)
 
-set(sources CMakeLists.txt LICENSE README.md cmake data pyproject.toml setup.py shaders tools vdbcage)
+set(sources CMakeLists.txt LICENSE README.md cmake pyproject.toml setup.py shaders tools vdbcage)
 file(GLOB old ${copy}/*)
 list(FILTER old EXCLUDE REGEX "/build$")
 if(old)
