@@ -25,7 +25,6 @@ test_packages=(
     python3-openvdb # files and arrays go between it and the Python module
     blender         # runs the add-on, and opens the volumes
     dpkg-dev fakeroot lintian mmdebstrap # packages, and a Debian without anything else to try them in
-    abigail-tools # lists the binary interface
     python3-pip python3-setuptools python3-wheel python3-venv # the wheel of the Python module, and where it is tried
     parallel openssh-client openssh-server rsync slurm-wlm munge # farms, which run lists of jobs
 )
