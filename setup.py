@@ -1,4 +1,4 @@
-"""The wheel of the Python module: CMake builds the extension, for the Python that runs this. See docs/PYTHON.md."""
+"""The wheel of the Python module: CMake builds the extension, for the Python that runs this. See PYTHON.md."""
 
 import os
 import pathlib
@@ -33,7 +33,7 @@ setup(
     version=re.search(r'VDBCAGE_VERSION "(.*)"', (SOURCE / "vdbcage" / "core" / "version.h").read_text())[1],
     packages=["vdbcage"],
     package_dir={"vdbcage": "tools/python/vdbcage"},
-    package_data={"vdbcage": ["*.pyi", "py.typed"]},
+    package_data={"vdbcage": ["py.typed"]},
     ext_modules=[Extension("vdbcage._vdbcage", [])],
     cmdclass={"build_ext": CMakeBuild},
     options={"build": {"build_base": str(FRESH)}, "egg_info": {"egg_base": str(FRESH)}},

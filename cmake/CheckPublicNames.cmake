@@ -1,8 +1,8 @@
 # cmake [-DTAKE=ON] -P cmake/CheckPublicNames.cmake: compares the names that public headers declare with the list
-# docs/PUBLIC_NAMES.txt; with TAKE it writes the list instead.
+# docs/dev/PUBLIC_NAMES.txt; with TAKE it writes the list instead.
 cmake_minimum_required(VERSION 3.25)
 get_filename_component(root ${CMAKE_CURRENT_LIST_DIR}/.. ABSOLUTE)
-set(list ${root}/docs/PUBLIC_NAMES.txt)
+set(list ${root}/docs/dev/PUBLIC_NAMES.txt)
 file(GLOB headers RELATIVE ${root} ${root}/vdbcage/*/*.h)
 list(FILTER headers EXCLUDE REGEX "^vdbcage/(geometry|gl)/")
 list(SORT headers)
@@ -50,7 +50,7 @@ else()
         set(declared ${onlyDeclared})
         list(REMOVE_ITEM onlyDeclared ${onlyListed})
         list(REMOVE_ITEM onlyListed ${declared})
-        string(APPEND problems "  docs/PUBLIC_NAMES.txt is not what the headers declare (see -DTAKE=ON)\n"
+        string(APPEND problems "  docs/dev/PUBLIC_NAMES.txt is not what the headers declare (see -DTAKE=ON)\n"
             "  only declared: ${onlyDeclared}\n  only listed: ${onlyListed}\n")
     endif()
 endif()

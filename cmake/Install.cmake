@@ -56,9 +56,22 @@ foreach(program vdbcage_cli vdbcage_view)
     endif()
 endforeach()
 if(TARGET vdbcage_cli)
-    install(FILES README.md DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/vdbcage COMPONENT programs)
-    install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/vdbcage COMPONENT programs
-        FILES_MATCHING PATTERN "*.md" PATTERN "*.png" PATTERN "*.view" PATTERN "*.param" PATTERN "*.json")
+    # docs/ has folders; here all pages and pictures are in one, where links and paths lead to each other too.
+    set(documents ${PROJECT_BINARY_DIR}/documents)
+    file(REMOVE_RECURSE ${documents})
+    file(GLOB pages RELATIVE ${PROJECT_SOURCE_DIR}
+        README.md docs/*.md docs/*/*.md docs/*/*.json docs/*/*.view docs/*/*.param)
+    set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${pages})
+    foreach(page IN LISTS pages)
+        file(READ ${page} text)
+        string(REPLACE "](../" "](" text "${text}")
+        string(REGEX REPLACE "(docs/|\\]\\()(user|dev|pictures)/" "\\1" text "${text}")
+        string(REGEX REPLACE "^docs/[a-z]+/" "docs/" page ${page})
+        file(WRITE ${documents}/${page} "${text}")
+    endforeach()
+    install(DIRECTORY ${documents}/ DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/vdbcage COMPONENT programs)
+    install(DIRECTORY docs/pictures/ DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/vdbcage/docs COMPONENT programs
+        FILES_MATCHING PATTERN "*.png")
 endif()
 if(TARGET vdbcage_cli AND NOT CMAKE_CROSSCOMPILING) # the programs print their manual pages
     set(manuals ${PROJECT_BINARY_DIR}/manuals)

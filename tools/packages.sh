@@ -19,12 +19,12 @@ test_packages=(
     doxygen        # the reference of the library, where every public name has a comment
     tetgen # fills cages, to see that others can use them
     xvfb xauth openbox xdotool # a display for the window, and a hand that uses it
-    python3-jsonschema # reports keep to docs/report.schema.json
-    python3-mypy    # its stubtest holds the stubs to the Python module
+    python3-jsonschema # reports keep to docs/user/report.schema.json
+    python3-matplotlib # plots of the page of tools/bench/paper.py
+    python3-mypy    # the types of the Python module
     python3-openvdb # files and arrays go between it and the Python module
     blender         # runs the add-on, and opens the volumes
     dpkg-dev fakeroot lintian mmdebstrap # packages, and a Debian without anything else to try them in
-    abigail-tools # lists the binary interface
     python3-pip python3-setuptools python3-wheel python3-venv # the wheel of the Python module, and where it is tried
     parallel openssh-client openssh-server rsync slurm-wlm munge # farms, which run lists of jobs
 )
@@ -36,7 +36,7 @@ release_packages=(
 case $(. /etc/os-release 2>/dev/null && echo "${VERSION_CODENAME-}" || echo unknown) in # sets nothing for its caller
 bookworm | trixie) test_packages+=(libosmesa6) ;; # draws without EGL; Mesa gave it up in 2025
 forky | sid) ;;
-*) echo "This system is not known (Debian 12, 13 and sid are): names of packages may differ; docs/INSTALL.md says what is needed." >&2 ;;
+*) echo "This system is not known (Debian 12, 13 and sid are): names of packages may differ; INSTALL.md says what is needed." >&2 ;;
 esac
 
 # install_packages NAME...: by apt-get, as root or through sudo; silent and quick when nothing is missing.

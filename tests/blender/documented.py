@@ -1,4 +1,4 @@
-"""The blocks of code of docs/blender.md, one after the other, as a reader would run them."""
+"""The blocks of code of docs/user/blender.md, one after the other, as a reader would run them."""
 
 import os
 import re
@@ -13,7 +13,7 @@ class Documented:
 
     def __init__(self, folder):
         """They are run in the folder, which gets the project's data."""
-        text = (SOURCE / "docs" / "blender.md").read_text()
+        text = (SOURCE / "docs/user/blender.md").read_text()
         pattern = re.compile(r"^( *)```(python|sh)\n(.*?)^ *```$", re.M | re.S)
         self._blocks = [(match[2], re.sub(rf"^{match[1]}", "", match[3], flags=re.M)) for match in
                         pattern.finditer(text)]

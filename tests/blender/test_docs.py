@@ -1,4 +1,4 @@
-"""docs/blender.md, from its first line to its last."""
+"""docs/user/blender.md, from its first line to its last."""
 
 import os
 

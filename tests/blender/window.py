@@ -1,4 +1,4 @@
-"""The add-on in a window, by timers and events: see window.sh. Takes the pictures of docs/blender.md on the way."""
+"""The add-on in a window, by timers and events: see window.sh. Takes the pictures of blender.md on the way."""
 
 import os
 import pathlib

@@ -184,9 +184,6 @@ BOOST_AUTO_TEST_CASE(bad_arguments)
                                                  {{"voxelize", bishop, "--voxelizers", "abacus"}, "--voxelizers"},
                                                  {{"voxelize", bishop, "--repeat", "0"}, "--repeat"},
                                                  {{"voxelize", bishop, "--resolutions", "0"}, "--resolutions"},
-                                                 {{"paper"}, "--output"},
-                                                 {{"paper", "-o", "p.html", "--models", "bisop"}, "bisop"},
-                                                 {{"paper", "-o", "p.html", "--whole-runs", "8"}, "--whole-runs"},
                                                  {{bishop, "--threads", "0"}, "--threads"},
                                                  {{bishop, "--resolutions", "1"}, "resolution"}}) {
         std::vector<std::string> words{bench};
@@ -214,50 +211,6 @@ BOOST_AUTO_TEST_CASE(binding_and_posing)
         }
     }
     BOOST_TEST(lines[1]["handles"] == lines[0]["handles"].get<int>() + lines[0]["cage_triangles"].get<int>());
-}
-
-/// The texts between `begin` and `end`, each time that they come.
-std::vector<std::string> between(const std::string& text, const std::string& begin, const std::string& end)
-{
-    std::vector<std::string> found;
-    for (std::size_t at = text.find(begin); at != std::string::npos; at = text.find(begin, at + 1)) {
-        const std::size_t from = at + begin.size();
-        found.push_back(text.substr(from, text.find(end, from) - from));
-    }
-    return found;
-}
-
-BOOST_AUTO_TEST_CASE(the_paper_s_tables_are_a_page)
-{
-    const test::TemporaryFolder folder;
-    const std::string file = folder / "paper.html";
-    const auto result = runCommand({bench, "paper", "-o", file, "--models", "bishop", "--resolutions", "16,32",
-                                    "--whole-runs", "32", "--divisions", "1"});
-    BOOST_TEST(result.status == 0, result.err);
-    BOOST_TEST(folder.entries() == 1U);
-    const std::string page = test::readText(file);
-    BOOST_TEST(page.rfind("<!DOCTYPE html>", 0) == 0U);
-    BOOST_TEST(page.find("</html>") != std::string::npos);
-    BOOST_TEST(between(page, "<h2>", "</h2>").size() == 7U);
-    BOOST_TEST(between(page, "<svg", "</svg>").size() == 4U); // time and memory, by resolution and by triangles
-    const auto pictures = between(page, "src=\"data:image/png;base64,", "\"");
-    BOOST_TEST(pictures.size() == 4U); // resolutions, smoothing, meshes, poses
-    for (const std::string& picture : pictures) BOOST_TEST(picture.rfind("iVBORw0KGgo", 0) == 0U);
-    // Every row of a table is as long as its head.
-    const auto tables = between(page, "<table>", "</table>");
-    BOOST_TEST(tables.size() == 9U);
-    for (const std::string& table : tables) {
-        const std::size_t columns = between(table, "<th", "</th>").size();
-        const auto rows = between(table, "<tr>", "</tr>");
-        BOOST_TEST(rows.size() >= 2U);
-        for (std::size_t i = 1; i < rows.size(); ++i) BOOST_TEST(between(rows[i], "<td", "</td>").size() == columns);
-    }
-    // What was published, and that bounding cages are certified.
-    BOOST_TEST(page.find("<td class=\"number\">0.97</td>") != std::string::npos);
-    BOOST_TEST(between(page, "<td>bounding</td>", "</tr>").size() == 1U + 3 + 2);
-    for (const std::string& row : between(page, "<td>bounding</td>", "</tr>")) {
-        BOOST_TEST(row.find("<td>certified</td>") != std::string::npos, row);
-    }
 }
 
 BOOST_AUTO_TEST_SUITE_END()

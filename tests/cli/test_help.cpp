@@ -23,7 +23,7 @@ std::vector<std::string> linesOf(const std::string& text)
     return lines;
 }
 
-/// The long flags that a text mentions at the start of a line (help) or of a table row (docs/OPTIONS.md).
+/// The long flags that a text mentions at the start of a line (help) or of a table row (docs/user/OPTIONS.md).
 std::set<std::string> flagsOf(const std::vector<std::string>& lines, const std::string& start)
 {
     std::set<std::string> flags;
@@ -95,7 +95,7 @@ BOOST_AUTO_TEST_CASE(the_short_help_leaves_out_rare_options_only_and_names_the_f
 
 BOOST_AUTO_TEST_CASE(the_page_of_options_lists_the_same_options_with_the_same_defaults)
 {
-    const auto page = linesOf(test::readText(VDBCAGE_SOURCE_DIR "/docs/OPTIONS.md"));
+    const auto page = linesOf(test::readText(VDBCAGE_SOURCE_DIR "/docs/user/OPTIONS.md"));
     const auto help = linesOf(runCommand({command, "make", "--help-all"}).out);
     auto inHelp = flagsOf(help, "  ");
     inHelp.erase("--help");
@@ -123,7 +123,7 @@ BOOST_AUTO_TEST_CASE(without_arguments_there_is_a_short_help)
 
 BOOST_AUTO_TEST_CASE(the_page_of_options_has_every_command)
 {
-    const std::string page = test::readText(VDBCAGE_SOURCE_DIR "/docs/OPTIONS.md");
+    const std::string page = test::readText(VDBCAGE_SOURCE_DIR "/docs/user/OPTIONS.md");
     for (const std::string& name : commands()) {
         BOOST_TEST(page.find("\n    vdbcage " + name + ' ') != std::string::npos, name);
     }

@@ -1,4 +1,4 @@
-"""What the tests have in common: models, the recipes of docs/FARMS.md, and what became of the jobs."""
+"""What the tests have in common: models, the recipes of docs/user/FARMS.md, and what became of the jobs."""
 
 import csv
 import os
@@ -22,8 +22,8 @@ QUICK = "-o cages --faces 60 --effort fast"
 
 
 def recipe(section):
-    """The blocks of code of a section of docs/FARMS.md, as a reader would take them."""
-    text = (SOURCE / "docs" / "FARMS.md").read_text().split(f"\n## {section}\n")[1].split("\n## ")[0]
+    """The blocks of code of a section of docs/user/FARMS.md, as a reader would take them."""
+    text = (SOURCE / "docs/user/FARMS.md").read_text().split(f"\n## {section}\n")[1].split("\n## ")[0]
     blocks = re.findall(r"(?:^    .*\n|^\n(?=    ))+", text, re.M)
     return [re.sub("^    ", "", block, flags=re.M).strip() + "\n" for block in blocks]
 

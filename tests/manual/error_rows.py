@@ -1,4 +1,4 @@
-"""What causes each message of docs/ERRORS.md: a command line in a folder, and the files that it needs."""
+"""What causes each message of docs/user/ERRORS.md: a command line in a folder, and the files that it needs."""
 
 import json
 import struct

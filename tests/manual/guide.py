@@ -1,4 +1,4 @@
-"""docs/GUIDE.md, followed as a reader does: block after block, in one shell."""
+"""docs/user/GUIDE.md, followed as a reader does: block after block, in one shell."""
 
 import os
 import pathlib
@@ -52,7 +52,7 @@ class Guide:
     """
 
     def __init__(self):
-        self.text = (SOURCE / "docs" / "GUIDE.md").read_text()
+        self.text = (SOURCE / "docs/user/GUIDE.md").read_text()
         self.blocks = []
         for language, body in re.findall(r"^```(\w*)\n(.*?)^```$", self.text, re.MULTILINE | re.DOTALL):
             assert language in ("sh", "console"), f"nothing runs a block of '{language}'"
@@ -67,8 +67,8 @@ class Guide:
         return [step for block in self.blocks for step in block]
 
     def pictures(self):
-        """The pictures that are made by the page's commands: name in docs/ -> name that the commands give it."""
-        return {f"guide_{name}": name for name in re.findall(r"!\[[^]]+\]\(guide_(\w+\.png)\)", self.text)}
+        """The pictures that are made by the page's commands: name in docs/pictures/ -> name that the commands give it."""
+        return {f"guide_{name}": name for name in re.findall(r"!\[[^]]+\]\(\.\./pictures/guide_(\w+\.png)\)", self.text)}
 
     def prose(self):
         return re.sub(r"^```.*?^```$", "", self.text, flags=re.MULTILINE | re.DOTALL)

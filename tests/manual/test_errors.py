@@ -1,4 +1,4 @@
-"""docs/ERRORS.md: it has all messages and no others, and each comes as it says."""
+"""docs/user/ERRORS.md: it has all messages and no others, and each comes as it says."""
 
 import concurrent.futures
 import os
@@ -111,7 +111,7 @@ NUMBER = r"(?:[-+]?[0-9][-+.0-9e]*|-?nan|-?inf)"
 
 
 def messages():
-    lines = (SOURCE / "docs/ERRORS.md").read_text().splitlines()
+    lines = (SOURCE / "docs/user/ERRORS.md").read_text().splitlines()
     return [line[4:] for line in lines if line.startswith("    ")]
 
 
@@ -153,7 +153,7 @@ class Page(unittest.TestCase):
         self.assertEqual(set(flat(LIBRARY_ONLY)) - library_only, set(), "the sources have no such texts")
 
     def test_each_message_has_a_remedy(self):
-        blocks = (SOURCE / "docs/ERRORS.md").read_text().split("\n\n")
+        blocks = (SOURCE / "docs/user/ERRORS.md").read_text().split("\n\n")
         for block, after in zip(blocks, [*blocks[1:], ""]):
             if block.startswith("    "):
                 self.assertRegex(after.strip(), r"(?s)^[^ #].*[.?]$", block)

@@ -1,4 +1,4 @@
-"""What docs/GUIDE.md says is what happens. VDBCAGE_TAKE_PICTURES=1 puts the pictures that it makes into docs/."""
+"""What docs/user/GUIDE.md says is what happens. VDBCAGE_TAKE_PICTURES=1 puts its pictures into docs/pictures/."""
 
 import os
 import pathlib
@@ -11,7 +11,7 @@ import unittest
 from guide import Guide
 from support import SOURCE, commands, options
 
-DOCS = SOURCE / "docs"
+PICTURES = SOURCE / "docs/pictures"
 
 
 def size(picture):
@@ -34,7 +34,7 @@ class Followed(unittest.TestCase):
         cls.files = cls.guide.follow(pathlib.Path(folder.name))
         if os.environ.get("VDBCAGE_TAKE_PICTURES") == "1":
             for shown, made in cls.guide.pictures().items():
-                shutil.copy(cls.files / made, DOCS / shown)
+                shutil.copy(cls.files / made, PICTURES / shown)
 
     def test_commands_print_what_is_shown(self):
         shown = [step for step in self.guide.steps() if step.shown is not None]
@@ -52,11 +52,11 @@ class Followed(unittest.TestCase):
 
     def test_pictures_are_those_that_the_commands_make(self):
         pictures = self.guide.pictures()
-        self.assertEqual(set(pictures), {path.name for path in DOCS.glob("guide_*.png")})
+        self.assertEqual(set(pictures), {path.name for path in PICTURES.glob("guide_*.png")})
         for shown, made in pictures.items():
             with self.subTest(shown):
-                self.assertEqual(size(DOCS / shown), size(self.files / made))
-                self.assertLess((DOCS / shown).stat().st_size, 250_000)
+                self.assertEqual(size(PICTURES / shown), size(self.files / made))
+                self.assertLess((PICTURES / shown).stat().st_size, 250_000)
 
     def test_options_of_the_text_are_options(self):
         known = set().union(*(options(name) for name in commands()))

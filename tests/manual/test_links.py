@@ -1,13 +1,18 @@
 """Links between the documents, and to their pictures."""
 
+import os
+import pathlib
 import re
 import unittest
 
 from support import SOURCE
 
 
+INSTALLED = pathlib.Path(os.environ["VDBCAGE_MODELS"]).parent / "documents"  # by cmake/Install.cmake, without pictures
+
+
 def documents():
-    found = [*SOURCE.glob("*.md"), *SOURCE.glob("docs/*.md"), *SOURCE.glob("data/*.md")]
+    found = [*SOURCE.glob("*.md"), *SOURCE.glob("docs/**/*.md"), *SOURCE.glob("data/*.md")]
     assert len(found) > 10, found
     return found
 
@@ -29,16 +34,20 @@ def anchors(document):
     return found
 
 
+def links(document):
+    """Where its links lead that are not to the web: (the link, file, anchor or an empty text)."""
+    for target in re.findall(r"\]\(([^)\s]+)\)", without_code(document.read_text())):
+        if not re.match(r"[a-z]+:", target):
+            path, _, anchor = target.partition("#")
+            yield target, document.parent / path if path else document, anchor
+
+
 class Links(unittest.TestCase):
     def test_what_they_lead_to_is_there(self):
         count = 0
         for document in documents():
-            for target in re.findall(r"\]\(([^)\s]+)\)", without_code(document.read_text())):
-                if re.match(r"[a-z]+:", target):
-                    continue
+            for target, file, anchor in links(document):
                 count += 1
-                path, _, anchor = target.partition("#")
-                file = document.parent / path if path else document
                 with self.subTest(f"{document.name}: {target}"):
                     self.assertTrue(file.exists())
                     if anchor:
@@ -46,9 +55,17 @@ class Links(unittest.TestCase):
         self.assertGreater(count, 50)
 
     def test_pictures_are_shown_somewhere(self):
-        shown = {path for document in documents()
-                 for path in re.findall(r"\]\((?:docs/)?(\w+\.png)\)", document.read_text())}
-        self.assertEqual({path.name for path in SOURCE.glob("docs/*.png")} - shown, set())
+        shown = {file.name for document in documents() for _, file, _ in links(document)}
+        self.assertEqual({path.name for path in SOURCE.glob("docs/pictures/*.png")} - shown, set())
+
+    def test_they_hold_where_documents_are_installed(self):
+        pages = [*INSTALLED.glob("**/*.md")]
+        self.assertEqual(len(pages), len([*SOURCE.glob("docs/**/*.md")]) + 1)
+        pictures = {INSTALLED / "docs" / path.name for path in SOURCE.glob("docs/pictures/*.png")}
+        missing = {target for page in pages for target, file, _ in links(page)
+                   if not file.exists() and file not in pictures}
+        self.assertEqual(missing, {"CHANGELOG.md", "CITATION.cff", "CONTRIBUTING.md", "../CONTRIBUTING.md",
+                                   "../CONTRIBUTING.md#figures", "../data/README.md", "../tests/models/walk.cpp"})
 
 
 if __name__ == "__main__":

@@ -4,7 +4,7 @@ set(prefix ${build}/python_install)
 file(REMOVE_RECURSE ${prefix})
 
 run(${CMAKE_COMMAND} --install ${build} --prefix ${prefix})
-foreach(file __init__.py _arguments.py __init__.pyi py.typed)
+foreach(file __init__.py _arguments.py py.typed)
     if(NOT EXISTS ${prefix}/${folder}/vdbcage/${file})
         message(FATAL_ERROR "${file} was not installed")
     endif()

@@ -1,4 +1,4 @@
-"""The examples in README.md and docs/PYTHON.md, and the docstrings."""
+"""The examples in README.md and docs/user/PYTHON.md, and the docstrings."""
 
 import contextlib
 import inspect
@@ -33,7 +33,7 @@ class TextTest(Case):
         self.assertEqual(len(vdbcage.Mesh.read(self.folder / "posed.obj")), len(names["model"]))
 
     def test_the_examples_of_the_page_run(self):
-        self.run_examples("docs/PYTHON.md")
+        self.run_examples("docs/user/PYTHON.md")
 
     def test_every_public_name_has_a_docstring(self):
         for name in vdbcage.__all__:
@@ -46,6 +46,16 @@ class TextTest(Case):
                         if callable(value) or isinstance(value, (property, classmethod)):
                             self.assertTrue(inspect.getdoc(getattr(thing, member)), f"{name}.{member}")
         self.assertEqual(sorted(vdbcage.__all__), list(vdbcage.__all__))
+
+    def test_every_public_function_tells_its_types(self):
+        for name in vdbcage.__all__:
+            thing = getattr(vdbcage, name)
+            functions = [thing] if inspect.isfunction(thing) else [
+                getattr(member, "__func__", getattr(member, "fget", member)) for key, member in vars(thing).items()
+                if key == "__init__" or not key.startswith("_")]
+            for function in filter(inspect.isfunction, functions):
+                names = {*inspect.signature(function).parameters, "return"}
+                self.assertEqual(names - {"self", "cls", *function.__annotations__}, set(), function.__qualname__)
 
     def test_the_version_is_that_of_the_library(self):
         header = (SOURCE / "vdbcage" / "core" / "version.h").read_text()

@@ -12,7 +12,7 @@ import unittest
 import jsonschema
 
 SOURCE = pathlib.Path(os.environ["VDBCAGE_SOURCE"])
-PUBLISHED = json.loads((SOURCE / "docs" / "report.schema.json").read_text())
+PUBLISHED = json.loads((SOURCE / "docs/user/report.schema.json").read_text())
 BOX = """v 0 0 0
 v 2 0 0
 v 2 3 0
@@ -189,7 +189,7 @@ class Reports(unittest.TestCase):
         self.assertEqual((report["arguments"], report["cage"], report["options"]["faces"]), (None, None, 20))
 
     def test_the_page_has_every_field(self):
-        page = (SOURCE / "docs" / "REPORT.md").read_text()
+        page = (SOURCE / "docs/user/REPORT.md").read_text()
         parts = {name: part for name, part in SCHEMA["$defs"].items() if name != "options"}
         for name in properties(parts) - {"name"}:
             self.assertIn(f"`{name}`", page, name)

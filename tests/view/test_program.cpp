@@ -48,7 +48,7 @@ std::map<std::string, std::string> walkEverywhere(const std::string& script, con
         fs::create_directory_symlink(source + "/data", folder / "data");
         std::vector<std::string> words{"env", "-C", folder.path().string()};
         if (how.empty()) words.insert(words.end(), {"xvfb-run", "-a", "-s", displayOptions});
-        words.insert(words.end(), {program, "--script", source + "/docs/" + script});
+        words.insert(words.end(), {program, "--script", source + "/docs/pictures/" + script});
         words.insert(words.end(), how.begin(), how.end());
         const auto result = runCommand(words);
         BOOST_TEST_REQUIRE(result.status == 0, result.err);
@@ -162,7 +162,8 @@ BOOST_AUTO_TEST_CASE(what_the_reference_does_is_done_here_and_as_the_command_doe
     fs::create_directory(folder / "build");
     fs::create_directory_symlink(source + "/data", folder / "data");
     fs::create_directory_symlink(source + "/docs", folder / "docs");
-    must({"env", "-C", folder.path().string(), program, "--script", "docs/reference.view", "--without-window", "any"});
+    must({"env", "-C", folder.path().string(), program, "--script", "docs/pictures/reference.view", "--without-window",
+          "any"});
     const auto file = [&](const std::string& name) { return (folder / "build" / name).string(); };
     for (const std::string& name : names) BOOST_TEST(fs::exists(file(name)), name);
     const std::string model = source + "/data/creature.obj", cage = file("reference_cage.obj");

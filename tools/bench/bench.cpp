@@ -95,19 +95,6 @@ Json toJson(const std::vector<StageTime>& stages)
     return json;
 }
 
-ScratchFolder::ScratchFolder()
-{
-    std::string name = (std::filesystem::temp_directory_path() / "vdbcage_bench_XXXXXX").string();
-    if (::mkdtemp(name.data()) == nullptr) throw Error(name + ": such a folder cannot be made");
-    path_ = name;
-}
-
-ScratchFolder::~ScratchFolder()
-{
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-}
-
 std::string runSelf(const std::vector<std::string>& words)
 {
     std::vector<char*> argv;

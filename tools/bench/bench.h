@@ -1,7 +1,6 @@
 #pragma once
 
 #include <algorithm>
-#include <filesystem>
 #include <string>
 #include <type_traits>
 #include <vector>
@@ -20,7 +19,6 @@ int runStages(int argc, char** argv);
 int runCage(int argc, char** argv);
 int runClosing(int argc, char** argv);
 int runDeform(int argc, char** argv);
-int runPaper(int argc, char** argv);
 int runVoxelize(int argc, char** argv);
 int runView(int argc, char** argv); ///< in builds with the window
 
@@ -90,19 +88,6 @@ Json toJson(const Cost& cost);
 
 /// The stages by name: "stage_seconds" of wall clock, "stage_cpu_seconds" of all threads.
 Json toJson(const std::vector<StageTime>& stages);
-
-/// A new folder for files of a benchmark, that goes with its object. \throw Error there is no place for it
-class ScratchFolder {
-public:
-    ScratchFolder();
-    ~ScratchFolder();
-    ScratchFolder(const ScratchFolder&) = delete;
-    ScratchFolder& operator=(const ScratchFolder&) = delete;
-    const std::filesystem::path& path() const { return path_; }
-
-private:
-    std::filesystem::path path_;
-};
 
 /// Runs this program again with `words` (the first is its name), in a process of its own, so that its peak memory and
 /// its warm-up are its own. Returns what it prints. \throw Error if it fails

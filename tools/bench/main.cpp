@@ -1,6 +1,6 @@
 // vdbcage-bench: what cages cost and how good they are, as JSON lines on standard output. Each whole run (`cage`, or no
-// subcommand) is a process of its own; closing, voxelize, deform and view run in this process. `paper` makes a page of
-// HTML.
+// subcommand) is a process of its own; closing, voxelize, deform and view run in this process. paper.py makes
+// a page of them.
 
 #include <cstdio>
 #include <exception>
@@ -17,7 +17,6 @@ int main(int argc, char** argv)
         if (argc > 1 && std::string(argv[1]) == "cage") return bench::runCage(argc, argv);
         if (argc > 1 && std::string(argv[1]) == "closing") return bench::runClosing(argc, argv);
         if (argc > 1 && std::string(argv[1]) == "voxelize") return bench::runVoxelize(argc, argv);
-        if (argc > 1 && std::string(argv[1]) == "paper") return bench::runPaper(argc, argv);
         if (argc > 1 && std::string(argv[1]) == "deform") return bench::runDeform(argc, argv);
         if (argc > 1 && std::string(argv[1]) == "view") {
 #ifdef VDBCAGE_HAS_VIEW

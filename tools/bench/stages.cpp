@@ -52,8 +52,7 @@ int runStages(int argc, char** argv)
                  "vdbcage-bench cage --help: tightness of cages beside plain decimation\n"
                  "vdbcage-bench closing --help: dilation, erosion and closing beside alternatives\n"
                  "vdbcage-bench voxelize --help: the voxelizers side by side\n"
-                 "vdbcage-bench deform --help: binding and posing\n"
-                 "vdbcage-bench paper --help: the tables of the paper that vdbcage implements");
+                 "vdbcage-bench deform --help: binding and posing");
     app.add_option("models", models, "models to measure on")->required()->type_name("MODEL");
     addList(app, "--resolutions", resolutions, "list of resolutions [32,64,128,256,512]")->type_name("N,N");
     addList(app, "--threads", threads, "list of thread counts [1,2]")->type_name("N,N");

@@ -15,7 +15,7 @@ namespace vdbcage::report {
 
 using Json = nlohmann::ordered_json;
 
-/// JSON forms of what is reported, as docs/REPORT.md has them. Lengths are fractions of the model's longest side.
+/// JSON forms of what is reported, as REPORT.md has them. Lengths are fractions of the model's longest side.
 Json toJson(const CageCheck& check);
 Json toJson(const QuadQuality& quality);
 Json toJson(const CageReport& report);

@@ -1,4 +1,5 @@
-// How each shell takes completions: bash(1), "Programmable Completion"; zshcompsys(1), _arguments; fish, complete(1).
+// The shells ask the command itself what can stand at the cursor: bash(1), "Programmable Completion"; zsh's
+// zshcompsys(1), _describe; fish's complete(1).
 
 #include <iostream>
 #include <sstream>
@@ -12,236 +13,160 @@ namespace vdbcage::cli {
 
 namespace {
 
-/// What can stand in a place of the command line.
-struct Values {
-    std::vector<std::string> words;
-    bool files = false, folders = false;
+/// What can stand at the cursor, one a line: a word, then a tab and what it is; or a kind of file.
+class Offers {
+public:
+    /// Of words those that begin with `begun`.
+    explicit Offers(std::string begun) : begun_(std::move(begun)) {}
+
+    void word(const std::string& word, const std::string& about = "") const
+    {
+        if (word.compare(0, begun_.size(), begun_) == 0) std::cout << word << '\t' << about << '\n';
+    }
+    void files() const { std::cout << ":files\n"; }
+    void directories() const { std::cout << ":directories\n"; }
+
+private:
+    std::string begun_;
 };
 
-struct Completed {
-    std::string name, summary;
-    std::vector<OptionFacts> options;
-    Values arguments; ///< what stands where no option does
-};
-
-/// By the option's type: "auto|N" has the word auto; what is in capitals is a file, a folder or a number.
-Values valuesOf(const OptionFacts& option)
+/// By the option's type: "auto|N" has the word auto; capitals are a file, a folder or a number.
+void offerValues(const OptionFacts& option, const Offers& offers)
 {
-    Values values;
     std::istringstream parts(option.value);
     for (std::string part; std::getline(parts, part, '|');) {
         const std::string kind = part.substr(0, part.find('.'));
         if (kind == "FAMILY") {
-            for (const FamilyInfo& family : coordinateFamilies()) values.words.push_back(family.name);
+            for (const FamilyInfo& family : coordinateFamilies()) offers.word(family.name, family.title);
         } else if (kind == "DIR") {
-            values.folders = true;
+            offers.directories();
         } else if (kind == "FILE" || kind == "CAGE" || kind == "OUT" || kind == "PICTURE" || kind == "WEIGHTS") {
-            values.files = true;
+            offers.files();
         } else if (part[0] >= 'a' && part[0] <= 'z') {
-            values.words.push_back(part);
+            offers.word(part);
         }
     }
-    return values;
 }
 
-std::vector<Completed> allCompleted()
+void offerCommands(const Offers& offers)
 {
-    std::vector<Completed> all;
-    for (const Command& command : commands()) {
-        Completed& added = all.emplace_back(Completed{command.name, command.summary, describe(command).options, {}});
-        if (command.name == "man") {
-            added.arguments.words = commandNames();
-        } else if (command.name == "completion") {
-            added.arguments.words = {"bash", "fish", "zsh"};
+    for (const Command& command : commands()) offers.word(command.name, command.summary);
+}
+
+/// Prints what the last of `words` can become; the first is the command's name.
+void printOffers(std::vector<std::string> words)
+{
+    std::string option = words.size() > 1 ? words[words.size() - 2] : "", begun = words.back();
+    if (const std::size_t sign = begun.find('='); begun[0] == '-' && sign != std::string::npos) { // --mesh=q
+        option = begun.substr(0, sign);
+        begun.erase(0, sign + 1);
+    } else if (option == "=" && words.size() > 2) { // bash takes it for three words
+        option = words[words.size() - 3];
+    } else if (begun == "=") {
+        begun.clear();
+    }
+    const Offers offers(begun);
+    if (words.size() == 1) {
+        offerCommands(offers);
+        offers.word("help", "print what a command takes");
+        offers.word("--help");
+        offers.word("--version");
+    } else if (words[0] == "man" || words[0] == "help") {
+        offerCommands(offers);
+    } else {
+        const std::vector<OptionFacts> options = describe(commandNamed(words[0])).options;
+        for (const OptionFacts& known : options) {
+            if (!known.value.empty() && (known.name == option || known.letter == option)) {
+                return offerValues(known, offers);
+            }
+        }
+        if (begun[0] == '-') {
+            for (const OptionFacts& known : options) offers.word(known.name, known.help);
+        } else if (words[0] == "completion") {
+            for (const char* shell : {"bash", "fish", "zsh"}) offers.word(shell);
         } else {
-            added.arguments.files = true;
-        }
-    }
-    all.push_back({"help", "print what a command takes", {}, {commandNames()}});
-    return all;
-}
-
-std::string joined(const std::vector<std::string>& words)
-{
-    std::string text;
-    for (const std::string& word : words) text += (text.empty() ? "" : " ") + word;
-    return text;
-}
-
-/// With `escape` before each of `marks`.
-std::string escaped(const std::string& text, const std::string& marks, const std::string& escape)
-{
-    std::string result;
-    for (const char c : text) {
-        if (marks.find(c) != std::string::npos) result += escape;
-        result += c;
-    }
-    return result;
-}
-
-/// As a word of bash and zsh.
-std::string quoted(const std::string& text)
-{
-    return '\'' + escaped(text, "'", "'\\'") + '\'';
-}
-
-/// As a word of fish.
-std::string fishQuoted(const std::string& text)
-{
-    return '\'' + escaped(text, "'\\", "\\") + '\'';
-}
-
-std::string bashOffers(const Values& values)
-{
-    std::string text;
-    if (!values.words.empty()) text += "_vdbcage_offer -W " + quoted(joined(values.words)) + "; ";
-    if (values.folders) text += "_vdbcage_offer -d; ";
-    if (values.files) text += "_vdbcage_offer -f; ";
-    return text;
-}
-
-/// A function that looks at the word before the cursor's. Bash takes --mesh=quads for three words.
-void writeBash(std::ostream& out)
-{
-    const std::vector<Completed> all = allCompleted();
-    std::string names = "--help --version";
-    for (const Completed& command : all) names += ' ' + command.name;
-    out << "# source <(vdbcage completion bash)\n"
-           "_vdbcage_offer()\n"
-           "{\n"
-           "    [[ $1 == -W ]] || compopt -o filenames 2>/dev/null\n"
-           "    mapfile -t -O \"${#COMPREPLY[@]}\" COMPREPLY < <(compgen \"$@\" -- \"$word\")\n"
-           "}\n"
-           "_vdbcage()\n"
-           "{\n"
-           "    local word=${COMP_WORDS[COMP_CWORD]} option=${COMP_WORDS[COMP_CWORD - 1]}\n"
-           "    if [[ $word == '=' ]]; then\n"
-           "        word=\n"
-           "    elif [[ $option == '=' ]]; then\n"
-           "        option=${COMP_WORDS[COMP_CWORD - 2]}\n"
-           "    fi\n"
-           "    COMPREPLY=()\n"
-           "    if ((COMP_CWORD == 1)); then\n"
-           "        _vdbcage_offer -W "
-        << quoted(names)
-        << "\n"
-           "        return\n"
-           "    fi\n"
-           "    case ${COMP_WORDS[1]} in\n";
-    for (const Completed& command : all) {
-        out << "    " << command.name << ")\n        case $option in\n";
-        std::vector<std::string> flags;
-        for (const OptionFacts& option : command.options) {
-            flags.push_back(option.name);
-            if (option.value.empty()) continue;
-            out << "        " << (option.letter.empty() ? "" : option.letter + " | ") << option.name << ") "
-                << bashOffers(valuesOf(option)) << "return ;;\n";
-        }
-        out << "        esac\n"
-               "        if [[ $word == -* ]]; then _vdbcage_offer -W "
-            << quoted(joined(flags)) << "; else " << bashOffers(command.arguments) << "fi\n        ;;\n";
-    }
-    out << "    esac\n"
-           "}\n"
-           "complete -F _vdbcage vdbcage\n";
-}
-
-/// The action of a specification of _arguments.
-std::string zshAction(const Values& values)
-{
-    std::string text;
-    if (!values.words.empty()) text += "compadd -- " + joined(values.words) + "; ";
-    if (values.folders) text += "_files -/; ";
-    if (values.files) text += "_files; ";
-    return text.empty() ? " " : '{' + text + '}';
-}
-
-/// A function of _arguments, which serves as an autoloaded file of the folder in fpath too.
-void writeZsh(std::ostream& out)
-{
-    const std::vector<Completed> all = allCompleted();
-    out << "#compdef vdbcage\n"
-           "# source <(vdbcage completion zsh), after compinit\n"
-           "_vdbcage() {\n"
-           "    if (( CURRENT == 2 )); then\n"
-           "        local -a names=(";
-    for (const Completed& command : all) out << "\n            " << quoted(command.name + ':' + command.summary);
-    out << ")\n"
-           "        _describe command names\n"
-           "        return\n"
-           "    fi\n"
-           "    local name=$words[2]\n"
-           "    shift words\n"
-           "    (( CURRENT-- ))\n"
-           "    case $name in\n";
-    for (const Completed& command : all) {
-        out << "    (" << command.name << ") _arguments";
-        for (const OptionFacts& option : command.options) {
-            std::string rest = '[' + escaped(option.help, "[]:\\", "\\") + ']';
-            if (!option.value.empty()) rest += ':' + option.value + ':' + zshAction(valuesOf(option));
-            if (!option.letter.empty()) out << " \\\n        " << quoted(option.letter + rest);
-            out << " \\\n        " << quoted(option.name + (option.value.empty() ? "" : "=") + rest);
-        }
-        out << " \\\n        " << quoted("*: :" + zshAction(command.arguments)) << " ;;\n";
-    }
-    out << "    esac\n"
-           "}\n"
-           "if [[ $funcstack[1] == _vdbcage ]]; then\n"
-           "    _vdbcage \"$@\"\n"
-           "else\n"
-           "    compdef _vdbcage vdbcage\n"
-           "fi\n";
-}
-
-/// What the options -a, -F and -f of fish's `complete` are.
-std::string fishOffers(const Values& values)
-{
-    std::string words = joined(values.words);
-    if (values.folders) words += "(__fish_complete_directories)";
-    return (values.files ? " -F" : " -f") + (words.empty() ? "" : " -a " + fishQuoted(words));
-}
-
-void writeFish(std::ostream& out)
-{
-    out << "# vdbcage completion fish > ~/.config/fish/completions/vdbcage.fish\n"
-           "function __vdbcage_command\n"
-           "    set -l words (commandline -opc)\n"
-           "    test (count $words) -gt 1; and test $words[2] = $argv[1]\n"
-           "end\n"
-           "complete -c vdbcage -f\n";
-    for (const Completed& command : allCompleted()) {
-        out << "complete -c vdbcage -n __fish_use_subcommand -a " << command.name << " -d "
-            << fishQuoted(command.summary) << '\n';
-        const std::string begin = "complete -c vdbcage -n '__vdbcage_command " + command.name + "'";
-        out << begin << fishOffers(command.arguments) << '\n';
-        for (const OptionFacts& option : command.options) {
-            out << begin << " -l " << option.name.substr(2);
-            if (!option.letter.empty()) out << " -s " << option.letter.substr(1);
-            if (!option.value.empty()) out << " -r" << fishOffers(valuesOf(option));
-            out << " -d " << fishQuoted(option.help) << '\n';
+            offers.files();
         }
     }
 }
+
+constexpr const char* bash = R"(# source <(vdbcage completion bash)
+_vdbcage() {
+    local offer rest word=${COMP_WORDS[COMP_CWORD]#=}
+    COMPREPLY=()
+    while IFS=$'\t' read -r offer rest; do
+        case $offer in
+        :*)
+            compopt -o filenames 2>/dev/null
+            mapfile -t -O ${#COMPREPLY[@]} COMPREPLY < <(compgen -${offer:1:1} -- "$word")
+            ;;
+        *) COMPREPLY+=("$offer") ;;
+        esac
+    done < <(vdbcage completion offers "${COMP_WORDS[@]:1:COMP_CWORD}" 2>/dev/null)
+}
+complete -F _vdbcage vdbcage
+)";
+
+constexpr const char* fish = R"(# vdbcage completion fish > ~/.config/fish/completions/vdbcage.fish
+function __vdbcage_offers
+    set -l words (commandline -opc)
+    set -l token (commandline -ct)
+    set -l option (string match -r '^--[a-z-]+=' -- $token)
+    for offer in (vdbcage completion offers $words[2..] "$token" 2>/dev/null)
+        switch $offer
+            case :files
+                __fish_complete_path (string replace -- "$option" '' $token)
+            case :directories
+                __fish_complete_directories (string replace -- "$option" '' $token) ''
+            case '*'
+                echo $option$offer
+        end
+    end
+end
+complete -c vdbcage -f -a '(__vdbcage_offers)'
+)";
+
+constexpr const char* zsh = R"(#compdef vdbcage
+# source <(vdbcage completion zsh), after compinit
+_vdbcage() {
+    local offer
+    local -a words_offered
+    for offer in "${(@f)$(vdbcage completion offers "${(@)words[2,CURRENT]}" 2>/dev/null)}"; do
+        case $offer in
+        (:files) compset -P '--*='; _files ;;
+        (:directories) compset -P '--*='; _files -/ ;;
+        (?*) words_offered+=("${offer/$'\t'/:}") ;;
+        esac
+    done
+    compset -P '--*='
+    _describe value words_offered
+}
+if [[ $funcstack[1] == _vdbcage ]]; then
+    _vdbcage "$@"
+else
+    compdef _vdbcage vdbcage
+fi
+)";
 
 } // namespace
 
 int runCompletion(Call call)
 {
+    if (call.words.size() > 1 && call.words.front() == "offers") { // for these scripts
+        call.words.erase(call.words.begin());
+        printOffers(std::move(call.words));
+        return exitGood;
+    }
     std::string shell;
     CLI::App app("vdbcage completion bash|fish|zsh\n"
                  "Prints what lets a shell complete the commands, options and files of vdbcage.",
                  "completion");
     app.add_option("shell", shell)->required()->type_name("SHELL");
     if (!parse(app, std::move(call))) return exitGood;
-    if (shell == "bash") {
-        writeBash(std::cout);
-    } else if (shell == "fish") {
-        writeFish(std::cout);
-    } else if (shell == "zsh") {
-        writeZsh(std::cout);
-    } else {
+    if (shell != "bash" && shell != "fish" && shell != "zsh") {
         throw InputError("shell: '" + shell + "' is neither bash nor fish nor zsh");
     }
+    std::cout << (shell == "bash" ? bash : shell == "fish" ? fish : zsh);
     return exitGood;
 }
 

@@ -5,7 +5,7 @@
 #include <filesystem>
 
 #include <tools/draw/picture.h>
-#include <tools/report/html.h>
+#include <vdbcage/core/detail/printable.h>
 #include <vdbcage/core/detail/read_file.h>
 
 namespace vdbcage::cli {
@@ -39,6 +39,31 @@ td + td { text-align: right; color: #1d2530; font-variant-numeric: tabular-nums;
 <body>
 )";
 
+std::string base64(const std::string& bytes)
+{
+    constexpr const char* digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    std::string text;
+    for (std::size_t i = 0; i < bytes.size(); i += 3) {
+        const auto byte = [&](std::size_t k) {
+            return i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0U;
+        };
+        const unsigned group = byte(0) << 16U | byte(1) << 8U | byte(2);
+        for (unsigned k = 0; k < 4; ++k) {
+            text += i + k > bytes.size() ? '=' : digits[group >> (18 - 6 * k) & 63U];
+        }
+    }
+    return text;
+}
+
+std::string htmlText(const std::string& text)
+{
+    std::string result;
+    for (const char c : detail::printable(text)) {
+        result += c == '&' ? "&amp;" : c == '<' ? "&lt;" : c == '>' ? "&gt;" : c == '"' ? "&quot;" : std::string(1, c);
+    }
+    return result;
+}
+
 std::string thumbnailOf(const report::JobResult& result)
 {
     std::filesystem::path file = result.report;
@@ -46,8 +71,8 @@ std::string thumbnailOf(const report::JobResult& result)
     std::error_code ignored;
     if (!std::filesystem::is_regular_file(file, ignored)) return "";
     const draw::Picture picture = draw::decodePng(detail::readFile(file), file.string());
-    return report::htmlPicture(draw::encodePng(draw::smaller(picture, thumbnailWidth)),
-                               result.report.stem().string() + " with its cage");
+    return "<img alt=\"" + htmlText(result.report.stem().string()) + " with its cage\" src=\"data:image/png;base64," +
+           base64(draw::encodePng(draw::smaller(picture, thumbnailWidth))) + "\">\n";
 }
 
 std::string row(const char* what, const char* format, double value)
@@ -61,19 +86,19 @@ std::string row(const char* what, const char* format, double value)
 
 std::string pageOf(const std::vector<report::JobResult>& results)
 {
-    std::string text = std::string(head) + "<h1>Cages of vdbcage</h1>\n<p>" + report::htmlText(report::sumOf(results)) +
+    std::string text = std::string(head) + "<h1>Cages of vdbcage</h1>\n<p>" + htmlText(report::sumOf(results)) +
                        "; failures first, then the loosest. Distances are parts of the models' longest "
                        "sides.</p>\n<div class=\"jobs\">\n";
     for (const report::JobResult& r : results) {
         text += std::string("<div class=\"job") + (r.isBounding ? "" : " bad") + "\">\n" +
-                (r.status == 0 ? thumbnailOf(r) : "") + "<h2>" + report::htmlText(r.report.stem().string()) +
+                (r.status == 0 ? thumbnailOf(r) : "") + "<h2>" + htmlText(r.report.stem().string()) +
                 "</h2>\n<div class=\"verdict\">" +
                 (r.status != 0  ? "failed with status " + std::to_string(r.status)
                  : r.isBounding ? "certified"
                                 : "not bounding") +
                 "</div>\n";
         if (r.status != 0) {
-            text += "<div>" + report::htmlText(r.error) + "</div>\n";
+            text += "<div>" + htmlText(r.error) + "</div>\n";
         } else {
             text += "<table>\n" + row("Faces", "%.0f", static_cast<double>(r.triangles + r.quads)) +
                     row("Quads", "%.0f", static_cast<double>(r.quads)) +

@@ -14,6 +14,8 @@ before). Where it returns False the work ends with Cancelled; what it raises end
 Several threads may work at once.
 """
 
+from __future__ import annotations
+
 import contextlib
 import dataclasses
 import difflib
@@ -22,12 +24,22 @@ import operator
 import os
 import re
 import warnings
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
 
 import numpy
 
 __all__ = ["Binding", "Cage", "CageCheck", "Cancelled", "DeviceError", "Elasticity", "Error", "Family", "InputError",
            "IoError", "Mask", "Mesh", "Pipeline", "check_cage", "close_mask", "coordinate_families", "make_cage",
            "posed_points", "predicted_memory", "read_vdb", "voxelize", "write_vdb"]
+
+if TYPE_CHECKING:
+    import numpy.typing as npt
+
+    _Path = str | bytes | os.PathLike[str] | os.PathLike[bytes]
+    _Progress = Callable[[str, int], object] | None
+    _Option = bool | float | str | os.PathLike[str] | None
+    _Points = npt.NDArray[numpy.float64]
 
 
 class Error(Exception):
@@ -50,7 +62,7 @@ class Cancelled(Error):
     """`progress` returned False. Nothing was written and there is no partial result."""
 
 
-from . import _arguments, _vdbcage  # noqa: E402 (they raise the exceptions above)
+from . import _arguments, _vdbcage  # type: ignore[attr-defined]  # noqa: E402 (they raise the exceptions above)
 
 __version__ = _vdbcage.version
 
@@ -116,10 +128,11 @@ class Mesh:
 
     __slots__ = ("_mesh",)
 
-    def __init__(self, points, triangles=None, quads=None):
-        points = _arguments.points("points", points)
-        self._mesh = _vdbcage.Mesh(points, _arguments.indices("triangles", triangles, 3, len(points)),
-                                   _arguments.indices("quads", quads, 4, len(points)))
+    def __init__(self, points: npt.ArrayLike, triangles: npt.ArrayLike | None = None,
+                 quads: npt.ArrayLike | None = None) -> None:
+        places = _arguments.points("points", points)
+        self._mesh = _vdbcage.Mesh(places, _arguments.indices("triangles", triangles, 3, len(places)),
+                                   _arguments.indices("quads", quads, 4, len(places)))
 
     @classmethod
     def _of(cls, mesh):
@@ -129,7 +142,7 @@ class Mesh:
         return self
 
     @classmethod
-    def read(cls, path):
+    def read(cls, path: _Path) -> Mesh:
         """Reads an OBJ, OFF, PLY or STL file.
 
         Faces of more than four corners are split. Cages bound them in every way they can be split, also where another
@@ -141,7 +154,7 @@ class Mesh:
             warnings.warn(f"{os.fsdecode(path)}: {warning}", stacklevel=2)
         return Mesh._of(mesh)
 
-    def write(self, path):
+    def write(self, path: _Path) -> None:
         """Writes an OBJ, OFF, PLY or STL file; the extension says which. It appears whole or not at all.
 
         Raises IoError; InputError if the mesh has no usable face.
@@ -149,30 +162,30 @@ class Mesh:
         _vdbcage.write_mesh(self._mesh, _arguments.path(path))
 
     @property
-    def points(self):
+    def points(self) -> _Points:
         """float64, shape (n, 3), read-only: world space. No copy."""
         return self._mesh.points
 
     @property
-    def triangles(self):
+    def triangles(self) -> npt.NDArray[numpy.uint32]:
         """uint32, shape (n, 3), read-only: indices of points. No copy."""
         return self._mesh.triangles
 
     @property
-    def quads(self):
+    def quads(self) -> npt.NDArray[numpy.uint32]:
         """uint32, shape (n, 4), read-only: indices of points. No copy."""
         return self._mesh.quads
 
     @property
-    def loose_points(self):
+    def loose_points(self) -> npt.NDArray[numpy.uint32]:
         """uint32, shape (n,): the indices of the points that no face uses, ascending. They bound nothing."""
         return _vdbcage.loose_points(self._mesh)
 
-    def __len__(self):
+    def __len__(self) -> int:
         """The number of faces."""
         return len(self.triangles) + len(self.quads)
 
-    def __bool__(self):
+    def __bool__(self) -> bool:
         return True
 
     def __repr__(self):
@@ -209,7 +222,7 @@ class CageCheck:
     model_vertices_outside: int
     loose_points: int  # of the model, that no face uses; the verdict is not about them
     loose_points_outside: int
-    bad_faces: tuple
+    bad_faces: tuple[int, ...]
     longest_side: float  # of the model's bounding box, world units
     diagonal: float  # of the same
     mean_distance: float
@@ -226,8 +239,10 @@ class Cage(Mesh):
     """A mesh that make_cage or Pipeline.run made, with its verdict and its report."""
 
     __slots__ = ("_check", "_report")
+    _check: CageCheck
+    _report: dict[str, Any]
 
-    def __init__(self, *args, **kwargs):
+    def __init__(self, *args: object, **kwargs: object) -> None:
         raise TypeError("a vdbcage.Cage comes from make_cage")
 
     @classmethod
@@ -237,7 +252,7 @@ class Cage(Mesh):
         self._report = report
         return self
 
-    def write(self, path):
+    def write(self, path: _Path) -> None:
         """As Mesh.write, but only to a file that holds its points as they were certified.
 
         STL files hold float32: make_cage(..., precision="float32") makes cages for them.
@@ -250,12 +265,12 @@ class Cage(Mesh):
         super().write(path)
 
     @property
-    def check(self):
+    def check(self) -> CageCheck:
         """The CageCheck of this cage against its model."""
         return self._check
 
     @property
-    def report(self):
+    def report(self) -> dict[str, Any]:
         """How the cage came about, a dict.
 
         options: every option as asked for; seconds: wall clock; stages: the seconds of each stage; and what
@@ -264,20 +279,20 @@ class Cage(Mesh):
         return self._report
 
 
-def make_cage(model, /, *, progress=None, **options):
+def make_cage(model: Mesh, /, *, progress: _Progress = None, **options: _Option) -> Cage:
     """Makes a cage around a model, certified to bound it, and returns it as a Cage.
 
     model: a Mesh of any kind: open, self-intersecting, badly oriented, in many parts
     progress: see the help of vdbcage
     options: those of `vdbcage make`, with underscores: faces=400, close_radius=0.02, mesh="triquad", bounding=False.
-        None stands for auto. Lengths are fractions of the model's longest side. docs/OPTIONS.md has all of them.
+        None stands for auto. Lengths are fractions of the model's longest side. OPTIONS.md has all of them.
     Raises InputError, DeviceError, Cancelled.
     """
     texts, progress = _option_texts(options), _arguments.callback(progress)
     return _run(_vdbcage.Pipeline(_mesh("model", model)), texts, progress)
 
 
-def predicted_memory(model, /, *, progress=None, **options):
+def predicted_memory(model: Mesh, /, *, progress: _Progress = None, **options: _Option) -> int:
     """About how many bytes the command takes at most to make this cage, before it is made.
 
     A program takes as much on top of what it holds, or a little less.
@@ -307,11 +322,11 @@ class Pipeline:
 
     __slots__ = ("_model", "_pipeline")
 
-    def __init__(self, model):
+    def __init__(self, model: Mesh) -> None:
         self._pipeline = _vdbcage.Pipeline(_mesh("model", model))
         self._model = model
 
-    def run(self, *, progress=None, **options):
+    def run(self, *, progress: _Progress = None, **options: _Option) -> Cage:
         """The Cage for these options, as make_cage gives it.
 
         A run that raises leaves the surfaces and masks of the last one that did not.
@@ -320,32 +335,32 @@ class Pipeline:
         return _run(self._pipeline, texts, progress)
 
     @property
-    def model(self):
+    def model(self) -> Mesh:
         """The Mesh that the pipeline was made with."""
         return self._model
 
     @property
-    def solid(self):
+    def solid(self) -> Mask | None:
         """The voxels of the model, a Mask; None before the first run."""
         return self._mask("solid")
 
     @property
-    def closed(self):
+    def closed(self) -> Mask | None:
         """Their closing, with cavities filled, a Mask; None before the first run."""
         return self._mask("closed")
 
     @property
-    def surface(self):
+    def surface(self) -> Mesh | None:
         """What the last cage was made from, a Mesh of quads; None before the first run."""
         return self._stage("surface")
 
     @property
-    def smoothed(self):
+    def smoothed(self) -> Mesh | None:
         """What smoothing gave: the cage, or the surface without bounding. None before the first run."""
         return self._stage("smoothed")
 
     @property
-    def decimated(self):
+    def decimated(self) -> Mesh | None:
         """The last cage before it was tightened, a Mesh; None before the first run."""
         return self._stage("decimated")
 
@@ -358,7 +373,8 @@ class Pipeline:
         return None if mesh is None else Mesh._of(mesh)
 
 
-def check_cage(cage, model, *, least_part=0, as_floats=False, measure=True, samples=20000, progress=None):
+def check_cage(cage: Mesh, model: Mesh, *, least_part: float = 0, as_floats: bool = False, measure: bool = True,
+               samples: int = 20000, progress: _Progress = None) -> CageCheck:
     """Examines any mesh as a cage of any model and returns a CageCheck.
 
     cage, model: Mesh
@@ -385,7 +401,7 @@ class Family:
     everywhere: bool  #: else the points must be inside the cage or on it
 
 
-def coordinate_families():
+def coordinate_families() -> list[Family]:
     """The families of coordinates that can be computed: a list of Family."""
     return [Family(*values) for values in _vdbcage.coordinate_families()]
 
@@ -424,7 +440,7 @@ class Binding:
 
     cage: a Mesh, closed and facing outward
     points: array-like, shape (n, 3): world space
-    coordinates: the name of one of coordinate_families(); see docs/DEFORMING.md
+    coordinates: the name of one of coordinate_families(); see DEFORMING.md
     resolution: voxels along the cage, 4 to 256; only of harmonic coordinates [64]
     elasticity: an Elasticity; only of Somigliana coordinates
     loose: indices of points that need no coordinates of the family, such as a model's loose_points
@@ -434,8 +450,9 @@ class Binding:
 
     __slots__ = ("_binding", "_cage")
 
-    def __init__(self, cage, points, coordinates="mvc", *, resolution=None, elasticity=None, loose=None,
-                 loose_motion="ride", progress=None):
+    def __init__(self, cage: Mesh, points: npt.ArrayLike, coordinates: str = "mvc", *, resolution: int | None = None,
+                 elasticity: Elasticity | None = None, loose: npt.ArrayLike | None = None, loose_motion: str = "ride",
+                 progress: _Progress = None) -> None:
         if not isinstance(coordinates, str):
             raise InputError(f"coordinates: {coordinates!r} is not allowed; it must be a string")
         for name, value, family in (("resolution", resolution, "harmonic"), ("elasticity", elasticity, "somigliana")):
@@ -443,17 +460,17 @@ class Binding:
                 raise InputError(f"{name}: only {family} coordinates have it; these are {coordinates}")
         if not isinstance(loose_motion, str):
             raise InputError(f"loose_motion: {loose_motion!r} is not allowed; it must be a string")
-        points = _arguments.points("points", points)
-        self._binding = _vdbcage.Binding(_mesh("cage", cage), points, coordinates,
+        places = _arguments.points("points", points)
+        self._binding = _vdbcage.Binding(_mesh("cage", cage), places, coordinates,
                                          _arguments.whole("resolution", 64 if resolution is None else resolution,
                                                           4, 256),
                                          _elasticity(Elasticity() if elasticity is None else elasticity),
-                                         _arguments.places("loose", loose, len(points)), loose_motion,
+                                         _arguments.places("loose", loose, len(places)), loose_motion,
                                          _arguments.callback(progress))
         self._cage = cage
 
     @classmethod
-    def read(cls, path, cage, points):
+    def read(cls, path: _Path, cage: Mesh, points: npt.ArrayLike) -> Binding:
         """Reads weights of `vdbcage bind` or write() for the same cage and points, or a matrix made elsewhere.
 
         path: .npy, or .dmat of libigl
@@ -466,7 +483,7 @@ class Binding:
         self._cage = cage
         return self
 
-    def with_elasticity(self, elasticity):
+    def with_elasticity(self, elasticity: Elasticity) -> Binding:
         """The same Binding with another material, of Somigliana coordinates: no weights are computed.
 
         Raises InputError.
@@ -478,7 +495,7 @@ class Binding:
         other._cage = self._cage
         return other
 
-    def write(self, path, *, progress=None):
+    def write(self, path: _Path, *, progress: _Progress = None) -> None:
         """Writes the file that `vdbcage bind` writes. The weights are computed for it, as by weights().
 
         Raises IoError; InputError for given weights; Cancelled.
@@ -487,7 +504,7 @@ class Binding:
         self._require_computed()
         self._binding.write(path, _arguments.callback(progress))
 
-    def weights(self, *, progress=None):
+    def weights(self, *, progress: _Progress = None) -> npt.NDArray[numpy.float32]:
         """float32, shape (points, handles): how much each handle moves each point.
 
         The binding holds them compressed, so they are computed anew, which takes as long as binding. The handles are
@@ -498,7 +515,7 @@ class Binding:
         self._require_computed()
         return self._binding.weights(_arguments.callback(progress))
 
-    def pose(self, cage_points):
+    def pose(self, cage_points: npt.ArrayLike) -> _Points:
         """Where the points are when those of the cage are at `cage_points`: float64, shape (n, 3).
 
         cage_points: array-like, shape (points of the cage, 3)
@@ -506,7 +523,7 @@ class Binding:
         """
         return self._binding.pose(self._cage_points("cage_points", cage_points))
 
-    def update(self, posed, before, after):
+    def update(self, posed: npt.ArrayLike, before: npt.ArrayLike, after: npt.ArrayLike) -> _Points:
         """Where points that the cage at `before` posed are when it is at `after`: float64, shape (n, 3).
 
         This is faster than pose() where few points of the cage moved. Each update rounds to 1e-7 of the motion.
@@ -519,27 +536,27 @@ class Binding:
                                     self._cage_points("before", before), self._cage_points("after", after))
 
     @property
-    def cage(self):
+    def cage(self) -> Mesh:
         """The Mesh that moves the points."""
         return self._cage
 
     @property
-    def points(self):
+    def points(self) -> _Points:
         """The points at rest: float64, shape (n, 3), read-only. No copy."""
         return self._binding.points
 
     @property
-    def coordinates(self):
+    def coordinates(self) -> str:
         """The name of the family, one of coordinate_families() or "given"."""
         return self._binding.coordinates
 
     @property
-    def elasticity(self):
+    def elasticity(self) -> Elasticity:
         """The Elasticity, which acts if the coordinates are Somigliana's."""
         return Elasticity(*self._binding.elasticity)
 
     @property
-    def handles(self):
+    def handles(self) -> int:
         """The number of weights a point."""
         return self._binding.handles
 
@@ -555,7 +572,7 @@ class Binding:
         return f"<vdbcage.Binding: {len(self.points)} points, {self.handles} handles, {self.coordinates}>"
 
 
-def posed_points(cage, posed):
+def posed_points(cage: Mesh, posed: Mesh) -> _Points:
     """The points of a posed cage that another program wrote, in the order of the cage's: float64, shape (n, 3).
 
     cage: the Mesh at rest
@@ -577,7 +594,8 @@ class Mask:
 
     __slots__ = ("_mask",)
 
-    def __init__(self, voxels, voxel_size=1.0, origin=(0.0, 0.0, 0.0)):
+    def __init__(self, voxels: npt.ArrayLike, voxel_size: float = 1.0,
+                 origin: npt.ArrayLike = (0.0, 0.0, 0.0)) -> None:
         self._mask = _vdbcage.Mask(_arguments.voxels("voxels", voxels),
                                    _arguments.number("voxel_size", voxel_size, 1e-100, 1e100),
                                    _arguments.rows("origin", origin, (3,), "fiu", "three finite numbers").tolist())
@@ -590,30 +608,31 @@ class Mask:
         return self
 
     @classmethod
-    def from_dense(cls, array, corner=(0, 0, 0), voxel_size=1.0, origin=(0.0, 0.0, 0.0)):
+    def from_dense(cls, array: npt.ArrayLike, corner: npt.ArrayLike = (0, 0, 0), voxel_size: float = 1.0,
+                   origin: npt.ArrayLike = (0.0, 0.0, 0.0)) -> Mask:
         """A mask from a box of voxels, those that are true or not 0.
 
         array: array-like of bool or whole numbers, shape (x, y, z)
         corner: the indices of its first voxel
         """
         try:
-            array = numpy.asarray(array)
+            dense = numpy.asarray(array)
         except (TypeError, ValueError) as error:
             raise InputError(f"array: {error}") from None
-        if array.ndim != 3 or array.dtype.kind not in "biu":
-            raise InputError(f"array: shape {array.shape} of {array.dtype} is not allowed; it must be (x, y, z), of bool "
+        if dense.ndim != 3 or dense.dtype.kind not in "biu":
+            raise InputError(f"array: shape {dense.shape} of {dense.dtype} is not allowed; it must be (x, y, z), of bool "
                              "or whole numbers")
-        corner = _arguments.voxels("corner", [_arguments.rows("corner", corner, (3,), "iu", "three whole numbers")])[0]
-        return Mask(numpy.argwhere(array) + corner.astype(numpy.int64), voxel_size, origin)
+        first = _arguments.voxels("corner", [_arguments.rows("corner", corner, (3,), "iu", "three whole numbers")])[0]
+        return Mask(numpy.argwhere(dense) + first.astype(numpy.int64), voxel_size, origin)
 
-    def voxels(self):
+    def voxels(self) -> npt.NDArray[numpy.int32]:
         """The active voxels: int32, shape (n, 3), in the order of i, then j, then k.
 
         Raises InputError for more than 2**30 of them.
         """
         return self._mask.voxels()
 
-    def dense(self):
+    def dense(self) -> tuple[npt.NDArray[numpy.bool_], npt.NDArray[numpy.int32]]:
         """The box around the active voxels: (bool array of shape (x, y, z), int32 indices of its first voxel).
 
         Raises InputError for more than 2**32 voxels in it.
@@ -629,12 +648,12 @@ class Mask:
         return array, low
 
     @property
-    def matrix(self):
+    def matrix(self) -> npt.NDArray[numpy.float64]:
         """From indices to the world: float64, shape (4, 4), for columns (i, j, k, 1)."""
         return self._mask.matrix()
 
     @property
-    def voxel_size(self):
+    def voxel_size(self) -> float:
         """World units. Raises InputError for a mask of a file whose voxels are no upright cubes; see matrix."""
         matrix = self.matrix[:3, :3]
         if matrix[0, 0] <= 0 or not numpy.array_equal(matrix, matrix[0, 0] * numpy.eye(3)):
@@ -642,22 +661,23 @@ class Mask:
         return float(matrix[0, 0])
 
     @property
-    def origin(self):
+    def origin(self) -> npt.NDArray[numpy.float64]:
         """World position of the centre of the voxel 0, 0, 0: float64, shape (3,)."""
         return self.matrix[:3, 3].copy()
 
-    def __len__(self):
+    def __len__(self) -> int:
         """The number of active voxels."""
         return self._mask.count
 
-    def __bool__(self):
+    def __bool__(self) -> bool:
         return True
 
     def __repr__(self):
         return f"<vdbcage.Mask: {len(self)} voxels>"
 
 
-def voxelize(model, resolution=128, *, voxelizer=None, interior="solid", box=None, progress=None):
+def voxelize(model: Mesh, resolution: int = 128, *, voxelizer: str | None = None, interior: str | None = "solid",
+             box: npt.ArrayLike | None = None, progress: _Progress = None) -> Mask:
     """The voxels that a face of the model touches, and those inside, as a Mask. It has no cavities.
 
     model: a Mesh of any kind
@@ -669,8 +689,8 @@ def voxelize(model, resolution=128, *, voxelizer=None, interior="solid", box=Non
     """
     resolution = _arguments.whole("resolution", resolution, 1, 4096)
     if box is not None:
-        box = _arguments.rows("box", box, (2, 3), "fiu", "two rows of three finite numbers")
-        box = box.astype(float).ravel().tolist()
+        rows = _arguments.rows("box", box, (2, 3), "fiu", "two rows of three finite numbers")
+        box = rows.astype(float).ravel().tolist()
     voxelizer = _option_text("voxelizer", voxelizer, "auto")
     interior = _option_text("interior", interior, "auto")
     with _names_of_python():
@@ -678,13 +698,14 @@ def voxelize(model, resolution=128, *, voxelizer=None, interior="solid", box=Non
                                           _arguments.callback(progress)))
 
 
-def close_mask(mask, close_radius, erode_radius=None, *, element="sphere", scale_field=None, progress=None):
+def close_mask(mask: Mask, close_radius: float, erode_radius: float | None = None, *, element: str = "sphere",
+               scale_field: str | os.PathLike[str] | None = None, progress: _Progress = None) -> Mask:
     """The closing of a mask: its dilation by the close radius, eroded by the erode radius.
 
     mask: a Mask
     close_radius, erode_radius: voxels, 0 to 512; the erode radius is at most the close radius, which None stands for
     element: "sphere" or "cube"
-    scale_field: None, or what the radii are multiplied by in places, as in docs/VOLUMES.md
+    scale_field: None, or what the radii are multiplied by in places, as in VOLUMES.md
     Raises InputError, IoError for the file of a scale field, Cancelled.
     """
     mask = _mask("mask", mask)
@@ -698,7 +719,7 @@ def close_mask(mask, close_radius, erode_radius=None, *, element="sphere", scale
                                             _arguments.callback(progress)))
 
 
-def read_vdb(path):
+def read_vdb(path: _Path) -> Mask:
     """Reads a Mask from a .vdb: its first grid named density, or else its only grid, of floats, doubles or booleans.
 
     Active are voxels above 0.5, below 0 in a level set, or true. The file need not be trusted. Raises IoError.
@@ -706,7 +727,7 @@ def read_vdb(path):
     return Mask._of(_vdbcage.read_vdb(_arguments.path(path)))
 
 
-def write_vdb(mask, path, metadata=None):
+def write_vdb(mask: Mask, path: _Path, metadata: dict[str, str] | None = None) -> None:
     """Writes a Mask as a .vdb with one FloatGrid named density, a fog volume of 1 in the active voxels.
 
     metadata: a dict of strings; each becomes a string of the grid named vdbcage_KEY

@@ -30,7 +30,7 @@ Backend voxelizeGlHardware;
 Backend voxelizeCgal;
 
 /// From this resolution on, setting up a device may pay. Below, the CPU is done before a context and its shaders are
-/// made (docs/VOXELIZERS.md).
+/// made (VOXELIZERS.md).
 constexpr int leastResolutionForDevice = 1024;
 
 /// By the device from leastResolutionForDevice on, unless it fails; else by the CPU. The report says which and why.

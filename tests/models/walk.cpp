@@ -1,7 +1,17 @@
-#include "poses.h"
+// vdbcage-walk CAGE DIR: poses a cage of the creature as it walks in place, one stride in 12 frames, and writes them as
+// DIR/walk.0000.obj to walk.0011.obj.
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+#include <system_error>
+
+#include <vdbcage/core/detail/atomic_file.h>
+#include <vdbcage/core/error.h>
+#include <vdbcage/mesh/mesh_io.h>
 
 #include "vec3.h"
 
@@ -11,6 +21,8 @@ namespace {
 
 using openvdb::Vec2d;
 using openvdb::Vec3d;
+
+constexpr int frames = 12;
 
 constexpr double stance = 0.62; // share of the stride that a hoof is on the ground
 constexpr double reach = 10;    // of a hoof before and behind its place, in centimetres as all lengths
@@ -101,8 +113,8 @@ Vec2d withLeg(Vec2d p, const Leg& leg, double time, double belongs)
     return turned(p, leg.hip, belongs * below(54, 10) * turn.hip);
 }
 
-} // namespace
-
+/// Where a point of a cage goes. `time` is the share of a stride that has passed. A point is turned around the joints
+/// of the leg it belongs to, the further below a joint the more; the angles put the hoofs where the stride needs them.
 Vec3d walking(const Vec3d& p, double time)
 {
     Vec2d q(p.z(), p.y());
@@ -120,15 +132,36 @@ Vec3d walking(const Vec3d& p, double time)
     return {p.x(), q[1] - sinking(time, p.z()), q[0]};
 }
 
-Vec3d bowing(const Vec3d& p)
-{
-    constexpr double low = 1.2, high = 6.2, angle = 1.1; // of its axis, which bends to an arc between the two heights
-    const double bent = std::min(std::max(p.y(), low), high) - low, above = p.y() - low - bent;
-    const double curvature = angle / (high - low), turn = curvature * bent, radius = 1 / curvature;
-    const Vec2d along(std::sin(turn), std::cos(turn)); // of the axis there, as (z, y)
-    const Vec2d axis(radius * (1 - along[1]), low + radius * along[0]);
-    const Vec2d q = axis + above * along + p.z() * Vec2d(along[1], -along[0]);
-    return {p.x(), q[1], q[0]};
-}
+} // namespace
 
 } // namespace data
+
+int main(int argc, char** argv)
+{
+    if (argc != 3 || argv[2][0] == '-') {
+        std::fputs("usage: vdbcage-walk CAGE DIR\n", stderr);
+        return 1;
+    }
+    try {
+        const vdbcage::Mesh cage = vdbcage::readMesh(argv[1]);
+        std::filesystem::create_directories(argv[2]);
+        vdbcage::PendingFiles files;
+        for (int frame = 0; frame < data::frames; ++frame) {
+            vdbcage::Mesh pose = cage;
+            for (openvdb::Vec3d& p : pose.points) p = data::walking(p, static_cast<double>(frame) / data::frames);
+            std::array<char, 32> name{};
+            std::snprintf(name.data(), name.size(), "walk.%04d.obj", frame);
+            const std::filesystem::path path = std::filesystem::path(argv[2]) / name.data();
+            std::error_code ignored;
+            if (std::filesystem::equivalent(path, argv[1], ignored)) {
+                throw vdbcage::InputError(path.string() + ": is the cage itself; it would be overwritten");
+            }
+            files.add(path, [&](std::ostream& out) { vdbcage::writeMesh(pose, out, path); });
+        }
+        files.commit();
+    } catch (const std::exception& error) {
+        std::fprintf(stderr, "vdbcage-walk: %s\n", error.what());
+        return 1;
+    }
+    return 0;
+}
