@@ -76,9 +76,9 @@ public:
     /// \throw Cancelled
     explicit BoundingGuard(const Mesh& model, const GuardOptions& options = {}, Interrupter* interrupter = nullptr);
     ~BoundingGuard();
-    /// What was moved from can only be assigned to or destroyed.
+    /// The other can only be assigned to or destroyed afterwards.
     BoundingGuard(BoundingGuard&&) noexcept;
-    /// What was moved from can only be assigned to or destroyed.
+    /// The other can only be assigned to or destroyed afterwards.
     BoundingGuard& operator=(BoundingGuard&&) noexcept;
 
     /// The least distance kept, in world units.

@@ -11,7 +11,7 @@
 
 namespace vdbcage {
 
-/// What decimate() under a guard is asked for.
+/// Options of decimate() under a guard.
 struct BoundingDecimateOptions {
     std::size_t faces = 400;      ///< triangles to end with, at least 4
     Effort effort = Effort::fair; ///< time against tightness; decimate() gives figures

@@ -12,7 +12,7 @@
 
 namespace vdbcage {
 
-/// What quadLoops() is asked for.
+/// Options of quadLoops().
 struct QuadLoopsOptions {
     static constexpr Range angles{0, 90};          ///< of `meanAngleDegrees` and `mostAngleDegrees`
     static constexpr Range exchangeCounts{0, 100}; ///< of `exchanges`

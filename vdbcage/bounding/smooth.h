@@ -8,7 +8,7 @@
 
 namespace vdbcage {
 
-/// How much smooth() under a guard rounds off.
+/// Options of smooth() under a guard.
 struct BoundingSmoothOptions {
     static constexpr Range sweepCounts{0, 100}; ///< of `sweeps`
 

@@ -10,7 +10,7 @@
 
 namespace vdbcage {
 
-/// How much time tighten() takes.
+/// Options of tighten(), which trade time against tightness.
 struct TightenOptions {
     static constexpr Range sweepCounts{0, 100};        ///< of `sweeps`
     static constexpr Range perturbationCounts{0, 100}; ///< of `perturbations`

@@ -12,7 +12,7 @@
 
 namespace vdbcage {
 
-/// What triquad() under a guard is asked for.
+/// Options of triquad() under a guard.
 struct BoundingTriquadOptions {
     static constexpr Range mergeAngles{0, 180}; ///< of `mergeAngleDegrees`
     static constexpr Range quadShares{0, 1};    ///< of `quads`

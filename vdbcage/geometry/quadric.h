@@ -10,7 +10,7 @@
 
 namespace vdbcage::detail {
 
-/// What merging points into one place costs: the integral of the squared distance to the planes of the faces around
+/// The cost of merging points into one place: the integral of the squared distance to the planes of the faces around
 /// them, and the spread. The spread is the integral of the squared distance to where their area was.
 ///
 /// The planes say where the surface is; the spread says nothing about it. But on flat ground, where the planes do not

@@ -99,11 +99,11 @@ public:
     /// \pre the tree is not empty
     const Box& box() const { return box_; }
 
-    /// What lies in a box, whose sides may be infinite.
+    /// Selects items in a box, whose sides may be infinite.
     Query inBox(const Box& box) const;
-    /// What comes within `maxDistance` of a triangle, which may be degenerate.
+    /// Selects items within `maxDistance` of a triangle, which may be degenerate.
     Query near(const Corners& triangle, double maxDistance = 0) const;
-    /// What meets a tetrahedron, which may be flat.
+    /// Selects items that meet a tetrahedron, which may be flat.
     Query inTetrahedron(const std::array<Vec3d, 4>& corners) const;
 
     /// Calls `visit(item)` for each triangle that meets `query`, and for some more beside it, always in the same order.

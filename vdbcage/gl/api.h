@@ -105,7 +105,7 @@ struct Api {
 #undef VDBCAGE_GL_DECLARE
 };
 
-/// What draws in a context.
+/// The drawing program of a context.
 struct Driver {
     std::string description; ///< its name and version
     bool isSoftware = false; ///< a program on the CPU, rather than a device
@@ -115,7 +115,7 @@ Driver driverOf(const Api& api);
 /// Makes the context record in full what it calls an error or undefined, for `throwIfFailed` to report.
 void enableDebugMessages(const Api& api);
 
-/// What failed since the last call, in words. Empty if nothing did.
+/// Returns the errors since the last call, in words; empty if there was none.
 std::string takeFailures(const Api& api);
 
 /// Asks the context whether anything failed since the last call. `what` says what was being done, such as "rendering".

@@ -14,7 +14,7 @@
 
 namespace vdbcage {
 
-/// What a reader met beside plain triangles and quads. For reports, never needed to use the mesh.
+/// Counts what a reader met beside plain triangles and quads: for reports, never needed to use the mesh.
 struct ReadSummary {
     std::size_t polygons = 0;        ///< faces with more than four corners, split into triangles
     std::size_t degenerateFaces = 0; ///< faces that repeat a corner or have zero area (kept: they are geometry)
@@ -23,12 +23,12 @@ struct ReadSummary {
     /// corners, of the fans around each corner beyond. 64, or 4 to 63 where these would be more than 2^24 triangles.
     /// Faces of more corners are there as the fan around their first corner and as clipping ears splits them.
     std::size_t alternateCorners = 64;
-    /// What the file has otherwise than its format, one sentence a kind, with the line where it is first: "line 7: a
+    /// Deviations of the file from its format, one sentence a kind, with the line where it is first: "line 7: a
     /// number has ... (3 times)". Nothing of the file itself is in them.
     std::vector<std::string> warnings;
 };
 
-/// What a file holds.
+/// The contents of a file.
 struct MeshFile {
     Mesh mesh;           ///< points in the order of the file; faces by kind, each in its order
     ReadSummary summary; ///< what else was there
@@ -42,7 +42,7 @@ struct MeshFile {
 /// triangles. So are concave quads: those that only one diagonal divides into two triangles of their orientation. The
 /// reader does not depend on the locale.
 ///
-/// What some programs write otherwise is read where its meaning is plain, with a warning in ReadSummary. That is text
+/// Deviations of some programs are read where their meaning is plain, with a warning in ReadSummary. These are text
 /// of UTF-16 with a byte order mark; numbers like 3.1+e2 and 1.5d3, which are 310 and 1500; the header of an OFF file
 /// before an OBJ, if its counts are right; in an OBJ, and in an ascii STL between facets, lines that begin with a word
 /// that the format does not have, passed over; in a PLY a line of the header without the word comment, more values in

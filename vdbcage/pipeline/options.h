@@ -26,7 +26,7 @@ enum class CageFaces {
     loops      ///< quads only, in rings around limbs, as drawn by hand; looser than quads; bounding only
 };
 
-/// What becomes of parts of the model that the closing leaves apart.
+/// The treatment of parts of the model that the closing leaves apart.
 enum class CageParts {
     keep, ///< each may get a cage of its own, where the faces suffice
     merge ///< one cage around everything
@@ -58,7 +58,7 @@ struct CageOptions {
     /// 0 to the close radius, which must be set. Unset: equal to it.
     std::optional<double> erodeRadius;
     StructuringElement element = StructuringElement::sphere; ///< of the closing
-    /// What the close radius and the erode radius are multiplied by in places; for the sphere only.
+    /// Factors of the close radius and the erode radius in places; for the sphere only.
     FactorField scale;
     /// About how many times the faces a place of the model gets, at the cost of the others. Needs `bounding`.
     FactorField density;
@@ -93,7 +93,7 @@ struct CageOptions {
     bool bounding = true;
 };
 
-/// What is known of an option beside its value: one entry serves flags, help, range checks, docs/OPTIONS.md and
+/// Facts about an option beside its value: one entry serves flags, help, range checks, docs/OPTIONS.md and
 /// metadata.
 struct OptionInfo {
     const char* name;    ///< lower case with dashes: the flag without its leading dashes

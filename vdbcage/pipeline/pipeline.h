@@ -18,7 +18,7 @@
 
 namespace vdbcage {
 
-/// What a bounding cage was shrunk from.
+/// The start that a bounding cage was shrunk from.
 enum class CageStart {
     closing,     ///< the surface of the closing
     hull,        ///< the surface of its convex hull: no closing allowed as few faces (or one cage)
@@ -96,9 +96,9 @@ public:
     /// \throw InputError the model has no usable face (see requireUsable)
     explicit Pipeline(Mesh model);
     ~Pipeline();
-    /// What was moved from can only be assigned to or destroyed.
+    /// The other can only be assigned to or destroyed afterwards.
     Pipeline(Pipeline&&) noexcept;
-    /// What was moved from can only be assigned to or destroyed.
+    /// The other can only be assigned to or destroyed afterwards.
     Pipeline& operator=(Pipeline&&) noexcept;
 
     /// Makes the cage for `options` and returns it; valid until the next run. A run that throws leaves the cage and the
@@ -107,7 +107,7 @@ public:
     /// Stages reported to `interrupter`, some more than once: interior, symmetry, guard, voxelize, close, surface,
     /// decimate, tighten, quads or loops, smooth, coplanar, certify. The cage can have fewer faces than asked. It has
     /// more only where the topology of the closing does not allow fewer and `bounding` is off.
-    /// \throw InputError what requireValid, voxelize or closeMask refuses; float32 is asked for and rounds by more than a
+    /// \throw InputError refused by requireValid, voxelize or closeMask; float32 is asked for and rounds by more than a
     /// thousandth of the longest side; the model misses the plane of symmetry that
     /// is asked for by more than 0.3 of its longest side
     /// \throw MemoryError a process that makes this cage would hold more than `memoryLimit` bytes, as predictedMemory()
@@ -130,7 +130,7 @@ public:
     /// The closing of solid(), cavities filled; null before the first run.
     std::shared_ptr<const openvdb::MaskGrid> closed() const;
     const Mesh& surface() const; ///< what the cage was made from: quads, or a tetrahedron
-    /// What smoothing gave: the cage, before edges that are almost flat are bent. Bounding off: the surface.
+    /// The result of smoothing: the cage, before edges that are almost flat are bent. Bounding off: the surface.
     const Mesh& smoothed() const;
     /// The surface with fewer faces. Triangles, about twice the faces where pairs become quads; of loops the cage
     /// before smoothing; of a box its quads.

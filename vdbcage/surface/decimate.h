@@ -8,7 +8,7 @@
 
 namespace vdbcage {
 
-/// What decimate() without a guard is asked for.
+/// Options of decimate() without a guard.
 struct DecimateOptions {
     std::size_t faces = 400; ///< triangles to end with, at least 4
 };

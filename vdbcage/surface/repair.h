@@ -18,7 +18,7 @@ struct RepairMeasures {
     double volume = 0;
 };
 
-/// What repair() did and what it could not do.
+/// Counts what repair() did and what it could not do.
 struct RepairReport {
     std::size_t mergedPoints = 0;            ///< points that lay on another one
     std::size_t removedFaces = 0;            ///< degenerate and duplicate faces taken out
@@ -39,7 +39,7 @@ struct RepairReport {
 /// Whether this build has repair(): it was made with VDBCAGE_WITH_CGAL_GPL.
 VDBCAGE_API bool hasRepair();
 
-/// What repair() returns.
+/// The result of repair().
 struct RepairedCage {
     Mesh cage;           ///< closed, outward and free of self-intersections, as far as `report` says
     RepairReport report; ///< what was done, and what is still wrong

@@ -9,7 +9,7 @@
 
 namespace vdbcage {
 
-/// What fillCavities() returns.
+/// The result of fillCavities().
 struct FilledMask {
     std::shared_ptr<openvdb::MaskGrid> mask; ///< same transform, no other metadata
     /// How many separate cavities were filled. Two that touch by an edge or corner only are two.
@@ -18,8 +18,9 @@ struct FilledMask {
 
 /// Fills every cavity: all inactive voxels that no path of face-connected inactive voxels joins to the outside.
 ///
-/// What floats inside a cavity is swallowed with it. A cavity within it is a cavity of its own. Active tiles and wide
-/// empty space are never made dense. TBB-parallel within blocks of 128^3 voxels; the same for any number of threads.
+/// Voxels that float inside a cavity are swallowed with it. A cavity within it is a cavity of its own. Active tiles and
+/// wide empty space are never made dense. TBB-parallel within blocks of 128^3 voxels; the same for any number of
+/// threads.
 /// \throw InputError coordinates outside [-2^30, 2^30)
 /// \throw Cancelled
 /// Cost: O(nodes of the tree); up to 72 bytes a leaf beside the two trees.

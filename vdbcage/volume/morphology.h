@@ -8,7 +8,7 @@
 
 /// \addtogroup volume
 /// \par Morphology
-/// What holds for all of it:
+/// All of it keeps to these rules:
 /// - Masks are sets of active voxels on the unbounded integer lattice. Outside of a grid is empty; there is no border.
 /// - Active tiles of every level count as their voxels, and are never made dense.
 /// - The grid's transform plays no part, nor do the values of a BoolGrid, as with OpenVDB's own morphology.

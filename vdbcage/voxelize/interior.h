@@ -6,7 +6,7 @@
 
 namespace vdbcage {
 
-/// What counts as the inside of a model with holes.
+/// Decides the inside of a model with holes.
 enum class Interior {
     automatic, ///< shell where rays mostly disagree, as they do about sheets (mostlySheet), else solid
     solid,     ///< what most rays hold to be inside: a bowl is filled to its rim

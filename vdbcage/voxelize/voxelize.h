@@ -40,7 +40,7 @@ struct VoxelizeReport {
     std::optional<double> agreement = {}; ///< rayAgreement() of the model, if it was automatic
 };
 
-/// What voxelize() returns.
+/// The result of voxelize().
 struct Voxelization {
     std::shared_ptr<openvdb::MaskGrid>
         mask;              ///< the solid is its active voxels; its transform says where they lie in the world

@@ -53,7 +53,7 @@ public:
 private:
     static constexpr std::size_t leafSize = 4;
 
-    /// What lies between two planes across `normal`.
+    /// Selects items between two planes across `normal`.
     struct Slab {
         Vec3d normal{0.0};
         double low = 0, high = 0;
@@ -68,7 +68,7 @@ private:
     using Levels = std::vector<std::vector<Box>>;
     /// Along the triangle that loses most in boxes along x, y and z, if all lose much by these.
     std::optional<Axes> axesOfNeedles(const std::vector<Vec3d>& points, Interrupter* interrupter) const;
-    /// Of what `boxOf` gives for each item.
+    /// Builds the tree of what `boxOf` gives for each item.
     template <typename BoxOf>
     Levels boxes(const BoxOf& boxOf, Interrupter* interrupter) const;
     Slab slabOf(const Corners& triangle, double maxDistance) const;

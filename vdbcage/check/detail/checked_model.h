@@ -15,7 +15,7 @@ namespace vdbcage::detail {
 /// \throw InputError an index that is not below the number of points; a point of a face that is not finite
 void requireSound(const Mesh& mesh, const char* what);
 
-/// What is found out about a model once: its triangles in trees, and its parts.
+/// Facts about a model that are found out once: its triangles in trees, and its parts.
 ///
 /// A part is what hangs together over shared vertices. Vertices are shared by index. Where triangles were dropped as
 /// copies of others, points in one place are shared too.

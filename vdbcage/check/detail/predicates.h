@@ -28,7 +28,7 @@ bool foldOver(const Vec3d& a, const Vec3d& b, const Vec3d& c, const Vec3d& d);
 /// The triangle, degenerate or not, contains `p`.
 bool contains(const Corners& triangle, const Vec3d& p);
 
-/// What a triangle adds to the winding number of its surface around p.
+/// Returns the share of a triangle in the winding number of its surface around p.
 ///
 /// It is +1 if the ray from p along +x leaves through its back, and -1 if it comes in through its front. It is 0 if the
 /// ray misses it, and for a degenerate triangle. The ray is moved by an infinitesimal amount so that it meets no edge.

@@ -14,7 +14,7 @@ namespace vdbcage::gl::detail {
 class Platform {
 public:
     virtual ~Platform() = default;
-    /// What makes the context, for messages: "EGL", "OSMesa".
+    /// Names the maker of the context, for messages: "EGL", "OSMesa".
     virtual const char* name() const = 0;
     /// Looks entry points up.
     virtual GetProc getProc() const = 0;

@@ -23,7 +23,7 @@ VDBCAGE_API void requireMeshExtension(const std::filesystem::path& path);
 
 /// All bytes of a mesh file. \throw IoError; ResourceError
 VDBCAGE_API std::string readMeshBytes(const std::filesystem::path& path);
-/// What readMeshFile makes of them. \throw as readMeshFile
+/// Makes of them what readMeshFile does. \throw as readMeshFile
 VDBCAGE_API MeshFile parseMesh(const std::string& bytes, const std::filesystem::path& path);
 
 MeshFile parseObj(std::string_view bytes, const std::string& name);

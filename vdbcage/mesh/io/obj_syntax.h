@@ -7,7 +7,7 @@
 
 #include <vdbcage/mesh/io/text_cursor.h>
 
-/// What the two readers of OBJ files share. One makes a Mesh, the other replaces positions in the text.
+/// The common code of the two readers of OBJ files. One makes a Mesh, the other replaces positions in the text.
 namespace vdbcage::detail {
 
 constexpr TextSyntax objSyntax{'#', /*continuesLines=*/true};

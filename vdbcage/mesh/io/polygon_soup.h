@@ -10,7 +10,7 @@
 
 namespace vdbcage::detail {
 
-/// What a parser collects from a file before polygons are split. Faces may come before the points that they use.
+/// Collects the contents of a file before polygons are split. Faces may come before the points that they use.
 struct PolygonSoup {
     std::vector<openvdb::Vec3d> points;
     std::vector<openvdb::Vec3I> triangles;

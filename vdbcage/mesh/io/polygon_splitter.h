@@ -27,7 +27,7 @@ public:
     /// Appends the triangles of clipping ears, also where split() takes a fan.
     void splitByEars(const openvdb::Index32* face, std::size_t count, std::vector<openvdb::Vec3I>& triangles);
 
-    /// What the search for ears in the faces split so far has cost: about the number of corners looked at. 0 for fans.
+    /// The cost of the search for ears in the faces split so far: about the number of corners looked at. 0 for fans.
     std::size_t work() const { return allWork_; }
 
 private:

@@ -18,7 +18,7 @@ bool mayBeginRemark(std::string_view word);
 /// The warning of such lines.
 constexpr const char* remarkWarning = "a line begins with a word that the format does not have; it is passed over";
 
-/// What differs between the text formats.
+/// Differences between the text formats.
 struct TextSyntax {
     char comment = '\0';         ///< starts a comment that ends with the line; '\0' for none
     bool continuesLines = false; ///< a backslash before the line's end joins the next line to it

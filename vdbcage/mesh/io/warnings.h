@@ -7,7 +7,7 @@
 
 namespace vdbcage::detail {
 
-/// What a reader took otherwise than its format has it: one text a kind, however often a file does it.
+/// Collects deviations of a file from its format: one text a kind, however often a file does it.
 class Warnings {
 public:
     /// Counts a case of a kind that was added. False if it was not.

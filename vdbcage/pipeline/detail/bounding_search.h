@@ -25,7 +25,7 @@ public:
                    const std::optional<Symmetry>& acrossX = {}, std::size_t largeSurface = policy::largeSurface);
     ~BoundingSearch();
 
-    /// What a run is asked for. `scale` and `density` are the versions of the options' fields.
+    /// The inputs of a run. `scale` and `density` are the versions of the options' fields.
     struct Request {
         const CageOptions& options;
         const FieldVersion &scale, &density;

@@ -13,7 +13,8 @@
 
 namespace vdbcage::detail {
 
-/// What bounding cages of any face count begin with: a surface around a closing or its convex hull, or a simple solid.
+/// The surface that bounding cages of any face count begin with: one around a closing or its convex hull, or a simple
+/// solid.
 struct StartingSurface {
     CageStart kind = CageStart::closing;
     /// Of a simple solid that which it competes with; of a turned start as if it were not.

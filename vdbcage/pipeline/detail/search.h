@@ -11,7 +11,7 @@
 #include <vdbcage/mesh/topology.h>
 #include <vdbcage/pipeline/options.h>
 
-/// What the search for a cage tries, and in which order. These are pure functions of the options and of what was found
+/// The policy of the search for a cage. These are pure functions of the options and of what was found
 /// so far.
 namespace vdbcage::detail {
 
@@ -95,7 +95,7 @@ constexpr int usualSmoothing = 3;        ///< sweeps that take the steps of the 
 
 } // namespace policy
 
-/// What the options `auto` of the voxels stand for.
+/// The values that the options `auto` of the voxels stand for.
 struct Voxels {
     int resolution = 0;
     double closeRadius = 0;

@@ -7,7 +7,7 @@
 
 namespace vdbcage::detail {
 
-/// What a search for a cage tries, in its order. What a run will take, in time and memory, follows from it.
+/// The attempts of a search for a cage, in order. The time and the memory of a run follow from it.
 struct SearchPlan {
     /// Options whose cages compete with those of the others for the tightest.
     struct Competitor {

@@ -15,7 +15,7 @@
 
 namespace vdbcage::detail {
 
-/// What the wishes of a run depend on.
+/// The inputs of the wishes of a run.
 struct WishesKey {
     GuardOptions guard;
     FieldVersion density;
@@ -25,7 +25,7 @@ struct WishesKey {
     bool operator==(const WishesKey& other) const;
 };
 
-/// What surfaces are changed under: constraints, and wishes for what these leave open.
+/// The rules that surfaces are changed under: constraints, and wishes for what these leave open.
 struct Rules {
     WishesKey key;
     std::shared_ptr<const BoundingGuard> guard;
@@ -42,7 +42,7 @@ struct KeptStart {
     bool isUsed = true; ///< in this run
 };
 
-/// What the stages of a search made of a model. It is kept from run to run under keys: equal keys, equal values.
+/// Keeps what the stages of a search made of a model, from run to run, under keys: equal keys, equal values.
 class StageCache {
 public:
     /// The arguments must outlive this. `acrossX` is the best plane across x, where it is known.

@@ -16,7 +16,8 @@
 /// The volumes that cages are made from. They are kept from run to run under typed keys: equal keys, equal volumes.
 namespace vdbcage::detail {
 
-/// What a field says. The grid counts by its content, as whoever holds it may write to it between two runs.
+/// Stands for the contents of a field. The grid counts by its content, as whoever holds it may write to it between two
+/// runs.
 struct FieldVersion {
     std::vector<FactorRegion> regions;
     std::uint64_t grid = 0; ///< digest of transform, background, tiles and leaves; 0 without a grid

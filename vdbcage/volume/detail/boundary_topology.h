@@ -13,7 +13,7 @@ struct BoundaryTopology {
     std::int64_t genus = 0;     ///< handles of all of them
 };
 
-/// What analyzeTopology would find in extractSurface(solid), without the mesh: by Euler's formula.
+/// The findings of analyzeTopology in extractSurface(solid), without the mesh: by Euler's formula.
 /// \throw InputError as makeWellComposed; more than 10^8 quads
 /// \throw Cancelled
 /// Cost: O(voxels at the surface), and 4 bytes a point.

@@ -16,7 +16,7 @@ struct Progress {
     {
         return {interrupter, from + (to - from) * index / count, from + (to - from) * (index + 1) / count};
     }
-    /// What is left when the bar is full.
+    /// The rest when the bar is full.
     Progress end() const { return {interrupter, to, to}; }
     /// \throw Cancelled
     void check(std::size_t done, std::size_t total) const

@@ -14,7 +14,7 @@ enum class Simd {
     avx512 ///< F, BW, DQ and VL, as x86-64-v4
 };
 
-/// What this build and machine have, plain first, best last.
+/// Lists the sets that this build and machine have, plain first, best last.
 const std::vector<Simd>& supportedSimd();
 inline Simd bestSimd()
 {

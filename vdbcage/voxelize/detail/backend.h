@@ -10,7 +10,8 @@
 
 namespace vdbcage::detail {
 
-/// What every voxelizer is: the solid voxels of `model`, as voxelize() defines them, in a grid over `frame.voxels`.
+/// The form of every voxelizer: it makes the solid voxels of `model`, as voxelize() defines them, in a grid over
+/// `frame.voxels`.
 /// \pre `model` has passed requireUsable, and `frame` is makeFrame's
 /// \throw DeviceError
 /// \throw Cancelled

@@ -7,7 +7,7 @@
 #include <vdbcage/bounding/detail/guard/contact_planes.h>
 #include <vdbcage/bounding/detail/guard/star_change.h>
 
-/// What a surface under a guard may become.
+/// Decides the changes of a surface under a guard.
 ///
 /// A change is allowed if the new star
 /// - keeps clear of the model,
@@ -16,7 +16,7 @@
 /// - sweeps over no part of the model.
 namespace vdbcage::detail {
 
-/// What allows() learns of the model.
+/// The findings of allows() about the model.
 struct Obstacle {
     std::uint32_t item = TriangleBvh::none; ///< of the model: the last that was in the way, the first to try
     std::size_t clear = 0;                  ///< how many of the star's first triangles keep clear at the last place

@@ -19,7 +19,7 @@ inline Vec3d mirrored(const SymmetryPlane& plane, Vec3d p)
     return p;
 }
 
-/// What a guard knows of the model.
+/// A guard's knowledge of the model.
 ///
 /// It works in units in which the model's longest side is 1 to 2, so that no product of lengths leaves the range of
 /// double. They are a power of two apart from the world's. With a plane of symmetry, what is said of the model is said
@@ -57,7 +57,7 @@ public:
     const openvdb::BBoxd& box() const { return box_; }
     double clearance() const { return clearance_; }
     double minSine() const { return minSine_; }
-    /// What triangles of a surface keep between each other.
+    /// The distances and angles that triangles of a surface keep between each other.
     ///
     /// TetGen, for one, merges triangles that meet under more than 179.9 degrees and triangulates them anew. It puts
     /// them up to some thousandths of their size away from where they were.

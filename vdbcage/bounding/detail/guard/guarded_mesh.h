@@ -72,14 +72,14 @@ public:
     /// apply() for one of several changes: tree() does not see it before refit().
     void change(const StarChange& star, const Vec3d& p);
     void refit() { tree_.refit(); }
-    /// What a change takes away, and how many faces and vertices there were.
+    /// The faces and points that a change takes away, and the counts before it.
     struct Saved {
         std::uint32_t faceCount, vertexCount;
         std::vector<std::pair<std::uint32_t, Vec3I>> faces;
         std::vector<std::pair<std::uint32_t, Vec3d>> points;
         std::vector<std::pair<std::uint32_t, FaceList>> facesOf;
     };
-    /// What `star` would take away.
+    /// Returns what `star` would take away.
     /// \pre it touches no quad
     Saved saved(const StarChange& star) const;
     /// Takes a change back: all is as before, to the bit, but that numbers of new vertices and faces are used up.

@@ -5,7 +5,7 @@
 
 namespace vdbcage::detail {
 
-/// What bends at a joint.
+/// The part of a model that bends at a joint.
 struct Limb {
     Vec3d place;   ///< of the joint
     Vec3d axis;    ///< of length 1

@@ -48,7 +48,7 @@ bool descend(const GuardedMesh& surface, const StarChange& star, Vec3d& p, const
 class DistanceMeasure {
 public:
     /// `areaPerSample` is in the guard's units, squared. If `shape` is given, fit() and improve() count it, too.
-    /// What `surface` refers to, and `shape`, must outlive this.
+    /// The guard and the wishes of `surface`, and `shape`, must outlive this.
     DistanceMeasure(const GuardedMesh& surface, double areaPerSample, const ShapeTerm* shape = nullptr)
         : guard_(surface.guard()), wishes_(surface.wishes()), areaPerSample_(areaPerSample), shape_(shape)
     {
@@ -67,7 +67,7 @@ public:
     };
     Fit fit(const GuardedMesh& surface, const StarChange& star, const Vec3d& centre, std::uint32_t& seed) const;
 
-    /// What a step has to be worth. `share` and `least` are as in StepLimit.
+    /// The least worth of a step. `share` and `least` are as in StepLimit.
     struct Pace {
         double share = 1;
         double least = 1e-3;

@@ -17,7 +17,7 @@ namespace vdbcage::detail {
 bool collapseLoop(GuardedMesh& surface, QuadTable& table, VertexQuadrics& quadrics, const QuadLoop& loop,
                   const std::function<bool(const std::vector<std::uint32_t>& kept)>& settle);
 
-/// What the rungs' collapses cost by quadrics at least.
+/// Returns the least cost of the rungs' collapses, by quadrics.
 double collapseCost(const VertexQuadrics& quadrics, const QuadLoop& loop);
 
 } // namespace vdbcage::detail

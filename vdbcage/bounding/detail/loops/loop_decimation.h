@@ -14,7 +14,7 @@ namespace vdbcage::detail {
 bool collapseLoopThrough(GuardedMesh& surface, QuadTable& table, const std::vector<std::uint32_t>& quads,
                          Interrupter* interrupter);
 
-/// What collapses do to the rings of joints.
+/// Whether collapses keep the rings of joints.
 enum class AtJoints { anything, keepRings };
 
 /// Collapses loops until at most `quads` are left, or none may go.

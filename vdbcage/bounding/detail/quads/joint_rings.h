@@ -31,8 +31,8 @@ public:
     /// Whether each joint has as many rings as before, or as are wanted.
     static bool areKept(const std::vector<std::size_t>& before, const std::vector<std::size_t>& after);
 
-    /// What holds the nearest three rings of each joint, or brings them there, by vertex, ascending: without it
-    /// relaxation would make all rings of a limb alike.
+    /// Returns holds of the nearest three rings of each joint, which bring them there, by vertex, ascending: without
+    /// them relaxation would make all rings of a limb alike.
     std::vector<PlaneHold> holds() const;
 
     /// Loops that may be split for another ring at a joint, nearest first; none if it has enough.
@@ -49,7 +49,7 @@ private:
         const QuadLoop* loop;
         double height; ///< of its middle over the joint, along the axis of the limb
     };
-    /// What is a ring but that planes may be so many radii of the limb away, nearest first.
+    /// Returns the rings, nearest first, with planes at most `radii` radii of the limb away.
     std::vector<Ring> ringsAround(const std::vector<QuadLoop>& loops, const Limb& limb, double radii) const;
 
     const GuardedMesh& surface_;

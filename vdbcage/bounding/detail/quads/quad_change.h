@@ -37,7 +37,7 @@ std::size_t polygonValence(const GuardedMesh& surface, const QuadTable& table, s
 /// Cost: O(n log n)
 std::vector<QuadChange> quadChanges(const GuardedMesh& surface, const QuadTable& table, double least);
 
-/// What a change does to the surface and to the table.
+/// A change of the surface and of the table.
 struct PlannedChange {
     StarChange star;
     Vec3d place;                                           ///< of the star's centre, on the surface as it is

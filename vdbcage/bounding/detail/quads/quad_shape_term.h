@@ -9,7 +9,7 @@
 
 namespace vdbcage::detail {
 
-/// What a quad's shape may cost beside the integral of the distance.
+/// Weights of a quad's shape beside the integral of the distance.
 struct ShapeWeights {
     double corners;   ///< of a corner with a cosine of 1, squared
     double free;      ///< up to this |cos| a corner costs nothing, so that distance is spent on bad corners only

@@ -36,7 +36,7 @@ public:
     CollapseSequence(CollapseSequence&&) noexcept;
     CollapseSequence& operator=(CollapseSequence&&) noexcept;
 
-    /// What collapseInBatches() makes of the start.
+    /// Returns what collapseInBatches() makes of the start.
     /// \throw Cancelled; it can go on then
     /// Cost: as collapseByQuadrics(), but some microseconds for each collapse that was recorded.
     GuardedMesh at(std::size_t faces, Interrupter* interrupter);

@@ -9,7 +9,7 @@ namespace vdbcage::detail {
 
 /// Decimations of one surface under a guard, to any number of face counts.
 ///
-/// What they share, the way from the surface to a few times the faces, is done once. That is a third of the time (fair)
+/// They share the way from the surface to a few times the faces, which is done once. That is a third of the time (fair)
 /// to a half (fast).
 class RecordedDecimation {
 public:

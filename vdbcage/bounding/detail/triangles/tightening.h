@@ -5,7 +5,7 @@
 #include <vdbcage/bounding/detail/guard/guarded_mesh.h>
 #include <vdbcage/bounding/tighten.h>
 
-/// What several operators under the guard have in common.
+/// The common code of operators under the guard.
 namespace vdbcage::detail {
 
 class ShapeTerm;
@@ -19,8 +19,8 @@ void requireValid(const TightenOptions& options);
 /// \throw Cancelled
 double meanDistance(const Mesh& cage, const BoundingGuard& guard, const FaceWishes& wishes, Interrupter* interrupter);
 
-/// What vdbcage::tighten() does; it reports 0 to 100 % of a stage. If `shape` is given, it is part of what is to be
-/// less. \throw Cancelled
+/// Does what vdbcage::tighten() does; it reports 0 to 100 % of a stage. If `shape` is given, it is part of what is to
+/// be less. \throw Cancelled
 void tightenAndPerturb(GuardedMesh& surface, const TightenOptions& options, Interrupter* interrupter,
                        const ShapeTerm* shape = nullptr);
 

@@ -14,7 +14,7 @@ namespace vdbcage::detail {
 
 /// The voxels of the entries of one line after the other. Entries are counted along x from the view's first block.
 ///
-/// What is called for each line or entry is inlined by force: calls would cost several percent of a dilation.
+/// Functions that are called for each line or entry are inlined by force: calls cost several percent of a dilation.
 class LineEntries {
 public:
     /// Reads lines of the stretch that `lines` has at the time. The arguments must outlive it.

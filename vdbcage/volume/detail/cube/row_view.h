@@ -7,7 +7,7 @@
 
 #include <vdbcage/volume/detail/cube/block_row.h>
 
-/// What a dilation along x knows of a row of blocks before it looks at voxels: which entries are full, or not empty.
+/// Tells a dilation along x of a row of blocks, before it looks at voxels, which entries are full, or not empty.
 namespace vdbcage::detail {
 
 /// A row with the blocks on both sides that are within the segment, entry by entry along x.

@@ -43,7 +43,7 @@ public:
     SphereQuery(std::int64_t squaredRadius, Simd simd, const Progress& progress);
     ~SphereQuery();
 
-    /// What one thread has found out about the leaves around the block that it works on.
+    /// One thread's findings about the leaves around the block that it works on.
     struct Work {
         struct Voxel {
             std::int32_t place; ///< of its column in the tables, from that of the leaf's first column

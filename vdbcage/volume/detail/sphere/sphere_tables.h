@@ -18,7 +18,7 @@ constexpr T none = 0;
 template <>
 inline constexpr std::uint8_t none<std::uint8_t> = 128;
 
-/// What a query needs to know of its sphere: heights above them and squares of distances along an axis.
+/// Tables of a sphere for a query: heights above them and squares of distances along an axis.
 struct SphereTables {
     /// \throw Cancelled
     SphereTables(std::int64_t squared, const Progress& progress);

@@ -54,7 +54,7 @@ public:
         return result;
     }
 
-    /// What was read from `begin` on.
+    /// Returns the bytes that were read from `begin` on.
     std::string_view since(std::size_t begin) const { return bytes_.substr(begin, position_ - begin); }
 
     /// The next value, which may be of any bits.

@@ -7,7 +7,7 @@
 
 namespace vdbcage::detail {
 
-/// What the last two faces of a path become.
+/// The end of a path: what its last two faces become.
 enum class PathEnd { quad, collapse };
 
 struct PathOptions {

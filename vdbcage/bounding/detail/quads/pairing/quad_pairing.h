@@ -26,7 +26,7 @@ double quadShare(const GuardedMesh& surface);
 /// - the other candidates,
 /// - triangles that alternating paths bring together become quads, then others vanish by a collapse,
 /// - polychords between two triangles are split, which brings more faces.
-/// What costs more than `maxLoss` is undone, but for the candidates. Serial.
+/// Merges that cost more than `maxLoss` are undone, except for the candidates. Serial.
 /// \throw Cancelled
 /// Cost: O(n log n log m) for n faces and m of the model, and O(n) for each path or polychord that is tried.
 void pairUp(GuardedMesh& surface, const PairingOptions& options, Interrupter* interrupter);
