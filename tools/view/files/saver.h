@@ -47,7 +47,7 @@ private:
     bool isBusy_ = false;
 };
 
-/// Whether the verb writes a file for each frame; its path gets a place for their numbers (see cli::patternFor).
+/// Whether the verb writes a file for each frame; its path gets a place for their numbers (see files::patternFor).
 bool isSequence(const std::string& verb);
 
 /// The cage of the options that are set now, or that was opened. \throw InputError naming the verb: it is not there yet
