@@ -343,7 +343,7 @@ BOOST_AUTO_TEST_CASE(a_pose_stays_with_another_cage_and_a_scene_keeps_it)
     App other(context.api(), setup());
     run(other, {"open-scene " + quotedWord(scene.string()), "wait", "mouse move picture 0.01 0.99"});
     BOOST_TEST(cagePoints(other.session().state()) == points(), boost::test_tools::per_element());
-    other.attempt("save-scene " + quotedWord(again.string()));
+    other.attempt(SaveScene{again.string()});
     for (const char* ending : {".cage.obj", ".rest.obj", ".pose.0000.obj"}) {
         const Mesh a = readMesh(fs::path(scene).replace_extension(ending));
         BOOST_TEST(sameMesh(a, readMesh(fs::path(again).replace_extension(ending))));

@@ -65,7 +65,7 @@ BOOST_AUTO_TEST_CASE(every_command_reads_back_from_its_text)
         BOOST_TEST_REQUIRE(read.index() == command.index());
         BOOST_TEST_REQUIRE(toText(read) == text);
         // Files are read anew, so they are other objects.
-        if (command.index() <= Command(OpenCage{}).index()) continue;
+        if (std::holds_alternative<OpenModel>(command) || std::holds_alternative<OpenCage>(command)) continue;
         const std::optional<State> after = outcome(command);
         BOOST_REQUIRE(outcome(read).has_value() == after.has_value());
         if (!after) continue;

@@ -53,7 +53,7 @@ Reading measureFirstFrame(const std::string& model, const gl::OffscreenContext& 
                         AppSetup setup;
                         setup.isSoftware = context.isSoftware();
                         app.emplace(context.api(), std::move(setup));
-                        app->perform({"open", model});
+                        app->perform(OpenModel{model});
                         app->drawFrame();
                     });
     return reading;

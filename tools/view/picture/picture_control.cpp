@@ -212,7 +212,7 @@ void PictureControl::select(const std::vector<openvdb::Index32>& ids, PickAction
         selection = edit::removed(selection, these);
         break;
     }
-    if (selection != host_.session.state().view.selection) host_.attempt(toText(Select{selection}));
+    if (selection != host_.session.state().view.selection) host_.attempt(Select{selection});
 }
 
 std::optional<GizmoFrame> PictureControl::gizmoFrame() const

@@ -10,9 +10,9 @@ void Session::note(History<Value>& history, bool& hasDragged, const Value& befor
 {
     if (before == after) return;
     if (isDragging_ && hasDragged) {
-        history.rename(toText(command));
+        history.continued(command);
     } else {
-        history.changed(before, toText(command));
+        history.changed(before, command);
         hasDragged = isDragging_;
     }
 }

@@ -14,14 +14,14 @@ class History {
 public:
     bool canUndo() const { return !past_.empty(); }
     bool canRedo() const { return !future_.empty(); }
-    /// What the change is called that would be undone, or redone. \pre canUndo(), canRedo()
-    const std::string& undone() const { return past_.back().change; }
-    const std::string& redone() const { return future_.back().change; }
+    /// The line of the change that would be undone, or redone. \pre canUndo(), canRedo()
+    std::string undone() const { return toText(past_.back().change); }
+    std::string redone() const { return toText(future_.back().change); }
     /// Steps that can be undone.
     std::size_t depth() const { return past_.size(); }
 
     /// Notes that `before` was changed. What was undone can no longer be redone.
-    void changed(const Value& before, const std::string& change)
+    void changed(const Value& before, const Command& change)
     {
         past_.push_back({before, change});
         future_.clear();
@@ -32,8 +32,8 @@ public:
         value = std::move(past_.back().value);
         past_.pop_back();
     }
-    /// Gives the last step another name. \pre canUndo()
-    void rename(const std::string& change) { past_.back().change = change; }
+    /// The last step goes on: this is what it amounts to now. \pre canUndo()
+    void continued(const Command& change) { past_.back().change = change; }
 
     /// Makes `value` what it was before the last change, or after it again. Nothing happens where there is no such
     /// step.
@@ -43,7 +43,7 @@ public:
 private:
     struct Step {
         Value value;
-        std::string change;
+        Command change;
     };
     static void step(std::vector<Step>& from, std::vector<Step>& to, Value& value)
     {
