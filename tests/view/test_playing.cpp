@@ -25,7 +25,7 @@ struct Fixture : AppFixture {
         run(app, {"open " + quotedWord(files[0]), "wait", "mode pose", "wait", "select points 0 1 2 3", "move 0 0.5 0",
                   "in-betweens 11", "wait"});
     }
-    std::vector<Vec3d> points() const { return cagePoints(app.session().state()); }
+    std::vector<Vec3d> points() const { return cagePoints(app.session().state(), app.session().cage()); }
     std::string file(const std::string& name) const { return quotedWord((folder / name).string()); }
 };
 

@@ -306,14 +306,14 @@ private:
     std::enable_if_t<amountsToCommand<T>> runVerb(const T& verb)
     {
         const auto& symmetry = visible_ ? visible_->report.symmetry : std::nullopt;
-        doAndRecord(verb.command({session_.state(), symmetry ? &symmetry->plane : nullptr}));
+        doAndRecord(verb.command({session_.state(), session_.cage(), symmetry ? &symmetry->plane : nullptr}));
     }
 
     template <class T>
     std::enable_if_t<std::is_base_of_v<SaveFile, T>> runVerb(const T& verb)
     {
         saver_.save(verb.path, T::isSequence, [&](const fs::path& file) {
-            return T::writer({session_.state(), runner_.planner(), posing_}, file);
+            return T::writer({session_.state(), session_.cage(), runner_.planner(), posing_}, file);
         });
     }
 
@@ -502,7 +502,7 @@ private:
         content.binding = posing_.follower().binder().progress();
         content.isPosedCoarsely = posing_.follower().model().bound() && !posing_.follower().model().isWhole();
         content.keys = keys_;
-        content.selected = selectionFrame(session_.state(), {});
+        content.selected = selectionFrame(session_.state(), session_.cage(), {});
         if (saver_.isBusy()) content.saving = saver_.progress();
         content.bindingError = posing_.error();
         content.isPoseChecked = posing_.follower().isChecking();
@@ -575,10 +575,8 @@ private:
     {
         const Planner& planner = runner_.planner();
         const CageResultPtr cage = posing_.cageOf(session_.state(), planner);
-        if (cage != visible_ || session_.state().carried != posing_.carried()) {
-            visible_ = cage;
-            session_.setCage(cage ? MeshPtr(cage, &cage->cage) : nullptr, posing_.carried());
-        }
+        visible_ = cage;
+        if (session_.cage() != posing_.posable()) session_.setCage(posing_.posable());
         posing_.follow(session_.state(), planner,
                        !control_.isMoving() && !session_.isDragging() && !Animation::isPlaying(session_.state()));
         Shown shown;

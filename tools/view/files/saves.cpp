@@ -16,11 +16,12 @@ namespace {
 void requirePoses(const SaveSource& source, const std::string& verb)
 {
     // Of the cage that is seen; a new one may not have its poses yet.
-    if (source.state.cage.get() != &currentCage(source.planner, verb).cage) {
+    const Mesh& current = currentCage(source.planner, verb).cage;
+    if (!source.cage || source.cage->rest().get() != &current) {
         throw InputError(verb + ": the poses are not carried over to the new cage yet");
     }
     for (const PoseKey& key : source.state.document.poses.keys()) {
-        if (source.state.carried && source.state.carried->isGivenUp(key.pose)) {
+        if (source.cage->isGivenUp(key.pose)) {
             throw InputError(verb + ": a pose cannot be carried over to this cage: " + source.posing.error());
         }
     }
@@ -33,11 +34,11 @@ PosedScene posedScene(const SaveSource& source)
     requirePoses(source, T::info().name);
     const State& state = source.state;
     const TimeLine& poses = state.document.poses;
-    const CarriedPoses carried = state.carried ? *state.carried : CarriedPoses(state.cage);
     const int first = T::isSequence ? poses.firstFrame() : state.view.frame;
     const int last = T::isSequence ? poses.finalFrame() : first;
-    const auto binding = source.posing.follower().bindingOf(state);
-    return {bindOrder(state), binding, state.document.elasticity, poses, carried, first, last};
+    const BindOrder order = bindOrder(state.document, source.cage->rest());
+    const auto binding = source.posing.follower().bindingOf(order);
+    return {order, binding, state.document.elasticity, poses, *source.cage, first, last};
 }
 
 } // namespace
@@ -80,7 +81,9 @@ Write SaveColours::writer(const SaveSource& source, const fs::path& file)
 Write SaveWeights::writer(const SaveSource& source, const fs::path& file)
 {
     requirePoses(source, "save-weights");
-    return [order = bindOrder(source.state), file](Interrupter* i) { saveWeights(order, file, i); };
+    return [order = bindOrder(source.state.document, source.cage->rest()), file](Interrupter* i) {
+        saveWeights(order, file, i);
+    };
 }
 
 Write SaveCage::writer(const SaveSource& source, const fs::path& file)

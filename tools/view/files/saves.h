@@ -15,6 +15,7 @@ namespace vdbcage::view {
 /// What is saved.
 struct SaveSource {
     const State& state;
+    const ShownCage& cage;
     const Planner& planner;
     const Posing& posing;
 };

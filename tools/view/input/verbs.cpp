@@ -24,9 +24,9 @@ SetMirror toggledMirror(const Situation& now, int axis)
 {
     const State& state = now.state;
     if (state.view.mirror && state.view.mirror->axis == axis) return {};
-    if (!state.cage) throw InputError("toggle: there is no cage yet to be mirrored");
+    if (!now.cage) throw InputError("toggle: there is no cage yet to be mirrored");
     if (now.symmetry && now.symmetry->axis == axis) return {*now.symmetry};
-    const openvdb::BBoxd box = boundingBox(*state.cage);
+    const openvdb::BBoxd box = boundingBox(*now.cage->rest());
     return {SymmetryPlane{axis, 0.5 * (box.min()[axis] + box.max()[axis])}};
 }
 
@@ -34,8 +34,8 @@ SetMirror toggledMirror(const Situation& now, int axis)
 template <class T, class Change>
 Command selected(const Situation& now, const Change& change)
 {
-    if (!now.state.cage) throw InputError(T::info().name + ": there is no cage yet");
-    const edit::Elements elements(*now.state.cage);
+    if (!now.cage) throw InputError(T::info().name + ": there is no cage yet");
+    const edit::Elements elements(*now.cage->rest());
     return Select{change(elements, withinCage(now.state.view.selection, elements))};
 }
 

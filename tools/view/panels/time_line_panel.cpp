@@ -75,7 +75,7 @@ void buildControls(const PanelContext& context, std::map<std::string, std::strin
     ImGui::SameLine(0, length(18));
 
     const PoseKey* const key = poses.keyAt(view.frame);
-    ImGui::BeginDisabled(!state.cage);
+    ImGui::BeginDisabled(!context.content.session.cage());
     const float buttonWidth = length(70);
     const float nameWidth = ImGui::GetContentRegionAvail().x - buttonWidth - length(4);
     if (const auto name = typedField(context, typed, "key.name", key ? key->name : std::string(),

@@ -66,14 +66,14 @@ std::vector<Command> commandsFor(const ViewState& view)
     return listFor(view, static_cast<const Command*>(nullptr));
 }
 
-State applied(const State& state, const Command& command, std::string* remark)
+State applied(const State& state, const Command& command, const ShownCage& cage, std::string* remark)
 {
     State changed = state;
     const auto apply = [&](const auto& each) {
         if constexpr (changesView<std::decay_t<decltype(each)>>) {
             each.apply(changed.view);
         } else {
-            each.apply(changed.document, Situation{state, nullptr, remark});
+            each.apply(changed.document, Situation{state, cage, nullptr, remark});
         }
     };
     std::visit(apply, command);

@@ -54,9 +54,10 @@ LineHelp describeCommands();
 /// The commands that make this view of the default one, each layer and all.
 std::vector<Command> commandsFor(const ViewState& view);
 
-/// The state after the command. OpenModel, OpenCage, OpenPose and OpenPoses read their files. What moves or resets
-/// points needs a cage that is shown. `remark` gets what the user is to know of what was done, if there is anything.
-/// \throw InputError, IoError; the state is as it was
-State applied(const State& state, const Command& command, std::string* remark = nullptr);
+/// The state after the command. OpenModel, OpenCage, OpenPose and OpenPoses read their files. `cage` is the one that is
+/// shown: what moves or resets points needs it. `remark` gets what the user is to know of what was done, if there is
+/// anything. \throw InputError, IoError; the state is as it was
+State applied(const State& state, const Command& command, const ShownCage& cage = nullptr,
+              std::string* remark = nullptr);
 
 } // namespace vdbcage::view

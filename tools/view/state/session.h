@@ -57,10 +57,12 @@ private:
     std::vector<Step> past_, future_;
 };
 
-/// The state with two histories: of the document, which undo and redo are about, and of the view.
+/// The state with two histories: of the document, which undo and redo are about, and of the view. Beside it the cage
+/// that is shown: what is selected and moved are parts of it.
 class Session {
 public:
     const State& state() const { return state_; }
+    const ShownCage& cage() const { return cage_; }
 
     /// Applies the command. One that changes nothing leaves no step. `remark` as applied().
     /// \throw InputError, IoError; all is as it was
@@ -92,9 +94,8 @@ public:
     /// Another view without a step, as when it turns by itself.
     void replaceView(const ViewState& view) { state_.view = view; }
 
-    /// The cage at rest that is shown from now on; null: none. What is selected of it stays selected if its faces are
-    /// the same. `carried` are the poses that are known for it already; null: none.
-    void setCage(MeshPtr cage, std::shared_ptr<CarriedPoses> carried = nullptr);
+    /// The cage that is shown from now on. What is selected of it stays selected if its faces are the same.
+    void setCage(ShownCage cage);
 
     /// Takes another state, such as a scene's, and forgets the past.
     void restart(State state);
@@ -105,9 +106,11 @@ private:
               const Command& command);
 
     State state_;
+    ShownCage cage_; ///< it follows from the document, so it has no history
     History<Document> documents_;
     History<ViewState> views_;
     State dragged_; ///< before the drag
+    ShownCage draggedCage_;
     bool isDragging_ = false, hasDraggedDocument_ = false, hasDraggedView_ = false;
 };
 

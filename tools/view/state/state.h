@@ -183,11 +183,6 @@ inline bool operator!=(const ViewState& a, const ViewState& b)
 struct State {
     Document document;
     ViewState view;
-    /// The cage at rest that is shown; null: none. It follows from the document after a while, so it has no history.
-    /// What is selected and moved are parts of it.
-    MeshPtr cage;
-    /// What the document's poses are for that cage. Null: they are carried over whenever they are needed.
-    std::shared_ptr<CarriedPoses> carried;
 };
 
 /// Values are compared as their text is; models by being the same object, since one that was read anew may differ.
@@ -197,7 +192,6 @@ inline bool operator!=(const Document& a, const Document& b)
 {
     return !(a == b);
 }
-/// By what a user can change.
 inline bool operator==(const State& a, const State& b)
 {
     return a.document == b.document && a.view == b.view;

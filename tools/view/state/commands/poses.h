@@ -28,7 +28,7 @@ struct OpenPose {
     std::string text() const { return written(path); }
     void apply(Document& document, const Situation& now) const
     {
-        document = withOpenedPose(now.state, path, now.remark);
+        document = withOpenedPose(now.state, now.cage, path, now.remark);
     }
 };
 
@@ -49,7 +49,7 @@ struct OpenPoses {
     std::string text() const { return written(path) + (frames == OpenPoses().frames ? "" : written(frames)); }
     void apply(Document& document, const Situation& now) const
     {
-        document = withOpenedPoses(now.state, path, frames, now.remark);
+        document = withOpenedPoses(now.state, now.cage, path, frames, now.remark);
     }
 };
 
@@ -69,7 +69,7 @@ struct SetKey {
         return line;
     }
     std::string text() const { return written(frame) + (name ? written(*name) : ""); }
-    void apply(Document& document, const Situation& now) const { document = withKey(now.state, frame, name); }
+    void apply(Document& document, const Situation& now) const { document = withKey(now.state, now.cage, frame, name); }
 };
 
 struct DeleteKey {
@@ -117,7 +117,10 @@ struct MakeInBetweens {
     }
     static MakeInBetweens read(const Arguments& arguments) { return {arguments.whole(0, 2, lastFrame + 1)}; }
     std::string text() const { return written(frames); }
-    void apply(Document& document, const Situation& now) const { document = withInBetweens(now.state, frames); }
+    void apply(Document& document, const Situation& now) const
+    {
+        document = withInBetweens(now.state, now.cage, frames);
+    }
 };
 
 struct ClearPoses {

@@ -15,7 +15,10 @@ struct MoveSelected {
     static LineInfo info() { return {"move", "X Y Z", 3, 3, "moves what is selected, in world units"}; }
     static MoveSelected read(const Arguments& arguments) { return {arguments.vector(0)}; }
     std::string text() const { return written(by); }
-    void apply(Document& document, const Situation& now) const { document = withMotion(now.state, edit::Move{by}); }
+    void apply(Document& document, const Situation& now) const
+    {
+        document = withMotion(now.state, now.cage, edit::Move{by});
+    }
 };
 
 struct RotateSelected {
@@ -36,7 +39,7 @@ struct RotateSelected {
     std::string text() const { return written(axis, degrees, pivot); }
     void apply(Document& document, const Situation& now) const
     {
-        document = withMotion(now.state, edit::Rotate{axis.unit(), degrees, pivot});
+        document = withMotion(now.state, now.cage, edit::Rotate{axis.unit(), degrees, pivot});
     }
 };
 
@@ -73,7 +76,7 @@ struct ScaleSelected {
     void apply(Document& document, const Situation& now) const
     {
         const openvdb::Vec3d x = axes[0].unit(), y = (axes[1] - x * x.dot(axes[1])).unit();
-        document = withMotion(now.state, edit::Scale{factors, {x, y, x.cross(y)}, pivot});
+        document = withMotion(now.state, now.cage, edit::Scale{factors, {x, y, x.cross(y)}, pivot});
     }
 };
 
@@ -88,7 +91,7 @@ struct EditCage {
     }
     static EditCage read(const Arguments& arguments) { return {arguments.choice<CageEdit>(0, cageEditNames)}; }
     std::string text() const { return written(nameIn(cageEditNames, edit)); }
-    void apply(Document& document, const Situation& now) const { document = withEdit(now.state, edit); }
+    void apply(Document& document, const Situation& now) const { document = withEdit(now.state, now.cage, edit); }
 };
 
 /// At the view's frame.
@@ -101,7 +104,10 @@ struct ResetPose {
     }
     static ResetPose read(const Arguments& arguments) { return {arguments.choice<int>(0, allOrSelected) == 1}; }
     std::string text() const { return written(nameIn(allOrSelected, onlySelected)); }
-    void apply(Document& document, const Situation& now) const { document = withResetPose(now.state, onlySelected); }
+    void apply(Document& document, const Situation& now) const
+    {
+        document = withResetPose(now.state, now.cage, onlySelected);
+    }
 
 private:
     static constexpr std::array<const char*, 2> allOrSelected{"all", "selected"};
