@@ -26,8 +26,12 @@ State startingState()
     model.mesh = test::box({0, 0, 0}, {1, 1, 1});
     State state;
     state.document.model = std::make_shared<const OpenedMesh>(model);
-    state.cage = std::make_shared<const Mesh>(test::sphere({0.5, 0.5, 0.5}, 1, 4));
     return state;
+}
+
+ShownCage startingCage()
+{
+    return std::make_shared<PosableCage>(std::make_shared<const Mesh>(test::sphere({0.5, 0.5, 0.5}, 1, 4)));
 }
 
 template <typename... Some>
@@ -49,7 +53,7 @@ void requireComesBack(const Command& command)
     require(toText(commandOf(wordsOf(text))) == text);
 }
 
-void perform(State& state, const std::string& line)
+void perform(State& state, const ShownCage& cage, const std::string& line)
 {
     try {
         const std::vector<std::string> words = wordsOf(line);
@@ -60,7 +64,7 @@ void perform(State& state, const std::string& line)
         const Command command = commandOf(words);
         requireComesBack(command);
         if (opensFiles(command)) return;
-        state = applied(state, command);
+        state = applied(state, command, cage);
     } catch (const InputError& error) {
         fuzz::requireOneLine(error.what());
     } catch (const IoError& error) { // options may name files, too
@@ -73,8 +77,9 @@ void perform(State& state, const std::string& line)
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
 {
     State state = startingState();
+    const ShownCage cage = startingCage();
     std::istringstream lines(fuzz::textOf(data, size));
-    for (std::string line; std::getline(lines, line);) perform(state, line);
+    for (std::string line; std::getline(lines, line);) perform(state, cage, line);
     State again;
     for (const Command& command : commandsFor(state.view)) {
         require(!changesDocument(command));

@@ -41,9 +41,9 @@ void readPreset(const std::string& text)
 
 void readParameters(const std::filesystem::path& path)
 {
-    view::State state;
-    state.cage = std::make_shared<const Mesh>(test::box({0, 0, 0}, {1, 1, 1}));
-    const view::Document document = view::withOpenedPoses(state, path, 3);
+    const auto cage =
+        std::make_shared<view::PosableCage>(std::make_shared<const Mesh>(test::box({0, 0, 0}, {1, 1, 1})));
+    const view::Document document = view::withOpenedPoses({}, cage, path, 3);
     require(document.poses.keys().size() == 2);
     for (const view::PoseKey& key : document.poses.keys()) {
         if (!key.pose) continue; // at rest

@@ -101,7 +101,7 @@ BOOST_AUTO_TEST_CASE(undoing_ten_thousand_commands_gives_the_first_picture)
 {
     App app(context.api(), setup());
     run(app, {"open " + quotedWord(files[0]), "times off", "wait"});
-    while (app.session().documents().canUndo()) app.perform({"undo"});
+    while (app.session().documents().canUndo()) app.perform(Undo{});
     run(app, {"redo", "wait"});
     const draw::Picture first = app.picture();
     const std::size_t documents = app.session().documents().depth(), views = app.session().views().depth();
@@ -109,18 +109,18 @@ BOOST_AUTO_TEST_CASE(undoing_ten_thousand_commands_gives_the_first_picture)
     for (int i = 0; i < 10000; ++i) {
         const Command command = test::randomCommand(random, files);
         if (std::holds_alternative<SetTurntable>(command)) continue; // would never stand still
-        app.perform(wordsOf(toText(command)));
+        app.perform(actionOf(wordsOf(toText(command))));
     }
     run(app, {"wait"});
     const State last = app.session().state();
     BOOST_TEST(app.session().documents().depth() > 1000);
     BOOST_TEST(app.session().views().depth() > 1000);
-    while (app.session().documents().depth() > documents) app.perform({"undo"});
-    while (app.session().views().depth() > views) app.perform({"undo-view"});
+    while (app.session().documents().depth() > documents) app.perform(Undo{});
+    while (app.session().views().depth() > views) app.perform(UndoView{});
     run(app, {"wait"});
     BOOST_TEST(samePicture(app.picture(), first));
-    while (app.session().documents().canRedo()) app.perform({"redo"});
-    while (app.session().views().canRedo()) app.perform({"redo-view"});
+    while (app.session().documents().canRedo()) app.perform(Redo{});
+    while (app.session().views().canRedo()) app.perform(RedoView{});
     BOOST_CHECK(app.session().state() == last);
 }
 

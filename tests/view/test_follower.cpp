@@ -40,20 +40,23 @@ struct Fixture {
         State state;
         state.document.model = model;
         session.restart(state);
-        session.setCage(cage);
+        session.setCage(test::shown(cage));
         run("mode pose");
         run("select points 0 1 2 3 4 5 6 7 8 9 10 11 12");
     }
     void run(const std::string& line) { session.execute(commandOf(wordsOf(line))); }
-    std::vector<Vec3d> points() const { return cagePoints(session.state()); }
+    std::vector<Vec3d> points() const { return cagePoints(session.state(), session.cage()); }
+    void followOnce(const Follower::Effort& effort)
+    {
+        follower.follow(session.state(), session.cage()->rest(), points(), effort);
+    }
     void follow(Follower::Effort effort = {true, true, true})
     {
-        for (follower.follow(session.state(), points(), effort); !follower.isSettled();
-             follower.follow(session.state(), points(), effort)) {
+        for (followOnce(effort); !follower.isSettled(); followOnce(effort)) {
             follower.waitForNews(1);
             follower.update();
         }
-        follower.follow(session.state(), points(), effort);
+        followOnce(effort);
     }
 };
 
@@ -100,11 +103,12 @@ BOOST_AUTO_TEST_CASE(another_material_poses_it_anew_but_binds_nothing)
                                          Elasticity{-0.5, Elasticity::Rotations::local, 10, 0}}) {
         session.execute(SetMaterial{elasticity});
         // At once, before anything is waited for.
-        follower.follow(session.state(), points(), {true, true, false});
+        followOnce({true, true, false});
         const Binding other = binding.with(elasticity);
         BOOST_TEST(follower.model().points() == other.pose(points()), boost::test_tools::per_element());
         BOOST_TEST(follower.model().points() != before);
-        BOOST_TEST(follower.bindingOf(session.state())->pose(points()) == other.pose(points()),
+        BOOST_TEST(follower.bindingOf(bindOrder(session.state().document, session.cage()->rest()))->pose(points()) ==
+                       other.pose(points()),
                    boost::test_tools::per_element());
         follow();
         const std::vector<std::uint32_t>& inverted = *follower.check()->inverted;
@@ -115,7 +119,8 @@ BOOST_AUTO_TEST_CASE(another_material_poses_it_anew_but_binds_nothing)
         BOOST_TEST((*follower.values() == stretch(model->mesh, other.pose(points()))));
         run("model-colours influence");
         follow();
-        BOOST_TEST((*follower.values() == influence(other, selectedPoints(session.state()))));
+        BOOST_TEST((*follower.values() ==
+                    influence(other, selectedPoints(*session.cage()->rest(), session.state().view.selection))));
         run("model-colours inverted");
     }
     BOOST_TEST(counts > 0u); // the verdicts differ
@@ -171,11 +176,7 @@ BOOST_AUTO_TEST_CASE(both_pictures_have_the_material)
     BOOST_TEST_REQUIRE(planner.isHalted());
     Posing posing(work, [] {});
     const auto follow = [&] {
-        const CageResultPtr shown = posing.cageOf(state, planner);
-        if (!shown) return;
-        state.cage = MeshPtr(shown, &shown->cage);
-        state.carried = posing.carried();
-        posing.follow(state, planner, true);
+        if (posing.cageOf(state, planner)) posing.follow(state, planner, true);
     };
     for (follow(); !posing.compared() || !posing.isSettled(); follow()) {
         posing.waitForNews(1);
@@ -230,8 +231,7 @@ BOOST_AUTO_TEST_CASE(a_count_that_was_stopped_is_begun_anew)
     for (int i = 0; i < 20; ++i) {
         run("coordinates mlc");
         const Follower::Effort effort{true, true, true};
-        for (follower.follow(session.state(), points(), effort); !follower.isChecking();
-             follower.follow(session.state(), points(), effort)) {
+        for (followOnce(effort); !follower.isChecking(); followOnce(effort)) {
             follower.waitForNews(1);
             follower.update();
         }
@@ -276,7 +276,7 @@ BOOST_AUTO_TEST_CASE(weights_from_a_file_pose_it)
     BOOST_TEST(!follower.check()->inverted);
     BOOST_TEST(follower.error().empty());
     // Of another cage: it says so, and all else goes on.
-    session.setCage(std::make_shared<const Mesh>(test::torus(2, 0.6, 16, 9)));
+    session.setCage(test::shown(test::torus(2, 0.6, 16, 9)));
     follow();
     BOOST_TEST(follower.error().find("w.dmat") != std::string::npos, follower.error());
     run("coordinates mvc");
@@ -303,8 +303,8 @@ BOOST_AUTO_TEST_CASE(a_cage_is_seen_when_its_poses_are_there_and_mode_shape_wait
         posing.waitForNews(1);
         posing.update();
     }
-    BOOST_TEST((&shown->cage.points == &posing.carried()->cage()->points));
-    BOOST_TEST(posing.carried()->has(state.document.poses.keys()[0].pose));
+    BOOST_TEST((&shown->cage.points == &posing.posable()->rest()->points));
+    BOOST_TEST(posing.posable()->has(state.document.poses.keys()[0].pose));
     // Tab while it is carried over to a third one.
     OpenedMesh third;
     third.mesh = test::torus(2, 0.8, 20, 8);

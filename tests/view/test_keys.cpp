@@ -131,7 +131,7 @@ BOOST_AUTO_TEST_CASE(buttons_turn_move_and_zoom_the_view_by_the_map)
 BOOST_AUTO_TEST_CASE(in_mayas_map_drags_are_boxes_and_lassos)
 {
     run(app, {"keys maya", "frame all"});
-    const int all = static_cast<int>(app.session().state().cage->points.size());
+    const int all = static_cast<int>(app.session().cage()->rest()->points.size());
     const std::vector<Pixel> left{{0, 0}, {0.53, 1}}, right{{0.47, 0}, {1, 1}};
     drag("left", left);
     const int few = selected();
@@ -201,7 +201,7 @@ BOOST_AUTO_TEST_CASE(handles_are_dragged_in_mayas_map_and_alt_turns_the_view_on_
 
 BOOST_AUTO_TEST_CASE(keys_are_mayas)
 {
-    const std::string all = std::to_string(app.session().state().cage->points.size());
+    const std::string all = std::to_string(app.session().cage()->rest()->points.size());
     run(app, {"keys maya",
               "key e",
               "expect tool rotate",

@@ -25,7 +25,7 @@ struct Fixture : AppFixture {
         run(app,
             {"open " + quotedWord(files[0]), "wait", "mode pose", "select points 0 1 2 3", "move 0 0.5 0", "wait"});
     }
-    std::vector<Vec3d> points() const { return cagePoints(app.session().state()); }
+    std::vector<Vec3d> points() const { return cagePoints(app.session().state(), app.session().cage()); }
     std::string file(const std::string& name) const { return quotedWord((folder / name).string()); }
 };
 
@@ -41,7 +41,8 @@ BOOST_AUTO_TEST_CASE(what_is_saved_has_the_material)
               "save-posed-models " + file("m.%04d.ply"), "wait", "expect bound yes"});
     const State& state = app.session().state();
     const Mesh& model = state.document.model->mesh;
-    const Binding binding = Binding(*state.cage, model.points, Coordinates::somigliana).with(elasticity);
+    const ShownCage& cage = app.session().cage();
+    const Binding binding = Binding(*cage->rest(), model.points, Coordinates::somigliana).with(elasticity);
     Mesh expected = model;
     expected.points = binding.pose(points());
     writeMesh(expected, folder / "expected.ply");
@@ -50,7 +51,7 @@ BOOST_AUTO_TEST_CASE(what_is_saved_has_the_material)
     BOOST_TEST((readText(folder / "m.0000.ply") == readText(folder / "seen.ply")));
     BOOST_TEST((readText(folder / "plain.ply") != readText(folder / "seen.ply")));
     // Where nothing is bound yet.
-    savePosedModels({bindOrder(state), nullptr, elasticity, state.document.poses, *state.carried, 0, 0},
+    savePosedModels({bindOrder(state.document, cage->rest()), nullptr, elasticity, state.document.poses, *cage, 0, 0},
                     folder / "bound.ply", nullptr);
     BOOST_TEST((readText(folder / "bound.ply") == readText(folder / "seen.ply")));
 }

@@ -43,12 +43,12 @@ struct Posing {
         State state;
         state.document.model = model;
         session.restart(state);
-        session.setCage(cage);
+        session.setCage(test::shown(cage));
         run("mode pose");
         run("select points 0 1 2 3 4 5 6 7");
     }
     void run(const std::string& line) { session.execute(commandOf(wordsOf(line))); }
-    std::vector<Vec3d> points() const { return cagePoints(session.state()); }
+    std::vector<Vec3d> points() const { return cagePoints(session.state(), session.cage()); }
 };
 
 double largestDistance(const std::vector<Vec3d>& a, const std::vector<Vec3d>& b)
@@ -171,7 +171,7 @@ BOOST_AUTO_TEST_CASE(in_mode_shape_the_cage_itself_is_moved_and_its_pose_rides_a
     BOOST_TEST_REQUIRE(edited.get());
     BOOST_TEST(edited->path.empty());
     BOOST_TEST(edited->mesh.points[100] == cage->points[100] + Vec3d(0, 0.01, 0));
-    session.setCage(MeshPtr(edited, &edited->mesh));
+    session.setCage(test::shown(MeshPtr(edited, &edited->mesh)));
     run("mode pose");
     const std::vector<Vec3d> carried = points();
     for (std::size_t i = 0; i < carried.size(); ++i) {
@@ -186,7 +186,7 @@ BOOST_AUTO_TEST_CASE(edges_are_split_collapsed_flipped_merged_and_cut)
     run("mode shape");
     const auto shape = [&] {
         const OpenedMeshPtr edited = session.state().document.cage;
-        session.setCage(MeshPtr(edited, &edited->mesh));
+        session.setCage(test::shown(MeshPtr(edited, &edited->mesh)));
         return edited->mesh;
     };
     const std::size_t quads = cage->quads.size(), triangles = cage->triangles.size();
@@ -262,7 +262,7 @@ BOOST_AUTO_TEST_CASE(edges_that_are_collapsed_together_are_those_that_were_selec
                 }
             }
         }
-        session.setCage(std::make_shared<const Mesh>(plain));
+        session.setCage(test::shown(plain));
         session.execute(Select{{edit::Element::edge, ids}});
         if (isRefused) {
             BOOST_CHECK_THROW(run("edit-cage collapse"), InputError);
@@ -301,9 +301,9 @@ BOOST_AUTO_TEST_CASE(where_nothing_is_selected_nothing_moves)
 
 BOOST_AUTO_TEST_CASE(what_is_selected_is_forgotten_with_its_faces)
 {
-    session.setCage(std::make_shared<const Mesh>(*cage));
+    session.setCage(test::shown(*cage));
     BOOST_TEST(session.state().view.selection.ids.size() == 8u);
-    session.setCage(std::make_shared<const Mesh>(test::box({0, 0, 0}, {1, 1, 1})));
+    session.setCage(test::shown(test::box({0, 0, 0}, {1, 1, 1})));
     BOOST_TEST(session.state().view.selection.ids.empty());
 }
 
@@ -312,14 +312,14 @@ BOOST_AUTO_TEST_CASE(axes_of_what_is_selected)
     const std::array<Vec3d, 3> view{Vec3d(0, 0, -1), Vec3d(0, 1, 0), Vec3d(1, 0, 0)};
     for (const char* orientation : {"world", "local", "normal", "view"}) {
         run(std::string("orientation ") + orientation);
-        const auto frame = selectionFrame(session.state(), view);
+        const auto frame = selectionFrame(session.state(), session.cage(), view);
         BOOST_TEST_REQUIRE(frame.has_value());
         for (std::size_t i = 0; i < 3; ++i) {
             BOOST_TEST(std::abs(frame->axes[i].length() - 1) < 1e-12);
             BOOST_TEST((frame->axes[i].cross(frame->axes[(i + 1) % 3]) - frame->axes[(i + 2) % 3]).length() < 1e-9);
         }
     }
-    BOOST_TEST((selectionFrame(session.state(), view)->axes[0] == view[0]));
+    BOOST_TEST((selectionFrame(session.state(), session.cage(), view)->axes[0] == view[0]));
 }
 
 BOOST_AUTO_TEST_CASE(the_pivot_is_where_it_is_chosen_and_axes_do_not_depend_on_it)
@@ -334,11 +334,11 @@ BOOST_AUTO_TEST_CASE(the_pivot_is_where_it_is_chosen_and_axes_do_not_depend_on_i
     }
     const Vec3d middle = 0.5 * (box.min() + box.max());
     BOOST_TEST((middle - mean).length() > 0.1);
-    const auto axes = selectionFrame(session.state(), {})->axes;
+    const auto axes = selectionFrame(session.state(), session.cage(), {})->axes;
     for (const auto& [text, expected] : std::vector<std::pair<std::string, Vec3d>>{
              {"mean", mean}, {"box", middle}, {"origin", Vec3d(0)}, {"0.25 -1 3", Vec3d(0.25, -1, 3)}}) {
         run("pivot " + text);
-        const auto frame = selectionFrame(session.state(), {});
+        const auto frame = selectionFrame(session.state(), session.cage(), {});
         BOOST_TEST_CONTEXT(text)
         {
             BOOST_TEST((frame->origin - expected).length() < 1e-12);
@@ -350,7 +350,8 @@ BOOST_AUTO_TEST_CASE(the_pivot_is_where_it_is_chosen_and_axes_do_not_depend_on_i
     // It follows what is posed, and is undone with the view.
     run("pivot box");
     run("move 1 2 3");
-    BOOST_TEST((selectionFrame(session.state(), {})->origin - middle - Vec3d(1, 2, 3)).length() < 1e-12);
+    BOOST_TEST((selectionFrame(session.state(), session.cage(), {})->origin - middle - Vec3d(1, 2, 3)).length() <
+               1e-12);
     session.undoView();
     BOOST_CHECK((session.state().view.pivot == Pivot{Pivot::Kind::point, {0.25, -1, 3}}));
 }

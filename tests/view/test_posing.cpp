@@ -25,7 +25,7 @@ struct Fixture : AppFixture {
     App app{context.api(), setup()};
 
     Fixture() { run(app, {"open " + quotedWord(files[0]), "wait", "mode pose", "wait", "key 1"}); }
-    std::vector<Vec3d> points() const { return cagePoints(app.session().state()); }
+    std::vector<Vec3d> points() const { return cagePoints(app.session().state(), app.session().cage()); }
     /// The last line does what was done, which is undone.
     void checkLine(const std::string& tool, const std::vector<Vec3d>& before)
     {
@@ -63,7 +63,7 @@ BOOST_AUTO_TEST_CASE(typed_numbers_are_those_of_the_command)
     };
     selectBox(0, 0, 1, 0.4);
     BOOST_TEST(std::stoi(app.value("selected")) > 3);
-    const auto frame = selectionFrame(app.session().state(), {});
+    const auto frame = selectionFrame(app.session().state(), app.session().cage(), {});
     BOOST_TEST_REQUIRE(frame.has_value());
     const std::string pivot = toText(RotateSelected{{0, 0, 1}, 30, frame->origin}).substr(16);
     for (const Case& c :
@@ -105,7 +105,7 @@ BOOST_AUTO_TEST_CASE(what_a_drag_does_is_what_its_line_does)
 BOOST_AUTO_TEST_CASE(what_is_turned_and_scaled_turns_about_the_pivot)
 {
     selectBox(0.3, 0, 1, 0.6);
-    const auto mean = selectionFrame(app.session().state(), {})->mean;
+    const auto mean = selectionFrame(app.session().state(), app.session().cage(), {})->mean;
     for (const char* pivot : {"mean", "box", "origin", "point", "1 2 -3"}) {
         BOOST_TEST_CONTEXT(pivot)
         {
@@ -114,9 +114,9 @@ BOOST_AUTO_TEST_CASE(what_is_turned_and_scaled_turns_about_the_pivot)
             } else {
                 run(app, {"pivot mean", std::string("widget pivot ") + pivot}); // by the list of the bar
             }
-            const Vec3d at = selectionFrame(app.session().state(), {})->origin;
+            const Vec3d at = selectionFrame(app.session().state(), app.session().cage(), {})->origin;
             const std::vector<Vec3d> before = points();
-            const auto selected = selectedPoints(app.session().state());
+            const auto selected = selectedPoints(*app.session().cage()->rest(), app.session().state().view.selection);
             run(app, {"key r", "key z", "key 9", "key 0", "key enter"});
             BOOST_TEST(recorded.back() == toText(RotateSelected{{0, 0, 1}, 90, at}));
             for (const openvdb::Index32 i : selected) {
@@ -139,7 +139,7 @@ BOOST_AUTO_TEST_CASE(what_is_turned_and_scaled_turns_about_the_pivot)
 BOOST_AUTO_TEST_CASE(handles_stand_at_the_pivot_and_what_is_moved_freely_stays_under_the_pointer)
 {
     selectBox(0, 0, 1, 0.4);
-    const auto mean = selectionFrame(app.session().state(), {})->mean;
+    const auto mean = selectionFrame(app.session().state(), app.session().cage(), {})->mean;
     const auto place = [&] {
         const auto handle = app.widget("handle.screen");
         BOOST_TEST_REQUIRE(handle.has_value());
@@ -188,7 +188,7 @@ BOOST_AUTO_TEST_CASE(a_coordinate_that_is_typed_is_where_what_is_selected_goes)
     BOOST_TEST(!app.widget("selected.x"));
     selectBox(0, 0, 1, 0.4);
     runLine(app, "pivot origin"); // the fields are about the mean all the same
-    const auto mean = [&] { return selectionFrame(app.session().state(), {})->mean; };
+    const auto mean = [&] { return selectionFrame(app.session().state(), app.session().cage(), {})->mean; };
     for (const char* axis : {"x", "y", "z"}) {
         const int k = axis[0] - 'x';
         for (const double to : {0.3, -1.0 / 3, 1e-7, 0.0}) {
@@ -227,7 +227,7 @@ BOOST_AUTO_TEST_CASE(a_field_that_is_typed_into_keeps_its_text_and_nonsense_is_a
         run(app,
             {map, "mouse move selected.x", "mouse click", "key control+a", "key w", "key g", "type 0.", "move 0 1 0",
              "expect tool select", "type 25", "key enter", "expect messages 0", "expect tool select"});
-        BOOST_TEST(std::abs(selectionFrame(app.session().state(), {})->mean.x() - 0.25) < 1e-14);
+        BOOST_TEST(std::abs(selectionFrame(app.session().state(), app.session().cage(), {})->mean.x() - 0.25) < 1e-14);
         run(app, {"undo", "undo"});
         BOOST_TEST(points() == before, boost::test_tools::per_element());
     }
@@ -235,7 +235,7 @@ BOOST_AUTO_TEST_CASE(a_field_that_is_typed_into_keeps_its_text_and_nonsense_is_a
     run(app, {"mouse move selected.y", "mouse click", "type 7", "key escape"});
     BOOST_TEST(points() == before, boost::test_tools::per_element());
     run(app, {"mouse move selected.y", "mouse click", "type 7", "mouse move picture 0.01 0.01", "mouse down"});
-    BOOST_TEST(std::abs(selectionFrame(app.session().state(), {})->mean.y() - 7) < 1e-13);
+    BOOST_TEST(std::abs(selectionFrame(app.session().state(), app.session().cage(), {})->mean.y() - 7) < 1e-13);
     runLine(app, "mouse up");
 }
 
@@ -256,7 +256,7 @@ BOOST_AUTO_TEST_CASE(escape_gives_up_and_undo_gives_the_first_picture)
 
 BOOST_AUTO_TEST_CASE(keys_select)
 {
-    const int count = static_cast<int>(app.session().state().cage->points.size());
+    const int count = static_cast<int>(app.session().cage()->rest()->points.size());
     run(app, {"key a", "expect selected " + std::to_string(count), "key control+i", "expect selected 0", "key a",
               "key alt+a", "expect selected 0", "see-through on"});
     selectBox(0, 0, 1, 0.3);
@@ -283,7 +283,7 @@ BOOST_AUTO_TEST_CASE(boxes_and_lassos_add_and_take_out)
         return std::stoi(app.value("selected"));
     };
     run(app, {"see-through on", "frame all"});
-    const int all = static_cast<int>(app.session().state().cage->points.size());
+    const int all = static_cast<int>(app.session().cage()->rest()->points.size());
     // They overlap in the middle, where there are points too.
     const std::vector<Pixel> leftBox{{0, 0}, {0.53, 1}}, rightBox{{0.47, 0}, {1, 1}};
     const std::vector<Pixel> leftLasso{{0, 0}, {0.53, 0}, {0.53, 1}, {0, 1}},
@@ -342,14 +342,16 @@ BOOST_AUTO_TEST_CASE(a_pose_stays_with_another_cage_and_a_scene_keeps_it)
     const draw::Picture posed = app.picture();
     App other(context.api(), setup());
     run(other, {"open-scene " + quotedWord(scene.string()), "wait", "mouse move picture 0.01 0.99"});
-    BOOST_TEST(cagePoints(other.session().state()) == points(), boost::test_tools::per_element());
-    other.attempt("save-scene " + quotedWord(again.string()));
+    BOOST_TEST(cagePoints(other.session().state(), other.session().cage()) == points(),
+               boost::test_tools::per_element());
+    other.attempt(SaveScene{again.string()});
     for (const char* ending : {".cage.obj", ".rest.obj", ".pose.0000.obj"}) {
         const Mesh a = readMesh(fs::path(scene).replace_extension(ending));
         BOOST_TEST(sameMesh(a, readMesh(fs::path(again).replace_extension(ending))));
     }
     run(other, {"set faces 500", "wait", "expect posed yes"}); // the ball is the same
-    BOOST_TEST(cagePoints(other.session().state()) == points(), boost::test_tools::per_element());
+    BOOST_TEST(cagePoints(other.session().state(), other.session().cage()) == points(),
+               boost::test_tools::per_element());
 }
 
 BOOST_AUTO_TEST_CASE(a_cage_that_is_edited_is_seen_and_moved_at_once)
@@ -359,7 +361,7 @@ BOOST_AUTO_TEST_CASE(a_cage_that_is_edited_is_seen_and_moved_at_once)
     run(app, {"move 0 0.01 0", "move 0 0.01 0"});
     BOOST_TEST(app.session().state().document.cage->path.empty());
     const Mesh& edited = app.session().state().document.cage->mesh;
-    BOOST_TEST(app.session().state().cage->points == edited.points, boost::test_tools::per_element());
+    BOOST_TEST(app.session().cage()->rest()->points == edited.points, boost::test_tools::per_element());
     run(app, {"wait", "expect standing current", "undo", "undo", "wait", "expect opened-cage none"});
 }
 

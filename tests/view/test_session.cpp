@@ -41,17 +41,17 @@ BOOST_AUTO_TEST_CASE(every_command_reads_back_from_its_text)
     const Files files;
     std::mt19937 random(1);
     State state = applied({}, OpenModel{files.list[0]});
-    state.cage = std::make_shared<const Mesh>(test::torus(1, 0.3, 16, 8));
+    const ShownCage cage = test::shown(test::torus(1, 0.3, 16, 8));
     const auto outcome = [&](const Command& command) -> std::optional<State> {
         try {
-            return applied(state, command);
+            return applied(state, command, cage);
         } catch (const InputError&) { // nothing is selected, or it cannot be changed so
             return std::nullopt;
         }
     };
     const std::string posed = (files.folder.path() / "posed.obj").string();
     const std::string parameters = (files.folder.path() / "posed.param").string();
-    writeMesh(*state.cage, posed);
+    writeMesh(*cage->rest(), posed);
     test::writeText(parameters, "-1 1 1 0 0.1 0.2 0.3");
     std::vector<int> seen(std::variant_size_v<Command>);
     for (int i = 0; i < 10000; ++i) {
@@ -65,7 +65,7 @@ BOOST_AUTO_TEST_CASE(every_command_reads_back_from_its_text)
         BOOST_TEST_REQUIRE(read.index() == command.index());
         BOOST_TEST_REQUIRE(toText(read) == text);
         // Files are read anew, so they are other objects.
-        if (command.index() <= Command(OpenCage{}).index()) continue;
+        if (std::holds_alternative<OpenModel>(command) || std::holds_alternative<OpenCage>(command)) continue;
         const std::optional<State> after = outcome(command);
         BOOST_REQUIRE(outcome(read).has_value() == after.has_value());
         if (!after) continue;
@@ -94,7 +94,7 @@ BOOST_AUTO_TEST_CASE(undoing_all_gives_the_first_state_and_redoing_all_the_last)
     const State opened = session.state();
     session = Session();
     session.restart(opened);
-    session.setCage(std::make_shared<const Mesh>(test::torus(1, 0.3, 16, 8)));
+    session.setCage(test::shown(test::torus(1, 0.3, 16, 8)));
     for (int i = 0; i < 10000; ++i) {
         if (random() % 50 == 0) session.beginDrag();
         if (random() % 40 == 0) session.endDrag();

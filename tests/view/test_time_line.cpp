@@ -37,7 +37,7 @@ struct Fixture {
         const fs::path model = folder / "model.obj";
         writeMesh(test::box({0.2, 0.2, 0.2}, {0.8, 0.8, 0.8}), model);
         run("open " + quotedWord(model.string()));
-        session.setCage(cage);
+        session.setCage(test::shown(cage));
         run("mode pose");
         run("select points 0 1 2");
     }
@@ -49,8 +49,8 @@ struct Fixture {
     }
     const State& state() const { return session.state(); }
     const TimeLine& poses() const { return state().document.poses; }
-    std::vector<Vec3d> points() const { return cagePoints(state()); }
-    std::vector<Vec3d> at(int frame) const { return posedPoints(state(), frame); }
+    std::vector<Vec3d> points() const { return cagePoints(state(), session.cage()); }
+    std::vector<Vec3d> at(int frame) const { return pointsAt(poses(), frame, *session.cage()); }
 
     /// The cage with point 0 moved, as a file.
     void writePosed(const std::string& name, const Vec3d& by) const
@@ -104,7 +104,7 @@ BOOST_AUTO_TEST_CASE(any_keys_are_as_a_map_of_them, *boost::unit_test::label("pr
             BOOST_TEST(line.firstFrame() == reference.begin()->first);
             BOOST_TEST(line.finalFrame() == reference.rbegin()->first);
         }
-        CarriedPoses carried(cage);
+        PosableCage carried(cage);
         for (int frame = 0; frame < 32; ++frame) {
             const auto next = reference.lower_bound(frame);
             double x = 0;
@@ -220,7 +220,7 @@ BOOST_AUTO_TEST_CASE(points_in_another_order_are_put_into_order)
 {
     std::mt19937 random(1);
     const Mesh rest = test::lopsided(test::torus(2, 1, 8, 6));
-    session.setCage(std::make_shared<const Mesh>(rest));
+    session.setCage(test::shown(rest));
     Mesh posed = rest;
     posed.points[3] += Vec3d(0, 0.5, 0);
     writeMesh(test::reordered(posed, random), folder / "o.0001.obj");
@@ -233,7 +233,7 @@ BOOST_AUTO_TEST_CASE(points_in_another_order_are_put_into_order)
     BOOST_CHECK(points() == posed.points);
     BOOST_TEST(run("open-poses " + file("o.0002.obj")) == "o.%04d.obj: 1 of 2 frames: " + said);
     for (const int frame : {1, 2}) BOOST_CHECK(at(frame) == posed.points);
-    session.setCage(cage);
+    session.setCage(test::shown(cage));
     writeMesh(test::reordered(*cage, random), folder / "box.1.obj");
     for (const char* line : {"open-pose ", "open-poses "}) {
         checkRefused(line + file("box.1.obj"), "its points are in another order than the cage's, and its faces do not "
@@ -295,7 +295,7 @@ BOOST_AUTO_TEST_CASE(a_scene_keeps_all_of_it)
     run("set-key 12 \"the end\"");
     run("set-key 20 \"\"");
     // Another cage at rest.
-    session.setCage(std::make_shared<const Mesh>(test::box({-0.1, 0, 0}, {1, 1, 1})));
+    session.setCage(test::shown(test::box({-0.1, 0, 0}, {1, 1, 1})));
     run("time 5");
     run("move 0 0 0.25");
     run("time 30");
@@ -364,19 +364,19 @@ BOOST_AUTO_TEST_CASE(poses_are_carried_over_on_a_thread_of_its_own)
     }
     // What is asked for last is what comes.
     BOOST_TEST(carrier.carried(std::make_shared<const Mesh>(test::sphere({0, 0, 0}, 2, 40)), poses()) == nullptr);
-    BOOST_TEST(carried(other)->cage() == other);
+    BOOST_TEST(carried(other)->rest() == other);
     BOOST_TEST(carrier.error().empty());
     // Who only looks neither waits nor is refused.
-    session.setCage(other);
+    session.setCage(test::shown(other));
     run("select points 0 1 2");
-    BOOST_TEST(!selectionFrame(state(), {}));
-    session.setCage(other, there);
-    BOOST_TEST(selectionFrame(state(), {}).has_value());
+    BOOST_TEST(!selectionFrame(state(), session.cage(), {}));
+    session.setCage(there);
+    BOOST_TEST(selectionFrame(state(), session.cage(), {}).has_value());
     // A cage that is not closed poses nothing.
     Mesh open = *cage;
     open.quads.pop_back();
     const MeshPtr rest = std::make_shared<const Mesh>(open);
-    session.setCage(rest);
+    session.setCage(test::shown(rest));
     run("clear-poses");
     run("select points 0 1 2");
     run("move 0.3 0.1 0");

@@ -315,7 +315,7 @@ public:
     /// By the window manager, as by the button in the title.
     void close()
     {
-        twin().attempt("quit");
+        twin().attempt(Quit{});
         display_.xdotool("key alt+F4");
     }
 

@@ -53,7 +53,7 @@ Reading measureFirstFrame(const std::string& model, const gl::OffscreenContext& 
                         AppSetup setup;
                         setup.isSoftware = context.isSoftware();
                         app.emplace(context.api(), std::move(setup));
-                        app->perform({"open", model});
+                        app->perform(OpenModel{model});
                         app->drawFrame();
                     });
     return reading;
@@ -164,7 +164,7 @@ Json measurePosing(App& app, double pass)
     for (const FamilyInfo& info : coordinateFamilies()) {
         const Coordinates family = info.family;
         const State& state = app.session().state();
-        const BindOrder order{state.document.model, state.cage, family};
+        const BindOrder order{state.document.model, app.session().cage()->rest(), family};
         BoundModelPtr coarse;
         const double first = costOf([&] { coarse = boundCoarsely(order, nullptr); }).cpuSeconds;
         const double whole = costOf([&] { boundWhole(*coarse, nullptr); }).cpuSeconds;

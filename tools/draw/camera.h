@@ -17,6 +17,10 @@ struct View {
     double elevationDegrees = 18; ///< above the horizon, in [-90, 90]
     UpAxis up = UpAxis::y;
 };
+inline bool operator==(const View& a, const View& b)
+{
+    return a.azimuthDegrees == b.azimuthDegrees && a.elevationDegrees == b.elevationDegrees && a.up == b.up;
+}
 
 /// \throw InputError if a value is out of range
 void requireView(const View& view);
@@ -29,6 +33,10 @@ struct Camera {
     openvdb::Vec3d target{0};
     double distance = 6; ///< > 0; 6 sees the whole ball of radius 1
 };
+inline bool operator==(const Camera& a, const Camera& b)
+{
+    return a.view == b.view && a.projection == b.projection && a.target == b.target && a.distance == b.distance;
+}
 
 /// Nearest and farthest that a camera comes when it is zoomed: from where single precision ends to where nothing is
 /// seen.

@@ -21,7 +21,7 @@ constexpr Index none = std::numeric_limits<Index>::max();
 enum class Element : std::uint8_t { point, edge, face };
 
 /// What they are called, in the order of Element.
-constexpr std::array<const char*, 3> elementNames{"points", "edges", "faces"};
+inline constexpr std::array<const char*, 3> elementNames{"points", "edges", "faces"};
 inline const char* elementsName(Element kind)
 {
     return elementNames[static_cast<std::size_t>(kind)];

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <functional>
 #include <map>
 #include <system_error>
@@ -12,14 +11,12 @@
 #include <tools/view/files/saver.h>
 #include <tools/view/files/saving.h>
 #include <tools/view/files/scene.h>
-#include <tools/view/input/verb_commands.h>
 #include <tools/view/input/verbs.h>
 #include <tools/view/jobs/posing.h>
 #include <tools/view/picture/picture_control.h>
 #include <tools/view/picture/pictures.h>
 #include <tools/view/state/animation.h>
 #include <tools/view/state/move.h>
-#include <tools/view/state/words.h>
 #include <tools/view/values.h>
 #include <tools/view/widgets/widget_renderer.h>
 #include <vdbcage/core/detail/number_text.h>
@@ -31,7 +28,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-using Words = std::vector<std::string>;
 using openvdb::Vec3d;
 
 Counts countsOf(const Mesh& mesh, std::size_t edges)
@@ -53,41 +49,33 @@ public:
           pictures_(api, setup_.isSoftware), widgetRenderer_(api, widgets_.glyphs()),
           runner_(setup_.maker ? std::move(setup_.maker) : makePipelineMaker(), setup_.wake),
           posing_(setup_.binding ? std::move(setup_.binding) : bindingWork(), setup_.wake), saver_(setup_.wake),
-          control_({session_, pictures_.first(), [this](const std::string& line) { attempt(line); },
+          control_({session_, pictures_.first(), [this](const Command& command) { attempt(command); },
                     [this] { endDrag(); }, [this] { return pictureInUse(); }, double{setup_.scale}})
     {
         recent_ = recentFiles(setup_.recentFiles);
-        setKeys(readPreferences(setup_.preferences).keys);
+        chooseKeys(readPreferences(setup_.preferences).keys);
         resize(setup_.width, setup_.height);
     }
 
     /// Waits for what is written.
-    void perform(const Words& words)
+    void perform(const Action& action)
     {
-        begin(words);
+        begin(action);
         finishSaving();
     }
 
-    void begin(const Words& words)
+    void begin(const Action& action)
     {
-        if (words.empty()) return;
-        if (isCommand(words[0])) {
-            execute(commandOf(words));
-        } else {
-            const Verb* const verb = verbNamed(words[0]);
-            if (!verb) throw InputError("'" + words[0] + "' is no command");
-            if (words.size() - 1 < verb->least || words.size() - 1 > verb->most) {
-                throw InputError(words[0] + ": it is written " + verb->name + ' ' + verb->arguments);
-            }
-            doVerb(words);
-        }
+        std::visit([this](const auto& line) { run(line); }, action);
+        needsFrame_ = true;
         refresh();
     }
 
-    void attempt(const std::string& line)
+    /// As a user does it: what is wrong becomes a message.
+    void attempt(const Action& action)
     {
         try {
-            doLine(line);
+            doAndRecord(action);
         } catch (const std::exception& error) {
             complain(error.what());
         }
@@ -106,7 +94,10 @@ public:
         refresh();
     }
 
-    void drop(const fs::path& path) { attempt((isScene(path) ? "open-scene " : "open ") + quotedWord(path.string())); }
+    void drop(const fs::path& path)
+    {
+        attempt(isScene(path) ? Action(OpenScene{path.string()}) : OpenModel{path.string()});
+    }
 
     void resize(int width, int height)
     {
@@ -277,16 +268,14 @@ public:
 private:
     // ---- lines
 
-    /// As a user does it.
-    void doLine(const std::string& line)
+    void doAndRecord(const Action& action)
     {
-        const Words words = wordsOf(line);
-        begin(words);
-        const Verb* const verb = words.empty() ? nullptr : verbNamed(words[0]);
-        if (!verb || !verb->isOfWindow) record(line);
+        begin(action);
+        // A drag is recorded when it ends.
+        if (setup_.record && !session_.isDragging() && isRecorded(action)) setup_.record(textOf(action));
     }
 
-    void execute(const Command& command)
+    void run(const Command& command)
     {
         const bool hadModel = session_.state().document.model != nullptr;
         const bool wasSaved = isSaved();
@@ -306,80 +295,122 @@ private:
             // To have opened a model is no work that could be lost.
             if (!hadModel || wasSaved) saved_ = session_.state().document;
         }
-        needsFrame_ = true;
     }
 
-    void doVerb(const Words& words)
+    void run(const Verb& verb)
     {
-        const std::string& verb = words[0];
-        const std::string argument = words.size() > 1 ? words[1] : std::string();
-        std::optional<SymmetryPlane> made;
-        if (visible_ && visible_->report.symmetry) made = visible_->report.symmetry->plane;
-        if (const auto command = commandOfVerb(session_.state(), made, verb, argument)) {
-            doLine(toText(*command));
-        } else if (verb == "undo") {
-            session_.undo();
-        } else if (verb == "redo") {
-            session_.redo();
-        } else if (verb == "undo-view") {
-            session_.undoView();
-        } else if (verb == "redo-view") {
-            session_.redoView();
-        } else if (verb == "make") {
-            runner_.again();
-            posing_.again();
-        } else if (verb == "cancel") {
-            if (dismiss()) return;
-            if (saver_.isBusy()) return saver_.stop();
-            runner_.cancel();
-            posing_.cancel();
-        } else if (verb == "frame") {
-            if (argument != "all" && argument != "selected") refuse("frame", argument, "all or selected");
-            const ViewState& view = session_.state().view;
-            attempt(toText(SetCamera{pictures_.first().fitted(view, argument == "selected")}));
-        } else if (verb == "box") {
-            control_.startBox();
-        } else if (verb == "grab") {
-            const auto* const name = std::find(toolNames.begin() + 1, toolNames.end(), argument);
-            if (name == toolNames.end()) refuse("grab", argument, "move, rotate or scale");
-            control_.grab(static_cast<Tool>(name - toolNames.begin()));
-        } else if (verb.rfind("save-", 0) == 0) {
-            save(verb, argument);
-        } else if (verb == "open-scene") {
-            session_.restart(openScene(argument));
-            saved_ = session_.state().document;
-            hasModelChanged_ = false;
-        } else if (verb == "drop") {
-            drop(argument);
-        } else if (verb == "reload") {
-            reload();
-        } else if (verb == "browse") {
-            panels_.browse(argument);
-        } else if (verb == "keys") {
-            const auto* const name = std::find(keyMapNames.begin(), keyMapNames.end(), argument);
-            if (name == keyMapNames.end()) refuse("keys", argument, "blender or maya");
-            setKeys(static_cast<KeyMap>(name - keyMapNames.begin()));
-            writePreferences(setup_.preferences, {keys_});
-        } else if (verb == "help") {
-            panels_.showHelp();
-        } else if (verb == "dismiss") {
-            dismiss();
-        } else if (verb == "tick") {
-            const double seconds = numberOf(argument, "tick");
-            requireWithin({0, 86400}, seconds, "tick");
-            pass(seconds);
-        } else if (verb == "quit") {
-            asksToQuit_ = !isSaved();
-            if (!asksToQuit_) finishSaving();
-            isEnded_ = !asksToQuit_;
-        } else if (verb == "quit!") {
-            finishSaving();
-            isEnded_ = true;
-        }
-        needsFrame_ = true;
+        std::visit([this](const auto& each) { runVerb(each); }, verb);
     }
 
-    void setKeys(KeyMap keys)
+    template <class T>
+    std::enable_if_t<amountsToCommand<T>> runVerb(const T& verb)
+    {
+        const auto& symmetry = visible_ ? visible_->report.symmetry : std::nullopt;
+        doAndRecord(verb.command({session_.state(), session_.cage(), symmetry ? &symmetry->plane : nullptr}));
+    }
+
+    template <class T>
+    std::enable_if_t<std::is_base_of_v<SaveFile, T>> runVerb(const T& verb)
+    {
+        saver_.save(verb.path, T::isSequence, [&](const fs::path& file) {
+            return T::writer({session_.state(), session_.cage(), runner_.planner(), posing_}, file);
+        });
+    }
+
+    void runVerb(const Undo& /*verb*/) { session_.undo(); }
+    void runVerb(const Redo& /*verb*/) { session_.redo(); }
+    void runVerb(const UndoView& /*verb*/) { session_.undoView(); }
+    void runVerb(const RedoView& /*verb*/) { session_.redoView(); }
+
+    void runVerb(const MakeAgain& /*verb*/)
+    {
+        runner_.again();
+        posing_.again();
+    }
+
+    void runVerb(const Cancel& /*verb*/)
+    {
+        if (dismiss()) return;
+        if (saver_.isBusy()) return saver_.stop();
+        runner_.cancel();
+        posing_.cancel();
+    }
+
+    void runVerb(const FrameView& verb)
+    {
+        attempt(SetCamera{pictures_.first().fitted(session_.state().view, verb.onlySelected)});
+    }
+
+    void runVerb(const StartBox& /*verb*/) { control_.startBox(); }
+    void runVerb(const Grab& verb) { control_.grab(verb.tool); }
+
+    void runVerb(const SaveScene& verb)
+    {
+        const Planner& planner = runner_.planner();
+        const bool isCurrent = planner.standing() == Planner::Standing::current;
+        saveScene(session_.state(), isCurrent ? planner.shown().get() : nullptr, verb.path);
+        saved_ = session_.state().document;
+        asksToQuit_ = false;
+        noteSaved(verb.path);
+    }
+
+    void runVerb(const SavePicture& verb)
+    {
+        show();
+        savePicture(pictures_.first().picture(), verb.path);
+        noteSaved(verb.path);
+    }
+
+    void runVerb(const SaveStages& verb)
+    {
+        if (currentCage(runner_.planner(), "save-stages").order.cage) {
+            throw InputError("save-stages: the cage was opened, not made, so it has no stages");
+        }
+        keepsIntermediates_ = true;
+        want();
+        waitUntilSettled();
+        keepsIntermediates_ = false;
+        const CageResult& result = currentCage(runner_.planner(), "save-stages");
+        if (!result.intermediates) throw InputError("save-stages: " + runner_.planner().error());
+        saveStages(result, verb.path);
+        noteSaved(verb.path);
+    }
+
+    void runVerb(const OpenScene& verb)
+    {
+        session_.restart(openScene(verb.path));
+        saved_ = session_.state().document;
+        hasModelChanged_ = false;
+    }
+
+    void runVerb(const Drop& verb) { drop(verb.path); }
+    void runVerb(const Reload& /*verb*/) { reload(); }
+    void runVerb(const Browse& verb) { panels_.browse(verb.line); }
+
+    void runVerb(const ChooseKeys& verb)
+    {
+        chooseKeys(verb.map);
+        writePreferences(setup_.preferences, {keys_});
+    }
+
+    void runVerb(const ShowHelp& /*verb*/) { panels_.showHelp(); }
+    void runVerb(const Dismiss& /*verb*/) { dismiss(); }
+    void runVerb(const Tick& verb) { pass(verb.seconds); }
+
+    void runVerb(const Quit& /*verb*/)
+    {
+        asksToQuit_ = !isSaved();
+        if (!asksToQuit_) finishSaving();
+        isEnded_ = !asksToQuit_;
+    }
+
+    void runVerb(const QuitUnsaved& /*verb*/)
+    {
+        finishSaving();
+        isEnded_ = true;
+    }
+
+    void chooseKeys(KeyMap keys)
     {
         keys_ = keys;
         control_.setMouse(mouseMap(keys));
@@ -417,38 +448,7 @@ private:
 
     // ---- files
 
-    void save(const std::string& verb, const fs::path& path)
-    {
-        const Planner& planner = runner_.planner();
-        if (verb == "save-scene") {
-            const bool isCurrent = planner.standing() == Planner::Standing::current;
-            saveScene(session_.state(), isCurrent ? planner.shown().get() : nullptr, path);
-            saved_ = session_.state().document;
-            asksToQuit_ = false;
-        } else if (verb == "save-picture") {
-            show();
-            savePicture(pictures_.first().picture(), path);
-        } else if (verb == "save-stages") {
-            saveStages(path);
-        } else {
-            return saver_.save({session_.state(), planner, posing_}, verb, path);
-        }
-        note("saved " + path.filename().string());
-    }
-
-    void saveStages(const fs::path& folder)
-    {
-        if (currentCage(runner_.planner(), "save-stages").order.cage) {
-            throw InputError("save-stages: the cage was opened, not made, so it has no stages");
-        }
-        keepsIntermediates_ = true;
-        want();
-        waitUntilSettled();
-        keepsIntermediates_ = false;
-        const CageResult& result = currentCage(runner_.planner(), "save-stages");
-        if (!result.intermediates) throw InputError("save-stages: " + runner_.planner().error());
-        view::saveStages(result, folder);
-    }
+    void noteSaved(const fs::path& path) { note("saved " + path.filename().string()); }
 
     /// \throw InputError why it could not be written
     void takeSaved()
@@ -470,12 +470,6 @@ private:
         messages_.push_back(text);
         needsFrame_ = true;
         refresh();
-    }
-
-    void record(const std::string& line) const
-    {
-        // A drag is recorded when it ends.
-        if (setup_.record && !session_.isDragging()) setup_.record(line);
     }
 
     // ---- widgets
@@ -508,7 +502,7 @@ private:
         content.binding = posing_.follower().binder().progress();
         content.isPosedCoarsely = posing_.follower().model().bound() && !posing_.follower().model().isWhole();
         content.keys = keys_;
-        content.selected = selectionFrame(session_.state(), {});
+        content.selected = selectionFrame(session_.state(), session_.cage(), {});
         if (saver_.isBusy()) content.saving = saver_.progress();
         content.bindingError = posing_.error();
         content.isPoseChecked = posing_.follower().isChecking();
@@ -533,7 +527,8 @@ private:
             session_.beginDrag();
             isValueDragged_ = true;
         }
-        for (const std::string& line : answer.lines) attempt(line);
+        for (const Action& action : answer.actions) attempt(action);
+        for (const std::string& problem : answer.problems) complain(problem);
         if (answer.endsDrag) endDrag();
         if (answer.beginsDrag || answer.endsDrag) refresh();
     }
@@ -580,10 +575,8 @@ private:
     {
         const Planner& planner = runner_.planner();
         const CageResultPtr cage = posing_.cageOf(session_.state(), planner);
-        if (cage != visible_ || session_.state().carried != posing_.carried()) {
-            visible_ = cage;
-            session_.setCage(cage ? MeshPtr(cage, &cage->cage) : nullptr, posing_.carried());
-        }
+        visible_ = cage;
+        if (session_.cage() != posing_.posable()) session_.setCage(posing_.posable());
         posing_.follow(session_.state(), planner,
                        !control_.isMoving() && !session_.isDragging() && !Animation::isPlaying(session_.state()));
         Shown shown;
@@ -603,11 +596,11 @@ private:
             return;
         }
         if (control_.press(down, modifiers)) return;
-        if (down.key == Key::escape) return attempt("cancel");
+        if (down.key == Key::escape) return attempt(Cancel{});
         if (isMessage || widgets_.wantsText() || widgets_.wantsKeyboard()) return;
         const std::string chord = nameOf(KeyChord{down.key, modifiers});
         for (const Shortcut& shortcut : shortcuts(keys_)) {
-            if (shortcut.chord == chord) return attempt(shortcut.line);
+            if (shortcut.chord == chord) return attempt(shortcut.action);
         }
     }
 
@@ -625,14 +618,14 @@ App::App(const gl::Api& api, AppSetup setup) : impl_(std::make_unique<Impl>(api,
 }
 App::~App() = default;
 
-void App::perform(const std::vector<std::string>& words)
+void App::perform(const Action& action)
 {
-    impl_->perform(words);
+    impl_->perform(action);
 }
 
-void App::attempt(const std::string& line)
+void App::attempt(const Action& action)
 {
-    impl_->attempt(line);
+    impl_->attempt(action);
 }
 
 void App::handle(const InputEvent& event)

@@ -33,10 +33,9 @@ struct AppSetup {
 };
 
 /// The program behind a window: state, making of cages, panels and picture. It knows neither GLFW nor scripts: events,
-/// lines and files come in, a picture goes out.
+/// actions (see verbs.h) and files come in, a picture goes out.
 ///
-/// A line is what a script has: a command (see command.h) or a verb (see verbs.h). Its context must be current
-/// whenever it is used, and must outlive it. All of it is for one thread.
+/// Its context must be current whenever it is used, and must outlive it. All of it is for one thread.
 class App {
 public:
     /// \throw DeviceError
@@ -45,10 +44,10 @@ public:
     App(const App&) = delete;
     App& operator=(const App&) = delete;
 
-    /// \throw Error what is wrong with the line; all is as it was
-    void perform(const std::vector<std::string>& words);
-    /// The same for a user: what is wrong becomes a message.
-    void attempt(const std::string& line);
+    /// Does it, and waits until what it saves is written. \throw Error it cannot be done; all is as it was
+    void perform(const Action& action);
+    /// For a user: what is wrong becomes a message.
+    void attempt(const Action& action);
     void handle(const InputEvent& event);
     /// A file that is dropped on the window: a model, or a scene.
     void drop(const std::filesystem::path& path);

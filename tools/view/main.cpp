@@ -126,12 +126,12 @@ Arguments parse(int count, char** words)
 void openFiles(App& app, const Arguments& arguments)
 {
     if (arguments.files.empty()) return;
-    const fs::path first = arguments.files[0];
-    app.perform({first.extension() == ".json" ? "open-scene" : "open", first.string()});
-    if (arguments.files.size() > 1) app.perform({"open-cage", arguments.files[1]});
+    const std::string& first = arguments.files[0];
+    app.perform(fs::path(first).extension() == ".json" ? Action(OpenScene{first}) : OpenModel{first});
+    if (arguments.files.size() > 1) app.perform(OpenCage{arguments.files[1]});
     if (arguments.files.size() > 2) {
-        app.perform({"mode", "pose"});
-        app.perform({"open-pose", arguments.files[2]});
+        app.perform(SetMode{Mode::pose});
+        app.perform(OpenPose{arguments.files[2]});
     }
 }
 

@@ -15,8 +15,6 @@ namespace vdbcage::view {
 
 namespace {
 
-using Words = std::vector<std::string>;
-
 constexpr int mostPixels = 8192;
 
 void send(App& app, decltype(InputEvent::what) what, const Modifiers& modifiers = {})
@@ -223,7 +221,7 @@ void runLine(App& app, const std::string& line)
     } else if (verb == "widget" && words.size() == 3) {
         setWidget(app, words[1], words[2]);
     } else {
-        app.perform(words);
+        app.perform(actionOf(words));
     }
 }
 

@@ -73,7 +73,7 @@ std::map<std::string, std::function<std::string()>> valuesOf(const ValueSource& 
     list["selected"] = [&] { return std::to_string(state.view.selection.ids.size()); };
     for (int k = 0; k < 3; ++k) {
         list[std::string("selected.") + "xyz"[k]] = [&, number, k] {
-            const auto selected = selectionFrame(state, {});
+            const auto selected = selectionFrame(state, session.cage(), {});
             return selected ? number(selected->mean[k]) : std::string("none");
         };
     }

@@ -214,7 +214,7 @@ void Window::State::setCallbacks()
     });
     glfwSetWindowCloseCallback(window, [](GLFWwindow* w) {
         glfwSetWindowShouldClose(w, GLFW_FALSE);
-        if (App* const shown = stateOf(w).app) shown->attempt("quit");
+        if (App* const shown = stateOf(w).app) shown->attempt(Quit{});
     });
     glfwSetWindowFocusCallback(window, [](GLFWwindow* w, int focused) {
         if (App* const shown = stateOf(w).app; focused && shown) shown->checkFiles();

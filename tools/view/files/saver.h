@@ -4,29 +4,23 @@
 #include <functional>
 #include <optional>
 #include <string>
-#include <string_view>
 
-#include <tools/view/jobs/posing.h>
+#include <tools/view/files/saves.h>
 #include <tools/view/jobs/worker.h>
 
 namespace vdbcage::view {
 
-/// Writes what is made and posed; what takes time on a thread of its own, one file or sequence at a time. All its
-/// functions are for one thread, the owner's, and none of them waits but waitForNews().
+/// Writes files on a thread of its own, one file or sequence at a time. All its functions are for one thread, the
+/// owner's, and none of them waits but waitForNews().
 class Saver {
 public:
     /// `wake`: see Worker.
     explicit Saver(std::function<void()> wake);
 
-    /// What is saved.
-    struct Source {
-        const State& state;
-        const Planner& planner;
-        const Posing& posing;
-    };
-    /// Begins what a verb such as "save-posed-cage" asks for (see verbs.h).
-    /// \throw InputError it is not there, or something is still being written; IoError
-    void save(const Source& source, const std::string& verb, const std::filesystem::path& path);
+    /// Begins to write a file; `makeWriter` is called with its path. \throw InputError something is still being
+    /// written, or as makeWriter
+    void save(const std::filesystem::path& path, bool isSequence,
+              const std::function<Write(const std::filesystem::path&)>& makeWriter);
 
     /// What has been written since the last call: the name of a file.
     /// \throw InputError why it could not be written
@@ -41,16 +35,10 @@ public:
 private:
     struct Job {
         std::string name; ///< of what is written
-        std::function<void(Interrupter*)> write;
+        Write write;
     };
     Worker<Job, std::string> worker_;
     bool isBusy_ = false;
 };
-
-/// Whether the verb writes a file for each frame; its path gets a place for their numbers (see cli::patternFor).
-bool isSequence(const std::string& verb);
-
-/// The cage of the options that are set now, or that was opened. \throw InputError naming the verb: it is not there yet
-const CageResult& currentCage(const Planner& planner, std::string_view verb);
 
 } // namespace vdbcage::view

@@ -37,7 +37,7 @@ void saveFrames(PosedScene& scene, const fs::path& path, Interrupter* interrupte
     PendingFiles files;
     for (int frame = scene.first; frame <= scene.last; ++frame) {
         throwIfInterrupted(interrupter, 100 * (frame - scene.first) / (scene.last - scene.first + 1));
-        const std::vector<openvdb::Vec3d> points = pointsAt(scene.poses, frame, scene.carried);
+        const std::vector<openvdb::Vec3d> points = pointsAt(scene.poses, frame, scene.cage);
         const fs::path file = files::framePath(path, frame);
         files.add(file, [&](std::ostream& out) { write(points, out, file); });
     }

@@ -28,7 +28,7 @@ struct PosedScene {
     std::shared_ptr<const Binding> binding; ///< null: it is computed when it is needed
     Elasticity elasticity;
     TimeLine poses;
-    CarriedPoses carried;    ///< for the cage of `order`
+    PosableCage cage;        ///< that of `order`
     int first = 0, last = 0; ///< frames
 };
 /// The posed cages. \throw InputError, IoError, Cancelled

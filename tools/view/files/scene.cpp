@@ -27,7 +27,7 @@ constexpr int formatVersion = 1;
 
 /// A file as it is named in a scene: from the scene's folder where both have a common one, so that a folder with a
 /// scene can be moved.
-report::Json fileOf(const fs::path& path, const fs::path& scene)
+Json fileOf(const fs::path& path, const fs::path& scene)
 {
     const fs::path folder = fs::absolute(scene).lexically_normal().parent_path();
     const fs::path relative = path.lexically_relative(folder);
@@ -36,7 +36,7 @@ report::Json fileOf(const fs::path& path, const fs::path& scene)
 }
 
 /// Where it is. \throw InputError it is another one now
-fs::path sameFile(const report::Json& file, const fs::path& scene)
+fs::path sameFile(const Json& file, const fs::path& scene)
 {
     const fs::path path = scene.parent_path() / file.at("file").get<std::string>();
     const std::string digest = digestOf(path);
@@ -48,7 +48,7 @@ fs::path sameFile(const report::Json& file, const fs::path& scene)
     return path;
 }
 
-report::Json report::toJson(const Elasticity& elasticity)
+Json toJson(const Elasticity& elasticity)
 {
     return {{"nu", elasticity.nu},
             {"rotations", rotationsName(elasticity.rotations)},
@@ -57,7 +57,7 @@ report::Json report::toJson(const Elasticity& elasticity)
 }
 
 /// \throw InputError
-Elasticity elasticityOf(const report::Json& json)
+Elasticity elasticityOf(const Json& json)
 {
     const Elasticity elasticity{json.at("nu").get<double>(), rotationsNamed(json.at("rotations").get<std::string>()),
                                 json.at("local_bulging").get<double>(), json.at("global_bulging").get<double>()};
@@ -69,7 +69,7 @@ Elasticity elasticityOf(const report::Json& json)
 OpenedMeshPtr editedCage(const fs::path& file)
 {
     OpenedMesh edited;
-    edited.mesh = cli::readMesh(file);
+    edited.mesh = readMesh(file);
     return std::make_shared<const OpenedMesh>(std::move(edited));
 }
 
@@ -78,10 +78,10 @@ class PoseReader {
 public:
     explicit PoseReader(fs::path folder) : folder_(std::move(folder)) {}
 
-    TimeLine read(const report::Json& list)
+    TimeLine read(const Json& list)
     {
         TimeLine poses;
-        for (const report::Json& entry : list) {
+        for (const Json& entry : list) {
             PoseKey key;
             key.frame = entry.at("frame").get<int>();
             if (key.frame < 0 || key.frame > lastFrame) {
@@ -102,9 +102,9 @@ private:
     PosePtr readPose(const fs::path& restPath, const fs::path& posedPath)
     {
         MeshPtr& rest = rests_[restPath];
-        if (!rest) rest = std::make_shared<const Mesh>(cli::readMesh(restPath));
+        if (!rest) rest = std::make_shared<const Mesh>(readMesh(restPath));
         return std::make_shared<const Pose>(
-            Pose{rest, files::posedPointsOf(posedPath, cli::readMesh(posedPath), *rest).points});
+            Pose{rest, files::posedPointsOf(posedPath, readMesh(posedPath), *rest).points});
     }
 
     fs::path folder_;
@@ -133,17 +133,17 @@ void saveScene(const State& state, const CageResult* current, const fs::path& pa
     if (path.extension() != ".json") throw InputError(path.string() + ": scenes are written as .json");
     const Document& document = state.document;
     if (!document.model) throw InputError(path.string() + ": there is no model yet, so there is no scene to save");
-    report::Json options = report::Json::object(), view = report::Json::array();
+    Json options = Json::object(), view = Json::array();
     for (const auto& [name, value] : optionValues(document.options)) options[name] = value;
-    for (const Command& command : commandsFor(state.view)) view.push_back(report::toText(command));
+    for (const Command& command : commandsFor(state.view)) view.push_back(toText(command));
     const bool hasMade = current && !document.cage;
     const bool isEdited = document.cage && document.cage->path.empty();
     const auto nameOf = [](const fs::path& file) { return file.filename().string(); };
-    report::Json poses = report::Json::array();
+    Json poses = Json::array();
     std::vector<MeshPtr> rests;
     std::vector<Mesh> posed; // one for each key that has a pose
     for (const PoseKey& key : document.poses.keys()) {
-        report::Json entry{{"frame", key.frame}, {"name", key.name}, {"rest", nullptr}, {"posed", nullptr}};
+        Json entry{{"frame", key.frame}, {"name", key.name}, {"rest", nullptr}, {"posed", nullptr}};
         if (key.pose) {
             auto rest = std::find(rests.begin(), rests.end(), key.pose->rest);
             if (rest == rests.end()) rest = rests.insert(rest, key.pose->rest);
@@ -154,23 +154,22 @@ void saveScene(const State& state, const CageResult* current, const fs::path& pa
         }
         poses.push_back(std::move(entry));
     }
-    const report::Json scene{
-        {"vdbcage_scene", formatVersion},
-        {"version", VDBCAGE_VERSION},
-        {"model", fileOf(document.model->path, path)},
-        {"options", options},
-        {"opened_cage", document.cage && !isEdited ? fileOf(document.cage->path, path) : report::Json()},
-        {"made_cage", hasMade ? report::Json(nameOf(cageBeside(path))) : report::Json()},
-        {"edited_cage", isEdited ? report::Json(nameOf(cageBeside(path))) : report::Json()},
-        {"poses", poses},
-        {"coordinates", coordinatesName(document.coordinates)},
-        {"weights", document.weights ? fileOf(document.weights->path, path) : report::Json()},
-        {"elasticity", report::toJson(document.elasticity)},
-        {"view", view}};
+    const Json scene{{"vdbcage_scene", formatVersion},
+                     {"version", VDBCAGE_VERSION},
+                     {"model", fileOf(document.model->path, path)},
+                     {"options", options},
+                     {"opened_cage", document.cage && !isEdited ? fileOf(document.cage->path, path) : Json()},
+                     {"made_cage", hasMade ? Json(nameOf(cageBeside(path))) : Json()},
+                     {"edited_cage", isEdited ? Json(nameOf(cageBeside(path))) : Json()},
+                     {"poses", poses},
+                     {"coordinates", coordinatesName(document.coordinates)},
+                     {"weights", document.weights ? fileOf(document.weights->path, path) : Json()},
+                     {"elasticity", toJson(document.elasticity)},
+                     {"view", view}};
     std::string text;
     try {
         text = scene.dump(2) + '\n';
-    } catch (const report::Json::exception&) {
+    } catch (const Json::exception&) {
         throw InputError(path.string() + ": a name of a file is not UTF-8, as JSON must be");
     }
     PendingFiles files;
@@ -194,7 +193,7 @@ State openScene(const fs::path& given)
     const std::string text = detail::readFile(path);
     State state;
     try {
-        const report::Json scene = report::Json::parse(text);
+        const Json scene = Json::parse(text);
         const int version = scene.at("vdbcage_scene").get<int>();
         if (version != formatVersion) {
             throw InputError("it is a scene of version " + std::to_string(version) + "; only version " +
@@ -203,7 +202,7 @@ State openScene(const fs::path& given)
         for (const auto& option : scene.at("options").items()) {
             setOption(state.document.options, option.key(), option.value().get<std::string>());
         }
-        for (const report::Json& line : scene.at("view")) {
+        for (const Json& line : scene.at("view")) {
             const Command command = commandOf(wordsOf(line.get<std::string>()));
             if (changesDocument(command)) throw InputError("view: '" + line.get<std::string>() + "' is not of a view");
             state = applied(state, command);
@@ -217,9 +216,9 @@ State openScene(const fs::path& given)
         PoseReader poses(path.parent_path());
         if (scene.contains("poses")) state.document.poses = poses.read(scene["poses"]);
         if (scene.contains("pose") && !scene["pose"].is_null()) { // there was one alone
-            const report::Json& one = scene["pose"];
-            state.document.poses = poses.read(report::Json::array(
-                {report::Json{{"frame", 0}, {"name", ""}, {"rest", one.at("rest")}, {"posed", one.at("posed")}}}));
+            const Json& one = scene["pose"];
+            state.document.poses = poses.read(
+                Json::array({Json{{"frame", 0}, {"name", ""}, {"rest", one.at("rest")}, {"posed", one.at("posed")}}}));
         }
         if (scene.contains("weights") && !scene["weights"].is_null()) {
             state.document.weights = openWeights(sameFile(scene["weights"], path));
@@ -228,7 +227,7 @@ State openScene(const fs::path& given)
             state.document.coordinates = coordinatesNamed(scene["coordinates"].get<std::string>());
         }
         if (scene.contains("elasticity")) state.document.elasticity = elasticityOf(scene["elasticity"]);
-    } catch (const report::Json::exception& error) {
+    } catch (const Json::exception& error) {
         throw InputError(path.string() + ": it is no scene: " + error.what());
     } catch (const InputError& error) {
         throw InputError(path.string() + ": " + error.what());

@@ -7,14 +7,16 @@
 
 #include <tools/view/files/preferences.h>
 #include <tools/view/input/input.h>
+#include <tools/view/input/verbs.h>
 
 /// What keys and mouse buttons do, in each key map.
 namespace vdbcage::view {
 
-/// A key and the line that it stands for.
+/// A key and what it stands for.
 struct Shortcut {
     std::string chord; ///< as nameOf(KeyChord)
-    std::string line;
+    Action action;
+    std::string line; ///< of the action
     std::string help;
 };
 

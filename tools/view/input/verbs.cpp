@@ -1,86 +1,237 @@
 #include <tools/view/input/verbs.h>
 
 #include <algorithm>
-#include <array>
+
+#include <tools/edit/selection.h>
+#include <tools/view/state/animation.h>
+#include <tools/view/state/move.h>
+#include <vdbcage/core/error.h>
 
 namespace vdbcage::view {
 
 namespace {
 
-constexpr std::array<Verb, 51> verbs{{
-    {"undo", "", 0, 0, "takes back the last change of options or files", false},
-    {"redo", "", 0, 0, "does again what was taken back", false},
-    {"undo-view", "", 0, 0, "takes back the last change of the view", false},
-    {"redo-view", "", 0, 0, "does it again", false},
-    {"make", "", 0, 0, "makes the cage that was cancelled or failed", false},
-    {"cancel", "", 0, 0, "closes what is open, or stops what is written, made or bound", false},
-    {"more", "", 0, 0, "a twentieth more faces", true},
-    {"fewer", "", 0, 0, "a twentieth fewer faces", true},
-    {"toggle", "LAYER|ground|axes|turntable|mode|play|see-through|mirror-x|mirror-y|mirror-z", 1, 1,
-     "shows what is hidden and hides what is shown", true},
-    {"frame", "all|selected", 1, 1, "moves the view so that all is seen", true},
-    {"look", "front|back|left|right|top|bottom", 1, 1, "looks from there", true},
-    {"projection", "perspective|orthographic|toggle", 1, 1, "how what is far away looks", true},
-    {"up", "y|z|toggle", 1, 1, "which axis points up", true},
-    {"select-kind", "points|edges|faces", 1, 1, "selects these from now on; what is selected becomes such", true},
-    {"select-all", "", 0, 0, "selects all of the cage", true},
-    {"select-none", "", 0, 0, "selects nothing", true},
-    {"select-invert", "", 0, 0, "selects what is not selected", true},
-    {"select-linked", "", 0, 0, "selects all that hangs together with what is selected", true},
-    {"select-grow", "", 0, 0, "selects the neighbours too", true},
-    {"select-shrink", "", 0, 0, "selects what has no neighbour that is not selected", true},
-    {"select-loop", "", 0, 0, "selects the loops through what is selected", true},
-    {"box", "", 0, 0, "selects what is in the box that is dragged next", true},
-    {"grab", "move|rotate|scale", 1, 1, "moves what is selected with the pointer", true},
-    {"next-frame", "", 0, 0, "shows the pose of the next frame", true},
-    {"previous-frame", "", 0, 0, "shows the pose of the frame before", true},
-    {"next-key", "", 0, 0, "goes to the next key of the time line", true},
-    {"previous-key", "", 0, 0, "goes to the key before", true},
-    {"insert-key", "", 0, 0, "keeps the pose that is seen on the time line", true},
-    {"remove-key", "", 0, 0, "takes the key at this frame off the time line", true},
-    {"save-posed-cage", "FILE", 1, 1, "writes the posed cage (.obj .off .ply .stl)", false},
-    {"save-posed-model", "FILE", 1, 1, "writes the model, posed by the cage; all else of an OBJ file stays", false},
-    {"save-posed-cages", "PATTERN", 1, 1,
-     "writes the posed cage of every frame from the first key to the last: cage.%04d.obj", false},
-    {"save-posed-models", "PATTERN", 1, 1,
-     "writes the posed model of every frame from the first key to the last: out.%04d.obj", false},
-    {"save-colours", "FILE.ply", 1, 1,
-     "writes the posed model with what its colours tell: influence, stretch or inverted", false},
-    {"save-weights", "FILE.npy", 1, 1, "writes by what weights the cage moves the model", false},
-    {"save-cage", "FILE", 1, 1, "writes the cage (.obj .off .ply .stl)", false},
-    {"save-stages", "FOLDER", 1, 1, "writes every stage (.vdb, .obj)", false},
-    {"save-report", "FILE.json", 1, 1, "writes options, times, memory and verdict", false},
-    {"save-options", "FILE", 1, 1, "writes the options, for `preset FILE`", false},
-    {"save-scene", "FILE.json", 1, 1, "writes options, view and names of files, and the cage and poses beside it",
-     false},
-    {"save-picture", "FILE.png", 1, 1, "writes what is seen, without the panels; of two pictures the left one", false},
-    {"open-scene", "FILE.json", 1, 1, "opens what save-scene wrote", false},
-    {"drop", "FILE", 1, 1, "as if FILE was dropped on the window", true},
-    {"reload", "", 0, 0, "reads the model's file anew", false},
-    {"browse", "LINE", 1, 1, "asks for a file, and then does LINE with it", true},
-    {"keys", "blender|maya", 1, 1, "has the keys and mouse buttons of that program from now on", true},
-    {"help", "", 0, 0, "shows keys, mouse and commands", true},
-    {"dismiss", "", 0, 0, "closes a message or a question", true},
-    {"quit", "", 0, 0, "ends; asks if there is unsaved work", true},
-    {"quit!", "", 0, 0, "ends", true},
-    {"tick", "SECONDS", 1, 1, "lets time pass for what moves by itself", true},
-}};
+using Table = LineTable<Verb>;
+
+Command withFaces(const Situation& now, int steps)
+{
+    const CageOptions& options = now.state.document.options;
+    return SetOption{"faces", std::to_string(steppedFaces(options.faces, steps, options.mesh))};
+}
+
+/// The plane is that in which the cage was made symmetric, or else the middle of the cage.
+SetMirror toggledMirror(const Situation& now, int axis)
+{
+    const State& state = now.state;
+    if (state.view.mirror && state.view.mirror->axis == axis) return {};
+    if (!now.cage) throw InputError("toggle: there is no cage yet to be mirrored");
+    if (now.symmetry && now.symmetry->axis == axis) return {*now.symmetry};
+    const openvdb::BBoxd box = boundingBox(*now.cage->rest());
+    return {SymmetryPlane{axis, 0.5 * (box.min()[axis] + box.max()[axis])}};
+}
+
+/// The selection after `change`, which gets the cage and what is selected of it.
+template <class T, class Change>
+Command selected(const Situation& now, const Change& change)
+{
+    if (!now.cage) throw InputError(T::info().name + ": there is no cage yet");
+    const edit::Elements elements(*now.cage->rest());
+    return Select{change(elements, withinCage(now.state.view.selection, elements))};
+}
+
+/// The frame of the next key in a direction, or where it is now if there is none.
+SetFrame nextKey(const Situation& now, int direction)
+{
+    const int frame = now.state.view.frame;
+    int next = frame;
+    for (const PoseKey& key : now.state.document.poses.keys()) {
+        if (direction < 0 && key.frame < frame) next = key.frame;
+        if (direction > 0 && key.frame > frame) return {key.frame};
+    }
+    return {next};
+}
 
 } // namespace
 
-const Verb* verbNamed(const std::string& name)
+Command MoreFaces::command(const Situation& now)
 {
-    const auto found = std::find_if(verbs.begin(), verbs.end(), [&](const Verb& verb) { return name == verb.name; });
-    return found == verbs.end() ? nullptr : &*found;
+    return withFaces(now, 1);
 }
 
-std::vector<std::pair<std::string, std::string>> describeVerbs()
+Command FewerFaces::command(const Situation& now)
 {
-    std::vector<std::pair<std::string, std::string>> list;
-    for (const Verb& verb : verbs) {
-        list.emplace_back(verb.name + std::string(*verb.arguments ? " " : "") + verb.arguments, verb.help);
+    return withFaces(now, -1);
+}
+
+Command Toggle::command(const Situation& now) const
+{
+    const ViewState& view = now.state.view;
+    if (what == "ground") return ShowGround{!view.ground};
+    if (what == "axes") return ShowAxes{!view.axes};
+    if (what == "turntable") return SetTurntable{!view.turntable};
+    if (what == "see-through") return SetSeeThrough{!view.seeThrough};
+    // What cannot play now would begin by itself later.
+    State playing = now.state;
+    playing.view.isPlaying = true;
+    if (what == "play") return Play{!view.isPlaying && Animation::isPlaying(playing)};
+    if (what == "mode") return SetMode{view.mode == Mode::pose ? Mode::shape : Mode::pose};
+    for (int axis = 0; axis < 3; ++axis) {
+        if (what == std::string("mirror-") + "xyz"[axis]) return toggledMirror(now, axis);
     }
-    return list;
+    for (std::size_t i = 0; i < layerCount; ++i) {
+        if (what == nameOf(static_cast<LayerId>(i))) return ShowLayer{static_cast<LayerId>(i), !view.layers[i].shown};
+    }
+    refuse("toggle", what, "a layer, ground, axes, turntable, mode, play, see-through, mirror-x, mirror-y or mirror-z");
+}
+
+Command Look::command(const Situation& now) const
+{
+    constexpr std::array<std::array<double, 2>, names.size()> directions{
+        {{0, 0}, {180, 0}, {-90, 0}, {90, 0}, {0, 90}, {0, -90}}}; // azimuth, elevation
+    draw::Camera camera = now.state.view.camera;
+    const auto& [azimuth, elevation] = directions[static_cast<std::size_t>(from)];
+    camera.view.azimuthDegrees = azimuth;
+    camera.view.elevationDegrees = elevation;
+    return SetCamera{camera};
+}
+
+SetProjection SetProjection::read(const Arguments& arguments)
+{
+    constexpr std::array<const char*, 3> names{"perspective", "orthographic", "toggle"};
+    const auto i = arguments.choice<std::size_t>(0, names);
+    return i == 2 ? SetProjection{} : SetProjection{static_cast<draw::Projection>(i)};
+}
+
+Command SetProjection::command(const Situation& now) const
+{
+    draw::Camera camera = now.state.view.camera;
+    const bool isParallel = camera.projection == draw::Projection::orthographic;
+    camera.projection =
+        projection.value_or(isParallel ? draw::Projection::perspective : draw::Projection::orthographic);
+    return SetCamera{camera};
+}
+
+SetUp SetUp::read(const Arguments& arguments)
+{
+    constexpr std::array<const char*, 3> names{"y", "z", "toggle"};
+    const auto i = arguments.choice<std::size_t>(0, names);
+    return i == 2 ? SetUp{} : SetUp{static_cast<draw::UpAxis>(i)};
+}
+
+Command SetUp::command(const Situation& now) const
+{
+    draw::Camera camera = now.state.view.camera;
+    camera.view.up = up.value_or(camera.view.up == draw::UpAxis::y ? draw::UpAxis::z : draw::UpAxis::y);
+    return SetCamera{camera};
+}
+
+Command SelectKind::command(const Situation& now) const
+{
+    return selected<SelectKind>(now, [&](const auto& cage, const auto& some) { return converted(cage, some, kind); });
+}
+
+Command SelectAll::command(const Situation& now)
+{
+    return selected<SelectAll>(now, [](const auto& cage, const auto& some) { return edit::all(cage, some.kind); });
+}
+
+Command SelectNone::command(const Situation& now)
+{
+    return selected<SelectNone>(now, [](const auto&, const auto& some) { return edit::Selection{some.kind, {}}; });
+}
+
+Command SelectInvert::command(const Situation& now)
+{
+    return selected<SelectInvert>(now, edit::inverted);
+}
+
+Command SelectLinked::command(const Situation& now)
+{
+    return selected<SelectLinked>(now, edit::linked);
+}
+
+Command SelectGrow::command(const Situation& now)
+{
+    return selected<SelectGrow>(now, edit::grown);
+}
+
+Command SelectShrink::command(const Situation& now)
+{
+    return selected<SelectShrink>(now, edit::shrunk);
+}
+
+Command SelectLoop::command(const Situation& now)
+{
+    return selected<SelectLoop>(now, edit::loop);
+}
+
+Grab Grab::read(const Arguments& arguments)
+{
+    constexpr std::array<const char*, 3> names{"move", "rotate", "scale"};
+    return {static_cast<Tool>(1 + arguments.choice<int>(0, names))};
+}
+
+Command NextFrame::command(const Situation& now)
+{
+    return SetFrame{std::min(now.state.view.frame + 1, lastFrame)};
+}
+
+Command PreviousFrame::command(const Situation& now)
+{
+    return SetFrame{std::max(now.state.view.frame - 1, 0)};
+}
+
+Command NextKey::command(const Situation& now)
+{
+    return nextKey(now, 1);
+}
+
+Command PreviousKey::command(const Situation& now)
+{
+    return nextKey(now, -1);
+}
+
+Command InsertKey::command(const Situation& now)
+{
+    return SetKey{now.state.view.frame};
+}
+
+Command RemoveKey::command(const Situation& now)
+{
+    return DeleteKey{now.state.view.frame};
+}
+
+LineHelp describeVerbs()
+{
+    return Table::help();
+}
+
+std::string textOf(const Action& action)
+{
+    if (const auto* const command = std::get_if<Command>(&action)) return toText(*command);
+    return Table::text(std::get<Verb>(action));
+}
+
+Action actionOf(const Words& words)
+{
+    if (auto command = tryCommandOf(words)) return *std::move(command);
+    if (auto verb = Table::read(words)) return *std::move(verb);
+    throw InputError("'" + (words.empty() ? std::string() : words[0]) + "' is no command");
+}
+
+namespace {
+
+template <class T, class = void>
+constexpr bool saysRecorded = false;
+template <class T>
+constexpr bool saysRecorded<T, std::void_t<decltype(T::isRecorded)>> = T::isRecorded;
+
+} // namespace
+
+bool isRecorded(const Action& action)
+{
+    const auto* const verb = std::get_if<Verb>(&action);
+    return !verb || std::visit([](const auto& each) { return saysRecorded<std::decay_t<decltype(each)>>; }, *verb);
 }
 
 } // namespace vdbcage::view

@@ -9,7 +9,7 @@ Carrier::Carrier(std::function<void()> wake)
     : worker_(
           [](const Job& job, Interrupter& interrupter, const auto&) {
               const Stage stage(&interrupter, "carry the pose over");
-              auto carried = std::make_shared<CarriedPoses>(job.cage);
+              auto carried = std::make_shared<PosableCage>(job.cage);
               carried->carry(job.poses, &interrupter);
               return carried;
           },
@@ -17,7 +17,7 @@ Carrier::Carrier(std::function<void()> wake)
 {
 }
 
-std::shared_ptr<CarriedPoses> Carrier::carried(const MeshPtr& cage, const TimeLine& poses)
+ShownCage Carrier::carried(const MeshPtr& cage, const TimeLine& poses)
 {
     Job wanted{cage, {}};
     for (const PoseKey& key : poses.keys()) {
@@ -28,10 +28,10 @@ std::shared_ptr<CarriedPoses> Carrier::carried(const MeshPtr& cage, const TimeLi
     update();
     if (wanted.poses.empty()) {
         error_.clear();
-        return std::make_shared<CarriedPoses>(cage);
+        return std::make_shared<PosableCage>(cage);
     }
     const bool isReady =
-        ready_ && ready_->cage() == cage &&
+        ready_ && ready_->rest() == cage &&
         std::all_of(wanted.poses.begin(), wanted.poses.end(), [&](const PosePtr& pose) { return ready_->has(pose); });
     if (isReady) return std::exchange(ready_, nullptr);
     if (!isRunning_) {
@@ -50,7 +50,7 @@ void Carrier::update()
     error_ = outcome->error;
     ready_ = outcome->result.value_or(nullptr);
     if (error_.empty()) return;
-    ready_ = std::make_shared<CarriedPoses>(running_.cage);
+    ready_ = std::make_shared<PosableCage>(running_.cage);
     ready_->giveUp(running_.poses);
 }
 

@@ -17,9 +17,9 @@ public:
     /// `wake`: see Worker.
     explicit Carrier(std::function<void()> wake);
 
-    /// All poses of a time line for `cage`. Null: some have to be carried over, which is under way now; what was under
+    /// `cage` with all poses of a time line. Null: some have to be carried over, which is under way now; what was under
     /// way for something else is stopped. Poses that cannot be carried over are at rest; error() says why.
-    std::shared_ptr<CarriedPoses> carried(const MeshPtr& cage, const TimeLine& poses);
+    ShownCage carried(const MeshPtr& cage, const TimeLine& poses);
 
     /// Takes what has ended. Ask for carried() again then.
     void update();
@@ -36,10 +36,10 @@ private:
         std::vector<PosePtr> poses; ///< that were made for other cages
     };
 
-    Worker<Job, std::shared_ptr<CarriedPoses>> worker_;
+    Worker<Job, ShownCage> worker_;
     Job running_;
     bool isRunning_ = false;
-    std::shared_ptr<CarriedPoses> ready_; ///< null: nothing
+    ShownCage ready_; ///< null: nothing
     std::string error_;
 };
 

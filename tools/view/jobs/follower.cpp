@@ -5,21 +5,22 @@
 
 namespace vdbcage::view {
 
-void Follower::follow(const State& state, const std::vector<openvdb::Vec3d>& cagePoints, const Effort& effort)
+void Follower::follow(const State& state, const MeshPtr& cage, const std::vector<openvdb::Vec3d>& cagePoints,
+                      const Effort& effort)
 {
     if (!effort.isPosing) {
         binder_.want(std::nullopt);
     } else if (effort.isToStay) {
-        binder_.want(bindOrder(state));
+        binder_.want(bindOrder(state.document, cage));
     }
     followMaterial(state.document.elasticity);
-    if (!effort.isPosing || cagePoints == state.cage->points) {
+    if (!effort.isPosing || cagePoints == cage->points) {
         model_.update(nullptr, {});
-    } else if (bound_ && bound_->order == bindOrder(state)) {
+    } else if (bound_ && bound_->order == bindOrder(state.document, cage)) {
         model_.update(bound_, cagePoints);
     }
-    followCheck(state, cagePoints, effort.isPosing && effort.standsStill);
-    followValues(state);
+    followCheck(state, cage, cagePoints, effort.isPosing && effort.standsStill);
+    followValues(state, cage);
 }
 
 void Follower::followMaterial(const Elasticity& elasticity)
@@ -30,28 +31,30 @@ void Follower::followMaterial(const Elasticity& elasticity)
     bound_ = withMaterial(boundByBinder_, elasticity);
 }
 
-void Follower::followCheck(const State& state, const std::vector<openvdb::Vec3d>& cagePoints, bool standsStill)
+void Follower::followCheck(const State& state, const MeshPtr& cage, const std::vector<openvdb::Vec3d>& cagePoints,
+                           bool standsStill)
 {
     std::optional<PoseCheckOrder> order;
-    if (standsStill && cagePoints != state.cage->points) {
-        order = PoseCheckOrder{bindOrder(state), cagePoints, nullptr};
+    if (standsStill && cagePoints != cage->points) {
+        const BindOrder bound = bindOrder(state.document, cage);
+        order = PoseCheckOrder{bound, cagePoints, nullptr};
         // Given weights are not known at the points that are looked at to count them.
         const bool areCounted =
             state.view.modelColours == ModelColours::inverted && state.document.coordinates != Coordinates::given;
-        if (areCounted) order->binding = bindingOf(state);
+        if (areCounted) order->binding = bindingOf(bound);
         // It is counted once it is bound.
         if (areCounted && !order->binding && !binder_.isHalted()) order.reset();
     }
     checker_.want(order);
 }
 
-void Follower::followValues(const State& state)
+void Follower::followValues(const State& state, const MeshPtr& cage)
 {
-    const bool isBound = bound_ && bound_->whole && bound_->order == bindOrder(state);
+    const bool isBound = bound_ && bound_->whole && bound_->order == bindOrder(state.document, cage);
     ModelColours colours = isBound && state.view.mode == Mode::pose ? state.view.modelColours : ModelColours::plain;
     if (colours == ModelColours::stretch && !model_.isWhole()) colours = ModelColours::plain; // it is at rest
     std::vector<openvdb::Index32> points;
-    if (colours == ModelColours::influence) points = selectedPoints(state);
+    if (colours == ModelColours::influence) points = selectedPoints(*cage, state.view.selection);
     const std::uint64_t version = colours == ModelColours::stretch ? model_.version() : 0;
     const PoseCheckPtr check = colours == ModelColours::inverted ? checker_.result() : nullptr;
     // Until the next pose is checked the colours are those of the last one.
@@ -87,9 +90,9 @@ void Follower::waitForNews(double seconds)
     checker_.waitForNews(seconds);
 }
 
-std::shared_ptr<const Binding> Follower::bindingOf(const State& state) const
+std::shared_ptr<const Binding> Follower::bindingOf(const BindOrder& order) const
 {
-    return bound_ && bound_->order == bindOrder(state) ? bound_->whole : nullptr;
+    return bound_ && bound_->order == order ? bound_->whole : nullptr;
 }
 
 } // namespace vdbcage::view

@@ -21,13 +21,14 @@ public:
 
     /// When to do how much.
     struct Effort {
-        bool isPosing = false;    ///< there is something that follows
+        bool isPosing = false;    ///< there is something that follows, and a cage
         bool isToStay = false;    ///< the cage is not gone in a moment: it is worth binding
         bool standsStill = false; ///< the pose is worth checking
     };
-    /// Follows a state whose cage's points are at `cagePoints`. Until something new is bound all stays as it was posed.
-    /// Cost: as Binding::pose, if the pose is another.
-    void follow(const State& state, const std::vector<openvdb::Vec3d>& cagePoints, const Effort& effort);
+    /// Follows a state whose cage has its points at `cagePoints`. Until something new is bound all stays as it was
+    /// posed. Cost: as Binding::pose, if the pose is another.
+    void follow(const State& state, const MeshPtr& cage, const std::vector<openvdb::Vec3d>& cagePoints,
+                const Effort& effort);
 
     const PosedModel& model() const { return model_; }
     /// What the model's colours tell, a value for each of its points; null: nothing. Another one is another object.
@@ -38,9 +39,8 @@ public:
     bool isChecking() const { return !checker_.isSettled(); }
     /// What is bound of the state of the last follow(), with its material; null: nothing yet.
     const BoundModelPtr& bound() const { return bound_; }
-    /// The whole binding of a state's model to its cage, with the material of the last follow(); null: it is not there
-    /// yet.
-    std::shared_ptr<const Binding> bindingOf(const State& state) const;
+    /// The whole binding, with the material of the last follow(); null: it is not there yet.
+    std::shared_ptr<const Binding> bindingOf(const BindOrder& order) const;
 
     /// Takes what was done on other threads, and begins what is next.
     void update();
@@ -56,8 +56,9 @@ public:
 
 private:
     void followMaterial(const Elasticity& elasticity);
-    void followCheck(const State& state, const std::vector<openvdb::Vec3d>& cagePoints, bool standsStill);
-    void followValues(const State& state);
+    void followCheck(const State& state, const MeshPtr& cage, const std::vector<openvdb::Vec3d>& cagePoints,
+                     bool standsStill);
+    void followValues(const State& state, const MeshPtr& cage);
 
     Binder binder_;
     BoundModelPtr bound_;

@@ -12,14 +12,14 @@ CageResultPtr Posing::cageOf(const State& state, const Planner& planner)
     const TimeLine& poses = state.document.poses;
     const CageResultPtr wanted = wantedCage(state.document, planner);
     if (!wanted) {
-        carried_.reset();
+        posable_.reset();
     } else if (state.view.mode == Mode::pose) {
-        if (wanted == shown_ && areCarried(poses, *carried_)) return shown_;
-        auto carried = carrier_.carried(MeshPtr(wanted, &wanted->cage), poses);
+        if (wanted == shown_ && areCarried(poses, *posable_)) return shown_;
+        ShownCage carried = carrier_.carried(MeshPtr(wanted, &wanted->cage), poses);
         if (!carried) return shown_;
-        carried_ = std::move(carried);
+        posable_ = std::move(carried);
     } else if (wanted != shown_) {
-        carried_ = std::make_shared<CarriedPoses>(MeshPtr(wanted, &wanted->cage));
+        posable_ = std::make_shared<PosableCage>(MeshPtr(wanted, &wanted->cage));
     }
     shown_ = wanted;
     return shown_;
@@ -42,19 +42,20 @@ void Posing::follow(const State& state, const Planner& planner, bool standsStill
 {
     const Document& document = state.document;
     Follower::Effort effort;
-    effort.isPosing = state.view.mode == Mode::pose && document.model && state.cage;
-    if (effort.isPosing && !areCarried(document.poses, *carried_)) return;
+    effort.isPosing = state.view.mode == Mode::pose && document.model && posable_;
+    if (effort.isPosing && !areCarried(document.poses, *posable_)) return;
     // A preview's cage is gone in a moment.
     effort.isToStay = planner.standing() == Planner::Standing::current || planner.isHalted();
     effort.standsStill = standsStill;
-    if (document.poses != poses_ || state.cage != cage_ || state.view.mode != mode_ || state.view.frame != frame_) {
+    if (document.poses != poses_ || posable_ != cage_ || state.view.mode != mode_ || state.view.frame != frame_) {
         poses_ = document.poses;
-        cage_ = state.cage;
+        cage_ = posable_;
         mode_ = state.view.mode;
         frame_ = state.view.frame;
-        cagePoints_ = view::cagePoints(state);
+        cagePoints_ = view::cagePoints(state, posable_);
     }
-    follower_.follow(state, cagePoints_, effort);
+    const MeshPtr rest = posable_ ? posable_->rest() : nullptr;
+    follower_.follow(state, rest, cagePoints_, effort);
     if (!effort.isPosing || !state.view.compared) {
         compared_.reset();
         return;
@@ -63,12 +64,12 @@ void Posing::follow(const State& state, const Planner& planner, bool standsStill
     State other = state;
     other.document.coordinates = *state.view.compared;
     other.document.weights.reset();
-    compared_->follow(other, cagePoints_, effort);
+    compared_->follow(other, rest, cagePoints_, effort);
 }
 
 bool Posing::isPosed(const State& state) const
 {
-    return !cagePoints_.empty() && state.view.mode == Mode::pose && state.cage && cagePoints_ != state.cage->points;
+    return !cagePoints_.empty() && state.view.mode == Mode::pose && posable_ && cagePoints_ != posable_->rest()->points;
 }
 
 bool Posing::hasMaterial(const State& state) const
@@ -116,7 +117,7 @@ void Posing::cancel()
 
 const std::string& Posing::error() const
 {
-    const auto isGivenUp = [&](const PoseKey& key) { return carried_ && carried_->isGivenUp(key.pose); };
+    const auto isGivenUp = [&](const PoseKey& key) { return posable_ && posable_->isGivenUp(key.pose); };
     if (std::any_of(poses_.keys().begin(), poses_.keys().end(), isGivenUp)) return carrier_.error();
     return compared_ && follower_.error().empty() ? compared_->error() : follower_.error();
 }

@@ -24,11 +24,11 @@ public:
     /// The cage to show; null: none. One that was opened or moved by hand is there without a verdict until it is
     /// checked. In mode pose it is the one before, while poses are carried over to a new one.
     CageResultPtr cageOf(const State& state, const Planner& planner);
-    /// Poses for that cage, as of the last cageOf(); null without a cage.
-    const std::shared_ptr<CarriedPoses>& carried() const { return carried_; }
+    /// The same to be posed, as of the last cageOf().
+    const ShownCage& posable() const { return posable_; }
 
-    /// Follows a state, whose cage is that of cageOf(): binds what is to be posed, and poses it. Until something new is
-    /// bound, or carried over, all stays as it was posed before. A pose that stands still is checked.
+    /// Follows a state, with the cage of the last cageOf(): binds what is to be posed, and poses it. Until something
+    /// new is bound, or carried over, all stays as it was posed before. A pose that stands still is checked.
     /// Cost: as Binding::pose, if the pose is another.
     void follow(const State& state, const Planner& planner, bool standsStill);
 
@@ -64,11 +64,11 @@ private:
     Follower follower_;
     std::unique_ptr<Follower> compared_;
     CageResultPtr unchecked_, shown_;
-    std::shared_ptr<CarriedPoses> carried_;
+    ShownCage posable_;
     std::vector<openvdb::Vec3d> cagePoints_;
     // What cagePoints_ were made of.
     TimeLine poses_;
-    MeshPtr cage_;
+    ShownCage cage_;
     Mode mode_ = Mode::shape;
     int frame_ = 0;
 };

@@ -10,6 +10,7 @@
 #include <tools/view/panels/panels.h>
 #include <tools/view/widgets/theme.h>
 #include <tools/view/widgets/widgets.h>
+#include <vdbcage/core/error.h>
 
 /// What the parts of the panels share.
 namespace vdbcage::view {
@@ -69,20 +70,33 @@ public:
 
     const PanelContent& content;
 
-    void ask(const std::string& line) const { answer_.lines.push_back(line); }
-
-    /// The first key of a line, such as "control+z"; empty: it has none.
-    std::string keyOf(const std::string& line) const
+    void ask(const Action& action) const { answer_.actions.push_back(action); }
+    /// Asks for the line T with words that were typed.
+    template <class T>
+    void askTyped(const Words& typed) const
     {
+        try {
+            Words line{T::info().name};
+            line.insert(line.end(), typed.begin(), typed.end());
+            ask(actionOf(line));
+        } catch (const InputError& error) {
+            answer_.problems.emplace_back(error.what());
+        }
+    }
+
+    /// The first key of an action, such as "control+z"; empty: it has none.
+    std::string keyOf(const Action& action) const
+    {
+        const std::string line = textOf(action);
         for (const Shortcut& shortcut : content.shortcuts) {
             if (shortcut.line == line) return shortcut.chord;
         }
         return {};
     }
-    /// The text, and the key of the line if it has one: "no handles (w)".
-    std::string withKey(const std::string& text, const std::string& line) const
+    /// The text, and the key of the action if it has one: "no handles (w)".
+    std::string withKey(const std::string& text, const Action& action) const
     {
-        const std::string key = keyOf(line);
+        const std::string key = keyOf(action);
         return key.empty() ? text : text + " (" + key + ')';
     }
 

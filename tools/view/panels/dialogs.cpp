@@ -1,5 +1,4 @@
 #include <tools/view/panels/parts.h>
-#include <tools/view/state/command.h>
 
 namespace vdbcage::view {
 
@@ -39,7 +38,7 @@ void buildMessage(const PanelContext& context)
     dialog(!messages.empty(), "That did not work", 520, [&] {
         paragraph(messages.front());
         ImGui::Dummy({0, length(6)});
-        if (mainButton("Dismiss", length(110))) context.ask("dismiss");
+        if (mainButton("Dismiss", length(110))) context.ask(Dismiss{});
         context.name("message.dismiss");
         if (messages.size() > 1) {
             ImGui::SameLine();
@@ -54,16 +53,16 @@ void buildQuestion(const PanelContext& context, bool isWanted)
     dialog(isWanted, "Quit without saving?", 420, [&] {
         paragraph("The scene was changed since it was saved last.");
         ImGui::Dummy({0, length(6)});
-        const auto button = [&](const char* label, const char* line, bool isMain) {
+        const auto button = [&](const char* label, const Action& action, bool isMain) {
             const bool pressed = isMain ? mainButton(label, length(120)) : ImGui::Button(label, {length(120), 0});
-            context.name(std::string("quit.") + line);
-            if (pressed) context.ask(line);
+            context.name("quit." + textOf(action));
+            if (pressed) context.ask(action);
         };
-        button("Save scene...", "browse save-scene", true);
+        button("Save scene...", Browse{"save-scene"}, true);
         ImGui::SameLine();
-        button("Quit", "quit!", false);
+        button("Quit", QuitUnsaved{}, false);
         ImGui::SameLine();
-        button("Stay", "dismiss", false);
+        button("Stay", Dismiss{}, false);
     });
 }
 
@@ -74,10 +73,10 @@ void buildChanged(const PanelContext& context, bool isWanted)
         paragraph((model ? model->path.filename().string() : std::string("its file")) +
                   " is another file on disk now.");
         ImGui::Dummy({0, length(6)});
-        if (mainButton("Open it anew", length(130))) context.ask("reload");
+        if (mainButton("Open it anew", length(130))) context.ask(Reload{});
         context.name("changed.reload");
         ImGui::SameLine();
-        if (ImGui::Button("Keep the old one", {length(150), 0})) context.ask("dismiss");
+        if (ImGui::Button("Keep the old one", {length(150), 0})) context.ask(Dismiss{});
         context.name("changed.keep");
     });
 }
@@ -125,14 +124,15 @@ void buildDialogs(const PanelContext& context, bool& isHelpOpen, FileBrowser& br
     // ImGui has one of them at a time; the others come back.
     const PanelContent& content = context.content;
     const bool isMessage = !content.messages.empty();
-    const bool isBrowser = !isMessage && browser.isOpen();
+    const bool isBrowser = !isMessage && browser.isOpen;
     const bool isQuestion = !isMessage && !isBrowser && content.asksToQuit;
     const bool isChanged = !isMessage && !isBrowser && !isQuestion && content.hasModelChanged;
     const bool isHelp = !isMessage && !isBrowser && !isQuestion && !isChanged && isHelpOpen;
     buildHelp(context, isHelp, isHelpOpen);
     buildQuestion(context, isQuestion);
     buildChanged(context, isChanged);
-    dialog(isBrowser, (browser.title + "###browser").c_str(), 560, [&] { buildBrowser(context, browser); });
+    const std::string title = browser.line ? browser.line->title : "";
+    dialog(isBrowser, (title + "###browser").c_str(), 560, [&] { buildBrowser(context, browser); });
     buildMessage(context);
 }
 

@@ -1,14 +1,12 @@
 #include <tools/view/panels/file_browser.h>
 
 #include <algorithm>
-#include <array>
 #include <cstdio>
 #include <system_error>
+#include <utility>
 
 #include <tools/files/frames.h>
-#include <tools/view/files/saver.h>
 #include <tools/view/panels/parts.h>
-#include <tools/view/state/words.h>
 #include <vdbcage/core/error.h>
 
 namespace vdbcage::view {
@@ -17,48 +15,46 @@ namespace fs = std::filesystem;
 
 namespace {
 
-struct Verb {
-    const char* verb;
-    const char* title;
-    const char* button;
-    std::vector<std::string> extensions;
-    bool saves;
-    const char* ending; ///< of the name that is offered: the model's without its extension, and this
-};
+template <class T>
+FileLine opens(const char* title, std::vector<std::string> extensions)
+{
+    const auto of = [](const std::string& path) -> Action { return T{path}; };
+    return {T::info().name, of, title, std::move(extensions)};
+}
 
-const std::vector<Verb>& verbs()
+template <class T>
+FileLine saves(const char* title, std::vector<std::string> extensions, const char* ending)
+{
+    FileLine line = opens<T>(title, std::move(extensions));
+    line.ending = ending;
+    line.isSequence = T::isSequence;
+    return line;
+}
+
+const std::vector<FileLine>& fileLines()
 {
     static const std::vector<std::string> meshes{".obj", ".off", ".ply", ".stl"};
-    static const std::vector<Verb> list{
-        {"open", "Open a model", "Open", meshes, false, ""},
-        {"open-cage", "Open a cage", "Open", meshes, false, ""},
-        {"open-scene", "Open a scene", "Open", {".json"}, false, ""},
-        {"preset", "Take options from a file", "Open", {".options"}, false, ""},
-        {"open-pose", "Open a posed cage", "Open", meshes, false, ""},
-        {"save-posed-cage", "Save the posed cage", "Save", meshes, true, "_posed_cage.obj"},
-        {"save-posed-model", "Save the posed model", "Save", meshes, true, "_posed.obj"},
-        {"open-poses",
-         "Open a sequence of posed cages: one of its files",
-         "Open",
-         {".obj", ".off", ".ply", ".stl", ".param"},
-         false,
-         ""},
-        {"open-weights",
-         "Open weights: points of the model x points of the cage",
-         "Open",
-         {".npy", ".dmat"},
-         false,
-         ""},
-        {"save-posed-cages", "Save the posed cage of every frame", "Save", meshes, true, "_posed_cage.%04d.obj"},
-        {"save-posed-models", "Save the posed model of every frame", "Save", meshes, true, "_posed.%04d.obj"},
-        {"save-colours", "Save the colours of the model", "Save", {".ply"}, true, "_colours.ply"},
-        {"save-weights", "Save the weights", "Save", {".npy"}, true, "_weights.npy"},
-        {"save-cage", "Save the cage", "Save", meshes, true, "_cage.obj"},
-        {"save-scene", "Save the scene", "Save", {".json"}, true, "_scene.json"},
-        {"save-report", "Save the report", "Save", {".json"}, true, "_report.json"},
-        {"save-options", "Save the options", "Save", {".options"}, true, ".options"},
-        {"save-picture", "Save a picture", "Save", {".png"}, true, ".png"},
-        {"save-stages", "Save the stages into a folder", "Save here", {}, true, "_stages"}};
+    static const std::vector<FileLine> list{
+        opens<OpenModel>("Open a model", meshes),
+        opens<OpenCage>("Open a cage", meshes),
+        opens<OpenScene>("Open a scene", {".json"}),
+        opens<ApplyPreset>("Take options from a file", {".options"}),
+        opens<OpenPose>("Open a posed cage", meshes),
+        opens<OpenPoses>("Open a sequence of posed cages: one of its files",
+                         {".obj", ".off", ".ply", ".stl", ".param"}),
+        opens<OpenWeights>("Open weights: points of the model x points of the cage", {".npy", ".dmat"}),
+        saves<SavePosedCage>("Save the posed cage", meshes, "_posed_cage.obj"),
+        saves<SavePosedModel>("Save the posed model", meshes, "_posed.obj"),
+        saves<SavePosedCages>("Save the posed cage of every frame", meshes, "_posed_cage.%04d.obj"),
+        saves<SavePosedModels>("Save the posed model of every frame", meshes, "_posed.%04d.obj"),
+        saves<SaveColours>("Save the colours of the model", {".ply"}, "_colours.ply"),
+        saves<SaveWeights>("Save the weights", {".npy"}, "_weights.npy"),
+        saves<SaveCage>("Save the cage", meshes, "_cage.obj"),
+        saves<SaveScene>("Save the scene", {".json"}, "_scene.json"),
+        saves<SaveReport>("Save the report", {".json"}, "_report.json"),
+        saves<SaveOptions>("Save the options", {".options"}, ".options"),
+        saves<SavePicture>("Save a picture", {".png"}, ".png"),
+        saves<SaveStages>("Save the stages into a folder", {}, "_stages")};
     return list;
 }
 
@@ -90,11 +86,11 @@ void readFolder(FileBrowser& browser)
     browser.entries.clear();
     browser.problem.clear();
     try {
-        browser.entries = listFolder(browser.folder, browser.extensions, browser.filter);
+        browser.entries = listFolder(browser.folder, browser.line->extensions, browser.filter);
     } catch (const Error& error) {
         browser.problem = error.what();
     }
-    if (browser.extensions.empty()) { // folders only
+    if (browser.line->extensions.empty()) { // folders only
         browser.entries.erase(std::remove_if(browser.entries.begin(), browser.entries.end(),
                                              [](const FolderEntry& entry) { return !entry.isFolder; }),
                               browser.entries.end());
@@ -105,26 +101,26 @@ void readFolder(FileBrowser& browser)
 /// gets an extension if it has none.
 void choose(const PanelContext& context, FileBrowser& browser, bool isConfirmed)
 {
-    if (browser.name.empty()) return;
+    if (!browser.isOpen || browser.name.empty()) return;
+    const FileLine& line = *browser.line;
     fs::path path = (browser.folder / browser.name).lexically_normal();
     std::error_code error;
-    if (!browser.extensions.empty() && fs::is_directory(path, error)) {
+    if (!line.extensions.empty() && fs::is_directory(path, error)) {
         goTo(browser, path);
         browser.name.clear();
         return;
     }
-    if (browser.saves && !browser.extensions.empty() && !path.has_extension()) path += browser.extensions.front();
-    const bool isThere =
-        isSequence(browser.verb) ? files::countFrames(files::patternFor(path)) > 0 : fs::exists(path, error);
-    if (browser.saves && !isConfirmed && isThere) {
+    if (line.ending && !line.extensions.empty() && !path.has_extension()) path += line.extensions.front();
+    const bool isThere = line.isSequence ? files::countFrames(files::patternFor(path)) > 0 : fs::exists(path, error);
+    if (line.ending && !isConfirmed && isThere) {
         browser.question =
-            path.filename().string() + (browser.extensions.empty() ? " is there already. Write the stages into it?"
-                                        : isSequence(browser.verb) ? ": some frames are there already. Write over them?"
-                                                                   : " is there already. Write over it?");
+            path.filename().string() + (line.extensions.empty() ? " is there already. Write the stages into it?"
+                                        : line.isSequence       ? ": some frames are there already. Write over them?"
+                                                                : " is there already. Write over it?");
         return;
     }
-    context.ask(browser.verb + ' ' + quotedWord(path.string()));
-    browser.verb.clear();
+    context.ask(line.of(path.string()));
+    browser.isOpen = false;
 }
 
 void buildList(const PanelContext& context, FileBrowser& browser)
@@ -155,28 +151,26 @@ void buildList(const PanelContext& context, FileBrowser& browser)
 
 } // namespace
 
-void open(FileBrowser& browser, const std::string& verb, const fs::path& suggested)
+void open(FileBrowser& browser, const std::string& line, const fs::path& suggested)
 {
-    for (const Verb& known : verbs()) {
-        if (verb != known.verb) continue;
+    for (const FileLine& known : fileLines()) {
+        if (line != known.name) continue;
         std::error_code error;
         fs::path folder = suggested.parent_path();
         if (folder.empty()) folder = fs::current_path(error);
         browser = {};
-        browser.verb = verb;
-        browser.title = known.title;
-        browser.button = known.button;
-        browser.extensions = known.extensions;
-        browser.saves = known.saves;
+        browser.isOpen = true;
+        browser.line = &known;
         browser.folder = folder;
-        if (known.saves) browser.name = suggested.stem().string() + known.ending;
+        if (known.ending) browser.name = suggested.stem().string() + known.ending;
         return;
     }
-    throw InputError("browse: '" + verb + "' is not a line that takes a file");
+    throw InputError("browse: '" + line + "' is not a line that takes a file");
 }
 
 void buildBrowser(const PanelContext& context, FileBrowser& browser)
 {
+    const FileLine& line = *browser.line;
     readFolder(browser);
     if (ImGui::Button("Up")) goTo(browser, browser.folder.parent_path());
     context.name("browser.up");
@@ -192,7 +186,7 @@ void buildBrowser(const PanelContext& context, FileBrowser& browser)
     if (ImGui::InputTextWithHint("##filter", "part of a name", &browser.filter)) browser.isStale = true;
     context.name("browser.filter");
     buildList(context, browser);
-    muted(browser.extensions.empty() ? "Folder, or a path:" : "Name, or a path:");
+    muted(line.extensions.empty() ? "Folder, or a path:" : "Name, or a path:");
     ImGui::SetNextItemWidth(-1);
     if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere(); // a name can be typed at once
     if (ImGui::InputText("##name", &browser.name,
@@ -212,11 +206,12 @@ void buildBrowser(const PanelContext& context, FileBrowser& browser)
         return;
     }
     ImGui::BeginDisabled(browser.name.empty());
-    if (mainButton(browser.button, length(110))) choose(context, browser, false);
+    const char* const button = !line.ending ? "Open" : line.extensions.empty() ? "Save here" : "Save";
+    if (mainButton(button, length(110))) choose(context, browser, false);
     context.name("browser.ok");
     ImGui::EndDisabled();
     ImGui::SameLine();
-    if (ImGui::Button("Cancel", {length(110), 0})) browser.verb.clear();
+    if (ImGui::Button("Cancel", {length(110), 0})) browser.isOpen = false;
     context.name("browser.cancel");
 }
 

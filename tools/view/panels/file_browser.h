@@ -5,15 +5,24 @@
 #include <vector>
 
 #include <tools/view/files/folder.h>
+#include <tools/view/input/verbs.h>
 
 namespace vdbcage::view {
 
+/// A line that takes a file, and how the file is asked for.
+struct FileLine {
+    std::string name;
+    Action (*of)(const std::string& path);
+    const char* title;
+    std::vector<std::string> extensions; ///< empty: folders are chosen
+    const char* ending = nullptr;        ///< of the name offered to save by: the model's, and this; null: it opens
+    bool isSequence = false;
+};
+
 /// What is remembered of the file browser.
 struct FileBrowser {
-    std::string verb; ///< of the line that is asked for in the end; empty: closed
-    std::string title, button;
-    std::vector<std::string> extensions; ///< empty: folders are chosen
-    bool saves = false;
+    bool isOpen = false;
+    const FileLine* line = nullptr; ///< that is asked for in the end; null: it was never open
     std::filesystem::path folder;
     std::string name;     ///< the name that is typed, or a path
     std::string filter;   ///< part of the names that are listed
@@ -21,12 +30,10 @@ struct FileBrowser {
     std::string problem;
     std::vector<FolderEntry> entries;
     bool isStale = true; ///< `entries` are to be read anew
-
-    bool isOpen() const { return !verb.empty(); }
 };
 
-/// Opens the browser for the line that begins with `verb`, such as "open" or "save-cage". `suggested` is a path whose
-/// folder and name are offered. \throw InputError no such verb
-void open(FileBrowser& browser, const std::string& verb, const std::filesystem::path& suggested);
+/// Opens the browser for a line, such as "open" or "save-cage". `suggested` is a path whose folder and name are
+/// offered. \throw InputError it takes no file
+void open(FileBrowser& browser, const std::string& line, const std::filesystem::path& suggested);
 
 } // namespace vdbcage::view

@@ -2,7 +2,6 @@
 #include <cstdio>
 
 #include <tools/view/panels/parts.h>
-#include <tools/view/state/command.h>
 #include <tools/view/state/words.h>
 #include <vdbcage/core/detail/length_text.h>
 #include <vdbcage/core/detail/number_text.h>
@@ -37,14 +36,12 @@ void buildLayer(const PanelContext& context, const LayerText& text)
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
     bool shown = look.shown;
-    if (ImGui::Checkbox("##shown", &shown)) context.ask("layer " + name + (shown ? " on" : " off"));
+    if (ImGui::Checkbox("##shown", &shown)) context.ask(ShowLayer{text.id, shown});
     context.name("layer." + name);
     ImGui::TableNextColumn();
     draw::Colour colour = look.colour;
     if (ImGui::ColorEdit3("##colour", colour.data(), ImGuiColorEditFlags_NoInputs | ImGuiColorEditFlags_NoTooltip)) {
-        std::string line = "colour " + name;
-        for (const float channel : colour) line += ' ' + detail::numberText(double{channel});
-        context.ask(line);
+        context.ask(ColourLayer{text.id, colour});
     }
     context.name("colour." + name);
     ImGui::TableNextColumn();
@@ -59,8 +56,7 @@ void buildLayer(const PanelContext& context, const LayerText& text)
     float opacity = static_cast<float>(look.opacity);
     ImGui::SetNextItemWidth(-1);
     if (ImGui::SliderFloat("##opacity", &opacity, 0, 1, "", pointerOnly)) {
-        const double hundredths = std::round(100 * double{opacity}) / 100;
-        context.ask("opacity " + name + ' ' + detail::numberText(hundredths));
+        context.ask(FadeLayer{text.id, std::round(100 * double{opacity}) / 100});
     }
     context.followDrag();
     context.name("opacity." + name);
@@ -86,17 +82,13 @@ void buildCageColours(const PanelContext& context)
     struct Choice {
         CageColours colours;
         const char* label;
-        const char* name;
         const char* text;
     };
-    for (const Choice& c :
-         {Choice{CageColours::plain, "Plain", "plain", "one colour"},
-          Choice{CageColours::kinds, "Quads", "kinds", "quads have another colour than triangles"},
-          Choice{CageColours::distance, "Distance", "distance", "how far the cage is from the model"}}) {
-        if (choice(c.label, now == c.colours, c.colours == CageColours::plain)) {
-            context.ask(std::string("cage-colours ") + c.name);
-        }
-        context.name(std::string("cage-colours.") + c.name);
+    for (const Choice& c : {Choice{CageColours::plain, "Plain", "one colour"},
+                            Choice{CageColours::kinds, "Quads", "quads have another colour than triangles"},
+                            Choice{CageColours::distance, "Distance", "how far the cage is from the model"}}) {
+        if (choice(c.label, now == c.colours, c.colours == CageColours::plain)) context.ask(SetCageColours{c.colours});
+        context.name(std::string("cage-colours.") + nameIn(cageColourNames, c.colours));
         help(c.text);
     }
 }
@@ -111,9 +103,8 @@ void buildModelColours(const PanelContext& context)
     for (std::size_t i = 0; i < labels.size(); ++i) {
         if (i % 2 == 1) ImGui::SameLine(length(120));
         const std::string label = std::string(labels[i]) + "##model";
-        if (ImGui::RadioButton(label.c_str(), now == static_cast<ModelColours>(i))) {
-            context.ask(std::string("model-colours ") + modelColourNames[i]);
-        }
+        const auto colours = static_cast<ModelColours>(i);
+        if (ImGui::RadioButton(label.c_str(), now == colours)) context.ask(SetModelColours{colours});
         context.name(std::string("model-colours.") + modelColourNames[i]);
         help(helps[i]);
     }
@@ -131,12 +122,10 @@ void buildCompare(const PanelContext& context)
     const bool isOpen = ImGui::BeginCombo("##compare", now);
     context.name("compare");
     if (!isOpen) return help("a second picture has the model by another family of coordinates");
-    if (ImGui::Selectable("nothing", !compared)) context.ask("compare off");
+    if (ImGui::Selectable("nothing", !compared)) context.ask(Compare{});
     context.name("compare.off");
     for (const FamilyInfo& family : coordinateFamilies()) {
-        if (ImGui::Selectable(family.title, compared == family.family)) {
-            context.ask(std::string("compare ") + family.name);
-        }
+        if (ImGui::Selectable(family.title, compared == family.family)) context.ask(Compare{family.family});
         context.name(std::string("compare.") + family.name);
         help(describe(family));
     }
@@ -147,7 +136,7 @@ void buildCompare(const PanelContext& context)
 void buildMaterial(const PanelContext& context)
 {
     const Elasticity& now = context.content.session.state().document.elasticity;
-    const auto ask = [&](const Elasticity& elasticity) { context.ask(toText(SetMaterial{elasticity})); };
+    const auto ask = [&](const Elasticity& elasticity) { context.ask(SetMaterial{elasticity}); };
     struct Number {
         const char* label;
         const char* name;
@@ -213,16 +202,14 @@ void buildSection(const PanelContext& context)
     ImGui::BeginDisabled(!box && !on);
     if (ImGui::Checkbox("Section", &on)) {
         const double middle = box ? 0.5 * (box->min().z() + box->max().z()) : 0;
-        context.ask(on ? "section 0 0 1 " + detail::numberText(middle) : "section off");
+        context.ask(on ? SetSection{SectionPlane{{0, 0, 1}, middle}} : SetSection{});
     }
     context.name("section");
     help("cuts off all layers on one side of a plane");
     ImGui::EndDisabled();
     if (!section || !box) return;
     const auto ask = [&](const openvdb::Vec3d& normal, double offset) {
-        std::string line = "section";
-        for (const double value : {normal.x(), normal.y(), normal.z(), offset}) line += ' ' + detail::numberText(value);
-        context.ask(line);
+        context.ask(SetSection{SectionPlane{normal, offset}});
     };
     int axis = 0;
     for (int k = 1; k < 3; ++k) {
@@ -286,13 +273,13 @@ void buildSelected(const PanelContext& context, std::map<std::string, std::strin
         ImGui::SameLine(length(30));
         const auto text = typedField(context, typed, name, coordinateText(selected->mean[k], longest), -1);
         if (!text) continue;
-        std::array<std::string, 3> by{"0", "0", "0"};
+        Words by{"0", "0", "0"};
         try {
             by[static_cast<std::size_t>(k)] = detail::numberText(numberOf(*text, name) - selected->mean[k]);
         } catch (const InputError&) { // the command says what is wrong
-            by[static_cast<std::size_t>(k)] = quotedWord(*text);
+            by[static_cast<std::size_t>(k)] = *text;
         }
-        context.ask("move " + by[0] + ' ' + by[1] + ' ' + by[2]);
+        context.askTyped<MoveSelected>(by);
     }
     ImGui::PopStyleVar();
     ImGui::Dummy({0, length(4)});
@@ -358,14 +345,15 @@ void buildLayers(const PanelContext& context, std::map<std::string, std::string>
     buildSelected(context, typed);
     heading("View");
     buildSection(context);
-    const auto check = [&](const char* label, const std::string& name, bool on, const char* text) {
-        if (ImGui::Checkbox(label, &on)) context.ask(name + (on ? " on" : " off"));
-        context.name(name);
+    const auto check = [&](const char* label, auto command, const char* text) {
+        using Switch = decltype(command);
+        if (ImGui::Checkbox(label, &command.isOn)) context.ask(command);
+        context.name(Switch::info().name);
         help(text);
     };
-    check("Ground grid", "ground", view.ground, "a grid below the model; the label says how far its lines are apart");
-    check("Axes", "axes", view.axes, "x, y and z in the corner of the picture");
-    check("Turntable", "turntable", view.turntable, "turns the view by itself");
+    check("Ground grid", ShowGround{view.ground}, "a grid below the model; the label says how far its lines are apart");
+    check("Axes", ShowAxes{view.axes}, "x, y and z in the corner of the picture");
+    check("Turntable", SetTurntable{view.turntable}, "turns the view by itself");
     buildCounts(context);
 }
 

@@ -1,17 +1,17 @@
 #include <tools/view/panels/parts.h>
-#include <tools/view/state/preset.h>
-#include <tools/view/state/words.h>
 
 namespace vdbcage::view {
 
 namespace {
 
-void item(const PanelContext& context, const std::string& label, const std::string& line, bool enabled = true,
+void item(const PanelContext& context, const std::string& label, const Action& action, bool enabled = true,
           bool isChecked = false)
 {
-    const std::string chord = context.keyOf(line);
-    if (ImGui::MenuItem(label.c_str(), chord.empty() ? nullptr : chord.c_str(), isChecked, enabled)) context.ask(line);
-    context.name("menu." + line);
+    const std::string chord = context.keyOf(action);
+    if (ImGui::MenuItem(label.c_str(), chord.empty() ? nullptr : chord.c_str(), isChecked, enabled)) {
+        context.ask(action);
+    }
+    context.name("menu." + textOf(action));
 }
 
 template <class Build>
@@ -22,11 +22,6 @@ void menu(const PanelContext& context, const char* label, const Build& build)
     if (!isOpen) return;
     build();
     ImGui::EndMenu();
-}
-
-std::string onOff(bool on)
-{
-    return on ? "on" : "off";
 }
 
 } // namespace
@@ -46,103 +41,102 @@ void buildMenu(const PanelContext& context)
     }
     ImGui::PopStyleVar();
     menu(context, "File", [&] {
-        item(context, "Open model...", "browse open");
+        item(context, "Open model...", Browse{"open"});
         menu(context, "Open recent", [&] {
             for (const auto& file : context.content.recentFiles) {
-                item(context, file.filename().string() + "##" + file.string(), "open " + quotedWord(file.string()));
+                item(context, file.filename().string() + "##" + file.string(), OpenModel{file.string()});
             }
             if (context.content.recentFiles.empty()) ImGui::MenuItem("(none yet)", nullptr, false, false);
         });
-        item(context, "Open cage...", "browse open-cage", hasModel);
-        item(context, "Make the cage again", "close-cage", document.cage != nullptr);
-        item(context, "Open posed cage...", "browse open-pose", hasCage);
-        item(context, "Open sequence of posed cages...", "browse open-poses", hasCage);
-        item(context, "Open weights...", "browse open-weights", hasCage);
-        item(context, "Open scene...", "browse open-scene");
+        item(context, "Open cage...", Browse{"open-cage"}, hasModel);
+        item(context, "Make the cage again", CloseCage{}, document.cage != nullptr);
+        item(context, "Open posed cage...", Browse{"open-pose"}, hasCage);
+        item(context, "Open sequence of posed cages...", Browse{"open-poses"}, hasCage);
+        item(context, "Open weights...", Browse{"open-weights"}, hasCage);
+        item(context, "Open scene...", Browse{"open-scene"});
         ImGui::Separator();
-        item(context, "Save cage...", "browse save-cage", hasCage);
-        item(context, "Save posed cage...", "browse save-posed-cage", hasCage);
-        item(context, "Save posed model...", "browse save-posed-model", hasCage);
-        item(context, "Save every posed cage...", "browse save-posed-cages", hasPoses);
-        item(context, "Save every posed model...", "browse save-posed-models", hasPoses);
-        item(context, "Save colours of the model...", "browse save-colours", hasCage);
-        item(context, "Save weights...", "browse save-weights", hasCage && document.coordinates != Coordinates::given);
-        item(context, "Save scene...", "browse save-scene", hasModel);
-        item(context, "Save stages...", "browse save-stages", hasCage);
-        item(context, "Save report...", "browse save-report", hasCage);
-        item(context, "Save options...", "browse save-options");
-        item(context, "Save picture...", "browse save-picture");
+        item(context, "Save cage...", Browse{"save-cage"}, hasCage);
+        item(context, "Save posed cage...", Browse{"save-posed-cage"}, hasCage);
+        item(context, "Save posed model...", Browse{"save-posed-model"}, hasCage);
+        item(context, "Save every posed cage...", Browse{"save-posed-cages"}, hasPoses);
+        item(context, "Save every posed model...", Browse{"save-posed-models"}, hasPoses);
+        item(context, "Save colours of the model...", Browse{"save-colours"}, hasCage);
+        item(context, "Save weights...", Browse{"save-weights"}, hasCage && document.coordinates != Coordinates::given);
+        item(context, "Save scene...", Browse{"save-scene"}, hasModel);
+        item(context, "Save stages...", Browse{"save-stages"}, hasCage);
+        item(context, "Save report...", Browse{"save-report"}, hasCage);
+        item(context, "Save options...", Browse{"save-options"});
+        item(context, "Save picture...", Browse{"save-picture"});
         ImGui::Separator();
-        item(context, "Quit", "quit");
+        item(context, "Quit", Quit{});
     });
     menu(context, "Edit", [&] {
         const auto& documents = session.documents();
         const auto& views = session.views();
-        item(context, documents.canUndo() ? "Undo " + documents.undone() : "Undo", "undo", documents.canUndo());
-        item(context, documents.canRedo() ? "Redo " + documents.redone() : "Redo", "redo", documents.canRedo());
+        item(context, documents.canUndo() ? "Undo " + documents.undone() : "Undo", Undo{}, documents.canUndo());
+        item(context, documents.canRedo() ? "Redo " + documents.redone() : "Redo", Redo{}, documents.canRedo());
         ImGui::Separator();
-        item(context, "Undo view", "undo-view", views.canUndo());
-        item(context, "Redo view", "redo-view", views.canRedo());
+        item(context, "Undo view", UndoView{}, views.canUndo());
+        item(context, "Redo view", RedoView{}, views.canRedo());
         ImGui::Separator();
-        item(context, "All options to their defaults", "reset");
-        item(context, "Options from a file...", "browse preset");
+        item(context, "All options to their defaults", ResetOptions{});
+        item(context, "Options from a file...", Browse{"preset"});
         ImGui::Separator();
-        item(context, "Select all", "select-all", hasCage);
-        item(context, "Select nothing", "select-none", hasSelected);
-        item(context, "Invert the selection", "select-invert", hasCage);
-        item(context, "Select what hangs together", "select-linked", hasSelected);
-        item(context, "Select loops", "select-loop", hasSelected);
-        item(context, "Select more", "select-grow", hasSelected);
-        item(context, "Select less", "select-shrink", hasSelected);
-        item(context, "Select by a box", "box", hasCage);
+        item(context, "Select all", SelectAll{}, hasCage);
+        item(context, "Select nothing", SelectNone{}, hasSelected);
+        item(context, "Invert the selection", SelectInvert{}, hasCage);
+        item(context, "Select what hangs together", SelectLinked{}, hasSelected);
+        item(context, "Select loops", SelectLoop{}, hasSelected);
+        item(context, "Select more", SelectGrow{}, hasSelected);
+        item(context, "Select less", SelectShrink{}, hasSelected);
+        item(context, "Select by a box", StartBox{}, hasCage);
         ImGui::Separator();
-        item(context, "Move", "grab move", hasSelected);
-        item(context, "Rotate", "grab rotate", hasSelected);
-        item(context, "Scale", "grab scale", hasSelected);
+        item(context, "Move", Grab{Tool::move}, hasSelected);
+        item(context, "Rotate", Grab{Tool::rotate}, hasSelected);
+        item(context, "Scale", Grab{Tool::scale}, hasSelected);
         menu(context, "Cage at rest", [&] {
             const bool isShape = view.mode == Mode::shape && hasSelected;
-            item(context, "Split edges", "edit-cage split", isShape);
-            item(context, "Collapse edges", "edit-cage collapse", isShape);
-            item(context, "Flip edges", "edit-cage flip", isShape);
-            item(context, "Merge triangles to quads", "edit-cage merge", isShape);
-            item(context, "Cut quads to triangles", "edit-cage cut", isShape);
+            item(context, "Split edges", EditCage{CageEdit::split}, isShape);
+            item(context, "Collapse edges", EditCage{CageEdit::collapse}, isShape);
+            item(context, "Flip edges", EditCage{CageEdit::flip}, isShape);
+            item(context, "Merge triangles to quads", EditCage{CageEdit::merge}, isShape);
+            item(context, "Cut quads to triangles", EditCage{CageEdit::cut}, isShape);
         });
-        item(context, "Reset the pose", "reset-pose all", hasPoses);
-        item(context, "Reset the pose of what is selected", "reset-pose selected", hasPoses && hasSelected);
-        item(context, "Insert a key", "insert-key", hasCage && view.mode == Mode::pose);
-        item(context, "Remove the key", "remove-key", document.poses.keyAt(view.frame) != nullptr);
+        item(context, "Reset the pose", ResetPose{false}, hasPoses);
+        item(context, "Reset the pose of what is selected", ResetPose{true}, hasPoses && hasSelected);
+        item(context, "Insert a key", InsertKey{}, hasCage && view.mode == Mode::pose);
+        item(context, "Remove the key", RemoveKey{}, document.poses.keyAt(view.frame) != nullptr);
         menu(context, "In-betweens from rest", [&] {
             for (const int frames : {12, 24, 48, 96}) {
-                const std::string count = std::to_string(frames);
-                item(context, count + " frames", "in-betweens " + count, hasPoses);
+                item(context, std::to_string(frames) + " frames", MakeInBetweens{frames}, hasPoses);
             }
         });
-        item(context, "Remove all poses", "clear-poses", hasPoses);
+        item(context, "Remove all poses", ClearPoses{}, hasPoses);
     });
     menu(context, "View", [&] {
-        item(context, "Frame all", "frame all");
-        item(context, "Frame what is selected", "frame selected", hasSelected);
+        item(context, "Frame all", FrameView{false});
+        item(context, "Frame what is selected", FrameView{true}, hasSelected);
         ImGui::Separator();
-        for (const char* side : {"front", "back", "right", "left", "top", "bottom"}) {
-            std::string label = side;
+        for (const auto from : {Look::From::front, Look::From::back, Look::From::right, Look::From::left,
+                                Look::From::top, Look::From::bottom}) {
+            std::string label = nameIn(Look::names, from);
             label[0] = static_cast<char>(label[0] - 'a' + 'A');
-            item(context, label, std::string("look ") + side);
+            item(context, label, Look{from});
         }
         ImGui::Separator();
-        item(context, "Orthographic", "projection toggle", true,
-             view.camera.projection == draw::Projection::orthographic);
-        item(context, "Z is up", "up toggle", true, view.camera.view.up == draw::UpAxis::z);
-        item(context, "Turntable", "turntable " + onOff(!view.turntable), true, view.turntable);
+        item(context, "Orthographic", SetProjection{}, true, view.camera.projection == draw::Projection::orthographic);
+        item(context, "Z is up", SetUp{}, true, view.camera.view.up == draw::UpAxis::z);
+        item(context, "Turntable", SetTurntable{!view.turntable}, true, view.turntable);
         ImGui::Separator();
-        item(context, "Ground grid", "ground " + onOff(!view.ground), true, view.ground);
-        item(context, "Times", "times " + onOff(!view.times), true, view.times);
-        item(context, "Axes", "axes " + onOff(!view.axes), true, view.axes);
+        item(context, "Ground grid", ShowGround{!view.ground}, true, view.ground);
+        item(context, "Times", ShowTimes{!view.times}, true, view.times);
+        item(context, "Axes", ShowAxes{!view.axes}, true, view.axes);
     });
     menu(context, "Help", [&] {
-        item(context, "Keys, mouse and commands", "help");
+        item(context, "Keys, mouse and commands", ShowHelp{});
         menu(context, "Keys", [&] {
-            item(context, "Blender", "keys blender", true, context.content.keys == KeyMap::blender);
-            item(context, "Maya", "keys maya", true, context.content.keys == KeyMap::maya);
+            item(context, "Blender", ChooseKeys{KeyMap::blender}, true, context.content.keys == KeyMap::blender);
+            item(context, "Maya", ChooseKeys{KeyMap::maya}, true, context.content.keys == KeyMap::maya);
         });
     });
     ImGui::EndMainMenuBar();

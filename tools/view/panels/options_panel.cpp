@@ -5,7 +5,6 @@
 
 #include <tools/view/panels/parts.h>
 #include <tools/view/state/preset.h>
-#include <tools/view/state/words.h>
 #include <vdbcage/core/detail/number_text.h>
 
 namespace vdbcage::view {
@@ -103,7 +102,7 @@ public:
     void buildReset() const
     {
         if (value_ == text_.defaultValue) return;
-        if (ImGui::Button("\xe2\x86\xba", {length(resetWidth), 0})) context_.ask("reset " + name_);
+        if (ImGui::Button("\xe2\x86\xba", {length(resetWidth), 0})) context_.ask(ResetOptions{{name_}});
         context_.name(name_ + ".reset");
         help("back to " + text_.defaultValue);
     }
@@ -115,7 +114,7 @@ private:
         std::optional<double> came; ///< what it came to
     };
 
-    void ask(const std::string& value) const { context_.ask("set " + name_ + ' ' + quotedWord(value)); }
+    void ask(const std::string& value) const { context_.ask(SetOption{name_, value}); }
 
     /// A field for text that is taken over by Enter, or when another place is clicked.
     void buildField(const std::string& shown, float width) const
@@ -221,7 +220,7 @@ void buildPresets(const PanelContext& context)
         label[0] = static_cast<char>(label[0] - 'a' + 'A');
         const bool isOn = areEqual(presetOptions(preset.name), options);
         if (isOn) ImGui::PushStyleColor(ImGuiCol_Button, toImGui(theme::selected));
-        if (ImGui::Button(label.c_str(), {width, 0})) context.ask("preset " + preset.name);
+        if (ImGui::Button(label.c_str(), {width, 0})) context.ask(ApplyPreset{preset.name});
         if (isOn) ImGui::PopStyleColor();
         context.name("preset." + preset.name);
         help(preset.help);
@@ -260,10 +259,10 @@ void buildProgress(const PanelContext& context)
         text.c_str());
     ImGui::SameLine(0, length(6));
     if (isMaking) {
-        if (ImGui::Button("Cancel", {width, 0})) context.ask("cancel");
+        if (ImGui::Button("Cancel", {width, 0})) context.ask(Cancel{});
     } else {
         ImGui::BeginDisabled(!planner.isHalted());
-        if (mainButton("Make", width)) context.ask("make");
+        if (mainButton("Make", width)) context.ask(MakeAgain{});
         ImGui::EndDisabled();
     }
     context.name(isMaking ? "cancel" : "make");

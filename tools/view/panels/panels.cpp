@@ -109,9 +109,9 @@ void Panels::reveal(const std::string& name)
     state_->revealed = name;
 }
 
-void Panels::browse(const std::string& verb)
+void Panels::browse(const std::string& line)
 {
-    open(state_->browser, verb, state_->suggested);
+    open(state_->browser, line, state_->suggested);
 }
 
 void Panels::showHelp()
@@ -121,8 +121,8 @@ void Panels::showHelp()
 
 bool Panels::dismiss()
 {
-    const bool isOpen = state_->browser.isOpen() || state_->isHelpOpen;
-    state_->browser.verb.clear();
+    const bool isOpen = state_->browser.isOpen || state_->isHelpOpen;
+    state_->browser.isOpen = false;
     state_->isHelpOpen = false;
     return isOpen;
 }

@@ -55,10 +55,11 @@ struct PanelContent {
     bool asksToQuit = false;                  ///< there is unsaved work
 };
 
-/// What the user asked for: lines as in a script, and where a drag of a value begins and ends.
+/// What the user asked for, where a drag of a value begins and ends, and what is wrong with a text that was typed.
 struct PanelAnswer {
-    std::vector<std::string> lines;
+    std::vector<Action> actions;
     bool beginsDrag = false, endsDrag = false;
+    std::vector<std::string> problems;
 };
 
 /// All panels of the window. Every widget that can be used has a name, by which scripts and tests find it.
@@ -80,8 +81,8 @@ public:
     /// Scrolls to the widget, by the next layout.
     void reveal(const std::string& name);
 
-    /// Asks for a file and then for the line VERB FILE. \throw InputError no verb that takes a file of a known kind
-    void browse(const std::string& verb);
+    /// Asks for a file, and then for the line with that file. \throw InputError it is no line that takes a file
+    void browse(const std::string& line);
     void showHelp();
     /// Closes what is open on top. Returns whether there was anything.
     bool dismiss();

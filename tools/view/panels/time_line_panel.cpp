@@ -2,7 +2,6 @@
 #include <cmath>
 
 #include <tools/view/panels/parts.h>
-#include <tools/view/state/words.h>
 #include <vdbcage/core/detail/number_text.h>
 
 namespace vdbcage::view {
@@ -43,54 +42,54 @@ void buildControls(const PanelContext& context, std::map<std::string, std::strin
     const State& state = context.content.session.state();
     const ViewState& view = state.view;
     const TimeLine& poses = state.document.poses;
-    const auto arrow = [&](const char* id, ImGuiDir direction, const char* line, const char* text) {
-        if (ImGui::ArrowButton(id, direction)) context.ask(line);
-        context.name(line);
-        help(context.withKey(text, line));
+    const auto arrow = [&](const char* id, ImGuiDir direction, const Action& action, const char* text) {
+        if (ImGui::ArrowButton(id, direction)) context.ask(action);
+        context.name(textOf(action));
+        help(context.withKey(text, action));
         ImGui::SameLine(0, length(2));
     };
     const bool canPlay = poses.keys().size() > 1;
-    arrow("##previous", ImGuiDir_Left, "previous-key", "the key before");
+    arrow("##previous", ImGuiDir_Left, PreviousKey{}, "the key before");
     ImGui::BeginDisabled(!canPlay && !view.isPlaying);
-    if (ImGui::Button(view.isPlaying ? "Stop" : "Play", {length(52), 0})) context.ask("toggle play");
+    if (ImGui::Button(view.isPlaying ? "Stop" : "Play", {length(52), 0})) context.ask(Toggle{"play"});
     ImGui::EndDisabled();
     context.name("play");
-    help(context.withKey("shows the frames from the first key to the last, again and again", "toggle play"));
+    help(context.withKey("shows the frames from the first key to the last, again and again", Toggle{"play"}));
     ImGui::SameLine(0, length(2));
-    arrow("##next", ImGuiDir_Right, "next-key", "the next key");
+    arrow("##next", ImGuiDir_Right, NextKey{}, "the next key");
     ImGui::SameLine(0, length(12));
     ImGui::AlignTextToFramePadding();
     muted("Frame");
     ImGui::SameLine(0, length(6));
     if (const auto frame = typedField(context, typed, "time", std::to_string(view.frame), length(50))) {
-        context.ask("time " + quotedWord(*frame));
+        context.askTyped<SetFrame>({*frame});
     }
     help("whose pose is seen and changed");
     ImGui::SameLine(0, length(12));
     muted("Rate");
     ImGui::SameLine(0, length(6));
     if (const auto rate = typedField(context, typed, "rate", detail::numberText(view.framesPerSecond), length(40))) {
-        context.ask("rate " + quotedWord(*rate));
+        context.askTyped<SetRate>({*rate});
     }
     help("frames a second, 1 to 240");
     ImGui::SameLine(0, length(18));
 
     const PoseKey* const key = poses.keyAt(view.frame);
-    ImGui::BeginDisabled(!state.cage);
+    ImGui::BeginDisabled(!context.content.session.cage());
     const float buttonWidth = length(70);
     const float nameWidth = ImGui::GetContentRegionAvail().x - buttonWidth - length(4);
     if (const auto name = typedField(context, typed, "key.name", key ? key->name : std::string(),
                                      std::clamp(nameWidth, length(36), length(200)), key ? "a name" : "no key here")) {
-        context.ask("set-key " + std::to_string(view.frame) + ' ' + quotedWord(*name));
+        context.ask(SetKey{view.frame, *name});
     }
     help("the name of the key at this frame");
     ImGui::SameLine(0, length(4));
     if (ImGui::Button(key ? "Remove" : "Insert", {buttonWidth, 0})) {
-        context.ask(key ? "remove-key" : "insert-key");
+        context.ask(key ? Action(RemoveKey{}) : InsertKey{});
     }
     context.name("key");
-    help(key ? context.withKey("takes the pose at this frame off the time line", "remove-key")
-             : context.withKey("keeps the pose that is seen at this frame", "insert-key") +
+    help(key ? context.withKey("takes the pose at this frame off the time line", RemoveKey{})
+             : context.withKey("keeps the pose that is seen at this frame", InsertKey{}) +
                    "; whatever is moved is kept by itself");
     ImGui::EndDisabled();
 }
@@ -168,11 +167,11 @@ void buildTrack(const PanelContext& context, TimeLineMemory& memory)
     if (memory.draggedKey) {
         if (ImGui::IsItemDeactivated()) {
             const int from = *memory.draggedKey;
-            if (frame != from) context.ask("move-key " + std::to_string(from) + ' ' + std::to_string(frame));
-            if (frame != state.view.frame) context.ask("time " + std::to_string(frame));
+            if (frame != from) context.ask(MoveKey{from, frame});
+            if (frame != state.view.frame) context.ask(SetFrame{frame});
         }
     } else if (ImGui::IsItemActive() && frame != state.view.frame) {
-        context.ask("time " + std::to_string(frame));
+        context.ask(SetFrame{frame});
     }
     const PoseKey* const hovered = ImGui::IsItemHovered() ? poses.keyAt(frame) : nullptr;
     if (hovered && !hovered->name.empty()) help(hovered->name + " (frame " + std::to_string(frame) + ')');

@@ -2,8 +2,6 @@
 #include <cstdio>
 
 #include <tools/view/panels/parts.h>
-#include <tools/view/state/command.h>
-#include <vdbcage/core/detail/number_text.h>
 
 namespace vdbcage::view {
 
@@ -11,7 +9,7 @@ namespace {
 
 struct Choice {
     const char* label;
-    std::string line;
+    Action action;
     bool isOn;
     std::string text;
 };
@@ -22,11 +20,11 @@ void choices(const PanelContext& context, const char* group, const std::vector<C
     for (const Choice& choice : list) {
         if (&choice != &list.front()) ImGui::SameLine(0, length(1));
         if (choice.isOn) ImGui::PushStyleColor(ImGuiCol_Button, toImGui(theme::selected));
-        if (ImGui::Button(choice.label)) context.ask(choice.line);
+        if (ImGui::Button(choice.label)) context.ask(choice.action);
         if (choice.isOn) ImGui::PopStyleColor();
-        const std::string name = choice.line.substr(choice.line.rfind(' ') + 1);
-        context.name(std::string(group) + '.' + name);
-        help(context.withKey(choice.text, choice.line));
+        const std::string line = textOf(choice.action);
+        context.name(std::string(group) + '.' + line.substr(line.rfind(' ') + 1));
+        help(context.withKey(choice.text, choice.action));
     }
 }
 
@@ -39,23 +37,21 @@ struct Entry {
     const char* name;
     const char* label;
     std::string text;
-    std::string argument = {}; ///< of its line; empty: the name
+    Command command;
 };
 
-/// A list of which one is chosen; its lines are VERB ARGUMENT.
-void list(const PanelContext& context, const std::string& verb, const std::vector<Entry>& entries, std::size_t chosen,
+/// A list of which one is chosen.
+void list(const PanelContext& context, const std::string& name, const std::vector<Entry>& entries, std::size_t chosen,
           float width)
 {
     ImGui::SetNextItemWidth(width);
-    const bool isOpen = ImGui::BeginCombo(("##" + verb).c_str(), entries[chosen].label);
-    context.name(verb);
+    const bool isOpen = ImGui::BeginCombo(("##" + name).c_str(), entries[chosen].label);
+    context.name(name);
     if (!isOpen) return help(entries[chosen].text);
     for (std::size_t i = 0; i < entries.size(); ++i) {
         const Entry& entry = entries[i];
-        if (ImGui::Selectable(entry.label, i == chosen) && i != chosen) {
-            context.ask(verb + ' ' + (entry.argument.empty() ? entry.name : entry.argument));
-        }
-        context.name(verb + '.' + entry.name);
+        if (ImGui::Selectable(entry.label, i == chosen) && i != chosen) context.ask(entry.command);
+        context.name(name + '.' + entry.name);
         help(entry.text);
     }
     ImGui::EndCombo();
@@ -66,11 +62,12 @@ void buildPivot(const PanelContext& context, const ViewState& view)
     const auto& selected = context.content.selected;
     const openvdb::Vec3d now = selected ? selected->origin : view.pivot.point;
     list(context, "pivot",
-         {{"mean", "Mean", "turns and scales about the mean of the selected points"},
-          {"box", "Box", "turns and scales about the middle of the box around the selected points"},
-          {"origin", "Origin", "turns and scales about the world's origin"},
+         {{"mean", "Mean", "turns and scales about the mean of the selected points", SetPivot{{Pivot::Kind::mean}}},
+          {"box", "Box", "turns and scales about the middle of the box around the selected points",
+           SetPivot{{Pivot::Kind::box}}},
+          {"origin", "Origin", "turns and scales about the world's origin", SetPivot{{Pivot::Kind::origin}}},
           {"point", "Point", "turns and scales about one point: where the pivot was when this was chosen",
-           toText(SetPivot{{Pivot::Kind::point, now}}).substr(6)}},
+           SetPivot{{Pivot::Kind::point, now}}}},
          static_cast<std::size_t>(view.pivot.kind), length(72));
 }
 
@@ -82,7 +79,7 @@ void buildMirror(const PanelContext& context, const ViewState& view)
         const bool isOn = view.mirror && view.mirror->axis == axis;
         if (isOn) ImGui::PushStyleColor(ImGuiCol_Button, toImGui(theme::selected));
         const std::string name(1, "xyz"[axis]), label(1, "XYZ"[axis]);
-        if (ImGui::Button((label + "##mirror").c_str())) context.ask("toggle mirror-" + name);
+        if (ImGui::Button((label + "##mirror").c_str())) context.ask(Toggle{"mirror-" + name});
         if (isOn) ImGui::PopStyleColor();
         context.name("mirror." + name);
         help("what is done on one side of the cage is done on the other too, to points that have a partner there");
@@ -95,7 +92,7 @@ void buildSoft(const PanelContext& context, const ViewState& view)
     ImGui::SetNextItemWidth(length(84));
     const char* const format = radius > 0 ? "Soft %.2f" : "Soft off";
     if (ImGui::SliderFloat("##soft", &radius, 0, 0.5F, format, ImGuiSliderFlags_AlwaysClamp)) {
-        context.ask("soft " + detail::numberText(std::round(100 * double{radius}) / 100));
+        context.ask(SetSoft{std::round(100 * double{radius}) / 100});
     }
     context.followDrag();
     context.name("soft");
@@ -122,42 +119,44 @@ void buildToolbar(const PanelContext& context)
     // Narrower than elsewhere: all of it has room in a window of 1100 pixels.
     ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {length(6), length(4)});
     ImGui::BeginDisabled(!state.document.model);
-    choices(
-        context, "mode",
-        {{"Shape", "mode shape", !isPose, context.withKey("moves the cage at rest; the model stays", "toggle mode")},
-         {"Pose", "mode pose", isPose, context.withKey("moves the cage, and the model with it", "toggle mode")}});
+    choices(context, "mode",
+            {{"Shape", SetMode{Mode::shape}, !isPose,
+              context.withKey("moves the cage at rest; the model stays", Toggle{"mode"})},
+             {"Pose", SetMode{Mode::pose}, isPose,
+              context.withKey("moves the cage, and the model with it", Toggle{"mode"})}});
     gap();
     const edit::Element kind = view.selection.kind;
     choices(context, "select-kind",
-            {{"Points", "select-kind points", kind == edit::Element::point, "selects points of the cage"},
-             {"Edges", "select-kind edges", kind == edit::Element::edge, "selects edges of the cage"},
-             {"Faces", "select-kind faces", kind == edit::Element::face, "selects faces of the cage"}});
+            {{"Points", SelectKind{edit::Element::point}, kind == edit::Element::point, "selects points of the cage"},
+             {"Edges", SelectKind{edit::Element::edge}, kind == edit::Element::edge, "selects edges of the cage"},
+             {"Faces", SelectKind{edit::Element::face}, kind == edit::Element::face, "selects faces of the cage"}});
     gap();
-    const auto handles = [&](const char* does, const char* tool) {
-        const std::string free = context.keyOf(std::string("grab ") + tool);
+    const auto handles = [&](const char* does, Tool tool) {
+        const std::string free = context.keyOf(Grab{tool});
         return std::string("handles that ") + does + " what is selected" +
                (free.empty() ? "" : "; " + free + " does it without handles");
     };
     choices(context, "tool",
-            {{"Select", "tool select", view.tool == Tool::select, "no handles"},
-             {"Move", "tool move", view.tool == Tool::move, handles("move", "move")},
-             {"Rotate", "tool rotate", view.tool == Tool::rotate, handles("turn", "rotate")},
-             {"Scale", "tool scale", view.tool == Tool::scale, handles("scale", "scale")}});
+            {{"Select", SetTool{Tool::select}, view.tool == Tool::select, "no handles"},
+             {"Move", SetTool{Tool::move}, view.tool == Tool::move, handles("move", Tool::move)},
+             {"Rotate", SetTool{Tool::rotate}, view.tool == Tool::rotate, handles("turn", Tool::rotate)},
+             {"Scale", SetTool{Tool::scale}, view.tool == Tool::scale, handles("scale", Tool::scale)}});
     gap();
-    list(context, "orientation",
-         {{"world", "World", "handles along the axes of the world"},
-          {"local", "Local", "handles along the principal axes of what is selected"},
-          {"normal", "Normal", "handles along the mean normal of what is selected"},
-          {"view", "View", "handles to the right, up and to the viewer"}},
-         static_cast<std::size_t>(view.orientation), length(78));
+    list(
+        context, "orientation",
+        {{"world", "World", "handles along the axes of the world", SetOrientation{Orientation::world}},
+         {"local", "Local", "handles along the principal axes of what is selected", SetOrientation{Orientation::local}},
+         {"normal", "Normal", "handles along the mean normal of what is selected", SetOrientation{Orientation::normal}},
+         {"view", "View", "handles to the right, up and to the viewer", SetOrientation{Orientation::view}}},
+        static_cast<std::size_t>(view.orientation), length(78));
     ImGui::SameLine(0, length(4));
     buildPivot(context, view);
     gap();
     if (view.seeThrough) ImGui::PushStyleColor(ImGuiCol_Button, toImGui(theme::selected));
-    if (ImGui::Button("See through")) context.ask(view.seeThrough ? "see-through off" : "see-through on");
+    if (ImGui::Button("See through")) context.ask(SetSeeThrough{!view.seeThrough});
     if (view.seeThrough) ImGui::PopStyleColor();
     context.name("see-through");
-    help(context.withKey("selects what is hidden too", "toggle see-through"));
+    help(context.withKey("selects what is hidden too", Toggle{"see-through"}));
     gap();
     buildMirror(context, view);
     gap();
@@ -167,10 +166,11 @@ void buildToolbar(const PanelContext& context)
         const Coordinates now = state.document.coordinates;
         std::vector<Entry> families;
         for (const FamilyInfo& family : coordinateFamilies()) {
-            families.push_back({family.name, family.title, describe(family)});
+            families.push_back({family.name, family.title, describe(family), SetCoordinates{family.family}});
         }
         if (now == Coordinates::given) { // they are chosen by their file
-            families.push_back({coordinatesName(now), titleOf(now), "weights from a file (File > Open weights)"});
+            families.push_back(
+                {coordinatesName(now), titleOf(now), "weights from a file (File > Open weights)", SetCoordinates{now}});
         }
         list(context, "coordinates", families, static_cast<std::size_t>(now), length(112));
     } else {

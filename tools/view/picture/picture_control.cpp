@@ -212,7 +212,7 @@ void PictureControl::select(const std::vector<openvdb::Index32>& ids, PickAction
         selection = edit::removed(selection, these);
         break;
     }
-    if (selection != host_.session.state().view.selection) host_.attempt(toText(Select{selection}));
+    if (selection != host_.session.state().view.selection) host_.attempt(Select{selection});
 }
 
 std::optional<GizmoFrame> PictureControl::gizmoFrame() const
@@ -220,7 +220,7 @@ std::optional<GizmoFrame> PictureControl::gizmoFrame() const
     const State& state = host_.session.state();
     GizmoFrame frame;
     frame.eye = host_.viewport.eye();
-    const auto selected = selectionFrame(state, {frame.eye.right, frame.eye.up, frame.eye.back});
+    const auto selected = selectionFrame(state, host_.session.cage(), {frame.eye.right, frame.eye.up, frame.eye.back});
     if (!selected) return std::nullopt;
     const Rectangle place = host_.place();
     frame.width = place.width;
@@ -235,7 +235,7 @@ std::optional<PictureControl::Grip> PictureControl::gripOf(Tool tool, const Hand
 {
     const auto frame = gizmoFrame();
     if (!frame) return std::nullopt;
-    const SelectionFrame selected = *selectionFrame(host_.session.state(), frame->axes);
+    const SelectionFrame selected = *selectionFrame(host_.session.state(), host_.session.cage(), frame->axes);
     Grip grip;
     grip.tool = tool;
     grip.handle = handle;
@@ -373,7 +373,7 @@ PictureOverlay PictureControl::overlay() const
 {
     PictureOverlay overlay;
     const State& state = host_.session.state();
-    if (!state.cage || !state.view.layer(LayerId::cage).shown) return overlay;
+    if (!host_.session.cage() || !state.view.layer(LayerId::cage).shown) return overlay;
     if (!band_.empty()) {
         const bool isBox = drag_ == DragAction::box && band_.size() > 1;
         overlay.band = isBox ? corners(band_) : band_;

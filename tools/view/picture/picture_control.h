@@ -21,10 +21,10 @@ public:
     struct Host {
         Session& session;
         Viewport& viewport;
-        std::function<void(const std::string&)> attempt; ///< does a line as a user would
-        std::function<void()> endDrag;                   ///< ends the session's drag and records what it amounts to
-        std::function<Rectangle()> place;                ///< of the picture in the window
-        double pixel = 1;                                ///< pixels that a length of 1 has on an ordinary screen
+        std::function<void(const Command&)> attempt; ///< does it as a user would
+        std::function<void()> endDrag;               ///< ends the session's drag and records what it amounts to
+        std::function<Rectangle()> place;            ///< of the picture in the window
+        double pixel = 1;                            ///< pixels that a length of 1 has on an ordinary screen
     };
     explicit PictureControl(Host host) : host_(std::move(host)) {}
 
@@ -90,7 +90,7 @@ private:
     /// [-1, 1] both ways, y up.
     std::array<double, 2> inPanel(const Pixel& at) const;
     double aspect() const;
-    void setCamera(const draw::Camera& camera) { host_.attempt(toText(SetCamera{camera})); }
+    void setCamera(const draw::Camera& camera) { host_.attempt(SetCamera{camera}); }
 
     Host host_;
     MouseMap mouse_ = mouseMap(KeyMap::blender);

@@ -482,10 +482,7 @@ std::optional<Vec3d> Viewport::pointAt(double x, double y) const
 
 std::vector<openvdb::Index32> Viewport::selectedPoints(const ViewState& view) const
 {
-    State state;
-    state.view = view;
-    if (cage_) state.cage = MeshPtr(cage_, &cage_->cage);
-    return view::selectedPoints(state);
+    return cage_ ? view::selectedPoints(cage_->cage, view.selection) : std::vector<openvdb::Index32>();
 }
 
 std::optional<Vec3d> Viewport::selectionCentre(const ViewState& view) const

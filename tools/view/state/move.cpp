@@ -18,17 +18,16 @@ namespace {
 using openvdb::Index32;
 using openvdb::Vec3d;
 
-std::vector<Index32> requiredPoints(const State& state)
+std::vector<Index32> requiredPoints(const State& state, const Mesh& cage)
 {
-    std::vector<Index32> points = selectedPoints(state);
+    std::vector<Index32> points = selectedPoints(cage, state.view.selection);
     if (points.empty()) throw InputError("nothing of the cage is selected");
     return points;
 }
 
 /// How far each point goes with what is selected.
-std::vector<double> weightsOf(const State& state, const std::vector<Index32>& points)
+std::vector<double> weightsOf(const State& state, const Mesh& cage, const std::vector<Index32>& points)
 {
-    const Mesh& cage = *state.cage;
     if (state.view.softRadius > 0) {
         const Vec3d extents = boundingBox(state.document.model ? state.document.model->mesh : cage).extents();
         const double longest = std::max({extents.x(), extents.y(), extents.z()});
@@ -112,21 +111,13 @@ void requireNear(const std::vector<Vec3d>& points, const openvdb::BBoxd& cage)
     }
 }
 
-Document withCage(const State& state, Mesh cage)
+Document withRest(const State& state, Mesh cage)
 {
     OpenedMesh edited;
     edited.mesh = std::move(cage);
     Document document = state.document;
     document.cage = std::make_shared<const OpenedMesh>(std::move(edited));
     return document;
-}
-
-Document withCagePoints(const State& state, std::vector<Vec3d> points)
-{
-    if (state.view.mode == Mode::pose) return withPose(state, std::move(points));
-    Mesh cage = *state.cage;
-    cage.points = std::move(points);
-    return withCage(state, std::move(cage));
 }
 
 using Edge = std::pair<Index32, Index32>;
@@ -191,10 +182,10 @@ Mesh withCutQuads(Mesh cage, const std::vector<Index32>& faces)
 
 } // namespace
 
-const MeshPtr& cageOf(const State& state)
+const MeshPtr& restOf(const ShownCage& cage)
 {
-    if (!state.cage) throw InputError("there is no cage yet");
-    return state.cage;
+    if (!cage) throw InputError("there is no cage yet");
+    return cage->rest();
 }
 
 edit::Selection withinCage(edit::Selection selection, const edit::Elements& elements)
@@ -204,41 +195,33 @@ edit::Selection withinCage(edit::Selection selection, const edit::Elements& elem
     return selection;
 }
 
-std::vector<Index32> selectedPoints(const State& state)
+std::vector<Index32> selectedPoints(const Mesh& cage, const edit::Selection& selection)
 {
-    if (!state.cage) return {};
-    const edit::Elements elements(*state.cage);
-    return edit::pointsOf(elements, withinCage(state.view.selection, elements));
+    const edit::Elements elements(cage);
+    return edit::pointsOf(elements, withinCage(selection, elements));
 }
 
-BindOrder bindOrder(const State& state)
+BindOrder bindOrder(const Document& document, const MeshPtr& cage)
 {
-    return {state.document.model, state.cage, state.document.coordinates, state.document.weights};
+    return {document.model, cage, document.coordinates, document.weights};
 }
 
-std::vector<Vec3d> posedPoints(const State& state, int frame)
+std::vector<Vec3d> cagePoints(const State& state, const ShownCage& cage)
 {
-    if (state.carried && state.carried->cage() == state.cage) {
-        return pointsAt(state.document.poses, frame, *state.carried);
-    }
-    CarriedPoses carried(state.cage);
-    return pointsAt(state.document.poses, frame, carried);
+    if (!cage) return {};
+    if (state.view.mode == Mode::shape) return cage->rest()->points;
+    return pointsAt(state.document.poses, state.view.frame, *cage);
 }
 
-std::vector<Vec3d> cagePoints(const State& state)
+std::optional<SelectionFrame> selectionFrame(const State& state, const ShownCage& cage,
+                                             const std::array<Vec3d, 3>& view)
 {
-    if (!state.cage) return {};
-    return state.view.mode == Mode::pose ? posedPoints(state, state.view.frame) : state.cage->points;
-}
-
-std::optional<SelectionFrame> selectionFrame(const State& state, const std::array<Vec3d, 3>& view)
-{
-    const std::vector<Index32> selected = selectedPoints(state);
+    if (!cage) return std::nullopt;
+    const std::vector<Index32> selected = selectedPoints(*cage->rest(), state.view.selection);
     if (selected.empty()) return std::nullopt;
     // It is asked for at each event: carrying over is for those who can wait.
-    const bool isPosed = state.view.mode == Mode::pose;
-    if (isPosed && state.carried && !areCarried(state.document.poses, *state.carried)) return std::nullopt;
-    const std::vector<Vec3d> points = cagePoints(state);
+    if (state.view.mode == Mode::pose && !areCarried(state.document.poses, *cage)) return std::nullopt;
+    const std::vector<Vec3d> points = cagePoints(state, cage);
     SelectionFrame frame;
     for (const Index32 i : selected) frame.mean += points[i] / static_cast<double>(selected.size());
     frame.count = selected.size();
@@ -251,7 +234,7 @@ std::optional<SelectionFrame> selectionFrame(const State& state, const std::arra
         frame.axes = principalAxes(points, selected, frame.mean);
         break;
     case Orientation::normal:
-        frame.axes = axesWithZ(meanNormal(*state.cage, points, selected));
+        frame.axes = axesWithZ(meanNormal(*cage->rest(), points, selected));
         break;
     case Orientation::view:
         frame.axes = view;
@@ -260,54 +243,57 @@ std::optional<SelectionFrame> selectionFrame(const State& state, const std::arra
     return frame;
 }
 
-Document withMotion(const State& state, const edit::Motion& motion)
+Document withMotion(const State& state, const ShownCage& cage, const edit::Motion& motion)
 {
-    const Mesh& cage = *cageOf(state);
-    const std::vector<double> weights = weightsOf(state, requiredPoints(state));
-    const std::vector<Vec3d> before = cagePoints(state);
+    const Mesh& rest = *restOf(cage);
+    const std::vector<double> weights = weightsOf(state, rest, requiredPoints(state, rest));
+    const std::vector<Vec3d> before = cagePoints(state, cage);
     std::vector<Vec3d> after = edit::moved(before, weights, motion);
     if (const auto& plane = state.view.mirror) {
         std::vector<Index32> ids;
         for (Index32 i = 0; i < weights.size(); ++i) {
             if (weights[i] > 0) ids.push_back(i);
         }
-        const auto partners = edit::mirrorPartners(cage.points, plane->axis, plane->offset);
+        const auto partners = edit::mirrorPartners(rest.points, plane->axis, plane->offset);
         after = edit::mirrored(before, after, ids, partners, plane->axis, plane->offset);
     }
-    requireNear(after, boundingBox(cage));
-    return withCagePoints(state, std::move(after));
+    requireNear(after, boundingBox(rest));
+    if (state.view.mode == Mode::pose) return withPose(state, cage, std::move(after));
+    Mesh moved = rest;
+    moved.points = std::move(after);
+    return withRest(state, std::move(moved));
 }
 
-Document withEdit(const State& state, CageEdit edit)
+Document withEdit(const State& state, const ShownCage& cage, CageEdit edit)
 {
-    const Mesh& cage = *cageOf(state);
+    const Mesh& rest = *restOf(cage);
     if (state.view.mode != Mode::shape) throw InputError("the faces of the cage are changed in mode shape");
-    requiredPoints(state);
-    const edit::Elements elements(cage);
+    requiredPoints(state, rest);
+    const edit::Elements elements(rest);
     const edit::Selection selection = withinCage(state.view.selection, elements);
     if (edit == CageEdit::cut) {
-        return withCage(state, withCutQuads(cage, edit::converted(elements, selection, edit::Element::face).ids));
+        return withRest(state, withCutQuads(rest, edit::converted(elements, selection, edit::Element::face).ids));
     }
     std::vector<Edge> edges = selectedEdges(elements, selection);
     if (edges.empty()) throw InputError("no edge of the cage is selected, nor one between what is");
-    return withCage(state, withEditedEdges(cage, std::move(edges), edit));
+    return withRest(state, withEditedEdges(rest, std::move(edges), edit));
 }
 
-Document withResetPose(const State& state, bool onlySelected)
+Document withResetPose(const State& state, const ShownCage& cage, bool onlySelected)
 {
-    const MeshPtr& cage = cageOf(state);
-    if (!onlySelected) return withPose(state, cage->points);
-    std::vector<Vec3d> points = posedPoints(state, state.view.frame);
-    for (const Index32 i : requiredPoints(state)) points[i] = cage->points[i];
-    return withPose(state, std::move(points));
+    const Mesh& rest = *restOf(cage);
+    if (!onlySelected) return withPose(state, cage, rest.points);
+    std::vector<Vec3d> points = pointsAt(state.document.poses, state.view.frame, *cage);
+    for (const Index32 i : requiredPoints(state, rest)) points[i] = rest.points[i];
+    return withPose(state, cage, std::move(points));
 }
 
-Document withPose(const State& state, std::vector<Vec3d> points)
+Document withPose(const State& state, const ShownCage& cage, std::vector<Vec3d> points)
 {
-    const MeshPtr& cage = cageOf(state);
-    if (points.size() != cage->points.size()) {
+    const MeshPtr& rest = restOf(cage);
+    if (points.size() != rest->points.size()) {
         throw InputError("the pose has " + std::to_string(points.size()) + " points; the cage has " +
-                         std::to_string(cage->points.size()));
+                         std::to_string(rest->points.size()));
     }
     for (const Vec3d& p : points) {
         if (!p.isFinite()) throw InputError("the pose has a point that is not finite");
@@ -317,14 +303,14 @@ Document withPose(const State& state, std::vector<Vec3d> points)
     PoseKey key;
     key.frame = state.view.frame;
     if (const PoseKey* const before = poses.keyAt(key.frame)) key.name = before->name;
-    key.pose = poseOf(cage, std::move(points));
+    key.pose = poseOf(rest, std::move(points));
     // Where all is at rest there is no pose, whatever way led there.
     const bool isAlone = poses.without(key.frame).isEmpty();
     poses = !key.pose && isAlone && key.name.empty() ? TimeLine() : poses.with(std::move(key));
     return document;
 }
 
-Document withKey(const State& state, int frame, const std::optional<std::string>& name)
+Document withKey(const State& state, const ShownCage& cage, int frame, const std::optional<std::string>& name)
 {
     Document document = state.document;
     PoseKey key;
@@ -332,16 +318,18 @@ Document withKey(const State& state, int frame, const std::optional<std::string>
     if (const PoseKey* const before = document.poses.keyAt(frame)) {
         key = *before;
     } else {
-        key.pose = poseOf(cageOf(state), posedPoints(state, frame));
+        const MeshPtr& rest = restOf(cage);
+        key.pose = poseOf(rest, pointsAt(document.poses, frame, *cage));
     }
     if (name) key.name = *name;
     document.poses = document.poses.with(std::move(key));
     return document;
 }
 
-Document withInBetweens(const State& state, int frames)
+Document withInBetweens(const State& state, const ShownCage& cage, int frames)
 {
-    PosePtr pose = poseOf(cageOf(state), posedPoints(state, state.view.frame));
+    const MeshPtr& rest = restOf(cage);
+    PosePtr pose = poseOf(rest, pointsAt(state.document.poses, state.view.frame, *cage));
     Document document = state.document;
     document.poses = TimeLine().with({0, nullptr, "rest"}).with({frames - 1, std::move(pose), "pose"});
     return document;

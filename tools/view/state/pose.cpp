@@ -16,12 +16,12 @@ PosePtr poseOf(const MeshPtr& cage, std::vector<openvdb::Vec3d> points)
     return points == cage->points ? nullptr : std::make_shared<const Pose>(Pose{cage, std::move(points)});
 }
 
-bool CarriedPoses::has(const PosePtr& pose) const
+bool PosableCage::has(const PosePtr& pose) const
 {
-    return !pose || pose->rest == cage_ || carried_.count(pose) > 0;
+    return !pose || pose->rest == rest_ || carried_.count(pose) > 0;
 }
 
-void CarriedPoses::carry(const std::vector<PosePtr>& poses, Interrupter* interrupter)
+void PosableCage::carry(const std::vector<PosePtr>& poses, Interrupter* interrupter)
 {
     // Those of one cage together: the weights by which it carries are the same.
     std::map<MeshPtr, std::vector<PosePtr>> byRest;
@@ -31,24 +31,24 @@ void CarriedPoses::carry(const std::vector<PosePtr>& poses, Interrupter* interru
     for (const auto& [rest, some] : byRest) {
         std::vector<std::vector<openvdb::Vec3d>> posed;
         for (const PosePtr& pose : some) posed.push_back(pose->points);
-        auto carried = edit::carriedPoses(*rest, posed, *cage_, interrupter);
+        auto carried = edit::carriedPoses(*rest, posed, *rest_, interrupter);
         for (std::size_t i = 0; i < some.size(); ++i) carried_[some[i]] = std::move(carried[i]);
     }
 }
 
-void CarriedPoses::giveUp(const std::vector<PosePtr>& poses)
+void PosableCage::giveUp(const std::vector<PosePtr>& poses)
 {
     for (const PosePtr& pose : poses) {
         if (has(pose)) continue;
-        carried_[pose] = cage_->points;
+        carried_[pose] = rest_->points;
         givenUp_.insert(pose);
     }
 }
 
-const std::vector<openvdb::Vec3d>& CarriedPoses::points(const PosePtr& pose)
+const std::vector<openvdb::Vec3d>& PosableCage::points(const PosePtr& pose)
 {
-    if (!pose) return cage_->points;
-    if (pose->rest == cage_) return pose->points;
+    if (!pose) return rest_->points;
+    if (pose->rest == rest_) return pose->points;
     carry({pose}, nullptr);
     return carried_.at(pose);
 }

@@ -23,13 +23,14 @@ bool areEqual(const PosePtr& a, const PosePtr& b);
 /// The cage with its points at `points`; null if that is at rest. \pre as many as the cage has
 PosePtr poseOf(const MeshPtr& cage, std::vector<openvdb::Vec3d> points);
 
-/// Poses as they are for one cage. Those that were made for another cage are carried over once, and kept. For one
-/// thread at a time.
-class CarriedPoses {
+/// A cage that can be posed: at rest, and where its points are in each pose. Poses that were made for another cage are
+/// carried over once, and kept. For one thread at a time.
+class PosableCage {
 public:
-    explicit CarriedPoses(MeshPtr cage) : cage_(std::move(cage)) {}
+    explicit PosableCage(MeshPtr rest) : rest_(std::move(rest)) {}
 
-    const MeshPtr& cage() const { return cage_; }
+    /// The cage at rest.
+    const MeshPtr& rest() const { return rest_; }
 
     /// Whether points() of each has nothing to compute. Null is at rest.
     bool has(const PosePtr& pose) const;
@@ -47,9 +48,12 @@ public:
     const std::vector<openvdb::Vec3d>& points(const PosePtr& pose);
 
 private:
-    MeshPtr cage_; ///< not null
+    MeshPtr rest_; ///< not null
     std::map<PosePtr, std::vector<openvdb::Vec3d>> carried_;
     std::set<PosePtr> givenUp_;
 };
+
+/// The cage that is shown; null: none. It follows from the document after a while.
+using ShownCage = std::shared_ptr<PosableCage>;
 
 } // namespace vdbcage::view

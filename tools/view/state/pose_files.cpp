@@ -110,19 +110,20 @@ TimeLine openParameters(const MeshPtr& cage, const fs::path& path, int frames)
 
 } // namespace
 
-Document withOpenedPose(const State& state, const fs::path& path, std::string* remark)
+Document withOpenedPose(const State& state, const ShownCage& cage, const fs::path& path, std::string* remark)
 {
-    PosedPoints pose = openPosedCage(*cageOf(state), path);
+    PosedPoints pose = openPosedCage(*restOf(cage), path);
     if (remark) *remark = files::describeOrder(path.filename(), pose.reordered, 1);
-    return withPose(state, std::move(pose.points));
+    return withPose(state, cage, std::move(pose.points));
 }
 
-Document withOpenedPoses(const State& state, const fs::path& path, int frames, std::string* remark)
+Document withOpenedPoses(const State& state, const ShownCage& cage, const fs::path& path, int frames,
+                         std::string* remark)
 {
-    const MeshPtr& cage = cageOf(state);
+    const MeshPtr& rest = restOf(cage);
     Document document = state.document;
     document.poses =
-        path.extension() == ".param" ? openParameters(cage, path, frames) : openSequence(cage, path, remark);
+        path.extension() == ".param" ? openParameters(rest, path, frames) : openSequence(rest, path, remark);
     return document;
 }
 

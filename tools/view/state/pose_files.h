@@ -11,7 +11,8 @@ namespace vdbcage::view {
 /// The pose of the view's frame is that of the posed cage at `path`. `remark` gets what the user is to know of it: that
 /// points were put into the order of the cage.
 /// \throw InputError, IoError naming the file: as posedPoints
-Document withOpenedPose(const State& state, const std::filesystem::path& path, std::string* remark = nullptr);
+Document withOpenedPose(const State& state, const ShownCage& cage, const std::filesystem::path& path,
+                        std::string* remark = nullptr);
 
 /// The poses of a sequence, or of a file of parameters (.param), in place of all that were there.
 ///
@@ -22,7 +23,7 @@ Document withOpenedPose(const State& state, const std::filesystem::path& path, s
 /// times a point of the cage, from 0, and by what it moves, x y z. The pose at the first of `frames` frames has the
 /// least factor times that, the last one the largest. (This is what CageModeler reads.)
 /// \throw InputError, IoError naming the file, the value and what is allowed
-Document withOpenedPoses(const State& state, const std::filesystem::path& path, int frames,
+Document withOpenedPoses(const State& state, const ShownCage& cage, const std::filesystem::path& path, int frames,
                          std::string* remark = nullptr);
 
 /// The pattern of which `path` is a file: its last number becomes %0Nd, of as many digits, if it begins with 0, and

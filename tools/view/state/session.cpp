@@ -10,16 +10,16 @@ void Session::note(History<Value>& history, bool& hasDragged, const Value& befor
 {
     if (before == after) return;
     if (isDragging_ && hasDragged) {
-        history.rename(toText(command));
+        history.continued(command);
     } else {
-        history.changed(before, toText(command));
+        history.changed(before, command);
         hasDragged = isDragging_;
     }
 }
 
 void Session::execute(const Command& command, std::string* remark)
 {
-    State changed = applied(state_, command, remark);
+    State changed = applied(state_, command, cage_, remark);
     if (changesDocument(command)) {
         note(documents_, hasDraggedDocument_, state_.document, changed.document, command);
     } else {
@@ -33,11 +33,12 @@ void Session::beginDrag()
     isDragging_ = true;
     hasDraggedDocument_ = hasDraggedView_ = false;
     dragged_ = state_;
+    draggedCage_ = cage_;
 }
 
 void Session::replaceDragged(const Command& command)
 {
-    State changed = applied(dragged_, command);
+    State changed = applied(dragged_, command, draggedCage_);
     note(documents_, hasDraggedDocument_, state_.document, changed.document, command);
     state_.document = std::move(changed.document);
 }
@@ -49,15 +50,13 @@ void Session::cancelDrag()
     hasDraggedDocument_ = false;
 }
 
-void Session::setCage(MeshPtr cage, std::shared_ptr<CarriedPoses> carried)
+void Session::setCage(ShownCage cage)
 {
-    const Mesh* const before = state_.cage.get();
-    const bool hasOtherFaces =
-        before && (!cage || cage->triangles != before->triangles || cage->quads != before->quads);
-    if (hasOtherFaces) state_.view.selection.ids.clear();
-    if (!carried && cage) carried = std::make_shared<CarriedPoses>(cage);
-    state_.carried = std::move(carried);
-    state_.cage = std::move(cage);
+    const auto hasFacesOf = [&](const Mesh& before) {
+        return cage && cage->rest()->triangles == before.triangles && cage->rest()->quads == before.quads;
+    };
+    if (cage_ && !hasFacesOf(*cage_->rest())) state_.view.selection.ids.clear();
+    cage_ = std::move(cage);
 }
 
 void Session::undo()

@@ -14,14 +14,14 @@ class History {
 public:
     bool canUndo() const { return !past_.empty(); }
     bool canRedo() const { return !future_.empty(); }
-    /// What the change is called that would be undone, or redone. \pre canUndo(), canRedo()
-    const std::string& undone() const { return past_.back().change; }
-    const std::string& redone() const { return future_.back().change; }
+    /// The line of the change that would be undone, or redone. \pre canUndo(), canRedo()
+    std::string undone() const { return toText(past_.back().change); }
+    std::string redone() const { return toText(future_.back().change); }
     /// Steps that can be undone.
     std::size_t depth() const { return past_.size(); }
 
     /// Notes that `before` was changed. What was undone can no longer be redone.
-    void changed(const Value& before, const std::string& change)
+    void changed(const Value& before, const Command& change)
     {
         past_.push_back({before, change});
         future_.clear();
@@ -32,8 +32,8 @@ public:
         value = std::move(past_.back().value);
         past_.pop_back();
     }
-    /// Gives the last step another name. \pre canUndo()
-    void rename(const std::string& change) { past_.back().change = change; }
+    /// The last step goes on: this is what it amounts to now. \pre canUndo()
+    void continued(const Command& change) { past_.back().change = change; }
 
     /// Makes `value` what it was before the last change, or after it again. Nothing happens where there is no such
     /// step.
@@ -43,7 +43,7 @@ public:
 private:
     struct Step {
         Value value;
-        std::string change;
+        Command change;
     };
     static void step(std::vector<Step>& from, std::vector<Step>& to, Value& value)
     {
@@ -57,10 +57,12 @@ private:
     std::vector<Step> past_, future_;
 };
 
-/// The state with two histories: of the document, which undo and redo are about, and of the view.
+/// The state with two histories: of the document, which undo and redo are about, and of the view. Beside it the cage
+/// that is shown: what is selected and moved are parts of it.
 class Session {
 public:
     const State& state() const { return state_; }
+    const ShownCage& cage() const { return cage_; }
 
     /// Applies the command. One that changes nothing leaves no step. `remark` as applied().
     /// \throw InputError, IoError; all is as it was
@@ -92,9 +94,8 @@ public:
     /// Another view without a step, as when it turns by itself.
     void replaceView(const ViewState& view) { state_.view = view; }
 
-    /// The cage at rest that is shown from now on; null: none. What is selected of it stays selected if its faces are
-    /// the same. `carried` are the poses that are known for it already; null: none.
-    void setCage(MeshPtr cage, std::shared_ptr<CarriedPoses> carried = nullptr);
+    /// The cage that is shown from now on. What is selected of it stays selected if its faces are the same.
+    void setCage(ShownCage cage);
 
     /// Takes another state, such as a scene's, and forgets the past.
     void restart(State state);
@@ -105,9 +106,11 @@ private:
               const Command& command);
 
     State state_;
+    ShownCage cage_; ///< it follows from the document, so it has no history
     History<Document> documents_;
     History<ViewState> views_;
     State dragged_; ///< before the drag
+    ShownCage draggedCage_;
     bool isDragging_ = false, hasDraggedDocument_ = false, hasDraggedView_ = false;
 };
 

@@ -1,35 +1,25 @@
 #include <tools/view/state/state.h>
 
-#include <algorithm>
+#include <vdbcage/core/error.h>
 
 namespace vdbcage::view {
-
-namespace {
-
-bool areEqual(const draw::Camera& a, const draw::Camera& b)
-{
-    return a.view.azimuthDegrees == b.view.azimuthDegrees && a.view.elevationDegrees == b.view.elevationDegrees &&
-           a.view.up == b.view.up && a.projection == b.projection && a.target == b.target && a.distance == b.distance;
-}
-
-bool areEqual(const LayerLook& a, const LayerLook& b)
-{
-    return a.shown == b.shown && a.opacity == b.opacity && a.colour == b.colour;
-}
-
-bool areEqual(const std::optional<SectionPlane>& a, const std::optional<SectionPlane>& b)
-{
-    if (!a || !b) return !a && !b;
-    return a->normal == b->normal && a->offset == b->offset;
-}
-
-} // namespace
 
 const char* nameOf(LayerId layer)
 {
     constexpr std::array<const char*, layerCount> names{"model",   "solid",    "solid-nodes", "closed", "closed-nodes",
                                                         "surface", "smoothed", "decimated",   "cage"};
     return names[static_cast<std::size_t>(layer)];
+}
+
+LayerId layerNamed(const std::string& name)
+{
+    std::string known;
+    for (std::size_t i = 0; i < layerCount; ++i) {
+        const auto layer = static_cast<LayerId>(i);
+        if (name == nameOf(layer)) return layer;
+        known += (i > 0 ? ", " : "") + std::string(nameOf(layer));
+    }
+    throw InputError("layer: '" + name + "' is not allowed; it must be one of " + known);
 }
 
 std::array<LayerLook, layerCount> ViewState::defaultLayers()
@@ -61,19 +51,6 @@ bool operator==(const Document& a, const Document& b)
 {
     return a.model == b.model && a.cage == b.cage && areEqual(a.options, b.options) && a.poses == b.poses &&
            a.coordinates == b.coordinates && a.weights == b.weights && a.elasticity == b.elasticity;
-}
-
-bool operator==(const ViewState& a, const ViewState& b)
-{
-    return areEqual(a.camera, b.camera) &&
-           std::equal(a.layers.begin(), a.layers.end(), b.layers.begin(),
-                      [](const LayerLook& x, const LayerLook& y) { return areEqual(x, y); }) &&
-           a.cageColours == b.cageColours && a.modelColours == b.modelColours && areEqual(a.section, b.section) &&
-           a.ground == b.ground && a.axes == b.axes && a.turntable == b.turntable && a.times == b.times &&
-           a.mode == b.mode && a.tool == b.tool && a.orientation == b.orientation && a.pivot == b.pivot &&
-           a.seeThrough == b.seeThrough && a.softRadius == b.softRadius && a.mirror == b.mirror &&
-           a.selection == b.selection && a.compared == b.compared && a.frame == b.frame && a.isPlaying == b.isPlaying &&
-           a.framesPerSecond == b.framesPerSecond;
 }
 
 } // namespace vdbcage::view

@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <string>
+#include <tuple>
 #include <vector>
 
 #include <tools/draw/camera.h>
@@ -45,12 +47,18 @@ constexpr std::size_t layerCount = 9;
 
 /// Its name in commands, such as "solid-nodes".
 const char* nameOf(LayerId layer);
+/// \throw InputError naming all of them: there is none of that name
+LayerId layerNamed(const std::string& name);
 
 struct LayerLook {
     bool shown = false;
     double opacity = 1;    ///< of faces, in [0, 1]
     draw::Colour colour{}; ///< of faces; of the cage, of lines
 };
+inline bool operator==(const LayerLook& a, const LayerLook& b)
+{
+    return a.shown == b.shown && a.opacity == b.opacity && a.colour == b.colour;
+}
 
 /// By what the cage's faces are coloured. Faces that are in contact with the model or bad otherwise are red in each.
 enum class CageColours : std::uint8_t {
@@ -58,6 +66,9 @@ enum class CageColours : std::uint8_t {
     kinds,   ///< quads and triangles are told apart
     distance ///< from the cage to the model
 };
+inline constexpr std::array<const char*, 3> cageColourNames{"plain", "kinds", "distance"};
+/// Of draw::Projection.
+inline constexpr std::array<const char*, 2> projectionNames{"perspective", "orthographic"};
 
 /// What is moved.
 enum class Mode : std::uint8_t {
@@ -89,7 +100,7 @@ inline bool operator==(const Pivot& a, const Pivot& b)
     return a.kind == b.kind && a.point == b.point;
 }
 /// Of the kinds that need no numbers.
-constexpr std::array<const char*, 3> pivotNames{"mean", "box", "origin"};
+inline constexpr std::array<const char*, 3> pivotNames{"mean", "box", "origin"};
 
 /// Changes of the cage's faces.
 enum class CageEdit : std::uint8_t {
@@ -99,10 +110,10 @@ enum class CageEdit : std::uint8_t {
     merge,    ///< two triangles beside an edge to a quad
     cut       ///< quads to triangles
 };
-constexpr std::array<const char*, 5> cageEditNames{"split", "collapse", "flip", "merge", "cut"};
-constexpr std::array<const char*, 2> modeNames{"shape", "pose"};
-constexpr std::array<const char*, 4> toolNames{"select", "move", "rotate", "scale"};
-constexpr std::array<const char*, 4> orientationNames{"world", "local", "normal", "view"};
+inline constexpr std::array<const char*, 5> cageEditNames{"split", "collapse", "flip", "merge", "cut"};
+inline constexpr std::array<const char*, 2> modeNames{"shape", "pose"};
+inline constexpr std::array<const char*, 4> toolNames{"select", "move", "rotate", "scale"};
+inline constexpr std::array<const char*, 4> orientationNames{"world", "local", "normal", "view"};
 
 /// By what the model is coloured in mode pose, once it is bound.
 enum class ModelColours : std::uint8_t {
@@ -111,13 +122,17 @@ enum class ModelColours : std::uint8_t {
     stretch,   ///< how much longer or shorter lengths are than at rest
     inverted   ///< triangles that are inside out
 };
-constexpr std::array<const char*, 4> modelColourNames{"plain", "influence", "stretch", "inverted"};
+inline constexpr std::array<const char*, 4> modelColourNames{"plain", "influence", "stretch", "inverted"};
 
 /// A plane that cuts off where normal . p > offset, in world space.
 struct SectionPlane {
     openvdb::Vec3d normal{1, 0, 0}; ///< not zero
     double offset = 0;
 };
+inline bool operator==(const SectionPlane& a, const SectionPlane& b)
+{
+    return a.normal == b.normal && a.offset == b.offset;
+}
 
 /// How one looks at it. Undo is not about this; a history of its own is.
 struct ViewState {
@@ -147,31 +162,36 @@ struct ViewState {
     LayerLook& layer(LayerId id) { return layers[static_cast<std::size_t>(id)]; }
 
     static std::array<LayerLook, layerCount> defaultLayers();
-};
 
-struct State {
-    Document document;
-    ViewState view;
-    /// The cage at rest that is shown; null: none. It follows from the document after a while, so it has no history.
-    /// What is selected and moved are parts of it.
-    MeshPtr cage;
-    /// What the document's poses are for that cage. Null: they are carried over whenever they are needed.
-    std::shared_ptr<CarriedPoses> carried;
+    /// All of it, to be compared.
+    auto tied() const
+    {
+        return std::tie(camera, layers, cageColours, modelColours, section, ground, axes, turntable, times, mode, tool,
+                        orientation, pivot, seeThrough, softRadius, mirror, selection, compared, frame, isPlaying,
+                        framesPerSecond);
+    }
 };
-
-/// Values are compared as their text is; models by being the same object, since one that was read anew may differ.
-bool areEqual(const CageOptions& a, const CageOptions& b);
-bool operator==(const Document& a, const Document& b);
-bool operator==(const ViewState& a, const ViewState& b);
-inline bool operator!=(const Document& a, const Document& b)
+inline bool operator==(const ViewState& a, const ViewState& b)
 {
-    return !(a == b);
+    return a.tied() == b.tied();
 }
 inline bool operator!=(const ViewState& a, const ViewState& b)
 {
     return !(a == b);
 }
-/// By what a user can change.
+
+struct State {
+    Document document;
+    ViewState view;
+};
+
+/// Values are compared as their text is; models by being the same object, since one that was read anew may differ.
+bool areEqual(const CageOptions& a, const CageOptions& b);
+bool operator==(const Document& a, const Document& b);
+inline bool operator!=(const Document& a, const Document& b)
+{
+    return !(a == b);
+}
 inline bool operator==(const State& a, const State& b)
 {
     return a.document == b.document && a.view == b.view;

@@ -64,18 +64,18 @@ bool operator==(const TimeLine& a, const TimeLine& b)
                       });
 }
 
-bool areCarried(const TimeLine& timeLine, const CarriedPoses& poses)
+bool areCarried(const TimeLine& timeLine, const PosableCage& cage)
 {
     return std::all_of(timeLine.keys().begin(), timeLine.keys().end(),
-                       [&](const PoseKey& key) { return poses.has(key.pose); });
+                       [&](const PoseKey& key) { return cage.has(key.pose); });
 }
 
-std::vector<openvdb::Vec3d> pointsAt(const TimeLine& timeLine, int frame, CarriedPoses& poses)
+std::vector<openvdb::Vec3d> pointsAt(const TimeLine& timeLine, int frame, PosableCage& cage)
 {
     const TimeLine::Between between = timeLine.at(frame);
-    std::vector<openvdb::Vec3d> points = poses.points(between.from);
+    std::vector<openvdb::Vec3d> points = cage.points(between.from);
     if (!(between.share > 0)) return points;
-    const std::vector<openvdb::Vec3d>& to = poses.points(between.to);
+    const std::vector<openvdb::Vec3d>& to = cage.points(between.to);
     for (std::size_t i = 0; i < points.size(); ++i) {
         points[i] = (1 - between.share) * points[i] + between.share * to[i];
     }

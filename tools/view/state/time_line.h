@@ -52,10 +52,10 @@ private:
 };
 
 /// Whether pointsAt() has nothing to carry over, at any frame. Cost: O(keys).
-bool areCarried(const TimeLine& timeLine, const CarriedPoses& poses);
+bool areCarried(const TimeLine& timeLine, const PosableCage& cage);
 
-/// The cage's points at a frame. \pre `poses` are for the cage
-/// Cost: O(points), and once for each pose that was made for another cage as CarriedPoses::points.
-std::vector<openvdb::Vec3d> pointsAt(const TimeLine& timeLine, int frame, CarriedPoses& poses);
+/// The cage's points at a frame.
+/// Cost: O(points), and once for each pose that was made for another cage as PosableCage::points.
+std::vector<openvdb::Vec3d> pointsAt(const TimeLine& timeLine, int frame, PosableCage& cage);
 
 } // namespace vdbcage::view

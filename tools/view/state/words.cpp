@@ -38,9 +38,9 @@ std::string quotedWordAt(std::string_view line, std::size_t& at)
 
 } // namespace
 
-std::vector<std::string> wordsOf(std::string_view line)
+Words wordsOf(std::string_view line)
 {
-    std::vector<std::string> words;
+    Words words;
     std::size_t at = 0;
     for (;;) {
         while (at < line.size() && isBlank(line[at])) ++at;

@@ -9,10 +9,12 @@
 /// The words of a line: what commands, scripts and files of options are made of.
 namespace vdbcage::view {
 
+using Words = std::vector<std::string>;
+
 /// Splits `line` at blanks. A word in double quotes may have blanks; in it \" and \\ stand for " and \, and \n, \r and
 /// \t for what they stand for in C. From a # that begins a word to the end all is a comment.
 /// \throw InputError a quote without its end, or a word after it without a blank between
-std::vector<std::string> wordsOf(std::string_view line);
+Words wordsOf(std::string_view line);
 
 /// `word` as it must be written for wordsOf to give it back: in quotes only where it must be.
 std::string quotedWord(const std::string& word);

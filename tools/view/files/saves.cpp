@@ -1,0 +1,114 @@
+#include <tools/view/files/saves.h>
+
+#include <utility>
+
+#include <tools/view/files/saving.h>
+#include <tools/view/state/move.h>
+#include <vdbcage/core/error.h>
+
+namespace vdbcage::view {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// \throw InputError the cage that is seen is not the current one, or a pose is not there for it
+void requirePoses(const SaveSource& source, const std::string& verb)
+{
+    // Of the cage that is seen; a new one may not have its poses yet.
+    const Mesh& current = currentCage(source.planner, verb).cage;
+    if (!source.cage || source.cage->rest().get() != &current) {
+        throw InputError(verb + ": the poses are not carried over to the new cage yet");
+    }
+    for (const PoseKey& key : source.state.document.poses.keys()) {
+        if (source.cage->isGivenUp(key.pose)) {
+            throw InputError(verb + ": a pose cannot be carried over to this cage: " + source.posing.error());
+        }
+    }
+}
+
+/// What is posed at the frames of the verb T. \throw as requirePoses
+template <class T>
+PosedScene posedScene(const SaveSource& source)
+{
+    requirePoses(source, T::info().name);
+    const State& state = source.state;
+    const TimeLine& poses = state.document.poses;
+    const int first = T::isSequence ? poses.firstFrame() : state.view.frame;
+    const int last = T::isSequence ? poses.finalFrame() : first;
+    const BindOrder order = bindOrder(state.document, source.cage->rest());
+    const auto binding = source.posing.follower().bindingOf(order);
+    return {order, binding, state.document.elasticity, poses, *source.cage, first, last};
+}
+
+} // namespace
+
+Write SavePosedCage::writer(const SaveSource& source, const fs::path& file)
+{
+    return [scene = posedScene<SavePosedCage>(source), file](Interrupter* i) { savePosedCages(scene, file, i); };
+}
+
+Write SavePosedModel::writer(const SaveSource& source, const fs::path& file)
+{
+    return [scene = posedScene<SavePosedModel>(source), file](Interrupter* i) { savePosedModels(scene, file, i); };
+}
+
+Write SavePosedCages::writer(const SaveSource& source, const fs::path& file)
+{
+    return [scene = posedScene<SavePosedCages>(source), file](Interrupter* i) { savePosedCages(scene, file, i); };
+}
+
+Write SavePosedModels::writer(const SaveSource& source, const fs::path& file)
+{
+    return [scene = posedScene<SavePosedModels>(source), file](Interrupter* i) { savePosedModels(scene, file, i); };
+}
+
+Write SaveColours::writer(const SaveSource& source, const fs::path& file)
+{
+    const auto values = source.posing.follower().values();
+    if (!values) {
+        throw InputError("save-colours: the model shows none; in mode pose, once it is bound, it can show influence, "
+                         "stretch, or what is inverted");
+    }
+    const OpenedMeshPtr model = source.state.document.model;
+    const PosedModel& posed = source.posing.follower().model();
+    std::vector<openvdb::Vec3d> points = posed.isWhole() ? posed.points() : model->mesh.points;
+    return [model, points = std::move(points), values, file](Interrupter*) {
+        saveColours(model->mesh, points, *values, file);
+    };
+}
+
+Write SaveWeights::writer(const SaveSource& source, const fs::path& file)
+{
+    requirePoses(source, "save-weights");
+    return [order = bindOrder(source.state.document, source.cage->rest()), file](Interrupter* i) {
+        saveWeights(order, file, i);
+    };
+}
+
+Write SaveCage::writer(const SaveSource& source, const fs::path& file)
+{
+    currentCage(source.planner, "save-cage");
+    return [cage = source.planner.shown(), file](Interrupter* i) { saveCage(*cage, file, i); };
+}
+
+Write SaveReport::writer(const SaveSource& source, const fs::path& file)
+{
+    currentCage(source.planner, "save-report");
+    return [cage = source.planner.shown(), file](Interrupter*) { saveReport(*cage, file); };
+}
+
+Write SaveOptions::writer(const SaveSource& source, const fs::path& file)
+{
+    return [options = source.state.document.options, file](Interrupter*) { saveOptions(options, file); };
+}
+
+const CageResult& currentCage(const Planner& planner, const std::string& verb)
+{
+    if (planner.standing() != Planner::Standing::current) {
+        throw InputError(verb + ": the cage of these options is not made yet");
+    }
+    return *planner.shown();
+}
+
+} // namespace vdbcage::view

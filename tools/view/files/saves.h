@@ -1,0 +1,109 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+
+#include <tools/view/jobs/posing.h>
+#include <tools/view/state/line.h>
+
+/// Verbs that write a file of what is made and posed, each a line (see line.h) with what it writes:
+///
+///     static Write writer(const SaveSource& source, const fs::path& file); // \throw InputError it is not there
+namespace vdbcage::view {
+
+/// What is saved.
+struct SaveSource {
+    const State& state;
+    const ShownCage& cage;
+    const Planner& planner;
+    const Posing& posing;
+};
+
+/// Writes the file, on any thread. \throw InputError, IoError, Cancelled
+using Write = std::function<void(Interrupter*)>;
+
+/// NAME FILE
+struct SaveFile {
+    static constexpr bool isRecorded = true;
+    /// It writes a file for each frame; its path gets a place for their numbers (see files::patternFor).
+    static constexpr bool isSequence = false;
+    std::string path;
+
+    SaveFile() = default;
+    explicit SaveFile(std::string file) : path(std::move(file)) {}
+
+    static std::string read(const Arguments& arguments) { return arguments[0]; }
+    std::string text() const { return written(path); }
+};
+
+struct SavePosedCage : SaveFile {
+    using SaveFile::SaveFile;
+    static LineInfo info() { return {"save-posed-cage", "FILE", 1, 1, "writes the posed cage (.obj .off .ply .stl)"}; }
+    static Write writer(const SaveSource& source, const std::filesystem::path& file);
+};
+struct SavePosedModel : SaveFile {
+    using SaveFile::SaveFile;
+    static LineInfo info()
+    {
+        return {"save-posed-model", "FILE", 1, 1, "writes the model, posed by the cage; all else of an OBJ file stays"};
+    }
+    static Write writer(const SaveSource& source, const std::filesystem::path& file);
+};
+struct SavePosedCages : SaveFile {
+    using SaveFile::SaveFile;
+    static constexpr bool isSequence = true;
+    static LineInfo info()
+    {
+        return {"save-posed-cages", "PATTERN", 1, 1,
+                "writes the posed cage of every frame from the first key to the last: cage.%04d.obj"};
+    }
+    static Write writer(const SaveSource& source, const std::filesystem::path& file);
+};
+struct SavePosedModels : SaveFile {
+    using SaveFile::SaveFile;
+    static constexpr bool isSequence = true;
+    static LineInfo info()
+    {
+        return {"save-posed-models", "PATTERN", 1, 1,
+                "writes the posed model of every frame from the first key to the last: out.%04d.obj"};
+    }
+    static Write writer(const SaveSource& source, const std::filesystem::path& file);
+};
+struct SaveColours : SaveFile {
+    using SaveFile::SaveFile;
+    static LineInfo info()
+    {
+        return {"save-colours", "FILE.ply", 1, 1,
+                "writes the posed model with what its colours tell: influence, stretch or inverted"};
+    }
+    static Write writer(const SaveSource& source, const std::filesystem::path& file);
+};
+struct SaveWeights : SaveFile {
+    using SaveFile::SaveFile;
+    static LineInfo info()
+    {
+        return {"save-weights", "FILE.npy", 1, 1, "writes by what weights the cage moves the model"};
+    }
+    static Write writer(const SaveSource& source, const std::filesystem::path& file);
+};
+struct SaveCage : SaveFile {
+    using SaveFile::SaveFile;
+    static LineInfo info() { return {"save-cage", "FILE", 1, 1, "writes the cage (.obj .off .ply .stl)"}; }
+    static Write writer(const SaveSource& source, const std::filesystem::path& file);
+};
+struct SaveReport : SaveFile {
+    using SaveFile::SaveFile;
+    static LineInfo info() { return {"save-report", "FILE.json", 1, 1, "writes options, times, memory and verdict"}; }
+    static Write writer(const SaveSource& source, const std::filesystem::path& file);
+};
+struct SaveOptions : SaveFile {
+    using SaveFile::SaveFile;
+    static LineInfo info() { return {"save-options", "FILE", 1, 1, "writes the options, for `preset FILE`"}; }
+    static Write writer(const SaveSource& source, const std::filesystem::path& file);
+};
+
+/// The cage of the options that are set now, or that was opened. \throw InputError naming the verb: it is not there yet
+const CageResult& currentCage(const Planner& planner, const std::string& verb);
+
+} // namespace vdbcage::view

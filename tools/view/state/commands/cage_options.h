@@ -1,0 +1,71 @@
+#pragma once
+
+#include <algorithm>
+
+#include <tools/view/state/commands/situation.h>
+#include <tools/view/state/line.h>
+#include <tools/view/state/preset.h>
+
+/// The options of the cage. Each command puts away a cage that was opened or edited: the one that they make is shown.
+/// They must be allowed together only when a cage is made of them: one by one they may pass through what is not.
+namespace vdbcage::view {
+
+struct SetOption {
+    std::string name, value; ///< as `vdbcage make --NAME VALUE`
+
+    static LineInfo info() { return {"set", "OPTION VALUE", 2, 2, "sets an option of `vdbcage make`"}; }
+    static SetOption read(const Arguments& arguments) { return {arguments[0], arguments[1]}; }
+    std::string text() const { return written(name, value); }
+    void apply(Document& document, const Situation& /*now*/) const
+    {
+        setOption(document.options, name, value);
+        document.cage.reset();
+    }
+};
+
+struct ResetOptions {
+    Words names; ///< none: all options
+
+    static LineInfo info()
+    {
+        return {"reset", "[OPTION...]", 0, anyNumber, "sets options, or all of them, to their defaults"};
+    }
+    static ResetOptions read(const Arguments& arguments) { return {arguments.words()}; }
+    std::string text() const
+    {
+        std::string text;
+        for (const std::string& name : names) text += written(name);
+        return text;
+    }
+    void apply(Document& document, const Situation& /*now*/) const
+    {
+        const auto defaults = optionValues(CageOptions{});
+        if (names.empty()) document.options = {};
+        for (const std::string& name : names) {
+            const auto known =
+                std::find_if(defaults.begin(), defaults.end(), [&](const auto& o) { return o.first == name; });
+            // setOption says which names there are.
+            setOption(document.options, name, known == defaults.end() ? std::string() : known->second);
+        }
+        document.cage.reset();
+    }
+};
+
+/// The options that the preset does not name are reset.
+struct ApplyPreset {
+    std::string name; ///< of a preset of ours, or a file's path
+
+    static LineInfo info()
+    {
+        return {"preset", "NAME|FILE", 1, 1, "sets all options to those of a preset or of a file"};
+    }
+    static ApplyPreset read(const Arguments& arguments) { return {arguments[0]}; }
+    std::string text() const { return written(name); }
+    void apply(Document& document, const Situation& /*now*/) const
+    {
+        document.options = presetOptions(name);
+        document.cage.reset();
+    }
+};
+
+} // namespace vdbcage::view

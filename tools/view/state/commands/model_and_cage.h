@@ -1,0 +1,46 @@
+#pragma once
+
+#include <tools/view/state/commands/situation.h>
+#include <tools/view/state/line.h>
+#include <vdbcage/core/error.h>
+
+/// The model and the cage that one works on, from files.
+namespace vdbcage::view {
+
+/// Another model, whose cage is made.
+struct OpenModel {
+    std::string path;
+
+    static LineInfo info() { return {"open", "FILE", 1, 1, "opens a model (.obj .off .ply .stl) and makes its cage"}; }
+    static OpenModel read(const Arguments& arguments) { return {arguments[0]}; }
+    std::string text() const { return written(path); }
+    void apply(Document& document, const Situation& /*now*/) const
+    {
+        document.model = openMesh(path);
+        document.cage.reset();
+        document.poses = {};
+        if (document.weights) document.coordinates = Coordinates::meanValue;
+        document.weights.reset();
+    }
+};
+
+/// A cage instead of one that is made.
+struct OpenCage {
+    std::string path;
+
+    static LineInfo info() { return {"open-cage", "FILE", 1, 1, "shows a cage from a file instead of making one"}; }
+    static OpenCage read(const Arguments& arguments) { return {arguments[0]}; }
+    std::string text() const { return written(path); }
+    void apply(Document& document, const Situation& /*now*/) const
+    {
+        if (!document.model) throw InputError("open-cage: there is no model yet that the cage could bound");
+        document.cage = openMesh(path);
+    }
+};
+
+struct CloseCage {
+    static LineInfo info() { return {"close-cage", "", 0, 0, "goes back to the cage that the options make"}; }
+    void apply(Document& document, const Situation& /*now*/) const { document.cage.reset(); }
+};
+
+} // namespace vdbcage::view
