@@ -7,7 +7,7 @@
 #include <openvdb/math/Mat3.h>
 #include <support/shapes.h>
 #include <vdbcage/deform/binding.h>
-#include <vdbcage/deform/detail/cage_triangles.h>
+#include <vdbcage/deform/detail/triangles.h>
 #include <vdbcage/mesh/mesh.h>
 
 /// Cages around the origin, star-shaped from there, and points in them.
@@ -103,7 +103,7 @@ inline openvdb::Mat3d rotation(std::uint32_t seed)
 inline Mesh cageFor(Coordinates family, const Mesh& cage)
 {
     const bool splits = coordinateFamilies()[static_cast<std::size_t>(family)].splitsQuads;
-    return splits ? Mesh{cage.points, detail::cageTriangles(cage), {}} : cage;
+    return splits ? Mesh{cage.points, detail::triangulateByShorterDiagonal(cage), {}} : cage;
 }
 
 /// The cage with one more point, the last: in the middle of the edge from corner 0 to 1 of triangle 4, times 1 +

@@ -10,7 +10,7 @@
 #include <tbb/global_control.h>
 #include <vdbcage/core/error.h>
 #include <vdbcage/deform/binding.h>
-#include <vdbcage/deform/detail/cage_triangles.h>
+#include <vdbcage/deform/detail/triangles.h>
 
 using namespace vdbcage;
 using openvdb::Vec3d;
@@ -463,7 +463,8 @@ BOOST_AUTO_TEST_CASE(loose_points_ride_along_or_stay)
     for (Vec3d& p : posed) p = Vec3d(p[0] + 0.3 * p[1] * p[1], 1.2 * p[1], p[2]);
     for (const FamilyInfo& family : coordinateFamilies()) {
         if (family.isEverywhere) continue;
-        const Mesh faces = family.splitsQuads ? Mesh{cage.points, detail::cageTriangles(cage), {}} : cage;
+        const Mesh faces =
+            family.splitsQuads ? Mesh{cage.points, detail::triangulateByShorterDiagonal(cage), {}} : cage;
         const std::vector<Vec3d> byMeanValue = Binding(faces, points, Coordinates::meanValue).pose(posed);
         CoordinateOptions options(family.family, 24);
         const std::vector<Vec3d> inside = Binding(cage, {points[0], points[2]}, options).pose(posed);

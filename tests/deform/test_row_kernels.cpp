@@ -6,13 +6,12 @@
 #include <memory>
 
 #include <deform/cages.h>
-#include <vdbcage/deform/detail/bound_cage.h>
-#include <vdbcage/deform/detail/cage_pack.h>
 #include <vdbcage/deform/detail/families/green.h>
 #include <vdbcage/deform/detail/families/likelihood.h>
 #include <vdbcage/deform/detail/families/mean_value.h>
 #include <vdbcage/deform/detail/families/somigliana.h>
 #include <vdbcage/deform/detail/kernels/row_kernels.h>
+#include <vdbcage/deform/detail/unit_cage.h>
 
 using namespace vdbcage;
 using namespace vdbcage::detail;
@@ -27,7 +26,7 @@ namespace {
 struct Family {
     const char* name;
     RowKernels::Rows* RowKernels::*rows;
-    bool (*row)(const BoundCage&, const Vec3d&, double*);
+    bool (*row)(const UnitCage&, const Vec3d&, double*);
     std::size_t perTriangle, perQuad; // columns beside those of the points
     bool takesQuads;
 };
@@ -37,7 +36,7 @@ const Family families[] = {{"mvc", &RowKernels::meanValue, meanValueRow, 0, 0, t
                            {"mlc", &RowKernels::likelihood, likelihoodRow, 0, 0, true},
                            {"somigliana", &RowKernels::somigliana, somiglianaRow, somiglianaWeights, 0, false}};
 
-std::vector<Family> familiesFor(const PackedCage& cage)
+std::vector<Family> familiesFor(const KernelCage& cage)
 {
     std::vector<Family> list;
     for (const Family& family : families) {
@@ -46,7 +45,7 @@ std::vector<Family> familiesFor(const PackedCage& cage)
     return list;
 }
 
-std::size_t columnsOf(const PackedCage& cage, const Family& family)
+std::size_t columnsOf(const KernelCage& cage, const Family& family)
 {
     return cage.pointCount + family.perTriangle * cage.triangleCount + family.perQuad * cage.quadCount;
 }
@@ -56,7 +55,7 @@ struct Result {
     std::vector<bool> leftOut;
 };
 
-Result rowsOf(const RowKernels& kernels, const PackedCage& cage, const Family& family, const std::vector<Vec3d>& points)
+Result rowsOf(const RowKernels& kernels, const KernelCage& cage, const Family& family, const std::vector<Vec3d>& points)
 {
     struct alignas(64) Chunk {
         char bytes[64];
@@ -86,7 +85,7 @@ Result rowsOf(const RowKernels& kernels, const PackedCage& cage, const Family& f
 constexpr int wellInside = 60;
 
 /// Points well inside, and at small distances from faces, edges and vertices; some outside.
-std::vector<Vec3d> placesFor(const BoundCage& cage, std::uint32_t seed)
+std::vector<Vec3d> placesFor(const UnitCage& cage, std::uint32_t seed)
 {
     Random random(seed);
     std::vector<Vec3d> points;
@@ -134,12 +133,12 @@ BOOST_AUTO_TEST_CASE(rows_are_those_of_the_scalar_formulas)
     torus.quads.clear();
     cages.push_back(torus);
     for (std::size_t index = 0; index < cages.size(); ++index) {
-        const BoundCage cage(cages[index]);
-        const CagePack pack(cage);
+        const UnitCage cage(cages[index]);
+        const std::shared_ptr<const KernelCage> forKernels = kernelCage(cage);
         const std::vector<Vec3d> points = placesFor(cage, static_cast<std::uint32_t>(index));
-        for (const Family& family : familiesFor(pack.packed())) {
-            const std::size_t columns = columnsOf(pack.packed(), family);
-            const Result result = rowsOf(rowKernels(), pack.packed(), family, points);
+        for (const Family& family : familiesFor(*forKernels)) {
+            const std::size_t columns = columnsOf(*forKernels, family);
+            const Result result = rowsOf(rowKernels(), *forKernels, family, points);
             std::vector<double> row(columns);
             for (std::size_t i = 0; i < points.size(); ++i) {
                 const double* const computed = result.rows.data() + i * columns;
@@ -166,13 +165,13 @@ BOOST_AUTO_TEST_CASE(rows_are_those_of_the_scalar_formulas)
 BOOST_AUTO_TEST_CASE(all_instruction_sets_give_the_same_bits)
 {
     for (const Kind kind : kinds) {
-        const BoundCage cage(randomCage(kind, 5, 0.2, 2));
-        const CagePack pack(cage);
+        const UnitCage cage(randomCage(kind, 5, 0.2, 2));
+        const std::shared_ptr<const KernelCage> forKernels = kernelCage(cage);
         const std::vector<Vec3d> points = placesFor(cage, 5);
-        for (const Family& family : familiesFor(pack.packed())) {
-            const Result first = rowsOf(rowKernels(), pack.packed(), family, points);
+        for (const Family& family : familiesFor(*forKernels)) {
+            const Result first = rowsOf(rowKernels(), *forKernels, family, points);
             for (const RowKernels* const* set = allRowKernels(); *set; ++set) {
-                const Result other = rowsOf(**set, pack.packed(), family, points);
+                const Result other = rowsOf(**set, *forKernels, family, points);
                 BOOST_TEST_CONTEXT(family.name << " with " << (*set)->instructions)
                 {
                     BOOST_REQUIRE(other.rows.size() == first.rows.size());
@@ -186,14 +185,14 @@ BOOST_AUTO_TEST_CASE(all_instruction_sets_give_the_same_bits)
 BOOST_AUTO_TEST_CASE(a_row_depends_on_its_own_point_only)
 {
     for (const Kind kind : kinds) {
-        const BoundCage cage(randomCage(kind, 6, 0.2, 2));
-        const CagePack pack(cage);
+        const UnitCage cage(randomCage(kind, 6, 0.2, 2));
+        const std::shared_ptr<const KernelCage> forKernels = kernelCage(cage);
         std::vector<Vec3d> points = placesFor(cage, 6);
-        for (const Family& family : familiesFor(pack.packed())) {
-            const std::size_t columns = columnsOf(pack.packed(), family);
-            const Result together = rowsOf(rowKernels(), pack.packed(), family, points);
+        for (const Family& family : familiesFor(*forKernels)) {
+            const std::size_t columns = columnsOf(*forKernels, family);
+            const Result together = rowsOf(rowKernels(), *forKernels, family, points);
             for (std::size_t i = 0; i < points.size(); i += 7) {
-                const Result alone = rowsOf(rowKernels(), pack.packed(), family, {points[i]});
+                const Result alone = rowsOf(rowKernels(), *forKernels, family, {points[i]});
                 BOOST_TEST(std::memcmp(alone.rows.data(), together.rows.data() + i * columns, 8 * columns) == 0);
             }
         }

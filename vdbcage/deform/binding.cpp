@@ -17,9 +17,6 @@
 #include <vdbcage/core/detail/number_text.h>
 #include <vdbcage/core/detail/parallel.h>
 #include <vdbcage/core/error.h>
-#include <vdbcage/deform/detail/bound_cage.h>
-#include <vdbcage/deform/detail/cage_pack.h>
-#include <vdbcage/deform/detail/cage_triangles.h>
 #include <vdbcage/deform/detail/families/biharmonic.h>
 #include <vdbcage/deform/detail/families/green.h>
 #include <vdbcage/deform/detail/families/harmonic.h>
@@ -27,6 +24,8 @@
 #include <vdbcage/deform/detail/families/mean_value.h>
 #include <vdbcage/deform/detail/families/somigliana.h>
 #include <vdbcage/deform/detail/kernels/row_kernels.h>
+#include <vdbcage/deform/detail/triangles.h>
+#include <vdbcage/deform/detail/unit_cage.h>
 #include <vdbcage/deform/detail/weight_blocks.h>
 #include <vdbcage/deform/detail/weight_matrix.h>
 
@@ -41,7 +40,7 @@ using detail::RowKernels;
 /// How the rows of a family are computed.
 struct RowFunctions {
     /// The row of a point; false where the family is not defined. Null if it needs more than the cage.
-    bool (*row)(const detail::BoundCage&, const Vec3d&, double*);
+    bool (*row)(const detail::UnitCage&, const Vec3d&, double*);
     RowKernels::Rows* RowKernels::*rows; ///< of several points, but for those that are near the cage; null: one by one
 };
 
@@ -122,7 +121,7 @@ Mesh cageOf(const Mesh& cage, Coordinates family)
 {
     if (!entry(family).info.splitsQuads) return cage;
     requireUsable(cage, "cage");
-    return {cage.points, detail::cageTriangles(cage), {}};
+    return {cage.points, detail::triangulateByShorterDiagonal(cage), {}};
 }
 
 /// Calls `take` with what each normal that is a handle belongs to, in their order: the corner, the next and the one
@@ -131,7 +130,7 @@ template <typename Take>
 void forEachNormal(const Mesh& cage, Coordinates family, const Take& take)
 {
     if (family == Coordinates::biharmonic) {
-        for (const openvdb::Vec3I& t : detail::cageTriangles(cage)) take(t[0], t[1], t[2]);
+        for (const openvdb::Vec3I& t : detail::triangulateByShorterDiagonal(cage)) take(t[0], t[1], t[2]);
     }
     if (family != Coordinates::green) return;
     for (const openvdb::Vec3I& t : cage.triangles) take(t[0], t[1], t[2]);
@@ -146,8 +145,9 @@ public:
     RowMaker(const Mesh& mesh, const std::vector<Vec3d>& points, const CoordinateOptions& options,
              Interrupter* interrupter)
         : points_(points), family_(entry(requireComputable(options).family)), interrupter_(interrupter),
-          columns_(handleCount(mesh, options.family)), cage_(cageOf(mesh, options.family)), pack_(cage_),
-          looseMotion_(options.loose.motion), isLoose_(points.size(), false), undefined_(points.size(), 0)
+          columns_(handleCount(mesh, options.family)), cage_(cageOf(mesh, options.family)),
+          kernelCage_(detail::kernelCage(cage_)), looseMotion_(options.loose.motion), isLoose_(points.size(), false),
+          undefined_(points.size(), 0)
     {
         for (const openvdb::Index32 i : options.loose.indices) {
             if (i >= points.size()) {
@@ -199,7 +199,7 @@ private:
 
     std::unique_ptr<Chunk[]> scratch() const // not set to zero: it is large
     {
-        return std::unique_ptr<Chunk[]>(new Chunk[detail::scratchSize(pack_.packed()) / sizeof(Chunk) + 1]);
+        return std::unique_ptr<Chunk[]>(new Chunk[detail::scratchSize(*kernelCage_) / sizeof(Chunk) + 1]);
     }
 
     /// False where the family is not defined.
@@ -230,7 +230,7 @@ private:
             for (std::size_t lane = 0; lane < count; ++lane) probe[lane] = outside >> lane & 1;
             leftOut = 0;
         } else if (const auto kernel = family_.functions.rows) {
-            leftOut |= (detail::rowKernels().*kernel)(pack_.packed(), x, buffers.scratch.get(), buffers.rows.get());
+            leftOut |= (detail::rowKernels().*kernel)(*kernelCage_, x, buffers.scratch.get(), buffers.rows.get());
         } else {
             leftOut = ~0U;
         }
@@ -279,8 +279,8 @@ private:
     const Family& family_;
     Interrupter* interrupter_;
     std::size_t columns_;
-    detail::BoundCage cage_;
-    detail::CagePack pack_;
+    detail::UnitCage cage_;
+    std::shared_ptr<const detail::KernelCage> kernelCage_;
     LoosePoints::Motion looseMotion_;
     std::vector<bool> isLoose_;
     std::optional<detail::HarmonicGrid> grid_;         // of harmonic coordinates
@@ -314,7 +314,7 @@ std::vector<float> maxDistancesOf(const Mesh& cage, Coordinates family)
     std::vector<float> maxDistances(cage.points.size(), 1.0F);
     if (family == Coordinates::somigliana) maxDistances.resize(handleCount(cage, family), 4.0F);
     if (maxDistances.size() == handleCount(cage, family)) return maxDistances;
-    const double size = detail::CageFrame(cage).size;
+    const double size = detail::longestSide(cage);
     const auto addNormal = [&](openvdb::Index32 corner, openvdb::Index32 next, openvdb::Index32 before) {
         const auto edge = [&](openvdb::Index32 to) {
             return (cage.points[to] / size - cage.points[corner] / size).length();
@@ -414,7 +414,7 @@ std::vector<Vec3d> cageHandles(const Mesh& cage, const std::vector<Vec3d>& posed
         detail::addSomiglianaHandles(cage, posed, options.elasticity, handles);
     }
     if (handles.size() == handleCount(cage, options.family)) return handles; // there are no normals
-    const double size = detail::CageFrame(cage).size;
+    const double size = detail::longestSide(cage);
     const auto addNormal = [&](openvdb::Index32 corner, openvdb::Index32 next, openvdb::Index32 before) {
         const auto edge = [&](const std::vector<Vec3d>& points, openvdb::Index32 to) {
             return points[to] / size - points[corner] / size;
@@ -509,7 +509,7 @@ void Binding::add(const std::vector<Vec3d>& fromHandles, const std::vector<Vec3d
                   std::vector<Vec3d>& posed) const
 {
     // In units of the cage: floats hold the motion of models of any size.
-    const double size = detail::CageFrame(cage_).size;
+    const double size = detail::longestSide(cage_);
     std::vector<detail::HandleMove> moves;
     for (std::size_t k = 0; k < toHandles.size(); ++k) {
         if (fromHandles[k] == toHandles[k]) continue;

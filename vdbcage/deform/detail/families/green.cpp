@@ -73,7 +73,7 @@ Vec3d stretchedNormal(const Vec3d& a, const Vec3d& b, const Vec3d& posedA, const
     return std::sqrt(0.5 * square) / length * normal;
 }
 
-bool exactGreen(const BoundCage& cage, std::size_t face, const double (&x)[3], double (&positions)[3], double& normal)
+bool exactGreen(const UnitCage& cage, std::size_t face, const double (&x)[3], double (&positions)[3], double& normal)
 {
     const Vec3d from(x);
     if (cage.nearestOf(face, from).distance < tooNear) return false;
@@ -83,18 +83,18 @@ bool exactGreen(const BoundCage& cage, std::size_t face, const double (&x)[3], d
     return true;
 }
 
-bool greenRow(const BoundCage& cage, const Vec3d& x, double* row)
+bool greenRow(const UnitCage& cage, const Vec3d& x, double* row)
 {
     const std::size_t count = cage.points().size();
-    const BoundCage::Place nearest = cage.nearest(x);
-    const bool touches = nearest.distance <= BoundCage::touching;
+    const UnitCage::Place nearest = cage.nearest(x);
+    const bool touches = nearest.distance <= UnitCage::touching;
     std::fill(row, row + count, 0.0);
     Vec3d missing = x;
     double* normals = row + count;
     for (std::size_t i = 0; i < cage.faces().size(); ++i) {
-        const BoundCage::Face& face = cage.faces()[i];
+        const UnitCage::Face& face = cage.faces()[i];
         const PatchCorners c = cage.cornersFrom(face, x);
-        const bool onFace = touches && !face.quad && cage.nearestOf(i, x).distance <= 2 * BoundCage::touching;
+        const bool onFace = touches && !face.quad && cage.nearestOf(i, x).distance <= 2 * UnitCage::touching;
         const FacePart part = facePart(c, face.quad, onFace);
         for (std::size_t k = 0; k < 4; ++k) row[face.at[k]] += part.positions[k];
         for (std::size_t k = 0; k < (face.quad ? 4 : 1); ++k) {

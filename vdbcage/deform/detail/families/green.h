@@ -1,7 +1,7 @@
 #pragma once
 
 #include <openvdb/math/Vec3.h>
-#include <vdbcage/deform/detail/bound_cage.h>
+#include <vdbcage/deform/detail/unit_cage.h>
 
 namespace vdbcage::detail {
 
@@ -14,6 +14,6 @@ openvdb::Vec3d stretchedNormal(const openvdb::Vec3d& a, const openvdb::Vec3d& b,
 
 /// Writes the coordinates of `x`, which is scaled, to `row`: the points', then one a triangle, then four a quad.
 /// Returns false if `x` is outside of the cage.
-bool greenRow(const BoundCage& cage, const openvdb::Vec3d& x, double* row);
+bool greenRow(const UnitCage& cage, const openvdb::Vec3d& x, double* row);
 
 } // namespace vdbcage::detail

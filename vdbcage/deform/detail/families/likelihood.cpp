@@ -78,20 +78,20 @@ bool balance(const std::vector<Vec3d>& vectors, Vec3d& s)
 
 } // namespace
 
-bool likelihoodRow(const BoundCage& cage, const Vec3d& x, double* row)
+bool likelihoodRow(const UnitCage& cage, const Vec3d& x, double* row)
 {
     const std::size_t count = cage.points().size();
     std::fill(row, row + count, 0.0);
-    const BoundCage::Place nearest = cage.nearest(x);
-    if (nearest.distance <= BoundCage::touching) {
-        const BoundCage::Face& face = cage.faces()[nearest.face];
+    const UnitCage::Place nearest = cage.nearest(x);
+    if (nearest.distance <= UnitCage::touching) {
+        const UnitCage::Face& face = cage.faces()[nearest.face];
         for (std::size_t k = 0; k < 4; ++k) row[face.at[k]] += nearest.weights[k];
         return true;
     }
     std::vector<std::array<double, 4>> weights;
     std::vector<Vec3d> vectors;
     double winding = 0; // along every line through the point the nearest face weighs most: positive if inside
-    for (const BoundCage::Face& face : cage.faces()) {
+    for (const UnitCage::Face& face : cage.faces()) {
         const PatchCorners c = cage.cornersFrom(face, x);
         std::array<double, 4> w = meanValueWeights(c, face.quad);
         Vec3d vector(0);

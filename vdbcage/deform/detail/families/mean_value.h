@@ -3,7 +3,7 @@
 #include <array>
 
 #include <openvdb/math/Vec3.h>
-#include <vdbcage/deform/detail/bound_cage.h>
+#include <vdbcage/deform/detail/unit_cage.h>
 
 namespace vdbcage::detail {
 
@@ -14,6 +14,6 @@ std::array<double, 4> meanValueWeights(const PatchCorners& corners, bool quad);
 
 /// Writes the coordinates of `x`, which is scaled, to `row`, one a point of the cage. Returns true: they exist
 /// everywhere.
-bool meanValueRow(const BoundCage& cage, const openvdb::Vec3d& x, double* row);
+bool meanValueRow(const UnitCage& cage, const openvdb::Vec3d& x, double* row);
 
 } // namespace vdbcage::detail

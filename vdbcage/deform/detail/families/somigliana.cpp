@@ -18,10 +18,10 @@
 #include <cmath>
 
 #include <openvdb/math/Mat3.h>
-#include <vdbcage/deform/detail/cage_triangles.h>
 #include <vdbcage/deform/detail/families/patch_quadrature.h>
 #include <vdbcage/deform/detail/kernels/row_kernels.h>
 #include <vdbcage/deform/detail/triangle_potentials.h>
+#include <vdbcage/deform/detail/triangles.h>
 
 namespace vdbcage::detail {
 
@@ -142,7 +142,7 @@ std::vector<Vec3d> pointNormals(const std::vector<Vec3d>& points, const std::vec
 class CagePose {
 public:
     CagePose(const Mesh& cage, const std::vector<Vec3d>& posed, const Elasticity& elasticity)
-        : triangles_(cageTriangles(cage)), elasticity_(elasticity), size_(CageFrame(cage).size)
+        : triangles_(triangulateByShorterDiagonal(cage)), elasticity_(elasticity), size_(longestSide(cage))
     {
         for (const Vec3d& p : cage.points) rest_.push_back(p / size_);
         for (const Vec3d& p : posed) posed_.push_back(p / size_);
@@ -319,7 +319,7 @@ void addSomiglianaHandles(const Mesh& cage, const std::vector<Vec3d>& posed, con
     CagePose(cage, posed, elasticity).addHandles(handles);
 }
 
-bool exactSomigliana(const BoundCage& cage, std::size_t face, const double (&x)[3], double (&positions)[3],
+bool exactSomigliana(const UnitCage& cage, std::size_t face, const double (&x)[3], double (&positions)[3],
                      double (&matrix)[6])
 {
     const Vec3d from(x);
@@ -331,19 +331,19 @@ bool exactSomigliana(const BoundCage& cage, std::size_t face, const double (&x)[
     return true;
 }
 
-bool somiglianaRow(const BoundCage& cage, const Vec3d& x, double* row)
+bool somiglianaRow(const UnitCage& cage, const Vec3d& x, double* row)
 {
     const std::size_t count = cage.points().size();
-    const BoundCage::Place nearest = cage.nearest(x);
-    const bool touches = nearest.distance <= BoundCage::touching;
+    const UnitCage::Place nearest = cage.nearest(x);
+    const bool touches = nearest.distance <= UnitCage::touching;
     std::fill(row, row + count, 0.0);
     double* const matrices = row + count;
     Vec3d missing = x;
     for (std::size_t i = 0; i < cage.faces().size(); ++i) {
-        const BoundCage::Face& face = cage.faces()[i];
+        const UnitCage::Face& face = cage.faces()[i];
         const PatchCorners c = cage.cornersFrom(face, x);
         const FaceFrame frame = faceFrame(c[1] - c[0], c[2] - c[0]);
-        const bool onFace = touches && cage.nearestOf(i, x).distance <= 2 * BoundCage::touching;
+        const bool onFace = touches && cage.nearestOf(i, x).distance <= 2 * UnitCage::touching;
         const FacePart part = facePart(c, frame, onFace);
         for (std::size_t k = 0; k < 3; ++k) row[face.at[k]] += part.positions[k];
         const auto& m = part.matrix;
