@@ -2,7 +2,9 @@
 
 #include <random>
 #include <stdexcept>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include <openvdb/math/Mat3.h>
 #include <support/shapes.h>
@@ -99,10 +101,30 @@ inline openvdb::Mat3d rotation(std::uint32_t seed)
     return matrix;
 }
 
+/// All families that reproduce points to rounding. Those that solve equations have tests of their own.
+inline std::vector<Coordinates> exactFamilies()
+{
+    std::vector<Coordinates> list;
+    for (const FamilyInfo& info : coordinateFamilies()) {
+        const bool solves = info.family == Coordinates::harmonic || info.family == Coordinates::biharmonic;
+        if (!solves) list.push_back(info.family);
+    }
+    return list;
+}
+
+/// "there are mvc, green, ...", as errors end.
+inline std::string thereAreFamilies()
+{
+    std::string text;
+    for (const FamilyInfo& info : coordinateFamilies())
+        text += (text.empty() ? "there are " : ", ") + std::string(info.name);
+    return text;
+}
+
 /// Whose inside the family knows: some split quads.
 inline Mesh cageFor(Coordinates family, const Mesh& cage)
 {
-    const bool splits = coordinateFamilies()[static_cast<std::size_t>(family)].splitsQuads;
+    const bool splits = familyInfo(family).splitsQuads;
     return splits ? Mesh{cage.points, detail::triangulateByShorterDiagonal(cage), {}} : cage;
 }
 

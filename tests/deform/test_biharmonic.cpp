@@ -41,7 +41,7 @@ Rows rowsOf(const UnitCage& bound, const BiharmonicCage& cage, const std::vector
         const std::size_t count = std::min(together, points.size() - first);
         std::vector<Vec3d> at;
         for (std::size_t i = 0; i < count; ++i) at.push_back(bound.scaled(points[first + i]));
-        auto* const to = reinterpret_cast<BiharmonicCage::Packet*>(packet.data());
+        auto* const to = reinterpret_cast<detail::Packet*>(packet.data());
         BOOST_REQUIRE(cage.rows(at.data(), count, to) == 0);
         for (std::size_t i = 0; i < count; ++i) {
             for (std::size_t k = 0; k < packet.size(); ++k) rows[first + i][k] = packet[k][i];
@@ -425,7 +425,7 @@ BOOST_AUTO_TEST_CASE(points_outside)
     std::vector<Vec3d> scaled;
     for (const Vec3d& p : points) scaled.push_back(bound.scaled(p));
     std::vector<std::array<double, detail::packetSize>> rows(cage.columns());
-    auto* const packet = reinterpret_cast<BiharmonicCage::Packet*>(rows.data());
+    auto* const packet = reinterpret_cast<detail::Packet*>(rows.data());
     BOOST_TEST(cage.rows(scaled.data(), 8, packet) == 0b10111011U);
     const Rows alone = rowsOf(torus, {points[2]});
     for (std::size_t k = 0; k < rows.size(); ++k) BOOST_TEST(rows[k][2] == alone[0][k]);

@@ -140,7 +140,7 @@ InversionTest InversionTest::with(const Elasticity& elasticity) const
     InversionTest changed = *this;
     requireElasticity(elasticity);
     const CoordinateOptions& options = bound_->binding.options();
-    if (options.family != Coordinates::somigliana || options.elasticity == elasticity) return changed;
+    if (!familyInfo(options.family).hasElasticity || options.elasticity == elasticity) return changed;
     Bound bound{bound_->binding.with(elasticity), bound_->triangles, {}};
     for (const Piece& piece : bound_->pieces) bound.pieces.push_back({piece.indices, piece.beside.with(elasticity)});
     changed.bound_ = std::make_shared<const Bound>(std::move(bound));

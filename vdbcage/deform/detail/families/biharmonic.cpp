@@ -8,13 +8,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <string>
 
 #include <tbb/blocked_range.h>
 #include <vdbcage/core/detail/parallel.h>
 #include <vdbcage/core/error.h>
 #include <vdbcage/deform/detail/families/patch_quadrature.h>
+#include <vdbcage/deform/detail/stretched_normals.h>
 #include <vdbcage/deform/detail/triangle_potentials.h>
+#include <vdbcage/deform/detail/triangles.h>
 
 namespace vdbcage::detail {
 
@@ -448,5 +451,31 @@ unsigned BiharmonicCage::rows(const Vec3d* points, std::size_t count, Packet* ro
     }
     return outside;
 }
+
+namespace {
+
+CageRows solvedRows(const UnitCage& cage, const CoordinateOptions& /*options*/, Interrupter* interrupter)
+{
+    const auto solved = std::make_shared<const BiharmonicCage>(cage, interrupter);
+    return {nullptr, [solved](const Vec3d* points, std::size_t count, Packet* rows) {
+                return solved->rows(points, count, rows);
+            }};
+}
+
+constexpr FamilyInfo info{Coordinates::biharmonic,
+                          "biharmonic",
+                          "biharmonic",
+                          "Biharmonic",
+                          "follows normals as green, closer to the cage",
+                          "Thiery, Michel, Chen 2024",
+                          /*isEverywhere*/ false,
+                          /*splitsQuads*/ true,
+                          /*hasResolution*/ false,
+                          /*hasElasticity*/ false};
+
+} // namespace
+
+extern constexpr CoordinateFamily biharmonic{info, solvedRows, nullptr,
+                                             stretchedNormals<triangulateByShorterDiagonal>(1, 2)};
 
 } // namespace vdbcage::detail

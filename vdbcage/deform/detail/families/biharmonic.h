@@ -6,8 +6,7 @@
 
 #include <openvdb/Types.h>
 #include <vdbcage/core/interrupter.h>
-#include <vdbcage/deform/detail/kernels/row_kernels.h>
-#include <vdbcage/deform/detail/unit_cage.h>
+#include <vdbcage/deform/detail/coordinate_family.h>
 
 namespace vdbcage::detail {
 
@@ -36,7 +35,6 @@ class BiharmonicCage {
 public:
     /// Points and faces together.
     static constexpr std::size_t mostData = 6000;
-    using Packet = double[packetSize];
 
     /// `cage` must outlive this. \pre all of its faces are triangles
     ///

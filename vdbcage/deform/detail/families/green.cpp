@@ -5,13 +5,12 @@
 // distance) belongs to the faces next to the point, so to the nearest place of the cage. This also defines points on
 // the cage, as the limit from inside. What is still missing of affine precision is restored at the end.
 
-#include <vdbcage/deform/detail/families/green.h>
-
 #include <algorithm>
 #include <cmath>
 
+#include <vdbcage/deform/detail/coordinate_family.h>
 #include <vdbcage/deform/detail/families/patch_quadrature.h>
-#include <vdbcage/deform/detail/kernels/row_kernels.h>
+#include <vdbcage/deform/detail/stretched_normals.h>
 #include <vdbcage/deform/detail/triangle_potentials.h>
 
 namespace vdbcage::detail {
@@ -62,17 +61,6 @@ FacePart facePart(const PatchCorners& corners, bool quad, bool onFace)
 
 } // namespace
 
-Vec3d stretchedNormal(const Vec3d& a, const Vec3d& b, const Vec3d& posedA, const Vec3d& posedB)
-{
-    const Vec3d normal = posedA.cross(posedB);
-    const double length = normal.length();
-    if (!(length > 0)) return Vec3d(0);
-    // The norm of the matrix posedA b^T - posedB a^T, which does not cancel for slivers as its expansion does.
-    double square = 0;
-    for (int i = 0; i < 3; ++i) square += (posedA[i] * b - posedB[i] * a).lengthSqr();
-    return std::sqrt(0.5 * square) / length * normal;
-}
-
 bool exactGreen(const UnitCage& cage, std::size_t face, const double (&x)[3], double (&positions)[3], double& normal)
 {
     const Vec3d from(x);
@@ -83,6 +71,9 @@ bool exactGreen(const UnitCage& cage, std::size_t face, const double (&x)[3], do
     return true;
 }
 
+namespace {
+
+/// The points' weights, then one a triangle, then four a quad. False if `x` is outside of the cage.
 bool greenRow(const UnitCage& cage, const Vec3d& x, double* row)
 {
     const std::size_t count = cage.points().size();
@@ -105,5 +96,30 @@ bool greenRow(const UnitCage& cage, const Vec3d& x, double* row)
     }
     return cage.completeSolidAngles(nearest, missing, row);
 }
+
+std::vector<openvdb::Vec3I> cornersOf(const Mesh& cage)
+{
+    std::vector<openvdb::Vec3I> corners = cage.triangles;
+    for (const openvdb::Vec4I& q : cage.quads) {
+        for (int k = 0; k < 4; ++k) corners.emplace_back(q[k], q[(k + 1) % 4], q[(k + 3) % 4]);
+    }
+    return corners;
+}
+
+constexpr FamilyInfo info{Coordinates::green,
+                          "green",
+                          "qgc",
+                          "Green",
+                          "keeps shapes, follows the faces' normals",
+                          "Lipman, Levin, Cohen-Or 2008; Thiery, Boubekeur 2022",
+                          /*isEverywhere*/ false,
+                          /*splitsQuads*/ false,
+                          /*hasResolution*/ false,
+                          /*hasElasticity*/ false};
+
+} // namespace
+
+extern constexpr CoordinateFamily green{info, formulaRows<greenRow>, &RowKernels::green,
+                                        stretchedNormals<cornersOf>(1, 4)};
 
 } // namespace vdbcage::detail

@@ -5,15 +5,16 @@
 // grid cross the cage, so that points are reproduced. Values near the cage are interpolated up to it.
 
 #include <vdbcage/deform/detail/families/harmonic.h>
-#include <vdbcage/deform/detail/triangle_potentials.h>
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <utility>
 
 #include <tbb/blocked_range.h>
 #include <vdbcage/core/detail/parallel.h>
-#include <vdbcage/deform/binding.h>
+#include <vdbcage/deform/detail/coordinate_family.h>
+#include <vdbcage/deform/detail/triangle_potentials.h>
 
 namespace vdbcage::detail {
 
@@ -458,5 +459,28 @@ bool HarmonicGrid::row(const Vec3d& x, double* row) const
     for (std::size_t k = 0; k < columns; ++k) row[k] /= sum;
     return true;
 }
+
+namespace {
+
+CageRows gridRows(const UnitCage& cage, const CoordinateOptions& options, Interrupter* interrupter)
+{
+    const auto grid = std::make_shared<const HarmonicGrid>(cage, options.resolution, interrupter);
+    return {[grid](const Vec3d& x, double* row) { return grid->row(x, row); }};
+}
+
+constexpr FamilyInfo info{Coordinates::harmonic,
+                          "harmonic",
+                          "harmonic",
+                          "Harmonic",
+                          "never negative, smooth, not through walls",
+                          "Joshi, Meyer, DeRose, Green, Sanocki 2007",
+                          /*isEverywhere*/ false,
+                          /*splitsQuads*/ false,
+                          /*hasResolution*/ true,
+                          /*hasElasticity*/ false};
+
+} // namespace
+
+extern constexpr CoordinateFamily harmonic{info, gridRows};
 
 } // namespace vdbcage::detail

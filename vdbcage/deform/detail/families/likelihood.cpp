@@ -6,14 +6,13 @@
 // divided by the square of the face's distance, so that near faces count most. Equal lengths would give back mean value
 // coordinates wherever these are not negative.
 
-#include <vdbcage/deform/detail/families/likelihood.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>
 
 #include <openvdb/math/Mat3.h>
+#include <vdbcage/deform/detail/coordinate_family.h>
 #include <vdbcage/deform/detail/families/mean_value.h>
 
 namespace vdbcage::detail {
@@ -76,8 +75,8 @@ bool balance(const std::vector<Vec3d>& vectors, Vec3d& s)
     return false;
 }
 
-} // namespace
-
+/// None is negative. False if `x` is outside of the cage, or if no non-negative combination of the faces is balanced
+/// around it.
 bool likelihoodRow(const UnitCage& cage, const Vec3d& x, double* row)
 {
     const std::size_t count = cage.points().size();
@@ -121,5 +120,20 @@ bool likelihoodRow(const UnitCage& cage, const Vec3d& x, double* row)
     for (std::size_t i = 0; i < count; ++i) row[i] /= sum;
     return true;
 }
+
+constexpr FamilyInfo info{Coordinates::maximumLikelihood,
+                          "mlc",
+                          "mlc",
+                          "Likelihood",
+                          "maximum likelihood: never negative, most local",
+                          "Chang, Deng, Hormann 2023",
+                          /*isEverywhere*/ false,
+                          /*splitsQuads*/ false,
+                          /*hasResolution*/ false,
+                          /*hasElasticity*/ false};
+
+} // namespace
+
+extern constexpr CoordinateFamily maximumLikelihood{info, formulaRows<likelihoodRow>, &RowKernels::likelihood};
 
 } // namespace vdbcage::detail

@@ -9,8 +9,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <vdbcage/deform/detail/coordinate_family.h>
 #include <vdbcage/deform/detail/families/patch_quadrature.h>
-#include <vdbcage/deform/detail/kernels/row_kernels.h>
 
 namespace vdbcage::detail {
 
@@ -78,6 +78,9 @@ bool exactMeanValue(const UnitCage& cage, std::size_t face, const double (&x)[3]
     return true;
 }
 
+namespace {
+
+/// They exist everywhere.
 bool meanValueRow(const UnitCage& cage, const Vec3d& x, double* row)
 {
     const std::size_t count = cage.points().size();
@@ -103,5 +106,20 @@ bool meanValueRow(const UnitCage& cage, const Vec3d& x, double* row)
     cage.restore(missing, row);
     return true;
 }
+
+constexpr FamilyInfo info{Coordinates::meanValue,
+                          "mvc",
+                          "qmvc",
+                          "Mean value",
+                          "smooth, and anywhere; can be negative",
+                          "Ju, Schaefer, Warren 2005; Thiery, Memari, Boubekeur 2018",
+                          /*isEverywhere*/ true,
+                          /*splitsQuads*/ false,
+                          /*hasResolution*/ false,
+                          /*hasElasticity*/ false};
+
+} // namespace
+
+extern constexpr CoordinateFamily meanValue{info, formulaRows<meanValueRow>, &RowKernels::meanValue};
 
 } // namespace vdbcage::detail

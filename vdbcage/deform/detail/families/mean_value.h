@@ -12,8 +12,4 @@ namespace vdbcage::detail {
 /// \pre the origin is not on the face
 std::array<double, 4> meanValueWeights(const PatchCorners& corners, bool quad);
 
-/// Writes the coordinates of `x`, which is scaled, to `row`, one a point of the cage. Returns true: they exist
-/// everywhere.
-bool meanValueRow(const UnitCage& cage, const openvdb::Vec3d& x, double* row);
-
 } // namespace vdbcage::detail

@@ -1,4 +1,4 @@
-// Based on: the papers of mean_value.h, green.h, likelihood.h and somigliana.h, of which these are the formulas in
+// Based on: the papers of the families mean_value, green, likelihood and somigliana, of which these are the formulas in
 // vectors. Differs: what belongs to an edge, its angle or potential, is computed once for both triangles. Determinants
 // and feet of perpendiculars come from the faces' planes. The damping of Newton's method is that of self-concordant
 // functions (Nesterov and Nemirovskii, "Interior-Point Polynomial Algorithms in Convex Programming", 1994): it needs no
