@@ -113,6 +113,8 @@ class Family:
     what: str
     paper: str
     everywhere: bool
+    resolution: bool
+    elasticity: bool
 
 def coordinate_families() -> list[Family]: ...
 
