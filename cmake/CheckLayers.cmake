@@ -45,7 +45,7 @@ set(confined
     "Python\\.h|^tools/python/.*$"
     "CGAL/|^(vdbcage/.*\\.cpp|tests/.*)$")
 
-set(ofInstructionSets "^vdbcage/deform/detail/kernels/(lanes\\.h|packed_cage\\.h|row_kernels\\.h|row_kernels_.*)$")
+set(ofInstructionSets "^vdbcage/deform/detail/kernels/(lanes\\.h|kernel_cage\\.h|row_kernels\\.h|row_kernels_.*)$")
 
 set(problems "")
 set(checked 0)
@@ -69,7 +69,7 @@ foreach(file IN LISTS files)
         set(header ${CMAKE_MATCH_1})
         # A function that a header defines could be the linker's choice for sources of all instruction sets.
         if(file MATCHES "${ofInstructionSets}" AND
-           NOT header MATCHES "^(cstddef|cstdint|immintrin\\.h|vdbcage/deform/detail/kernels/(lanes|packed_cage|row_kernels(_of_set)?)\\.h)$")
+           NOT header MATCHES "^(cstddef|cstdint|immintrin\\.h|vdbcage/deform/detail/kernels/(lanes|kernel_cage|row_kernels(_of_set)?)\\.h)$")
             list(APPEND problems "${file}: it is compiled for several instruction sets and must not include ${header}")
         endif()
         if(room AND header STREQUAL "vdbcage/vdbcage.h")

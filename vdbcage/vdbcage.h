@@ -22,6 +22,7 @@
 #include <vdbcage/core/range.h>
 #include <vdbcage/core/version.h>
 #include <vdbcage/deform/binding.h>
+#include <vdbcage/deform/coordinates.h>
 #include <vdbcage/deform/distortion.h>
 #include <vdbcage/deform/inversions.h>
 #include <vdbcage/deform/posed_points.h>

@@ -70,7 +70,9 @@ class Addon(Case):
                                   stdin=subprocess.DEVNULL, capture_output=True, text=True)
             self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
         extension("validate", ADDON)
-        extension("build", "--source-dir", SOURCE / "tools" / "blender" / "vdbcage_cage", "--output-dir", self.folder)
+        with zipfile.ZipFile(ADDON) as zipped:
+            zipped.extractall(self.folder)
+        extension("build", "--source-dir", self.folder / "vdbcage_cage", "--output-dir", self.folder)
         built, = self.folder.glob("*.zip")
         extension("validate", built)
         with zipfile.ZipFile(ADDON) as ours, zipfile.ZipFile(built) as theirs:

@@ -64,6 +64,17 @@ void expectRefusal(const Scene& scene, std::vector<std::string> words, const std
     BOOST_TEST(scene.folder.entries() == before);
 }
 
+/// All names that --coordinates takes.
+std::vector<std::string> familyNames()
+{
+    std::vector<std::string> names;
+    for (const FamilyInfo& family : coordinateFamilies()) {
+        names.emplace_back(family.name);
+        if (family.nameOnQuads != names.back()) names.emplace_back(family.nameOnQuads);
+    }
+    return names;
+}
+
 } // namespace
 
 BOOST_AUTO_TEST_SUITE(deform)
@@ -72,7 +83,7 @@ BOOST_AUTO_TEST_CASE(bind_and_deform)
 {
     const Scene scene;
     const std::string cage = scene.at("cage.obj"), model = scene.at("model.obj"), posed = scene.at("posed.0010.obj");
-    for (const char* family : {"mvc", "qmvc", "green", "qgc", "mlc", "harmonic", "biharmonic", "somigliana"}) {
+    for (const std::string& family : familyNames()) {
         const std::string weights = scene.at("w.npy");
         const auto bound = runCommand({command, "bind", cage, model, "-o", weights, "--coordinates", family});
         BOOST_TEST(bound.status == 0, bound.err);
@@ -163,9 +174,9 @@ BOOST_AUTO_TEST_CASE(families_compared)
     std::string line;
     std::getline(lines, line);
     BOOST_TEST(line == "family     distortion   99th pct     volume   inverted");
-    for (const char* family : {"mvc", "green", "mlc", "harmonic", "biharmonic", "somigliana"}) {
+    for (const FamilyInfo& family : coordinateFamilies()) {
         std::getline(lines, line);
-        BOOST_TEST(line.substr(0, line.find(' ')) == family);
+        BOOST_TEST(line.substr(0, line.find(' ')) == family.name);
     }
     BOOST_TEST(!std::getline(lines, line));
     const auto atRest = runCommand({command, "deform", cage, cage, model, "-o", sheet, "--compare"});
@@ -204,7 +215,7 @@ BOOST_AUTO_TEST_CASE(points_of_no_face_are_told_and_ride_along_or_stay)
     BOOST_TEST(checked.status == 0, checked.out);
     BOOST_TEST(checked.out.find("points of no face         2, outside of the cage 1\n") != std::string::npos,
                checked.out);
-    for (const char* family : {"mvc", "green", "mlc", "harmonic", "biharmonic", "somigliana"}) {
+    for (const std::string& family : familyNames()) {
         const auto ridden = runCommand({command, "deform", cage, posed, model, "-o", out, "--coordinates", family});
         BOOST_TEST(ridden.status == 0, ridden.err);
         BOOST_TEST(ridden.err.find("that no face uses: 2; outside of the cage they ride along") != std::string::npos,
@@ -461,9 +472,11 @@ BOOST_AUTO_TEST_CASE(wrong_pairs)
     expectRefusal(scene, {"bind", cage, model, "-o", scene.at("w.txt")}, ".npy");
     expectRefusal(scene, {"bind", model, model, "-o", scene.at("v.npy")}, "model.obj: it is not closed");
     writeMesh(test::box(Vec3d(1), Vec3d(3)), scene.at("outside.obj"));
-    for (const char* family : {"green", "mlc", "harmonic", "biharmonic", "somigliana"}) {
-        expectRefusal(scene, {"bind", cage, scene.at("outside.obj"), "-o", scene.at("v.npy"), "--coordinates", family},
-                      "outside.obj: " + std::string(family) + " coordinates are not defined at ");
+    for (const FamilyInfo& family : coordinateFamilies()) {
+        if (family.isEverywhere) continue;
+        expectRefusal(scene,
+                      {"bind", cage, scene.at("outside.obj"), "-o", scene.at("v.npy"), "--coordinates", family.name},
+                      "outside.obj: " + std::string(family.name) + " coordinates are not defined at ");
     }
 }
 

@@ -2,12 +2,14 @@
 
 #include <random>
 #include <stdexcept>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include <openvdb/math/Mat3.h>
 #include <support/shapes.h>
 #include <vdbcage/deform/binding.h>
-#include <vdbcage/deform/detail/cage_triangles.h>
+#include <vdbcage/deform/detail/triangles.h>
 #include <vdbcage/mesh/mesh.h>
 
 /// Cages around the origin, star-shaped from there, and points in them.
@@ -99,11 +101,31 @@ inline openvdb::Mat3d rotation(std::uint32_t seed)
     return matrix;
 }
 
+/// All families that reproduce points to rounding. Those that solve equations have tests of their own.
+inline std::vector<Coordinates> exactFamilies()
+{
+    std::vector<Coordinates> list;
+    for (const FamilyInfo& info : coordinateFamilies()) {
+        const bool solves = info.family == Coordinates::harmonic || info.family == Coordinates::biharmonic;
+        if (!solves) list.push_back(info.family);
+    }
+    return list;
+}
+
+/// "there are mvc, green, ...", as errors end.
+inline std::string thereAreFamilies()
+{
+    std::string text;
+    for (const FamilyInfo& info : coordinateFamilies())
+        text += (text.empty() ? "there are " : ", ") + std::string(info.name);
+    return text;
+}
+
 /// Whose inside the family knows: some split quads.
 inline Mesh cageFor(Coordinates family, const Mesh& cage)
 {
-    const bool splits = coordinateFamilies()[static_cast<std::size_t>(family)].splitsQuads;
-    return splits ? Mesh{cage.points, detail::cageTriangles(cage), {}} : cage;
+    const bool splits = familyInfo(family).splitsQuads;
+    return splits ? Mesh{cage.points, detail::triangulateByShorterDiagonal(cage), {}} : cage;
 }
 
 /// The cage with one more point, the last: in the middle of the edge from corner 0 to 1 of triangle 4, times 1 +

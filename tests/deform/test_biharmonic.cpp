@@ -16,7 +16,7 @@
 using namespace vdbcage;
 using detail::BiharmonicCage;
 using detail::BiharmonicPart;
-using detail::BoundCage;
+using detail::UnitCage;
 using openvdb::Vec3d;
 using test::Kind;
 using test::kinds;
@@ -32,7 +32,7 @@ using Triangle = std::array<Vec3d, 3>;
 using Rows = std::vector<std::vector<double>>;
 
 /// The rows of points that must be inside, `together` at a time. `cage` has triangles only.
-Rows rowsOf(const BoundCage& bound, const BiharmonicCage& cage, const std::vector<Vec3d>& points,
+Rows rowsOf(const UnitCage& bound, const BiharmonicCage& cage, const std::vector<Vec3d>& points,
             std::size_t together = detail::packetSize)
 {
     Rows rows(points.size(), std::vector<double>(cage.columns()));
@@ -41,7 +41,7 @@ Rows rowsOf(const BoundCage& bound, const BiharmonicCage& cage, const std::vecto
         const std::size_t count = std::min(together, points.size() - first);
         std::vector<Vec3d> at;
         for (std::size_t i = 0; i < count; ++i) at.push_back(bound.scaled(points[first + i]));
-        auto* const to = reinterpret_cast<BiharmonicCage::Packet*>(packet.data());
+        auto* const to = reinterpret_cast<detail::Packet*>(packet.data());
         BOOST_REQUIRE(cage.rows(at.data(), count, to) == 0);
         for (std::size_t i = 0; i < count; ++i) {
             for (std::size_t k = 0; k < packet.size(); ++k) rows[first + i][k] = packet[k][i];
@@ -52,7 +52,7 @@ Rows rowsOf(const BoundCage& bound, const BiharmonicCage& cage, const std::vecto
 
 Rows rowsOf(const Mesh& mesh, const std::vector<Vec3d>& points, std::size_t together = detail::packetSize)
 {
-    const BoundCage bound(test::cageFor(Coordinates::biharmonic, mesh));
+    const UnitCage bound(test::cageFor(Coordinates::biharmonic, mesh));
     return rowsOf(bound, BiharmonicCage(bound), points, together);
 }
 
@@ -77,7 +77,7 @@ double error(const Mesh& mesh, const std::vector<Vec3d>& points, const Rows& row
 {
     std::vector<double> data;
     for (const Vec3d& p : mesh.points) data.push_back(function.value(p));
-    for (const openvdb::Vec3I& t : detail::cageTriangles(mesh)) {
+    for (const openvdb::Vec3I& t : detail::triangulateByShorterDiagonal(mesh)) {
         const Vec3d a = mesh.points[t[0]], b = mesh.points[t[1]], c = mesh.points[t[2]];
         // The weight is of a length, in units of the cage's size.
         data.push_back(function.gradient((a + b + c) / 3).dot((b - a).cross(c - a)) / longestSide(mesh));
@@ -362,7 +362,7 @@ BOOST_AUTO_TEST_CASE(points_on_the_cage_are_the_limit_from_inside)
         const Mesh cage = randomCage(kind, 9);
         const auto& p = cage.points;
         std::vector<Vec3d> on, near;
-        for (const openvdb::Vec3I& t : detail::cageTriangles(cage)) {
+        for (const openvdb::Vec3I& t : detail::triangulateByShorterDiagonal(cage)) {
             on.push_back(0.5 * p[t[0]] + 0.3 * p[t[1]] + 0.2 * p[t[2]]);
             on.push_back(0.3 * p[t[0]] + 0.7 * p[t[1]]);
             on.push_back(p[t[2]]);
@@ -377,7 +377,7 @@ BOOST_AUTO_TEST_CASE(points_on_the_cage_are_the_limit_from_inside)
 BOOST_AUTO_TEST_CASE(smooth_across_the_planes_of_faces)
 {
     const Mesh cage = test::cageFor(Coordinates::biharmonic, randomCage(Kind::both, 10, 0.3));
-    const BoundCage bound(cage);
+    const UnitCage bound(cage);
     const BiharmonicCage solved(bound);
     constexpr double step = 1e-4;
     int tried = 0;
@@ -406,7 +406,7 @@ BOOST_AUTO_TEST_CASE(same_bytes_for_any_number_of_threads_and_neighbours)
     const std::vector<Vec3d> points = pointsInside(cage, 14, 40);
     const Rows all = rowsOf(cage, points);
     BOOST_TEST(all[0].size() > 200);
-    const BoundCage bound(cage);
+    const UnitCage bound(cage);
     const BiharmonicCage solved(bound);
     for (const std::size_t together : {std::size_t(1), std::size_t(3)})
         BOOST_TEST((rowsOf(bound, solved, points, together) == all));
@@ -417,7 +417,7 @@ BOOST_AUTO_TEST_CASE(same_bytes_for_any_number_of_threads_and_neighbours)
 BOOST_AUTO_TEST_CASE(points_outside)
 {
     const Mesh torus = test::cageFor(Coordinates::biharmonic, test::torus(3, 1, 12, 6));
-    const BoundCage bound(torus);
+    const UnitCage bound(torus);
     const BiharmonicCage cage(bound);
     const double nan = std::numeric_limits<double>::quiet_NaN();
     const std::vector<Vec3d> points{Vec3d(0),           Vec3d(3, 0, 1.1), Vec3d(3, 0, 0),  Vec3d(4.1, 0, 0),
@@ -425,7 +425,7 @@ BOOST_AUTO_TEST_CASE(points_outside)
     std::vector<Vec3d> scaled;
     for (const Vec3d& p : points) scaled.push_back(bound.scaled(p));
     std::vector<std::array<double, detail::packetSize>> rows(cage.columns());
-    auto* const packet = reinterpret_cast<BiharmonicCage::Packet*>(rows.data());
+    auto* const packet = reinterpret_cast<detail::Packet*>(rows.data());
     BOOST_TEST(cage.rows(scaled.data(), 8, packet) == 0b10111011U);
     const Rows alone = rowsOf(torus, {points[2]});
     for (std::size_t k = 0; k < rows.size(); ++k) BOOST_TEST(rows[k][2] == alone[0][k]);
@@ -500,12 +500,12 @@ BOOST_AUTO_TEST_CASE(quads_are_halved_along_the_shorter_diagonal)
     mesh.quads = {{3, 0, 1, 2}, {2, 3, 4, 1}, {1, 2, 3, 4}}; // a square: 0 is the least; 1-3 is shorter
     const std::vector<openvdb::Vec3I> expected{{0, 2, 5}, {0, 1, 2}, {0, 2, 3}, {3, 4, 1},
                                                {3, 1, 2}, {1, 2, 3}, {1, 3, 4}};
-    BOOST_TEST((detail::cageTriangles(mesh) == expected));
+    BOOST_TEST((detail::triangulateByShorterDiagonal(mesh) == expected));
 }
 
 BOOST_AUTO_TEST_CASE(can_be_cancelled)
 {
-    const BoundCage cage(test::cageFor(Coordinates::biharmonic, randomCage(Kind::both, 15)));
+    const UnitCage cage(test::cageFor(Coordinates::biharmonic, randomCage(Kind::both, 15)));
     test::StopAt never(1000000);
     const BiharmonicCage solved(cage, &never);
     const int asked = test::questions(never, 1000000);

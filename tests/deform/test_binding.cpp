@@ -25,8 +25,7 @@ using test::randomCage;
 
 namespace {
 
-constexpr Coordinates families[] = {Coordinates::meanValue, Coordinates::green, Coordinates::maximumLikelihood,
-                                    Coordinates::somigliana};
+const std::vector<Coordinates> families = test::exactFamilies();
 
 double difference(const std::vector<Vec3d>& a, const std::vector<Vec3d>& b)
 {

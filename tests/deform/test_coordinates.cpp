@@ -10,7 +10,7 @@
 #include <tbb/global_control.h>
 #include <vdbcage/core/error.h>
 #include <vdbcage/deform/binding.h>
-#include <vdbcage/deform/detail/cage_triangles.h>
+#include <vdbcage/deform/detail/triangles.h>
 
 using namespace vdbcage;
 using openvdb::Vec3d;
@@ -27,9 +27,7 @@ using test::weighted;
 
 namespace {
 
-// Of which the formulas are exact. Those on a grid have tests of their own, see test_harmonic.cpp.
-constexpr Coordinates families[] = {Coordinates::meanValue, Coordinates::green, Coordinates::maximumLikelihood,
-                                    Coordinates::somigliana};
+const std::vector<Coordinates> families = test::exactFamilies();
 
 Mesh moved(Mesh cage, const std::vector<Vec3d>& points)
 {
@@ -312,8 +310,7 @@ BOOST_AUTO_TEST_CASE(a_similarity_of_cage_and_points_changes_nothing)
 // Those of Somigliana coordinates are in test_somigliana.cpp.
 BOOST_AUTO_TEST_CASE(the_defining_integrals)
 {
-    for (const Coordinates family : families) {
-        if (family == Coordinates::somigliana) continue;
+    for (const Coordinates family : {Coordinates::meanValue, Coordinates::green, Coordinates::maximumLikelihood}) {
         for (const Kind kind : kinds) {
             const Mesh cage = randomCage(kind, 7, 0.15);
             std::vector<Vec3d> points{Vec3d(0.1, -0.2, 0.05), Vec3d(-0.55, 0.2, 0.3)};
@@ -348,8 +345,7 @@ BOOST_AUTO_TEST_CASE(points_on_the_cage)
     const std::vector<Vec3d> points{p[q[1]], 0.25 * p[q[1]] + 0.75 * p[q[2]],
                                     0.25 * (p[q[0]] + p[q[1]] + p[q[2]] + p[q[3]]),
                                     0.5 * p[t[0]] + 0.3 * p[t[1]] + 0.2 * p[t[2]]};
-    for (const Coordinates family : families) {
-        if (family == Coordinates::somigliana) continue; // see test_somigliana.cpp
+    for (const Coordinates family : {Coordinates::meanValue, Coordinates::green, Coordinates::maximumLikelihood}) {
         const std::vector<double> on = computeCoordinates(cage, points, family);
         const std::size_t columns = on.size() / points.size();
         const std::vector<double> inside =
@@ -447,9 +443,10 @@ BOOST_AUTO_TEST_CASE(points_outside)
     const std::vector<Vec3d> points{Vec3d(0), Vec3d(2, 0, 0), Vec3d(0, 5, 0)};
     const auto same = [](const Vec3d& p) { return p; };
     BOOST_TEST(error(cage, points, Coordinates::meanValue, same) < 1e-11);
-    for (const Coordinates family : {Coordinates::green, Coordinates::maximumLikelihood, Coordinates::somigliana}) {
-        BOOST_TEST(messageOf(cage, points, family) ==
-                   "points: " + std::string(coordinatesName(family)) +
+    for (const FamilyInfo& family : coordinateFamilies()) {
+        if (family.isEverywhere) continue;
+        BOOST_TEST(messageOf(cage, points, family.family) ==
+                   "points: " + std::string(family.name) +
                        " coordinates are not defined at 2 of 3 points, first at point 1, (2, 0, 0); all must be inside "
                        "of the cage");
     }
@@ -463,7 +460,7 @@ BOOST_AUTO_TEST_CASE(loose_points_ride_along_or_stay)
     for (Vec3d& p : posed) p = Vec3d(p[0] + 0.3 * p[1] * p[1], 1.2 * p[1], p[2]);
     for (const FamilyInfo& family : coordinateFamilies()) {
         if (family.isEverywhere) continue;
-        const Mesh faces = family.splitsQuads ? Mesh{cage.points, detail::cageTriangles(cage), {}} : cage;
+        const Mesh faces = cageFor(family.family, cage);
         const std::vector<Vec3d> byMeanValue = Binding(faces, points, Coordinates::meanValue).pose(posed);
         CoordinateOptions options(family.family, 24);
         const std::vector<Vec3d> inside = Binding(cage, {points[0], points[2]}, options).pose(posed);
@@ -499,8 +496,8 @@ BOOST_AUTO_TEST_CASE(points_so_far_that_squares_overflow)
         const std::vector<double> at = computeCoordinates(cage, {Vec3d(0.1, 0.2, 0)}, Coordinates::meanValue);
         for (const double far : {1e4, 1e160, 1e300}) {
             const std::vector<Vec3d> points{Vec3d(far), Vec3d(0.1, 0.2, 0), Vec3d(0, 0, -far)};
-            for (const Coordinates family :
-                 {Coordinates::green, Coordinates::maximumLikelihood, Coordinates::somigliana}) {
+            for (const Coordinates family : families) {
+                if (familyInfo(family).isEverywhere) continue;
                 BOOST_TEST(messageOf(cage, points, family).find("point 0") != std::string::npos);
             }
             const std::string message = messageOf(cage, points, Coordinates::meanValue);
@@ -566,18 +563,41 @@ BOOST_AUTO_TEST_CASE(names)
     std::size_t value = 0;
     for (const FamilyInfo& family : coordinateFamilies()) {
         BOOST_TEST((family.family == static_cast<Coordinates>(value++)));
+        BOOST_TEST((familyInfo(family.family).family == family.family));
         BOOST_TEST(std::string(family.name).size() <= 16); // of weights files
         BOOST_TEST(coordinatesName(family.family) == std::string(family.name));
         BOOST_TEST((coordinatesNamed(family.name) == family.family));
         BOOST_TEST((coordinatesNamed(family.nameOnQuads) == family.family));
     }
     BOOST_TEST((static_cast<Coordinates>(value) == Coordinates::given));
+    BOOST_TEST((familyInfo(Coordinates::given).family == Coordinates::given));
     BOOST_TEST((coordinatesNamed("qmvc") == Coordinates::meanValue));
     BOOST_TEST((coordinatesNamed("qgc") == Coordinates::green));
     BOOST_CHECK_EXCEPTION(coordinatesNamed("bounded"), InputError, [](const InputError& error) {
-        return std::string(error.what()) ==
-               "coordinates: 'bounded' is not a family; there are mvc, green, mlc, harmonic, biharmonic, somigliana";
+        return error.what() == "coordinates: 'bounded' is not a family; " + test::thereAreFamilies();
     });
+}
+
+BOOST_AUTO_TEST_CASE(facts_are_true)
+{
+    const Mesh cage = randomCage(Kind::quads, 21);
+    const Mesh split{cage.points, detail::triangulateByShorterDiagonal(cage), {}};
+    const std::vector<Vec3d> points = pointsInside(cage, 21, 10);
+    const std::vector<Vec3d> posed = test::jittered(cage.points, 21);
+    const Elasticity soft{0.3, Elasticity::Rotations::local, 0, 0};
+    for (const FamilyInfo& info : coordinateFamilies()) {
+        const auto weights = [&](const Mesh& mesh, int resolution) {
+            return computeWeights(mesh, {points[0], points[3]}, {info.family, resolution});
+        };
+        BOOST_TEST_CONTEXT(info.name)
+        {
+            BOOST_TEST((weights(cage, 8) != weights(cage, 9)) == info.hasResolution);
+            BOOST_TEST((cageHandles(cage, posed, info.family) != cageHandles(cage, posed, {info.family, soft})) ==
+                       info.hasElasticity);
+            BOOST_TEST((weights(cage, 8) == weights(split, 8)) == info.splitsQuads);
+            BOOST_TEST(messageOf(cage, {Vec3d(0, 0, 3)}, info.family).empty() == info.isEverywhere);
+        }
+    }
 }
 
 BOOST_AUTO_TEST_CASE(room_for_many_is_taken_in_steps)

@@ -12,8 +12,8 @@
 #include <vdbcage/deform/detail/families/harmonic.h>
 
 using namespace vdbcage;
-using detail::BoundCage;
 using detail::HarmonicGrid;
+using detail::UnitCage;
 using openvdb::Vec3d;
 using test::Kind;
 using test::kinds;
@@ -29,7 +29,7 @@ namespace {
 std::vector<double> rowsOf(const Mesh& mesh, const std::vector<Vec3d>& points, int resolution,
                            Interrupter* interrupter = nullptr)
 {
-    const BoundCage cage(mesh);
+    const UnitCage cage(mesh);
     const HarmonicGrid grid(cage, resolution, interrupter);
     const std::size_t columns = mesh.points.size();
     std::vector<double> rows(points.size() * columns);
@@ -266,7 +266,7 @@ BOOST_AUTO_TEST_CASE(inside_is_where_the_patches_say)
     for (Vec3d& p : cage.points) {
         if (p.z() > 0) p.z() += 0.5 * p.x() * p.y();
     }
-    const BoundCage bound(cage);
+    const UnitCage bound(cage);
     std::vector<double> row(cage.points.size());
     for (const int resolution : {4, 5, 32}) {
         const HarmonicGrid grid(bound, resolution);
@@ -282,7 +282,7 @@ BOOST_AUTO_TEST_CASE(inside_is_where_the_patches_say)
 BOOST_AUTO_TEST_CASE(points_outside)
 {
     const Mesh torus = test::torus(3, 1, 12, 6);
-    const BoundCage cage(torus);
+    const UnitCage cage(torus);
     const HarmonicGrid grid(cage, 24);
     std::vector<double> row(torus.points.size());
     const double nan = std::numeric_limits<double>::quiet_NaN();
@@ -352,7 +352,7 @@ BOOST_AUTO_TEST_CASE(bindings_and_weights_are_of_the_grid_asked_for)
 
 BOOST_AUTO_TEST_CASE(bad_resolutions)
 {
-    const BoundCage cage(test::box(Vec3d(-1), Vec3d(1)));
+    const UnitCage cage(test::box(Vec3d(-1), Vec3d(1)));
     for (const int resolution : {-1, 3, 257}) {
         BOOST_CHECK_EXCEPTION(HarmonicGrid(cage, resolution), InputError, [&](const InputError& error) {
             return error.what() == "resolution: " + std::to_string(resolution) + " is not allowed; it must be 4 to 256";

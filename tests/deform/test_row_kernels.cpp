@@ -6,13 +6,7 @@
 #include <memory>
 
 #include <deform/cages.h>
-#include <vdbcage/deform/detail/bound_cage.h>
-#include <vdbcage/deform/detail/cage_pack.h>
-#include <vdbcage/deform/detail/families/green.h>
-#include <vdbcage/deform/detail/families/likelihood.h>
-#include <vdbcage/deform/detail/families/mean_value.h>
-#include <vdbcage/deform/detail/families/somigliana.h>
-#include <vdbcage/deform/detail/kernels/row_kernels.h>
+#include <vdbcage/deform/detail/coordinate_family.h>
 
 using namespace vdbcage;
 using namespace vdbcage::detail;
@@ -24,31 +18,21 @@ using test::randomCage;
 
 namespace {
 
-struct Family {
-    const char* name;
-    RowKernels::Rows* RowKernels::*rows;
-    bool (*row)(const BoundCage&, const Vec3d&, double*);
-    std::size_t perTriangle, perQuad; // columns beside those of the points
-    bool takesQuads;
-};
-
-const Family families[] = {{"mvc", &RowKernels::meanValue, meanValueRow, 0, 0, true},
-                           {"green", &RowKernels::green, greenRow, 1, 4, true},
-                           {"mlc", &RowKernels::likelihood, likelihoodRow, 0, 0, true},
-                           {"somigliana", &RowKernels::somigliana, somiglianaRow, somiglianaWeights, 0, false}};
-
-std::vector<Family> familiesFor(const PackedCage& cage)
+/// Those that have a kernel for such a cage.
+std::vector<const CoordinateFamily*> familiesFor(const KernelCage& cage)
 {
-    std::vector<Family> list;
-    for (const Family& family : families) {
-        if (family.takesQuads || cage.quadCount == 0) list.push_back(family);
+    std::vector<const CoordinateFamily*> list;
+    for (const FamilyInfo& info : coordinateFamilies()) {
+        const CoordinateFamily& family = coordinateFamily(info.family);
+        if (family.kernel != nullptr && !(info.splitsQuads && cage.quadCount > 0)) list.push_back(&family);
     }
+    BOOST_REQUIRE(!list.empty());
     return list;
 }
 
-std::size_t columnsOf(const PackedCage& cage, const Family& family)
+std::size_t columnsOf(const KernelCage& cage, const CoordinateFamily& family)
 {
-    return cage.pointCount + family.perTriangle * cage.triangleCount + family.perQuad * cage.quadCount;
+    return cage.pointCount + family.vectors.perTriangle * cage.triangleCount + family.vectors.perQuad * cage.quadCount;
 }
 
 struct Result {
@@ -56,7 +40,8 @@ struct Result {
     std::vector<bool> leftOut;
 };
 
-Result rowsOf(const RowKernels& kernels, const PackedCage& cage, const Family& family, const std::vector<Vec3d>& points)
+Result rowsOf(const RowKernels& kernels, const KernelCage& cage, const CoordinateFamily& family,
+              const std::vector<Vec3d>& points)
 {
     struct alignas(64) Chunk {
         char bytes[64];
@@ -71,7 +56,7 @@ Result rowsOf(const RowKernels& kernels, const PackedCage& cage, const Family& f
         }
         std::vector<double> rows(columns * packetSize);
         const unsigned leftOut =
-            (kernels.*family.rows)(cage, x, scratch.get(), reinterpret_cast<double(*)[packetSize]>(rows.data()));
+            (kernels.*family.kernel)(cage, x, scratch.get(), reinterpret_cast<double(*)[packetSize]>(rows.data()));
         for (std::size_t lane = 0; lane < packetSize && first + lane < points.size(); ++lane) {
             const bool isLeftOut = (leftOut >> lane & 1) != 0;
             result.leftOut.push_back(isLeftOut);
@@ -86,7 +71,7 @@ Result rowsOf(const RowKernels& kernels, const PackedCage& cage, const Family& f
 constexpr int wellInside = 60;
 
 /// Points well inside, and at small distances from faces, edges and vertices; some outside.
-std::vector<Vec3d> placesFor(const BoundCage& cage, std::uint32_t seed)
+std::vector<Vec3d> placesFor(const UnitCage& cage, std::uint32_t seed)
 {
     Random random(seed);
     std::vector<Vec3d> points;
@@ -134,18 +119,19 @@ BOOST_AUTO_TEST_CASE(rows_are_those_of_the_scalar_formulas)
     torus.quads.clear();
     cages.push_back(torus);
     for (std::size_t index = 0; index < cages.size(); ++index) {
-        const BoundCage cage(cages[index]);
-        const CagePack pack(cage);
+        const UnitCage cage(cages[index]);
+        const std::shared_ptr<const KernelCage> forKernels = kernelCage(cage);
         const std::vector<Vec3d> points = placesFor(cage, static_cast<std::uint32_t>(index));
-        for (const Family& family : familiesFor(pack.packed())) {
-            const std::size_t columns = columnsOf(pack.packed(), family);
-            const Result result = rowsOf(rowKernels(), pack.packed(), family, points);
+        for (const CoordinateFamily* const family : familiesFor(*forKernels)) {
+            const std::size_t columns = columnsOf(*forKernels, *family);
+            const CageRows exact = family->rowsIn(cage, family->info.family, nullptr);
+            const Result result = rowsOf(rowKernels(), *forKernels, *family, points);
             std::vector<double> row(columns);
             for (std::size_t i = 0; i < points.size(); ++i) {
                 const double* const computed = result.rows.data() + i * columns;
-                const bool isDefined = family.row(cage, points[i], row.data());
+                const bool isDefined = exact.one(points[i], row.data());
                 if (result.leftOut[i]) continue;
-                BOOST_TEST_CONTEXT(family.name << " point " << i << " at " << points[i])
+                BOOST_TEST_CONTEXT(family->info.name << " point " << i << " at " << points[i])
                 {
                     BOOST_TEST(isDefined);
                     const bool same = std::equal(row.begin(), row.end(), computed,
@@ -153,7 +139,7 @@ BOOST_AUTO_TEST_CASE(rows_are_those_of_the_scalar_formulas)
                     BOOST_TEST(same);
                 }
             }
-            BOOST_TEST_CONTEXT(family.name << " cage " << index)
+            BOOST_TEST_CONTEXT(family->info.name << " cage " << index)
             {
                 // The first points are well inside, but of the torus.
                 const auto leftOut = std::count(result.leftOut.begin(), result.leftOut.begin() + wellInside, true);
@@ -166,14 +152,14 @@ BOOST_AUTO_TEST_CASE(rows_are_those_of_the_scalar_formulas)
 BOOST_AUTO_TEST_CASE(all_instruction_sets_give_the_same_bits)
 {
     for (const Kind kind : kinds) {
-        const BoundCage cage(randomCage(kind, 5, 0.2, 2));
-        const CagePack pack(cage);
+        const UnitCage cage(randomCage(kind, 5, 0.2, 2));
+        const std::shared_ptr<const KernelCage> forKernels = kernelCage(cage);
         const std::vector<Vec3d> points = placesFor(cage, 5);
-        for (const Family& family : familiesFor(pack.packed())) {
-            const Result first = rowsOf(rowKernels(), pack.packed(), family, points);
+        for (const CoordinateFamily* const family : familiesFor(*forKernels)) {
+            const Result first = rowsOf(rowKernels(), *forKernels, *family, points);
             for (const RowKernels* const* set = allRowKernels(); *set; ++set) {
-                const Result other = rowsOf(**set, pack.packed(), family, points);
-                BOOST_TEST_CONTEXT(family.name << " with " << (*set)->instructions)
+                const Result other = rowsOf(**set, *forKernels, *family, points);
+                BOOST_TEST_CONTEXT(family->info.name << " with " << (*set)->instructions)
                 {
                     BOOST_REQUIRE(other.rows.size() == first.rows.size());
                     BOOST_TEST(std::memcmp(other.rows.data(), first.rows.data(), 8 * first.rows.size()) == 0);
@@ -186,14 +172,14 @@ BOOST_AUTO_TEST_CASE(all_instruction_sets_give_the_same_bits)
 BOOST_AUTO_TEST_CASE(a_row_depends_on_its_own_point_only)
 {
     for (const Kind kind : kinds) {
-        const BoundCage cage(randomCage(kind, 6, 0.2, 2));
-        const CagePack pack(cage);
+        const UnitCage cage(randomCage(kind, 6, 0.2, 2));
+        const std::shared_ptr<const KernelCage> forKernels = kernelCage(cage);
         std::vector<Vec3d> points = placesFor(cage, 6);
-        for (const Family& family : familiesFor(pack.packed())) {
-            const std::size_t columns = columnsOf(pack.packed(), family);
-            const Result together = rowsOf(rowKernels(), pack.packed(), family, points);
+        for (const CoordinateFamily* const family : familiesFor(*forKernels)) {
+            const std::size_t columns = columnsOf(*forKernels, *family);
+            const Result together = rowsOf(rowKernels(), *forKernels, *family, points);
             for (std::size_t i = 0; i < points.size(); i += 7) {
-                const Result alone = rowsOf(rowKernels(), pack.packed(), family, {points[i]});
+                const Result alone = rowsOf(rowKernels(), *forKernels, *family, {points[i]});
                 BOOST_TEST(std::memcmp(alone.rows.data(), together.rows.data() + i * columns, 8 * columns) == 0);
             }
         }

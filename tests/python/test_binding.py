@@ -88,6 +88,8 @@ class BindingTest(Case):
         self.assertTrue(families[0].everywhere)
         self.assertIn("Ju, Schaefer, Warren 2005", families[0].paper)
         self.assertEqual([family.name for family in families if family.title == "Somigliana"], ["somigliana"])
+        self.assertEqual([family.name for family in families if family.resolution], ["harmonic"])
+        self.assertEqual([family.name for family in families if family.elasticity], ["somigliana"])
 
     def test_elasticity_acts_in_poses(self):
         inside = self.model.points[::50]

@@ -19,20 +19,32 @@ std::string familyHelp()
     return text;
 }
 
+/// The families that have the fact: "harmonic", "a, b".
+std::string namesOf(bool FamilyInfo::*has)
+{
+    std::string names;
+    for (const FamilyInfo& family : coordinateFamilies()) {
+        if (family.*has) names += (names.empty() ? "" : ", ") + std::string(family.name);
+    }
+    return names;
+}
+
 } // namespace
 
 CoordinateArguments::CoordinateArguments(CLI::App& app, For use, const std::string& purpose)
-    : resolution_(CoordinateOptions(Coordinates::harmonic).resolution),
+    : resolution_(CoordinateOptions(coordinatesNamed(family_)).resolution),
       familyOption_(app.add_option("--coordinates", family_, purpose + " [mvc]")->type_name("FAMILY")),
       resolutionOption_(app.add_option("--resolution", resolution_,
-                                       "of harmonic: voxels along the cage [" + std::to_string(resolution_) + "]")
+                                       "of " + namesOf(&FamilyInfo::hasResolution) + ": voxels along the cage [" +
+                                           std::to_string(resolution_) + "]")
                             ->type_name("N"))
 {
     app.add_option("--loose", loose_, "points that no face uses [ride]")->type_name("ride|stay");
     app.footer(familyHelp());
     if (use == For::weights) return;
+    const std::string of = "of " + namesOf(&FamilyInfo::hasElasticity) + ": ";
     const auto add = [&](const char* name, auto& value, const std::string& help, const char* type) {
-        elasticOptions_.push_back(app.add_option(name, value, "of somigliana: " + help)->type_name(type));
+        elasticOptions_.push_back(app.add_option(name, value, of + help)->type_name(type));
     };
     const std::string bulgings = ", " + toText(Elasticity::bulgings) + " [0]";
     add("--nu", elasticity_.nu, "Poisson's ratio in (-1, 0.5) [0]", "NU");
@@ -49,13 +61,13 @@ CoordinateOptions CoordinateArguments::options() const
 CoordinateOptions CoordinateArguments::optionsOf(Coordinates family) const
 {
     const CoordinateOptions options = optionsOfEach(family);
-    const auto requireFor = [&](const CLI::Option* option, Coordinates needed) {
-        if (option->count() == 0 || family == needed) return;
-        throw InputError(option->get_lnames().front() + ": only " + coordinatesName(needed) +
-                         " coordinates have it; these are " + coordinatesName(family));
+    const auto requireFor = [&](const CLI::Option* option, bool FamilyInfo::*has) {
+        if (option->count() == 0 || familyInfo(family).*has) return;
+        throw InputError(option->get_lnames().front() + ": only " + namesOf(has) + " coordinates have it; these are " +
+                         coordinatesName(family));
     };
-    requireFor(resolutionOption_, Coordinates::harmonic);
-    for (const CLI::Option* option : elasticOptions_) requireFor(option, Coordinates::somigliana);
+    requireFor(resolutionOption_, &FamilyInfo::hasResolution);
+    for (const CLI::Option* option : elasticOptions_) requireFor(option, &FamilyInfo::hasElasticity);
     return options;
 }
 

@@ -7,8 +7,8 @@
 
 namespace vdbcage::cli {
 
-/// The options of the commands that bind: --coordinates and --resolution; and of those that pose, what Somigliana
-/// coordinates have beside.
+/// The options of the commands that bind: --coordinates and --resolution. Those that pose also have the options of an
+/// elastic material.
 class CoordinateArguments {
 public:
     enum class For { weights, poses };

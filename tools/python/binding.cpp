@@ -51,7 +51,8 @@ void defineBinding(py::module_& module)
     module.def("coordinate_families", [] {
         py::list families;
         for (const FamilyInfo& family : coordinateFamilies()) {
-            families.append(py::make_tuple(family.name, family.title, family.what, family.paper, family.isEverywhere));
+            families.append(py::make_tuple(family.name, family.title, family.what, family.paper, family.isEverywhere,
+                                           family.hasResolution, family.hasElasticity));
         }
         return families;
     });

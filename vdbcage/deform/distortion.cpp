@@ -7,7 +7,7 @@
 #include <utility>
 
 #include <vdbcage/core/error.h>
-#include <vdbcage/deform/detail/cage_triangles.h>
+#include <vdbcage/deform/detail/triangles.h>
 #include <vdbcage/mesh/topology.h>
 
 namespace vdbcage {

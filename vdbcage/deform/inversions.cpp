@@ -8,7 +8,7 @@
 #include <utility>
 
 #include <vdbcage/core/error.h>
-#include <vdbcage/deform/detail/bound_cage.h>
+#include <vdbcage/deform/detail/unit_cage.h>
 
 namespace vdbcage {
 
@@ -35,7 +35,7 @@ double longestEdge(const std::vector<Vec3d>& points, const openvdb::Vec3I& t)
 Binding bindBeside(const Binding& binding, const Mesh& model, const std::vector<openvdb::Vec3I>& triangles,
                    const std::vector<std::uint32_t>& piece, Interrupter* interrupter)
 {
-    const double depth = below * detail::CageFrame(model).size;
+    const double depth = below * detail::longestSide(model);
     std::vector<Vec3d> points;
     for (const std::uint32_t index : piece) {
         const openvdb::Vec3I& t = triangles[index];
@@ -88,7 +88,7 @@ template <typename Take>
 void forEachPiece(const Binding& binding, const Mesh& model, const std::vector<openvdb::Vec3I>& triangles,
                   Interrupter* interrupter, const Take& take)
 {
-    const double thin = thinnest * detail::CageFrame(binding.cage()).size;
+    const double thin = thinnest * detail::longestSide(binding.cage());
     for (std::size_t next = 0; next < triangles.size();) {
         std::vector<std::uint32_t> indices;
         for (; next < triangles.size() && indices.size() < pieceSize; ++next) {
@@ -140,7 +140,7 @@ InversionTest InversionTest::with(const Elasticity& elasticity) const
     InversionTest changed = *this;
     requireElasticity(elasticity);
     const CoordinateOptions& options = bound_->binding.options();
-    if (options.family != Coordinates::somigliana || options.elasticity == elasticity) return changed;
+    if (!familyInfo(options.family).hasElasticity || options.elasticity == elasticity) return changed;
     Bound bound{bound_->binding.with(elasticity), bound_->triangles, {}};
     for (const Piece& piece : bound_->pieces) bound.pieces.push_back({piece.indices, piece.beside.with(elasticity)});
     changed.bound_ = std::make_shared<const Bound>(std::move(bound));

@@ -10,6 +10,7 @@ import numpy
 
 from . import files, geometry, links
 from .command import CommandError
+from .families import FAMILIES  # the build writes it
 from .folders import folder, stored
 from .make import still_there
 from .running import CommandOperator, command, take
@@ -18,16 +19,7 @@ from .running import CommandOperator, command, take
 class Settings(bpy.types.PropertyGroup):
     """What the panel shows."""
 
-    coordinates: bpy.props.EnumProperty(
-        name="Coordinates",
-        items=(("green", "Green", "Keeps shapes: what is inside turns with the faces. The model must be inside"),
-               ("mvc", "Mean Value", "Follows the cage's points exactly. The model may reach out of the cage"),
-               ("mlc", "Maximum Likelihood", "Follows the cage's points, most locally. The model must be inside"),
-               ("harmonic", "Harmonic", "Follows the cage's points, and none through a wall. The model must be "
-                                        "inside"),
-               ("biharmonic", "Biharmonic", "Keeps shapes, closer to the cage where it bends. The model must be inside"),
-               ("somigliana", "Somigliana", "Moves as an elastic material does, and keeps the volume where it bends. "
-                                            "The model must be inside")))
+    coordinates: bpy.props.EnumProperty(name="Coordinates", default="green", items=FAMILIES)
     target: bpy.props.EnumProperty(
         name="Into",
         items=(("SHAPE_KEY", "Shape Key", "The cage as it is now poses the mesh, below all modifiers"),

@@ -129,7 +129,7 @@ int drawComparison(const fs::path& cagePath, const fs::path& posedPath, const fs
 {
     requirePngExtension(picture);
     const auto optionsOf = [&](Coordinates family) { return arguments.optionsOfEach(family); };
-    optionsOf(Coordinates::somigliana); // fails before anything is read
+    optionsOf(coordinateFamilies().front().family); // fails before anything is read
     if (files::isPattern(posedPath))
         throw InputError("--compare is of one pose; POSED_CAGE must not have a frame number");
     Outputs outputs;

@@ -399,11 +399,19 @@ class Family:
     what: str  #: what it does to the model
     paper: str
     everywhere: bool  #: else the points must be inside the cage or on it
+    resolution: bool  #: whether Binding takes one for it
+    elasticity: bool  #: whether Binding takes one for it
 
 
 def coordinate_families() -> list[Family]:
     """The families of coordinates that can be computed: a list of Family."""
     return [Family(*values) for values in _vdbcage.coordinate_families()]
+
+
+def _require_fact(fact, coordinates):
+    names = [family.name for family in coordinate_families() if getattr(family, fact)]
+    if coordinates not in names:
+        raise InputError(f"{fact}: only {', '.join(names)} coordinates have it; these are {coordinates}")
 
 
 @dataclasses.dataclass(frozen=True)
@@ -455,9 +463,9 @@ class Binding:
                  progress: _Progress = None) -> None:
         if not isinstance(coordinates, str):
             raise InputError(f"coordinates: {coordinates!r} is not allowed; it must be a string")
-        for name, value, family in (("resolution", resolution, "harmonic"), ("elasticity", elasticity, "somigliana")):
-            if value is not None and coordinates != family:
-                raise InputError(f"{name}: only {family} coordinates have it; these are {coordinates}")
+        for fact, value in (("resolution", resolution), ("elasticity", elasticity)):
+            if value is not None:
+                _require_fact(fact, coordinates)
         if not isinstance(loose_motion, str):
             raise InputError(f"loose_motion: {loose_motion!r} is not allowed; it must be a string")
         places = _arguments.points("points", points)
@@ -488,8 +496,7 @@ class Binding:
 
         Raises InputError.
         """
-        if self.coordinates != "somigliana":
-            raise InputError(f"elasticity: only somigliana coordinates have it; these are {self.coordinates}")
+        _require_fact("elasticity", self.coordinates)
         other = type(self).__new__(type(self))
         other._binding = self._binding.with_elasticity(_elasticity(elasticity))
         other._cage = self._cage

@@ -76,8 +76,9 @@ bool Posing::hasMaterial(const State& state) const
 {
     if (state.view.mode != Mode::pose) return false;
     const BoundModelPtr& bound = follower_.bound(); // weights from a file can be of the family
-    return state.document.coordinates == Coordinates::somigliana || state.view.compared == Coordinates::somigliana ||
-           (bound && bound->whole && bound->whole->family() == Coordinates::somigliana);
+    const auto isElastic = [](Coordinates family) { return familyInfo(family).hasElasticity; };
+    return isElastic(state.document.coordinates) || (state.view.compared && isElastic(*state.view.compared)) ||
+           (bound && bound->whole && isElastic(bound->whole->family()));
 }
 
 void Posing::update()

@@ -108,7 +108,7 @@ std::string describe(const FamilyInfo& family)
 
 const char* titleOf(Coordinates family)
 {
-    return family == Coordinates::given ? "Weights" : coordinateFamilies()[static_cast<std::size_t>(family)].title;
+    return familyInfo(family).title;
 }
 
 void buildToolbar(const PanelContext& context)

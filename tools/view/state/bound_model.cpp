@@ -86,7 +86,7 @@ BoundModelPtr boundWhole(const BoundModel& coarse, Interrupter* interrupter)
 
 std::shared_ptr<const Binding> withMaterial(const std::shared_ptr<const Binding>& binding, const Elasticity& elasticity)
 {
-    if (!binding || binding->family() != Coordinates::somigliana || binding->options().elasticity == elasticity) {
+    if (!binding || !familyInfo(binding->family()).hasElasticity || binding->options().elasticity == elasticity) {
         return binding;
     }
     return std::make_shared<const Binding>(binding->with(elasticity));

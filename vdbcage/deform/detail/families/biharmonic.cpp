@@ -8,13 +8,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <string>
 
 #include <tbb/blocked_range.h>
 #include <vdbcage/core/detail/parallel.h>
 #include <vdbcage/core/error.h>
 #include <vdbcage/deform/detail/families/patch_quadrature.h>
+#include <vdbcage/deform/detail/stretched_normals.h>
 #include <vdbcage/deform/detail/triangle_potentials.h>
+#include <vdbcage/deform/detail/triangles.h>
 
 namespace vdbcage::detail {
 
@@ -78,14 +81,14 @@ struct Potentials {
 };
 
 /// Returns what the solid angles lack of the whole sphere.
-double addPotentials(const BoundCage& cage, const Vec3d& x, bool touches, const Potentials& to)
+double addPotentials(const UnitCage& cage, const Vec3d& x, bool touches, const Potentials& to)
 {
     const std::size_t points = cage.points().size();
     double lacking = 1;
     for (std::size_t i = 0; i < cage.faces().size(); ++i) {
-        const BoundCage::Face& face = cage.faces()[i];
+        const UnitCage::Face& face = cage.faces()[i];
         const PatchCorners c = cage.cornersFrom(face, x);
-        const bool onFace = touches && cage.nearestOf(i, x).distance <= 2 * BoundCage::touching;
+        const bool onFace = touches && cage.nearestOf(i, x).distance <= 2 * UnitCage::touching;
         const BiharmonicPart part = biharmonicPart({c[0], c[1], c[2]}, onFace);
         for (std::size_t k = 0; k < 3; ++k) {
             to.data[face.at[k] * to.stride] += part.values[k];
@@ -265,7 +268,7 @@ struct Equations {
     Matrix data, laplacians;
 };
 
-Equations equations(const BoundCage& cage, const std::vector<double>& areas, Interrupter* interrupter)
+Equations equations(const UnitCage& cage, const std::vector<double>& areas, Interrupter* interrupter)
 {
     const std::size_t points = cage.points().size();
     Equations of{Matrix(areas.size()), Matrix(areas.size())};
@@ -298,7 +301,7 @@ Equations equations(const BoundCage& cage, const std::vector<double>& areas, Int
 }
 
 /// By datum of the cage: the area it stands for. Points have a third of their faces' areas.
-std::vector<double> areasOf(const BoundCage& cage, const std::vector<Vec3d>& normals)
+std::vector<double> areasOf(const UnitCage& cage, const std::vector<Vec3d>& normals)
 {
     std::vector<double> areas(cage.points().size(), 0.0);
     for (std::size_t i = 0; i < normals.size(); ++i) {
@@ -316,7 +319,7 @@ std::vector<double> areasOf(const BoundCage& cage, const std::vector<Vec3d>& nor
 /// faces. But their condition grows as the third power of the fineness, and is 1e10 in a cage of 400 faces, whose
 /// weights are in the thousands then. That of all equations grows little faster than the fineness, and is 1e4 there.
 /// Errors fall with the square of the triangles' size in both. How the two kinds weigh, from 0.1 to 10, matters little.
-Matrix laplaciansOf(const BoundCage& cage, const std::vector<Vec3d>& normals, Interrupter* interrupter)
+Matrix laplaciansOf(const UnitCage& cage, const std::vector<Vec3d>& normals, Interrupter* interrupter)
 {
     constexpr double little = 0.03; // so that smooth functions lose nothing, and what is as fine as the triangles does
     const std::vector<double> areas = areasOf(cage, normals);
@@ -373,7 +376,7 @@ BiharmonicPart biharmonicPart(const std::array<Vec3d, 3>& corners, bool onFace)
                                                                       : closedForm(corners, onFace);
 }
 
-BiharmonicCage::BiharmonicCage(const BoundCage& cage, Interrupter* interrupter) : cage_(cage)
+BiharmonicCage::BiharmonicCage(const UnitCage& cage, Interrupter* interrupter) : cage_(cage)
 {
     const std::size_t size = columns();
     if (size > mostData) {
@@ -381,7 +384,7 @@ BiharmonicCage::BiharmonicCage(const BoundCage& cage, Interrupter* interrupter) 
                          std::to_string(cage.faces().size()) + " triangles; biharmonic coordinates allow " +
                          std::to_string(mostData) + " of both together");
     }
-    for (const BoundCage::Face& face : cage.faces()) {
+    for (const UnitCage::Face& face : cage.faces()) {
         const auto at = [&](std::size_t k) { return cage.points()[face.at[k]]; };
         normals_.push_back((at(1) - at(0)).cross(at(2) - at(0)));
     }
@@ -401,7 +404,7 @@ unsigned BiharmonicCage::rows(const Vec3d* points, std::size_t count, Packet* ro
         Packet of;
     };
     std::vector<Laplacians> laplacians(size, Laplacians{});
-    std::array<BoundCage::Place, packetSize> nearest;
+    std::array<UnitCage::Place, packetSize> nearest;
     unsigned outside = 0;
     for (std::size_t k = 0; k < size; ++k) std::fill_n(rows[k], packetSize, 0.0);
     for (std::size_t lane = 0; lane < count; ++lane) {
@@ -409,7 +412,7 @@ unsigned BiharmonicCage::rows(const Vec3d* points, std::size_t count, Packet* ro
         bool isInside = x.length() < tooFar;
         if (isInside) {
             nearest[lane] = cage_.nearest(x);
-            const bool touches = nearest[lane].distance <= BoundCage::touching;
+            const bool touches = nearest[lane].distance <= UnitCage::touching;
             const double lacking =
                 addPotentials(cage_, x, touches, {&rows[0][lane], &laplacians[0].of[lane], packetSize});
             isInside = touches || std::abs(lacking) <= 0.5;
@@ -448,5 +451,31 @@ unsigned BiharmonicCage::rows(const Vec3d* points, std::size_t count, Packet* ro
     }
     return outside;
 }
+
+namespace {
+
+CageRows solvedRows(const UnitCage& cage, const CoordinateOptions& /*options*/, Interrupter* interrupter)
+{
+    const auto solved = std::make_shared<const BiharmonicCage>(cage, interrupter);
+    return {nullptr, [solved](const Vec3d* points, std::size_t count, Packet* rows) {
+                return solved->rows(points, count, rows);
+            }};
+}
+
+constexpr FamilyInfo info{Coordinates::biharmonic,
+                          "biharmonic",
+                          "biharmonic",
+                          "Biharmonic",
+                          "follows normals as green, closer to the cage",
+                          "Thiery, Michel, Chen 2024",
+                          /*isEverywhere*/ false,
+                          /*splitsQuads*/ true,
+                          /*hasResolution*/ false,
+                          /*hasElasticity*/ false};
+
+} // namespace
+
+extern constexpr CoordinateFamily biharmonic{info, solvedRows, nullptr,
+                                             stretchedNormals<triangulateByShorterDiagonal>(1, 2)};
 
 } // namespace vdbcage::detail

@@ -6,8 +6,7 @@
 
 #include <openvdb/Types.h>
 #include <vdbcage/core/interrupter.h>
-#include <vdbcage/deform/detail/bound_cage.h>
-#include <vdbcage/deform/detail/kernels/row_kernels.h>
+#include <vdbcage/deform/detail/coordinate_family.h>
 
 namespace vdbcage::detail {
 
@@ -36,7 +35,6 @@ class BiharmonicCage {
 public:
     /// Points and faces together.
     static constexpr std::size_t mostData = 6000;
-    using Packet = double[packetSize];
 
     /// `cage` must outlive this. \pre all of its faces are triangles
     ///
@@ -44,7 +42,7 @@ public:
     /// parallel: 0.2 s of a processor core for n = 600, 80 s for n = 5700.
     /// \throw InputError n is more than `mostData`
     /// \throw Cancelled
-    explicit BiharmonicCage(const BoundCage& cage, Interrupter* interrupter = nullptr);
+    explicit BiharmonicCage(const UnitCage& cage, Interrupter* interrupter = nullptr);
 
     /// The number of weights a point: one for each point of the cage, then one for each face. A face's is for its
     /// normal of the length of twice its area, times the stretch.
@@ -59,7 +57,7 @@ public:
     unsigned rows(const openvdb::Vec3d* points, std::size_t count, Packet* rows) const;
 
 private:
-    const BoundCage& cage_;
+    const UnitCage& cage_;
     std::vector<openvdb::Vec3d> normals_; ///< of the length of twice the faces' areas
     /// What the values and derivatives make of the Laplacian's: two columns after two columns, a row after the other.
     std::vector<double> solution_;

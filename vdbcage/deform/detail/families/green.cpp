@@ -5,13 +5,12 @@
 // distance) belongs to the faces next to the point, so to the nearest place of the cage. This also defines points on
 // the cage, as the limit from inside. What is still missing of affine precision is restored at the end.
 
-#include <vdbcage/deform/detail/families/green.h>
-
 #include <algorithm>
 #include <cmath>
 
+#include <vdbcage/deform/detail/coordinate_family.h>
 #include <vdbcage/deform/detail/families/patch_quadrature.h>
-#include <vdbcage/deform/detail/kernels/row_kernels.h>
+#include <vdbcage/deform/detail/stretched_normals.h>
 #include <vdbcage/deform/detail/triangle_potentials.h>
 
 namespace vdbcage::detail {
@@ -62,18 +61,7 @@ FacePart facePart(const PatchCorners& corners, bool quad, bool onFace)
 
 } // namespace
 
-Vec3d stretchedNormal(const Vec3d& a, const Vec3d& b, const Vec3d& posedA, const Vec3d& posedB)
-{
-    const Vec3d normal = posedA.cross(posedB);
-    const double length = normal.length();
-    if (!(length > 0)) return Vec3d(0);
-    // The norm of the matrix posedA b^T - posedB a^T, which does not cancel for slivers as its expansion does.
-    double square = 0;
-    for (int i = 0; i < 3; ++i) square += (posedA[i] * b - posedB[i] * a).lengthSqr();
-    return std::sqrt(0.5 * square) / length * normal;
-}
-
-bool exactGreen(const BoundCage& cage, std::size_t face, const double (&x)[3], double (&positions)[3], double& normal)
+bool exactGreen(const UnitCage& cage, std::size_t face, const double (&x)[3], double (&positions)[3], double& normal)
 {
     const Vec3d from(x);
     if (cage.nearestOf(face, from).distance < tooNear) return false;
@@ -83,18 +71,21 @@ bool exactGreen(const BoundCage& cage, std::size_t face, const double (&x)[3], d
     return true;
 }
 
-bool greenRow(const BoundCage& cage, const Vec3d& x, double* row)
+namespace {
+
+/// The points' weights, then one a triangle, then four a quad. False if `x` is outside of the cage.
+bool greenRow(const UnitCage& cage, const Vec3d& x, double* row)
 {
     const std::size_t count = cage.points().size();
-    const BoundCage::Place nearest = cage.nearest(x);
-    const bool touches = nearest.distance <= BoundCage::touching;
+    const UnitCage::Place nearest = cage.nearest(x);
+    const bool touches = nearest.distance <= UnitCage::touching;
     std::fill(row, row + count, 0.0);
     Vec3d missing = x;
     double* normals = row + count;
     for (std::size_t i = 0; i < cage.faces().size(); ++i) {
-        const BoundCage::Face& face = cage.faces()[i];
+        const UnitCage::Face& face = cage.faces()[i];
         const PatchCorners c = cage.cornersFrom(face, x);
-        const bool onFace = touches && !face.quad && cage.nearestOf(i, x).distance <= 2 * BoundCage::touching;
+        const bool onFace = touches && !face.quad && cage.nearestOf(i, x).distance <= 2 * UnitCage::touching;
         const FacePart part = facePart(c, face.quad, onFace);
         for (std::size_t k = 0; k < 4; ++k) row[face.at[k]] += part.positions[k];
         for (std::size_t k = 0; k < (face.quad ? 4 : 1); ++k) {
@@ -105,5 +96,30 @@ bool greenRow(const BoundCage& cage, const Vec3d& x, double* row)
     }
     return cage.completeSolidAngles(nearest, missing, row);
 }
+
+std::vector<openvdb::Vec3I> cornersOf(const Mesh& cage)
+{
+    std::vector<openvdb::Vec3I> corners = cage.triangles;
+    for (const openvdb::Vec4I& q : cage.quads) {
+        for (int k = 0; k < 4; ++k) corners.emplace_back(q[k], q[(k + 1) % 4], q[(k + 3) % 4]);
+    }
+    return corners;
+}
+
+constexpr FamilyInfo info{Coordinates::green,
+                          "green",
+                          "qgc",
+                          "Green",
+                          "keeps shapes, follows the faces' normals",
+                          "Lipman, Levin, Cohen-Or 2008; Thiery, Boubekeur 2022",
+                          /*isEverywhere*/ false,
+                          /*splitsQuads*/ false,
+                          /*hasResolution*/ false,
+                          /*hasElasticity*/ false};
+
+} // namespace
+
+extern constexpr CoordinateFamily green{info, formulaRows<greenRow>, &RowKernels::green,
+                                        stretchedNormals<cornersOf>(1, 4)};
 
 } // namespace vdbcage::detail

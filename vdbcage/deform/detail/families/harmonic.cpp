@@ -5,15 +5,16 @@
 // grid cross the cage, so that points are reproduced. Values near the cage are interpolated up to it.
 
 #include <vdbcage/deform/detail/families/harmonic.h>
-#include <vdbcage/deform/detail/triangle_potentials.h>
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <utility>
 
 #include <tbb/blocked_range.h>
 #include <vdbcage/core/detail/parallel.h>
-#include <vdbcage/deform/binding.h>
+#include <vdbcage/deform/detail/coordinate_family.h>
+#include <vdbcage/deform/detail/triangle_potentials.h>
 
 namespace vdbcage::detail {
 
@@ -200,18 +201,18 @@ void forEachCandidate(const PatchCorners& c, bool quad, int axis, const Take& ta
 
 } // namespace
 
-HarmonicGrid::HarmonicGrid(const BoundCage& cage, int resolution, Interrupter* interrupter)
+HarmonicGrid::HarmonicGrid(const UnitCage& cage, int resolution, Interrupter* interrupter)
     : cage_(cage), scale_(resolution)
 {
     requireWithin(CoordinateOptions::resolutions, resolution, "resolution");
     openvdb::BBoxd box;
-    for (const BoundCage::Face& face : cage.faces()) {
+    for (const UnitCage::Face& face : cage.faces()) {
         for (const openvdb::Index32 i : face.at) box.expand(cage.points()[i]);
     }
     // Sides of the box are half a voxel from nodes, those of the longest side exactly.
     shift_ = Vec3d(0.5) - scale_ * box.min();
     size_ = Coord::floor(inVoxels(box.max()) + Vec3d(nearest)).offsetBy(2);
-    for (const BoundCage::Face& face : cage.faces()) {
+    for (const UnitCage::Face& face : cage.faces()) {
         PatchCorners corners;
         for (std::size_t i = 0; i < 4; ++i) corners[i] = inVoxels(cage.points()[face.at[i]]);
         faces_.push_back({corners, face.quad});
@@ -345,7 +346,7 @@ void HarmonicGrid::solve(const std::vector<Coord>& nodes, Interrupter* interrupt
                         row.diagonal += 1;
                         continue;
                     }
-                    const BoundCage::Place place = nearestTo(neighbour);
+                    const UnitCage::Place place = nearestTo(neighbour);
                     end = {1, static_cast<std::uint32_t>(place.face), place.weights};
                 }
                 const double factor = 1 / end.distance;
@@ -375,7 +376,7 @@ void HarmonicGrid::solve(const std::vector<Coord>& nodes, Interrupter* interrupt
     });
 }
 
-BoundCage::Place HarmonicGrid::nearestTo(const Coord& node) const
+UnitCage::Place HarmonicGrid::nearestTo(const Coord& node) const
 {
     return cage_.nearest((node.asVec3d() - shift_) / scale_);
 }
@@ -432,8 +433,8 @@ bool HarmonicGrid::row(const Vec3d& x, double* row) const
     const Coord cell = Coord::floor(at);
     const CellFaces faces = facesOf(cell);
     for (const CellFace& entry : faces) {
-        const BoundCage::Place place = cage_.nearestOf(entry.face, x);
-        if (place.distance > BoundCage::touching) continue;
+        const UnitCage::Place place = cage_.nearestOf(entry.face, x);
+        if (place.distance > UnitCage::touching) continue;
         addPlace(entry.face, place.weights, 1, row);
         return true;
     }
@@ -447,7 +448,7 @@ bool HarmonicGrid::row(const Vec3d& x, double* row) const
         const Coord node = cell.offsetBy(corner & 1, corner >> 1 & 1, corner >> 2);
         const std::uint32_t number = numbers_[numberOf(node)];
         if (number == none) {
-            const BoundCage::Place place = nearestTo(node);
+            const UnitCage::Place place = nearestTo(node);
             addPlace(place.face, place.weights, mean.nodes[corner], row);
             continue;
         }
@@ -458,5 +459,28 @@ bool HarmonicGrid::row(const Vec3d& x, double* row) const
     for (std::size_t k = 0; k < columns; ++k) row[k] /= sum;
     return true;
 }
+
+namespace {
+
+CageRows gridRows(const UnitCage& cage, const CoordinateOptions& options, Interrupter* interrupter)
+{
+    const auto grid = std::make_shared<const HarmonicGrid>(cage, options.resolution, interrupter);
+    return {[grid](const Vec3d& x, double* row) { return grid->row(x, row); }};
+}
+
+constexpr FamilyInfo info{Coordinates::harmonic,
+                          "harmonic",
+                          "harmonic",
+                          "Harmonic",
+                          "never negative, smooth, not through walls",
+                          "Joshi, Meyer, DeRose, Green, Sanocki 2007",
+                          /*isEverywhere*/ false,
+                          /*splitsQuads*/ false,
+                          /*hasResolution*/ true,
+                          /*hasElasticity*/ false};
+
+} // namespace
+
+extern constexpr CoordinateFamily harmonic{info, gridRows};
 
 } // namespace vdbcage::detail

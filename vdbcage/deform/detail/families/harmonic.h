@@ -6,7 +6,7 @@
 
 #include <openvdb/Types.h>
 #include <vdbcage/core/interrupter.h>
-#include <vdbcage/deform/detail/bound_cage.h>
+#include <vdbcage/deform/detail/unit_cage.h>
 
 namespace vdbcage::detail {
 
@@ -32,7 +32,7 @@ public:
     /// Cost: O(resolution) or less for each node inside and each point of the cage, in parallel.
     /// \throw InputError resolution not in CoordinateOptions::resolutions
     /// \throw Cancelled
-    HarmonicGrid(const BoundCage& cage, int resolution, Interrupter* interrupter = nullptr);
+    HarmonicGrid(const UnitCage& cage, int resolution, Interrupter* interrupter = nullptr);
 
     /// Writes the coordinates of `x`, which is scaled, to `row`, one a point of the cage. Returns false if `x` is
     /// outside of the cage. Any number of threads may ask at the same time.
@@ -84,14 +84,14 @@ private:
     /// is none, and its face `none`.
     Crossing firstCrossing(const CellFaces& faces, const openvdb::Vec3d& at, int axis, bool upward, double reach) const;
     /// What stands for a node outside that is reached without a crossing: but for rounding it is on the cage.
-    BoundCage::Place nearestTo(const openvdb::Coord& node) const;
+    UnitCage::Place nearestTo(const openvdb::Coord& node) const;
     void addPlace(std::size_t face, const std::array<double, 4>& weights, double share, double* row) const;
     /// Adds `share` times the value at `at` to `mean`. `at` is in the cell's side, edge or corner whose axes of the
     /// mask `fixed` are low or high, by the bits of `high`.
     void addMean(const openvdb::Coord& cell, const CellFaces& faces, const openvdb::Vec3d& at, unsigned fixed,
                  unsigned high, double share, Mean& mean) const;
 
-    const BoundCage& cage_;
+    const UnitCage& cage_;
     double scale_;         ///< voxels a unit
     openvdb::Vec3d shift_; ///< of the origin, in voxels
     openvdb::Coord size_;  ///< nodes along each axis

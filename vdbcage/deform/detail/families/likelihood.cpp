@@ -6,14 +6,13 @@
 // divided by the square of the face's distance, so that near faces count most. Equal lengths would give back mean value
 // coordinates wherever these are not negative.
 
-#include <vdbcage/deform/detail/families/likelihood.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>
 
 #include <openvdb/math/Mat3.h>
+#include <vdbcage/deform/detail/coordinate_family.h>
 #include <vdbcage/deform/detail/families/mean_value.h>
 
 namespace vdbcage::detail {
@@ -76,22 +75,22 @@ bool balance(const std::vector<Vec3d>& vectors, Vec3d& s)
     return false;
 }
 
-} // namespace
-
-bool likelihoodRow(const BoundCage& cage, const Vec3d& x, double* row)
+/// None is negative. False if `x` is outside of the cage, or if no non-negative combination of the faces is balanced
+/// around it.
+bool likelihoodRow(const UnitCage& cage, const Vec3d& x, double* row)
 {
     const std::size_t count = cage.points().size();
     std::fill(row, row + count, 0.0);
-    const BoundCage::Place nearest = cage.nearest(x);
-    if (nearest.distance <= BoundCage::touching) {
-        const BoundCage::Face& face = cage.faces()[nearest.face];
+    const UnitCage::Place nearest = cage.nearest(x);
+    if (nearest.distance <= UnitCage::touching) {
+        const UnitCage::Face& face = cage.faces()[nearest.face];
         for (std::size_t k = 0; k < 4; ++k) row[face.at[k]] += nearest.weights[k];
         return true;
     }
     std::vector<std::array<double, 4>> weights;
     std::vector<Vec3d> vectors;
     double winding = 0; // along every line through the point the nearest face weighs most: positive if inside
-    for (const BoundCage::Face& face : cage.faces()) {
+    for (const UnitCage::Face& face : cage.faces()) {
         const PatchCorners c = cage.cornersFrom(face, x);
         std::array<double, 4> w = meanValueWeights(c, face.quad);
         Vec3d vector(0);
@@ -121,5 +120,20 @@ bool likelihoodRow(const BoundCage& cage, const Vec3d& x, double* row)
     for (std::size_t i = 0; i < count; ++i) row[i] /= sum;
     return true;
 }
+
+constexpr FamilyInfo info{Coordinates::maximumLikelihood,
+                          "mlc",
+                          "mlc",
+                          "Likelihood",
+                          "maximum likelihood: never negative, most local",
+                          "Chang, Deng, Hormann 2023",
+                          /*isEverywhere*/ false,
+                          /*splitsQuads*/ false,
+                          /*hasResolution*/ false,
+                          /*hasElasticity*/ false};
+
+} // namespace
+
+extern constexpr CoordinateFamily maximumLikelihood{info, formulaRows<likelihoodRow>, &RowKernels::likelihood};
 
 } // namespace vdbcage::detail

@@ -9,8 +9,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <vdbcage/deform/detail/coordinate_family.h>
 #include <vdbcage/deform/detail/families/patch_quadrature.h>
-#include <vdbcage/deform/detail/kernels/row_kernels.h>
 
 namespace vdbcage::detail {
 
@@ -22,7 +22,7 @@ std::array<double, 4> integrated(const PatchCorners& corners)
 {
     std::array<double, 4> weights{};
     // Pieces of the least size matter only to points that count as on the cage.
-    samplePatch(corners, 0.01 * BoundCage::touching, [&](const PatchSample& sample) {
+    samplePatch(corners, 0.01 * UnitCage::touching, [&](const PatchSample& sample) {
         const double square = sample.point.lengthSqr();
         const double value = sample.point.dot(sample.normal) / (square * square);
         for (std::size_t i = 0; i < 4; ++i) weights[i] += value * sample.basis[i];
@@ -68,28 +68,31 @@ std::array<double, 4> meanValueWeights(const PatchCorners& corners, bool quad)
     return weights;
 }
 
-bool exactMeanValue(const BoundCage& cage, std::size_t face, const double (&x)[3], double (&weights)[4])
+bool exactMeanValue(const UnitCage& cage, std::size_t face, const double (&x)[3], double (&weights)[4])
 {
     const Vec3d from(x);
     if (cage.nearestOf(face, from).distance < tooNear) return false;
-    const BoundCage::Face& f = cage.faces()[face];
+    const UnitCage::Face& f = cage.faces()[face];
     const std::array<double, 4> exact = meanValueWeights(cage.cornersFrom(f, from), f.quad);
     std::copy(exact.begin(), exact.end(), weights);
     return true;
 }
 
-bool meanValueRow(const BoundCage& cage, const Vec3d& x, double* row)
+namespace {
+
+/// They exist everywhere.
+bool meanValueRow(const UnitCage& cage, const Vec3d& x, double* row)
 {
     const std::size_t count = cage.points().size();
     std::fill(row, row + count, 0.0);
-    const auto add = [&](const BoundCage::Face& face, const std::array<double, 4>& weights) {
+    const auto add = [&](const UnitCage::Face& face, const std::array<double, 4>& weights) {
         for (std::size_t i = 0; i < 4; ++i) row[face.at[i]] += weights[i];
     };
-    const BoundCage::Place nearest = cage.nearest(x);
-    if (nearest.distance <= BoundCage::touching) {
+    const UnitCage::Place nearest = cage.nearest(x);
+    if (nearest.distance <= UnitCage::touching) {
         add(cage.faces()[nearest.face], nearest.weights);
     } else {
-        for (const BoundCage::Face& face : cage.faces()) {
+        for (const UnitCage::Face& face : cage.faces()) {
             add(face, meanValueWeights(cage.cornersFrom(face, x), face.quad));
         }
     }
@@ -103,5 +106,20 @@ bool meanValueRow(const BoundCage& cage, const Vec3d& x, double* row)
     cage.restore(missing, row);
     return true;
 }
+
+constexpr FamilyInfo info{Coordinates::meanValue,
+                          "mvc",
+                          "qmvc",
+                          "Mean value",
+                          "smooth, and anywhere; can be negative",
+                          "Ju, Schaefer, Warren 2005; Thiery, Memari, Boubekeur 2018",
+                          /*isEverywhere*/ true,
+                          /*splitsQuads*/ false,
+                          /*hasResolution*/ false,
+                          /*hasElasticity*/ false};
+
+} // namespace
+
+extern constexpr CoordinateFamily meanValue{info, formulaRows<meanValueRow>, &RowKernels::meanValue};
 
 } // namespace vdbcage::detail

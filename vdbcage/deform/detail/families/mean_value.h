@@ -3,7 +3,7 @@
 #include <array>
 
 #include <openvdb/math/Vec3.h>
-#include <vdbcage/deform/detail/bound_cage.h>
+#include <vdbcage/deform/detail/unit_cage.h>
 
 namespace vdbcage::detail {
 
@@ -11,9 +11,5 @@ namespace vdbcage::detail {
 /// sphere that the face covers, seen from the origin. It is negative where the face is seen from behind.
 /// \pre the origin is not on the face
 std::array<double, 4> meanValueWeights(const PatchCorners& corners, bool quad);
-
-/// Writes the coordinates of `x`, which is scaled, to `row`, one a point of the cage. Returns true: they exist
-/// everywhere.
-bool meanValueRow(const BoundCage& cage, const openvdb::Vec3d& x, double* row);
 
 } // namespace vdbcage::detail

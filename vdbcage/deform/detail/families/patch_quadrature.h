@@ -6,8 +6,8 @@
 #include <cstddef>
 
 #include <openvdb/math/Vec3.h>
-#include <vdbcage/deform/detail/bound_cage.h>
 #include <vdbcage/deform/detail/gauss.h>
+#include <vdbcage/deform/detail/unit_cage.h>
 
 namespace vdbcage::detail {
 

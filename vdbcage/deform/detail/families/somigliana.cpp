@@ -12,16 +12,15 @@
 // Green's double layer of u, plus the integral of (1 / (4 pi r) - 2 mu K) M u, where M has the entries
 // d_i n_j - n_i d_j of the tangential derivatives d. M u is constant on a triangle whose points u is linear between.
 
-#include <vdbcage/deform/detail/families/somigliana.h>
-
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <openvdb/math/Mat3.h>
-#include <vdbcage/deform/detail/cage_triangles.h>
+#include <vdbcage/deform/detail/coordinate_family.h>
 #include <vdbcage/deform/detail/families/patch_quadrature.h>
-#include <vdbcage/deform/detail/kernels/row_kernels.h>
 #include <vdbcage/deform/detail/triangle_potentials.h>
+#include <vdbcage/deform/detail/triangles.h>
 
 namespace vdbcage::detail {
 
@@ -29,6 +28,24 @@ using openvdb::Mat3d;
 using openvdb::Vec3d;
 
 namespace {
+
+/// A triangle's frame: its normal, the direction of its first edge, and the normal cross that.
+using FaceFrame = std::array<Vec3d, 3>;
+
+Vec3d unit(const Vec3d& v)
+{
+    const double length = v.length();
+    return length > 0 ? v / length : Vec3d(0);
+}
+
+/// Of edges `a` and `b` from the first corner. All zero if the triangle has no area.
+FaceFrame faceFrame(const Vec3d& a, const Vec3d& b)
+{
+    const Vec3d normal = unit(a.cross(b));
+    if (normal.isZero()) return {Vec3d(0), Vec3d(0), Vec3d(0)};
+    const Vec3d first = unit(a);
+    return {normal, first, normal.cross(first)};
+}
 
 /// Of a triangle: what its corners weigh, and its matrix.
 struct FacePart {
@@ -81,12 +98,6 @@ FacePart facePart(const PatchCorners& corners, const FaceFrame& frame, bool onFa
 {
     return isSliver(corners[1] - corners[0], corners[2] - corners[0]) ? integrated(corners, frame)
                                                                       : closedForm(corners, frame, onFace);
-}
-
-Vec3d unit(const Vec3d& v)
-{
-    const double length = v.length();
-    return length > 0 ? v / length : Vec3d(0);
 }
 
 /// A rotation around `from`, which goes to `to`.
@@ -142,7 +153,7 @@ std::vector<Vec3d> pointNormals(const std::vector<Vec3d>& points, const std::vec
 class CagePose {
 public:
     CagePose(const Mesh& cage, const std::vector<Vec3d>& posed, const Elasticity& elasticity)
-        : triangles_(cageTriangles(cage)), elasticity_(elasticity), size_(CageFrame(cage).size)
+        : triangles_(triangulateByShorterDiagonal(cage)), elasticity_(elasticity), size_(longestSide(cage))
     {
         for (const Vec3d& p : cage.points) rest_.push_back(p / size_);
         for (const Vec3d& p : posed) posed_.push_back(p / size_);
@@ -305,21 +316,7 @@ private:
 
 } // namespace
 
-FaceFrame faceFrame(const Vec3d& a, const Vec3d& b)
-{
-    const Vec3d normal = unit(a.cross(b));
-    if (normal.isZero()) return {Vec3d(0), Vec3d(0), Vec3d(0)};
-    const Vec3d first = unit(a);
-    return {normal, first, normal.cross(first)};
-}
-
-void addSomiglianaHandles(const Mesh& cage, const std::vector<Vec3d>& posed, const Elasticity& elasticity,
-                          std::vector<Vec3d>& handles)
-{
-    CagePose(cage, posed, elasticity).addHandles(handles);
-}
-
-bool exactSomigliana(const BoundCage& cage, std::size_t face, const double (&x)[3], double (&positions)[3],
+bool exactSomigliana(const UnitCage& cage, std::size_t face, const double (&x)[3], double (&positions)[3],
                      double (&matrix)[6])
 {
     const Vec3d from(x);
@@ -331,19 +328,24 @@ bool exactSomigliana(const BoundCage& cage, std::size_t face, const double (&x)[
     return true;
 }
 
-bool somiglianaRow(const BoundCage& cage, const Vec3d& x, double* row)
+namespace {
+
+/// Those of the points, which are Green's, then for each triangle the integral of r r^T / |r|^3 over it, over 4 pi,
+/// where r is the way from `x`: the symmetric matrix in the triangle's frame, as nn, n1, n2, 11, 12, 22. False if `x`
+/// is outside of the cage. \pre the cage has triangles only
+bool somiglianaRow(const UnitCage& cage, const Vec3d& x, double* row)
 {
     const std::size_t count = cage.points().size();
-    const BoundCage::Place nearest = cage.nearest(x);
-    const bool touches = nearest.distance <= BoundCage::touching;
+    const UnitCage::Place nearest = cage.nearest(x);
+    const bool touches = nearest.distance <= UnitCage::touching;
     std::fill(row, row + count, 0.0);
     double* const matrices = row + count;
     Vec3d missing = x;
     for (std::size_t i = 0; i < cage.faces().size(); ++i) {
-        const BoundCage::Face& face = cage.faces()[i];
+        const UnitCage::Face& face = cage.faces()[i];
         const PatchCorners c = cage.cornersFrom(face, x);
         const FaceFrame frame = faceFrame(c[1] - c[0], c[2] - c[0]);
-        const bool onFace = touches && cage.nearestOf(i, x).distance <= 2 * BoundCage::touching;
+        const bool onFace = touches && cage.nearestOf(i, x).distance <= 2 * UnitCage::touching;
         const FacePart part = facePart(c, frame, onFace);
         for (std::size_t k = 0; k < 3; ++k) row[face.at[k]] += part.positions[k];
         const auto& m = part.matrix;
@@ -352,5 +354,36 @@ bool somiglianaRow(const BoundCage& cage, const Vec3d& x, double* row)
     }
     return cage.completeSolidAngles(nearest, missing, row);
 }
+
+void addHandles(const Mesh& cage, const std::vector<Vec3d>& posed, const CoordinateOptions& options,
+                std::vector<Vec3d>& handles)
+{
+    requireElasticity(options.elasticity);
+    CagePose(cage, posed, options.elasticity).addHandles(handles);
+}
+
+/// They are about as long at rest.
+void addMaxDistances(const Mesh& cage, std::vector<float>& maxDistances)
+{
+    maxDistances.insert(maxDistances.end(), somiglianaWeights * (cage.triangles.size() + 2 * cage.quads.size()), 4.0F);
+}
+
+constexpr FamilyInfo info{Coordinates::somigliana,
+                          "somigliana",
+                          "somigliana",
+                          "Somigliana",
+                          "elastic: stretches most evenly",
+                          "Chen, de Goes, Desbrun 2023",
+                          /*isEverywhere*/ false,
+                          /*splitsQuads*/ true,
+                          /*hasResolution*/ false,
+                          /*hasElasticity*/ true};
+
+} // namespace
+
+extern constexpr CoordinateFamily somigliana{info,
+                                             formulaRows<somiglianaRow>,
+                                             &RowKernels::somigliana,
+                                             {somiglianaWeights, 2 * somiglianaWeights, addHandles, addMaxDistances}};
 
 } // namespace vdbcage::detail

@@ -9,7 +9,7 @@ extern const RowKernels baselineKernels;
 extern const RowKernels avx2Kernels, avx512Kernels;
 #endif
 
-std::size_t scratchSize(const PackedCage& cage)
+std::size_t scratchSize(const KernelCage& cage)
 {
     const std::size_t vectors = 4 * cage.pointCount + 5 * cage.edgeCount + 7 * (cage.triangleCount + cage.quadCount);
     return vectors * packetSize * sizeof(double);

@@ -2,7 +2,7 @@
 
 #include <cstddef>
 
-#include <vdbcage/deform/detail/kernels/packed_cage.h>
+#include <vdbcage/deform/detail/kernels/kernel_cage.h>
 
 namespace vdbcage::detail {
 
@@ -23,7 +23,7 @@ struct RowKernels {
     /// Returns a bit for each point whose row is left out: it is too near the cage for this, or outside of it. A row
     /// depends on its own point only.
     /// \pre `scratch` has scratchSize(cage); no point is farther than `tooFar` from the origin
-    using Rows = unsigned(const PackedCage& cage, const double (*x)[packetSize], void* scratch,
+    using Rows = unsigned(const KernelCage& cage, const double (*x)[packetSize], void* scratch,
                           double (*rows)[packetSize]);
     Rows* meanValue;
     Rows* green;
@@ -40,7 +40,7 @@ struct RowKernels {
 };
 
 /// In bytes, for any table; aligned to 64.
-std::size_t scratchSize(const PackedCage& cage);
+std::size_t scratchSize(const KernelCage& cage);
 
 /// The fastest that this processor runs.
 const RowKernels& rowKernels();
@@ -50,11 +50,11 @@ const RowKernels* const* allRowKernels();
 
 /// What the kernels leave to the scalar formulas: the weights of the corners of face `face`. Returns false if `x` is
 /// too near for them.
-bool exactMeanValue(const BoundCage& cage, std::size_t face, const double (&x)[3], double (&weights)[4]);
+bool exactMeanValue(const UnitCage& cage, std::size_t face, const double (&x)[3], double (&weights)[4]);
 /// Of a triangle.
-bool exactGreen(const BoundCage& cage, std::size_t face, const double (&x)[3], double (&positions)[3], double& normal);
+bool exactGreen(const UnitCage& cage, std::size_t face, const double (&x)[3], double (&positions)[3], double& normal);
 /// Of a triangle.
-bool exactSomigliana(const BoundCage& cage, std::size_t face, const double (&x)[3], double (&positions)[3],
+bool exactSomigliana(const UnitCage& cage, std::size_t face, const double (&x)[3], double (&positions)[3],
                      double (&matrix)[6]);
 
 } // namespace vdbcage::detail

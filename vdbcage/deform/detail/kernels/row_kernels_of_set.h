@@ -1,4 +1,4 @@
-// Based on: the papers of mean_value.h, green.h, likelihood.h and somigliana.h, of which these are the formulas in
+// Based on: the papers of the families mean_value, green, likelihood and somigliana, of which these are the formulas in
 // vectors. Differs: what belongs to an edge, its angle or potential, is computed once for both triangles. Determinants
 // and feet of perpendiculars come from the faces' planes. The damping of Newton's method is that of self-concordant
 // functions (Nesterov and Nemirovskii, "Interior-Point Polynomial Algorithms in Convex Programming", 1994): it needs no
@@ -28,7 +28,7 @@ Vector placesOf(const double (*x)[packetSize], int first)
     return {load(x[0] + first), load(x[1] + first), load(x[2] + first)};
 }
 
-void seeCorners(const PackedCage& cage, Vector x, Corner* corners)
+void seeCorners(const KernelCage& cage, Vector x, Corner* corners)
 {
     for (std::size_t i = 0; i < cage.pointCount; ++i) {
         const Vector place = towards(cage.points[i], x);
@@ -38,7 +38,7 @@ void seeCorners(const PackedCage& cage, Vector x, Corner* corners)
 
 /// Divides the points' weights by `sum`, and makes them reproduce affine maps. `normals` is what other columns add to
 /// the place at rest.
-void restorePrecision(const PackedCage& cage, Vector x, double (*rows)[packetSize], int first, Lanes sum,
+void restorePrecision(const KernelCage& cage, Vector x, double (*rows)[packetSize], int first, Lanes sum,
                       Vector normals)
 {
     Vector missing = x + all(-1) * normals;
@@ -140,7 +140,7 @@ PatchRow patchRow(const Piece& piece, double t, Vector x)
 
 /// Integrates over a piece by a Gauss rule of so many points, see integratePatch().
 template <int functions, typename Value>
-void integratePiece(const Piece& piece, const PackedRules& rules, int pointsU, int pointsV, Vector x,
+void integratePiece(const Piece& piece, const KernelRules& rules, int pointsU, int pointsV, Vector x,
                     Lanes (&sums)[functions][4], const Value& value)
 {
     for (auto& sum : sums) {
@@ -179,12 +179,12 @@ void integratePiece(const Piece& piece, const PackedRules& rules, int pointsU, i
 /// `value(product, square, values)` has the place's product with dp/du x dp/dv and its square; values[1] is for
 /// functions that lack the former, and so are by u and v of the piece. Returns the lanes that are too near.
 template <int functions, typename Value>
-Mask integratePatch(const PackedCage& cage, const PackedQuad& quad, Vector x, Lanes (&sums)[functions][4],
+Mask integratePatch(const KernelCage& cage, const KernelQuad& quad, Vector x, Lanes (&sums)[functions][4],
                     const Value& value)
 {
     constexpr double caution = 0.8, smallest = 1e-5; // pieces so small are for the scalar formulas
     constexpr int room = 128;
-    const PackedRules& rules = *cage.rules;
+    const KernelRules& rules = *cage.rules;
     for (auto& sum : sums) {
         for (Lanes& part : sum) part = all(0);
     }
@@ -253,7 +253,7 @@ struct SeenEdge {
 /// Calls `take(face, corners, count, weights)` for each face; the weights are those of meanValueWeights(). Returns the
 /// lanes that are too near the cage.
 template <typename Take>
-Mask forEachMeanValue(const PackedCage& cage, Vector x, void* scratch, const Take& take)
+Mask forEachMeanValue(const KernelCage& cage, Vector x, void* scratch, const Take& take)
 {
     constexpr double pi = 3.14159265358979323846;
     auto* const corners = static_cast<Corner*>(scratch);
@@ -269,7 +269,7 @@ Mask forEachMeanValue(const PackedCage& cage, Vector x, void* scratch, const Tak
         near |= (angle > pi - 1e-4) | (least(a.distance, b.distance) < tooNear);
     }
     for (std::size_t face = 0; face < cage.triangleCount; ++face) {
-        const PackedTriangle& t = cage.triangles[face];
+        const KernelTriangle& t = cage.triangles[face];
         Vector normals[3], mean{};
         Lanes widest = all(0), product = all(1);
         for (int i = 0; i < 3; ++i) {
@@ -296,7 +296,7 @@ Mask forEachMeanValue(const PackedCage& cage, Vector x, void* scratch, const Tak
         take(face, t.corner, 3, weights);
     }
     for (std::size_t q = 0; q < cage.quadCount; ++q) {
-        const PackedQuad& quad = cage.quads[q];
+        const KernelQuad& quad = cage.quads[q];
         Lanes weights[1][4];
         near |= integratePatch(cage, quad, x, weights,
                                [](Lanes product, Lanes square, Lanes* value) { *value = product / (square * square); });
@@ -305,7 +305,7 @@ Mask forEachMeanValue(const PackedCage& cage, Vector x, void* scratch, const Tak
     return near;
 }
 
-unsigned meanValueRows(const PackedCage& cage, const double (*x)[packetSize], void* scratch, double (*rows)[packetSize])
+unsigned meanValueRows(const KernelCage& cage, const double (*x)[packetSize], void* scratch, double (*rows)[packetSize])
 {
     unsigned leftOut = 0;
     for (int first = 0; first < packetSize; first += width) {
@@ -335,10 +335,10 @@ struct SeenPotential {
     Lanes product;   // its ends' places, multiplied
 };
 
-void seePotentials(const PackedCage& cage, const Corner* corners, SeenPotential* edges)
+void seePotentials(const KernelCage& cage, const Corner* corners, SeenPotential* edges)
 {
     for (std::size_t i = 0; i < cage.edgeCount; ++i) {
-        const PackedEdge& edge = cage.edges[i];
+        const KernelEdge& edge = cage.edges[i];
         const Corner &a = corners[edge.from], &b = corners[edge.to];
         const Lanes sum = a.distance + b.distance;
         const Mask far = edge.length < mostQuotient * sum;
@@ -353,7 +353,7 @@ struct SeenTriangle {
     Mask bad; // for the scalar formula
 };
 
-SeenTriangle seeTriangle(const PackedCage& cage, const PackedTriangle& t, const Corner* corners,
+SeenTriangle seeTriangle(const KernelCage& cage, const KernelTriangle& t, const Corner* corners,
                          const SeenPotential* edges)
 {
     SeenTriangle seen;
@@ -394,7 +394,7 @@ void forEachBad(Mask bad, Vector x, const Replace& replace)
 /// them and stores the other columns; it marks lanes that are too near, and returns what the normals add to the place
 /// at rest.
 template <typename Faces>
-unsigned solidAngleRows(const PackedCage& cage, const double (*x)[packetSize], void* scratch,
+unsigned solidAngleRows(const KernelCage& cage, const double (*x)[packetSize], void* scratch,
                         double (*rows)[packetSize], const Faces& faces)
 {
     unsigned leftOut = 0;
@@ -416,7 +416,7 @@ unsigned solidAngleRows(const PackedCage& cage, const double (*x)[packetSize], v
     return leftOut;
 }
 
-unsigned greenRows(const PackedCage& cage, const double (*x)[packetSize], void* scratch, double (*rows)[packetSize])
+unsigned greenRows(const KernelCage& cage, const double (*x)[packetSize], void* scratch, double (*rows)[packetSize])
 {
     return solidAngleRows(
         cage, x, scratch, rows,
@@ -429,7 +429,7 @@ unsigned greenRows(const PackedCage& cage, const double (*x)[packetSize], void* 
                 normals = normals + weight * Vector{all(normal[0]), all(normal[1]), all(normal[2])};
             };
             for (std::size_t face = 0; face < cage.triangleCount; ++face) {
-                const PackedTriangle& t = cage.triangles[face];
+                const KernelTriangle& t = cage.triangles[face];
                 const SeenTriangle seen = seeTriangle(cage, t, corners, edges);
                 Lanes positions[3], normal = seen.single / (fourPi * t.area);
                 for (int i = 0; i < 3; ++i) positions[i] = seen.hatSolid[i] / fourPi;
@@ -443,7 +443,7 @@ unsigned greenRows(const PackedCage& cage, const double (*x)[packetSize], void* 
                 storeNormal(normal, face);
             }
             for (std::size_t q = 0; q < cage.quadCount; ++q) {
-                const PackedQuad& quad = cage.quads[q];
+                const KernelQuad& quad = cage.quads[q];
                 Lanes sums[2][4];
                 near |= integratePatch(cage, quad, place, sums, [](Lanes product, Lanes square, Lanes* values) {
                     const Lanes inverse = 1 / (square * squareRoot(square));
@@ -459,7 +459,7 @@ unsigned greenRows(const PackedCage& cage, const double (*x)[packetSize], void* 
         });
 }
 
-unsigned somiglianaRows(const PackedCage& cage, const double (*x)[packetSize], void* scratch,
+unsigned somiglianaRows(const KernelCage& cage, const double (*x)[packetSize], void* scratch,
                         double (*rows)[packetSize])
 {
     return solidAngleRows(
@@ -468,7 +468,7 @@ unsigned somiglianaRows(const PackedCage& cage, const double (*x)[packetSize], v
             const auto at = [&](std::size_t column) { return &rows[column][first]; };
             Vector normals{};
             for (std::size_t face = 0; face < cage.triangleCount; ++face) {
-                const PackedTriangle& t = cage.triangles[face];
+                const KernelTriangle& t = cage.triangles[face];
                 const SeenTriangle seen = seeTriangle(cage, t, corners, edges);
                 Lanes m[somiglianaWeights] = {
                     seen.height * seen.solid, all(0), all(0), seen.single, all(0), seen.single};
@@ -549,7 +549,7 @@ Mask balance(const SeenFace* faces, std::size_t count, Vector& s)
     return active;
 }
 
-unsigned likelihoodRows(const PackedCage& cage, const double (*x)[packetSize], void* scratch,
+unsigned likelihoodRows(const KernelCage& cage, const double (*x)[packetSize], void* scratch,
                         double (*rows)[packetSize])
 {
     constexpr double nearby = 0.02; // as in likelihood.cpp

@@ -1,10 +1,10 @@
-#include <vdbcage/deform/detail/cage_triangles.h>
+#include <vdbcage/deform/detail/triangles.h>
 
 #include <algorithm>
 
 namespace vdbcage::detail {
 
-std::vector<openvdb::Vec3I> cageTriangles(const Mesh& cage)
+std::vector<openvdb::Vec3I> triangulateByShorterDiagonal(const Mesh& cage)
 {
     std::vector<openvdb::Vec3I> triangles = cage.triangles;
     triangles.reserve(triangles.size() + 2 * cage.quads.size());

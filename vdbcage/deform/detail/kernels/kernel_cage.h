@@ -8,17 +8,17 @@
 
 namespace vdbcage::detail {
 
-class BoundCage;
+class UnitCage;
 
-/// Weights a triangle of Somigliana coordinates, see somiglianaRow().
+/// Weights a triangle of Somigliana coordinates: see cageHandles().
 constexpr std::size_t somiglianaWeights = 6;
 
-struct PackedEdge {
+struct KernelEdge {
     std::uint32_t from, to;
     double length;
 };
 
-struct PackedTriangle {
+struct KernelTriangle {
     std::uint32_t corner[3];
     std::uint32_t edge[3]; ///< opposite each corner
     double sign[3];        ///< of that edge: -1 if it runs against the triangle
@@ -37,29 +37,29 @@ struct PatchExtent {
     double halfU, halfV;
 };
 
-struct PackedQuad {
+struct KernelQuad {
     std::uint32_t corner[4];
     PatchExtent extent;
 };
 
 /// Gauss rules on [0, 1], and how far from a line of half length 1 each suffices.
-struct PackedRules {
+struct KernelRules {
     static constexpr int fewest = 3, most = 12;
     double at[most + 1][most], weight[most + 1][most];
     double leastDistance[most + 1];
 };
 
-/// A cage as the row kernels read it. All points are in its frame.
-struct PackedCage {
+/// A UnitCage as the row kernels read it.
+struct KernelCage {
     std::size_t pointCount, edgeCount, triangleCount, quadCount; ///< edges of triangles only
     const double (*points)[3];
-    const PackedEdge* edges;
-    const PackedTriangle* triangles;
-    const PackedQuad* quads;
-    const double (*restoring)[3]; ///< see BoundCage::restore
+    const KernelEdge* edges;
+    const KernelTriangle* triangles;
+    const KernelQuad* quads;
+    const double (*restoring)[3]; ///< see UnitCage::restore
     const double (*normals)[3];   ///< of Green coordinates: one a triangle, then four a quad; not of length 1
-    const PackedRules* rules;
-    const BoundCage* cage;
+    const KernelRules* rules;
+    const UnitCage* cage;
 };
 
 } // namespace vdbcage::detail

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <memory>
 #include <vector>
 
 #include <vdbcage/mesh/mesh.h>
@@ -14,8 +15,10 @@ namespace vdbcage::detail {
 /// the patch's with the last two added.
 using PatchCorners = std::array<openvdb::Vec3d, 4>;
 
-/// A cage as the coordinates need it, moved and scaled into the unit cube around the origin.
-class BoundCage {
+struct KernelCage;
+
+/// A cage as the scalar formulas read it, moved and scaled into the unit cube around the origin.
+class UnitCage {
 public:
     static constexpr double touching = 1e-12; ///< points closer to the cage count as on it
 
@@ -31,7 +34,7 @@ public:
     };
 
     /// \throw InputError the cage is not closed; it faces inward; it is flat
-    explicit BoundCage(const Mesh& cage);
+    explicit UnitCage(const Mesh& cage);
 
     const std::vector<openvdb::Vec3d>& points() const { return points_; }
     const std::vector<Face>& faces() const { return faces_; } ///< triangles first
@@ -69,11 +72,10 @@ private:
     std::vector<openvdb::Vec3d> restoring_;
 };
 
-/// The centre of the box of the cage's faces and its longest side.
-struct CageFrame {
-    explicit CageFrame(const Mesh& cage);
-    openvdb::Vec3d centre;
-    double size;
-};
+/// The longest side of the box of the mesh's faces: the unit of its UnitCage.
+double longestSide(const Mesh& mesh);
+
+/// `cage` as plain data for the kernels. It must outlive the result.
+std::shared_ptr<const KernelCage> kernelCage(const UnitCage& cage);
 
 } // namespace vdbcage::detail

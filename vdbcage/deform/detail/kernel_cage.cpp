@@ -1,4 +1,4 @@
-#include <vdbcage/deform/detail/cage_pack.h>
+#include <vdbcage/deform/detail/kernels/kernel_cage.h>
 
 #include <algorithm>
 #include <cmath>
@@ -7,6 +7,7 @@
 
 #include <vdbcage/deform/detail/gauss.h>
 #include <vdbcage/deform/detail/triangle_potentials.h>
+#include <vdbcage/deform/detail/unit_cage.h>
 
 namespace vdbcage::detail {
 
@@ -19,14 +20,14 @@ void copy(const Vec3d& from, double (&to)[3])
     for (int a = 0; a < 3; ++a) to[a] = from[a];
 }
 
-PackedRules packedRules()
+KernelRules kernelRules()
 {
     // Of the tolerance, see samplePatch(): one digit less than there keeps weights to 3e-9, and takes a fifth less
     // time.
     constexpr double digits = 8 * 2.302585092994046;
-    static_assert(PackedRules::most == mostGaussPoints);
-    PackedRules rules{};
-    for (int n = 1; n <= PackedRules::most; ++n) {
+    static_assert(KernelRules::most == mostGaussPoints);
+    KernelRules rules{};
+    for (int n = 1; n <= KernelRules::most; ++n) {
         const GaussRule& rule = gaussRule(n);
         std::copy(rule.at.begin(), rule.at.end(), rules.at[n]);
         std::copy(rule.weight.begin(), rule.weight.end(), rules.weight[n]);
@@ -35,9 +36,9 @@ PackedRules packedRules()
     return rules;
 }
 
-PackedQuad packedQuad(const BoundCage::Face& face, const PatchCorners& c)
+KernelQuad kernelQuad(const UnitCage::Face& face, const PatchCorners& c)
 {
-    PackedQuad quad{};
+    KernelQuad quad{};
     std::copy(face.at.begin(), face.at.end(), quad.corner);
     const Vec3d middle = 0.25 * (c[0] + c[1] + c[2] + c[3]);
     copy(middle, quad.extent.middle);
@@ -47,29 +48,45 @@ PackedQuad packedQuad(const BoundCage::Face& face, const PatchCorners& c)
     return quad;
 }
 
-} // namespace
+struct Place {
+    double at[3];
+};
 
-CagePack::CagePack(const BoundCage& cage) : rules_(packedRules())
+/// A KernelCage and what it points to.
+struct Arrays {
+    explicit Arrays(const UnitCage& unitCage);
+    Arrays(const Arrays&) = delete;
+    Arrays& operator=(const Arrays&) = delete;
+
+    std::vector<Place> points, restoring, normals;
+    std::vector<KernelEdge> edges;
+    std::vector<KernelTriangle> triangles;
+    std::vector<KernelQuad> quads;
+    KernelRules rules;
+    KernelCage cage;
+};
+
+Arrays::Arrays(const UnitCage& unitCage) : rules(kernelRules())
 {
     const auto places = [](const std::vector<Vec3d>& from) {
         std::vector<Place> to(from.size());
         for (std::size_t i = 0; i < from.size(); ++i) copy(from[i], to[i].at);
         return to;
     };
-    points_ = places(cage.points());
-    restoring_ = places(cage.restoring());
-    std::vector<Vec3d> normals;
+    points = places(unitCage.points());
+    restoring = places(unitCage.restoring());
+    std::vector<Vec3d> faceNormals;
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> edgeOf;
-    for (const BoundCage::Face& face : cage.faces()) {
-        const auto corner = [&](std::size_t k) { return cage.points()[face.at[k]]; };
+    for (const UnitCage::Face& face : unitCage.faces()) {
+        const auto corner = [&](std::size_t k) { return unitCage.points()[face.at[k]]; };
         if (face.quad) {
-            quads_.push_back(packedQuad(face, {corner(0), corner(1), corner(2), corner(3)}));
+            quads.push_back(kernelQuad(face, {corner(0), corner(1), corner(2), corner(3)}));
             for (std::size_t k = 0; k < 4; ++k) {
-                normals.push_back((corner((k + 1) % 4) - corner(k)).cross(corner((k + 3) % 4) - corner(k)));
+                faceNormals.push_back((corner((k + 1) % 4) - corner(k)).cross(corner((k + 3) % 4) - corner(k)));
             }
             continue;
         }
-        PackedTriangle t{};
+        KernelTriangle t{};
         const Vec3d areaNormal = (corner(1) - corner(0)).cross(corner(2) - corner(0));
         t.area = areaNormal.length();
         const Vec3d normal = t.area > 0 ? areaNormal / t.area : Vec3d(0);
@@ -82,8 +99,8 @@ CagePack::CagePack(const BoundCage& cage) : rules_(packedRules())
             along[k] = length > 0 ? sides[k] / length : Vec3d(0);
             longest = std::max(longest, length);
             const auto [edge, isNew] =
-                edgeOf.try_emplace(std::minmax(from, to), static_cast<std::uint32_t>(edges_.size()));
-            if (isNew) edges_.push_back({edge->first.first, edge->first.second, length});
+                edgeOf.try_emplace(std::minmax(from, to), static_cast<std::uint32_t>(edges.size()));
+            if (isNew) edges.push_back({edge->first.first, edge->first.second, length});
             t.corner[k] = face.at[k];
             t.edge[k] = edge->second;
             t.sign[k] = from < to ? 1 : -1;
@@ -98,13 +115,21 @@ CagePack::CagePack(const BoundCage& cage) : rules_(packedRules())
         }
         copy(normal, t.normal);
         t.sliver = !(t.area > sliverWidth * longest * longest);
-        triangles_.push_back(t);
-        normals.push_back(areaNormal);
+        triangles.push_back(t);
+        faceNormals.push_back(areaNormal);
     }
-    normals_ = places(normals);
+    normals = places(faceNormals);
     const auto rows = [](const std::vector<Place>& from) { return from.empty() ? nullptr : &from.front().at; };
-    packed_ = {points_.size(),    edges_.size(), triangles_.size(), quads_.size(),  rows(points_), edges_.data(),
-               triangles_.data(), quads_.data(), rows(restoring_),  rows(normals_), &rules_,       &cage};
+    cage = {points.size(),    edges.size(), triangles.size(), quads.size(),  rows(points), edges.data(),
+            triangles.data(), quads.data(), rows(restoring),  rows(normals), &rules,       &unitCage};
+}
+
+} // namespace
+
+std::shared_ptr<const KernelCage> kernelCage(const UnitCage& cage)
+{
+    const auto arrays = std::make_shared<const Arrays>(cage);
+    return {arrays, &arrays->cage};
 }
 
 } // namespace vdbcage::detail

@@ -1,4 +1,4 @@
-#include <vdbcage/deform/detail/bound_cage.h>
+#include <vdbcage/deform/detail/unit_cage.h>
 
 #include <algorithm>
 #include <cmath>
@@ -115,21 +115,20 @@ void requireClosed(const Mesh& cage)
 
 } // namespace
 
-CageFrame::CageFrame(const Mesh& cage)
+double longestSide(const Mesh& mesh)
 {
-    const openvdb::BBoxd box = boundingBox(cage);
-    centre = 0.5 * box.min() + 0.5 * box.max();
+    const openvdb::BBoxd box = boundingBox(mesh);
     const Vec3d extent = box.max() - box.min();
-    size = std::max({extent[0], extent[1], extent[2]});
+    return std::max({extent[0], extent[1], extent[2]});
 }
 
-BoundCage::BoundCage(const Mesh& cage)
+UnitCage::UnitCage(const Mesh& cage)
 {
     requireUsable(cage, "cage");
     requireClosed(cage);
-    const CageFrame frame(cage);
-    centre_ = frame.centre;
-    size_ = frame.size;
+    const openvdb::BBoxd box = boundingBox(cage);
+    centre_ = 0.5 * box.min() + 0.5 * box.max();
+    size_ = longestSide(cage);
     for (const openvdb::Vec3I& t : cage.triangles) faces_.push_back({{t[0], t[1], t[2], t[2]}, false});
     for (const openvdb::Vec4I& q : cage.quads) faces_.push_back({{q[0], q[1], q[2], q[3]}, true});
 
@@ -170,18 +169,18 @@ BoundCage::BoundCage(const Mesh& cage)
     }
 }
 
-PatchCorners BoundCage::cornersFrom(const Face& face, const Vec3d& x) const
+PatchCorners UnitCage::cornersFrom(const Face& face, const Vec3d& x) const
 {
     return {points_[face.at[0]] - x, points_[face.at[1]] - x, points_[face.at[2]] - x, points_[face.at[3]] - x};
 }
 
-BoundCage::Place BoundCage::nearestOf(std::size_t face, const Vec3d& x) const
+UnitCage::Place UnitCage::nearestOf(std::size_t face, const Vec3d& x) const
 {
     const Weights weights = nearestToOrigin(cornersFrom(faces_[face], x), faces_[face].quad);
     return {face, weights.at, weights.distance};
 }
 
-BoundCage::Place BoundCage::nearest(const Vec3d& x) const
+UnitCage::Place UnitCage::nearest(const Vec3d& x) const
 {
     Place best;
     best.distance = std::numeric_limits<double>::infinity();
@@ -198,7 +197,7 @@ BoundCage::Place BoundCage::nearest(const Vec3d& x) const
     return best;
 }
 
-bool BoundCage::completeSolidAngles(const Place& nearest, Vec3d missing, double* weights) const
+bool UnitCage::completeSolidAngles(const Place& nearest, Vec3d missing, double* weights) const
 {
     double lacking = 1;
     for (std::size_t i = 0; i < points_.size(); ++i) lacking -= weights[i];
@@ -209,7 +208,7 @@ bool BoundCage::completeSolidAngles(const Place& nearest, Vec3d missing, double*
     return true;
 }
 
-void BoundCage::restore(const Vec3d& missing, double* weights) const
+void UnitCage::restore(const Vec3d& missing, double* weights) const
 {
     for (std::size_t i = 0; i < restoring_.size(); ++i) weights[i] += restoring_[i].dot(missing);
 }
