@@ -19,7 +19,7 @@ std::string circle(int corners, double height)
 {
     std::string text;
     for (int i = 0; i < corners; ++i) {
-        const double angle = 2 * 3.14159265358979 * i / corners;
+        const double angle = 2 * M_PI * i / corners;
         text += "v " + std::to_string(std::cos(angle)) + ' ' + std::to_string(std::sin(angle)) + ' ' +
                 std::to_string(height + 0.2 * std::cos(2 * angle)) + '\n';
     }
@@ -38,7 +38,7 @@ std::string crown(int corners)
 {
     std::string text;
     for (int i = 0; i < corners; ++i) {
-        const double angle = 2 * 3.14159265358979 * i / corners, radius = i % 2 == 0 ? 1 : 0.6;
+        const double angle = 2 * M_PI * i / corners, radius = i % 2 == 0 ? 1 : 0.6;
         text += "v " + std::to_string(radius * std::cos(angle)) + ' ' + std::to_string(radius * std::sin(angle)) + ' ' +
                 std::to_string(0.5 * std::cos(3 * angle)) + '\n';
     }

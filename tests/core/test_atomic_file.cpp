@@ -5,6 +5,7 @@
 
 #include <sys/resource.h>
 
+#include <support/says.h>
 #include <support/temporary_folder.h>
 #include <vdbcage/core/detail/atomic_file.h>
 #include <vdbcage/core/error.h>
@@ -12,20 +13,9 @@
 using namespace vdbcage;
 namespace fs = std::filesystem;
 using test::readText;
+using test::says;
 using test::TemporaryFolder;
 using test::writeText;
-
-namespace {
-
-auto says(const std::string& text)
-{
-    return [text](const IoError& error) {
-        BOOST_TEST_INFO(error.what());
-        return std::string(error.what()).find(text) != std::string::npos;
-    };
-}
-
-} // namespace
 
 BOOST_AUTO_TEST_SUITE(atomic_file)
 

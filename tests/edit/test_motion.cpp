@@ -48,8 +48,8 @@ Vec3d reference(const Vec3d& point, double weight, const Motion& motion)
 {
     if (const auto* move = std::get_if<Move>(&motion)) return point + weight * move->by;
     if (const auto* rotate = std::get_if<Rotate>(&motion)) {
-        const auto matrix = openvdb::math::rotation<openvdb::Mat3d>(rotate->axis, weight * rotate->degrees *
-                                                                                      3.14159265358979323846 / 180);
+        const auto matrix =
+            openvdb::math::rotation<openvdb::Mat3d>(rotate->axis, weight * rotate->degrees * M_PI / 180);
         return rotate->pivot + (point - rotate->pivot) * matrix;
     }
     const auto& scale = std::get<Scale>(motion);

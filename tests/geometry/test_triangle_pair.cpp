@@ -13,7 +13,7 @@ using namespace vdbcage::detail;
 
 namespace {
 
-constexpr double degree = 3.14159265358979323846 / 180;
+constexpr double degree = M_PI / 180;
 
 class RandomPoints {
 public:

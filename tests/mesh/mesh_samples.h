@@ -126,4 +126,13 @@ inline bool sameBits(const Mesh& a, const Mesh& b)
             std::memcmp(a.points.data(), b.points.data(), a.points.size() * sizeof(openvdb::Vec3d)) == 0);
 }
 
+/// `text` with `by` for each `what`.
+inline std::string replaced(std::string text, const std::string& what, const std::string& by)
+{
+    for (std::size_t at = 0; (at = text.find(what, at)) != std::string::npos; at += by.size()) {
+        text.replace(at, what.size(), by);
+    }
+    return text;
+}
+
 } // namespace vdbcage::test

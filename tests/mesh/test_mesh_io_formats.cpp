@@ -41,14 +41,6 @@ Mesh stl(const std::string& text)
     return detail::parseStl(text, "a.stl").mesh;
 }
 
-std::string replaced(std::string text, const std::string& what, const std::string& by)
-{
-    for (std::size_t at = 0; (at = text.find(what, at)) != std::string::npos; at += by.size()) {
-        text.replace(at, what.size(), by);
-    }
-    return text;
-}
-
 const std::string threePoints = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
 
 std::string plyHeader(const std::string& format, const std::string& elements)
@@ -188,7 +180,7 @@ MeshFile onCircle(const std::vector<std::pair<std::size_t, std::size_t>>& firstA
     constexpr std::size_t points = 5000;
     detail::PolygonSoup soup;
     for (std::size_t i = 0; i < points; ++i) {
-        const double angle = 2 * 3.14159265358979 * static_cast<double>(i) / static_cast<double>(points);
+        const double angle = 2 * M_PI * static_cast<double>(i) / static_cast<double>(points);
         soup.points.emplace_back(std::cos(angle), std::sin(angle), 0);
     }
     for (const auto& [first, count] : firstAndCount) {
@@ -245,7 +237,7 @@ BOOST_AUTO_TEST_CASE(faces_of_more_than_64_corners_are_there_as_a_fan_and_as_ear
         detail::PolygonSoup soup;
         std::vector<openvdb::Index32> face;
         for (std::size_t i = 0; i < corners; ++i) {
-            const double angle = 2 * 3.14159265358979 * double(i) / double(corners), radius = i % 2 == 0 ? 1 : 0.5;
+            const double angle = 2 * M_PI * double(i) / double(corners), radius = i % 2 == 0 ? 1 : 0.5;
             soup.points.emplace_back(radius * std::cos(angle), radius * std::sin(angle), 0);
             face.push_back(openvdb::Index32((i + 7) % corners));
         }

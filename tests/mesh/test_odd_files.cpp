@@ -17,14 +17,6 @@ using namespace vdbcage::test;
 
 namespace {
 
-std::string replaced(std::string text, const std::string& what, const std::string& by)
-{
-    for (std::size_t at = 0; (at = text.find(what, at)) != std::string::npos; at += by.size()) {
-        text.replace(at, what.size(), by);
-    }
-    return text;
-}
-
 /// Of text in ASCII.
 std::string utf16(const std::string& text, bool isLittleEndian)
 {

@@ -82,8 +82,6 @@ Loop flat(const std::vector<std::pair<double, double>>& polygon)
     return loop;
 }
 
-constexpr double pi = 3.14159265358979323846;
-
 } // namespace
 
 BOOST_AUTO_TEST_SUITE(polygon_splitter)
@@ -134,7 +132,7 @@ BOOST_AUTO_TEST_CASE(a_convex_polygon_becomes_a_fan)
     for (std::size_t n = 5; n < 200; n += 7) {
         std::vector<std::pair<double, double>> circle;
         for (std::size_t i = 0; i < n; ++i) {
-            const double angle = 2 * pi * double(i) / double(n);
+            const double angle = 2 * M_PI * double(i) / double(n);
             circle.emplace_back(3 * std::cos(angle), std::sin(angle));
         }
         const Split result = split(flat(circle));
@@ -161,7 +159,7 @@ BOOST_DATA_TEST_CASE(ragged_stars_are_divided_without_overlap, boost::unit_test:
     std::vector<std::pair<double, double>> star;
     for (int i = 0; i < n; ++i) {
         const double r = radius(random);
-        star.emplace_back(r * std::cos(2 * pi * i / n), r * std::sin(2 * pi * i / n));
+        star.emplace_back(r * std::cos(2 * M_PI * i / n), r * std::sin(2 * M_PI * i / n));
     }
     const Loop loop = placed(star, random);
     checkTriangles(loop, split(loop).triangles);
@@ -299,7 +297,7 @@ BOOST_AUTO_TEST_CASE(there_are_as_many_alternatives_as_announced)
 
 namespace {
 
-constexpr double turn = 2 * 3.14159265358979323846;
+constexpr double turn = 2 * M_PI;
 
 Vec3d onCircle(double angle, double radius)
 {

@@ -44,9 +44,4 @@ inline Mesh saturn()
     return test::joined(test::sphere({0, 0, 0}, 1, 16), test::torus(2, 0.2, 48, 12));
 }
 
-inline bool sameMesh(const Mesh& a, const Mesh& b)
-{
-    return a.points == b.points && a.triangles == b.triangles && a.quads == b.quads;
-}
-
 } // namespace vdbcage::test

@@ -7,11 +7,13 @@
 #include <thread>
 
 #include <draw/meshes.h>
+#include <support/says.h>
 #include <tools/cli/render.h>
 #include <vdbcage/core/error.h>
 
 using namespace vdbcage;
 using openvdb::Vec3d;
+using test::says;
 
 namespace {
 
@@ -69,11 +71,6 @@ struct BallInCube {
     {
     }
 };
-
-auto says(const std::string& word)
-{
-    return [word](const InputError& error) { return std::string(error.what()).find(word) != std::string::npos; };
-}
 
 } // namespace
 

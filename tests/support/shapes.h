@@ -21,13 +21,12 @@ inline Mesh box(const openvdb::Vec3d& low, const openvdb::Vec3d& high)
 /// A closed sphere of `rings` x `2 rings` faces: quads with triangles at the poles, facing outward.
 inline Mesh sphere(const openvdb::Vec3d& centre, double radius, int rings)
 {
-    constexpr double pi = 3.14159265358979323846;
     const int around = 2 * rings;
     Mesh mesh;
     mesh.points.push_back(centre + openvdb::Vec3d(0, 0, radius));
     for (int ring = 1; ring < rings; ++ring) {
         for (int i = 0; i < around; ++i) {
-            const double polar = pi * ring / rings, azimuth = 2 * pi * i / around;
+            const double polar = M_PI * ring / rings, azimuth = 2 * M_PI * i / around;
             mesh.points.push_back(centre + radius * openvdb::Vec3d(std::sin(polar) * std::cos(azimuth),
                                                                    std::sin(polar) * std::sin(azimuth),
                                                                    std::cos(polar)));
@@ -51,11 +50,10 @@ inline Mesh sphere(const openvdb::Vec3d& centre, double radius, int rings)
 /// A closed torus around the z axis, `around` x `across` quads facing outward.
 inline Mesh torus(double radius, double tube, int around, int across)
 {
-    constexpr double pi = 3.14159265358979323846;
     Mesh mesh;
     for (int i = 0; i < around; ++i) {
         for (int j = 0; j < across; ++j) {
-            const double u = 2 * pi * i / around, v = 2 * pi * j / across;
+            const double u = 2 * M_PI * i / around, v = 2 * M_PI * j / across;
             const double reach = radius + tube * std::cos(v);
             mesh.points.emplace_back(reach * std::cos(u), reach * std::sin(u), tube * std::sin(v));
         }
@@ -71,7 +69,7 @@ inline Mesh torus(double radius, double tube, int around, int across)
 /// `mesh`, turned about the z axis through the origin.
 inline Mesh turnedAboutZ(Mesh mesh, double degrees)
 {
-    const double angle = degrees * 3.14159265358979323846 / 180, c = std::cos(angle), s = std::sin(angle);
+    const double angle = degrees * M_PI / 180, c = std::cos(angle), s = std::sin(angle);
     for (openvdb::Vec3d& p : mesh.points) p = openvdb::Vec3d(c * p[0] - s * p[1], s * p[0] + c * p[1], p[2]);
     return mesh;
 }
@@ -93,6 +91,11 @@ inline Mesh joined(Mesh a, const Mesh& b)
         a.quads.emplace_back(q[0] + offset, q[1] + offset, q[2] + offset, q[3] + offset);
     }
     return a;
+}
+
+inline bool sameMesh(const Mesh& a, const Mesh& b)
+{
+    return a.points == b.points && a.triangles == b.triangles && a.quads == b.quads;
 }
 
 } // namespace vdbcage::test

@@ -94,7 +94,7 @@ inline std::vector<double> sortedAngles(const Mesh& mesh)
         for (int i = 0; i < 3; ++i) {
             const openvdb::Vec3d& p = mesh.points[t[i]];
             const openvdb::Vec3d a = mesh.points[t[(i + 1) % 3]] - p, b = mesh.points[t[(i + 2) % 3]] - p;
-            angles.push_back(std::atan2(a.cross(b).length(), a.dot(b)) * 180 / 3.14159265358979323846);
+            angles.push_back(std::atan2(a.cross(b).length(), a.dot(b)) * 180 / M_PI);
         }
     }
     std::sort(angles.begin(), angles.end());

@@ -46,10 +46,9 @@ Mesh sphere(unsigned rings)
 {
     Mesh mesh;
     const unsigned around = 2 * rings;
-    const double pi = 3.14159265358979323846;
     for (unsigned i = 1; i < rings; ++i) {
         for (unsigned j = 0; j < around; ++j) {
-            const double a = pi * i / rings, b = 2 * pi * j / around;
+            const double a = M_PI * i / rings, b = 2 * M_PI * j / around;
             mesh.points.emplace_back(std::sin(a) * std::cos(b), std::sin(a) * std::sin(b), std::cos(a));
         }
     }
@@ -109,7 +108,7 @@ double sharpestFold(const Mesh& mesh)
             sharpest = std::max(sharpest, std::acos(std::clamp(normal.dot(other->second), -1.0, 1.0)));
         }
     }
-    return sharpest * 180 / 3.14159265358979323846;
+    return sharpest * 180 / M_PI;
 }
 
 } // namespace

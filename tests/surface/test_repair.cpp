@@ -38,11 +38,6 @@ Mesh triangulated(Mesh mesh)
     return mesh;
 }
 
-bool areEqual(const Mesh& a, const Mesh& b)
-{
-    return a.points == b.points && a.triangles == b.triangles && a.quads == b.quads;
-}
-
 /// The places of each face's corners, whatever the order of points and faces.
 std::multiset<std::set<std::vector<double>>> placesOfFaces(const Mesh& mesh)
 {
@@ -97,7 +92,7 @@ BOOST_AUTO_TEST_CASE(a_valid_cage_comes_back_as_it_came)
     const Mesh nested = joined(sphere({0, 0, 0}, 1, 8), sphere({0, 0, 0}, .5, 6));
     for (const Mesh& cage : {sphere({0, 0, 0}, 1, 8), box({0, 0, 0}, {1, 2, 3}), withUnused, nested}) {
         const RepairedCage result = mended(cage);
-        BOOST_TEST(areEqual(result.cage, cage));
+        BOOST_TEST(sameMesh(result.cage, cage));
         BOOST_TEST(result.report.before.area == result.report.after.area);
     }
 }
@@ -258,7 +253,7 @@ BOOST_AUTO_TEST_CASE(no_soup_is_made_worse)
         {
             BOOST_TEST(after.selfIntersections == result.report.selfIntersectionsAfter);
             BOOST_TEST(after.selfIntersections <= result.report.selfIntersectionsBefore);
-            BOOST_TEST((areEqual(result.cage, cage) || !before.valid()));
+            BOOST_TEST((sameMesh(result.cage, cage) || !before.valid()));
         }
         valid += after.valid();
     }
@@ -283,7 +278,7 @@ BOOST_AUTO_TEST_CASE(the_number_of_threads_does_not_matter)
         const tbb::global_control single(tbb::global_control::max_allowed_parallelism, 1);
         return repair(cage).cage;
     }();
-    BOOST_TEST(areEqual(one, repair(cage).cage));
+    BOOST_TEST(sameMesh(one, repair(cage).cage));
 }
 
 BOOST_AUTO_TEST_CASE(it_can_be_cancelled_anywhere)

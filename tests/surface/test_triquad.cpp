@@ -67,7 +67,7 @@ bool unfolded(const Mesh& mesh, const Vec4I& q)
 double dihedral(const Mesh& mesh, const Vec4I& q)
 {
     const Vec3d a = doubledArea(mesh, q[0], q[1], q[2]), b = doubledArea(mesh, q[0], q[2], q[3]);
-    return std::atan2(a.cross(b).length(), a.dot(b)) * 180 / 3.14159265358979323846;
+    return std::atan2(a.cross(b).length(), a.dot(b)) * 180 / M_PI;
 }
 
 std::size_t facesThatShareTwoEdges(const Mesh& mesh)

@@ -2,6 +2,7 @@
 
 #include <memory>
 
+#include <support/shapes.h>
 #include <tools/view/jobs/cage_result.h>
 #include <tools/view/state/opened_mesh.h>
 #include <vdbcage/mesh/mesh.h>
@@ -33,11 +34,6 @@ inline view::Order orderOf(const view::OpenedMeshPtr& model, int faces, Effort e
     order.options.faces = faces;
     order.options.effort = effort;
     return order;
-}
-
-inline bool sameMesh(const Mesh& a, const Mesh& b)
-{
-    return a.points == b.points && a.triangles == b.triangles && a.quads == b.quads;
 }
 
 } // namespace vdbcage::test

@@ -8,6 +8,7 @@
 #include <vdbcage/volume/detail/boundary_topology.h>
 #include <vdbcage/volume/extract.h>
 
+#include "support/shapes.h"
 #include "support/solids.h"
 #include "support/stop_at.h"
 #include "support/topology_count.h"
@@ -70,11 +71,6 @@ bool contains(const MaskGrid& outer, const MaskGrid& inner)
 bool sameVoxels(const MaskGrid& a, const MaskGrid& b)
 {
     return contains(a, b) && contains(b, a);
-}
-
-bool sameMesh(const Mesh& a, const Mesh& b)
-{
-    return a.points == b.points && a.triangles == b.triangles && a.quads == b.quads;
 }
 
 /// Everything that is promised about a solid with voxels of the given size. BOOST_TEST is too slow to call per fact.

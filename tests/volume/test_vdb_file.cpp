@@ -10,6 +10,7 @@
 #include <openvdb/io/File.h>
 #include <openvdb/io/Stream.h>
 #include <openvdb/points/PointDataGrid.h>
+#include <support/says.h>
 #include <support/temporary_folder.h>
 #include <vdbcage/core/error.h>
 #include <vdbcage/volume/vdb_io.h>
@@ -68,14 +69,6 @@ bool sameGrids(const GridBase& a, const GridBase& b)
            a.getName() == b.getName() && a.getGridClass() == b.getGridClass() &&
            (sameAs<openvdb::FloatGrid>(a, b) || sameAs<openvdb::DoubleGrid>(a, b) || sameAs<openvdb::BoolGrid>(a, b) ||
             sameAs<openvdb::MaskGrid>(a, b));
-}
-
-auto says(const std::string& text)
-{
-    return [text](const IoError& error) {
-        BOOST_TEST_INFO(error.what());
-        return std::string(error.what()).find(text) != std::string::npos;
-    };
 }
 
 /// Each kind of content once, named density.

@@ -8,6 +8,7 @@
 
 #include <openvdb/io/File.h>
 #include <openvdb/tools/LevelSetSphere.h>
+#include <support/says.h>
 #include <support/temporary_folder.h>
 #include <vdbcage/core/error.h>
 #include <vdbcage/volume/vdb_io.h>
@@ -40,14 +41,6 @@ void writeGrids(const std::filesystem::path& path, const openvdb::GridCPtrVec& g
 {
     openvdb::io::File file(path.string());
     file.write(grids);
-}
-
-auto says(const std::string& text)
-{
-    return [text](const IoError& error) {
-        BOOST_TEST_INFO(error.what());
-        return std::string(error.what()).find(text) != std::string::npos;
-    };
 }
 
 } // namespace

@@ -106,7 +106,7 @@ Mesh walls(int corners)
 {
     Mesh mesh;
     for (int i = 0; i < corners; ++i) {
-        const double angle = 2 * 3.14159265358979323846 * i / corners, radius = i % 2 == 0 ? 1 : 0.37;
+        const double angle = 2 * M_PI * i / corners, radius = i % 2 == 0 ? 1 : 0.37;
         mesh.points.emplace_back(radius * std::cos(angle), radius * std::sin(angle), -0.8);
         mesh.points.emplace_back(radius * std::cos(angle), radius * std::sin(angle), 0.9);
     }

@@ -32,7 +32,7 @@ double windingNumber(const Mesh& mesh, const Vec3d& p)
         const double la = a.length(), lb = b.length(), lc = c.length();
         angle += 2 * std::atan2(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
     }
-    return angle / (4 * 3.14159265358979323846);
+    return angle / (4 * M_PI);
 }
 
 } // namespace

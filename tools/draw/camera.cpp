@@ -13,7 +13,7 @@ namespace {
 
 using openvdb::Vec3d;
 
-constexpr double degree = 3.14159265358979323846 / 180;
+constexpr double degree = M_PI / 180;
 constexpr double viewAngle = 22 * degree; // across the shorter side of a panel
 constexpr double margin = 0.05;           // on each side, of the panel
 // In perspective nothing nearer than this part of the distance is drawn, or depth would have no bits left.

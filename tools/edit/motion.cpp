@@ -20,7 +20,7 @@ struct Turn {
 /// Of the remainder to the nearest multiple of 90 degrees, which is exact.
 Turn turnBy(double degrees)
 {
-    constexpr double radiansPerDegree = 3.14159265358979323846 / 180;
+    constexpr double radiansPerDegree = M_PI / 180;
     int quarters = 0;
     const double rest = std::remquo(degrees, 90.0, &quarters) * radiansPerDegree;
     const double sine = std::sin(rest), cosine = std::cos(rest);

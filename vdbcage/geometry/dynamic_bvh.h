@@ -68,7 +68,7 @@ public:
     void update(std::uint32_t thing, const Box& box)
     {
         boxes_[thing] = box;
-        if (placeOf_[thing] != none) set(placeOf_[thing], FloatBox(box));
+        if (placeOf_[thing] != none) set(placeOf_[thing], rounded(box));
     }
 
     /// Removes a thing. Seen after refit().
@@ -108,7 +108,7 @@ public:
         };
         if (!std::all_of(late_.begin(), late_.end(), goesOn)) return false;
         if (nodes_.empty()) return true;
-        const FloatBox outer(box);
+        const FloatBox outer = rounded(box);
         std::array<Floats, 3> lo, hi;
         for (std::size_t i = 0; i < 3; ++i) {
             lo[i] = Floats{} + outer.lo[i];
@@ -135,22 +135,15 @@ public:
 private:
     static constexpr std::uint32_t isThing = std::uint32_t(1) << 31;
 
-    struct FloatBox {
-        std::array<float, 3> lo, hi;
-
-        FloatBox()
-        {
-            lo.fill(std::numeric_limits<float>::infinity());
-            hi.fill(-std::numeric_limits<float>::infinity());
+    static FloatBox rounded(const Box& box)
+    {
+        FloatBox result;
+        for (int i = 0; i < 3; ++i) {
+            result.lo[i] = static_cast<float>(box.lo[i]);
+            result.hi[i] = static_cast<float>(box.hi[i]);
         }
-        explicit FloatBox(const Box& box)
-        {
-            for (std::size_t i = 0; i < 3; ++i) {
-                lo[i] = static_cast<float>(box.lo[static_cast<int>(i)]);
-                hi[i] = static_cast<float>(box.hi[static_cast<int>(i)]);
-            }
-        }
-    };
+        return result;
+    }
 
     /// The place of a child: four times its parent's number and which of the four it is.
     using Place = std::uint32_t;
@@ -255,7 +248,7 @@ private:
                 const std::uint32_t thing = part.begin->number;
                 nodes_[self].child[at] = isThing | thing;
                 placeOf_[thing] = 4 * self + at;
-                box = FloatBox(boxes_[thing]);
+                box = rounded(boxes_[thing]);
             } else {
                 const std::uint32_t node = buildNode(part, 4 * self + at);
                 nodes_[self].child[at] = node;

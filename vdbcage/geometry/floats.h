@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 
 #ifdef __SSE2__
 #include <emmintrin.h>
@@ -41,6 +42,22 @@ inline unsigned bits(const Lanes& lanes)
     return (lanes[0] & 1U) | (lanes[1] & 2U) | (lanes[2] & 4U) | (lanes[3] & 8U);
 #endif
 }
+
+/// A box, of which the fourth components mean nothing. By default it is empty.
+struct FloatBox {
+    Floats lo = Floats{} + std::numeric_limits<float>::infinity(), hi = -lo;
+
+    void expand(Floats otherLo, Floats otherHi)
+    {
+        lo = least(lo, otherLo);
+        hi = greatest(hi, otherHi);
+    }
+    float area() const
+    {
+        const Floats size = hi - lo;
+        return size[0] * size[1] + size[1] * size[2] + size[2] * size[0];
+    }
+};
 
 /// The boxes of a node's children. There is no such child where a value is NaN, or the least is above the most.
 struct FourBoxes {

@@ -9,7 +9,7 @@ using openvdb::Vec3d;
 
 double angleDegrees(const Vec3d& a, const Vec3d& b)
 {
-    constexpr double degrees = 180 / 3.14159265358979323846;
+    constexpr double degrees = 180 / M_PI;
     return std::atan2(a.cross(b).length(), a.dot(b)) * degrees;
 }
 

@@ -51,21 +51,6 @@ struct Ref {
     Floats twiceCentre() const { return lo + hi; }
 };
 
-struct FloatBox {
-    Floats lo = Floats{} + std::numeric_limits<float>::infinity(), hi = -lo;
-
-    void expand(Floats otherLo, Floats otherHi)
-    {
-        lo = least(lo, otherLo);
-        hi = greatest(hi, otherHi);
-    }
-    float area() const
-    {
-        const Floats size = hi - lo;
-        return size[0] * size[1] + size[1] * size[2] + size[2] * size[0];
-    }
-};
-
 // A child of a node and the square of its distance, in one word: two halves that were just stored cannot be forwarded
 // to a load of both, which has to wait for them.
 class Near {

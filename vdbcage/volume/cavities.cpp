@@ -7,12 +7,12 @@
 #include <cstdint>
 #include <limits>
 #include <map>
-#include <numeric>
 #include <utility>
 #include <vector>
 
 #include <vdbcage/core/detail/mask_grid.h>
 #include <vdbcage/core/detail/parallel.h>
+#include <vdbcage/geometry/union_find.h>
 #include <vdbcage/volume/detail/mask_blocks.h>
 
 namespace vdbcage {
@@ -21,33 +21,6 @@ namespace {
 
 using namespace detail;
 using openvdb::MaskGrid;
-
-class UnionFind {
-public:
-    explicit UnionFind(std::size_t size = 0) : parent_(size) { std::iota(parent_.begin(), parent_.end(), 0U); }
-
-    std::uint32_t add()
-    {
-        parent_.push_back(static_cast<std::uint32_t>(parent_.size()));
-        return parent_.back();
-    }
-    std::uint32_t find(std::uint32_t i)
-    {
-        while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-        return i;
-    }
-    /// The smaller index stays the root.
-    void unite(std::uint32_t a, std::uint32_t b)
-    {
-        a = find(a);
-        b = find(b);
-        parent_[std::max(a, b)] = std::min(a, b);
-    }
-    std::size_t size() const { return parent_.size(); }
-
-private:
-    std::vector<std::uint32_t> parent_;
-};
 
 // The bits of `space` that are face-connected, within the entry, to those of `seed`.
 Words flood(Words seed, const Words& space)
@@ -209,23 +182,24 @@ public:
         }
         for (const Coord& origin : full.blocks) occupy(origin, 1);
         for (const BlockSpace& node : nodes) occupy(node.origin(), 1);
-    }
-
-    /// Makes an element for each bounded run and joins neighbouring ones; element 0 is the outside.
-    void connect(UnionFind& elements)
-    {
         for (auto& [place, line] : lines_) {
             std::sort(line.occupied.begin(), line.occupied.end());
             int begin = std::numeric_limits<int>::min();
             for (const auto& [x, blocks] : line.occupied) {
                 if (x > begin) {
                     const bool isOutside = begin == std::numeric_limits<int>::min();
-                    line.runs.push_back({begin, x, isOutside ? 0 : elements.add()});
+                    line.runs.push_back({begin, x, isOutside ? 0 : elementCount_++});
                 }
                 begin = std::max(begin, x + blocks);
             }
             line.runs.push_back({begin, std::numeric_limits<int>::max(), 0});
         }
+    }
+
+    /// Each bounded run is an element; element 0 is the outside.
+    std::uint32_t elementCount() const { return elementCount_; }
+    void uniteNeighbours(UnionFind& elements) const
+    {
         for (const auto& [place, line] : lines_) {
             const auto [y, z] = place;
             for (const auto& neighbour :
@@ -284,6 +258,7 @@ private:
         }
     }
     std::map<std::pair<int, int>, Line> lines_; // by y, z
+    std::uint32_t elementCount_ = 1;
 };
 
 std::vector<BlockSpace> nodeSpaces(const MaskTree& tree, Interrupter* interrupter)
@@ -313,17 +288,17 @@ FilledMask fillCavities(const MaskGrid& mask, Interrupter* interrupter)
     throwIfInterrupted(interrupter, 0);
     const std::vector<BlockSpace> nodes = nodeSpaces(tree, interrupter);
 
-    UnionFind elements;
-    elements.add(); // the outside
-    BlockRuns runs(tree, nodes);
-    runs.connect(elements);
+    const BlockRuns runs(tree, nodes);
+    std::uint32_t elementCount = runs.elementCount();
     std::map<Coord, std::size_t> nodeAt;
     std::vector<std::uint32_t> firstElement; // of each node's components
     for (const BlockSpace& node : nodes) {
         nodeAt.emplace(node.origin(), nodeAt.size());
-        firstElement.push_back(static_cast<std::uint32_t>(elements.size()));
-        for (std::uint32_t i = 0; i < node.componentCount(); ++i) elements.add();
+        firstElement.push_back(elementCount);
+        elementCount += node.componentCount();
     }
+    UnionFind elements(elementCount);
+    runs.uniteNeighbours(elements);
     for (std::size_t i = 0; i < nodes.size(); ++i) {
         throwIfInterrupted(interrupter, 60 + static_cast<int>(20 * i / nodes.size()));
         for (int axis = 0; axis < 3; ++axis) {
@@ -354,9 +329,9 @@ FilledMask fillCavities(const MaskGrid& mask, Interrupter* interrupter)
     }
 
     // Read only from here on, by several threads: the roots are looked up once.
-    std::vector<char> isCavity(elements.size());
+    std::vector<char> isCavity(elementCount);
     std::size_t count = 0;
-    for (std::uint32_t i = 0; i < isCavity.size(); ++i) {
+    for (std::uint32_t i = 0; i < elementCount; ++i) {
         const std::uint32_t root = elements.find(i);
         isCavity[i] = root != 0 ? 1 : 0;
         if (root == i && root != 0) ++count;

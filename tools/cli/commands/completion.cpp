@@ -71,7 +71,7 @@ void printOffers(std::vector<std::string> words)
         offers.word("help", "print what a command takes");
         offers.word("--help");
         offers.word("--version");
-    } else if (words[0] == "man" || words[0] == "help") {
+    } else if (words[0] == "help") {
         offerCommands(offers);
     } else {
         const std::vector<OptionFacts> options = describe(commandNamed(words[0])).options;
@@ -82,6 +82,8 @@ void printOffers(std::vector<std::string> words)
         }
         if (begun[0] == '-') {
             for (const OptionFacts& known : options) offers.word(known.name, known.help);
+        } else if (words[0] == "man") {
+            offerCommands(offers);
         } else if (words[0] == "completion") {
             for (const char* shell : {"bash", "fish", "zsh"}) offers.word(shell);
         } else {
@@ -119,7 +121,7 @@ function __vdbcage_offers
             case :directories
                 __fish_complete_directories (string replace -- "$option" '' $token) ''
             case '*'
-                echo $option$offer
+                echo "$option$offer"
         end
     end
 end

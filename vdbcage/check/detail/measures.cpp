@@ -103,7 +103,7 @@ double angleDegrees(const Vec3d& at, const Vec3d& b, const Vec3d& c)
     Vec3d u = b - at, v = c - at;
     u.normalize(); // leaves a zero vector as it is
     v.normalize();
-    return std::atan2(u.cross(v).length(), u.dot(v)) * (180 / 3.14159265358979323846);
+    return std::atan2(u.cross(v).length(), u.dot(v)) * (180 / M_PI);
 }
 
 } // namespace
