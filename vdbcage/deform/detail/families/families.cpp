@@ -11,12 +11,7 @@ extern const CoordinateFamily meanValue, green, maximumLikelihood, harmonic, bih
 
 namespace {
 
-constexpr FamilyInfo givenInfo{Coordinates::given,
-                               "given",
-                               "given",
-                               "Weights",
-                               "weights from a file",
-                               "",
+constexpr FamilyInfo givenInfo{Coordinates::given,      "given", "given", "Weights", "weights from a file", "",
                                /*isEverywhere*/ true,
                                /*splitsQuads*/ false,
                                /*hasResolution*/ false,

@@ -121,16 +121,13 @@ bool likelihoodRow(const UnitCage& cage, const Vec3d& x, double* row)
     return true;
 }
 
-constexpr FamilyInfo info{Coordinates::maximumLikelihood,
-                          "mlc",
-                          "mlc",
-                          "Likelihood",
-                          "maximum likelihood: never negative, most local",
-                          "Chang, Deng, Hormann 2023",
-                          /*isEverywhere*/ false,
-                          /*splitsQuads*/ false,
-                          /*hasResolution*/ false,
-                          /*hasElasticity*/ false};
+constexpr FamilyInfo info{
+    Coordinates::maximumLikelihood, "mlc", "mlc", "Likelihood", "maximum likelihood: never negative, most local",
+    "Chang, Deng, Hormann 2023",
+    /*isEverywhere*/ false,
+    /*splitsQuads*/ false,
+    /*hasResolution*/ false,
+    /*hasElasticity*/ false};
 
 } // namespace
 

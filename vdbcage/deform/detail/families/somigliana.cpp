@@ -368,16 +368,13 @@ void addMaxDistances(const Mesh& cage, std::vector<float>& maxDistances)
     maxDistances.insert(maxDistances.end(), somiglianaWeights * (cage.triangles.size() + 2 * cage.quads.size()), 4.0F);
 }
 
-constexpr FamilyInfo info{Coordinates::somigliana,
-                          "somigliana",
-                          "somigliana",
-                          "Somigliana",
-                          "elastic: stretches most evenly",
-                          "Chen, de Goes, Desbrun 2023",
-                          /*isEverywhere*/ false,
-                          /*splitsQuads*/ true,
-                          /*hasResolution*/ false,
-                          /*hasElasticity*/ true};
+constexpr FamilyInfo info{
+    Coordinates::somigliana,       "somigliana", "somigliana", "Somigliana", "elastic: stretches most evenly",
+    "Chen, de Goes, Desbrun 2023",
+    /*isEverywhere*/ false,
+    /*splitsQuads*/ true,
+    /*hasResolution*/ false,
+    /*hasElasticity*/ true};
 
 } // namespace
 
