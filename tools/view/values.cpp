@@ -14,17 +14,13 @@ std::string yesNo(bool yes)
 
 } // namespace
 
-std::map<std::string, std::function<std::string()>> valuesOf(const ValueSource& source)
+std::map<std::string, std::function<std::string()>> valuesOf(const AppParts& parts)
 {
     std::map<std::string, std::function<std::string()>> list;
-    const Planner& planner = source.planner;
-    const Session& session = source.session;
+    const Planner& planner = parts.making.planner();
+    const Session& session = parts.session;
     const State& state = session.state();
-    const Posing& posing = source.posing;
-    const auto &messages = source.messages, &notes = source.notes;
-    const std::uint64_t& frames = source.frames;
-    const bool& isEnded = source.isEnded;
-    const KeyMap& keys = source.keys;
+    const Posing& posing = parts.making.posing();
     const auto number = [](double value) { return detail::numberText(value); };
     const auto check = [&](auto&& get) -> std::function<std::string()> {
         return [&planner, get] { return planner.shown() ? get(planner.shown()->report.check) : std::string("none"); };
@@ -64,9 +60,9 @@ std::map<std::string, std::function<std::string()>> valuesOf(const ValueSource& 
     list["undo"] = [&] { return session.documents().canUndo() ? session.documents().undone() : "none"; };
     list["redo"] = [&] { return session.documents().canRedo() ? session.documents().redone() : "none"; };
     list["undo-view"] = [&] { return session.views().canUndo() ? session.views().undone() : "none"; };
-    list["messages"] = [&] { return std::to_string(messages.size()); };
-    list["message"] = [&] { return messages.empty() ? "none" : messages.front(); };
-    list["note"] = [&] { return notes.empty() ? "none" : notes.back(); };
+    list["messages"] = [&] { return std::to_string(parts.messages.size()); };
+    list["message"] = [&] { return parts.messages.empty() ? "none" : parts.messages.front(); };
+    list["note"] = [&] { return parts.note.empty() ? "none" : parts.note; };
     list["error"] = [&] { return planner.error().empty() ? "none" : planner.error(); };
     list["making"] = [&] { return yesNo(!planner.isSettled()); };
     list["halted"] = [&] { return yesNo(planner.isHalted()); };
@@ -89,7 +85,7 @@ std::map<std::string, std::function<std::string()>> valuesOf(const ValueSource& 
         const std::string text = toText(SetPivot{state.view.pivot});
         return text.substr(text.find(' ') + 1);
     };
-    list["key-map"] = [&] { return keyMapNames[static_cast<std::size_t>(keys)]; };
+    list["key-map"] = [&] { return keyMapNames[static_cast<std::size_t>(parts.keys)]; };
     list["see-through"] = [&] { return state.view.seeThrough ? "on" : "off"; };
     list["mirror"] = [&] { return state.view.mirror ? std::string(1, "xyz"[state.view.mirror->axis]) : "off"; };
     list["coordinates"] = [&] { return coordinatesName(state.document.coordinates); };
@@ -122,8 +118,8 @@ std::map<std::string, std::function<std::string()>> valuesOf(const ValueSource& 
     list["axes"] = [&] { return state.view.axes ? "on" : "off"; };
     list["turntable"] = [&] { return state.view.turntable ? "on" : "off"; };
     list["section"] = [&] { return state.view.section ? "on" : "off"; };
-    list["frames"] = [&] { return std::to_string(frames); };
-    list["ended"] = [&] { return yesNo(isEnded); };
+    list["frames"] = [&] { return std::to_string(parts.screen.frames()); };
+    list["ended"] = [&] { return yesNo(parts.isEnded); };
     for (const auto& option : optionValues(state.document.options)) {
         list["option." + option.first] = [value = option.second] { return value; };
     }

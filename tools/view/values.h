@@ -1,30 +1,14 @@
 #pragma once
 
-#include <cstdint>
 #include <functional>
 #include <map>
 #include <string>
-#include <vector>
 
-#include <tools/view/files/preferences.h>
-#include <tools/view/jobs/posing.h>
-#include <tools/view/state/session.h>
+#include <tools/view/app_parts.h>
 
 namespace vdbcage::view {
 
-/// What the values that a script can expect are taken from. It must outlive them.
-struct ValueSource {
-    const Session& session;
-    const Planner& planner;
-    const Posing& posing;
-    const std::vector<std::string>& messages;
-    const std::vector<std::string>& notes;
-    const std::uint64_t& frames;
-    const bool& isEnded;
-    const KeyMap& keys;
-};
-
-/// All of them, by their names.
-std::map<std::string, std::function<std::string()>> valuesOf(const ValueSource& source);
+/// What scripts can expect, by names. The parts must outlive it.
+std::map<std::string, std::function<std::string()>> valuesOf(const AppParts& parts);
 
 } // namespace vdbcage::view

@@ -5,7 +5,7 @@
 #include <string>
 
 #include <tools/view/jobs/posing.h>
-#include <tools/view/state/line.h>
+#include <tools/view/state/commands/line.h>
 
 /// Verbs that write a file of what is made and posed, each a line (see line.h) with what it writes:
 ///

@@ -31,7 +31,7 @@ struct PanelContent {
     const Planner& planner;
     std::optional<Progress> progress;
     const std::vector<std::string>& messages; ///< the first is shown
-    const std::vector<std::string>& notes;    ///< what was done last, the newest at the end
+    const std::string& note;                  ///< what was done last; empty: nothing yet
     const std::vector<Shortcut>& shortcuts;
     const std::vector<std::filesystem::path>& recentFiles;
     std::array<openvdb::Vec3d, 3> axes{}; ///< x, y and z as seen: to the right, up, to the viewer

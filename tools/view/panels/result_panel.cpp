@@ -173,8 +173,7 @@ void buildStatusLine(const PanelContext& context)
         part(text, theme::accent);
         help("Escape stops it");
         ImGui::NewLine();
-    } else if (!context.content.notes.empty()) {
-        const std::string& note = context.content.notes.back();
+    } else if (const std::string& note = context.content.note; !note.empty()) {
         const float width = ImGui::CalcTextSize(note.c_str()).x;
         const float right = ImGui::GetWindowContentRegionMax().x - width;
         if (right > ImGui::GetCursorPosX()) ImGui::SetCursorPosX(right);

@@ -2,19 +2,20 @@
 
 #include <functional>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include <tools/view/input/input.h>
 #include <tools/view/input/key_map.h>
-#include <tools/view/picture/gizmo.h>
-#include <tools/view/picture/rectangle.h>
+#include <tools/view/picture/drags.h>
+#include <tools/view/picture/grip.h>
 #include <tools/view/picture/viewport.h>
+#include <tools/view/state/session.h>
 
 namespace vdbcage::view {
 
-/// What the pointer does in the picture, and the keys while it moves something: it turns the view, selects parts of the
-/// cage, and moves what is selected, by handles or freely. What it does is lines and commands; it changes nothing else.
+/// What the pointer does in the picture, and the keys while it moves something: it turns the view (see CameraDrag),
+/// selects parts of the cage (see Band), and moves what is selected (see Grip), by handles or freely. What it does is
+/// commands; it changes nothing else.
 class PictureControl {
 public:
     /// All of it must outlive the control.
@@ -43,17 +44,17 @@ public:
     void startBox();
 
     /// Where the pointer is, pixels of the window.
-    std::array<double, 2> pointer() const { return {x_, y_}; }
+    Pixel pointer() const { return at_; }
     /// The same where what is under way began.
-    std::array<double, 2> home() const { return {homeX_, homeY_}; }
+    Pixel home() const { return home_; }
     /// It has the pointer, wherever that goes.
-    bool isHeld() const { return held_.has_value() || (grip_ && grip_->isFree); }
+    bool isHeld() const { return held_.has_value() || (grip_ && grip_->isFree()); }
     /// The view is turned, moved or zoomed.
     bool isCameraDragged() const { return isCameraDragged_; }
     /// Something is being moved.
     bool isMoving() const { return grip_.has_value(); }
     /// Something is under way that Escape ends.
-    bool isBusy() const { return grip_ || isBoxArmed_ || !band_.empty(); }
+    bool isBusy() const { return grip_ || isBoxArmed_ || band_.isThere(); }
     /// Ends what is under way as if it had not been.
     void cancel();
 
@@ -61,46 +62,27 @@ public:
     PictureOverlay overlay() const;
 
 private:
-    /// Something that is moved.
-    struct Grip {
-        Tool tool = Tool::move;
-        Handle handle;
-        bool isFree = false; ///< begun by a key: no button is held
-        Pixel from{};
-        GizmoFrame frame;
-        openvdb::Vec3d pivot{0}; ///< world space
-        double unit = 1;         ///< world units of a drawing unit
-        std::string typed;       ///< numbers, by which the amount is set instead of by the pointer
-        bool isSnapping = false;
-    };
-
     void move(const PointerMoved& moved, const Modifiers& modifiers);
     void begin(const ButtonDown& down, const Modifiers& modifiers);
     void release(const Modifiers& modifiers);
-    void dragCamera(double dx, double dy);
+    void zoom(const WheelTurned& wheel);
     void select(const std::vector<openvdb::Index32>& ids, PickAction action);
-    std::optional<Grip> gripOf(Tool tool, const Handle& handle, bool isFree) const;
     std::optional<GizmoFrame> gizmoFrame() const;
-    double snappingStep() const;
-    Amount amount() const;
+    std::optional<Grip> gripOf(Tool tool, const Handle& handle, bool isFree) const;
     void follow();
     void finish();
-
     Pixel inPicture() const;
-    /// [-1, 1] both ways, y up.
-    std::array<double, 2> inPanel(const Pixel& at) const;
-    double aspect() const;
-    void setCamera(const draw::Camera& camera) { host_.attempt(SetCamera{camera}); }
+    /// The pointer has not moved since the button went down, but for a hand that shakes.
+    bool isStill() const;
 
     Host host_;
     MouseMap mouse_ = mouseMap(KeyMap::blender);
-    double x_ = 0, y_ = 0, homeX_ = 0, homeY_ = 0, pressedX_ = 0, pressedY_ = 0; ///< of the window
+    Pixel at_{}, home_{}, pressed_{}; ///< of the window
     std::optional<ButtonDown> held_;
     Modifiers heldWith_;
-    std::optional<DragAction> drag_; ///< what a drag of the held button does; none: nothing
+    std::optional<CameraDrag> cameraDrag_; ///< what a drag of the held button does; none: nothing to the camera
     bool isCameraDragged_ = false, isBoxArmed_ = false;
-    std::vector<Pixel> band_; ///< a box's two corners, or a lasso; empty: none
-    openvdb::Vec3d pivot_{0}; ///< of the camera
+    Band band_;
     std::optional<Grip> grip_;
     std::optional<Handle> hot_;
 };

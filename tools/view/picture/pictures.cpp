@@ -40,7 +40,7 @@ void Pictures::copyTo(GLuint framebuffer, int height) const
 {
     for (const Rectangle& place : places_) {
         const Viewport& picture = &place == &places_.front() ? first_ : *second_;
-        picture.copyTo(framebuffer, place.left, height - place.top - place.height);
+        picture.canvas().copyTo(framebuffer, place.left, height - place.top - place.height);
     }
 }
 

@@ -22,10 +22,10 @@ public:
     bool show(const Rectangle& place, Shown shown, const Follower& follower, const Follower* compared,
               const ViewState& view);
 
-    /// See Viewport.
+    /// See AveragedCanvas.
     void draw(bool isMoving);
-    bool isRefined() const { return first_.isRefined() && (!second_ || second_->isRefined()); }
-    bool isDrawn() const { return first_.isDrawn() && (!second_ || second_->isDrawn()); }
+    bool isRefined() const { return first_.canvas().isRefined() && (!second_ || second_->canvas().isRefined()); }
+    bool isDrawn() const { return first_.canvas().isDrawn() && (!second_ || second_->canvas().isDrawn()); }
     /// Copies what was drawn to a window of that height.
     void copyTo(GLuint framebuffer, int height) const;
 

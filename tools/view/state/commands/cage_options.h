@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include <tools/view/state/commands/line.h>
 #include <tools/view/state/commands/situation.h>
-#include <tools/view/state/line.h>
 #include <tools/view/state/preset.h>
 
 /// The options of the cage. Each command puts away a cage that was opened or edited: the one that they make is shown.

@@ -1,7 +1,7 @@
 #pragma once
 
+#include <tools/view/state/commands/line.h>
 #include <tools/view/state/commands/situation.h>
-#include <tools/view/state/line.h>
 
 /// How the model follows the cage.
 namespace vdbcage::view {

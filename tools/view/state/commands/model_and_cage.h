@@ -1,7 +1,7 @@
 #pragma once
 
+#include <tools/view/state/commands/line.h>
 #include <tools/view/state/commands/situation.h>
-#include <tools/view/state/line.h>
 #include <vdbcage/core/error.h>
 
 /// The model and the cage that one works on, from files.

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
+#include <tools/view/state/commands/line.h>
 #include <tools/view/state/commands/situation.h>
-#include <tools/view/state/line.h>
 #include <tools/view/state/move.h>
 
 /// What is done with the selected part of the cage: it is moved, or its faces are changed.

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <tools/view/state/line.h>
+#include <tools/view/state/commands/line.h>
 #include <tools/view/state/state.h>
 
 /// Commands that set one field of the view; each derives a struct that has info().

@@ -1,4 +1,4 @@
-#include <tools/view/state/line.h>
+#include <tools/view/state/commands/line.h>
 
 #include <vdbcage/core/detail/number_text.h>
 #include <vdbcage/core/error.h>

@@ -1,0 +1,61 @@
+#include <tools/view/app_parts.h>
+
+#include <utility>
+
+namespace vdbcage::view {
+
+AppParts::AppParts(const gl::Api& api, AppSetup given, std::function<void(const Command&)> attempt,
+                   std::function<void()> endDrag)
+    : setup(std::move(given)), making(std::move(setup.maker), std::move(setup.binding), setup.wake), saver(setup.wake),
+      widgets(setup.scale, setup.clipboard), screen(api, setup.isSoftware, widgets),
+      control({session, screen.pictures().first(), std::move(attempt), std::move(endDrag),
+               [this] { return pictureInUse(); }, double{setup.scale}})
+{
+}
+
+void AppParts::chooseKeys(KeyMap map)
+{
+    keys = map;
+    control.setMouse(mouseMap(map));
+}
+
+Rectangle AppParts::viewport() const
+{
+    return Panels::viewport(screen.width(), screen.height(), setup.scale, session.state().view.mode == Mode::pose);
+}
+
+Rectangle AppParts::pictureInUse() const
+{
+    const std::vector<Rectangle>& places = screen.pictures().places();
+    return control.home()[0] < places.back().left ? places.front() : places.back();
+}
+
+void AppParts::refresh()
+{
+    making.follow(session, {isValueDragged, control.isMoving()});
+    const Planner& planner = making.planner();
+    Shown shown;
+    shown.model = session.state().document.model;
+    shown.cage = making.cage();
+    shown.isStale = shown.cage == planner.shown() && planner.standing() == Planner::Standing::stale;
+    shown.cagePoints = making.posing().cagePoints();
+    const bool changed = screen.pictures().show(viewport(), shown, making.posing().follower(),
+                                                making.posing().compared(), session.state().view);
+    if (changed) screen.invalidate();
+    arePanelsCurrent = false;
+}
+
+void AppParts::say(const std::string& text)
+{
+    note = text;
+    screen.invalidate();
+}
+
+void AppParts::complain(const std::string& text)
+{
+    messages.push_back(text);
+    screen.invalidate();
+    refresh();
+}
+
+} // namespace vdbcage::view

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include <tools/draw/shape.h>
+#include <tools/draw/stand_in.h>
+#include <tools/view/jobs/posed_model.h>
+
+namespace vdbcage::view {
+
+/// A shape, and the thing that it was made of. It is made again only for another thing.
+struct ShapeSlot {
+    std::shared_ptr<const void> source; ///< kept, so that no other thing has its address
+    std::optional<draw::Shape> shape;   ///< none: there is nothing to be seen
+
+    /// `mesh`: of `from`; null: none. \throw DeviceError
+    void fill(const gl::Api& api, const draw::Frame& frame, const std::shared_ptr<const void>& from, const Mesh* mesh,
+              double creaseDegrees)
+    {
+        shape.reset();
+        if (mesh && faceCount(*mesh) > 0) shape.emplace(api, draw::Geometry(*mesh, frame, creaseDegrees));
+        source = from;
+    }
+};
+
+/// Values that colours of the model tell, one a point; null: none.
+using ModelValues = std::shared_ptr<const std::vector<double>>;
+
+/// The model as it is seen: at rest or posed, coloured by values, or by a stand-in for it.
+class ModelShape {
+public:
+    /// `isSoftware`: a program on the CPU draws; while something moves a stand-in is drawn for a large model.
+    ModelShape(const gl::Api& api, bool isSoftware) : api_(&api), isSoftware_(isSoftware) {}
+
+    /// Each returns whether anything changed. \throw DeviceError
+    bool show(const OpenedMeshPtr& model, const draw::Frame& frame);
+    bool pose(const OpenedMeshPtr& model, const PosedModel* posed, const draw::Frame& frame);
+    bool colour(const OpenedMeshPtr& model, const ModelValues& values);
+
+    /// All of it is forgotten, as in another frame.
+    void clear() { *this = ModelShape(*api_, isSoftware_); }
+
+    /// The model's own shape.
+    const std::optional<draw::Shape>& shape() const { return model_.shape; }
+    const std::shared_ptr<const void>& source() const { return model_.source; }
+    /// What is drawn of it: a stand-in while not all of the model is bound, or for a large one while something moves.
+    const std::optional<draw::Shape>& drawn(bool isMoving) const;
+    bool isDrawnInValues() const { return values_ && !hasOnlyStandIn_; }
+
+private:
+    const gl::Api* api_;
+    bool isSoftware_;
+    ShapeSlot model_;
+    draw::StandIn movingModel_; ///< what is drawn while something moves; empty: the model itself
+    ShapeSlot movingShape_;     ///< its shape
+    ShapeSlot bound_;           ///< the part of the model that is bound, as long as not all of it is
+    ModelValues values_;
+    std::uint64_t posedVersion_ = 0;
+    bool isPosed_ = false;        ///< the shape is not at rest
+    bool hasOnlyStandIn_ = false; ///< the model's own points are not bound yet
+};
+
+} // namespace vdbcage::view
