@@ -12,7 +12,7 @@ using vdbcage::report::RunProgress;
 namespace {
 
 /// A stage that reports evenly.
-void pass(report::RunProgress& run, const std::string& stage, double from, double seconds)
+void pass(RunProgress& run, const std::string& stage, double from, double seconds)
 {
     run.start(stage, from);
     for (int percent = 1; percent <= 100; ++percent) run.advance(percent, from + 0.01 * percent * seconds);
@@ -29,7 +29,7 @@ BOOST_AUTO_TEST_CASE(it_never_goes_back, *boost::unit_test::label("property"))
                                           "write",   "bind",     "coplanar", "smooth",   ""};
     std::mt19937 random(1);
     for (int i = 0; i < 500; ++i) {
-        report::RunProgress run;
+        RunProgress run;
         int last = 0;
         double seconds = 0;
         const auto step = [&](const auto& change) {
@@ -52,7 +52,7 @@ BOOST_AUTO_TEST_CASE(it_never_goes_back, *boost::unit_test::label("property"))
 
 BOOST_AUTO_TEST_CASE(a_run_of_one_try_goes_through_all_percent)
 {
-    report::RunProgress run;
+    RunProgress run;
     BOOST_TEST(run.percent() == 0);
     std::vector<int> at;
     for (const char* stage :
@@ -66,7 +66,7 @@ BOOST_AUTO_TEST_CASE(a_run_of_one_try_goes_through_all_percent)
 
 BOOST_AUTO_TEST_CASE(what_begins_later_begins_at_0)
 {
-    report::RunProgress saving, binding, unknown, nameless;
+    RunProgress saving, binding, unknown, nameless;
     saving.start("write", 0);
     BOOST_TEST(saving.percent() == 0);
     pass(binding, "bind", 0, 0);
@@ -77,7 +77,7 @@ BOOST_AUTO_TEST_CASE(what_begins_later_begins_at_0)
     nameless.advance(42, 1);
     BOOST_TEST(nameless.percent() == 42);
     // A stage of no share in the middle of a run.
-    report::RunProgress run;
+    RunProgress run;
     pass(run, "surface", 0, 0);
     pass(run, "tighten", 0, 0);
     const int before = run.percent();
@@ -87,7 +87,7 @@ BOOST_AUTO_TEST_CASE(what_begins_later_begins_at_0)
 
 BOOST_AUTO_TEST_CASE(another_try_shares_out_what_is_left)
 {
-    report::RunProgress run;
+    RunProgress run;
     for (const char* stage : {"read", "close", "surface", "loops"}) pass(run, stage, 0, 10);
     for (int i = 0; i < 10; ++i) {
         const int before = run.percent();
@@ -101,7 +101,7 @@ BOOST_AUTO_TEST_CASE(another_try_shares_out_what_is_left)
 
 BOOST_AUTO_TEST_CASE(time_left_is_of_the_run)
 {
-    report::RunProgress run;
+    RunProgress run;
     pass(run, "read", 0, 1);
     BOOST_TEST(!run.secondsLeft(1)); // a short stage says little
     pass(run, "surface", 1, 3);
@@ -125,7 +125,7 @@ BOOST_AUTO_TEST_CASE(time_left_is_of_the_run)
 
 BOOST_AUTO_TEST_CASE(time_left_is_counted_down_while_nothing_is_said)
 {
-    report::RunProgress run;
+    RunProgress run;
     run.start("quads", 0);
     run.advance(20, 20); // of 100 s
     const auto first = run.secondsLeft(20);

@@ -23,7 +23,7 @@ struct Fixture : AppFixture {
 
     Fixture() { run(app, {"open " + quotedWord(files[0]), "wait", "mode pose", "wait", "key 1", "see-through on"}); }
     draw::Camera camera() const { return app.session().state().view.camera; }
-    int selected() const { return std::stoi(app.value("selected")); }
+    int selected() { return std::stoi(app.value("selected")); }
     /// A drag between two shares of the picture; `button` with what is held.
     void drag(const std::string& button, const std::vector<Pixel>& places)
     {
