@@ -85,8 +85,8 @@ std::string familyNames()
 const CoordinateOptions& requireComputable(const CoordinateOptions& options)
 {
     if (options.family != Coordinates::given) return options;
-    throw InputError("coordinates: 'given' weights were made elsewhere and cannot be computed; there are " +
-                     familyNames());
+    throw InputError("coordinates",
+                     "'given' weights were made elsewhere and cannot be computed; there are " + familyNames());
 }
 
 bool isFinite(const Vec3d& p)
@@ -103,8 +103,8 @@ void requireFinite(const std::vector<Vec3d>& points, const char* what)
 {
     for (std::size_t i = 0; i < points.size(); ++i) {
         if (!isFinite(points[i])) {
-            throw InputError(std::string(what) + ": point " + std::to_string(i) + " is " + text(points[i]) +
-                             "; coordinates must be finite");
+            throw InputError(what,
+                             "point " + std::to_string(i) + " is " + text(points[i]) + "; coordinates must be finite");
         }
     }
 }
@@ -112,8 +112,7 @@ void requireFinite(const std::vector<Vec3d>& points, const char* what)
 void requireCount(const char* what, std::size_t count, std::size_t needed, const char* of)
 {
     if (count != needed) {
-        throw InputError(std::string(what) + ": it has " + std::to_string(count) + " points; " + of + " has " +
-                         std::to_string(needed));
+        throw InputError(what, "it has " + std::to_string(count) + " points; " + of + " has " + std::to_string(needed));
     }
 }
 
@@ -151,8 +150,8 @@ public:
     {
         for (const openvdb::Index32 i : options.loose.indices) {
             if (i >= points.size()) {
-                throw InputError("loose points: there is no point " + std::to_string(i) + "; there are " +
-                                 std::to_string(points.size()) + " points, counted from 0");
+                throw InputError("loose points", "there is no point " + std::to_string(i) + "; there are " +
+                                                     std::to_string(points.size()) + " points, counted from 0");
             }
             isLoose_[i] = true;
         }
@@ -180,11 +179,12 @@ public:
         const auto first = std::find(undefined_.begin(), undefined_.end(), 1);
         if (first == undefined_.end()) return;
         const auto index = static_cast<std::size_t>(first - undefined_.begin());
-        throw InputError(std::string("points: ") + family_.info.name + " coordinates are not defined at " +
-                         std::to_string(std::count(first, undefined_.end(), 1)) + " of " +
-                         std::to_string(points_.size()) + " points, first at point " + std::to_string(index) + ", " +
-                         text(points_[index]) + "; " +
-                         (family_.info.isEverywhere ? "none may be so far away" : "all must be inside of the cage"));
+        throw InputError(
+            "points", std::string(family_.info.name) + " coordinates are not defined at " +
+                          std::to_string(std::count(first, undefined_.end(), 1)) + " of " +
+                          std::to_string(points_.size()) + " points, first at point " + std::to_string(index) + ", " +
+                          text(points_[index]) + "; " +
+                          (family_.info.isEverywhere ? "none may be so far away" : "all must be inside of the cage"));
     }
 
 private:
@@ -347,8 +347,8 @@ const char* coordinatesName(Coordinates family)
 void requireElasticity(const Elasticity& elasticity)
 {
     if (!(elasticity.nu > -1 && elasticity.nu < 0.5)) {
-        throw InputError("nu: " + detail::numberText(elasticity.nu) +
-                         " is not allowed; it must be above -1 and below 0.5");
+        throw InputError("nu",
+                         detail::numberText(elasticity.nu) + " is not allowed; it must be above -1 and below 0.5");
     }
     requireWithin(Elasticity::bulgings, elasticity.localBulging, "local bulging");
     requireWithin(Elasticity::bulgings, elasticity.globalBulging, "global bulging");
@@ -364,14 +364,14 @@ Elasticity::Rotations rotationsNamed(const std::string& name)
     for (const auto rotations : {Elasticity::Rotations::global, Elasticity::Rotations::local}) {
         if (name == rotationsName(rotations)) return rotations;
     }
-    throw InputError("rotations: '" + name + "' is not allowed; it must be global or local");
+    throw InputError("rotations", "'" + name + "' is not allowed; it must be global or local");
 }
 
 LoosePoints::Motion looseMotionNamed(const std::string& name)
 {
     if (name == "ride") return LoosePoints::Motion::ride;
     if (name == "stay") return LoosePoints::Motion::stay;
-    throw InputError("loose points: '" + name + "' is not allowed; it must be ride or stay");
+    throw InputError("loose points", "'" + name + "' is not allowed; it must be ride or stay");
 }
 
 bool Elasticity::operator==(const Elasticity& other) const
@@ -385,7 +385,7 @@ Coordinates coordinatesNamed(const std::string& name)
     for (const FamilyInfo& family : coordinateFamilies()) {
         if (name == family.name || name == family.nameOnQuads) return family.family;
     }
-    throw InputError("coordinates: '" + name + "' is not a family; there are " + familyNames());
+    throw InputError("coordinates", "'" + name + "' is not a family; there are " + familyNames());
 }
 
 std::size_t handleCount(const Mesh& cage, Coordinates family)
@@ -465,7 +465,7 @@ Binding::Binding(const Mesh& cage, std::vector<Vec3d> points, const CoordinateOp
     detail::requireWeights(weights.size(), points_.size(), handles());
     if (family() == Coordinates::given) {
         const std::string problem = detail::weightsProblem(weights, handles());
-        if (!problem.empty()) throw InputError("weights: " + problem);
+        if (!problem.empty()) throw InputError("weights", problem);
     }
     weights_ = std::make_shared<detail::WeightBlocks>(
         points_, maxDistancesOf(cage_, family()),

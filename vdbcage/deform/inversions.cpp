@@ -78,8 +78,8 @@ void requirePair(const Binding& binding, const Mesh& model)
     }
     requireUsable(model, "model");
     if (model.points.size() != binding.points().size()) {
-        throw InputError("model: it has " + std::to_string(model.points.size()) + " points; the binding has " +
-                         std::to_string(binding.points().size()));
+        throw InputError("model", "it has " + std::to_string(model.points.size()) + " points; the binding has " +
+                                      std::to_string(binding.points().size()));
     }
 }
 

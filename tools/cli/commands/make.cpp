@@ -6,6 +6,7 @@
 #include <tools/cli/fingerprint.h>
 #include <tools/cli/memory_limit.h>
 #include <tools/cli/models.h>
+#include <tools/files/naming_files.h>
 #include <tools/files/stages.h>
 #include <tools/report/report.h>
 #include <tools/report/run_facts.h>
@@ -73,16 +74,12 @@ void announce(const MakeArguments& arguments, Outputs& outputs)
 /// Runs the pipeline; an objection to the model names its file.
 Pipeline makePipeline(std::vector<ModelFile>& models, const MakeArguments& arguments, Interrupter& interrupter)
 {
-    try {
+    return files::namingFiles({{"model", namesOf(models)}}, [&] {
         Pipeline pipeline(takeMesh(models));
         requireMemory(pipeline.model(), arguments.options, arguments.memoryLimit, &interrupter);
         pipeline.run(arguments.options, &interrupter);
         return pipeline;
-    } catch (const InputError& error) {
-        const std::string text = error.what(), prefix = "model: ";
-        if (text.compare(0, prefix.size(), prefix) != 0) throw;
-        throw InputError(namesOf(models) + ": " + text.substr(prefix.size()));
-    }
+    });
 }
 
 void addStages(const Pipeline& pipeline, const MakeArguments& arguments, Interrupter* interrupter, Outputs& outputs)

@@ -2,9 +2,9 @@
 #include <optional>
 #include <utility>
 
+#include <tools/files/naming_files.h>
 #include <tools/view/jobs/runner.h>
 #include <vdbcage/check/check.h>
-#include <vdbcage/core/error.h>
 #include <vdbcage/mesh/parts.h>
 
 namespace vdbcage::view {
@@ -82,13 +82,8 @@ public:
     {
         if (job.order.cage) return check(job, interrupter);
         OrderedPipeline& pipeline = job.order == previewOf(job.order) ? preview_ : full_;
-        try {
-            return pipeline.make(job, tree_, interrupter);
-        } catch (const InputError& error) { // of the pipeline, which does not know the file
-            const std::string text = error.what(), prefix = "model: ";
-            if (text.compare(0, prefix.size(), prefix) != 0) throw;
-            throw InputError(job.order.model->path.string() + ": " + text.substr(prefix.size()));
-        }
+        return files::namingFiles({{"model", job.order.model->path.string()}},
+                                  [&] { return pipeline.make(job, tree_, interrupter); });
     }
 
 private:

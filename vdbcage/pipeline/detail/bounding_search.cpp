@@ -133,8 +133,8 @@ std::optional<Candidate> BoundingSearch::findSymmetric(const Run& run, std::stri
     const double limit = isAnyAllowed ? run.options.symmetryTolerance : policy::largestRequestedDeviation;
     const std::string finding = "the model misses " + nameOf(best.plane) + " by " + percentOfSide(best.deviation);
     if (!isAnyAllowed && best.deviation > limit) {
-        throw InputError("--symmetry: '" + nameOf(best.plane) + "' is not allowed: " + finding +
-                         "; it may be at most " + detail::numberText(100 * limit) + " %");
+        throw InputError("--symmetry", "'" + nameOf(best.plane) + "' is not allowed: " + finding +
+                                           "; it may be at most " + detail::numberText(100 * limit) + " %");
     }
     if (best.deviation <= limit) {
         if (auto candidate = tightest(run, best.plane)) {

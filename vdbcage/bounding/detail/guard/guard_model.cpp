@@ -90,8 +90,8 @@ void requireValid(const Joint& joint, const openvdb::BBoxd& box)
     const auto refuse = [&](const char* why) {
         std::ostringstream text;
         text.precision(15); // as the user wrote it
-        text << "joints: the one at " << joint.place << ' ' << why;
-        throw InputError(text.str());
+        text << "the one at " << joint.place << ' ' << why;
+        throw InputError("joints", text.str());
     };
     if (!joint.place.isFinite()) refuse("is not at a finite place");
     if (!box.isInside(joint.place)) refuse("is outside of the model's bounding box; it must be inside of a limb");
@@ -113,7 +113,7 @@ GuardModel::GuardModel(const Mesh& model, const GuardOptions& options, Interrupt
     if (options.symmetry) {
         const int axis = options.symmetry->axis;
         if (axis < 0 || axis > 2) {
-            throw InputError("symmetry axis: " + std::to_string(axis) + " is not allowed; it must be 0, 1 or 2");
+            throw InputError("symmetry axis", std::to_string(axis) + " is not allowed; it must be 0, 1 or 2");
         }
         const double twice = 2 * options.symmetry->offset;
         openvdb::Vec3d low = box.min(), high = box.max();
