@@ -147,7 +147,7 @@ __attribute__((section(".preinit_array"), used)) void (*const atStart)(int, char
 
 } // namespace vdbcage::cli
 
-void vdbcage::flushOutput()
+void vdbcage::cli::flushOutput()
 {
     errno = 0;
     std::cout.flush();
