@@ -138,9 +138,9 @@ report::Json textbookRun(const Arguments& arguments, const fs::path& model, int 
                      "--close-radius", "0.0625", "--erode-radius", "0.025"});
 }
 
-double stageSeconds(const report::Json& run, const char* stage)
+double stageSeconds(const report::Json& run, StageName stage)
 {
-    return run["stage_seconds"].value(stage, 0.0);
+    return run["stage_seconds"].value(stageInfo(stage).name, 0.0);
 }
 
 Picture drawn(const std::vector<std::vector<Layer>>& panels, int columns, const View& view, int width, int height)
@@ -263,8 +263,9 @@ void addStages(Page& page, const Arguments& arguments, const std::vector<Subject
                                           secondsText(row.close)};
             if (row.plain) {
                 const report::Json& run = *row.plain;
-                line.push_back(secondsText(stageSeconds(run, "surface") + stageSeconds(run, "smooth") +
-                                           stageSeconds(run, "decimate")));
+                line.push_back(secondsText(stageSeconds(run, StageName::surface) +
+                                           stageSeconds(run, StageName::smooth) +
+                                           stageSeconds(run, StageName::decimate)));
                 line.push_back(secondsText(run["wall_seconds"]));
                 line.push_back(printed("%.0f", run["memory_peak_mib"]));
                 line.push_back(secondsText((*row.bounding)["wall_seconds"]));
@@ -489,6 +490,11 @@ void addScaling(Page& page, const Arguments& arguments, const fs::path& folder)
     page.paragraph("The creature, its triangles cut into four again and again. The voxels, the closing and the cage "
                    "are the same each time, so that what grows is reading, voxelizing, the trees over the triangles "
                    "and the certificate.");
+    const auto stages = {StageName::read,     StageName::voxelize, StageName::guard,
+                         StageName::decimate, StageName::tighten,  StageName::certify};
+    std::vector<std::string> columns{"triangles"};
+    for (const StageName stage : stages) columns.emplace_back(stageInfo(stage).name);
+    columns.insert(columns.end(), {"total", "MiB"});
     std::vector<std::vector<std::string>> rows;
     PlotSeries time{"a whole run", {}}, rest{"all but decimate, tighten", {}}, memory{"a whole run", {}};
     Mesh mesh = cli::readMesh(folder / "creature.obj");
@@ -501,20 +507,17 @@ void addScaling(Page& page, const Arguments& arguments, const fs::path& folder)
         const report::Json run = wholeRun(arguments, path, {"--resolutions", "64"});
         const auto triangles = static_cast<double>(mesh.triangles.size());
         const double seconds = run["wall_seconds"],
-                     other = seconds - stageSeconds(run, "decimate") - stageSeconds(run, "tighten");
+                     other = seconds - stageSeconds(run, StageName::decimate) - stageSeconds(run, StageName::tighten);
         time.points.push_back({triangles, seconds});
         rest.points.push_back({triangles, other});
         memory.points.push_back({triangles, run["memory_peak_mib"]});
         std::vector<std::string> row{std::to_string(mesh.triangles.size())};
-        for (const char* stage : {"read", "voxelize", "guard", "decimate", "tighten", "certify"}) {
-            row.push_back(secondsText(stageSeconds(run, stage)));
-        }
+        for (const StageName stage : stages) row.push_back(secondsText(stageSeconds(run, stage)));
         row.push_back(secondsText(seconds));
         row.push_back(printed("%.0f", run["memory_peak_mib"]));
         rows.push_back(std::move(row));
     }
-    page.table("Seconds by stage of a bounding run of 400 faces in 64 voxels, and memory in MiB.",
-               {"triangles", "read", "voxelize", "guard", "decimate", "tighten", "certify", "total", "MiB"}, rows);
+    page.table("Seconds by stage of a bounding run of 400 faces in 64 voxels, and memory in MiB.", columns, rows);
     page.plots({logPlot("Time", "triangles of the model", "seconds", {time, rest}),
                 logPlot("Memory", "triangles of the model", "MiB", {memory})},
                "Time and memory against the triangles.");

@@ -292,7 +292,7 @@ template <typename Number>
 std::vector<Number> computeRows(const Mesh& cage, const std::vector<Vec3d>& points, const CoordinateOptions& options,
                                 Interrupter* interrupter)
 {
-    const Stage stage(interrupter, "bind");
+    const Stage stage(interrupter, StageName::bind);
     RowMaker maker(cage, points, options, interrupter);
     std::vector<Number> rows;
     const std::size_t count = points.size() * handleCount(cage, options.family);
@@ -442,7 +442,7 @@ Binding::Binding(const Mesh& cage, std::vector<Vec3d> points, const CoordinateOp
                  Interrupter* interrupter)
     : cage_(cage), points_(std::move(points)), options_(options)
 {
-    const Stage stage(interrupter, "bind");
+    const Stage stage(interrupter, StageName::bind);
     RowMaker maker(cage_, points_, options_, interrupter);
     restHandles_ = cageHandles(cage_, cage_.points, options_);
     weights_ = std::make_shared<detail::WeightBlocks>(

@@ -174,7 +174,7 @@ std::string makeFiles(const MakeArguments& arguments, const std::string& inputs,
     const auto began = std::chrono::steady_clock::now();
     StageClock clock(&interrupter);
 
-    std::optional<Stage> reading(std::in_place, &clock, "read");
+    std::optional<Stage> reading(std::in_place, &clock, StageName::read);
     std::vector<ModelFile> models =
         readModels(arguments.models, arguments.report.empty() ? Hashes::none : Hashes::sha256);
     reading.reset();
@@ -183,7 +183,7 @@ std::string makeFiles(const MakeArguments& arguments, const std::string& inputs,
     const Mesh& cage = pipeline.cage();
     checkEach(models, cage, pipeline.report().leastPartSide, &clock);
 
-    std::optional<Stage> writing(std::in_place, &clock, "write");
+    std::optional<Stage> writing(std::in_place, &clock, StageName::write);
     // All work first: while files are waiting a signal has to wait for work.
     const std::string picture = arguments.picture.empty() ? std::string() : encodePng(drawCage(pipeline.model(), cage));
     if (!arguments.stages.empty()) addStages(pipeline, arguments, &clock, outputs);

@@ -33,7 +33,7 @@ using Points = std::vector<openvdb::Vec3d>;
 template <class Write>
 void saveFrames(PosedScene& scene, const fs::path& path, Interrupter* interrupter, const Write& write)
 {
-    const Stage stage(interrupter, "write");
+    const Stage stage(interrupter, StageName::write);
     PendingFiles files;
     for (int frame = scene.first; frame <= scene.last; ++frame) {
         throwIfInterrupted(interrupter, 100 * (frame - scene.first) / (scene.last - scene.first + 1));

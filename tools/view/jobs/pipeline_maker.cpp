@@ -61,7 +61,7 @@ public:
         }
         // They may be asked for when the cage is made already.
         if (job.intermediates && !done_->intermediates) {
-            const Stage stage(&interrupter, "layers");
+            const Stage stage(&interrupter, StageName::layers);
             CageResult result = *done_;
             result.intermediates = std::make_shared<const Intermediates>(
                 intermediatesOf(*pipeline_, trees.of(order.model, interrupter), &interrupter));
@@ -98,7 +98,7 @@ private:
         const double leastPart = order.options.leastPart;
         if (!checker_ || checked_ != order.model || checkedLeastPart_ != leastPart) {
             checker_.reset();
-            const Stage stage(&clock, "guard");
+            const Stage stage(&clock, StageName::guard);
             const Mesh& model = order.model->mesh;
             checker_ =
                 leastPart > 0 ? CageChecker(largeParts(model, leastPart).mesh, &clock) : CageChecker(model, &clock);
@@ -106,7 +106,7 @@ private:
             checkedLeastPart_ = leastPart;
         }
         {
-            const Stage stage(&clock, "certify");
+            const Stage stage(&clock, StageName::certify);
             result.report.check = checker_->check(result.cage, {}, &clock);
         }
         if (job.intermediates) {

@@ -60,7 +60,7 @@ std::shared_ptr<const Binding> bindingOf(const BindOrder& order, Interrupter* in
 
 BoundModelPtr boundCoarsely(const BindOrder& order, Interrupter* interrupter)
 {
-    const Stage stage(interrupter, "bind coarsely");
+    const Stage stage(interrupter, StageName::bindCoarsely);
     const Mesh& model = order.model->mesh;
     BoundModel bound;
     bound.order = order;
@@ -75,7 +75,7 @@ BoundModelPtr boundCoarsely(const BindOrder& order, Interrupter* interrupter)
 
 BoundModelPtr boundWhole(const BoundModel& coarse, Interrupter* interrupter)
 {
-    const Stage stage(interrupter, "bind");
+    const Stage stage(interrupter, StageName::bind);
     BoundModel bound = coarse;
     bound.whole = bindingOf(bound.order, interrupter);
     return std::make_shared<const BoundModel>(std::move(bound));

@@ -31,7 +31,7 @@ namespace {
 
 /// Side by side. \throw Cancelled
 template <typename Change>
-void forEach(std::vector<Candidate>& candidates, Interrupter* interrupter, const char* name, const Change& change)
+void forEach(std::vector<Candidate>& candidates, Interrupter* interrupter, StageName name, const Change& change)
 {
     const Stage stage(interrupter, name);
     StagesSideBySide pieces(interrupter, std::vector<double>(candidates.size(), 1.0));
@@ -163,7 +163,7 @@ std::optional<Candidate> BoundingSearch::findTilted(const Run& run, std::string&
     const bool isPlaced = varies(options.scale) || varies(options.density) || !options.joints.list.empty();
     if (isPlaced || longestSide(boundingBox(model_)) < policy::leastTurnedSide) return std::nullopt;
     if (!tilted_) {
-        const Stage stage(run.interrupter, "symmetry");
+        const Stage stage(run.interrupter, StageName::symmetry);
         tilted_ = std::make_unique<TiltedSearch>(model_, bestTiltedSymmetry(model_, run.interrupter), certifier_);
     }
     const double deviation = tilted_->plane().deviation;
@@ -187,7 +187,7 @@ const Symmetry& BoundingSearch::planeFor(const Run& run)
 {
     const CageSymmetry wanted = run.options.symmetry;
     if (wanted == soughtSymmetry_) return symmetry_;
-    const Stage stage(run.interrupter, "symmetry");
+    const Stage stage(run.interrupter, StageName::symmetry);
     if (wanted == CageSymmetry::automatic) {
         constexpr double any =
             std::numeric_limits<double>::infinity(); // of a model too large for doubles there is none
@@ -208,7 +208,7 @@ const BoundingGuard& BoundingSearch::guardFor(const Run& run, const std::optiona
         options.minAngleDegrees != guardOptions_.minAngleDegrees || options.spacing != guardOptions_.spacing ||
         !(run.density == density_) || options.joints != guardOptions_.joints ||
         options.jointDensity != guardOptions_.jointDensity || !(plane == guardOptions_.symmetry)) {
-        const Stage stage(run.interrupter, "guard");
+        const Stage stage(run.interrupter, StageName::guard);
         starts_.clear(); // they are under the guard
         axes_.reset();
         turned_.reset();
@@ -433,13 +433,13 @@ std::optional<Candidate> BoundingSearch::shrinkOnto(const Run& run, Candidates s
     }
     keepAtMost(static_cast<std::size_t>(options.faces), &Candidate::cage, starts);
     if (const int sweeps = smoothing(options); sweeps > 0) {
-        forEach(starts, run.interrupter, "smooth", [&](Candidate& candidate, Interrupter* piece) {
+        forEach(starts, run.interrupter, StageName::smooth, [&](Candidate& candidate, Interrupter* piece) {
             candidate.cage = smooth(candidate.cage, guard, {sweeps}, piece);
         });
     }
     for (Candidate& candidate : starts) candidate.smoothed = candidate.cage;
     if (options.mesh == CageFaces::triangles) {
-        const Stage stage(run.interrupter, "coplanar");
+        const Stage stage(run.interrupter, StageName::coplanar);
         for (Candidate& candidate : starts) {
             candidate.cage = bendNearCoplanarEdges(candidate.cage, guard, run.interrupter);
         }
@@ -449,7 +449,7 @@ std::optional<Candidate> BoundingSearch::shrinkOnto(const Run& run, Candidates s
 
 /// Those whose surfaces are large one after the other, then the others side by side. \throw Cancelled
 template <typename Change>
-void BoundingSearch::forEachSurface(Candidates& candidates, Interrupter* interrupter, const char* name,
+void BoundingSearch::forEachSurface(Candidates& candidates, Interrupter* interrupter, StageName name,
                                     const Change& change) const
 {
     const Stage stage(interrupter, name);
@@ -472,7 +472,7 @@ void BoundingSearch::collapseLoops(const Run& run, Candidates& starts, const Bou
     options.faces = static_cast<std::size_t>(run.options.faces);
     options.tightening = tightenOptions(run.options.effort);
     options.exchanges = loopExchanges(run.options.effort);
-    forEachSurface(starts, run.interrupter, "loops", [&](Candidate& candidate, Interrupter* piece) {
+    forEachSurface(starts, run.interrupter, StageName::loops, [&](Candidate& candidate, Interrupter* piece) {
         candidate.cage = quadLoops(*candidate.surface, guard, options, piece);
         candidate.decimated = candidate.cage;
     });
@@ -496,7 +496,7 @@ void BoundingSearch::decimateAndTighten(const Run& run, Candidates& starts, cons
         const bool isSimple = candidate.start == CageStart::orientedBox || candidate.start == CageStart::tetrahedron;
         return isSimple && surface.triangles.size() + (onlyTriangles ? 2 : 1) * surface.quads.size() <= faces;
     };
-    forEachSurface(starts, interrupter, "decimate", [&](Candidate& candidate, Interrupter* piece) {
+    forEachSurface(starts, interrupter, StageName::decimate, [&](Candidate& candidate, Interrupter* piece) {
         const Mesh& surface = *candidate.surface;
         if (isCage(candidate)) {
             candidate.decimated = onlyTriangles ? triangulated(surface) : surface;
@@ -515,7 +515,7 @@ void BoundingSearch::decimateAndTighten(const Run& run, Candidates& starts, cons
     TightenOptions tightening = tightenOptions(options.effort);
     if (guard.symmetry()) tightening.perturbations *= policy::symmetricPerturbations;
     if (onlyTriangles) {
-        forEach(starts, interrupter, "tighten", [&](Candidate& candidate, Interrupter* piece) {
+        forEach(starts, interrupter, StageName::tighten, [&](Candidate& candidate, Interrupter* piece) {
             candidate.cage = withoutPeaks(tighten(candidate.decimated, guard, tightening, piece), guard, piece);
         });
     } else {
@@ -525,7 +525,7 @@ void BoundingSearch::decimateAndTighten(const Run& run, Candidates& starts, cons
         pairing.quadShape = options.quadShape;
         if (options.mesh == CageFaces::quads) pairing.quads = policy::mostlyQuads;
         pairing.tightening = tightening;
-        forEach(starts, interrupter, "quads", [&](Candidate& candidate, Interrupter* piece) {
+        forEach(starts, interrupter, StageName::quads, [&](Candidate& candidate, Interrupter* piece) {
             const Mesh& decimated = candidate.decimated;
             candidate.cage = isCage(candidate) ? tighten(decimated, guard, tightening, piece)
                                                : triquad(decimated, guard, pairing, piece);

@@ -76,7 +76,7 @@ private:
     void decimateAndTighten(const Run& run, Candidates& starts, const BoundingGuard& guard) const;
     bool isLarge(const Candidate& candidate) const { return faceCount(*candidate.surface) > largeSurface_; }
     template <typename Change>
-    void forEachSurface(Candidates& candidates, Interrupter* interrupter, const char* name, const Change& change) const;
+    void forEachSurface(Candidates& candidates, Interrupter* interrupter, StageName name, const Change& change) const;
     std::optional<Candidate> tightestCertified(const Run& run, Candidates candidates, const BoundingGuard& guard);
     Candidate box(const Run& run, const BoundingGuard& guard);
 

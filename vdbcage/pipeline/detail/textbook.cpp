@@ -29,13 +29,13 @@ Candidate textbookCage(const CageOptions& options, const ScaleVersion& scale, Vo
     candidate.closing->surface.reset();
     candidate.topology = analyzeTopology(*candidate.surface, interrupter);
     {
-        const Stage stage(interrupter, "smooth");
+        const Stage stage(interrupter, StageName::smooth);
         SmoothOptions smoothing;
         smoothing.iterations = detail::smoothing(options);
         candidate.smoothed = smooth(*candidate.surface, smoothing, interrupter);
     }
     {
-        const Stage stage(interrupter, "decimate");
+        const Stage stage(interrupter, StageName::decimate);
         DecimateOptions target;
         target.faces = static_cast<std::size_t>(options.faces);
         candidate.decimated = certifier.rounded(decimate(candidate.smoothed, target, interrupter), options.precision);

@@ -106,7 +106,7 @@ ClosingKey closingKey(const CageOptions& options, const ScaleVersion& scale, con
 const std::shared_ptr<const Mesh>& surfaceOf(Closing& closing, Interrupter* interrupter)
 {
     if (!closing.surface) {
-        const Stage stage(interrupter, "surface");
+        const Stage stage(interrupter, StageName::surface);
         closing.surface = std::make_shared<const Mesh>(extractSurface(*closing.mask, interrupter));
     }
     return closing.surface;
@@ -122,7 +122,7 @@ std::shared_ptr<const Solid> Volumes::solid(const SolidKey& key, Interrupter* in
     if (solid_ && solid_->key == key) return solid_;
     closing_.reset(); // before more memory is taken
     solid_.reset();
-    const Stage stage(interrupter, "voxelize");
+    const Stage stage(interrupter, StageName::voxelize);
     VoxelizeOptions voxelization;
     voxelization.resolution = key.resolution;
     voxelization.voxelizer = key.voxelizer;
@@ -149,7 +149,7 @@ std::shared_ptr<Closing> Volumes::closing(const CageOptions& options, const Scal
     made->key = key;
     made->solid = solid(key.solid, interrupter);
     closing_.reset();
-    const Stage stage(interrupter, "close");
+    const Stage stage(interrupter, StageName::close);
     CloseOptions closing;
     closing.closeRadiusVoxels = key.closeRadius * voxels.resolution;
     closing.erodeRadiusVoxels = key.erodeRadius * voxels.resolution;
