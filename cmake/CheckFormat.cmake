@@ -2,7 +2,7 @@
 cmake_minimum_required(VERSION 3.25)
 get_filename_component(root ${CMAKE_CURRENT_LIST_DIR}/.. ABSOLUTE)
 file(GLOB_RECURSE files ${root}/vdbcage/*.h ${root}/vdbcage/*.cpp ${root}/tools/*.h ${root}/tools/*.cpp
-    ${root}/tests/*.h ${root}/tests/*.cpp)
+    ${root}/tests/*.h ${root}/tests/*.cpp ${root}/examples/*.cpp)
 list(LENGTH files count)
 if(count LESS 20)
     message(FATAL_ERROR "only ${count} files were found below ${root}")

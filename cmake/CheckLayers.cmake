@@ -50,7 +50,7 @@ set(ofInstructionSets "^vdbcage/deform/detail/kernels/(lanes\\.h|kernel_cage\\.h
 set(problems "")
 set(checked 0)
 file(GLOB_RECURSE files RELATIVE ${root} ${root}/vdbcage/*.h ${root}/vdbcage/*.cpp ${root}/tools/*.h ${root}/tools/*.cpp
-    ${root}/tests/*.h ${root}/tests/*.cpp)
+    ${root}/tests/*.h ${root}/tests/*.cpp ${root}/examples/*.cpp)
 foreach(file IN LISTS files)
     math(EXPR checked "${checked} + 1")
     file(STRINGS ${root}/${file} lines REGEX "^#[ ]*include")
@@ -101,10 +101,10 @@ foreach(file IN LISTS files)
             if(NOT other STREQUAL room AND NOT floor_${other} LESS floor_${room})
                 list(APPEND problems "${file}: ${room} must not include ${header}")
             endif()
-            if(file MATCHES "^vdbcage/[a-z]+/[a-z_]+\\.h$" AND NOT room MATCHES "^(geometry|gl)$" AND
-               header MATCHES "/detail/|^vdbcage/(geometry|gl|mesh/io)/")
-                list(APPEND problems "${file}: a public header includes the private ${header}")
-            endif()
+        endif()
+        if(header MATCHES "/detail/|^vdbcage/(geometry|gl|mesh/io)/" AND
+           (file MATCHES "^examples/" OR (file MATCHES "^vdbcage/[a-z]+/[a-z_]+\\.h$" AND NOT room MATCHES "^(geometry|gl)$")))
+            list(APPEND problems "${file}: a public header or an example includes the private ${header}")
         endif()
         foreach(rule IN LISTS confined)
             string(FIND "${rule}" "|" bar)

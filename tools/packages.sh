@@ -12,8 +12,9 @@ packages=(
     libimgui-dev libglfw3-dev fonts-inter pkg-config                           # the window
     python3-dev python3-numpy pybind11-dev                                     # the Python module
 )
+quick_test_packages=(libboost-test-dev)
 test_packages=(
-    libboost-test-dev
+    "${quick_test_packages[@]}"
     clang-format   # formatting is a test
     mandoc zsh fish # manual pages and completions
     doxygen        # the reference of the library, where every public name has a comment
@@ -39,12 +40,18 @@ forky | sid) ;;
 *) echo "This system is not known (Debian 12, 13 and sid are): names of packages may differ; INSTALL.md says what is needed." >&2 ;;
 esac
 
+# missing_packages NAME...: prints those that are not installed.
+missing_packages() {
+    local name
+    for name in "$@"; do
+        dpkg-query -W -f='${Status}' "$name" 2>/dev/null | grep -q 'ok installed' || echo "$name"
+    done
+}
+
 # install_packages NAME...: by apt-get, as root or through sudo; silent and quick when nothing is missing.
 install_packages() {
-    local missing=() name
-    for name in "$@"; do
-        dpkg-query -W -f='${Status}' "$name" 2>/dev/null | grep -q 'ok installed' || missing+=("$name")
-    done
+    local missing
+    mapfile -t missing < <(missing_packages "$@")
     [ ${#missing[@]} -eq 0 ] && return 0
     if ! command -v apt-get >/dev/null; then
         echo "There is no apt-get here to install: ${missing[*]}" >&2

@@ -21,6 +21,7 @@
 #include <vdbcage/core/interrupter.h>
 #include <vdbcage/core/precision.h>
 #include <vdbcage/core/range.h>
+#include <vdbcage/core/stages.h>
 #include <vdbcage/core/version.h>
 #include <vdbcage/deform/binding.h>
 #include <vdbcage/deform/coordinates.h>

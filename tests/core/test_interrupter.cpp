@@ -1,5 +1,6 @@
 #include <boost/test/unit_test.hpp>
 
+#include <type_traits>
 #include <vector>
 
 #include <vdbcage/core/detail/stage_parts.h>
@@ -18,6 +19,8 @@ struct Recorder : Interrupter {
     bool stop = false;
 };
 
+static_assert(!std::is_constructible_v<Stage, Interrupter*, const char*>, "a stage has a row in stageTable");
+
 } // namespace
 
 BOOST_AUTO_TEST_SUITE(interrupter)
@@ -25,35 +28,35 @@ BOOST_AUTO_TEST_SUITE(interrupter)
 BOOST_AUTO_TEST_CASE(null_is_nobody_watching)
 {
     BOOST_CHECK_NO_THROW(throwIfInterrupted(nullptr));
-    BOOST_CHECK_NO_THROW(Stage(nullptr, "a"));
+    BOOST_CHECK_NO_THROW(Stage(nullptr, StageName::read));
 }
 
 BOOST_AUTO_TEST_CASE(stages_are_bracketed_also_by_exceptions)
 {
     Recorder recorder;
     {
-        const Stage stage(&recorder, "a");
+        const Stage stage(&recorder, StageName::read);
     }
     try {
-        const Stage stage(&recorder, "b");
+        const Stage stage(&recorder, StageName::checkThePose);
         recorder.stop = true;
         throwIfInterrupted(&recorder, 50);
         BOOST_ERROR("not cancelled");
     } catch (const Cancelled&) {
     }
-    BOOST_CHECK_THROW(Stage(&recorder, "c"), Cancelled);
-    BOOST_TEST(recorder.log == "<a><b>");
+    BOOST_CHECK_THROW(Stage(&recorder, StageName::write), Cancelled);
+    BOOST_TEST(recorder.log == "<read><check the pose>");
 }
 
 BOOST_AUTO_TEST_CASE(the_clock_lists_each_stage_once_and_passes_everything_on)
 {
     Recorder recorder;
     StageClock clock(&recorder);
-    for (const char* name : {"a", "b", "a"}) const Stage stage(&clock, name);
-    BOOST_TEST(recorder.log == "<a><b><a>");
+    for (const StageName name : {StageName::read, StageName::bind, StageName::read}) const Stage stage(&clock, name);
+    BOOST_TEST(recorder.log == "<read><bind><read>");
     BOOST_REQUIRE(clock.stages().size() == 2U);
-    BOOST_TEST(clock.stages()[0].name == "a");
-    BOOST_TEST(clock.stages()[1].name == "b");
+    BOOST_TEST(clock.stages()[0].name == "read");
+    BOOST_TEST(clock.stages()[1].name == "bind");
     BOOST_TEST(!clock.wasInterrupted());
     recorder.stop = true;
     BOOST_TEST(clock.wasInterrupted());
@@ -64,7 +67,7 @@ BOOST_AUTO_TEST_CASE(the_clock_counts_work_as_cpu_time)
     StageClock clock;
     constexpr double least = 0.01; // seconds
     for (int i = 0; i < 2; ++i) {
-        const Stage stage(&clock, "work");
+        const Stage stage(&clock, StageName::bind);
         const std::clock_t until = std::clock() + static_cast<std::clock_t>(least * CLOCKS_PER_SEC);
         while (std::clock() < until) {
         }

@@ -1,7 +1,7 @@
 cmake_minimum_required(VERSION 3.25)
 include(${CMAKE_CURRENT_LIST_DIR}/../support/run.cmake)
 set(work ${build}/install_${kind})
-file(REMOVE_RECURSE ${work}/prefix ${work}/consumer)
+file(REMOVE_RECURSE ${work}/prefix ${work}/examples)
 
 set(library ${build})
 if(kind STREQUAL "shared")
@@ -39,10 +39,10 @@ file(GLOB_RECURSE private ${work}/prefix/include/*/detail/* ${work}/prefix/inclu
 if(private)
     message(FATAL_ERROR "private headers were installed: ${private}")
 endif()
-run(${CMAKE_COMMAND} -S ${source}/tests/install/consumer -B ${work}/consumer -G Ninja -DCMAKE_BUILD_TYPE=Release
-    -DCMAKE_PREFIX_PATH=${work}/prefix -DCMAKE_CXX_COMPILER=${compiler})
-run(${CMAKE_COMMAND} --build ${work}/consumer)
-run(${work}/consumer/consumer ${source}/data/bishop.obj ${work}/cage.obj)
+run(${CMAKE_COMMAND} -S ${source}/examples -B ${work}/examples -G Ninja -DCMAKE_BUILD_TYPE=Release
+    -DCMAKE_PREFIX_PATH=${work}/prefix -DCMAKE_CXX_COMPILER=${compiler} -DCMAKE_CXX_COMPILER_LAUNCHER=${launcher})
+run(${CMAKE_COMMAND} --build ${work}/examples)
+run(${CMAKE_CTEST_COMMAND} --test-dir ${work}/examples --output-on-failure --no-tests=error)
 
 file(GLOB folder ${work}/prefix/lib*/pkgconfig ${work}/prefix/lib*/*/pkgconfig)
 set(ENV{PKG_CONFIG_PATH} ${folder})
@@ -53,7 +53,7 @@ if(kind STREQUAL "static")
 endif()
 execute_process(COMMAND pkg-config ${flags} vdbcage OUTPUT_VARIABLE flags COMMAND_ERROR_IS_FATAL ANY)
 separate_arguments(flags UNIX_COMMAND "${flags}")
-run(${launcher} ${compiler} -c ${source}/tests/install/consumer/main.cpp -o ${work}/by_pkg_config.o ${flags})
+run(${launcher} ${compiler} -c ${source}/examples/cage.cpp -o ${work}/by_pkg_config.o ${flags})
 run(${compiler} ${work}/by_pkg_config.o -o ${work}/by_pkg_config ${flags})
 run(${work}/by_pkg_config ${source}/data/bishop.obj ${work}/cage.obj)
 unset(ENV{LD_LIBRARY_PATH})
@@ -61,6 +61,7 @@ unset(ENV{LD_LIBRARY_PATH})
 if(kind STREQUAL "shared" AND tools) # programs and the module find the library from where they are
     run(${work}/prefix/bin/vdbcage check ${work}/cage.obj ${source}/data/bishop.obj)
     if(python)
-        run(${CMAKE_COMMAND} -E env PYTHONPATH=${work}/prefix/lib/python3/dist-packages /usr/bin/python3 -c "import vdbcage")
+        run(${CMAKE_COMMAND} -E env PYTHONPATH=${work}/prefix/lib/python3/dist-packages /usr/bin/python3
+            ${source}/examples/twist.py ${source}/data/bishop.obj ${work}/twisted.obj)
     endif()
 endif()

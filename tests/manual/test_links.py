@@ -62,10 +62,10 @@ class Links(unittest.TestCase):
         pages = [*INSTALLED.glob("**/*.md")]
         self.assertEqual(len(pages), len([*SOURCE.glob("docs/**/*.md")]) + 1)
         pictures = {INSTALLED / "docs" / path.name for path in SOURCE.glob("docs/pictures/*.png")}
-        missing = {target for page in pages for target, file, _ in links(page)
+        missing = {file.resolve().relative_to(INSTALLED.resolve()) for page in pages for _, file, _ in links(page)
                    if not file.exists() and file not in pictures}
-        self.assertEqual(missing, {"CHANGELOG.md", "CITATION.cff", "CONTRIBUTING.md", "../CONTRIBUTING.md",
-                                   "../CONTRIBUTING.md#figures", "../data/README.md", "../tests/models/walk.cpp"})
+        self.assertEqual({path.parts[0] for path in missing},
+                         {"CHANGELOG.md", "CITATION.cff", "CONTRIBUTING.md", "data", "examples", "tests"})
 
 
 if __name__ == "__main__":

@@ -109,6 +109,13 @@ class Source:
         words = [re.escape(piece) for piece in pieces if is_text(piece) and re.search("[a-z]{2}", piece)]
         return VALUE + "".join(word + VALUE for word in words)
 
+    def message(self, arguments):
+        """The pattern of an error's text: it has a subject, if two arguments are given."""
+        subject, *problem = split(arguments, {","})
+        if not problem:
+            return self.pattern(subject)
+        return self.pattern(subject, False) + re.escape(": ") + self.pattern(arguments[len(subject) + 1:])
+
     def put_into(self, name, before):
         """What was put into the local string or stream `name` since it was declared."""
         end = next((i for i, (_, at) in enumerate(self.tokens) if at >= before), len(self.tokens))
@@ -200,12 +207,12 @@ class Sources:
         parts = [source.pattern(said) for said, _ in source.returned(RETURNS_PART)]
         parts = [text for text in parts if has_words(text)]
         self.parts += parts
-        for said, at in source.calls(ERRORS):
-            text = source.pattern(said)
+        errors = [(source.message(said), at) for said, at in source.calls(ERRORS)]
+        for text, _ in errors:
             if SLOT not in text and not has_words(text):
                 self.wordless.add(source.name)
-        for said, at in [*source.calls(ERRORS | HELPERS), *source.returned(RETURNS_TEXT)]:
-            text = source.pattern(said)
+        others = [*source.calls(HELPERS), *source.returned(RETURNS_TEXT)]
+        for text, at in errors + [(source.pattern(said), at) for said, at in others]:
             if SLOT in text:
                 self.wrappers.append(Thrown(f"{source.name}:{source.line(at)}", text))
             elif has_words(text) and text not in parts:

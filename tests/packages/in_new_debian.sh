@@ -36,10 +36,10 @@ apt-get install -y -q --no-install-recommends g++ cmake make pkg-config
 satisfy "$library"_*.deb libvdbcage-dev_*.deb
 files > /tmp/before_development
 dpkg -i "$library"_*.deb libvdbcage-dev_*.deb
-cmake -S consumer -B /tmp/consumer -DCMAKE_BUILD_TYPE=Release
-cmake --build /tmp/consumer
-/tmp/consumer/consumer bishop.obj /tmp/cage.obj
-g++ consumer/main.cpp -o /tmp/by_pkg_config $(pkg-config --cflags --libs vdbcage)
+cmake -S examples -B /tmp/examples -DCMAKE_BUILD_TYPE=Release
+cmake --build /tmp/examples --target example_cage
+/tmp/examples/example_cage bishop.obj /tmp/cage.obj
+g++ examples/cage.cpp -o /tmp/by_pkg_config $(pkg-config --cflags --libs vdbcage)
 /tmp/by_pkg_config bishop.obj /tmp/cage.obj
 
 dpkg --purge libvdbcage-dev $library

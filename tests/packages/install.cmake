@@ -23,7 +23,7 @@ list(JOIN settings ";\n" settings)
 file(WRITE ${work}/apt.conf "${settings};\n")
 
 file(GLOB packages ${build}/packages/*.deb)
-file(COPY ${packages} ${source}/data/bishop.obj ${source}/tests/install/consumer
+file(COPY ${packages} ${source}/data/bishop.obj ${source}/examples
     ${CMAKE_CURRENT_LIST_DIR}/in_new_debian.sh DESTINATION ${work}/input)
 # Who is not root makes a system in a name space of its own, or where there is none, as root through sudo.
 set(asRoot)

@@ -4,6 +4,7 @@ import hashlib
 import json
 import os
 import pathlib
+import re
 import shutil
 import subprocess
 import tempfile
@@ -193,6 +194,14 @@ class Reports(unittest.TestCase):
         parts = {name: part for name, part in SCHEMA["$defs"].items() if name != "options"}
         for name in properties(parts) - {"name"}:
             self.assertIn(f"`{name}`", page, name)
+
+    def test_the_page_has_every_stage(self):
+        header = (SOURCE / "vdbcage" / "core" / "stages.h").read_text()
+        page = (SOURCE / "docs/user/REPORT.md").read_text().split("## Stages\n")[1].split("\n## ")[0]
+        stages = re.findall(r'{StageName::\w+, "([^"]+)"', header)
+        self.assertEqual(re.findall(r"^\| `([^`]+)` \|", page, re.MULTILINE), stages)
+        report = self.run_command("make", "box.obj", "-o", "cage.obj")
+        self.assertLessEqual({stage["name"] for stage in report["stages"]}, set(stages))
 
     def test_the_schema_itself(self):
         jsonschema.Draft202012Validator.check_schema(SCHEMA)

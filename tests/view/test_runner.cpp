@@ -33,7 +33,7 @@ public:
 
     CageResultPtr make(const Job& job, Interrupter& interrupter) override
     {
-        const Stage stage(&interrupter, "fake");
+        const Stage stage(&interrupter, StageName::loops);
         while (!mayEnd_) {
             throwIfInterrupted(&interrupter, 50);
             std::this_thread::yield();
@@ -97,7 +97,7 @@ BOOST_AUTO_TEST_CASE(a_run_that_never_ends_is_cancelled)
 {
     mayEnd = false;
     runner.want(orderOf(model, 100), false);
-    for (std::string stage; stage != "fake";) stage = runner.progress()->stage;
+    for (std::string stage; stage != "loops";) stage = runner.progress()->stage;
     runner.cancel();
     settle(runner);
     BOOST_TEST(made == 0);

@@ -43,7 +43,7 @@ void addCageOptions(CLI::App& app, const std::vector<std::string>& except, CageO
 
 void requirePositive(const char* option, int count)
 {
-    if (count < 1) throw InputError(std::string(option) + ": " + std::to_string(count) + " is not allowed; at least 1");
+    if (count < 1) throw InputError(option, std::to_string(count) + " is not allowed; at least 1");
 }
 
 Json usage()

@@ -48,7 +48,7 @@ Json decimated(const Mesh& model, int faces)
     StageClock clock;
     DecimateOptions target;
     target.faces = static_cast<std::size_t>(faces);
-    std::optional<Stage> decimating(std::in_place, &clock, "decimate");
+    std::optional<Stage> decimating(std::in_place, &clock, StageName::decimate);
     Mesh plain;
     try {
         plain = decimate(model, target);
@@ -67,7 +67,7 @@ Json measure(const std::string& model, int copy, const std::string& effort, Cage
     setOption(options, "effort", effort);
     StageClock clock;
     const double began = costSoFar().wallSeconds;
-    std::optional<Stage> reading(std::in_place, &clock, "read");
+    std::optional<Stage> reading(std::in_place, &clock, StageName::read);
     Mesh mesh = readMesh(model);
     reading.reset();
     Pipeline pipeline(copyOf(std::move(mesh), copy));

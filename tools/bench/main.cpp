@@ -22,7 +22,7 @@ int main(int argc, char** argv)
 #ifdef VDBCAGE_HAS_VIEW
             return bench::runView(argc, argv);
 #else
-            throw InputError("view: this build was made without the window (VDBCAGE_BUILD_VIEW)");
+            throw InputError("view", "this build was made without the window (VDBCAGE_BUILD_VIEW)");
 #endif
         }
         return bench::runStages(argc, argv);

@@ -19,7 +19,7 @@ void measure(const std::string& model, int threads, const CageOptions& options)
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
     StageClock clock;
     const double began = costSoFar().wallSeconds;
-    std::optional<Stage> reading(std::in_place, &clock, "read");
+    std::optional<Stage> reading(std::in_place, &clock, StageName::read);
     Mesh mesh = readMesh(model);
     reading.reset();
     Pipeline pipeline(std::move(mesh));

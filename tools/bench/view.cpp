@@ -269,7 +269,7 @@ int runView(int argc, char** argv)
     cli.add_option("--cancels", cancels, "of each effort, at random moments [8]")->type_name("N");
     CLI11_PARSE(cli, argc - 1, argv + 1);
     requirePositive("--cancels", cancels);
-    if (!(seconds > 0 && seconds <= 600)) throw InputError("--seconds: it must be above 0 and at most 600");
+    if (!(seconds > 0 && seconds <= 600)) throw InputError("--seconds", "it must be above 0 and at most 600");
 
     const auto began = Clock::now();
     const gl::OffscreenContext context;

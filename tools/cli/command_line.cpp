@@ -128,9 +128,9 @@ const CLI::Option* optionOf(const CLI::App& app, const CLI::ParseError& error)
     }
     const std::string given = "'" + option->results().front() + "'";
     if (option->get_type_name() == "N") {
-        throw InputError(name + ": " + given + " is not allowed; it must be a whole number");
+        throw InputError(name, given + " is not allowed; it must be a whole number");
     }
-    throw InputError(name + ": " + given + " is not allowed; it must be a number");
+    throw InputError(name, given + " is not allowed; it must be a number");
 }
 
 } // namespace

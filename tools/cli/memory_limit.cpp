@@ -102,8 +102,8 @@ std::size_t memoryLimit(const std::string& text)
     double bytes = number;
     for (std::size_t i = 0; isSize && i < power; ++i) bytes *= 1024;
     if (!isSize || !(bytes >= 1 && bytes <= most)) {
-        throw InputError("--memory: '" + text +
-                         "' is not allowed; it must be auto, off, or a size as 4G, 512M or 4000000000");
+        throw InputError("--memory",
+                         "'" + text + "' is not allowed; it must be auto, off, or a size as 4G, 512M or 4000000000");
     }
     return static_cast<std::size_t>(bytes);
 }

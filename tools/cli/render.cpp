@@ -31,7 +31,7 @@ struct Rectangle {
 
 [[noreturn]] void fail(const std::string& problem)
 {
-    throw InputError("picture: " + problem);
+    throw InputError("picture", problem);
 }
 
 void requireSize(const char* what, int value)

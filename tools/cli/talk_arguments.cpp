@@ -8,7 +8,7 @@ namespace vdbcage::cli {
 
 void requireProgress(const std::string& form)
 {
-    if (form != "auto" && form != "lines") throw InputError("progress: '" + form + "' is neither auto nor lines");
+    if (form != "auto" && form != "lines") throw InputError("progress", "'" + form + "' is neither auto nor lines");
 }
 
 TalkArguments::TalkArguments(CLI::App& app, const char* verboseHelp)

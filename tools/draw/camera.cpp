@@ -106,7 +106,7 @@ void requireView(const View& view)
         text << "view: the elevation is " << view.elevationDegrees << " degrees; -90 to 90 is allowed";
         throw InputError(text.str());
     }
-    if (!std::isfinite(view.azimuthDegrees)) throw InputError("view: the azimuth must be a finite number of degrees");
+    if (!std::isfinite(view.azimuthDegrees)) throw InputError("view", "the azimuth must be a finite number of degrees");
 }
 
 Camera fit(const View& view, Projection projection, const PointSets& points, double aspect, double radius)

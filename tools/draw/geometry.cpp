@@ -186,15 +186,15 @@ Geometry::Geometry(const std::vector<std::pair<Vec3d, Vec3d>>& lines, const Fram
 void Geometry::setPoints(const std::vector<Vec3d>& points)
 {
     if (points.size() != pointCount_) {
-        throw InputError("picture: " + std::to_string(points.size()) + " points were given for a mesh of " +
-                         std::to_string(pointCount_) + "; one for each is needed");
+        throw InputError("picture", std::to_string(points.size()) + " points were given for a mesh of " +
+                                        std::to_string(pointCount_) + "; one for each is needed");
     }
     std::vector<Vec3d> places(pointOfVertex_.size());
     for (std::size_t vertex = 0; vertex < places.size(); ++vertex) {
         const Vec3d& point = points[pointOfVertex_[vertex]];
         if (!point.isFinite()) {
-            throw InputError("picture: point " + std::to_string(pointOfVertex_[vertex]) +
-                             " is not finite; a point of a face must be");
+            throw InputError("picture", "point " + std::to_string(pointOfVertex_[vertex]) +
+                                            " is not finite; a point of a face must be");
         }
         places[vertex] = frame_.toDrawing(point);
     }

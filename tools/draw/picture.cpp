@@ -50,12 +50,13 @@ std::string encodePng(const Picture& picture)
     const std::size_t pixels =
         static_cast<std::size_t>(std::max(picture.width, 0)) * static_cast<std::size_t>(std::max(picture.height, 0));
     if (pixels == 0 || picture.rgb.size() != 3 * pixels) {
-        throw InputError("picture: it has " + std::to_string(picture.width) + " x " + std::to_string(picture.height) +
-                         " pixels and " + std::to_string(picture.rgb.size()) + " bytes; 3 bytes a pixel are needed");
+        throw InputError("picture", "it has " + std::to_string(picture.width) + " x " + std::to_string(picture.height) +
+                                        " pixels and " + std::to_string(picture.rgb.size()) +
+                                        " bytes; 3 bytes a pixel are needed");
     }
     if (!picture.alpha.empty() && picture.alpha.size() != pixels) {
-        throw InputError("picture: it has " + std::to_string(pixels) + " pixels and alpha for " +
-                         std::to_string(picture.alpha.size()) + "; all or none is needed");
+        throw InputError("picture", "it has " + std::to_string(pixels) + " pixels and alpha for " +
+                                        std::to_string(picture.alpha.size()) + "; all or none is needed");
     }
     // libpng's simplified interface: it reports errors by its result, not by longjmp.
     png_image image{};

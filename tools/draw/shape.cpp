@@ -37,8 +37,8 @@ void describe(const gl::Api& api, const gl::VertexArray& layout, GLuint attribut
 void requireOneForEach(const char* what, std::size_t given, const char* of, std::size_t count)
 {
     if (given == 0 || given == count) return;
-    throw InputError("picture: " + std::to_string(given) + " " + what + " were given for a mesh of " +
-                     std::to_string(count) + " " + of + "; none or one for each is needed");
+    throw InputError("picture", std::to_string(given) + " " + what + " were given for a mesh of " +
+                                    std::to_string(count) + " " + of + "; none or one for each is needed");
 }
 
 } // namespace

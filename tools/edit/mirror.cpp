@@ -18,10 +18,10 @@ using openvdb::Vec3d;
 void requirePlane(int axis, double place)
 {
     if (axis < 0 || axis > 2) {
-        throw InputError("mirror: the axis is " + std::to_string(axis) + "; it must be 0, 1 or 2");
+        throw InputError("mirror", "the axis is " + std::to_string(axis) + "; it must be 0, 1 or 2");
     }
     if (!std::isfinite(place)) {
-        throw InputError("mirror: the plane is at " + detail::numberText(place) + "; it must be finite");
+        throw InputError("mirror", "the plane is at " + detail::numberText(place) + "; it must be finite");
     }
 }
 
@@ -91,9 +91,9 @@ std::vector<Vec3d> mirrored(const std::vector<Vec3d>& before, std::vector<Vec3d>
 {
     requirePlane(axis, place);
     if (before.size() != after.size() || before.size() != partners.size()) {
-        throw InputError("mirror: there are " + std::to_string(before.size()) + " points before, " +
-                         std::to_string(after.size()) + " after and " + std::to_string(partners.size()) +
-                         " partners; as many are needed");
+        throw InputError("mirror", "there are " + std::to_string(before.size()) + " points before, " +
+                                       std::to_string(after.size()) + " after and " + std::to_string(partners.size()) +
+                                       " partners; as many are needed");
     }
     std::vector<char> isMoved(before.size(), 0);
     for (const Index point : moved) isMoved[point] = 1;

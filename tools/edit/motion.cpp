@@ -38,7 +38,7 @@ Turn turnBy(double degrees)
 
 void fail(const std::string& problem)
 {
-    throw InputError("motion: " + problem);
+    throw InputError("motion", problem);
 }
 
 void requireFinite(const Vec3d& v, const char* name)

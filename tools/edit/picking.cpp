@@ -122,12 +122,12 @@ Picking::Picking(const Elements& elements, std::vector<Vec3d> points, const Pick
     : elements_(elements), points_(std::move(points)), view_(view), occluder_(occluder)
 {
     if (points_.size() != elements.count(Element::point)) {
-        throw InputError("picking: " + std::to_string(points_.size()) + " points were given for a mesh of " +
-                         std::to_string(elements.count(Element::point)) + "; one for each is needed");
+        throw InputError("picking", std::to_string(points_.size()) + " points were given for a mesh of " +
+                                        std::to_string(elements.count(Element::point)) + "; one for each is needed");
     }
     for (Index i = 0; i < points_.size(); ++i) {
         if (!elements.isUsed(i) || points_[i].isFinite()) continue;
-        throw InputError("picking: point " + std::to_string(i) + " is not finite; a point of a face must be");
+        throw InputError("picking", "point " + std::to_string(i) + " is not finite; a point of a face must be");
     }
     std::vector<openvdb::Vec3I> triangles;
     for (Index face = 0; face < elements.count(Element::face); ++face) {

@@ -49,12 +49,13 @@ std::vector<double> softWeights(const Elements& elements, const std::vector<Vec3
                                 const std::vector<Index>& selected, double radius)
 {
     if (points.size() != elements.count(Element::point)) {
-        throw InputError("soft selection: " + std::to_string(points.size()) + " points were given for a mesh of " +
-                         std::to_string(elements.count(Element::point)) + "; one for each is needed");
+        throw InputError("soft selection", std::to_string(points.size()) + " points were given for a mesh of " +
+                                               std::to_string(elements.count(Element::point)) +
+                                               "; one for each is needed");
     }
     if (!(radius >= 0 && std::isfinite(radius))) {
-        throw InputError("soft selection: the radius is " + detail::numberText(radius) +
-                         "; it must be 0 or more, and finite");
+        throw InputError("soft selection",
+                         "the radius is " + detail::numberText(radius) + "; it must be 0 or more, and finite");
     }
     std::vector<double> weights = surfaceDistances(elements, points, selected, radius);
     for (double& value : weights) {

@@ -59,7 +59,7 @@ public:
 
     [[noreturn]] void fail(const std::string& problem) const
     {
-        throw InputError((kind_ == Element::edge ? "edge " : "face ") + std::to_string(id_) + ": " + problem);
+        throw InputError((kind_ == Element::edge ? "edge " : "face ") + std::to_string(id_), problem);
     }
 
     Corners cornersOf(Index face) const

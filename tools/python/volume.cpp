@@ -45,8 +45,8 @@ std::vector<openvdb::Vec3i> activeVoxels(const openvdb::MaskGrid& grid)
 {
     const openvdb::Index64 count = grid.activeVoxelCount();
     if (count > mostVoxels) {
-        throw InputError("mask: it has " + std::to_string(count) + " active voxels; an array can have " +
-                         std::to_string(mostVoxels));
+        throw InputError("mask", "it has " + std::to_string(count) + " active voxels; an array can have " +
+                                     std::to_string(mostVoxels));
     }
     std::vector<openvdb::Vec3i> voxels;
     voxels.reserve(count);
@@ -62,7 +62,7 @@ std::vector<openvdb::Vec3i> activeVoxels(const openvdb::MaskGrid& grid)
 /// From index space to world space, a matrix for columns.
 std::vector<openvdb::Vec4d> matrixOf(const openvdb::math::Transform& transform)
 {
-    if (!transform.isLinear()) throw InputError("mask: its transform is a frustum, which is no matrix");
+    if (!transform.isLinear()) throw InputError("mask", "its transform is a frustum, which is no matrix");
     const openvdb::Vec3d origin = transform.indexToWorld(openvdb::Vec3d(0));
     std::vector<openvdb::Vec4d> rows(4, openvdb::Vec4d(0));
     for (int column = 0; column < 3; ++column) {

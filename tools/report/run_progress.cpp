@@ -1,34 +1,15 @@
 #include <tools/report/run_progress.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+
+#include <vdbcage/core/stages.h>
 
 namespace vdbcage::report {
 
 namespace {
 
-/// Where stages begin and end in their command, in percent, from how long they take in most.
-struct StageShare {
-    std::string_view name;
-    int from, to;
-};
-constexpr std::array<StageShare, 15> stageShares{{{"read", 0, 2},
-                                                  {"bind coarsely", 0, 2},
-                                                  {"interior", 2, 3},
-                                                  {"voxelize", 3, 6},
-                                                  {"symmetry", 6, 6},
-                                                  {"guard", 6, 8},
-                                                  {"close", 8, 10},
-                                                  {"surface", 10, 13},
-                                                  {"decimate", 13, 60},
-                                                  {"loops", 13, 92},
-                                                  {"tighten", 60, 90},
-                                                  {"quads", 60, 92},
-                                                  {"certify", 92, 98},
-                                                  {"bind", 2, 95},
-                                                  {"write", 98, 99}}};
-constexpr int prepared = 13;    // percent: until here stages come several times in one try
+constexpr int prepared = stageInfo(StageName::surface).to; // until here stages come several times in one try
 constexpr int longStage = 20;   // percent, at least: how long a run takes shows in such a one
 constexpr int leastPercent = 5; // of the stage; below, and in its first second, what is left is a guess
 constexpr double leastSeconds = 1;
@@ -37,8 +18,8 @@ constexpr double leastSeconds = 1;
 
 RunProgress::Share RunProgress::shareOf(std::string_view name) const
 {
-    for (const StageShare& share : stageShares) {
-        if (share.name == name) return {share.from, share.to};
+    for (const StageInfo& stage : stageTable) {
+        if (stage.name == name && stage.from >= 0) return {stage.from, stage.to};
     }
     if (!hasBegun_) return {0, 100};
     const int here = static_cast<int>(inTry_);

@@ -29,7 +29,7 @@ private:
     struct Share {
         int from, to;
     };
-    /// As stages are that are known; of others the first is the whole run, later ones take none of it.
+    /// As stageTable has it; of others the first is the whole run, later ones take none of it.
     Share shareOf(std::string_view name) const;
     static bool isLong(const Share& share);
     /// How much of the run is done where the try is so far, 0 to 1.

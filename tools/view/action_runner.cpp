@@ -58,13 +58,13 @@ struct ActionRunner::VerbEffect {
     {
         const Planner& planner = parts.making.planner();
         if (currentCage(planner, "save-stages").order.cage) {
-            throw InputError("save-stages: the cage was opened, not made, so it has no stages");
+            throw InputError("save-stages", "the cage was opened, not made, so it has no stages");
         }
         parts.making.keepIntermediates(true);
         runner.waitUntilSettled();
         parts.making.keepIntermediates(false);
         const CageResult& result = currentCage(planner, "save-stages");
-        if (!result.intermediates) throw InputError("save-stages: " + planner.error());
+        if (!result.intermediates) throw InputError("save-stages", planner.error());
         saveStages(result, verb.path);
         saySaved(verb.path);
     }
@@ -95,7 +95,7 @@ struct ActionRunner::VerbEffect {
     void operator()(const Reload& /*verb*/) const
     {
         const OpenedMeshPtr model = parts.session.state().document.model;
-        if (!model) throw InputError("reload: there is no model yet");
+        if (!model) throw InputError("reload", "there is no model yet");
         parts.watch.ignore(); // what cannot be read is not offered again
         parts.session.execute(OpenModel{model->path.string()});
     }

@@ -189,7 +189,7 @@ int runProgram(int count, char** words)
     }
     const Arguments arguments = parse(count, words);
     if (!arguments.context.empty() && arguments.script.empty()) {
-        throw InputError("--without-window: it needs a --script to do");
+        throw InputError("--without-window", "it needs a --script to do");
     }
     if (!arguments.context.empty() || (!arguments.script.empty() && !hasDisplay())) {
         runWithoutWindow(arguments);

@@ -68,11 +68,11 @@ std::vector<char32_t> charactersOf(const std::string& text)
     for (std::size_t i = 0; i < text.size();) {
         const auto lead = static_cast<unsigned char>(text[i++]);
         const int more = lead < 0x80 ? 0 : lead >> 5 == 6 ? 1 : lead >> 4 == 14 ? 2 : lead >> 3 == 30 ? 3 : -1;
-        if (more < 0 || i + static_cast<std::size_t>(more) > text.size()) throw InputError("type: it is not UTF-8");
+        if (more < 0 || i + static_cast<std::size_t>(more) > text.size()) throw InputError("type", "it is not UTF-8");
         char32_t value = more == 0 ? lead : lead & (0x3FU >> more);
         for (int k = 0; k < more; ++k) {
             const auto next = static_cast<unsigned char>(text[i++]);
-            if (next >> 6 != 2) throw InputError("type: it is not UTF-8");
+            if (next >> 6 != 2) throw InputError("type", "it is not UTF-8");
             value = value << 6 | (next & 0x3FU);
         }
         characters.push_back(value);
@@ -114,9 +114,9 @@ void doMouse(App& app, const Words& words)
     } else if (action == "wheel" && words.size() == 3) {
         send(app, WheelTurned{0, numberOf(words[2], "mouse")});
     } else {
-        throw InputError("mouse: it is written mouse move WIDGET|picture [X [Y]] (shares of it), mouse at X Y "
-                         "(pixels), mouse by X Y, "
-                         "mouse down|up|click [BUTTON], mouse double-click, or mouse wheel NOTCHES");
+        throw InputError("mouse", "it is written mouse move WIDGET|picture [X [Y]] (shares of it), mouse at X Y "
+                                  "(pixels), mouse by X Y, "
+                                  "mouse down|up|click [BUTTON], mouse double-click, or mouse wheel NOTCHES");
     }
 }
 
@@ -159,21 +159,21 @@ bool isAs(const std::string& have, const std::string& wanted)
     if (sign == "<=") return value <= limit;
     if (sign == ">") return value > limit;
     if (sign == ">=") return value >= limit;
-    throw InputError("expect: '" + sign + "' is not allowed; it must be <, <=, > or >=");
+    throw InputError("expect", "'" + sign + "' is not allowed; it must be <, <=, > or >=");
 }
 
 void doExpect(App& app, const Words& words)
 {
-    if (words.size() != 3) throw InputError("expect: it is written expect NAME VALUE");
+    if (words.size() != 3) throw InputError("expect", "it is written expect NAME VALUE");
     const std::string have = app.value(words[1]);
     if (!isAs(have, words[2])) {
-        throw InputError("expect: " + words[1] + " is " + quotedWord(have) + ", not " + quotedWord(words[2]));
+        throw InputError("expect", words[1] + " is " + quotedWord(have) + ", not " + quotedWord(words[2]));
     }
 }
 
 void doScreenshot(App& app, const Words& words)
 {
-    if (words.size() != 2 && words.size() != 3) throw InputError("screenshot: it is written screenshot FILE [SIZE]");
+    if (words.size() != 2 && words.size() != 3) throw InputError("screenshot", "it is written screenshot FILE [SIZE]");
     if (words.size() == 3) {
         const auto [width, height] = sizeOf(words[2]);
         app.resize(width, height);
@@ -235,7 +235,7 @@ void runScript(App& app, const std::filesystem::path& path)
         } catch (const DeviceError&) {
             throw;
         } catch (const Error& error) {
-            throw InputError(path.string() + ":" + std::to_string(number) + ": " + error.what());
+            throw InputError(path.string() + ":" + std::to_string(number), error.what());
         }
     }
     app.waitUntilSaved();

@@ -168,7 +168,7 @@ std::optional<Vec3d> betterPlace(const GuardedMesh& surface, const Bends& bends)
 Mesh bendNearCoplanarEdges(const Mesh& surface, const BoundingGuard& guard, Interrupter* interrupter)
 {
     constexpr int passes = 8;
-    if (!surface.quads.empty()) throw InputError("surface: it has quads, which is not allowed; only triangles are");
+    if (!surface.quads.empty()) throw InputError("surface", "it has quads, which is not allowed; only triangles are");
     GuardedMesh guarded(surface, detail::modelOf(guard));
     bool hasMoved = true;
     for (int i = 0; hasMoved && i < passes; ++i) {

@@ -79,14 +79,14 @@ Mesh quadLoops(const Mesh& surface, const BoundingGuard& guard, const QuadLoopsO
                const FaceWishes& wishes, Interrupter* interrupter)
 {
     if (options.faces < 6) {
-        throw InputError("faces: " + std::to_string(options.faces) +
-                         " is not allowed; a closed surface of quads has at least 6");
+        throw InputError("faces",
+                         std::to_string(options.faces) + " is not allowed; a closed surface of quads has at least 6");
     }
     requireWithin(QuadLoopsOptions::angles, options.meanAngleDegrees, "mean angle");
     requireWithin(QuadLoopsOptions::angles, options.mostAngleDegrees, "most angle");
     requireWithin(QuadLoopsOptions::exchangeCounts, options.exchanges, "exchanges");
     requireValid(options.tightening);
-    if (!surface.triangles.empty()) throw InputError("surface: it has triangles; it must be of quads only");
+    if (!surface.triangles.empty()) throw InputError("surface", "it has triangles; it must be of quads only");
     GuardedMesh guarded(surface, modelOf(guard), GuardedMesh::Quads::split, wishes);
     QuadTable table(guarded);
     if (table.count() == 0) return guarded.mesh();

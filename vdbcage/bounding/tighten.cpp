@@ -12,7 +12,7 @@ namespace detail {
 void requireFaces(std::size_t faces)
 {
     if (faces >= 4) return;
-    throw InputError("faces: " + std::to_string(faces) + " is not allowed; a closed surface has at least 4");
+    throw InputError("faces", std::to_string(faces) + " is not allowed; a closed surface has at least 4");
 }
 
 void requireValid(const TightenOptions& options)

@@ -100,7 +100,7 @@ CageCheck CageChecker::check(const Mesh& given, const CheckOptions& options, Int
         for (Vec3d& p : rounded.points) p = detail::nearestFloat(p);
         detail::requireSound(rounded, "cage as floats");
         if (detail::farthest({model_->tree.box().lo, model_->tree.box().hi}) > std::numeric_limits<float>::max()) {
-            throw InputError("model: its coordinates are not within the range of float");
+            throw InputError("model", "its coordinates are not within the range of float");
         }
     }
     const Mesh& cage = options.asFloats ? rounded : given;

@@ -1,5 +1,7 @@
 #include <vdbcage/core/error.h>
 
+#include <string_view>
+
 #include <vdbcage/core/detail/printable.h>
 
 namespace vdbcage {
@@ -11,7 +13,22 @@ Error::Error(const std::string& text) : std::runtime_error(detail::printable(tex
 // The destructors are the key functions that pin each vtable (and type_info) to the library, so that an exception
 // thrown inside the shared library is caught by its type outside.
 Error::~Error() = default;
+InputError::InputError(const std::string& text) : Error(text)
+{
+}
+InputError::InputError(const std::string& subject, const std::string& problem)
+    : Error(subject + ": " + problem), subjectSize_(detail::printable(subject).size())
+{
+}
 InputError::~InputError() = default;
+std::string InputError::subject() const
+{
+    return std::string(what(), subjectSize_);
+}
+std::string InputError::problem() const
+{
+    return what() + (subjectSize_ > 0 ? subjectSize_ + std::string_view(": ").size() : 0);
+}
 IoError::~IoError() = default;
 ResourceError::~ResourceError() = default;
 DeviceError::~DeviceError() = default;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <stdexcept>
 #include <string>
 
@@ -16,12 +17,25 @@ public:
     ~Error() override;
 };
 
-/// A value handed in is not acceptable. The message names what, its value and what is allowed. Thrown before any work
-/// is done, but for what only the work shows, such as a point outside of the cage.
+/// A value handed in is not acceptable. The message names it, its value and the allowed values. Thrown before any work
+/// is done, except where only the work shows it, such as a point outside of the cage.
 class VDBCAGE_API InputError : public Error {
 public:
-    using Error::Error;
+    /// An objection without a subject.
+    explicit InputError(const std::string& text);
+    /// `what()` is "subject: problem".
+    InputError(const std::string& subject, const std::string& problem);
     ~InputError() override;
+
+    /// Names the argument that is objected to, such as "model"; or the option, such as "--faces"; or the file. Empty if
+    /// the message names none.
+    std::string subject() const;
+    /// Says what is wrong with the subject: `what()` after it. A program that knows more about the subject, such as its
+    /// file, throws this again with that name.
+    std::string problem() const;
+
+private:
+    std::size_t subjectSize_ = 0; // a text of its own might throw where the exception is copied
 };
 
 /// A file could not be read or written. The message starts with its path.

@@ -6,15 +6,25 @@
 
 namespace vdbcage {
 
+static_assert(
+    [] {
+        std::size_t row = 0;
+        for (const StageInfo& info : stageTable) {
+            if (info.stage != static_cast<StageName>(row++)) return false;
+        }
+        return stageTable.back().stage == StageName::write;
+    }(),
+    "stageTable has a row for each StageName, in the same order");
+
 void throwIfInterrupted(Interrupter* interrupter, int percent)
 {
     if (interrupter && interrupter->wasInterrupted(percent)) throw Cancelled();
 }
 
-Stage::Stage(Interrupter* interrupter, const char* name) : interrupter_(interrupter)
+Stage::Stage(Interrupter* interrupter, StageName name) : interrupter_(interrupter)
 {
     throwIfInterrupted(interrupter_);
-    if (interrupter_) interrupter_->start(name);
+    if (interrupter_) interrupter_->start(stageInfo(name).name);
 }
 
 Stage::~Stage()

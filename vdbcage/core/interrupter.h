@@ -8,6 +8,7 @@
 
 #include <openvdb/util/NullInterrupter.h>
 #include <vdbcage/core/export.h>
+#include <vdbcage/core/stages.h>
 
 namespace vdbcage {
 
@@ -26,9 +27,9 @@ VDBCAGE_API void throwIfInterrupted(Interrupter* interrupter, int percent = -1);
 /// Brackets one stage of work: `start` now, `end` when the scope is left, also by an exception.
 class VDBCAGE_API Stage {
 public:
-    /// `interrupter` may be null. `name` must outlive the stage, as a literal does.
+    /// `interrupter` may be null.
     /// \throw Cancelled if asked to stop
-    Stage(Interrupter* interrupter, const char* name);
+    Stage(Interrupter* interrupter, StageName name);
     ~Stage();
     Stage(const Stage&) = delete;
     Stage& operator=(const Stage&) = delete;

@@ -27,7 +27,7 @@ std::string toText(const Range& range)
 void requireWithin(const Range& range, double value, const std::string& name)
 {
     if (range.contains(value)) return;
-    throw InputError(name + ": " + textOf(value) + " is not allowed; it must be " + toText(range));
+    throw InputError(name, textOf(value) + " is not allowed; it must be " + toText(range));
 }
 
 } // namespace vdbcage

@@ -36,7 +36,7 @@ Binding::Binding(const Mesh& cage, std::vector<Vec3d> points, const CoordinateOp
                  Interrupter* interrupter)
     : cage_(cage), points_(std::move(points)), options_(options)
 {
-    const Stage stage(interrupter, "bind");
+    const Stage stage(interrupter, StageName::bind);
     detail::RowMaker maker(cage_, points_, options_, interrupter);
     restHandles_ = cageHandles(cage_, cage_.points, options_);
     weights_ = std::make_shared<detail::WeightBlocks>(
@@ -58,7 +58,7 @@ Binding::Binding(const Mesh& cage, std::vector<Vec3d> points, const CoordinateOp
     detail::requireWeights(weights.size(), points_.size(), handles());
     if (family() == Coordinates::given) {
         const std::string problem = detail::weightsProblem(weights, handles());
-        if (!problem.empty()) throw InputError("weights: " + problem);
+        if (!problem.empty()) throw InputError("weights", problem);
     }
     weights_ = std::make_shared<detail::WeightBlocks>(
         points_, maxDistancesOf(cage_, family()),

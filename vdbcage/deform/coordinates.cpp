@@ -18,7 +18,7 @@ template <typename Number>
 std::vector<Number> computeRows(const Mesh& cage, const std::vector<Vec3d>& points, const CoordinateOptions& options,
                                 Interrupter* interrupter)
 {
-    const Stage stage(interrupter, "bind");
+    const Stage stage(interrupter, StageName::bind);
     detail::RowMaker maker(cage, points, options, interrupter);
     std::vector<Number> rows;
     const std::size_t count = points.size() * maker.columns();
@@ -67,8 +67,8 @@ const char* coordinatesName(Coordinates family)
 void requireElasticity(const Elasticity& elasticity)
 {
     if (!(elasticity.nu > -1 && elasticity.nu < 0.5)) {
-        throw InputError("nu: " + detail::numberText(elasticity.nu) +
-                         " is not allowed; it must be above -1 and below 0.5");
+        throw InputError("nu",
+                         detail::numberText(elasticity.nu) + " is not allowed; it must be above -1 and below 0.5");
     }
     requireWithin(Elasticity::bulgings, elasticity.localBulging, "local bulging");
     requireWithin(Elasticity::bulgings, elasticity.globalBulging, "global bulging");
@@ -84,14 +84,14 @@ Elasticity::Rotations rotationsNamed(const std::string& name)
     for (const auto rotations : {Elasticity::Rotations::global, Elasticity::Rotations::local}) {
         if (name == rotationsName(rotations)) return rotations;
     }
-    throw InputError("rotations: '" + name + "' is not allowed; it must be global or local");
+    throw InputError("rotations", "'" + name + "' is not allowed; it must be global or local");
 }
 
 LoosePoints::Motion looseMotionNamed(const std::string& name)
 {
     if (name == "ride") return LoosePoints::Motion::ride;
     if (name == "stay") return LoosePoints::Motion::stay;
-    throw InputError("loose points: '" + name + "' is not allowed; it must be ride or stay");
+    throw InputError("loose points", "'" + name + "' is not allowed; it must be ride or stay");
 }
 
 bool Elasticity::operator==(const Elasticity& other) const
@@ -105,7 +105,7 @@ Coordinates coordinatesNamed(const std::string& name)
     for (const FamilyInfo& family : coordinateFamilies()) {
         if (name == family.name || name == family.nameOnQuads) return family.family;
     }
-    throw InputError("coordinates: '" + name + "' is not a family; there are " + detail::familyNames());
+    throw InputError("coordinates", "'" + name + "' is not a family; there are " + detail::familyNames());
 }
 
 std::size_t handleCount(const Mesh& cage, Coordinates family)

@@ -34,11 +34,11 @@ Distortion poseDistortion(const Mesh& model, const std::vector<Vec3d>& posed)
 {
     requireUsable(model, "model");
     if (posed.size() != model.points.size()) {
-        throw InputError("posed points: there are " + std::to_string(posed.size()) + "; the model has " +
-                         std::to_string(model.points.size()));
+        throw InputError("posed points", "there are " + std::to_string(posed.size()) + "; the model has " +
+                                             std::to_string(model.points.size()));
     }
     for (std::size_t i = 0; i < posed.size(); ++i) {
-        if (!posed[i].isFinite()) throw InputError("posed points: point " + std::to_string(i) + " is not finite");
+        if (!posed[i].isFinite()) throw InputError("posed points", "point " + std::to_string(i) + " is not finite");
     }
     const std::vector<openvdb::Vec3I> triangles = triangulate(model);
     std::vector<std::pair<double, double>> energies; // and areas
@@ -52,7 +52,7 @@ Distortion poseDistortion(const Mesh& model, const std::vector<Vec3d>& posed)
         energies.emplace_back(energy, area);
         whole += area;
     }
-    if (!(whole > 0)) throw InputError("model: its faces have no area");
+    if (!(whole > 0)) throw InputError("model", "its faces have no area");
     std::sort(energies.begin(), energies.end());
     Distortion distortion;
     distortion.mean = 0;

@@ -48,7 +48,7 @@ Binding bindBeside(const Binding& binding, const Mesh& model, const std::vector<
     try {
         return Binding(binding.cage(), std::move(points), options, interrupter);
     } catch (const InputError& error) {
-        throw InputError("inversions: two points are looked at for each triangle; " + std::string(error.what()));
+        throw InputError("inversions", "two points are looked at for each triangle; " + std::string(error.what()));
     }
 }
 
@@ -73,13 +73,13 @@ struct Piece {
 void requirePair(const Binding& binding, const Mesh& model)
 {
     if (binding.family() == Coordinates::given) {
-        throw InputError("inversions: the binding's weights were made elsewhere; two points are looked at for each "
-                         "triangle, which needs coordinates that can be computed at other points");
+        throw InputError("inversions", "the binding's weights were made elsewhere; two points are looked at for each "
+                                       "triangle, which needs coordinates that can be computed at other points");
     }
     requireUsable(model, "model");
     if (model.points.size() != binding.points().size()) {
-        throw InputError("model: it has " + std::to_string(model.points.size()) + " points; the binding has " +
-                         std::to_string(binding.points().size()));
+        throw InputError("model", "it has " + std::to_string(model.points.size()) + " points; the binding has " +
+                                      std::to_string(binding.points().size()));
     }
 }
 

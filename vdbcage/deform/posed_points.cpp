@@ -297,25 +297,25 @@ std::string counts(const Mesh& mesh)
 PosedPoints posedPoints(const Mesh& cage, const Mesh& posed)
 {
     if (posed.points.size() != cage.points.size() || triangleCount(posed) != triangleCount(cage)) {
-        throw InputError("posed cage: it has " + counts(posed) + "; the cage has " + counts(cage));
+        throw InputError("posed cage", "it has " + counts(posed) + "; the cage has " + counts(cage));
     }
     const std::size_t others =
         std::max(otherFaces(posed, TriangleSet(everySplit(cage))), otherFaces(cage, TriangleSet(everySplit(posed))));
     if (others == 0) return {posed.points, false};
     const Mesh wholeCage = withWholeQuads(cage), wholePosed = withWholeQuads(posed);
     if (wholeCage.quads.size() != wholePosed.quads.size()) {
-        throw InputError("posed cage: its points are in another order than the cage's, and it has " +
-                         std::to_string(wholePosed.quads.size()) + " quads; the cage has " +
-                         std::to_string(wholeCage.quads.size()) + "; keep the quads, or the order");
+        throw InputError("posed cage", "its points are in another order than the cage's, and it has " +
+                                           std::to_string(wholePosed.quads.size()) + " quads; the cage has " +
+                                           std::to_string(wholeCage.quads.size()) + "; keep the quads, or the order");
     }
     Matching matching(wholeCage, wholePosed);
     switch (matching.find()) {
     case Matching::Found::nothing:
-        throw InputError("posed cage: " + std::to_string(others) + " of its " + std::to_string(faceCount(posed)) +
-                         " faces are not the cage's, and no other order of its points makes them so");
+        throw InputError("posed cage", std::to_string(others) + " of its " + std::to_string(faceCount(posed)) +
+                                           " faces are not the cage's, and no other order of its points makes them so");
     case Matching::Found::several:
-        throw InputError("posed cage: its points are in another order than the cage's, and its faces do not tell "
-                         "which is which; keep the order");
+        throw InputError("posed cage", "its points are in another order than the cage's, and its faces do not tell "
+                                       "which is which; keep the order");
     case Matching::Found::one:
         break;
     }

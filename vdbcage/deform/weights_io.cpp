@@ -100,9 +100,8 @@ void writeWeights(const Mesh& cage, const std::vector<openvdb::Vec3d>& points, C
     std::string name = coordinatesName(family);
     const std::size_t nameSize = *std::lower_bound(std::begin(nameSizes), std::end(nameSizes), name.size());
     if (nameSize + sizeof(Hashes) + weights.size() * sizeof(float) >= std::size_t(1) << 31U) {
-        throw InputError(path.string() + ": " + std::to_string(points.size()) + " points times " +
-                         std::to_string(handles) +
-                         " handles do not fit in a weights file, which must be smaller than 2 GiB");
+        throw InputError(path.string(), std::to_string(points.size()) + " points times " + std::to_string(handles) +
+                                            " handles do not fit in a weights file, which must be smaller than 2 GiB");
     }
     const Hashes hashes = hashesOf(cage, points);
     name.resize(nameSize);

@@ -70,7 +70,7 @@ openvdb::BBoxd boundingBox(const Mesh& mesh)
 
 void requireUsable(const Mesh& mesh, const char* what)
 {
-    const auto fail = [&](const std::string& problem) { throw InputError(std::string(what) + ": " + problem); };
+    const auto fail = [&](const std::string& problem) { throw InputError(what, problem); };
     if (faceCount(mesh) == 0) fail("it has no faces; at least one is needed");
     forEachIndex(mesh, [&](openvdb::Index32 corner) {
         if (corner >= mesh.points.size()) {

@@ -55,7 +55,7 @@ void requireFinitePoints(const std::vector<openvdb::Vec3d>& points, const std::s
     for (std::size_t i = 0; i < points.size(); ++i) {
         const openvdb::Vec3d& p = points[i];
         if (!std::isfinite(p.x()) || !std::isfinite(p.y()) || !std::isfinite(p.z())) {
-            throw InputError(name + ": point " + std::to_string(i) + " is not finite");
+            throw InputError(name, "point " + std::to_string(i) + " is not finite");
         }
     }
 }
@@ -142,8 +142,8 @@ void writeColouredPly(const Mesh& mesh, const std::vector<PointColour>& colours,
     requireUsable(mesh, name.c_str());
     requireFinitePoints(mesh.points, name);
     if (colours.size() != mesh.points.size()) {
-        throw InputError(name + ": " + std::to_string(colours.size()) + " colours were given; the mesh has " +
-                         std::to_string(mesh.points.size()) + " points");
+        throw InputError(name, std::to_string(colours.size()) + " colours were given; the mesh has " +
+                                   std::to_string(mesh.points.size()) + " points");
     }
     detail::writePly(mesh, &colours, out);
 }
@@ -163,8 +163,8 @@ void writeMoved(const std::filesystem::path& original, const std::vector<openvdb
     const std::string text = detail::readMeshBytes(original);
     Mesh mesh = detail::parseMesh(text, original).mesh;
     if (mesh.points.size() != points.size()) {
-        throw InputError(name + ": " + std::to_string(points.size()) + " positions were given; " + original.string() +
-                         " has " + std::to_string(mesh.points.size()) + " points");
+        throw InputError(name, std::to_string(points.size()) + " positions were given; " + original.string() + " has " +
+                                   std::to_string(mesh.points.size()) + " points");
     }
     if (isObj) {
         out << detail::movedObj(text, original.string(), points);

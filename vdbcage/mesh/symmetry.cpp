@@ -305,7 +305,7 @@ private:
 Symmetry bestSymmetry(const Mesh& model, int axis, Interrupter* interrupter)
 {
     if (axis < 0 || axis > 2) {
-        throw InputError("axis: " + std::to_string(axis) + " is not allowed; it must be 0, 1 or 2");
+        throw InputError("axis", std::to_string(axis) + " is not allowed; it must be 0, 1 or 2");
     }
     return MirroredModel(model, interrupter).best(axis);
 }

@@ -23,8 +23,8 @@ public:
 
 /// About how many bytes a process holds at most that makes a cage: `vdbcage make`, with nothing else in it.
 ///
-/// It is meant as an upper bound: docs/OPTIONS.md has how near the peak came. The surface of the closing takes most; it
-/// is counted in coarse voxels. Grids of fields are not counted, nor is what a program makes of the result, as
+/// It is meant as an upper bound: docs/user/OPTIONS.md has how near the peak came. The surface of the closing takes
+/// most; it is counted in coarse voxels. Grids of fields are not counted, nor is what a program makes of the result, as
 /// pictures.
 /// \throw InputError as Pipeline::run
 /// \throw Cancelled

@@ -119,7 +119,7 @@ struct ToText {
 
 [[noreturn]] void refuse(const OptionInfo& info, const std::string& value, const std::string& allowed)
 {
-    throw InputError("--" + std::string(info.name) + ": '" + value + "' is not allowed; it must be " + allowed);
+    throw InputError("--" + std::string(info.name), "'" + value + "' is not allowed; it must be " + allowed);
 }
 
 template <typename Number>
@@ -163,7 +163,7 @@ struct FromText {
             const std::string name = info.name;
             field = readFactorField(text, name == "scale-field" ? "scale" : name);
         } catch (const InputError& error) {
-            throw InputError("--" + std::string(info.name) + ": " + error.what());
+            throw InputError("--" + std::string(info.name), error.what());
         }
     }
     void operator()(Joints& field) const { field = text == "none" ? Joints{} : readJoints(text); }
@@ -263,33 +263,35 @@ void requireValid(const CageOptions& options)
     visitOptions(options, [](const OptionInfo& info, const auto& field) { RequireRange{info}(field); });
     if (options.erodeRadius && !(options.closeRadius && *options.erodeRadius <= *options.closeRadius)) {
         throw InputError(
-            "--erode-radius: '" + detail::numberText(*options.erodeRadius) +
-            "' is not allowed; it must be at most the close radius, " +
-            (options.closeRadius ? detail::numberText(*options.closeRadius) : "which has to be given too"));
+            "--erode-radius",
+            "'" + detail::numberText(*options.erodeRadius) + "' is not allowed; it must be at most the close radius, " +
+                (options.closeRadius ? detail::numberText(*options.closeRadius) : "which has to be given too"));
     }
     const bool asksForSymmetry = options.symmetry != CageSymmetry::automatic && options.symmetry != CageSymmetry::off;
     if (!options.bounding && asksForSymmetry) {
-        throw InputError("--symmetry: '" + ToText{}(options.symmetry) +
-                         "' is not allowed with --bounding off; it must be auto or off");
+        throw InputError("--symmetry", "'" + ToText{}(options.symmetry) +
+                                           "' is not allowed with --bounding off; it must be auto or off");
     }
     if (options.faces < leastFaces(options.mesh)) {
-        throw InputError("--faces: '" + ToText{}(options.faces) + "' is not allowed with --mesh " +
-                         ToText{}(options.mesh) + "; it must be 6 or more, or the mesh triangles");
+        throw InputError("--faces", "'" + ToText{}(options.faces) + "' is not allowed with --mesh " +
+                                        ToText{}(options.mesh) + "; it must be 6 or more, or the mesh triangles");
     }
     if (!options.bounding && options.mesh == CageFaces::loops) {
-        throw InputError("--mesh: 'loops' is not allowed with --bounding off; it must be triangles, triquad or quads");
+        throw InputError("--mesh",
+                         "'loops' is not allowed with --bounding off; it must be triangles, triquad or quads");
     }
     if (!options.bounding && ToText{}(options.density) != "none") {
-        throw InputError("--density: '" + ToText{}(options.density) +
-                         "' is not allowed with --bounding off; it must be none");
+        throw InputError("--density",
+                         "'" + ToText{}(options.density) + "' is not allowed with --bounding off; it must be none");
     }
     if (!options.bounding && !options.joints.list.empty()) {
-        throw InputError("--joints: '" + ToText{}(options.joints) +
-                         "' is not allowed with --bounding off; it must be none");
+        throw InputError("--joints",
+                         "'" + ToText{}(options.joints) + "' is not allowed with --bounding off; it must be none");
     }
     if (options.element != StructuringElement::sphere && ToText{}(options.scale) != "none") {
-        throw InputError("--scale-field: '" + ToText{}(options.scale) +
-                         "' is not allowed with --element cube; it must be none, or the element sphere");
+        throw InputError("--scale-field",
+                         "'" + ToText{}(options.scale) +
+                             "' is not allowed with --element cube; it must be none, or the element sphere");
     }
 }
 

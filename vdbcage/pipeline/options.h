@@ -43,7 +43,7 @@ enum class CageSymmetry {
 
 /// Everything that decides how a cage comes out. Lengths are fractions of the model's longest side.
 ///
-/// Members that are not set are chosen by vdbcage; docs/OPTIONS.md says how. Values out of their range are an
+/// Members that are not set are chosen by vdbcage; docs/user/OPTIONS.md says how. Values out of their range are an
 /// InputError of Pipeline::run() and makeCage().
 struct CageOptions {
     /// Faces of the cage, at most: leastFaces() to 1000000. A quad counts once.
@@ -73,7 +73,7 @@ struct CageOptions {
     double leastPart = 0;
     /// Least distance from model to cage, 1e-7 to 0.1.
     double clearance = GuardOptions{}.clearance;
-    /// No triangle angle gets smaller, in degrees, 0 to 30. Unset: 1, 6 or 10, see docs/OPTIONS.md.
+    /// No triangle angle gets smaller, in degrees, 0 to 30. Unset: 1, 6 or 10, see docs/user/OPTIONS.md.
     std::optional<double> minAngle;
     Precision precision = Precision::automatic; ///< of the cage's coordinates; for a file see precisionOf()
     Effort effort = Effort::fair;               ///< time against tightness
@@ -93,7 +93,7 @@ struct CageOptions {
     bool bounding = true;
 };
 
-/// Facts about an option beside its value: one entry serves flags, help, range checks, docs/OPTIONS.md and
+/// Facts about an option beside its value: one entry serves flags, help, range checks, docs/user/OPTIONS.md and
 /// metadata.
 struct OptionInfo {
     const char* name;    ///< lower case with dashes: the flag without its leading dashes

@@ -125,7 +125,7 @@ private:
         Interior interior(Interrupter* interrupter)
         {
             if (!agreement) {
-                const Stage stage(interrupter, "interior");
+                const Stage stage(interrupter, StageName::interior);
                 agreement = rayAgreement(model, interrupter);
             }
             return *agreement < mostlySheet ? Interior::shell : Interior::solid;

@@ -104,10 +104,10 @@ public:
     /// Makes the cage for `options` and returns it; valid until the next run. A run that throws leaves the cage and the
     /// intermediates of the last one that did not.
     ///
-    /// Stages reported to `interrupter`, some more than once: interior, symmetry, guard, voxelize, close, surface,
-    /// decimate, tighten, quads or loops, smooth, coplanar, certify. The cage can have fewer faces than asked. It has
-    /// more only where the topology of the closing does not allow fewer and `bounding` is off.
-    /// \throw InputError refused by requireValid, voxelize or closeMask; float32 is asked for and rounds by more than a
+    /// Reports stages to `interrupter`, some more than once: of StageName, those from interior to certify. The cage can
+    /// have fewer faces than asked. It has more only where the topology of the closing does not allow fewer and
+    /// `bounding` is off.
+    /// \throw InputError what requireValid, voxelize or closeMask refuses; float32 is asked for and rounds by more than a
     /// thousandth of the longest side; the model misses the plane of symmetry that
     /// is asked for by more than 0.3 of its longest side
     /// \throw MemoryError a process that makes this cage would hold more than `memoryLimit` bytes, as predictedMemory()

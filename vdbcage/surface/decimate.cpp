@@ -161,7 +161,8 @@ Decimation::Decimation(const Mesh& surface, Interrupter* interrupter)
     centre_ = box.min() + (box.max() - box.min()) * 0.5;
     const Vec3d sides = box.max() - box.min();
     scale_ = std::max({sides.x(), sides.y(), sides.z()});
-    if (!std::isfinite(scale_)) throw InputError("the surface to decimate: its coordinates are too large to subtract");
+    if (!std::isfinite(scale_))
+        throw InputError("the surface to decimate", "its coordinates are too large to subtract");
     places_.reserve(surface.points.size());
     for (const Vec3d& point : surface.points) places_.push_back((point - centre_) / scale_);
     marks_.assign(places_.size(), 0);
@@ -410,7 +411,7 @@ void Decimation::reduceTo(std::size_t faces)
 Mesh decimate(const Mesh& surface, const DecimateOptions& options, Interrupter* interrupter)
 {
     if (options.faces < 4) {
-        throw InputError("decimation: faces is " + std::to_string(options.faces) + "; it must be at least 4");
+        throw InputError("decimation", "faces is " + std::to_string(options.faces) + "; it must be at least 4");
     }
     requireUsable(surface, "the surface to decimate");
     Decimation decimation(surface, interrupter);

@@ -12,7 +12,7 @@ bool hasRepair()
 
 RepairedCage repair(const Mesh& /*cage*/, Interrupter* /*interrupter*/)
 {
-    throw InputError("repair: this build was made without VDBCAGE_WITH_CGAL_GPL and has none");
+    throw InputError("repair", "this build was made without VDBCAGE_WITH_CGAL_GPL and has none");
 }
 
 } // namespace vdbcage

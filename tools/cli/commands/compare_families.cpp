@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdio>
 #include <list>
+#include <optional>
 
 #include <vdbcage/core/error.h>
 #include <vdbcage/deform/distortion.h>
@@ -50,7 +51,7 @@ FamilyComparison compareFamilies(const Mesh& cage, const Mesh& posed, const Mesh
     std::list<Mesh> models; // the panels point at them
     Scene scene;
     scene.sameView = true;
-    std::string objection;
+    std::optional<InputError> objection;
     for (const FamilyInfo& family : coordinateFamilies()) {
         try {
             const Binding binding(cage, model.points, optionsOf(family.family), interrupter);
@@ -63,11 +64,11 @@ FamilyComparison compareFamilies(const Mesh& cage, const Mesh& posed, const Mesh
                         invertedText(binding, model, posed, interrupter)});
             scene.panels.push_back({shadedLayer(moved), wireframeLayer(posed)});
         } catch (const InputError& error) {
-            objection = error.what();
-            comparison.table += std::string(family.name) + ": " + objection + '\n';
+            objection = error;
+            comparison.table += std::string(family.name) + ": " + error.what() + '\n';
         }
     }
-    if (scene.panels.empty()) throw InputError(objection);
+    if (scene.panels.empty()) throw *objection;
     constexpr int side = 640;
     const int panels = static_cast<int>(scene.panels.size());
     while (scene.columns * scene.columns < panels) ++scene.columns;

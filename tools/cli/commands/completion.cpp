@@ -166,7 +166,7 @@ int runCompletion(Call call)
     app.add_option("shell", shell)->required()->type_name("SHELL");
     if (!parse(app, std::move(call))) return exitGood;
     if (shell != "bash" && shell != "fish" && shell != "zsh") {
-        throw InputError("shell: '" + shell + "' is neither bash nor fish nor zsh");
+        throw InputError("shell", "'" + shell + "' is neither bash nor fish nor zsh");
     }
     std::cout << (shell == "bash" ? bash : shell == "fish" ? fish : zsh);
     return exitGood;

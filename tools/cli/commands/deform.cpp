@@ -1,10 +1,10 @@
 #include <algorithm>
 #include <iostream>
-#include <map>
 #include <optional>
 
 #include <tools/cli/models.h>
 #include <tools/files/frames.h>
+#include <tools/files/naming_files.h>
 #include <tools/files/posed_cage.h>
 #include <vdbcage/check/check.h>
 #include <vdbcage/core/error.h>
@@ -27,16 +27,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What `bind` returns; its objection to the points or the cage names their file.
+/// Returns what `bind` returns; its objection to the points or the cage names their file.
 template <typename Bind>
 auto bindFiles(const fs::path& cagePath, const fs::path& modelPath, const Bind& bind)
 {
-    const std::map<std::string, fs::path> files{{"cage", cagePath}, {"points", modelPath}};
-    try {
-        return bind();
-    } catch (const InputError& error) {
-        throw InputError(files::namingFile(error.what(), files));
-    }
+    return files::namingFiles({{"cage", cagePath.string()}, {"points", modelPath.string()}}, bind);
 }
 
 /// The options with the model's points that no face uses.
@@ -244,7 +239,7 @@ int runDeform(Call call)
     }
     detail::requireMeshExtension(output);
     if (files::isPattern(posedPath) != files::isPattern(output)) {
-        throw InputError("POSED_CAGE and OUT: both or none must have a frame number, as in cage.%04d.obj");
+        throw InputError("POSED_CAGE and OUT", "both or none must have a frame number, as in cage.%04d.obj");
     }
     const std::vector<files::Frame> frames = files::findFrames(posedPath);
     Outputs outputs;

@@ -6,6 +6,7 @@
 #include <tools/cli/fingerprint.h>
 #include <tools/cli/memory_limit.h>
 #include <tools/cli/models.h>
+#include <tools/files/naming_files.h>
 #include <tools/files/stages.h>
 #include <tools/report/report.h>
 #include <tools/report/run_facts.h>
@@ -72,15 +73,11 @@ void announce(const MakeArguments& arguments, Outputs& outputs)
 /// Runs the pipeline; an objection to the model names its file.
 Pipeline makePipeline(std::vector<ModelFile>& models, const MakeArguments& arguments, Interrupter& interrupter)
 {
-    try {
+    return files::namingFiles({{"model", namesOf(models)}}, [&] {
         Pipeline pipeline(takeMesh(models));
         pipeline.run(arguments.options, &interrupter, arguments.memoryLimit);
         return pipeline;
-    } catch (const InputError& error) {
-        const std::string text = error.what(), prefix = "model: ";
-        if (text.compare(0, prefix.size(), prefix) != 0) throw;
-        throw InputError(namesOf(models) + ": " + text.substr(prefix.size()));
-    }
+    });
 }
 
 void addStages(const Pipeline& pipeline, const MakeArguments& arguments, Interrupter* interrupter, Outputs& outputs)
@@ -176,7 +173,7 @@ std::string makeFiles(const MakeArguments& arguments, const std::string& inputs,
     const auto began = std::chrono::steady_clock::now();
     StageClock clock(&interrupter);
 
-    std::optional<Stage> reading(std::in_place, &clock, "read");
+    std::optional<Stage> reading(std::in_place, &clock, StageName::read);
     std::vector<ModelFile> models =
         readModels(arguments.models, arguments.report.empty() ? Hashes::none : Hashes::sha256);
     reading.reset();
@@ -185,7 +182,7 @@ std::string makeFiles(const MakeArguments& arguments, const std::string& inputs,
     const Mesh& cage = pipeline.cage();
     checkEach(models, cage, pipeline.report().leastPartSide, &clock);
 
-    std::optional<Stage> writing(std::in_place, &clock, "write");
+    std::optional<Stage> writing(std::in_place, &clock, StageName::write);
     // All work first: while files are waiting a signal has to wait for work.
     const std::string picture = arguments.picture.empty() ? std::string() : encodePng(drawCage(pipeline.model(), cage));
     if (!arguments.stages.empty()) addStages(pipeline, arguments, &clock, outputs);
@@ -222,9 +219,9 @@ void setPrecisionFor(const fs::path& cage, CageOptions& options)
 {
     if (precisionOf(cage) == Precision::float64) return;
     if (options.precision == Precision::float64) {
-        throw InputError("--precision: 'float64' is not allowed with " + cage.string() + ": " +
-                         cage.extension().string() + " files hold float32; it must be auto or float32, or the file " +
-                         ".obj, .off or .ply");
+        throw InputError("--precision",
+                         "'float64' is not allowed with " + cage.string() + ": " + cage.extension().string() +
+                             " files hold float32; it must be auto or float32, or the file " + ".obj, .off or .ply");
     }
     options.precision = Precision::float32;
 }

@@ -38,8 +38,8 @@ Size parseSize(const std::string& text)
     const auto height = separated ? std::from_chars(width.ptr + 1, end, size.height) : width;
     if (!separated || height.ec != std::errc() || height.ptr != end || size.width < 1 || size.height < 1 ||
         size.width > maximumPictureSize || size.height > maximumPictureSize) {
-        throw InputError("--size: '" + text + "' is not allowed; it must be WIDTHxHEIGHT, each 1 to " +
-                         std::to_string(maximumPictureSize));
+        throw InputError("--size", "'" + text + "' is not allowed; it must be WIDTHxHEIGHT, each 1 to " +
+                                       std::to_string(maximumPictureSize));
     }
     return size;
 }
@@ -49,11 +49,11 @@ void colourByInfluence(std::vector<Layer>& panel, int vertex, const CoordinateOp
 {
     const auto cageLayer = std::find_if(panel.begin(), panel.end(),
                                         [](const Layer& layer) { return layer.style == LayerStyle::wireframe; });
-    if (cageLayer == panel.end()) throw InputError("--influence: a panel needs a model and its cage");
+    if (cageLayer == panel.end()) throw InputError("--influence", "a panel needs a model and its cage");
     const Mesh& cage = *cageLayer->mesh;
     if (vertex < 0 || static_cast<std::size_t>(vertex) >= cage.points.size()) {
-        throw InputError("--influence: " + std::to_string(vertex) + " is not a vertex of the cage; 0 to " +
-                         std::to_string(cage.points.size() - 1) + " are");
+        throw InputError("--influence", std::to_string(vertex) + " is not a vertex of the cage; 0 to " +
+                                            std::to_string(cage.points.size() - 1) + " are");
     }
     for (auto layer = panel.begin(); layer != cageLayer; ++layer) {
         const Mesh& model = *layer->mesh;
@@ -106,7 +106,7 @@ Mesh readVoxels(const fs::path& path)
         if (faceCount(surface) == 0) throw InputError("it has no active voxels; at least one is needed");
         return surface;
     } catch (const InputError& error) {
-        throw InputError(path.string() + ": " + error.what());
+        throw InputError(path.string(), error.what());
     }
 }
 

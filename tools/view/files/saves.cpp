@@ -22,7 +22,7 @@ void requirePoses(const SaveSource& source, const std::string& verb)
     }
     for (const PoseKey& key : source.state.document.poses.keys()) {
         if (source.cage->isGivenUp(key.pose)) {
-            throw InputError(verb + ": a pose cannot be carried over to this cage: " + source.posing.error());
+            throw InputError(verb, "a pose cannot be carried over to this cage: " + source.posing.error());
         }
     }
 }
@@ -67,8 +67,8 @@ Write SaveColours::writer(const SaveSource& source, const fs::path& file)
 {
     const auto values = source.posing.follower().values();
     if (!values) {
-        throw InputError("save-colours: the model shows none; in mode pose, once it is bound, it can show influence, "
-                         "stretch, or what is inverted");
+        throw InputError("save-colours", "the model shows none; in mode pose, once it is bound, it can show influence, "
+                                         "stretch, or what is inverted");
     }
     const OpenedMeshPtr model = source.state.document.model;
     const PosedModel& posed = source.posing.follower().model();

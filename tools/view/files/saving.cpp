@@ -33,7 +33,7 @@ using Points = std::vector<openvdb::Vec3d>;
 template <class Write>
 void saveFrames(PosedScene& scene, const fs::path& path, Interrupter* interrupter, const Write& write)
 {
-    const Stage stage(interrupter, "write");
+    const Stage stage(interrupter, StageName::write);
     PendingFiles files;
     for (int frame = scene.first; frame <= scene.last; ++frame) {
         throwIfInterrupted(interrupter, 100 * (frame - scene.first) / (scene.last - scene.first + 1));
@@ -59,9 +59,10 @@ void saveCage(const CageResult& result, const fs::path& path, Interrupter* inter
                                     ? checkCage(written, largeParts(model, leastPart).mesh, options, interrupter)
                                     : checkCage(written, model, options, interrupter);
         if (check.valid() < said.valid() || check.bounding() < said.bounding()) {
-            throw InputError(path.string() + ": " + path.extension().string() + " files hold float32, and so rounded " +
-                             (said.bounding() ? "the cage does not bound the model" : "it is no valid cage") +
-                             "; save it as .obj, .off or .ply, or make it with the precision float32");
+            throw InputError(path.string(),
+                             path.extension().string() + " files hold float32, and so rounded " +
+                                 (said.bounding() ? "the cage does not bound the model" : "it is no valid cage") +
+                                 "; save it as .obj, .off or .ply, or make it with the precision float32");
         }
     }
     writeMesh(written, path);

@@ -85,8 +85,8 @@ public:
             PoseKey key;
             key.frame = entry.at("frame").get<int>();
             if (key.frame < 0 || key.frame > lastFrame) {
-                throw InputError("poses: frame " + std::to_string(key.frame) +
-                                 " is not allowed; it must be from 0 to " + std::to_string(lastFrame));
+                throw InputError("poses", "frame " + std::to_string(key.frame) +
+                                              " is not allowed; it must be from 0 to " + std::to_string(lastFrame));
             }
             key.name = entry.at("name").get<std::string>();
             if (!entry.at("posed").is_null()) {
@@ -204,7 +204,8 @@ State openScene(const fs::path& given)
         }
         for (const Json& line : scene.at("view")) {
             const Command command = commandOf(wordsOf(line.get<std::string>()));
-            if (changesDocument(command)) throw InputError("view: '" + line.get<std::string>() + "' is not of a view");
+            if (changesDocument(command))
+                throw InputError("view", "'" + line.get<std::string>() + "' is not of a view");
             state = applied(state, command);
         }
         state.document.model = openMesh(sameFile(scene.at("model"), path));
@@ -228,9 +229,9 @@ State openScene(const fs::path& given)
         }
         if (scene.contains("elasticity")) state.document.elasticity = elasticityOf(scene["elasticity"]);
     } catch (const Json::exception& error) {
-        throw InputError(path.string() + ": it is no scene: " + error.what());
+        throw InputError(path.string(), "it is no scene: " + error.what());
     } catch (const InputError& error) {
-        throw InputError(path.string() + ": " + error.what());
+        throw InputError(path.string(), error.what());
     }
     return state;
 }

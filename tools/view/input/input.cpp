@@ -157,7 +157,7 @@ Key keyNamed(std::string_view name)
 {
     const auto found = std::find(keyNames.begin(), keyNames.end(), name);
     if (found == keyNames.end()) {
-        throw InputError("key: '" + std::string(name) + "' is not allowed; it must be one of " + allowedKeys);
+        throw InputError("key", "'" + std::string(name) + "' is not allowed; it must be one of " + allowedKeys);
     }
     return static_cast<Key>(found - keyNames.begin());
 }
@@ -197,8 +197,9 @@ KeyChord chordNamed(std::string_view name)
     std::string_view rest = name;
     const auto modifiers = takeModifiers(rest);
     if (!modifiers) {
-        throw InputError("keys: '" + std::string(name) +
-                         "' is not allowed; it must be a key, after control+, shift+ and alt+, each once at most");
+        throw InputError("keys",
+                         "'" + std::string(name) +
+                             "' is not allowed; it must be a key, after control+, shift+ and alt+, each once at most");
     }
     return {keyNamed(rest), *modifiers};
 }
@@ -209,7 +210,8 @@ ButtonChord buttonNamed(std::string_view name)
     const auto modifiers = takeModifiers(rest);
     const auto found = std::find(buttonNames.begin(), buttonNames.end(), rest);
     if (!modifiers || found == buttonNames.end()) {
-        throw InputError("mouse: '" + std::string(name) +
+        throw InputError(
+            "mouse", "'" + std::string(name) +
                          "' is not allowed; it must be left, right or middle, after control+, shift+ and alt+, each "
                          "once at most");
     }

@@ -24,7 +24,7 @@ SetMirror toggledMirror(const Situation& now, int axis)
 {
     const State& state = now.state;
     if (state.view.mirror && state.view.mirror->axis == axis) return {};
-    if (!now.cage) throw InputError("toggle: there is no cage yet to be mirrored");
+    if (!now.cage) throw InputError("toggle", "there is no cage yet to be mirrored");
     if (now.symmetry && now.symmetry->axis == axis) return {*now.symmetry};
     const openvdb::BBoxd box = boundingBox(*now.cage->rest());
     return {SymmetryPlane{axis, 0.5 * (box.min()[axis] + box.max()[axis])}};

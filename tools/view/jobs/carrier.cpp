@@ -8,7 +8,7 @@ namespace vdbcage::view {
 Carrier::Carrier(std::function<void()> wake)
     : worker_(
           [](const Job& job, Interrupter& interrupter, const auto&) {
-              const Stage stage(&interrupter, "carry the pose over");
+              const Stage stage(&interrupter, StageName::carryThePose);
               auto carried = std::make_shared<PosableCage>(job.cage);
               carried->carry(job.poses, &interrupter);
               return carried;

@@ -2,9 +2,9 @@
 #include <optional>
 #include <utility>
 
+#include <tools/files/naming_files.h>
 #include <tools/view/jobs/runner.h>
 #include <vdbcage/check/check.h>
-#include <vdbcage/core/error.h>
 #include <vdbcage/mesh/parts.h>
 
 namespace vdbcage::view {
@@ -61,7 +61,7 @@ public:
         }
         // They may be asked for when the cage is made already.
         if (job.intermediates && !done_->intermediates) {
-            const Stage stage(&interrupter, "layers");
+            const Stage stage(&interrupter, StageName::layers);
             CageResult result = *done_;
             result.intermediates = std::make_shared<const Intermediates>(
                 intermediatesOf(*pipeline_, trees.of(order.model, interrupter), &interrupter));
@@ -82,13 +82,8 @@ public:
     {
         if (job.order.cage) return check(job, interrupter);
         OrderedPipeline& pipeline = job.order == previewOf(job.order) ? preview_ : full_;
-        try {
-            return pipeline.make(job, tree_, interrupter);
-        } catch (const InputError& error) { // of the pipeline, which does not know the file
-            const std::string text = error.what(), prefix = "model: ";
-            if (text.compare(0, prefix.size(), prefix) != 0) throw;
-            throw InputError(job.order.model->path.string() + ": " + text.substr(prefix.size()));
-        }
+        return files::namingFiles({{"model", job.order.model->path.string()}},
+                                  [&] { return pipeline.make(job, tree_, interrupter); });
     }
 
 private:
@@ -103,7 +98,7 @@ private:
         const double leastPart = order.options.leastPart;
         if (!checker_ || checked_ != order.model || checkedLeastPart_ != leastPart) {
             checker_.reset();
-            const Stage stage(&clock, "guard");
+            const Stage stage(&clock, StageName::guard);
             const Mesh& model = order.model->mesh;
             checker_ =
                 leastPart > 0 ? CageChecker(largeParts(model, leastPart).mesh, &clock) : CageChecker(model, &clock);
@@ -111,7 +106,7 @@ private:
             checkedLeastPart_ = leastPart;
         }
         {
-            const Stage stage(&clock, "certify");
+            const Stage stage(&clock, StageName::certify);
             result.report.check = checker_->check(result.cage, {}, &clock);
         }
         if (job.intermediates) {

@@ -14,7 +14,7 @@ class Checks {
 public:
     PoseCheckPtr operator()(const PoseCheckOrder& order, Interrupter& interrupter)
     {
-        const Stage stage(&interrupter, "check the pose");
+        const Stage stage(&interrupter, StageName::checkThePose);
         const Mesh& model = order.bind.model->mesh;
         if (model_ != order.bind.model) {
             checker_ = std::make_unique<CageChecker>(model, &interrupter);

@@ -165,7 +165,7 @@ void open(FileBrowser& browser, const std::string& line, const fs::path& suggest
         if (known.ending) browser.name = suggested.stem().string() + known.ending;
         return;
     }
-    throw InputError("browse: '" + line + "' is not a line that takes a file");
+    throw InputError("browse", "'" + line + "' is not a line that takes a file");
 }
 
 void buildBrowser(const PanelContext& context, FileBrowser& browser)

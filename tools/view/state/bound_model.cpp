@@ -4,6 +4,7 @@
 #include <system_error>
 #include <utility>
 
+#include <tools/files/naming_files.h>
 #include <vdbcage/core/error.h>
 #include <vdbcage/deform/weights_io.h>
 
@@ -16,13 +17,9 @@ constexpr std::size_t mostTriangles = 12000, leastTriangles = 100, modelTriangle
 std::shared_ptr<const Binding> bound(const BindOrder& order, std::vector<openvdb::Vec3d> points,
                                      const CoordinateOptions& options, Interrupter* interrupter)
 {
-    try {
+    return files::namingFiles({{"points", order.model->path.string()}}, [&] {
         return std::make_shared<const Binding>(*order.cage, std::move(points), options, interrupter);
-    } catch (const InputError& error) { // of the library, which does not know the file
-        const std::string text = error.what(), prefix = "points: ";
-        if (text.compare(0, prefix.size(), prefix) != 0) throw;
-        throw InputError(order.model->path.string() + ": " + text.substr(prefix.size()));
-    }
+    });
 }
 
 } // namespace
@@ -63,7 +60,7 @@ std::shared_ptr<const Binding> bindingOf(const BindOrder& order, Interrupter* in
 
 BoundModelPtr boundCoarsely(const BindOrder& order, Interrupter* interrupter)
 {
-    const Stage stage(interrupter, "bind coarsely");
+    const Stage stage(interrupter, StageName::bindCoarsely);
     const Mesh& model = order.model->mesh;
     BoundModel bound;
     bound.order = order;
@@ -78,7 +75,7 @@ BoundModelPtr boundCoarsely(const BindOrder& order, Interrupter* interrupter)
 
 BoundModelPtr boundWhole(const BoundModel& coarse, Interrupter* interrupter)
 {
-    const Stage stage(interrupter, "bind");
+    const Stage stage(interrupter, StageName::bind);
     BoundModel bound = coarse;
     bound.whole = bindingOf(bound.order, interrupter);
     return std::make_shared<const BoundModel>(std::move(bound));

@@ -60,7 +60,7 @@ public:
         try {
             return numberOf(word, what);
         } catch (const InputError& error) {
-            throw InputError(path_ + ": " + error.what());
+            throw InputError(path_, error.what());
         }
     }
     std::size_t whole(const std::string& what, std::size_t most)

@@ -31,13 +31,13 @@ CageOptions optionsOf(const std::string& text, const std::string& source)
             if (words.size() != 2) throw InputError("'" + line + "' is not an option's name and its value");
             setOption(options, words[0], words[1]);
         } catch (const Error& error) {
-            throw InputError(source + ":" + std::to_string(number) + ": " + error.what());
+            throw InputError(source + ":" + std::to_string(number), error.what());
         }
     }
     try {
         requireValid(options);
     } catch (const InputError& error) {
-        throw InputError(source + ": " + error.what());
+        throw InputError(source, error.what());
     }
     return options;
 }
@@ -51,8 +51,8 @@ CageOptions presetOptions(const std::string& name)
     if (name.find_first_of("./") == std::string::npos) {
         std::string known;
         for (const Preset& preset : presets()) known += (known.empty() ? "" : ", ") + preset.name;
-        throw InputError("preset: '" + name + "' is not known; there are " + known +
-                         ", and files such as ./my.options");
+        throw InputError("preset",
+                         "'" + name + "' is not known; there are " + known + ", and files such as ./my.options");
     }
     return optionsOf(detail::readFile(name), name);
 }

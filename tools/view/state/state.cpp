@@ -19,7 +19,7 @@ LayerId layerNamed(const std::string& name)
         if (name == nameOf(layer)) return layer;
         known += (i > 0 ? ", " : "") + std::string(nameOf(layer));
     }
-    throw InputError("layer: '" + name + "' is not allowed; it must be one of " + known);
+    throw InputError("layer", "'" + name + "' is not allowed; it must be one of " + known);
 }
 
 std::array<LayerLook, layerCount> ViewState::defaultLayers()

@@ -360,7 +360,7 @@ Widgets::Widgets(float scale, Clipboard clipboard)
     constexpr float least = 0.5F;
     constexpr float most = 8;
     if (!(scale >= least && scale <= most)) {
-        throw InputError("scale: " + std::to_string(scale) + " is not allowed; it must be in [0.5, 8]");
+        throw InputError("scale", std::to_string(scale) + " is not allowed; it must be in [0.5, 8]");
     }
     state_ = std::make_unique<State>(scale, std::move(clipboard));
 }

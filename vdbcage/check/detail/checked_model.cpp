@@ -21,14 +21,14 @@ void requireSound(const Mesh& mesh, const char* what)
         if (index < mesh.points.size() && mesh.points[index].isFinite()) return;
         std::ostringstream problem;
         if (index >= mesh.points.size()) {
-            problem << what << ": a face uses point " << index << "; there are " << mesh.points.size()
+            problem << "a face uses point " << index << "; there are " << mesh.points.size()
                     << " points, counted from 0";
         } else {
             const Vec3d& p = mesh.points[index];
-            problem << what << ": point " << index << " is (" << p[0] << ", " << p[1] << ", " << p[2]
+            problem << "point " << index << " is (" << p[0] << ", " << p[1] << ", " << p[2]
                     << "); coordinates must be finite";
         }
-        throw InputError(problem.str());
+        throw InputError(what, problem.str());
     };
     for (const Vec3I& triangle : mesh.triangles) {
         for (int i = 0; i < 3; ++i) requirePoint(triangle[i]);
@@ -55,7 +55,7 @@ std::vector<Vec3I> everyTriangle(const Mesh& mesh, const FaceTriangles& faces)
 
 CheckedModel::CheckedModel(const Mesh& mesh, Interrupter* interrupter)
 {
-    if (faceCount(mesh) == 0) throw InputError("model: it has no faces; at least one is needed");
+    if (faceCount(mesh) == 0) throw InputError("model", "it has no faces; at least one is needed");
     requireSound(mesh, "model");
     throwIfInterrupted(interrupter);
     const FaceTriangles faces(mesh);

@@ -16,8 +16,8 @@ void requireFinite(const std::vector<Vec3d>& points, const char* what)
 {
     for (std::size_t i = 0; i < points.size(); ++i) {
         if (!points[i].isFinite()) {
-            throw InputError(std::string(what) + ": point " + std::to_string(i) + " is " + toText(points[i]) +
-                             "; coordinates must be finite");
+            throw InputError(what, "point " + std::to_string(i) + " is " + toText(points[i]) +
+                                       "; coordinates must be finite");
         }
     }
 }
@@ -25,8 +25,7 @@ void requireFinite(const std::vector<Vec3d>& points, const char* what)
 void requireCount(const char* what, std::size_t count, std::size_t needed, const char* of)
 {
     if (count != needed) {
-        throw InputError(std::string(what) + ": it has " + std::to_string(count) + " points; " + of + " has " +
-                         std::to_string(needed));
+        throw InputError(what, "it has " + std::to_string(count) + " points; " + of + " has " + std::to_string(needed));
     }
 }
 

@@ -20,8 +20,8 @@ namespace {
 const CoordinateFamily& computable(Coordinates family)
 {
     if (coordinateFamily(family).rowsIn != nullptr) return coordinateFamily(family);
-    throw InputError("coordinates: 'given' weights were made elsewhere and cannot be computed; there are " +
-                     familyNames());
+    throw InputError("coordinates",
+                     "'given' weights were made elsewhere and cannot be computed; there are " + familyNames());
 }
 
 /// The cage as a family takes it.
@@ -42,8 +42,8 @@ RowMaker::RowMaker(const Mesh& cage, const std::vector<Vec3d>& points, const Coo
 {
     for (const openvdb::Index32 i : options.loose.indices) {
         if (i >= points.size()) {
-            throw InputError("loose points: there is no point " + std::to_string(i) + "; there are " +
-                             std::to_string(points.size()) + " points, counted from 0");
+            throw InputError("loose points", "there is no point " + std::to_string(i) + "; there are " +
+                                                 std::to_string(points.size()) + " points, counted from 0");
         }
         isLoose_[i] = true;
     }
@@ -97,10 +97,11 @@ void RowMaker::requireDefined() const
     const auto first = std::find(undefined_.begin(), undefined_.end(), 1);
     if (first == undefined_.end()) return;
     const auto index = static_cast<std::size_t>(first - undefined_.begin());
-    throw InputError(std::string("points: ") + family_.info.name + " coordinates are not defined at " +
-                     std::to_string(std::count(first, undefined_.end(), 1)) + " of " + std::to_string(points_.size()) +
-                     " points, first at point " + std::to_string(index) + ", " + toText(points_[index]) + "; " +
-                     (family_.info.isEverywhere ? "none may be so far away" : "all must be inside of the cage"));
+    throw InputError(
+        "points", std::string(family_.info.name) + " coordinates are not defined at " +
+                      std::to_string(std::count(first, undefined_.end(), 1)) + " of " + std::to_string(points_.size()) +
+                      " points, first at point " + std::to_string(index) + ", " + toText(points_[index]) + "; " +
+                      (family_.info.isEverywhere ? "none may be so far away" : "all must be inside of the cage"));
 }
 
 /// Computes the rows of `count` points into the buffers. Returns a bit for each where the family is not defined.

@@ -108,9 +108,9 @@ void requireClosed(const Mesh& cage)
 {
     const MeshTopology topology = analyzeTopology(cage);
     if (topology.isCycle()) return;
-    throw InputError("cage: it is not closed and oriented (" + std::to_string(topology.boundaryEdges) +
-                     " boundary edges, " + std::to_string(topology.misorientedEdges) +
-                     " edges whose faces disagree); vdbcage repair may help");
+    throw InputError("cage", "it is not closed and oriented (" + std::to_string(topology.boundaryEdges) +
+                                 " boundary edges, " + std::to_string(topology.misorientedEdges) +
+                                 " edges whose faces disagree); vdbcage repair may help");
 }
 
 } // namespace
@@ -146,7 +146,7 @@ UnitCage::UnitCage(const Mesh& cage)
         volume += 0.5 * (c[0].dot(c[1].cross(c[2])) + c[0].dot(c[2].cross(c[3])) + c[0].dot(c[1].cross(c[3])) +
                          c[1].dot(c[2].cross(c[3])));
     }
-    if (volume < 0) throw InputError("cage: it faces inward; turn its faces around");
+    if (volume < 0) throw InputError("cage", "it faces inward; turn its faces around");
 
     Vec3d mean(0);
     const auto count = static_cast<double>(std::count(used.begin(), used.end(), true));
@@ -160,7 +160,7 @@ UnitCage::UnitCage(const Mesh& cage)
         }
     }
     if (!(volume > 1e-14) || !(spread.det() > 1e-24)) {
-        throw InputError("cage: it is flat; it must have a volume to deform what is in it");
+        throw InputError("cage", "it is flat; it must have a volume to deform what is in it");
     }
     const openvdb::Mat3d inverse = spread.inverse(0.0);
     restoring_.assign(points_.size(), Vec3d(0));

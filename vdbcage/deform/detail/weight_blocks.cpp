@@ -145,8 +145,9 @@ void appendGroups(std::size_t count, std::size_t columns, const Row& row, std::v
 void requireWeights(std::size_t weights, std::size_t points, std::size_t handles)
 {
     if (weights == points * handles) return;
-    throw InputError("weights: there are " + std::to_string(weights) + "; " + std::to_string(points) + " points and " +
-                     std::to_string(handles) + " handles need " + std::to_string(points * handles));
+    throw InputError("weights", "there are " + std::to_string(weights) + "; " + std::to_string(points) +
+                                    " points and " + std::to_string(handles) + " handles need " +
+                                    std::to_string(points * handles));
 }
 
 WeightBlocks::WeightBlocks(const std::vector<Vec3d>& points, const std::vector<float>& maxDistances,

@@ -42,15 +42,16 @@ void requireHeld(Precision precision, const openvdb::BBoxd& box)
     if (precision != Precision::float32) return;
     const std::string formats = "; .obj, .off and .ply files hold float64";
     if (isBeyondFloat(box)) {
-        throw InputError("model: it is too large or too small for float32" + formats);
+        throw InputError("model", "it is too large or too small for float32" + formats);
     }
     const double side = box.extents()[static_cast<int>(box.maxExtent())], rounding = floatRounding(box) / side;
     if (rounding <= largestRounding) return;
     char percent[32];
     std::snprintf(percent, sizeof percent, "%.2g", 100 * rounding);
-    throw InputError("model: it is so far from the origin that float32 rounds coordinates by up to " +
-                     std::string(percent) + " % of its longest side; at most " + numberText(100 * largestRounding) +
-                     " % is allowed: move it by " + shiftOf(box, side) + " first" + formats);
+    throw InputError("model", "it is so far from the origin that float32 rounds coordinates by up to " +
+                                  std::string(percent) + " % of its longest side; at most " +
+                                  numberText(100 * largestRounding) + " % is allowed: move it by " +
+                                  shiftOf(box, side) + " first" + formats);
 }
 
 Mesh asFloats(Mesh mesh)

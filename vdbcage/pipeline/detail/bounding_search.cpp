@@ -93,8 +93,8 @@ std::optional<Candidate> BoundingSearch::findSymmetric(const Request& request, b
     const double limit = isAnyAllowed ? options.symmetryTolerance : policy::largestRequestedDeviation;
     const std::string finding = "the model misses " + nameOf(best.plane) + " by " + percentOfSide(best.deviation);
     if (!isAnyAllowed && best.deviation > limit) {
-        throw InputError("--symmetry: '" + nameOf(best.plane) + "' is not allowed: " + finding +
-                         "; it may be at most " + detail::numberText(100 * limit) + " %");
+        throw InputError("--symmetry", "'" + nameOf(best.plane) + "' is not allowed: " + finding +
+                                           "; it may be at most " + detail::numberText(100 * limit) + " %");
     }
     if (best.deviation <= limit) {
         Contest contest{*cache_, certifier_, request, largeSurface_, ofSheet, best.plane};
@@ -124,7 +124,7 @@ std::optional<Candidate> BoundingSearch::findTilted(const Request& request, std:
     const bool isPlaced = varies(options.scale) || varies(options.density) || !options.joints.list.empty();
     if (isPlaced || longestSide(boundingBox(cache_->model())) < policy::leastTurnedSide) return std::nullopt;
     if (!tilted_) {
-        const Stage stage(request.interrupter, "symmetry");
+        const Stage stage(request.interrupter, StageName::symmetry);
         tilted_ = std::make_unique<TiltedSearch>(cache_->model(),
                                                  bestTiltedSymmetry(cache_->model(), request.interrupter), certifier_);
     }

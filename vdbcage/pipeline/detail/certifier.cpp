@@ -10,14 +10,14 @@ Certifier::Certifier(const Mesh& model) : model_(model), box_(boundingBox(model)
 
 CageCheck Certifier::check(const Mesh& cage, Interrupter* interrupter)
 {
-    const Stage stage(interrupter, "certify");
+    const Stage stage(interrupter, StageName::certify);
     return checker(interrupter).check(cage, {}, interrupter);
 }
 
 bool Certifier::boundsAsFloats(const Mesh& cage, Precision precision, Interrupter* interrupter)
 {
     if (!areFloats(precision)) return true;
-    const Stage stage(interrupter, "certify");
+    const Stage stage(interrupter, StageName::certify);
     CheckOptions options;
     options.asFloats = true;
     options.measure = false;

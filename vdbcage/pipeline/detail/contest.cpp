@@ -24,7 +24,7 @@ namespace {
 
 /// Side by side. \throw Cancelled
 template <typename Change>
-void forEach(std::vector<Candidate>& candidates, Interrupter* interrupter, const char* name, const Change& change)
+void forEach(std::vector<Candidate>& candidates, Interrupter* interrupter, StageName name, const Change& change)
 {
     const Stage stage(interrupter, name);
     StagesSideBySide pieces(interrupter, std::vector<double>(candidates.size(), 1.0));
@@ -194,13 +194,13 @@ std::optional<Candidate> Contest::shrinkOnto(const Entry& entry, Candidates star
     }
     keepAtMost(static_cast<std::size_t>(options.faces), &Candidate::cage, starts);
     if (const int sweeps = smoothing(options); sweeps > 0) {
-        forEach(starts, request_.interrupter, "smooth", [&](Candidate& candidate, Interrupter* piece) {
+        forEach(starts, request_.interrupter, StageName::smooth, [&](Candidate& candidate, Interrupter* piece) {
             candidate.cage = smooth(candidate.cage, entry.guard(), {sweeps}, piece);
         });
     }
     for (Candidate& candidate : starts) candidate.smoothed = candidate.cage;
     if (options.mesh == CageFaces::triangles) {
-        const Stage stage(request_.interrupter, "coplanar");
+        const Stage stage(request_.interrupter, StageName::coplanar);
         for (Candidate& candidate : starts) {
             candidate.cage = bendNearCoplanarEdges(candidate.cage, entry.guard(), request_.interrupter);
         }
@@ -210,7 +210,7 @@ std::optional<Candidate> Contest::shrinkOnto(const Entry& entry, Candidates star
 
 /// Those whose surfaces are large one after the other, then the others side by side. \throw Cancelled
 template <typename Change>
-void Contest::forEachSurface(Candidates& candidates, const char* name, const Change& change) const
+void Contest::forEachSurface(Candidates& candidates, StageName name, const Change& change) const
 {
     const Stage stage(request_.interrupter, name);
     std::vector<double> faces;
@@ -232,7 +232,7 @@ void Contest::collapseLoops(const Entry& entry, Candidates& starts) const
     options.faces = static_cast<std::size_t>(entry.options().faces);
     options.tightening = tightenOptions(entry.options().effort);
     options.exchanges = loopExchanges(entry.options().effort);
-    forEachSurface(starts, "loops", [&](Candidate& candidate, Interrupter* piece) {
+    forEachSurface(starts, StageName::loops, [&](Candidate& candidate, Interrupter* piece) {
         candidate.cage = quadLoops(*candidate.surface, entry.guard(), options, entry.rules.wishes, piece);
         candidate.decimated = candidate.cage;
     });
@@ -258,7 +258,7 @@ void Contest::decimateAndTighten(const Entry& entry, Candidates& starts) const
         const bool isSimple = candidate.start == CageStart::orientedBox || candidate.start == CageStart::tetrahedron;
         return isSimple && surface.triangles.size() + (onlyTriangles ? 2 : 1) * surface.quads.size() <= faces;
     };
-    forEachSurface(starts, "decimate", [&](Candidate& candidate, Interrupter* piece) {
+    forEachSurface(starts, StageName::decimate, [&](Candidate& candidate, Interrupter* piece) {
         const Mesh& surface = *candidate.surface;
         if (isCage(candidate)) {
             candidate.decimated = onlyTriangles ? triangulated(surface) : surface;
@@ -277,7 +277,7 @@ void Contest::decimateAndTighten(const Entry& entry, Candidates& starts) const
     TightenOptions tightening = tightenOptions(options.effort);
     if (guard.symmetry()) tightening.perturbations *= policy::symmetricPerturbations;
     if (onlyTriangles) {
-        forEach(starts, interrupter, "tighten", [&](Candidate& candidate, Interrupter* piece) {
+        forEach(starts, interrupter, StageName::tighten, [&](Candidate& candidate, Interrupter* piece) {
             candidate.cage =
                 withoutPeaks(tighten(candidate.decimated, guard, tightening, wishes, piece), guard, wishes, piece);
         });
@@ -288,7 +288,7 @@ void Contest::decimateAndTighten(const Entry& entry, Candidates& starts) const
         pairing.quadShape = options.quadShape;
         if (options.mesh == CageFaces::quads) pairing.quads = policy::mostlyQuads;
         pairing.tightening = tightening;
-        forEach(starts, interrupter, "quads", [&](Candidate& candidate, Interrupter* piece) {
+        forEach(starts, interrupter, StageName::quads, [&](Candidate& candidate, Interrupter* piece) {
             const Mesh& decimated = candidate.decimated;
             candidate.cage = isCage(candidate) ? tighten(decimated, guard, tightening, wishes, piece)
                                                : triquad(decimated, guard, pairing, wishes, piece);

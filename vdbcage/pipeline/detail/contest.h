@@ -54,7 +54,7 @@ private:
     void decimateAndTighten(const Entry& entry, Candidates& starts) const;
     bool isLarge(const Candidate& candidate) const { return faceCount(*candidate.surface) > largeSurface_; }
     template <typename Change>
-    void forEachSurface(Candidates& candidates, const char* name, const Change& change) const;
+    void forEachSurface(Candidates& candidates, StageName name, const Change& change) const;
     std::optional<Candidate> tightestCertified(const Entry& entry, Candidates candidates);
 
     StageCache& cache_;

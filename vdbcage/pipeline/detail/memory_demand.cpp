@@ -13,7 +13,7 @@ namespace vdbcage::detail {
 
 namespace {
 
-// Bytes, fitted to the peaks of runs with two threads, so that nearly all took less; docs/OPTIONS.md has figures.
+// Bytes, fitted to the peaks of runs with two threads, so that nearly all took less; docs/user/OPTIONS.md has figures.
 constexpr double perProcess = 60e6;      ///< the program and its libraries
 constexpr double perOpenGl = 80e6;       ///< and the driver's
 constexpr double perModelTriangle = 400; ///< of the mesh, the guard and the certifier

@@ -26,7 +26,7 @@ constexpr int usualResolution = 64;    ///< voxels along the longest side, for u
 constexpr double usualFaces = 1000;    ///< beyond, the resolution grows with the root of the faces
 constexpr int finestResolution = 512;  ///< that is chosen; finer ones have to be asked for
 constexpr int coarsestResolution = 16; ///< no rung of the ladder is below
-constexpr double shareFast = 2.0 / 3, shareFair = 5.0 / 6; ///< of the resolution, for time (docs/BENCHMARKS.md)
+constexpr double shareFast = 2.0 / 3, shareFair = 5.0 / 6; ///< of the resolution, for time (docs/dev/BENCHMARKS.md)
 constexpr int hullResolution = 32;                         ///< a hull has no detail that more could show
 constexpr double leastRadius = 0.03;                       ///< of a closing, of the longest side
 constexpr double greatestRadius = 0.24;                    ///< after three doublings; the option's range ends at 0.25

@@ -35,7 +35,7 @@ bool StageCache::isSheet(const CageOptions& options, Interrupter* interrupter)
 const Symmetry& StageCache::symmetry(CageSymmetry wanted, Interrupter* interrupter)
 {
     return symmetry_.of(wanted, [&] {
-        const Stage stage(interrupter, "symmetry");
+        const Stage stage(interrupter, StageName::symmetry);
         if (wanted == CageSymmetry::automatic) {
             // Of a model too large for doubles there is none.
             constexpr double any = std::numeric_limits<double>::infinity();
@@ -52,7 +52,7 @@ Rules StageCache::rules(const CageOptions& options, const FieldVersion& density,
     WishesKey key{guardOptions(options, ofSheet), density, options.joints.list, jointDensity(options)};
     key.guard.symmetry = plane;
     const auto guard = guard_.of(key.guard, [&] {
-        const Stage stage(interrupter, "guard");
+        const Stage stage(interrupter, StageName::guard);
         starts_.clear();
         wishes_.forget();
         return std::make_shared<const BoundingGuard>(model_, key.guard, interrupter);
@@ -90,7 +90,7 @@ std::size_t StageCache::quadsOf(const CageOptions& options, const FieldVersion& 
     if (known != quads_.end()) return known->second;
     const auto closing = volumes_.closing(options, scale, voxels, interrupter);
     const std::size_t quads = faceCount(*closingSurface_.of(key, [&] {
-        const Stage stage(interrupter, "surface");
+        const Stage stage(interrupter, StageName::surface);
         return std::make_shared<const Mesh>(extractSurface(*closing->mask, interrupter));
     }));
     constexpr std::size_t most = 64;

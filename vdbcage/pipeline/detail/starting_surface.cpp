@@ -60,7 +60,7 @@ StartingSurface startingSurface(std::shared_ptr<const Closing> closing, CageStar
     const SolidKey& voxels = start.closing->key.solid;
     const openvdb::MaskGrid::ConstPtr solid =
         kind == CageStart::hull ? convexHull(*start.closing->mask, interrupter) : start.closing->mask;
-    const Stage stage(interrupter, "surface");
+    const Stage stage(interrupter, StageName::surface);
     start.offsetVoxels = std::floor(guard.clearance() / solid->voxelSize()[0]);
     const auto grownBy = [&](double radius, const openvdb::MaskGrid& mask) {
         return dilate(mask, radius, StructuringElement::sphere, interrupter);

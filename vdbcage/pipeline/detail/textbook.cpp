@@ -36,18 +36,18 @@ Candidate textbookCage(const CageOptions& options, const FieldVersion& scale, Vo
     candidate.voxels = finestVoxels(options);
     candidate.closing = volumes.closing(options, scale, candidate.voxels, interrupter);
     {
-        const Stage stage(interrupter, "surface");
+        const Stage stage(interrupter, StageName::surface);
         candidate.surface = std::make_shared<const Mesh>(extractSurface(*candidate.closing->mask, interrupter));
     }
     candidate.topology = analyzeTopology(*candidate.surface, interrupter);
     {
-        const Stage stage(interrupter, "smooth");
+        const Stage stage(interrupter, StageName::smooth);
         SmoothOptions smoothing;
         smoothing.iterations = detail::smoothing(options);
         candidate.smoothed = smooth(*candidate.surface, smoothing, interrupter);
     }
     {
-        const Stage stage(interrupter, "decimate");
+        const Stage stage(interrupter, StageName::decimate);
         DecimateOptions target;
         target.faces = static_cast<std::size_t>(options.faces);
         candidate.decimated = certifier.rounded(decimate(candidate.smoothed, target, interrupter), options.precision);

@@ -112,7 +112,7 @@ std::shared_ptr<const Solid> Volumes::solid(const SolidKey& key, Interrupter* in
     if (solid_ && solid_->key == key) return solid_;
     closing_.reset(); // before more memory is taken
     solid_.reset();
-    const Stage stage(interrupter, "voxelize");
+    const Stage stage(interrupter, StageName::voxelize);
     VoxelizeOptions voxelization;
     voxelization.resolution = key.resolution;
     voxelization.voxelizer = key.voxelizer;
@@ -139,7 +139,7 @@ std::shared_ptr<const Closing> Volumes::closing(const CageOptions& options, cons
     made->key = key;
     made->solid = solid(key.solid, interrupter);
     closing_.reset();
-    const Stage stage(interrupter, "close");
+    const Stage stage(interrupter, StageName::close);
     CloseOptions closing;
     closing.closeRadiusVoxels = key.closeRadius * voxels.resolution;
     closing.erodeRadiusVoxels = key.erodeRadius * voxels.resolution;

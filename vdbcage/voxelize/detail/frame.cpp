@@ -31,14 +31,14 @@ Frame makeFrame(const Mesh& model, int resolution, const std::optional<openvdb::
     const openvdb::BBoxd own = boundingBox(model), box = given.value_or(own);
     for (int axis = 0; axis < 3; ++axis) {
         if (own.min()[axis] >= box.min()[axis] && own.max()[axis] <= box.max()[axis]) continue;
-        throw InputError("model: its bounding box is not within the box given for the voxels");
+        throw InputError("model", "its bounding box is not within the box given for the voxels");
     }
     const openvdb::Vec3d sides = box.max() - box.min();
     const double side = std::max({sides.x(), sides.y(), sides.z()});
     if (!(side >= smallestSide && side <= largestSide)) {
         std::ostringstream text;
-        text << "model: its longest side is " << side << "; " << smallestSide << " to " << largestSide << " is allowed";
-        throw InputError(text.str());
+        text << "its longest side is " << side << "; " << smallestSide << " to " << largestSide << " is allowed";
+        throw InputError("model", text.str());
     }
     double farthest = 0;
     for (int axis = 0; axis < 3; ++axis) {
@@ -50,10 +50,10 @@ Frame makeFrame(const Mesh& model, int resolution, const std::optional<openvdb::
     frame.center = 0.5 * box.min() + 0.5 * box.max();
     if (frame.voxelSize < smallestVoxel * farthest) {
         std::ostringstream text;
-        text << "model: its longest side is " << side << ", too small for a coordinate of " << farthest
-             << "; at resolution " << resolution << " it must be at least " << smallestVoxel * farthest * resolution
+        text << "its longest side is " << side << ", too small for a coordinate of " << farthest << "; at resolution "
+             << resolution << " it must be at least " << smallestVoxel * farthest * resolution
              << " (move the model towards the origin)";
-        throw InputError(text.str());
+        throw InputError("model", text.str());
     }
     const auto lattice = [&](const openvdb::Vec3d& p, int axis) {
         return latticeCoordinate(p[axis], frame.center[axis], frame.voxelSize, resolution);

@@ -14,7 +14,7 @@ double Arguments::number(std::size_t i, const Range& range) const
 
 void Arguments::fail(const std::string& problem) const
 {
-    throw InputError(name_ + ": " + problem);
+    throw InputError(name_, problem);
 }
 
 std::size_t Arguments::placeAmong(std::size_t i, const char* const* names, std::size_t count) const

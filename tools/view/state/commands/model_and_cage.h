@@ -33,7 +33,7 @@ struct OpenCage {
     std::string text() const { return written(path); }
     void apply(Document& document, const Situation& /*now*/) const
     {
-        if (!document.model) throw InputError("open-cage: there is no model yet that the cage could bound");
+        if (!document.model) throw InputError("open-cage", "there is no model yet that the cage could bound");
         document.cage = openMesh(path);
     }
 };

@@ -100,7 +100,7 @@ struct MoveKey {
         PoseKey key = requiredKey(document.poses, from, "move-key");
         if (from == to) return;
         if (document.poses.keyAt(to)) {
-            throw InputError("move-key: there is a key at frame " + std::to_string(to) + " already");
+            throw InputError("move-key", "there is a key at frame " + std::to_string(to) + " already");
         }
         key.frame = to;
         document.poses = document.poses.without(from).with(std::move(key));

@@ -94,7 +94,7 @@ GuardModel::GuardModel(const Mesh& model, const GuardOptions& options, Interrupt
     if (options.symmetry) {
         const int axis = options.symmetry->axis;
         if (axis < 0 || axis > 2) {
-            throw InputError("symmetry axis: " + std::to_string(axis) + " is not allowed; it must be 0, 1 or 2");
+            throw InputError("symmetry axis", std::to_string(axis) + " is not allowed; it must be 0, 1 or 2");
         }
         const double twice = 2 * options.symmetry->offset;
         openvdb::Vec3d low = box_.min(), high = box_.max();

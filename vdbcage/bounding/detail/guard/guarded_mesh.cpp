@@ -42,7 +42,7 @@ GuardedMesh::GuardedMesh(const Mesh& surface, const GuardModel& guard, Quads qua
     }
     for (std::uint32_t v = 0; v < points_.size(); ++v) {
         if (!isManifoldAt(v)) {
-            throw InputError("surface: it is not a closed, oriented 2-manifold at point " + std::to_string(v));
+            throw InputError("surface", "it is not a closed, oriented 2-manifold at point " + std::to_string(v));
         }
     }
     tree_ = DynamicBvh(std::move(boxes));
@@ -63,10 +63,10 @@ std::uint32_t GuardedMesh::takeHalf(std::uint32_t firstOfQuads)
         const Vec3I& t = faces_[f];
         const auto [least, most] = std::minmax({side(t[0]), side(t[1]), side(t[2])});
         if (least == most && least == 0) {
-            throw InputError("surface: face " + std::to_string(f) + " lies in the plane of symmetry");
+            throw InputError("surface", "face " + std::to_string(f) + " lies in the plane of symmetry");
         }
         if (least < 0 && most > 0) {
-            throw InputError("surface: face " + std::to_string(f) + " lies across the plane of symmetry");
+            throw InputError("surface", "face " + std::to_string(f) + " lies across the plane of symmetry");
         }
         (most > 0 ? beyond : behind).push_back(t);
         if (most > 0 && f < firstOfQuads) ++firstQuad;
@@ -85,7 +85,7 @@ std::uint32_t GuardedMesh::takeHalf(std::uint32_t firstOfQuads)
             const auto found = std::lower_bound(used.begin(), used.end(), image,
                                                 [&](std::uint32_t v, const Vec3d& p) { return points_[v] < p; });
             if (found == used.end() || points_[*found] != image) {
-                throw InputError("surface: point " + std::to_string(t[i]) + " has no mirror image");
+                throw InputError("surface", "point " + std::to_string(t[i]) + " has no mirror image");
             }
             t[i] = *found;
         }
@@ -95,7 +95,7 @@ std::uint32_t GuardedMesh::takeHalf(std::uint32_t firstOfQuads)
     for (const Vec3I& t : beyond) sorted.push_back(fromLeast(t));
     std::sort(sorted.begin(), sorted.end());
     std::sort(behind.begin(), behind.end());
-    if (sorted != behind) throw InputError("surface: it is not symmetric: a face has no mirror image");
+    if (sorted != behind) throw InputError("surface", "it is not symmetric: a face has no mirror image");
     faces_ = std::move(beyond);
     return firstQuad;
 }

@@ -17,8 +17,8 @@ void requireValid(const Joint& joint, const openvdb::BBoxd& box)
     const auto refuse = [&](const char* why) {
         std::ostringstream text;
         text.precision(15); // as the user wrote it
-        text << "joints: the one at " << joint.place << ' ' << why;
-        throw InputError(text.str());
+        text << "the one at " << joint.place << ' ' << why;
+        throw InputError("joints", text.str());
     };
     if (!joint.place.isFinite()) refuse("is not at a finite place");
     if (!box.isInside(joint.place)) refuse("is outside of the model's bounding box; it must be inside of a limb");

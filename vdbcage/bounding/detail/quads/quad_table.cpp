@@ -8,10 +8,10 @@ namespace vdbcage::detail {
 
 QuadTable::QuadTable(const GuardedMesh& surface) : quadsOf_(surface.vertices())
 {
-    if (surface.faces() % 2 != 0) throw InputError("surface: it has a triangle; all faces must be quads");
+    if (surface.faces() % 2 != 0) throw InputError("surface", "it has a triangle; all faces must be quads");
     for (std::uint32_t f = 0; f < surface.faces(); f += 2) {
         const Vec3I &s = surface.face(f), &t = surface.face(f + 1); // as triangulate() splits a quad
-        if (s[0] != t[0] || s[2] != t[1]) throw InputError("surface: it has a triangle; all faces must be quads");
+        if (s[0] != t[0] || s[2] != t[1]) throw InputError("surface", "it has a triangle; all faces must be quads");
         for (const std::uint32_t v : {s[0], s[1], s[2], t[2]}) quadsOf_[v].push_back(quads());
         corners_.emplace_back(s[0], s[1], s[2], t[2]);
     }

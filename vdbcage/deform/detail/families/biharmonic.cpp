@@ -380,9 +380,9 @@ BiharmonicCage::BiharmonicCage(const UnitCage& cage, Interrupter* interrupter) :
 {
     const std::size_t size = columns();
     if (size > mostData) {
-        throw InputError("cage: it has " + std::to_string(cage.points().size()) + " points and " +
-                         std::to_string(cage.faces().size()) + " triangles; biharmonic coordinates allow " +
-                         std::to_string(mostData) + " of both together");
+        throw InputError("cage", "it has " + std::to_string(cage.points().size()) + " points and " +
+                                     std::to_string(cage.faces().size()) + " triangles; biharmonic coordinates allow " +
+                                     std::to_string(mostData) + " of both together");
     }
     for (const UnitCage::Face& face : cage.faces()) {
         const auto at = [&](std::size_t k) { return cage.points()[face.at[k]]; };
