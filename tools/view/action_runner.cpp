@@ -57,15 +57,15 @@ struct ActionRunner::VerbEffect {
     void operator()(const SaveStages& verb) const
     {
         const Planner& planner = parts.making.planner();
-        if (currentCage(planner, "save-stages").order.cage) {
+        if (currentCage(planner, "save-stages")->order.cage) {
             throw InputError("save-stages", "the cage was opened, not made, so it has no stages");
         }
         parts.making.keepIntermediates(true);
         runner.waitUntilSettled();
         parts.making.keepIntermediates(false);
-        const CageResult& result = currentCage(planner, "save-stages");
-        if (!result.intermediates) throw InputError("save-stages", planner.error());
-        saveStages(result, verb.path);
+        const CageResultPtr result = currentCage(planner, "save-stages");
+        if (!result->intermediates) throw InputError("save-stages", planner.error());
+        saveStages(*result, verb.path);
         saySaved(verb.path);
     }
     void operator()(const SaveScene& verb) const

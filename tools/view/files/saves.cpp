@@ -16,8 +16,8 @@ namespace {
 void requirePoses(const SaveSource& source, const std::string& verb)
 {
     // Of the cage that is seen; a new one may not have its poses yet.
-    const Mesh& current = currentCage(source.planner, verb).cage;
-    if (!source.cage || source.cage->rest().get() != &current) {
+    const CageResultPtr current = currentCage(source.planner, verb);
+    if (!source.cage || source.cage->rest().get() != &current->cage) {
         throw InputError(verb + ": the poses are not carried over to the new cage yet");
     }
     for (const PoseKey& key : source.state.document.poses.keys()) {
@@ -103,12 +103,12 @@ Write SaveOptions::writer(const SaveSource& source, const fs::path& file)
     return [options = source.state.document.options, file](Interrupter*) { saveOptions(options, file); };
 }
 
-const CageResult& currentCage(const Planner& planner, const std::string& verb)
+CageResultPtr currentCage(const Planner& planner, const std::string& verb)
 {
     if (planner.standing() != Planner::Standing::current) {
         throw InputError(verb + ": the cage of these options is not made yet");
     }
-    return *planner.shown();
+    return planner.shown();
 }
 
 } // namespace vdbcage::view

@@ -104,6 +104,6 @@ struct SaveOptions : SaveFile {
 };
 
 /// The cage of the options that are set now, or that was opened. \throw InputError naming the verb: it is not there yet
-const CageResult& currentCage(const Planner& planner, const std::string& verb);
+CageResultPtr currentCage(const Planner& planner, const std::string& verb);
 
 } // namespace vdbcage::view
