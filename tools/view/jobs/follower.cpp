@@ -13,7 +13,9 @@ void Follower::follow(const State& state, const MeshPtr& cage, const std::vector
     } else if (effort.isToStay) {
         binder_.want(bindOrder(state.document, cage));
     }
-    followMaterial(state.document.elasticity);
+    const Elasticity& elasticity = state.document.elasticity;
+    bound_ = withMaterial_.of(std::make_pair(binder_.bound(), elasticity),
+                              [&] { return withMaterial(binder_.bound(), elasticity); });
     if (!effort.isPosing || cagePoints == cage->points) {
         model_.update(nullptr, {});
     } else if (bound_ && bound_->order == bindOrder(state.document, cage)) {
@@ -21,14 +23,6 @@ void Follower::follow(const State& state, const MeshPtr& cage, const std::vector
     }
     followCheck(state, cage, cagePoints, effort.isPosing && effort.standsStill);
     followValues(state, cage);
-}
-
-void Follower::followMaterial(const Elasticity& elasticity)
-{
-    if (boundByBinder_ == binder_.bound() && elasticity_ == elasticity) return;
-    boundByBinder_ = binder_.bound();
-    elasticity_ = elasticity;
-    bound_ = withMaterial(boundByBinder_, elasticity);
 }
 
 void Follower::followCheck(const State& state, const MeshPtr& cage, const std::vector<openvdb::Vec3d>& cagePoints,
@@ -59,23 +53,16 @@ void Follower::followValues(const State& state, const MeshPtr& cage)
     const PoseCheckPtr check = colours == ModelColours::inverted ? checker_.result() : nullptr;
     // Until the next pose is checked the colours are those of the last one.
     if (colours == ModelColours::inverted && valuesOf_ == colours && model_.bound() && !check) return;
-    if (colours == valuesOf_ && bound_ == valuesBound_ && points == valuesPoints_ && version == valuesVersion_ &&
-        check == valuesCheck_) {
-        return;
-    }
     valuesOf_ = colours;
-    valuesBound_ = bound_;
-    valuesPoints_ = points;
-    valuesVersion_ = version;
-    valuesCheck_ = check;
-    values_.reset();
-    if (colours == ModelColours::influence) {
-        values_ = std::make_shared<const std::vector<double>>(influence(*bound_->whole, points));
-    } else if (colours == ModelColours::stretch) {
-        values_ = std::make_shared<const std::vector<double>>(stretch(bound_->order.model->mesh, model_.points()));
-    } else if (check && check->inverted) {
-        values_ = std::make_shared<const std::vector<double>>(cornersOf(*check->inverted, bound_->order.model->mesh));
-    }
+    values_ = valuesMemo_.of(std::tie(colours, bound_, points, version, check), [&]() -> Values {
+        const auto kept = [](std::vector<double> values) {
+            return std::make_shared<const std::vector<double>>(std::move(values));
+        };
+        if (colours == ModelColours::influence) return kept(influence(*bound_->whole, points));
+        if (colours == ModelColours::stretch) return kept(stretch(bound_->order.model->mesh, model_.points()));
+        if (check && check->inverted) return kept(cornersOf(*check->inverted, bound_->order.model->mesh));
+        return nullptr;
+    });
 }
 
 void Follower::update()

@@ -3,12 +3,15 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <tuple>
+#include <utility>
 #include <vector>
 
 #include <tools/view/jobs/binder.h>
 #include <tools/view/jobs/pose_checker.h>
 #include <tools/view/jobs/posed_model.h>
 #include <tools/view/state/state.h>
+#include <vdbcage/core/detail/memo.h>
 
 namespace vdbcage::view {
 
@@ -55,25 +58,22 @@ public:
     const Binder& binder() const { return binder_; }
 
 private:
-    void followMaterial(const Elasticity& elasticity);
     void followCheck(const State& state, const MeshPtr& cage, const std::vector<openvdb::Vec3d>& cagePoints,
                      bool standsStill);
     void followValues(const State& state, const MeshPtr& cage);
 
     Binder binder_;
+    vdbcage::detail::Memo<std::pair<BoundModelPtr, Elasticity>, BoundModelPtr> withMaterial_;
     BoundModelPtr bound_;
-    // What it was made of.
-    BoundModelPtr boundByBinder_;
-    Elasticity elasticity_;
     PoseChecker checker_;
     PosedModel model_;
-    std::shared_ptr<const std::vector<double>> values_;
-    // What they were made of.
+    using Values = std::shared_ptr<const std::vector<double>>;
+    /// The binding, the selected points, the version of the posed model, and the verdict: each only where it counts.
+    using ValuesKey =
+        std::tuple<ModelColours, BoundModelPtr, std::vector<openvdb::Index32>, std::uint64_t, PoseCheckPtr>;
+    vdbcage::detail::Memo<ValuesKey, Values> valuesMemo_;
+    Values values_;
     ModelColours valuesOf_ = ModelColours::plain;
-    BoundModelPtr valuesBound_;
-    std::vector<openvdb::Index32> valuesPoints_;
-    std::uint64_t valuesVersion_ = 0;
-    PoseCheckPtr valuesCheck_;
 };
 
 } // namespace vdbcage::view

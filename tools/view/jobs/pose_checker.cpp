@@ -3,6 +3,7 @@
 #include <utility>
 
 #include <vdbcage/check/check.h>
+#include <vdbcage/core/detail/memo.h>
 #include <vdbcage/deform/inversions.h>
 
 namespace vdbcage::view {
@@ -16,35 +17,28 @@ public:
     {
         const Stage stage(&interrupter, StageName::checkThePose);
         const Mesh& model = order.bind.model->mesh;
-        if (model_ != order.bind.model) {
-            checker_ = std::make_unique<CageChecker>(model, &interrupter);
-            model_ = order.bind.model;
-        }
+        const auto& checker =
+            checker_.of(order.bind.model, [&] { return std::make_unique<CageChecker>(model, &interrupter); });
         Mesh posed = *order.bind.cage;
         posed.points = order.cagePoints;
         CheckOptions options;
         options.measure = false;
-        const CageCheck check = checker_->check(posed, options, &interrupter);
+        const CageCheck check = checker->check(posed, options, &interrupter);
         PoseCheck result;
         result.isValid = check.valid();
         result.selfIntersections = check.selfIntersections;
         if (order.binding) {
-            if (!inversions_ || bind_ != order.bind) {
-                inversions_.reset(); // it may be interrupted
-                inversions_.emplace(*order.binding, model, &interrupter);
-                bind_ = order.bind;
-            }
-            inversions_ = inversions_->with(order.binding->options().elasticity);
-            result.inverted = inversions_->inverted(order.cagePoints);
+            InversionTest& inversions =
+                inversions_.of(order.bind, [&] { return InversionTest(*order.binding, model, &interrupter); });
+            inversions = inversions.with(order.binding->options().elasticity);
+            result.inverted = inversions.inverted(order.cagePoints);
         }
         return std::make_shared<const PoseCheck>(std::move(result));
     }
 
 private:
-    OpenedMeshPtr model_; // of the checker
-    std::unique_ptr<CageChecker> checker_;
-    BindOrder bind_; // of the test
-    std::optional<InversionTest> inversions_;
+    vdbcage::detail::Memo<OpenedMeshPtr, std::unique_ptr<CageChecker>> checker_;
+    vdbcage::detail::Memo<BindOrder, InversionTest> inversions_;
 };
 
 } // namespace

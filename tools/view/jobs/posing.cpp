@@ -29,13 +29,12 @@ CageResultPtr Posing::wantedCage(const Document& document, const Planner& planne
 {
     const CageResultPtr& made = planner.shown();
     if (!document.cage || (made && made->order.cage == document.cage)) return made;
-    if (!unchecked_ || unchecked_->order.cage != document.cage) {
+    return unchecked_.of(document.cage, [&] {
         CageResult result;
         result.order = {document.model, document.options, document.cage};
         result.cage = document.cage->mesh;
-        unchecked_ = std::make_shared<const CageResult>(std::move(result));
-    }
-    return unchecked_;
+        return std::make_shared<const CageResult>(std::move(result));
+    });
 }
 
 void Posing::follow(const State& state, const Planner& planner, bool standsStill)
@@ -47,15 +46,12 @@ void Posing::follow(const State& state, const Planner& planner, bool standsStill
     // A preview's cage is gone in a moment.
     effort.isToStay = planner.standing() == Planner::Standing::current || planner.isHalted();
     effort.standsStill = standsStill;
-    if (document.poses != poses_ || posable_ != cage_ || state.view.mode != mode_ || state.view.frame != frame_) {
-        poses_ = document.poses;
-        cage_ = posable_;
-        mode_ = state.view.mode;
-        frame_ = state.view.frame;
-        cagePoints_ = view::cagePoints(state, posable_);
-    }
+    poses_ = document.poses;
+    cagePoints_ = pointsMemo_.of(std::tie(poses_, posable_, state.view.mode, state.view.frame), [&] {
+        return std::make_shared<const std::vector<openvdb::Vec3d>>(view::cagePoints(state, posable_));
+    });
     const MeshPtr rest = posable_ ? posable_->rest() : nullptr;
-    follower_.follow(state, rest, cagePoints_, effort);
+    follower_.follow(state, rest, *cagePoints_, effort);
     if (!effort.isPosing || !state.view.compared) {
         compared_.reset();
         return;
@@ -64,12 +60,13 @@ void Posing::follow(const State& state, const Planner& planner, bool standsStill
     State other = state;
     other.document.coordinates = *state.view.compared;
     other.document.weights.reset();
-    compared_->follow(other, rest, cagePoints_, effort);
+    compared_->follow(other, rest, *cagePoints_, effort);
 }
 
 bool Posing::isPosed(const State& state) const
 {
-    return !cagePoints_.empty() && state.view.mode == Mode::pose && posable_ && cagePoints_ != posable_->rest()->points;
+    return !cagePoints_->empty() && state.view.mode == Mode::pose && posable_ &&
+           *cagePoints_ != posable_->rest()->points;
 }
 
 bool Posing::hasMaterial(const State& state) const

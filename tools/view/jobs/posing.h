@@ -3,11 +3,13 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include <tools/view/jobs/carrier.h>
 #include <tools/view/jobs/follower.h>
 #include <tools/view/jobs/planner.h>
+#include <vdbcage/core/detail/memo.h>
 
 namespace vdbcage::view {
 
@@ -33,7 +35,7 @@ public:
     void follow(const State& state, const Planner& planner, bool standsStill);
 
     /// As of the last follow(): where the cage's points are, and the model.
-    const std::vector<openvdb::Vec3d>& cagePoints() const { return cagePoints_; }
+    const std::vector<openvdb::Vec3d>& cagePoints() const { return *cagePoints_; }
     const Follower& follower() const { return follower_; }
     /// The model by the family that is compared; null: none is.
     const Follower* compared() const { return compared_.get(); }
@@ -63,14 +65,14 @@ private:
     Carrier carrier_;
     Follower follower_;
     std::unique_ptr<Follower> compared_;
-    CageResultPtr unchecked_, shown_;
+    vdbcage::detail::Memo<OpenedMeshPtr, CageResultPtr> unchecked_; // of the opened cage
+    CageResultPtr shown_;
     ShownCage posable_;
-    std::vector<openvdb::Vec3d> cagePoints_;
-    // What cagePoints_ were made of.
-    TimeLine poses_;
-    ShownCage cage_;
-    Mode mode_ = Mode::shape;
-    int frame_ = 0;
+    TimeLine poses_; // of the last follow()
+    using Points = std::shared_ptr<const std::vector<openvdb::Vec3d>>;
+    using PointsKey = std::tuple<TimeLine, ShownCage, Mode, int>; // with the frame
+    vdbcage::detail::Memo<PointsKey, Points> pointsMemo_;
+    Points cagePoints_ = std::make_shared<const std::vector<openvdb::Vec3d>>();
 };
 
 } // namespace vdbcage::view

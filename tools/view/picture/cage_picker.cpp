@@ -35,14 +35,13 @@ std::optional<edit::Picking> CagePicker::picking(const Picture& picture, const V
     std::vector<Vec3d> points;
     points.reserve(shapes.cagePoints().size());
     for (const Vec3d& p : shapes.cagePoints()) points.push_back(shapes.frame().toDrawing(p));
-    return std::make_optional<edit::Picking>(elements(*shapes.cage()), std::move(points), seen,
+    return std::make_optional<edit::Picking>(elements(shapes.cage()), std::move(points), seen,
                                              hides ? &*occluder_ : nullptr);
 }
 
-const edit::Elements& CagePicker::elements(const CageResult& cage)
+const edit::Elements& CagePicker::elements(const CageResultPtr& cage)
 {
-    if (!elements_) elements_.emplace(cage.cage);
-    return *elements_;
+    return elements_.of(cage, [&] { return edit::Elements(cage->cage); });
 }
 
 void CagePicker::addElements(const Picture& picture, const ViewState& view, bool isMoved, PictureOverlay& overlay)
@@ -69,7 +68,7 @@ void CagePicker::addElements(const Picture& picture, const ViewState& view, bool
             overlay.points.push_back({pixelAt(i), isSelected});
         }
     } else if (selection.kind == edit::Element::edge && !selection.ids.empty()) {
-        const auto& edges = elements(*shapes.cage()).edges();
+        const auto& edges = elements(shapes.cage()).edges();
         for (const openvdb::Index32 edge : selection.ids) {
             if (edge >= edges.size()) break;
             overlay.edges.push_back({pixelAt(edges[edge].first), pixelAt(edges[edge].second)});

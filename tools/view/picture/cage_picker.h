@@ -6,6 +6,7 @@
 #include <tools/edit/picking.h>
 #include <tools/view/picture/layer_shapes.h>
 #include <tools/view/picture/picture_overlay.h>
+#include <vdbcage/core/detail/memo.h>
 
 namespace vdbcage::view {
 
@@ -30,16 +31,15 @@ public:
     /// were seen before.
     void addElements(const Picture& picture, const ViewState& view, bool isMoved, PictureOverlay& overlay);
 
-    void forgetCage() { elements_.reset(); }
     void forgetModel() { occluder_.reset(); }
     void forgetVisible() { visiblePoints_.reset(); }
 
 private:
     /// None: there is no cage to be seen.
     std::optional<edit::Picking> picking(const Picture& picture, const ViewState& view);
-    const edit::Elements& elements(const CageResult& cage);
+    const edit::Elements& elements(const CageResultPtr& cage);
 
-    std::optional<edit::Elements> elements_;                     ///< of the cage
+    vdbcage::detail::Memo<CageResultPtr, edit::Elements> elements_;
     std::optional<edit::Occluder> occluder_;                     ///< the model as it is seen
     std::optional<std::vector<openvdb::Index32>> visiblePoints_; ///< of the cage
     std::optional<std::vector<openvdb::Index32>> lastPoints_;    ///< the visible ones when nothing was moved

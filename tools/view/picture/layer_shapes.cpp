@@ -101,7 +101,6 @@ LayerShapes::Change LayerShapes::show(const Shown& shown, const ViewState& view)
     const bool isOtherModel = model_.source() != shown.model;
     Change change;
     change.model = isOtherModel;
-    change.cage = cage_ != cage;
     change.any = isOtherModel || slot(LayerId::cage).source != cage || shown.isStale != isStale_ || view != view_;
     if (isOtherModel) setModel(shown.model);
     const bool areOtherMarks = slot(LayerId::cage).source != cage || view.selection != view_.selection;

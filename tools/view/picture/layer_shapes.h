@@ -33,7 +33,6 @@ public:
     struct Change {
         bool any = false;
         bool model = false; ///< or where it is
-        bool cage = false;  ///< another one; its points may have moved besides
     };
     /// Takes over what is to be seen. \throw DeviceError
     Change show(const Shown& shown, const ViewState& view);

@@ -26,7 +26,6 @@ void Viewport::resize(int width, int height)
 bool Viewport::show(const Shown& shown, const ViewState& view)
 {
     const LayerShapes::Change change = shapes_.show(shown, view);
-    if (change.cage) picker_.forgetCage();
     if (change.model) picker_.forgetModel();
     if (change.any) restart();
     return change.any;
