@@ -6,6 +6,7 @@
 #include <memory>
 
 #include <deform/cages.h>
+#include <vdbcage/core/detail/simd.h>
 #include <vdbcage/deform/detail/coordinate_family.h>
 
 using namespace vdbcage;
@@ -157,9 +158,9 @@ BOOST_AUTO_TEST_CASE(all_instruction_sets_give_the_same_bits)
         const std::vector<Vec3d> points = placesFor(cage, 5);
         for (const CoordinateFamily* const family : familiesFor(*forKernels)) {
             const Result first = rowsOf(rowKernels(), *forKernels, *family, points);
-            for (const RowKernels* const* set = allRowKernels(); *set; ++set) {
-                const Result other = rowsOf(**set, *forKernels, *family, points);
-                BOOST_TEST_CONTEXT(family->info.name << " with " << (*set)->instructions)
+            for (const Simd set : supportedSimd()) {
+                const Result other = rowsOf(rowKernels(set), *forKernels, *family, points);
+                BOOST_TEST_CONTEXT(family->info.name << " with " << rowKernels(set).instructions)
                 {
                     BOOST_REQUIRE(other.rows.size() == first.rows.size());
                     BOOST_TEST(std::memcmp(other.rows.data(), first.rows.data(), 8 * first.rows.size()) == 0);
@@ -197,11 +198,12 @@ BOOST_AUTO_TEST_CASE(projections)
     for (const float entry : pivot) square += double(entry) * double(entry);
     const auto inverseSquare = static_cast<float>(1 / square);
     std::vector<float> first;
-    for (const RowKernels* const* set = allRowKernels(); *set; ++set) {
+    for (const Simd set : supportedSimd()) {
         std::vector<float> left = rows, factors(count), sizes(count);
         std::vector<float*> places;
         for (std::size_t r = 0; r < count; ++r) places.push_back(left.data() + r * columns);
-        (*set)->project(places.data(), count, pivot.data(), inverseSquare, columns, factors.data(), sizes.data());
+        rowKernels(set).project(places.data(), count, pivot.data(), inverseSquare, columns, factors.data(),
+                                sizes.data());
         for (std::size_t r = 0; r < count; ++r) {
             double product = 0, size = 0, leftProduct = 0;
             for (std::size_t k = 0; k < columns; ++k) {
@@ -215,7 +217,7 @@ BOOST_AUTO_TEST_CASE(projections)
         }
         left.insert(left.end(), sizes.begin(), sizes.end());
         if (first.empty()) first = left;
-        BOOST_TEST((left == first), (*set)->instructions);
+        BOOST_TEST((left == first), rowKernels(set).instructions);
     }
 }
 

@@ -1,11 +1,11 @@
 #include <vdbcage/deform/detail/kernels/row_kernels.h>
 
-#include <array>
+#include <vdbcage/core/detail/simd.h>
 
 namespace vdbcage::detail {
 
 extern const RowKernels baselineKernels;
-#if defined(__x86_64__)
+#if VDBCAGE_WITH_AVX
 extern const RowKernels avx2Kernels, avx512Kernels;
 #endif
 
@@ -15,27 +15,19 @@ std::size_t scratchSize(const KernelCage& cage)
     return vectors * packetSize * sizeof(double);
 }
 
-const RowKernels* const* allRowKernels()
+const RowKernels& rowKernels(Simd set)
 {
-    static const std::array<const RowKernels*, 4> all = [] {
-        std::array<const RowKernels*, 4> list{};
-        std::size_t count = 0;
-#if defined(__x86_64__)
-        if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
-            __builtin_cpu_supports("avx512vl")) {
-            list[count++] = &avx512Kernels;
-        }
-        if (__builtin_cpu_supports("avx2")) list[count++] = &avx2Kernels;
+#if VDBCAGE_WITH_AVX
+    if (set == Simd::avx512) return avx512Kernels;
+    if (set == Simd::avx2) return avx2Kernels;
 #endif
-        list[count] = &baselineKernels;
-        return list;
-    }();
-    return all.data();
+    (void)set; // other processors have one
+    return baselineKernels;
 }
 
 const RowKernels& rowKernels()
 {
-    return **allRowKernels();
+    return rowKernels(bestSimd());
 }
 
 } // namespace vdbcage::detail

@@ -6,6 +6,8 @@
 
 namespace vdbcage::detail {
 
+enum class Simd; // core/detail/simd.h
+
 /// Points whose rows are computed together.
 constexpr int packetSize = 8;
 constexpr std::size_t floatLanes = 16;
@@ -42,11 +44,11 @@ struct RowKernels {
 /// In bytes, for any table; aligned to 64.
 std::size_t scratchSize(const KernelCage& cage);
 
-/// The fastest that this processor runs.
+/// Those for the best instruction set that this processor has.
 const RowKernels& rowKernels();
 
-/// All that this processor runs, the fastest first, and null: their bits are the same.
-const RowKernels* const* allRowKernels();
+/// Those for an instruction set that this processor has. All have the same bits.
+const RowKernels& rowKernels(Simd set);
 
 /// What the kernels leave to the scalar formulas: the weights of the corners of face `face`. Returns false if `x` is
 /// too near for them.

@@ -6,9 +6,9 @@
 #include <cstring>
 #include <vector>
 
+#include <vdbcage/core/detail/simd.h>
 #include <vdbcage/volume/detail/cube/axis_permutation.h>
 #include <vdbcage/volume/detail/cube/row_view.h>
-#include <vdbcage/volume/detail/simd.h>
 
 namespace vdbcage::detail {
 

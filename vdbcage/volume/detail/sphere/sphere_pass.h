@@ -2,9 +2,9 @@
 
 #include <cstdint>
 
+#include <vdbcage/core/detail/simd.h>
 #include <vdbcage/volume/detail/mask_blocks.h>
 #include <vdbcage/volume/detail/progress.h>
-#include <vdbcage/volume/detail/simd.h>
 #include <vdbcage/volume/detail/sphere/radius_field.h>
 
 namespace vdbcage::detail {

@@ -4,9 +4,9 @@
 #include <memory>
 #include <vector>
 
+#include <vdbcage/core/detail/simd.h>
 #include <vdbcage/volume/detail/boundary_leaves.h>
 #include <vdbcage/volume/detail/progress.h>
-#include <vdbcage/volume/detail/simd.h>
 
 namespace vdbcage::detail {
 

@@ -1,4 +1,4 @@
-#include <vdbcage/volume/detail/simd.h>
+#include <vdbcage/core/detail/simd.h>
 
 namespace vdbcage::detail {
 

@@ -2,10 +2,11 @@
 
 #include <vector>
 
-/// Kernels that are compiled for several instruction sets, of which one is chosen at run time.
+/// The instruction sets that kernels are compiled for; one of them is chosen at run time.
 ///
-/// A kernel is an inline template over the width of the vectors. These are GNU vector types, which any machine has. A
-/// few functions with the attributes below instantiate it.
+/// Kernels are written in GNU vector types, which any machine has. Those of volume are inline templates over the width
+/// of the vectors, which a few functions with the attributes below instantiate. Those of deform are a source that is
+/// compiled once for each set.
 namespace vdbcage::detail {
 
 enum class Simd {
