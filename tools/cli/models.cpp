@@ -5,6 +5,7 @@
 #include <system_error>
 
 #include <tools/report/run_facts.h>
+#include <vdbcage/core/detail/joined.h>
 #include <vdbcage/core/detail/printable.h>
 #include <vdbcage/core/error.h>
 #include <vdbcage/geometry/union_find.h>
@@ -94,9 +95,7 @@ report::Json entryOf(const std::vector<ModelFile>& models)
 
 std::string namesOf(const std::vector<ModelFile>& models)
 {
-    std::string names;
-    for (const ModelFile& model : models) names += (names.empty() ? "" : ", ") + model.path.string();
-    return names;
+    return detail::joined(models, ", ", [](const ModelFile& model) { return model.path.string(); });
 }
 
 std::string describe(const std::vector<ModelFile>& models)

@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include <tools/report/report.h>
+#include <vdbcage/core/detail/joined.h>
 #include <vdbcage/core/detail/number_text.h>
 #include <vdbcage/core/detail/printable.h>
 #include <vdbcage/core/detail/read_file.h>
@@ -20,11 +21,8 @@ namespace fs = std::filesystem;
 
 std::string modelsOf(const Json& report)
 {
-    std::string names;
-    for (const Json& model : report.at("models")) {
-        names += (names.empty() ? "" : ", ") + model.at("file").get<std::string>();
-    }
-    return names;
+    return detail::joined(report.at("models"), ", ",
+                          [](const Json& model) { return model.at("file").get<std::string>(); });
 }
 
 /// None: the text is no report of `make`.

@@ -6,6 +6,7 @@
 
 #include <tools/view/files/folder.h>
 #include <tools/view/values.h>
+#include <vdbcage/core/detail/joined.h>
 #include <vdbcage/core/error.h>
 
 namespace vdbcage::view {
@@ -88,8 +89,7 @@ std::string App::value(const std::string& name)
     const auto values = valuesOf(parts_);
     const auto found = values.find(name);
     if (found != values.end()) return found->second();
-    std::string known;
-    for (const auto& value : values) known += (known.empty() ? "" : ", ") + value.first;
+    const std::string known = detail::joined(values, ", ", [](const auto& value) { return value.first; });
     throw InputError("'" + name + "' is not known; there are " + known);
 }
 

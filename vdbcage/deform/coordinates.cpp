@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include <vdbcage/core/detail/joined.h>
 #include <vdbcage/core/detail/number_text.h>
 #include <vdbcage/core/error.h>
 #include <vdbcage/deform/detail/coordinate_family.h>
@@ -36,10 +37,7 @@ std::vector<Number> computeRows(const Mesh& cage, const std::vector<Vec3d>& poin
 
 std::string detail::familyNames()
 {
-    std::string names;
-    for (const FamilyInfo& family : coordinateFamilies())
-        names += (names.empty() ? "" : ", ") + std::string(family.name);
-    return names;
+    return joined(coordinateFamilies(), ", ", [](const FamilyInfo& family) { return family.name; });
 }
 
 const std::vector<FamilyInfo>& coordinateFamilies()

@@ -11,6 +11,7 @@
 
 #include <vdbcage/core/detail/atomic_file.h>
 #include <vdbcage/core/detail/io_failure.h>
+#include <vdbcage/core/detail/joined.h>
 #include <vdbcage/core/detail/number_text.h>
 #include <vdbcage/core/detail/read_file.h>
 #include <vdbcage/core/error.h>
@@ -40,14 +41,12 @@ const Format& formatOf(const std::filesystem::path& path)
     std::string lower = extension;
     std::transform(lower.begin(), lower.end(), lower.begin(),
                    [](char c) { return c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c; });
-    std::string known;
     for (const Format& format : formats) {
         if (lower == format.extension) return format;
-        known += (known.empty() ? "" : ", ") + std::string(format.extension);
     }
     throw IoError(path.string() + ": the file name " +
                   (extension.empty() ? "has no extension" : "ends in \"" + extension + "\"") +
-                  "; the formats are known by " + known);
+                  "; the formats are known by " + detail::joined(meshExtensions(), ", "));
 }
 
 void requireFinitePoints(const std::vector<openvdb::Vec3d>& points, const std::string& name)
@@ -78,6 +77,16 @@ Mesh rounded(Mesh mesh, const Format& format, const std::string& name)
 }
 
 } // namespace
+
+const std::vector<std::string>& meshExtensions()
+{
+    static const std::vector<std::string> extensions = [] {
+        std::vector<std::string> list;
+        for (const Format& format : formats) list.emplace_back(format.extension);
+        return list;
+    }();
+    return extensions;
+}
 
 Precision precisionOf(const std::filesystem::path& path)
 {

@@ -34,6 +34,9 @@ struct MeshFile {
     ReadSummary summary; ///< what else was there
 };
 
+/// Returns the extensions of all formats, in lower case with the dot: ".obj" and so on.
+VDBCAGE_API const std::vector<std::string>& meshExtensions();
+
 /// Reads a model or cage.
 ///
 /// The formats, told apart by the file name's extension in any case: OBJ; OFF (also COFF, NOFF, STOFF; ascii); PLY

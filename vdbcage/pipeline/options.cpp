@@ -4,6 +4,7 @@
 #include <type_traits>
 #include <utility>
 
+#include <vdbcage/core/detail/joined.h>
 #include <vdbcage/core/detail/number_text.h>
 #include <vdbcage/core/error.h>
 
@@ -83,9 +84,7 @@ const std::vector<std::pair<const char*, bool>>& names(bool /*type*/)
 template <typename Value>
 std::string nameList()
 {
-    std::string list;
-    for (const auto& entry : names(Value{})) list += (list.empty() ? "" : "|") + std::string(entry.first);
-    return list;
+    return detail::joined(names(Value{}), "|", [](const auto& entry) { return entry.first; });
 }
 
 /// One overload set a concern: the text of a value, setting it from text, its range, its placeholder in the help.

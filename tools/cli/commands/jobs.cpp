@@ -4,7 +4,9 @@
 
 #include <tools/cli/memory_limit.h>
 #include <vdbcage/core/detail/io_failure.h>
+#include <vdbcage/core/detail/joined.h>
 #include <vdbcage/core/error.h>
+#include <vdbcage/mesh/mesh_io.h>
 
 #include <tools/cli/commands.h>
 #include <tools/cli/talk_arguments.h>
@@ -48,7 +50,9 @@ int runJobs(Call call)
                  "jobs");
     app.add_option("models", models)->required()->type_name("MODEL...");
     app.add_option("-o,--output", folder, "where cages and reports go")->required()->type_name("DIR");
-    app.add_option("--format", format, "of cages [obj]")->type_name("obj|off|ply|stl");
+    app.add_option("--format", format, "of cages [obj]")
+        ->type_name(
+            detail::joined(meshExtensions(), "|", [](const std::string& extension) { return extension.substr(1); }));
     app.add_flag("--pictures", pictures, "of each model with its cage, too");
     app.add_option("--command", program, "how farms call vdbcage [vdbcage]")->type_name("WORD");
     std::vector<CLI::Option*> ofMake = addCageOptions(app, options);

@@ -10,6 +10,7 @@
 #include <tools/files/stages.h>
 #include <tools/report/report.h>
 #include <tools/report/run_facts.h>
+#include <vdbcage/core/detail/joined.h>
 #include <vdbcage/core/detail/number_text.h>
 #include <vdbcage/core/detail/read_file.h>
 #include <vdbcage/core/error.h>
@@ -82,8 +83,8 @@ Pipeline makePipeline(std::vector<ModelFile>& models, const MakeArguments& argum
 
 void addStages(const Pipeline& pipeline, const MakeArguments& arguments, Interrupter* interrupter, Outputs& outputs)
 {
-    std::string source;
-    for (const fs::path& model : arguments.models) source += (source.empty() ? "" : ", ") + model.filename().string();
+    const std::string source =
+        detail::joined(arguments.models, ", ", [](const fs::path& model) { return model.filename().string(); });
     files::writeStages(
         {source, arguments.options, pipeline.report(), *pipeline.solid(), *pipeline.closed(), pipeline.surface(),
          pipeline.smoothed(), pipeline.decimated()},
@@ -238,7 +239,9 @@ int runMake(Call call)
     MakeArguments arguments;
     bool skipsDone = false;
     std::string memory = "auto";
-    CLI::App app("vdbcage make MODEL... -o CAGE [OPTIONS]: A cage for all (.obj .off .ply .stl)", "make");
+    CLI::App app("vdbcage make MODEL... -o CAGE [OPTIONS]: A cage for all (" + detail::joined(meshExtensions(), " ") +
+                     ")",
+                 "make");
     app.add_option("models", arguments.models)->required()->type_name("MODEL...");
     app.add_option("-o,--output", arguments.cage, "the cage to write")->required()->type_name("CAGE");
     addCageOptions(app, arguments.options);

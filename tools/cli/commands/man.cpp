@@ -4,6 +4,8 @@
 #include <tools/manual/manual_page.h>
 
 #include <tools/cli/commands.h>
+#include <vdbcage/core/detail/joined.h>
+#include <vdbcage/mesh/mesh_io.h>
 
 namespace vdbcage::cli {
 
@@ -59,7 +61,8 @@ std::string mainPage()
     page.section("DESCRIPTION");
     page.paragraph("A cage is a coarse closed mesh around a detailed model; moving the cage deforms the model. "
                    "vdbcage makes cages, proves that they bound their models, and moves models by them. "
-                   "Meshes are .obj, .off, .ply and .stl files. Lengths are fractions of the model's longest side.");
+                   "Meshes are files of these kinds: " +
+                   detail::joined(meshExtensions(), " ") + ". Lengths are fractions of the model's longest side.");
     page.section("COMMANDS");
     for (const Command& command : commands())
         page.item("vdbcage-" + command.name + "(1)", "", sentence(command.summary));

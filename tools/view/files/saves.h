@@ -39,7 +39,7 @@ struct SaveFile {
 
 struct SavePosedCage : SaveFile {
     using SaveFile::SaveFile;
-    static LineInfo info() { return {"save-posed-cage", "FILE", 1, 1, "writes the posed cage (.obj .off .ply .stl)"}; }
+    static LineInfo info() { return {"save-posed-cage", "FILE", 1, 1, "writes the posed cage"}; }
     static Write writer(const SaveSource& source, const std::filesystem::path& file);
 };
 struct SavePosedModel : SaveFile {
@@ -89,7 +89,7 @@ struct SaveWeights : SaveFile {
 };
 struct SaveCage : SaveFile {
     using SaveFile::SaveFile;
-    static LineInfo info() { return {"save-cage", "FILE", 1, 1, "writes the cage (.obj .off .ply .stl)"}; }
+    static LineInfo info() { return {"save-cage", "FILE", 1, 1, "writes the cage"}; }
     static Write writer(const SaveSource& source, const std::filesystem::path& file);
 };
 struct SaveReport : SaveFile {

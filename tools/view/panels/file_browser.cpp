@@ -8,6 +8,7 @@
 #include <tools/files/frames.h>
 #include <tools/view/panels/parts.h>
 #include <vdbcage/core/error.h>
+#include <vdbcage/mesh/mesh_io.h>
 
 namespace vdbcage::view {
 
@@ -33,15 +34,19 @@ FileLine saves(const char* title, std::vector<std::string> extensions, const cha
 
 const std::vector<FileLine>& fileLines()
 {
-    static const std::vector<std::string> meshes{".obj", ".off", ".ply", ".stl"};
+    const std::vector<std::string>& meshes = meshExtensions();
+    static const std::vector<std::string> posed = [&] {
+        std::vector<std::string> list = meshes;
+        list.emplace_back(".param");
+        return list;
+    }();
     static const std::vector<FileLine> list{
         opens<OpenModel>("Open a model", meshes),
         opens<OpenCage>("Open a cage", meshes),
         opens<OpenScene>("Open a scene", {".json"}),
         opens<ApplyPreset>("Take options from a file", {".options"}),
         opens<OpenPose>("Open a posed cage", meshes),
-        opens<OpenPoses>("Open a sequence of posed cages: one of its files",
-                         {".obj", ".off", ".ply", ".stl", ".param"}),
+        opens<OpenPoses>("Open a sequence of posed cages: one of its files", posed),
         opens<OpenWeights>("Open weights: points of the model x points of the cage", {".npy", ".dmat"}),
         saves<SavePosedCage>("Save the posed cage", meshes, "_posed_cage.obj"),
         saves<SavePosedModel>("Save the posed model", meshes, "_posed.obj"),

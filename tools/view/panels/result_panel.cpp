@@ -2,6 +2,8 @@
 
 #include <tools/report/report.h>
 #include <tools/view/panels/parts.h>
+#include <vdbcage/core/detail/joined.h>
+#include <vdbcage/mesh/mesh_io.h>
 
 namespace vdbcage::view {
 
@@ -153,7 +155,8 @@ void buildStatusLine(const PanelContext& context)
         ImGui::SameLine(0, length(18));
     };
     if (!document.model) {
-        muted("No model. Drop a file here (.obj .off .ply .stl, or a scene .json), or use File > Open model.");
+        muted("No model. Drop a file here (" + detail::joined(meshExtensions(), " ") +
+              ", or a scene .json), or use File > Open model.");
         return;
     }
     part(document.model->path.filename().string());

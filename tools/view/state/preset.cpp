@@ -3,6 +3,7 @@
 #include <sstream>
 
 #include <tools/view/state/words.h>
+#include <vdbcage/core/detail/joined.h>
 #include <vdbcage/core/detail/read_file.h>
 #include <vdbcage/core/error.h>
 
@@ -49,8 +50,7 @@ CageOptions presetOptions(const std::string& name)
     }
     // Names of ours have no dot and no slash, so what has none is a name that was mistyped.
     if (name.find_first_of("./") == std::string::npos) {
-        std::string known;
-        for (const Preset& preset : presets()) known += (known.empty() ? "" : ", ") + preset.name;
+        const std::string known = detail::joined(presets(), ", ", [](const Preset& preset) { return preset.name; });
         throw InputError("preset",
                          "'" + name + "' is not known; there are " + known + ", and files such as ./my.options");
     }

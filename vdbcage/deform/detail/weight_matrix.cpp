@@ -1,6 +1,7 @@
 // Based on: NumPy Enhancement Proposal 1 with numpy.lib.format for the versions 2.0 and 3.0;
 // libigl.github.io/file-formats/dmat.
 
+#include <vdbcage/core/detail/joined.h>
 #include <vdbcage/deform/detail/weight_matrix.h>
 
 #include <array>
@@ -173,9 +174,7 @@ private:
 
 std::string shapeText(const std::vector<std::size_t>& shape)
 {
-    std::string text;
-    for (const std::size_t number : shape) text += (text.empty() ? "" : " x ") + std::to_string(number);
-    return shape.empty() ? "no" : text;
+    return shape.empty() ? "no" : joined(shape, " x ", [](std::size_t number) { return std::to_string(number); });
 }
 
 /// A number of rows or columns in a .dmat file.

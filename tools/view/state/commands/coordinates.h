@@ -2,6 +2,7 @@
 
 #include <tools/view/state/commands/line.h>
 #include <tools/view/state/commands/situation.h>
+#include <vdbcage/core/detail/joined.h>
 
 /// How the model follows the cage.
 namespace vdbcage::view {
@@ -9,11 +10,7 @@ namespace vdbcage::view {
 /// The names of all families, with bars between them.
 inline std::string familyWords()
 {
-    std::string words;
-    for (const FamilyInfo& family : coordinateFamilies()) {
-        words += (words.empty() ? "" : "|") + std::string(family.name);
-    }
-    return words;
+    return vdbcage::detail::joined(coordinateFamilies(), "|", [](const FamilyInfo& family) { return family.name; });
 }
 
 struct SetCoordinates {

@@ -11,7 +11,7 @@ namespace vdbcage::view {
 struct OpenModel {
     std::string path;
 
-    static LineInfo info() { return {"open", "FILE", 1, 1, "opens a model (.obj .off .ply .stl) and makes its cage"}; }
+    static LineInfo info() { return {"open", "FILE", 1, 1, "opens a model and makes its cage"}; }
     static OpenModel read(const Arguments& arguments) { return {arguments[0]}; }
     std::string text() const { return written(path); }
     void apply(Document& document, const Situation& /*now*/) const
