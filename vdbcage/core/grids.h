@@ -3,7 +3,7 @@
 #include <openvdb/Types.h>
 
 /// \file
-/// The names of OpenVDB's grids. Whoever looks into one includes <openvdb/openvdb.h>, which takes seconds to compile.
+/// The names of OpenVDB's grids. Code that looks into one includes <openvdb/openvdb.h>, which takes seconds to compile.
 
 /// \cond
 namespace openvdb {

@@ -12,23 +12,27 @@
 
 namespace vdbcage {
 
-/// OpenVDB's interrupter. Every long function of the library takes one; null means nobody watches.
+/// OpenVDB's interrupter, which every long function of the library takes. A null pointer means that nobody watches.
 ///
 /// `start(name)` and `end()` bracket a stage. They are called from the caller's thread and never nested.
 /// `wasInterrupted(percent)` may be called from any thread at any time; true cancels. `end` is also called while an
 /// exception is on its way, so it must not throw.
 using Interrupter = openvdb::util::NullInterrupter;
 
-/// Asks `interrupter`, which may be null, whether to stop. `percent` is the progress of the stage, 0 to 100, or -1 if
-/// unknown.
-/// \throw Cancelled if asked to stop
+/// Asks an interrupter whether to stop.
+/// \param interrupter may be null: then nothing happens
+/// \param percent progress of the stage, 0 to 100, or -1 if unknown
+/// \throw Cancelled when it says to stop
 VDBCAGE_API void throwIfInterrupted(Interrupter* interrupter, int percent = -1);
 
-/// Brackets one stage of work: `start` now, `end` when the scope is left, also by an exception.
+/// A scope that is one stage of work: `start` is called when it is entered, `end` when it is left, also by an
+/// exception.
 class VDBCAGE_API Stage {
 public:
-    /// `interrupter` may be null.
-    /// \throw Cancelled if asked to stop
+    /// Begins the stage.
+    /// \param interrupter told of the stage; may be null
+    /// \param name handed to `start` as stageTable has it
+    /// \throw Cancelled when the interrupter asks to stop; neither `start` nor `end` is then called
     Stage(Interrupter* interrupter, StageName name);
     ~Stage();
     Stage(const Stage&) = delete;
@@ -38,29 +42,32 @@ private:
     Interrupter* interrupter_;
 };
 
-/// How long one stage took.
+/// The time that one stage took.
 struct StageTime {
     std::string name;      ///< as given to `start`
     double seconds = 0;    ///< wall clock
     double cpuSeconds = 0; ///< of all threads of the process
 };
 
-/// An interrupter that records what each stage took. It passes everything on to another interrupter, if there is one.
+/// An interrupter that records the time of each stage. It passes everything on to another interrupter, if there is one.
 class VDBCAGE_API StageClock : public Interrupter {
 public:
-    /// `next` may be null: then nobody is told, and nothing cancels. It must outlive this.
+    /// Makes a clock that has no stages yet.
+    /// \param next told of everything, must outlive the clock; may be null: nobody is told then, and nothing cancels
     explicit StageClock(Interrupter* next = nullptr) : next_(next) {}
     ~StageClock() override;
 
-    /// The stage `name` begins; null counts as an empty name. From one thread at a time.
+    /// Begins a stage. It is called from one thread at a time.
+    /// \param name of the stage; null counts as an empty name
     void start(const char* name = nullptr) override;
-    /// The stage that began last ends, and its times are added to the list.
+    /// Ends the stage that began last, and adds its times to the list.
     void end() override;
-    /// What `next` answers; false without one. From any thread.
+    /// Returns the answer of `next`; false without one. It may be called from any thread.
+    /// \param percent handed to `next`
     bool wasInterrupted(int percent = -1) override;
 
-    /// The stages, in the order in which they first began. A name that ran more than once is listed once, with its
-    /// times added up. One that has not ended yet has the times of its earlier runs.
+    /// Returns the stages, in the order in which they first began. A name that ran more than once is listed once, with
+    /// its times added up. One that has not ended yet has the times of its earlier runs.
     const std::vector<StageTime>& stages() const { return stages_; }
 
 private:

@@ -2,7 +2,7 @@
 
 namespace vdbcage {
 
-/// The numbers that hold the coordinates of a cage.
+/// The type of the numbers that hold the coordinates of a cage.
 enum class Precision {
     automatic, ///< float32 where rounding to it is below 1e-5 of the model's longest side, else float64
     float32,   ///< as in STL files, Blender and most game engines

@@ -15,30 +15,30 @@ enum class StageName {
     guard,        ///< the search tree of a guard or of a check is built
     close,        ///< the voxels are closed
     surface,      ///< the surface that the cage is shrunk from is made
-    decimate,     ///< it gets fewer faces
-    loops,        ///< it gets fewer quads, in closed loops
+    decimate,     ///< the surface gets fewer faces
+    loops,        ///< the surface gets fewer quads, in closed loops
     tighten,      ///< triangles are pulled onto the model
     quads,        ///< triangles become quads, which are pulled onto the model
     smooth,       ///< the cage, or with `bounding` off the surface, is smoothed
     coplanar,     ///< edges that are nearly flat are bent
     certify,      ///< the cage is checked
-    layers,       ///< what lies between model and cage is prepared to be shown
+    layers,       ///< the volumes, surfaces and distances between model and cage are prepared to be shown
     bind,         ///< the model is bound to the cage
     carryThePose, ///< a pose is transferred to another cage
     checkThePose, ///< a posed cage is checked
     write         ///< files are written
 };
 
-/// A stage as text, and its share of a run's time.
+/// The text of a stage, and its share of a run's time.
 struct StageInfo {
     StageName stage;  ///< the stage
     const char* name; ///< as reports and interrupters have it
-    /// Where it begins in most runs, in percent. -1 if it takes no share: it is short, or comes at different places.
+    /// Percent of most runs at which it begins. -1 if it takes no share: it is short, or comes at different places.
     int from = -1;
-    int to = -1; ///< where it ends, in the same way
+    int to = -1; ///< percent at which it ends, or -1 in the same way
 };
 
-/// All stages.
+/// All stages, in the order of StageName.
 inline constexpr std::array<StageInfo, 20> stageTable{{{StageName::read, "read", 0, 2},
                                                        {StageName::bindCoarsely, "bind coarsely", 0, 2},
                                                        {StageName::interior, "interior", 2, 3},
@@ -60,7 +60,8 @@ inline constexpr std::array<StageInfo, 20> stageTable{{{StageName::read, "read",
                                                        {StageName::checkThePose, "check the pose"},
                                                        {StageName::write, "write", 98, 99}}};
 
-/// Returns the row of `stage` in stageTable.
+/// Returns the row of a stage in stageTable.
+/// \param stage any of StageName
 constexpr const StageInfo& stageInfo(StageName stage)
 {
     return stageTable[static_cast<std::size_t>(stage)];

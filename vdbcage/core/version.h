@@ -1,7 +1,7 @@
 #pragma once
 
 /// \ingroup core
-/// Version of these headers, "MAJOR.MINOR.PATCH". CMakeLists.txt reads it from here too.
+/// The version of these headers, "MAJOR.MINOR.PATCH". CMakeLists.txt reads it from here too.
 #define VDBCAGE_VERSION "0.2.0"
 /// \ingroup core
 /// The day of this version, "YYYY-MM-DD". Manual pages bear it.

@@ -17,38 +17,45 @@ struct Mesh {
     std::vector<openvdb::Vec3d> points;    ///< world space, exactly as the file has them
     std::vector<openvdb::Vec3I> triangles; ///< three indices into `points`
     std::vector<openvdb::Vec4I> quads;     ///< four indices into `points`, in order around the face
-    /// Of a model that was read: the triangles that its polygons have when they are split in other ways, once where
-    /// polygons are equal. Quads, whose diagonals are known, have none here, large polygons few (see ReadSummary). They
-    /// are no faces, but another program may see them, so cages bound them too.
+    /// The triangles that the polygons of a read model have when they are split in other ways, once where polygons are
+    /// equal. Quads, whose diagonals are known, have none here, large polygons few (see ReadSummary). They are no
+    /// faces, but another program may see them, so cages bound them too.
     std::vector<openvdb::Vec3I> alternatives = {};
 };
 
-/// The number of triangles and quads.
+/// Returns the number of triangles and quads.
+/// \param mesh its alternatives do not count
 inline std::size_t faceCount(const Mesh& mesh)
 {
     return mesh.triangles.size() + mesh.quads.size();
 }
 
-/// The triangles of the mesh, then each quad as two, split by the diagonal of its corners 0 and 2.
+/// Returns the triangles of the mesh, then each quad as two, split by the diagonal of its corners 0 and 2.
+/// \param mesh its alternatives are left out
 /// Cost: O(faces).
 VDBCAGE_API std::vector<openvdb::Vec3I> triangulate(const Mesh& mesh);
 
-/// triangulate(), then the triangles of every other way to split a face. These are the quads split by their other
-/// diagonal, and the alternatives.
+/// Returns triangulate(), then the triangles of every other way to split a face. These are the quads split by their
+/// other diagonal, and the alternatives.
+/// \param mesh any polygon soup
 /// Cost: O(faces).
 VDBCAGE_API std::vector<openvdb::Vec3I> everySplit(const Mesh& mesh);
 
-/// The points that no face uses, nor another split of one: their indices, ascending. They bound nothing.
+/// Returns the points that no face uses, nor another split of one: their indices, ascending. They bound nothing.
+/// \param mesh any polygon soup with valid indices
 /// Cost: O(points + faces).
 VDBCAGE_API std::vector<openvdb::Index32> loosePoints(const Mesh& mesh);
 
-/// The box of the points that faces use; empty for no faces.
+/// Returns the box of the points that faces use; empty for no faces.
+/// \param mesh any polygon soup with valid indices
 /// Cost: O(faces).
 VDBCAGE_API openvdb::BBoxd boundingBox(const Mesh& mesh);
 
-/// Checks that `mesh` can be worked on. `what` names the mesh in the message, such as "model".
-/// \throw InputError no face; an index out of range; a point of a face that is not finite; every face degenerate (a
-/// repeated index or zero area, decided exactly)
+/// Checks that a mesh can be worked on.
+/// \param mesh any polygon soup
+/// \param what names the mesh in the message, such as "model"
+/// \throw InputError when there is no face; an index is out of range; a point of a face is not finite; every face is
+/// degenerate (a repeated index or zero area, decided exactly)
 /// Cost: O(faces).
 VDBCAGE_API void requireUsable(const Mesh& mesh, const char* what);
 

@@ -10,7 +10,7 @@
 
 namespace vdbcage {
 
-/// How the faces of a mesh hang together, by their indices alone.
+/// The connectivity of the faces of a mesh, by their indices alone.
 ///
 /// Points at the same place are not merged. A quad is one face. Faces are numbered triangles first, then quads. An edge
 /// is a pair of different points that follow each other around a face. A face that uses an edge twice, as one with a
@@ -30,19 +30,22 @@ struct MeshTopology {
     /// volume, and every point off its faces has a winding number.
     std::vector<std::uint8_t> componentIsCycle;
 
-    /// How many parts are connected over edges. Parts that share only a vertex are two.
+    /// Returns the number of parts that are connected over edges. Parts that share only a vertex are two.
     std::size_t components() const { return componentIsCycle.size(); }
-    /// Whether there are faces, and all components are cycles.
+    /// Returns whether there are faces, and all components are cycles.
     bool isCycle() const;
-    /// Vertices - edges + faces.
+    /// Returns vertices - edges + faces.
     long eulerCharacteristic() const;
-    /// The sum over the components. Only meaningful without boundary and non-manifold edges and vertices.
+    /// Returns the genus, summed over the components. It means something only if no edge is a boundary, and all edges
+    /// and vertices are manifold.
     long genus() const { return static_cast<long>(components()) - eulerCharacteristic() / 2; }
 };
 
-/// Examines any polygon soup.
+/// Examines how the faces of a mesh hang together.
+/// \param mesh any polygon soup
+/// \param interrupter asked whether to stop; may be null
 /// \pre all indices are valid
-/// \throw Cancelled
+/// \throw Cancelled when the interrupter asks to stop
 /// Cost: O(faces) for ordinary meshes, in parallel.
 VDBCAGE_API MeshTopology analyzeTopology(const Mesh& mesh, Interrupter* interrupter = nullptr);
 

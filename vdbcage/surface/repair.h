@@ -8,17 +8,17 @@
 
 namespace vdbcage {
 
-/// How much there is of a cage, before and after repair().
+/// The measures of a cage, before and after repair().
 struct RepairMeasures {
     std::size_t faces = 0; ///< triangles and quads
     std::size_t parts = 0; ///< connected over edges, with points at one place taken for one
-    double area = 0;       ///< of all faces, in world units squared
-    /// In world units cubed, of all parts; of a part that meets itself the signed sum. Before: as soon as faces are
+    double area = 0;       ///< of all faces, world units squared
+    /// World units cubed, of all parts; the signed sum for a part that meets itself. Before: as soon as faces are
     /// oriented and holes filled.
     double volume = 0;
 };
 
-/// Counts what repair() did and what it could not do.
+/// The counts of all that repair() did and could not do.
 struct RepairReport {
     std::size_t mergedPoints = 0;            ///< points that lay on another one
     std::size_t removedFaces = 0;            ///< degenerate and duplicate faces taken out
@@ -36,25 +36,23 @@ struct RepairReport {
     RepairMeasures after;                    ///< of the cage that is returned
 };
 
-/// Whether this build has repair(): it was made with VDBCAGE_WITH_CGAL_GPL.
+/// Returns whether this build has repair(): it was made with VDBCAGE_WITH_CGAL_GPL (GPL when distributed).
 VDBCAGE_API bool hasRepair();
 
 /// The result of repair().
 struct RepairedCage {
     Mesh cage;           ///< closed, outward and free of self-intersections, as far as `report` says
-    RepairReport report; ///< what was done, and what is still wrong
+    RepairReport report; ///< counts of changes, and of defects that are left
 };
 
-/// Mends a cage made elsewhere, and changes no more of it than that needs.
+/// Mends a cage made elsewhere, and changes no more of it than that needs. The \ref surface "page of this room" says
+/// how.
 ///
-/// A valid cage comes back as it came. Else coincident points are merged, degenerate, duplicate and hanging faces taken
-/// out, faces oriented, edges stitched and holes filled. Where faces meet, points go back between their neighbours, if
-/// that helps; faces and quads stay then. What still meets, such as parts that overlap, becomes the surface of what it
-/// encloses once or more often, and quads that are cut there become triangles. Where nothing helps, faces still meet.
-///
-/// Only in builds with VDBCAGE_WITH_CGAL_GPL (GPL when distributed).
-/// \throw InputError no usable face; a build without it
-/// \throw Cancelled
+/// A valid cage comes back as it came. Others become closed, outward and free of self-intersections as far as possible.
+/// \param cage any polygon soup
+/// \param interrupter told of progress; may be null
+/// \throw InputError when requireUsable() refuses the cage, or this build has no repair(): see hasRepair()
+/// \throw Cancelled when the interrupter asks to stop
 /// Cost: O(n log n) for n faces; where parts of n faces with m meetings are cut O(m log m + n) in exact arithmetic, and
 /// O(n) for each piece of surface between cuts.
 VDBCAGE_API RepairedCage repair(const Mesh& cage, Interrupter* interrupter = nullptr);

@@ -10,20 +10,16 @@
 #include <vdbcage/core/interrupter.h>
 #include <vdbcage/volume/morphology.h>
 
-/// \addtogroup volume
-/// \par Factor fields
-/// Numbers that vary in space and multiply something there: the radius of a closing (smaller where features matter, 0
-/// where a hole has to stay), or the density of a cage's faces.
 namespace vdbcage {
 
 /// A box or a sphere in world space, its border included, and the factor in it.
 struct FactorRegion {
-    /// Which of the two it is.
+    /// The shapes of regions.
     enum class Shape {
         box,   ///< along the axes, from `lower` to `upper`
         sphere ///< about `lower`, of `radius`
     };
-    Shape shape = Shape::sphere; ///< what the numbers below mean
+    Shape shape = Shape::sphere; ///< decides on the meaning of the numbers below
     /// Box: the corner with the smallest coordinates. Sphere: the centre. World units, finite.
     openvdb::Vec3d lower{0};
     /// Box: the corner with the largest coordinates; nothing is inside if one is below that of `lower`. World units.
@@ -42,50 +38,52 @@ struct FactorField {
     std::filesystem::path file = {};   ///< that `grid` was read from; empty if it was not read
 };
 
-/// A field from text; "none" is no field.
+/// Reads a field from text.
 ///
-/// The text is parts separated by semicolons: `sphere:X,Y,Z,RADIUS,SCALE`, `box:X,Y,Z,X,Y,Z,SCALE` (two corners) or a
-/// .vdb file. Of a file its first grid called `name` counts, or else its only grid; it must be a FloatGrid.
-/// \throw InputError naming the part
-/// \throw IoError naming the file
+/// The text is parts separated by semicolons: `sphere:X,Y,Z,RADIUS,SCALE`, `box:X,Y,Z,X,Y,Z,SCALE` (two corners) or at
+/// most one .vdb file, which is read by readFloatGrid(): its first grid called `name` counts, or else its only grid.
+/// \param text the parts; "none" is no field
+/// \param name of the grid in a file, and of the field in messages
+/// \throw InputError naming the part, when it is none of these; naming the number, when it is out of the range of
+/// FactorRegion
+/// \throw IoError naming the file, as readFloatGrid()
 VDBCAGE_API FactorField readFactorField(const std::string& text, const std::string& name = "scale");
 
-/// A grid for FactorField::grid from values at points, such as the vertices of a mesh.
-///
-/// Each voxel within `radius` of a point gets the value of the nearest one, of equally near ones the first. All others
-/// get 1. `voxelSize` and `radius` are world lengths above 0; `radius` is at most 64 voxels.
-/// \throw InputError not as many values as points; a value that is not finite; `voxelSize` or `radius` out of range
-/// \throw Cancelled
+/// Makes a grid for FactorField::grid from values at points, such as the vertices of a mesh. Each voxel within `radius`
+/// of a point gets the value of the nearest one, of equally near ones the first. All others get 1.
+/// \param points world space
+/// \param values one a point, finite
+/// \param voxelSize world units, above 0
+/// \param radius world units, above 0, at most 64 voxels
+/// \param interrupter told of progress; may be null
+/// \throw InputError when there are not as many values as points, a value is not finite, or a length is out of range
+/// \throw Cancelled when the interrupter asks to stop
 /// Cost: O(points (radius / voxelSize)^3).
 VDBCAGE_API std::shared_ptr<openvdb::FloatGrid> factorsFromPoints(const std::vector<openvdb::Vec3d>& points,
                                                                   const std::vector<float>& values, double voxelSize,
                                                                   double radius, Interrupter* interrupter = nullptr);
 
-/// Every voxel with an active voxel of `mask` within its own radius: `radiusVoxels` times the field, clamped as below.
-/// \throw InputError as closeMask
-/// \throw Cancelled
+/// Returns every voxel with an active voxel of `mask` within its own radius.
+/// \param mask active voxels in [-2^30, 2^30)
+/// \param radiusVoxels multiplied by the field; 0 to 512 voxels before and after
+/// \param scale clamped as for closeMask()
+/// \param interrupter told of progress; may be null
+/// \throw InputError as closeMask() by a factor field
+/// \throw Cancelled when the interrupter asks to stop
 VDBCAGE_API std::shared_ptr<openvdb::MaskGrid> dilate(const openvdb::MaskGrid& mask, double radiusVoxels,
                                                       const FactorField& scale, Interrupter* interrupter = nullptr);
 
-/// The closing of `solid` by spheres, both radii of the options multiplied by the field and clamped.
-///
-/// From voxel to voxel along an axis a radius grows by half a voxel at most, so its slope is below 1 in every
-/// direction. Where the field is steeper, the smaller radius spreads.
-///
-/// The dilation asks, at each voxel, for a voxel of `solid` within the voxel's own radius. The erosion takes away all
-/// that is within the radius of a voxel outside, where the radius is that of the voxel outside. So the two are adjoint.
-/// The closing is extensive and increasing, and idempotent for equal radii, as with one radius everywhere. A field of 1
-/// everywhere is exactly that.
-///
-/// The field is sampled at every h-th voxel and interpolated between. Here h is the largest power of 2, 1 to 8, that is
-/// not above a quarter of the close radius. Where radii vary, some below 3.5 voxels act as if they were up to 0.27
-/// less. So the rule for neighbours holds on the lattice of voxels too.
-/// \throw InputError as closeMask; the cube, which has one radius only; a region's factor outside 0 to 8 or its radius
-/// negative; a grid's value not finite; a radius above 512 voxels; a grid whose transform is not linear; a field of
-/// more than 2^28 samples
-/// \throw Cancelled
+/// Returns the closing of a solid by spheres, both radii of the options multiplied by a field. Where the field is
+/// steep, radii are clamped to less; the \ref volume "page of this room" says how, and which rules hold.
+/// \param solid active voxels in [-2^30, 2^30)
+/// \param options radii in range; the sphere, unless the radius is the same everywhere
+/// \param scale regions as FactorRegion has them; a grid of finite values, its transform linear; up to 2^28 samples
+/// \param interrupter told of progress; may be null
+/// \throw InputError as closeMask(); when `scale` is not so, or makes a radius above 512 voxels; when the element is
+/// the cube and radii differ
+/// \throw Cancelled when the interrupter asks to stop
 /// Cost: about three times that of one radius, and 4 / h^3 bytes for each voxel of the box where the field is not the
-/// same.
+/// same; h is the spacing of samples in voxels, 1 to 8.
 VDBCAGE_API std::shared_ptr<openvdb::MaskGrid> closeMask(const openvdb::MaskGrid& solid, const CloseOptions& options,
                                                          const FactorField& scale, Interrupter* interrupter = nullptr);
 

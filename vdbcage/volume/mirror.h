@@ -8,12 +8,16 @@
 
 namespace vdbcage {
 
-/// `mask` and its mirror image across `axis` (0, 1, 2: x, y, z), united.
+/// Returns the union of a mask and its mirror image: the smallest symmetric mask that holds it.
 ///
-/// A voxel with the index i along the axis has its image at `sum` - i. The result is the smallest symmetric mask that
-/// holds `mask`. It has the same transform and no other metadata. Tiles stay tiles where the image of one is one.
-/// \throw InputError `axis` out of range
-/// \throw Cancelled
+/// A voxel with the index i along the axis has its image at `sum` - i. The result has the same transform and no other
+/// metadata. Tiles stay tiles where the image of one is one.
+/// \param mask any mask; its active voxels count
+/// \param axis 0, 1, 2: x, y, z
+/// \param sum of the index of a voxel and that of its image, along the axis
+/// \param interrupter asked whether to stop; may be null
+/// \throw InputError when `axis` is out of range
+/// \throw Cancelled when the interrupter asks to stop
 /// Cost: O(active voxels outside of tiles), serial.
 VDBCAGE_API std::shared_ptr<openvdb::MaskGrid> withMirrorImage(const openvdb::MaskGrid& mask, int axis, int sum,
                                                                Interrupter* interrupter = nullptr);

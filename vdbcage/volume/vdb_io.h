@@ -11,43 +11,40 @@
 
 namespace vdbcage {
 
-/// Writes `mask` as a .vdb that Blender, Houdini and others open as a volume.
+/// Writes a mask as a .vdb that Blender, Houdini and others open as a volume: one FloatGrid named `density`. The
+/// \ref volume "page of this room" has its details.
 ///
-/// It has one FloatGrid named `density`, 1 in the active voxels, background 0, class fog volume. Tiles stay tiles. The
-/// grid has the mask's transform and the creator "vdbcage VERSION", and is compressed as OpenVDB does by default. Each
-/// entry of `metadata` becomes a string of the grid named `vdbcage_KEY`.
-///
-/// The file appears whole or not at all (see core/detail/atomic_file.h). Equal grids need not give equal bytes, as each
-/// file gets a UUID.
-/// \throw IoError naming the path
+/// The file appears whole or not at all: it is written under a temporary name in the same folder, then renamed.
+/// \param mask 1 in its active voxels, 0 in others
+/// \param path a file there is replaced
+/// \param metadata each entry becomes a string of the grid named `vdbcage_KEY`
+/// \throw IoError naming the path, when it cannot be written
 /// Cost: 2 KiB of memory for each leaf node while it is written.
 VDBCAGE_API void writeVdb(const openvdb::MaskGrid& mask, const std::filesystem::path& path,
                           const std::map<std::string, std::string>& metadata = {});
 
-/// writeVdb() to a stream that can seek, whose state tells whether it took all. `path` is the name in errors.
+/// As writeVdb() to a file, but to a stream that can seek, whose state tells whether it took all; `path` is for errors.
 VDBCAGE_API void writeVdb(const openvdb::MaskGrid& mask, std::ostream& out, const std::filesystem::path& path,
                           const std::map<std::string, std::string>& metadata = {});
 
-/// Reads a mask from a .vdb: its first grid named `density`, or else its only grid.
+/// Reads a mask from a .vdb: its first grid named `density`, or else its only grid. The \ref volume "page of this room"
+/// says which voxels are active, and which files can be read.
 ///
-/// A voxel is active where a float or double grid is above 0.5 (where its class is level set: below 0), whatever its
-/// active state. Of a bool or mask grid it is active where the grid is both true and active. The grid's transform is
-/// kept, metadata is not.
-///
-/// The file need not be trusted. OpenVDB's reader, which in 10.0.1 can be made to write over the heap, is not used.
-/// Memory is at most 80 times the file's size plus 2 MiB. Tiles of little memory can be as large as space, though.
-///
-/// Files of versions 222 (2013) to 225 of the format can be read, and trees of levels 5, 4 and 3. In a file without
-/// offsets (a streamed one) the grids before the wanted one must be of types that can be read too.
-/// \throw IoError naming the path: cannot be read; no regular file; not a .vdb; truncated or damaged; no grid `density`
-/// among several, or none at all; a grid of another type; a grid whose background is inside (it fills all of space)
+/// The grid's transform is kept, metadata is not. The file need not be trusted.
+/// \param path a regular file
+/// \throw IoError naming the path, when it cannot be read, is no regular file, no .vdb, truncated or damaged, has no
+/// grid `density` among several, or none at all, or a grid of another type, or one whose background is inside (it fills
+/// all of space)
+/// Cost: memory of at most 80 times the file's size plus 2 MiB.
 VDBCAGE_API std::shared_ptr<openvdb::MaskGrid> readVdb(const std::filesystem::path& path);
 
-/// Reads a FloatGrid from a .vdb, with its metadata: its first grid of this name, or else its only grid.
+/// Reads a FloatGrid from a .vdb, with its metadata: its first grid of a name, or else its only grid.
 ///
-/// The file need not be trusted, as for readVdb. Memory is at most 40 times its size plus 1 MiB. Values can be infinite
-/// or not a number.
-/// \throw IoError naming the path, as readVdb
+/// The file need not be trusted, as for readVdb(). Values can be infinite or not a number.
+/// \param path a regular file
+/// \param gridName of the wanted grid
+/// \throw IoError naming the path, as readVdb()
+/// Cost: memory of at most 40 times the file's size plus 1 MiB.
 VDBCAGE_API std::shared_ptr<openvdb::FloatGrid> readFloatGrid(const std::filesystem::path& path,
                                                               const std::string& gridName);
 
