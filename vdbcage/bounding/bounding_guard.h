@@ -21,7 +21,7 @@ class GuardModel;
 const GuardModel& modelOf(const BoundingGuard& guard);
 } // namespace detail
 
-/// Names what a BoundingGuard keeps.
+/// The constraints that a BoundingGuard keeps.
 struct GuardOptions {
     static constexpr Range clearances{1e-7, 0.1}; ///< of `clearance`
     static constexpr Range minAngles{0, 30};      ///< of `minAngleDegrees`
@@ -39,7 +39,7 @@ struct GuardOptions {
     /// If set, surfaces are exactly symmetric in it and stay so, and bound the model and its mirror image.
     std::optional<SymmetryPlane> symmetry = {};
 
-    /// Whether all are equal.
+    /// Returns whether all are equal.
     bool operator==(const GuardOptions& other) const
     {
         return clearance == other.clearance && minAngleDegrees == other.minAngleDegrees && spacing == other.spacing &&
@@ -47,54 +47,41 @@ struct GuardOptions {
     }
 };
 
-/// Keeps a surface bounding while it is changed. Built once from a model, any polygon soup. It lets smooth, decimate,
-/// tighten and triquad replace one star of triangles by another only if the new one
-/// - keeps its clearance to every face of the model,
-/// - keeps off the rest of the surface: triangles without a common corner by the spacing, 0.002 of the model's longest
-///   side, or a twentieth of their longest edge (the smaller triangle's) if that is less, others by an angle of one
-///   degree; with less spacing these two are less in proportion,
-/// - sweeps, together with the old one, over no part of the model,
-/// - has no degenerate triangle and none with a smaller angle than allowed.
-///
-/// So a surface that bounds the model with that clearance at the start does at the end. Where it comes nearer to itself
-/// than that, only what leads out of it is allowed.
-///
-/// All is decided on the coordinates as they will be written: points are rounded to float as GuardOptions::precision
-/// says. Distances are decided up to a few units of 2^-52 of the sizes involved, far below any clearance.
-///
-/// With a plane of symmetry coordinates across it are rounded to multiples of one number, fine enough for the largest
-/// of them. So the mirror image of every point is exact. The operators then take only surfaces that are exactly
-/// symmetric, with no face across the plane. They work on one half of them, in half of the time.
+/// A guard of one model: the operators change a surface under it, and a surface that bounds the model with the
+/// clearance at the start does at the end. \ref bounding describes the changes that it allows.
 ///
 /// Immutable; any number of threads may use one at the same time.
-/// Cost: building is O(n log n) for n faces of the model.
 class VDBCAGE_API BoundingGuard {
 public:
-    /// Examines the model; it need not outlive the guard.
-    /// \throw InputError an unusable model; options out of range; float32 is asked for and rounds by more than a
-    /// thousandth of the longest side
-    /// \throw Cancelled
+    /// Examines a model.
+    /// \param model any polygon soup with a usable face; it need not outlive the guard
+    /// \param options in the ranges of their members
+    /// \param interrupter asked whether to stop; may be null
+    /// \throw InputError when the model is unusable; when options are out of range; when float32 is asked for and
+    /// rounds by more than a thousandth of the longest side
+    /// \throw Cancelled when asked to stop
+    /// Cost: O(n log n) for n faces of the model.
     explicit BoundingGuard(const Mesh& model, const GuardOptions& options = {}, Interrupter* interrupter = nullptr);
     ~BoundingGuard();
-    /// The other can only be assigned to or destroyed afterwards.
+    /// Takes over another guard, which can only be assigned to or destroyed afterwards.
     BoundingGuard(BoundingGuard&&) noexcept;
-    /// The other can only be assigned to or destroyed afterwards.
+    /// Takes over another guard, which can only be assigned to or destroyed afterwards.
     BoundingGuard& operator=(BoundingGuard&&) noexcept;
 
-    /// The least distance kept, in world units.
+    /// Returns the least distance that is kept, in world units.
     double clearance() const;
-    /// The faces of `surface` that do not keep the clearance (quads: under both diagonals), ascending; quads are
-    /// counted on from the triangles. In parallel.
+    /// Returns the faces of a surface that do not keep the clearance, ascending. Works in parallel.
+    /// \param surface any mesh; its quads count under both diagonals, and are numbered on from its triangles
     std::vector<std::size_t> facesTooNear(const Mesh& surface) const;
 
-    /// The plane of symmetry, if one was asked for: moved by less than the rounding of coordinates.
+    /// Returns the plane of symmetry, if one was asked for: moved by less than the rounding of coordinates.
     std::optional<SymmetryPlane> symmetry() const;
-    /// The part of a closed surface on the side of the plane of symmetry where coordinates are larger, with its mirror
-    /// image. Rounded, exactly symmetric.
-    ///
-    /// Faces across the plane are cut off there: corners that lie behind it, or before it by at most `snap` (world
-    /// units), are moved onto it. Of quads made by extractSurface from voxels that are symmetric in the plane the
-    /// result is closed and 2-manifold; `snap` is then a quarter of a voxel.
+    /// Returns the part of a surface on the side of the plane of symmetry where coordinates are larger, with its mirror
+    /// image. It is rounded and exactly symmetric. Faces across the plane are cut off there. From quads that
+    /// extractSurface() made of voxels that are symmetric in the plane, and with a quarter of a voxel for `snap`, the
+    /// result is closed and 2-manifold.
+    /// \param surface closed
+    /// \param snap world units; corners behind the plane, or before it by at most this, are moved onto it
     /// \pre there is a plane of symmetry
     Mesh symmetrized(const Mesh& surface, double snap) const;
 

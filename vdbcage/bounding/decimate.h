@@ -14,21 +14,17 @@ namespace vdbcage {
 /// Options of decimate() under a guard.
 struct BoundingDecimateOptions {
     std::size_t faces = 400;      ///< triangles to end with, at least 4
-    Effort effort = Effort::fair; ///< time against tightness; decimate() gives figures
+    Effort effort = Effort::fair; ///< time against tightness; decimate() has figures
 };
 
-/// Decimates a surface that bounds the guard's model and keeps it so.
-///
-/// The surface is drawn towards the model. Edges are then collapsed by quadric error, each collapse under the guard:
-/// its vertex is pushed outward until it is allowed, and drawn back along what it touches (fast). Then edges are split
-/// and others collapsed for them (fair: 5 to 10 % tighter). With more effort edges are flipped too, and the surface is
-/// perturbed in turns (best: some percent tighter still).
-///
-/// Quads are split, points that no face uses are dropped. More faces than asked for are left where topology (each
-/// handle and each part needs some) or the guard allow no less. The same for any number of threads.
-/// \pre `surface` is closed, 2-manifold and bounds the model with the guard's clearance
-/// \throw InputError fewer than 4 faces asked for; not closed and 2-manifold
-/// \throw Cancelled
+/// Decimates a surface that bounds the guard's model and keeps it so; \ref bounding describes the steps.
+/// \param surface closed, 2-manifold, bounding the model with the guard's clearance; quads are split
+/// \param guard of the model
+/// \param options more faces are left where topology or the guard allow no less
+/// \param wishes where faces should go; none by default
+/// \param interrupter told of the progress; may be null
+/// \throw InputError when fewer than 4 faces are asked for; when the surface is not closed and 2-manifold
+/// \throw Cancelled when asked to stop
 /// Cost: O(n log n log m) for n faces and m of the model. From 20,000 to 400 faces about 0.2 s (fast), 0.5 s (fair),
 /// 2 s (best) on two threads.
 /// Based on: Garland and Heckbert, Surface Simplification Using Quadric Error Metrics, 1997.

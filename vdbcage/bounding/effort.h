@@ -2,7 +2,7 @@
 
 namespace vdbcage {
 
-/// How much time a cage may take to be tighter.
+/// The time that a cage may take to be tighter.
 enum class Effort {
     fast, ///< edges are collapsed, and the cage is tightened once
     fair, ///< edges are split and others collapsed for them too, and the cage is perturbed once

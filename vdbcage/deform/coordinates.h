@@ -11,45 +11,45 @@
 
 namespace vdbcage {
 
-/// How a cage moves what is in it. Quads are bilinear patches, but for the families that split them: there they are two
-/// triangles each, along the diagonal that is shorter at rest.
+/// A family of coordinates: the rule by which a cage moves the points in it. Quads are bilinear patches, except in the
+/// families that split them: there they are two triangles each, along the diagonal that is shorter at rest.
 enum class Coordinates {
     /// Mean value coordinates: Ju, Schaefer, Warren 2005 on triangles; Thiery, Memari, Boubekeur 2018 on quads. Defined
-    /// everywhere, also outside of the cage. Smooth but on the cage, where they interpolate it. Can be negative.
+    /// everywhere, also outside of the cage. Smooth except on the cage, which they interpolate. Can be negative.
     meanValue,
     /// Green coordinates: Lipman, Levin, Cohen-Or 2008 on triangles; Thiery, Boubekeur 2022 on quads. They follow the
-    /// faces' normals and nearly keep shapes. So the posed model does not touch the cage where the rest model does.
+    /// faces' normals and nearly keep shapes, so the posed model does not touch the cage where the model at rest does.
     /// Defined inside and, as the limit from inside, on the cage; an error outside.
     green,
     /// Maximum likelihood coordinates, after Chang, Deng, Hormann 2023: never negative. They are the most local family
-    /// here: the weights fall as the third power of the distance. Chosen before harmonic coordinates because they need
-    /// no volume mesh, and so keep the rest pose and affine maps exactly at every point. Defined inside and on the
-    /// cage, which they interpolate; an error outside.
+    /// here: the weights fall as the third power of the distance. They need no volume mesh, unlike harmonic
+    /// coordinates, and so keep the rest pose and affine maps exactly at every point. Defined inside and on the cage,
+    /// which they interpolate; an error outside.
     maximumLikelihood,
-    /// Harmonic coordinates: Joshi, Meyer, DeRose, Green, Sanocki 2007. Never negative, and smooth: nothing of the cage
+    /// Harmonic coordinates: Joshi, Meyer, DeRose, Green, Sanocki 2007. Never negative, and smooth. No part of the cage
     /// acts through a wall of it, so they are local without being stiff. Solved for on a grid, see CoordinateOptions.
     /// Defined inside and on the cage, which they interpolate; an error outside.
     harmonic,
-    /// Biharmonic coordinates: Thiery, Michel, Chen 2024. As Green coordinates they follow the faces' normals, but keep
-    /// closer to a bent cage. Of points and triangles together there can be 6000. Defined inside and, as the limit from
-    /// inside, on the cage; an error outside.
+    /// Biharmonic coordinates: Thiery, Michel, Chen 2024. They follow the faces' normals as Green coordinates do, but
+    /// keep closer to a bent cage. The cage has at most 6000 points and triangles together. Defined inside and, as the
+    /// limit from inside, on the cage; an error outside.
     biharmonic,
     /// Somigliana coordinates: Chen, de Goes, Desbrun 2023. The inside moves as an elastic material does whose surface
     /// is moved by the cage: stretched evenly, and not sheared where Green coordinates shear it. See Elasticity. Like
     /// Green coordinates they do not interpolate the cage. Defined inside and, as the limit from inside, on the cage;
     /// an error outside.
     somigliana,
-    /// Weights that were made elsewhere, of any family: one a cage point. They cannot be computed, nor be had at other
-    /// points. See readWeights. The cage may be open.
+    /// Weights that were made elsewhere, of any family: one a cage point. They cannot be computed, and are not known at
+    /// other points; see readWeights(). The cage may be open.
     given,
 };
 
 /// The material of Somigliana coordinates. It acts in the pose, not in the weights.
 struct VDBCAGE_API Elasticity {
-    /// What the material turns with.
+    /// The rotations that the material follows.
     enum class Rotations {
-        global, ///< the elastic material turns as a whole. For parts that turn up to a quarter turn from the mean
-        local   ///< at each face as the face does. For parts that turn farther; stretches more
+        global, ///< the material turns as a whole. For parts that turn up to a quarter turn from the mean
+        local   ///< the material at each face turns with the face. For parts that turn farther; stretches more
     };
     static constexpr Range bulgings{0, 100}; ///< of `localBulging` and `globalBulging`
 
@@ -62,20 +62,24 @@ struct VDBCAGE_API Elasticity {
     /// How much it bulges where the cage moves outward, from its rest pose turned and scaled to fit, in `bulgings`.
     double globalBulging = 0;
 
-    /// Whether all four are exactly the same.
+    /// Returns whether all four are exactly the same.
     bool operator==(const Elasticity& other) const;
-    /// Whether one of them differs.
+    /// Returns whether one of them differs.
     bool operator!=(const Elasticity& other) const { return !(*this == other); }
 };
 
 /// Checks the numbers of a material.
-/// \throw InputError naming the first that is out of range
+/// \param elasticity its numbers are to be in the ranges of its members
+/// \throw InputError when one is out of range; names the first
 VDBCAGE_API void requireElasticity(const Elasticity& elasticity);
 
-/// "global" or "local".
+/// Returns the name of the rotations: "global" or "local".
+/// \param rotations either of the two
 VDBCAGE_API const char* rotationsName(Elasticity::Rotations rotations);
 
-/// \throw InputError there are none of that name
+/// Returns the rotations of a name.
+/// \param name "global" or "local"
+/// \throw InputError when it is neither
 VDBCAGE_API Elasticity::Rotations rotationsNamed(const std::string& name);
 
 /// Facts about a family, for menus and help.
@@ -84,31 +88,33 @@ struct FamilyInfo {
     const char* name;        ///< of the command and of weights files; at most 16 letters
     const char* nameOnQuads; ///< as its paper calls it on quads; `name` if it has no other there
     const char* title;       ///< a word or two
-    const char* what;        ///< what it does to the model, in a line
+    const char* what;        ///< its effect on the model, in a line
     const char* paper;       ///< authors and year
-    bool isEverywhere;       ///< else inside the cage and on it only
-    bool splitsQuads;        ///< takes quads as two triangles
-    bool hasResolution;      ///< looks at CoordinateOptions::resolution
-    bool hasElasticity;      ///< looks at CoordinateOptions::elasticity
+    bool isEverywhere;       ///< it is defined everywhere, not only inside the cage and on it
+    bool splitsQuads;        ///< it takes quads as two triangles
+    bool hasResolution;      ///< it uses CoordinateOptions::resolution
+    bool hasElasticity;      ///< it uses CoordinateOptions::elasticity
 };
 
 /// Lists all families that can be computed, in the order of Coordinates.
 VDBCAGE_API const std::vector<FamilyInfo>& coordinateFamilies();
 
-/// Finds the facts about any family, `given` included.
+/// Returns the facts about a family.
+/// \param family any, `given` too
 VDBCAGE_API const FamilyInfo& familyInfo(Coordinates family);
 
-/// The name of a family, or "given".
+/// Returns the name of a family, such as "mvc"; or "given".
+/// \param family any, `given` too
 VDBCAGE_API const char* coordinatesName(Coordinates family);
 
-/// The family of a name, of those that can be computed. "qmvc" and "qgc" are other names of "mvc" and "green", as their
-/// papers call them on quads.
-/// \throw InputError naming the families
+/// Returns the family of a name, one of those that can be computed.
+/// \param name FamilyInfo::name, or FamilyInfo::nameOnQuads: "qmvc" and "qgc" are other names of "mvc" and "green"
+/// \throw InputError when there is none of that name; lists the families
 VDBCAGE_API Coordinates coordinatesNamed(const std::string& name);
 
 /// Points that need no coordinates of a family, such as those that no face of a model uses.
 struct LoosePoints {
-    /// How they move.
+    /// The ways in which they move.
     enum class Motion {
         ride, ///< by the family where it is defined, and elsewhere by mean value coordinates
         stay  ///< not at all: their weights are 0
@@ -117,73 +123,69 @@ struct LoosePoints {
     Motion motion = Motion::ride;               ///< of all of them
 };
 
-/// \throw InputError there is none of that name: "ride" or "stay"
+/// Returns the motion of a name.
+/// \param name "ride" or "stay"
+/// \throw InputError when it is neither
 VDBCAGE_API LoosePoints::Motion looseMotionNamed(const std::string& name);
 
-/// A family, and what it can be asked for.
+/// A family with its settings.
 struct CoordinateOptions {
     static constexpr Range resolutions{4, 256}; ///< of `resolution`
 
     Coordinates family; ///< whose weights they are
-    /// Of harmonic coordinates: voxels along the cage's longest side. What the weights of a point are off by has a mean
-    /// sum of 2.4 % in 64 voxels and 0.7 % in 128 (cage of 400 faces), most near the cage. 8 bytes for each voxel
-    /// inside and point of the cage.
+    /// Voxels along the cage's longest side, in `resolutions`, default 64; only harmonic coordinates use it. The errors
+    /// of a point's weights have a mean sum of 2.4 % in 64 voxels and 0.7 % in 128 (cage of 400 faces), most near the
+    /// cage. The grid takes 8 bytes for each voxel inside and point of the cage.
     int resolution;
-    /// Of Somigliana coordinates. Weights do not depend on it.
+    /// The material; only Somigliana coordinates use it, and their weights do not depend on it.
     Elasticity elasticity;
-    LoosePoints loose; ///< of the points that are bound
+    LoosePoints loose; ///< of the points that are bound; none by default
 
-    /// The family `of`. `voxels` is the resolution, which only harmonic coordinates look at.
+    /// Takes a family and a resolution.
+    /// \param of any family
+    /// \param voxels `resolution`: 4 to 256, default 64
     CoordinateOptions(Coordinates of, int voxels = 64) : family(of), resolution(voxels) {}
-    /// The family `of`, with a material, which only Somigliana coordinates look at.
+    /// Takes a family and a material.
+    /// \param of any family
+    /// \param material `elasticity`: in the ranges of its members
     CoordinateOptions(Coordinates of, const Elasticity& material) : CoordinateOptions(of) { elasticity = material; }
 };
 
-/// How many handles a cage has, which is the number of weights a point.
+/// Returns the number of handles of a cage, which is the number of weights a point.
+/// \param cage any mesh
+/// \param family any, `given` too
 VDBCAGE_API std::size_t handleCount(const Mesh& cage, Coordinates family);
 
-/// What coordinates are weights of, in the order of their columns. `posed` are the posed points of `cage`.
-///
-/// First come the posed points. For Green coordinates stretched normals follow: one a triangle, then four a quad, at
-/// its corners. For biharmonic ones, too: one a triangle, then two a quad, of its halves along the diagonal that is
-/// shorter at rest. A stretched normal belongs to two edges that meet in a corner. Its length is the area of their
-/// parallelogram at rest, times how much the pose stretches it, over the longest side of the cage at rest. The stretch
-/// is the root mean square of the two principal stretches.
-///
-/// For Somigliana coordinates six vectors a triangle follow, two triangles a quad. They are what the entries of the
-/// integral of r r^T / (4 pi |r|^3) over the triangle stand for, in the frame of its normal, its first edge and the
-/// normal cross that: nn, n1, n2, 11, 12, 22. Each is as long as what the point moves by for an entry of 1, in units
-/// of the longest side of the cage at rest.
-/// \throw InputError not as many points as `cage` has, or one not finite; an elasticity out of range
+/// Returns the handles of a posed cage, which weights multiply, in the order of the weights' columns: first the posed
+/// points, then the vectors of the family. \ref deform describes these.
+/// \param cage at rest
+/// \param posed the points of `cage` in the pose: as many, in the same order, finite
+/// \param options the family, and the material of Somigliana coordinates
+/// \throw InputError when there are not as many points as `cage` has, or one is not finite; when the elasticity is out
+/// of range
 /// Cost: O(cage).
 VDBCAGE_API std::vector<openvdb::Vec3d> cageHandles(const Mesh& cage, const std::vector<openvdb::Vec3d>& posed,
                                                     const CoordinateOptions& options);
 
-/// The coordinates of `points` in `cage`, in double: a row a point, row after row, of as many columns as there are
-/// handles.
-///
-/// Point i is the sum over the handles at rest, each times its weight, to 1e-12 of the cage's size. The weights of the
-/// cage's points have sum 1; those of points that no face uses are 0. The weights are accurate to 1e-7, less where
-/// faces meet at a distance below 1e-7 of the cage's size. Harmonic ones reproduce points to 1e-10, and are as accurate
-/// as their grid is fine. Points at less than 1e-12 of the cage's size from it count as on it.
-///
-/// Self-intersections are not looked for. Degenerate faces are allowed. The same bits for any number of threads and for
-/// all instruction sets of a processor.
-/// \pre `cage` is closed and faces outward
-/// \throw InputError a cage that is not closed, faces inward or is flat; a point not finite; a point for which the
-/// family is not defined and that is not loose (the message has the first and how many); the family is `given`; a loose
-/// point that is not there; a cage too large for
-/// biharmonic coordinates; a resolution of harmonic coordinates out of range
-/// \throw Cancelled
-/// Cost: O(points x faces), in parallel. Quads cost several times what triangles do. Biharmonic coordinates:
+/// Returns the coordinates of points in a cage: points x handles, row after row. \ref deform has their accuracy.
+/// \param cage closed and facing outward; it may have degenerate faces, and self-intersections are not looked for
+/// \param points world units, finite; where the family is defined, or loose
+/// \param options the family with its settings; not `given`
+/// \param interrupter told of the stage "bind"; may be null
+/// \throw InputError when the cage is not closed, faces inward, is flat, or is too large for biharmonic coordinates;
+/// when a point is not finite, or is not loose where the family is not defined (names the first, and their number);
+/// when the family is `given`; when a loose point is not there; when a resolution of harmonic coordinates is out of
+/// range
+/// \throw Cancelled when asked to stop
+/// Cost: O(points x faces), in parallel; a quad costs as much as several triangles. Biharmonic coordinates:
 /// O(handles^3 + points x handles^2), in 32 bytes x handles^2, of which 8 stay.
 VDBCAGE_API std::vector<double> computeCoordinates(const Mesh& cage, const std::vector<openvdb::Vec3d>& points,
                                                    const CoordinateOptions& options,
                                                    Interrupter* interrupter = nullptr);
 
-/// computeCoordinates(), rounded to single precision, as Binding and weights files take them.
-/// \throw InputError as computeCoordinates
-/// \throw Cancelled
+/// As computeCoordinates(), rounded to single precision, as Binding and weights files take them.
+/// \throw InputError as computeCoordinates()
+/// \throw Cancelled when asked to stop
 VDBCAGE_API std::vector<float> computeWeights(const Mesh& cage, const std::vector<openvdb::Vec3d>& points,
                                               const CoordinateOptions& options, Interrupter* interrupter = nullptr);
 

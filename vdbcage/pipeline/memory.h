@@ -11,31 +11,39 @@
 
 namespace vdbcage {
 
-/// As many bytes as there may be.
+/// The memory limit that allows any number of bytes.
 constexpr std::size_t unlimitedMemory = std::numeric_limits<std::size_t>::max();
 
-/// Making a cage would take more memory than is allowed. Thrown before surfaces are made, which take most of it.
+/// The error that making a cage would take more memory than is allowed. It is thrown before surfaces are made, which
+/// take most of it.
 class VDBCAGE_API MemoryError : public Error {
 public:
     using Error::Error;
     ~MemoryError() override;
 };
 
-/// About how many bytes a process holds at most that makes a cage: `vdbcage make`, with nothing else in it.
+/// Returns about the most bytes that a process holds which makes a cage: `vdbcage make`, with nothing else in it.
 ///
-/// It is meant as an upper bound: docs/user/OPTIONS.md has how near the peak came. The surface of the closing takes
-/// most; it is counted in coarse voxels. Grids of fields are not counted, nor is what a program makes of the result, as
-/// pictures.
-/// \throw InputError as Pipeline::run
-/// \throw Cancelled
+/// It is meant as an upper bound; docs/user/OPTIONS.md tells how near the peak came. The surface of the closing takes
+/// most, and is counted in coarse voxels. Grids of fields are not counted, nor are things that a program makes of the
+/// result, such as pictures.
+/// \param model as for Pipeline
+/// \param options as for requireValid()
+/// \param interrupter asked whether to stop, but told of no stage; may be null
+/// \throw InputError as Pipeline::run()
+/// \throw Cancelled when asked to stop
 /// Cost: that of voxels and their closing at resolution 64, once.
 VDBCAGE_API std::size_t predictedMemory(const Mesh& model, const CageOptions& options = {},
                                         Interrupter* interrupter = nullptr);
 
-/// Does nothing where predictedMemory() is at most `limit` bytes.
-/// \throw MemoryError it is more; names the finest resolution with which it is not, if there is one
-/// \throw InputError as predictedMemory
-/// \throw Cancelled
+/// Checks that predictedMemory() is at most a limit.
+/// \param model as for Pipeline
+/// \param options as for requireValid()
+/// \param limit bytes
+/// \param interrupter as for predictedMemory()
+/// \throw MemoryError when it is more; names the finest resolution with which it is not, if there is one
+/// \throw InputError as predictedMemory()
+/// \throw Cancelled when asked to stop
 VDBCAGE_API void requireMemory(const Mesh& model, const CageOptions& options, std::size_t limit,
                                Interrupter* interrupter = nullptr);
 

@@ -18,7 +18,7 @@
 
 namespace vdbcage {
 
-/// Which faces a cage is made of.
+/// The faces that a cage is made of.
 enum class CageFaces {
     triangles, ///< no quads
     triquad,   ///< triangles, merged into quads where they are flat enough
@@ -32,29 +32,29 @@ enum class CageParts {
     merge ///< one cage around everything
 };
 
-/// In which plane a cage is symmetric.
+/// The plane in which a cage is symmetric.
 enum class CageSymmetry {
     automatic, ///< in one that the model is symmetric in: across x, y or z, or else in any direction
     off,       ///< in none
     x,         ///< in the plane across x in which the model agrees best with its mirror image
-    y,         ///< likewise across y
-    z          ///< likewise across z
+    y,         ///< the same across y
+    z          ///< the same across z
 };
 
-/// Everything that decides how a cage comes out. Lengths are fractions of the model's longest side.
+/// The options that decide how a cage comes out. Lengths are fractions of the model's longest side.
 ///
 /// Members that are not set are chosen by vdbcage; docs/user/OPTIONS.md says how. Values out of their range are an
 /// InputError of Pipeline::run() and makeCage().
 struct CageOptions {
     /// Faces of the cage, at most: leastFaces() to 1000000. A quad counts once.
     int faces = 400;
-    /// Voxels along the model's longest side, 8 to 2048. Halves of it down to 24 compete with it, so that doubling it
-    /// never gives a looser cage. Unset: by the faces and the effort.
+    /// Voxels along the model's longest side, 8 to 2048. Halves of it down to 24 compete with it, so that doubling it,
+    /// from 24 on, never makes the cage looser. Unset: by the faces and the effort.
     std::optional<int> resolution;
     /// Gaps up to twice this wide are bridged, 0 to 0.25. Unset: 0.03, or more where the faces need it.
     std::optional<double> closeRadius;
     /// Where less than the close radius, the closing is thicker by the difference: an offset of the cage without
-    /// `bounding`. With it the cage is tightened onto the model all the same, and `clearance` is what makes room.
+    /// `bounding`. With it the cage is tightened onto the model all the same, and `clearance` makes room instead.
     /// 0 to the close radius, which must be set. Unset: equal to it.
     std::optional<double> erodeRadius;
     StructuringElement element = StructuringElement::sphere; ///< of the closing
@@ -62,14 +62,15 @@ struct CageOptions {
     FactorField scale;
     /// About how many times the faces a place of the model gets, at the cost of the others. Needs `bounding`.
     FactorField density;
-    /// Where it is to bend: three rings of quads with CageFaces::loops, twice the faces with others. Needs `bounding`.
+    /// Places where it is to bend: three rings of quads with CageFaces::loops, twice the faces with others. Needs
+    /// `bounding`.
     Joints joints;
-    /// Sweeps of smoothing, 0 to 100: rounder, and less tight, with more. Of the cage, or of the surface before it is
-    /// decimated without `bounding`. Unset: 0, or 3 without `bounding`.
+    /// Sweeps of smoothing, 0 to 100: rounder, and less tight, with more. They smooth the cage or, without `bounding`,
+    /// the surface before it is decimated. Unset: 0, or 3 without `bounding`.
     std::optional<int> smooth;
-    CageParts parts = CageParts::keep; ///< what becomes of separate parts of the closing
-    /// Leaves out parts of the model that are smaller than so much of the largest, by the longest sides of their boxes,
-    /// 0 to 1. The cage need not bound them.
+    CageParts parts = CageParts::keep; ///< the treatment of separate parts of the closing
+    /// Share of the largest part, 0 to 1: parts of the model that are smaller, by the longest sides of their boxes, are
+    /// left out. The cage need not bound them.
     double leastPart = 0;
     /// Least distance from model to cage, 1e-7 to 0.1.
     double clearance = GuardOptions{}.clearance;
@@ -78,18 +79,19 @@ struct CageOptions {
     Precision precision = Precision::automatic; ///< of the cage's coordinates; for a file see precisionOf()
     Effort effort = Effort::fair;               ///< time against tightness
     CageFaces mesh = CageFaces::triangles;      ///< triangles only, or quads too
-    /// 0: tightest, 1: squarest corners. Of CageFaces::triquad and CageFaces::quads.
+    /// Shape of the quads of CageFaces::triquad and CageFaces::quads: 0 is tightest, 1 has the squarest corners.
     double quadShape = BoundingTriquadOptions{}.quadShape;
     /// Triangles that meet at a smaller angle become quads, in degrees, 0 to 180. Unset: 30 of CageFaces::triquad, or
     /// 10 without `bounding`; 90 of CageFaces::quads.
     std::optional<double> mergeAngle;
-    CageSymmetry symmetry = CageSymmetry::off; ///< makes symmetric cages; needs `bounding`
+    /// Symmetry of the cage. Needs `bounding`, without which CageSymmetry::automatic makes no cage symmetric.
+    CageSymmetry symmetry = CageSymmetry::off;
     /// The largest Symmetry::deviation with which CageSymmetry::automatic takes a plane, 0 to 0.3.
     double symmetryTolerance = 0.005;
-    Interior interior = Interior::automatic;    ///< what is inside of a model with holes
-    Voxelizer voxelizer = Voxelizer::automatic; ///< what turns the model into voxels
-    /// Only ever give a cage certified to bound the model. If not, plain operators are used, and the cage is returned
-    /// whatever the verdict.
+    Interior interior = Interior::automatic;    ///< the inside of a model with holes
+    Voxelizer voxelizer = Voxelizer::automatic; ///< the code that turns the model into voxels
+    /// Only a cage that is certified to bound the model is returned. If false, plain operators are used, and the cage
+    /// is returned whatever the verdict.
     bool bounding = true;
 };
 
@@ -103,7 +105,9 @@ struct OptionInfo {
     bool isRare = false; ///< most users never need it: it is in the full help only
 };
 
-/// Calls `visit(info, field)` for every option, in the order of the help. `Options` is CageOptions, const or not.
+/// Calls a function for every option, in the order of the help.
+/// \param options CageOptions, const or not
+/// \param visit called as `visit(info, field)`: with an OptionInfo and the member of `options`
 template <typename Options, typename Visit>
 void visitOptions(Options& options, Visit&& visit)
 {
@@ -145,22 +149,30 @@ struct OptionText {
     bool isRare = false;      ///< as OptionInfo
 };
 
-/// All options in words, in the order of visitOptions.
+/// Returns all options in words, in the order of visitOptions().
 VDBCAGE_API std::vector<OptionText> describeOptions();
 
-/// The value of each option as text that setOption takes, in the order of visitOptions: (name, value).
+/// Returns the name and the value of each option as text, in the order of visitOptions(). setOption() takes all values
+/// except "given": that of a field, or of joints, that were not read from text or a file.
+/// \param options any
 VDBCAGE_API std::vector<std::pair<std::string, std::string>> optionValues(const CageOptions& options);
 
-/// Sets the option called `name` from text. Numbers are written in the C locale's way. Files that it names are read.
-/// \throw InputError naming the option, the value and what is allowed
-/// \throw IoError naming a file that cannot be read
+/// Sets an option from text. Files that it names are read.
+/// \param options only the named one changes; whether options fit each other is left to requireValid()
+/// \param name OptionInfo::name
+/// \param value numbers are written in the C locale's way
+/// \throw InputError when there is no such option, or the value is not allowed; names the option, the value and the
+/// allowed values
+/// \throw IoError when a file cannot be read; names it
 VDBCAGE_API void setOption(CageOptions& options, const std::string& name, const std::string& value);
 
-/// The fewest faces that may be asked for: 4 of triangles (a tetrahedron), 6 of all others (a box).
+/// Returns the fewest faces that may be asked for: 4 of triangles (a tetrahedron), 6 of all others (a box).
+/// \param mesh the faces that the cage is made of
 VDBCAGE_API int leastFaces(CageFaces mesh);
 
 /// Checks every range and that options fit each other.
-/// \throw InputError naming the option, the value and what is allowed
+/// \param options any
+/// \throw InputError when a value is not allowed; names the option, the value and the allowed values
 VDBCAGE_API void requireValid(const CageOptions& options);
 
 } // namespace vdbcage

@@ -28,115 +28,93 @@ enum class CageStart {
                  ///< certified
 };
 
-/// How a cage came about, beside the cage itself.
+/// The account of how a cage came about, beside the cage itself.
 struct CageReport {
     CageCheck check;        ///< the verdict on the cage as it is returned, with measures
     bool floatSafe = false; ///< its coordinates are floats, and the cage also bounds the model rounded to float
     int resolution = 0;     ///< voxels along the longest side, as given, a half of it that is tighter, or chosen
-    VoxelizeReport voxels;  ///< what made the voxels
+    VoxelizeReport voxels;  ///< how the voxels were made
     double closeRadius = 0; ///< fraction of the longest side, as given or chosen
     double erodeRadius = 0; ///< the same
     std::optional<double> minAngle;       ///< degrees, as given or chosen; bounding only
     std::optional<double> mergeAngle;     ///< the same, of CageFaces::triquad and CageFaces::quads
     int smooth = 0;                       ///< sweeps, as given or chosen
     double offsetVoxels = 0;              ///< by how much all of the closing was grown to keep the clearance
-    CageStart start = CageStart::closing; ///< what it was shrunk from
+    CageStart start = CageStart::closing; ///< the start that it was shrunk from
     std::optional<Symmetry> symmetry; ///< the plane in which the cage is exactly symmetric, and how far the model is
-    /// If the plane lies across no axis: the cage is symmetric in it but for the rounding of its coordinates.
+    /// If the plane lies across no axis: the cage is symmetric in it except for the rounding of its coordinates.
     std::optional<TiltedSymmetry> tiltedSymmetry;
     std::string noSymmetry;        ///< why there is none; empty if there is, or it was not asked for
     bool repaired = false;         ///< an unguarded cage was not valid and went through repair()
     std::size_t partsLeftOut = 0;  ///< of the model, smaller than CageOptions::leastPart: it bounds the others
     std::size_t facesLeftOut = 0;  ///< the model's triangles and quads in these
     double leastPartSide = 0;      ///< the longest side that was asked of a part, world units
-    std::vector<std::string> plan; ///< what the search tried, a line for each kind of cage that competed; bounding only
+    std::vector<std::string> plan; ///< the search's attempts, a line for each kind of cage that competed; bounding only
     double sideShare = 1;          ///< of the longest side, that voxels and radii of `auto` were chosen for
-    std::size_t startFaces = 0;    ///< of what it was shrunk from
+    std::size_t startFaces = 0;    ///< of the surface that it was shrunk from
     std::size_t cavitiesFilled = 0; ///< hollows inside the closing that were filled
     std::size_t solidParts = 0;     ///< separate surfaces of the model's voxels, inner ones too
     std::int64_t solidHandles = 0;  ///< and handles, tunnels through them, of all of them
     std::size_t modelHollows = 0;   ///< hollows of the model (CageChecker::hollows), which became solid
-    std::size_t parts = 0;          ///< separate surfaces of what the cage was made from: the closing, grown a little
+    std::size_t parts = 0;          ///< separate surfaces that the cage was made from: of the closing, grown a little
     std::int64_t handles = 0;       ///< tunnels through the surface that the cage was made from
     std::size_t solidVoxels = 0;    ///< of the model
     std::size_t closedVoxels = 0;   ///< of its closing, cavities filled
 };
 
-/// From a model to its cage, keeping every intermediate. Running again with other options starts from the first stage
-/// that they touch: another face count or smoothness needs no new voxels and no new closing.
+/// A pipeline from a model to its cages, which keeps every intermediate. A run with other options starts from the first
+/// stage that they touch: another face count or smoothness needs no new voxels and no new closing.
 ///
-/// With CageOptions::bounding the surface of the closing is shrunk, decimated and tightened under a BoundingGuard. The
-/// cage is then certified by CageChecker, other code than the guard's, on its coordinates as they are returned. It is
-/// examined against the model as given and, where its coordinates are floats, as rounded to float. A cage that is not
-/// certified is never returned.
-///
-/// The closing may have too many parts and handles for the faces. If its radius and resolution are not given, it is
-/// closed more, then voxelized more coarsely. Where that is not enough, the cage is shrunk from the closing's convex
-/// hull. The last resort is the model's bounding box; CageReport::floatSafe says whether it also bounds as floats. So
-/// there are never more faces than asked for. Effort::fast takes a coarser resolution where the surface is large.
-///
-/// Few faces are begun with several resolutions side by side, and the tightest cage is kept. So are a resolution that
-/// is given and its halves. Up to 150 faces, what the
-/// lower efforts give competes as well, and the box around the model along its own axes, tightened; below 12 triangles
-/// a tetrahedron, too. So no effort gives looser cages than a lower one there. Where the box lies on the model, within
-/// the clearance as closely as other cages, it is the cage. Up to 24 faces loops compete with other quads, but not with
-/// Effort::fast. Loops are also begun with voxels along the model's own axes, where these have a smaller surface.
-/// These axes are those along which the model's faces lie flattest.
-/// Beyond 150 faces boxes and cages of fewer faces compete where the cage lies on the model, or some of its places are
-/// much farther away than most.
-///
-/// Where a plane of symmetry is found or given, voxels are united with their mirror image. Everything after is done on
-/// one half, under a guard that knows the plane. The cage is then symmetric, point for point and face for face: exactly
-/// where the plane lies across an axis, else but for rounding. It has an edge wherever it meets the plane, and bounds
-/// the mirror image of the model too. If no such cage has few enough faces, one without symmetry is made, and the
-/// report says so.
+/// With CageOptions::bounding a cage that is not certified is never returned. \ref pipeline describes the search.
 class VDBCAGE_API Pipeline {
 public:
     /// Checks the model and keeps it; nothing is made yet.
-    /// \throw InputError the model has no usable face (see requireUsable)
+    /// \param model any polygon soup with a usable face
+    /// \throw InputError when the model has no usable face (see requireUsable())
     explicit Pipeline(Mesh model);
     ~Pipeline();
-    /// The other can only be assigned to or destroyed afterwards.
+    /// Takes over another pipeline, which can only be assigned to or destroyed afterwards.
     Pipeline(Pipeline&&) noexcept;
-    /// The other can only be assigned to or destroyed afterwards.
+    /// Takes over another pipeline, which can only be assigned to or destroyed afterwards.
     Pipeline& operator=(Pipeline&&) noexcept;
 
-    /// Makes the cage for `options` and returns it; valid until the next run. A run that throws leaves the cage and the
-    /// intermediates of the last one that did not.
-    ///
-    /// Reports stages to `interrupter`, some more than once: of StageName, those from interior to certify. The cage can
-    /// have fewer faces than asked. It has more only where the topology of the closing does not allow fewer and
-    /// `bounding` is off.
-    /// \throw InputError what requireValid, voxelize or closeMask refuses; float32 is asked for and rounds by more than a
-    /// thousandth of the longest side; the model misses the plane of symmetry that
-    /// is asked for by more than 0.3 of its longest side
-    /// \throw MemoryError a process that makes this cage would hold more than `memoryLimit` bytes, as predictedMemory()
-    /// predicts; with unlimitedMemory nothing is predicted
-    /// \throw DeviceError the voxelizer asked for is missing or fails
-    /// \throw Error the cage could not be certified, which is a defect of vdbcage
-    /// \throw Cancelled
+    /// Makes the cage for some options. A run that throws leaves the results of the last one that did not.
+    /// \param options as for requireValid(); without `bounding` the cage can have more faces, see \ref pipeline
+    /// \param interrupter told of stages, some more than once: those of StageName from interior to certify; may be null
+    /// \param memoryLimit bytes; unlimitedMemory, the default: nothing is predicted
+    /// \return the cage, valid until the next run
+    /// \throw InputError when requireValid(), voxelize() or closeMask() refuses something; when float32 is asked for
+    /// and rounds by more than a thousandth of the longest side; when the model misses the plane of symmetry that is
+    /// asked for by more than 0.3 of its longest side
+    /// \throw MemoryError when a process that makes this cage would hold more, as predictedMemory() predicts
+    /// \throw DeviceError when the voxelizer asked for is missing or fails
+    /// \throw Error when the cage could not be certified, which is a defect of vdbcage
+    /// \throw Cancelled when asked to stop
     const Mesh& run(const CageOptions& options, Interrupter* interrupter = nullptr,
                     std::size_t memoryLimit = unlimitedMemory);
 
-    /// The model as it was given.
+    /// Returns the model as it was given.
     const Mesh& model() const;
 
     /// \name Of the last run; valid until the next
     /// \{
 
-    /// The voxelized model; null before the first run. Its voxels lie along x, y and z, or along a plane of symmetry
-    /// that lies across none of them.
+    /// Returns the voxelized model; null before the first run. Its voxels lie along x, y and z, or along a plane of
+    /// symmetry that lies across none of them.
     std::shared_ptr<const openvdb::MaskGrid> solid() const;
-    /// The closing of solid(), cavities filled; null before the first run.
+    /// Returns the closing of solid(), cavities filled; null before the first run.
     std::shared_ptr<const openvdb::MaskGrid> closed() const;
-    const Mesh& surface() const; ///< what the cage was made from: quads, or a tetrahedron
-    /// The result of smoothing: the cage, before edges that are almost flat are bent. Bounding off: the surface.
+    /// Returns the surface that the cage was made from: quads, or the triangles of a tetrahedron or of a box.
+    const Mesh& surface() const;
+    /// Returns the smoothed cage, before edges that are almost flat are bent; without `bounding` the smoothed surface.
     const Mesh& smoothed() const;
-    /// The surface with fewer faces. Triangles, about twice the faces where pairs become quads; of loops the cage
-    /// before smoothing; of a box its quads.
+    /// Returns the surface with fewer faces. They are triangles, with `bounding` up to three times the faces where
+    /// pairs become quads. For loops it is the cage before smoothing; for a box or a tetrahedron it has their faces.
     const Mesh& decimated() const;
-    const Mesh& cage() const;         ///< what run() returned; without faces before the first run
-    const CageReport& report() const; ///< how that cage came about
+    /// Returns the cage, as run() returned it; without faces before the first run.
+    const Mesh& cage() const;
+    /// Returns the account of how that cage came about.
+    const CageReport& report() const;
     /// \}
 
 private:
@@ -144,13 +122,16 @@ private:
     std::unique_ptr<Impl> impl_;
 };
 
-/// Makes one cage of one model, as `Pipeline(model).run(options)` does. What most callers need.
+/// Makes one cage of one model, as `Pipeline(model).run(options)` does. Most callers need no more.
 ///
 /// With the default options the cage has at most 400 triangles. It is certified to bound the model, or this throws.
-/// \throw InputError as Pipeline and run()
-/// \throw DeviceError as run()
-/// \throw Error as run()
-/// \throw Cancelled
+/// \param model any polygon soup with a usable face
+/// \param options as for Pipeline::run()
+/// \param interrupter as for Pipeline::run()
+/// \throw InputError as Pipeline and its run()
+/// \throw DeviceError as Pipeline::run()
+/// \throw Error as Pipeline::run()
+/// \throw Cancelled when asked to stop
 VDBCAGE_API Mesh makeCage(const Mesh& model, const CageOptions& options = {}, Interrupter* interrupter = nullptr);
 
 } // namespace vdbcage

@@ -10,8 +10,8 @@ outside.
 
 Functions that can take long have an argument `progress`: a function that is called 20 times a second, in the thread of
 the caller, with the name of the stage (str) and how far the whole call is, in percent (int, 0 to 99, never less than
-before). Where it returns False the work ends with Cancelled; what it raises ends the work too, and so does Ctrl-C.
-Several threads may work at once.
+before). Where it returns False the work ends with Cancelled. An exception that it raises ends the work too, and so does
+Ctrl-C. Several threads may work at once.
 """
 
 from __future__ import annotations
@@ -47,7 +47,7 @@ class Error(Exception):
 
 
 class InputError(Error, ValueError):
-    """An argument is not acceptable. The text names it, its value and what is allowed. Raised before any work."""
+    """An argument is not acceptable. The text names it, its value and the allowed values. Raised before any work."""
 
 
 class IoError(Error, OSError):
@@ -80,7 +80,7 @@ def _mesh(name, value):
 
 
 def _option_text(name, value, allowed):
-    """An option's value as the command takes it. `allowed` is as in its help: "auto|N", "on|off"."""
+    """Returns an option's value as the command takes it. `allowed` is as in its help: "auto|N", "on|off"."""
     names = allowed.split("|")
     if value is None:
         return "auto" if "auto" in names else "none" if name in ("scale_field", "density", "joints") else "None"
@@ -109,7 +109,7 @@ def _option_texts(options):
 
 @contextlib.contextmanager
 def _names_of_python():
-    """Messages get the names that options have here: close_radius for --close-radius."""
+    """Puts the names that options have here into messages: close_radius for --close-radius."""
     try:
         yield
     except InputError as error:
@@ -122,8 +122,9 @@ class Mesh:
     """Points, and faces of three or four corners. It never changes.
 
     points: array-like of numbers, shape (n, 3): world space, finite
-    triangles, quads: array-likes of whole numbers, shapes (n, 3) and (n, 4): indices of points
-    Raises InputError with the argument, the row and the value.
+    triangles: array-like of whole numbers, shape (n, 3): indices of points; None for no triangles
+    quads: array-like of whole numbers, shape (n, 4): indices of points; None for no quads
+    Raises InputError, which names the argument, the row and the value.
     """
 
     __slots__ = ("_mesh",)
@@ -136,7 +137,7 @@ class Mesh:
 
     @classmethod
     def _of(cls, mesh):
-        """What the core made."""
+        """Returns a mesh that the core made."""
         self = cls.__new__(cls)
         self._mesh = mesh
         return self
@@ -145,9 +146,11 @@ class Mesh:
     def read(cls, path: _Path) -> Mesh:
         """Reads an OBJ, OFF, PLY or STL file.
 
-        Faces of more than four corners are split. Cages bound them in every way they can be split, also where another
-        program splits them otherwise. A mesh that is made anew from these arrays does not know these other ways.
-        Warns (UserWarning) of what the file has otherwise than its format. Raises IoError.
+        Faces of more than four corners are split. Cages bound them under their other splits too, as another program may
+        split them. A mesh that is made again from these arrays does not know the other splits.
+
+        path: .obj, .off, .ply or .stl
+        Warns (UserWarning) of deviations of the file from its format. Raises IoError.
         """
         mesh, told = _vdbcage.read_mesh(_arguments.path(path))
         for warning in told:
@@ -155,34 +158,35 @@ class Mesh:
         return Mesh._of(mesh)
 
     def write(self, path: _Path) -> None:
-        """Writes an OBJ, OFF, PLY or STL file; the extension says which. It appears whole or not at all.
+        """Writes an OBJ, OFF, PLY or STL file. It appears whole or not at all.
 
+        path: .obj, .off, .ply or .stl
         Raises IoError; InputError if the mesh has no usable face.
         """
         _vdbcage.write_mesh(self._mesh, _arguments.path(path))
 
     @property
     def points(self) -> _Points:
-        """float64, shape (n, 3), read-only: world space. No copy."""
+        """The points: float64, shape (n, 3), read-only, world space. No copy."""
         return self._mesh.points
 
     @property
     def triangles(self) -> npt.NDArray[numpy.uint32]:
-        """uint32, shape (n, 3), read-only: indices of points. No copy."""
+        """The triangles: uint32, shape (n, 3), read-only, indices of points. No copy."""
         return self._mesh.triangles
 
     @property
     def quads(self) -> npt.NDArray[numpy.uint32]:
-        """uint32, shape (n, 4), read-only: indices of points. No copy."""
+        """The quads: uint32, shape (n, 4), read-only, indices of points. No copy."""
         return self._mesh.quads
 
     @property
     def loose_points(self) -> npt.NDArray[numpy.uint32]:
-        """uint32, shape (n,): the indices of the points that no face uses, ascending. They bound nothing."""
+        """The indices of the points that no face uses, ascending: uint32, shape (n,). These points bound nothing."""
         return _vdbcage.loose_points(self._mesh)
 
     def __len__(self) -> int:
-        """The number of faces."""
+        """Returns the number of faces."""
         return len(self.triangles) + len(self.quads)
 
     def __bool__(self) -> bool:
@@ -253,9 +257,9 @@ class Cage(Mesh):
         return self
 
     def write(self, path: _Path) -> None:
-        """As Mesh.write, but only to a file that holds its points as they were certified.
+        """Writes the cage as Mesh.write() does, but only to a file that holds its points as they were certified.
 
-        STL files hold float32: make_cage(..., precision="float32") makes cages for them.
+        path: .obj, .off or .ply; .stl, which holds float32, for cages of make_cage(..., precision="float32")
         Raises InputError where the points would be rounded; IoError.
         """
         path = _arguments.path(path)
@@ -271,9 +275,9 @@ class Cage(Mesh):
 
     @property
     def report(self) -> dict[str, Any]:
-        """How the cage came about, a dict.
+        """The account of how the cage came about, a dict.
 
-        options: every option as asked for; seconds: wall clock; stages: the seconds of each stage; and what
+        options: every option as asked for; seconds: wall clock; stages: the seconds of each stage; and all that
         `vdbcage make --report` has under "result": resolution, close_radius, start, float_safe and more.
         """
         return self._report
@@ -285,19 +289,23 @@ def make_cage(model: Mesh, /, *, progress: _Progress = None, **options: _Option)
     model: a Mesh of any kind: open, self-intersecting, badly oriented, in many parts
     progress: see the help of vdbcage
     options: those of `vdbcage make`, with underscores: faces=400, close_radius=0.02, mesh="triquad", bounding=False.
-        None stands for auto. Lengths are fractions of the model's longest side. OPTIONS.md has all of them.
-    Raises InputError, DeviceError, Cancelled.
+        None stands for auto. Lengths are fractions of the model's longest side. OPTIONS.md has all of them. With
+        bounding=False the cage is not certified.
+    Raises InputError, DeviceError, Cancelled; IoError for a file that an option names.
     """
     texts, progress = _option_texts(options), _arguments.callback(progress)
     return _run(_vdbcage.Pipeline(_mesh("model", model)), texts, progress)
 
 
 def predicted_memory(model: Mesh, /, *, progress: _Progress = None, **options: _Option) -> int:
-    """About how many bytes the command takes at most to make this cage, before it is made.
+    """Returns about the most bytes that the command takes to make this cage, before it is made.
 
-    A program takes as much on top of what it holds, or a little less.
-    model, progress, options: as for make_cage
-    Raises InputError, Cancelled.
+    A program takes as much on top of its own memory, or a little less.
+
+    model: as for make_cage
+    progress: as for make_cage
+    options: as for make_cage
+    Raises InputError, Cancelled; IoError for a file that an option names.
     """
     texts, progress = _option_texts(options), _arguments.callback(progress)
     with _names_of_python():
@@ -312,12 +320,13 @@ def _run(pipeline, texts, progress):
 
 
 class Pipeline:
-    """Makes one cage after another around a model, and keeps what is between them.
+    """A pipeline that makes one cage after another around a model, and keeps the stages between.
 
     A run begins with the first stage that its options touch: another face count needs no new voxels. One thread at a
     time can use a pipeline.
 
     model: a Mesh, as for make_cage
+    Raises InputError if it has no usable face.
     """
 
     __slots__ = ("_model", "_pipeline")
@@ -327,9 +336,13 @@ class Pipeline:
         self._model = model
 
     def run(self, *, progress: _Progress = None, **options: _Option) -> Cage:
-        """The Cage for these options, as make_cage gives it.
+        """Makes the cage for some options and returns it as a Cage, as make_cage does.
 
         A run that raises leaves the surfaces and masks of the last one that did not.
+
+        progress: as for make_cage
+        options: as for make_cage
+        Raises the exceptions of make_cage; Error if another call is running this pipeline.
         """
         texts, progress = _option_texts(options), _arguments.callback(progress)
         return _run(self._pipeline, texts, progress)
@@ -351,17 +364,23 @@ class Pipeline:
 
     @property
     def surface(self) -> Mesh | None:
-        """What the last cage was made from, a Mesh of quads; None before the first run."""
+        """The surface that the last cage was made from, a Mesh; None before the first run.
+
+        It has quads, or the triangles of a tetrahedron or of a box.
+        """
         return self._stage("surface")
 
     @property
     def smoothed(self) -> Mesh | None:
-        """What smoothing gave: the cage, or the surface without bounding. None before the first run."""
+        """The last cage, smoothed; without bounding the smoothed surface. A Mesh; None before the first run."""
         return self._stage("smoothed")
 
     @property
     def decimated(self) -> Mesh | None:
-        """The last cage before it was tightened, a Mesh; None before the first run."""
+        """The surface with fewer faces, a Mesh; None before the first run.
+
+        It is the last cage before it was tightened, or for loops before smoothing.
+        """
         return self._stage("decimated")
 
     def _mask(self, name):
@@ -377,11 +396,13 @@ def check_cage(cage: Mesh, model: Mesh, *, least_part: float = 0, as_floats: boo
                samples: int = 20000, progress: _Progress = None) -> CageCheck:
     """Examines any mesh as a cage of any model and returns a CageCheck.
 
-    cage, model: Mesh
+    cage: a Mesh
+    model: a Mesh
     least_part: leaves out parts of the model smaller than so much of the largest, 0 to 1, as make_cage does
     as_floats: both meshes are examined with their points rounded to float
     measure: False leaves the measures at 0, which is faster
     samples: points on the cage for the distances, 1 to 10**9
+    progress: see the help of vdbcage
     Raises InputError, Cancelled.
     """
     samples = _arguments.whole("samples", samples, 1, 10**9)
@@ -392,11 +413,11 @@ def check_cage(cage: Mesh, model: Mesh, *, least_part: float = 0, as_floats: boo
 
 @dataclasses.dataclass(frozen=True)
 class Family:
-    """What there is to know of a family of coordinates: one of coordinate_families()."""
+    """Facts about a family of coordinates: one of coordinate_families()."""
 
     name: str  #: as Binding takes it
     title: str
-    what: str  #: what it does to the model
+    what: str  #: its effect on the model
     paper: str
     everywhere: bool  #: else the points must be inside the cage or on it
     resolution: bool  #: whether Binding takes one for it
@@ -404,7 +425,7 @@ class Family:
 
 
 def coordinate_families() -> list[Family]:
-    """The families of coordinates that can be computed: a list of Family."""
+    """Returns the families of coordinates that can be computed: a list of Family."""
     return [Family(*values) for values in _vdbcage.coordinate_families()]
 
 
@@ -449,11 +470,12 @@ class Binding:
     cage: a Mesh, closed and facing outward
     points: array-like, shape (n, 3): world space
     coordinates: the name of one of coordinate_families(); see DEFORMING.md
-    resolution: voxels along the cage, 4 to 256; only of harmonic coordinates [64]
-    elasticity: an Elasticity; only of Somigliana coordinates
-    loose: indices of points that need no coordinates of the family, such as a model's loose_points
+    resolution: voxels along the cage, 4 to 256; only of harmonic coordinates; None for 64
+    elasticity: an Elasticity; only of Somigliana coordinates; None for Elasticity()
+    loose: indices of points that need no coordinates of the family, such as a model's loose_points; None for none
     loose_motion: "ride": by mean value coordinates where the family is not defined; "stay": not at all
-    Raises InputError; Cancelled.
+    progress: see the help of vdbcage
+    Raises InputError, Cancelled.
     """
 
     __slots__ = ("_binding", "_cage")
@@ -479,11 +501,13 @@ class Binding:
 
     @classmethod
     def read(cls, path: _Path, cage: Mesh, points: npt.ArrayLike) -> Binding:
-        """Reads weights of `vdbcage bind` or write() for the same cage and points, or a matrix made elsewhere.
+        """Reads weights of `vdbcage bind` or write(), or a matrix made elsewhere, and returns a Binding.
 
-        path: .npy, or .dmat of libigl
-        A matrix has a row a point and a column a point of the cage; its coordinates are "given".
-        Raises IoError, also where the file was made for another cage or other points.
+        path: .npy, or .dmat of libigl; a matrix has a row a point and a column a point of the cage, and its coordinates
+            are "given"
+        cage: the Mesh that the file was made for
+        points: array-like, shape (n, 3): those that the file was made for
+        Raises IoError, also where the file was made for another cage or other points; InputError.
         """
         self = cls.__new__(cls)
         self._binding = _vdbcage.read_binding(_arguments.path(path), _mesh("cage", cage),
@@ -492,9 +516,10 @@ class Binding:
         return self
 
     def with_elasticity(self, elasticity: Elasticity) -> Binding:
-        """The same Binding with another material, of Somigliana coordinates: no weights are computed.
+        """Returns this Binding with another material; no weights are computed.
 
-        Raises InputError.
+        elasticity: an Elasticity
+        Raises InputError, also for other than Somigliana coordinates.
         """
         _require_fact("elasticity", self.coordinates)
         other = type(self).__new__(type(self))
@@ -505,6 +530,8 @@ class Binding:
     def write(self, path: _Path, *, progress: _Progress = None) -> None:
         """Writes the file that `vdbcage bind` writes. The weights are computed for it, as by weights().
 
+        path: .npy
+        progress: see the help of vdbcage
         Raises IoError; InputError for given weights; Cancelled.
         """
         path = _arguments.path(path)
@@ -512,31 +539,34 @@ class Binding:
         self._binding.write(path, _arguments.callback(progress))
 
     def weights(self, *, progress: _Progress = None) -> npt.NDArray[numpy.float32]:
-        """float32, shape (points, handles): how much each handle moves each point.
+        """Computes how much each handle moves each point: float32, shape (points, handles).
 
-        The binding holds them compressed, so they are computed anew, which takes as long as binding. The handles are
-        the cage's points; for "green" normals follow, one a triangle and four a quad, for "somigliana" six numbers a
-        triangle and twelve a quad.
+        The binding holds them compressed, so they are computed again, which takes as long as binding. The handles are
+        the cage's points. For "green" normals follow, one a triangle and four a quad; for "biharmonic" one a triangle
+        and two a quad; for "somigliana" six numbers a triangle and twelve a quad.
+
+        progress: see the help of vdbcage
         Raises InputError for given weights; Cancelled.
         """
         self._require_computed()
         return self._binding.weights(_arguments.callback(progress))
 
     def pose(self, cage_points: npt.ArrayLike) -> _Points:
-        """Where the points are when those of the cage are at `cage_points`: float64, shape (n, 3).
+        """Returns the points posed by the cage: float64, shape (n, 3).
 
-        cage_points: array-like, shape (points of the cage, 3)
+        cage_points: array-like, shape (points of the cage, 3): where the cage's points are in the pose
         Raises InputError.
         """
         return self._binding.pose(self._cage_points("cage_points", cage_points))
 
     def update(self, posed: npt.ArrayLike, before: npt.ArrayLike, after: npt.ArrayLike) -> _Points:
-        """Where points that the cage at `before` posed are when it is at `after`: float64, shape (n, 3).
+        """Returns posed points moved to another pose of the cage: float64, shape (n, 3).
 
-        This is faster than pose() where few points of the cage moved. Each update rounds to 1e-7 of the motion.
+        This is faster than pose() where few points of the cage moved. Each update rounds to about 1e-7 of the motion.
 
         posed: array-like, shape (n, 3), from pose() or update(); it stays as it is
-        before, after: array-likes, shape (points of the cage, 3)
+        before: array-like, shape (points of the cage, 3): the pose that `posed` is of
+        after: array-like, shape (points of the cage, 3): the pose to move to
         Raises InputError.
         """
         return self._binding.update(_arguments.points("posed", posed, len(self.points), "the binding"),
@@ -580,12 +610,13 @@ class Binding:
 
 
 def posed_points(cage: Mesh, posed: Mesh) -> _Points:
-    """The points of a posed cage that another program wrote, in the order of the cage's: float64, shape (n, 3).
+    """Returns the points of a posed cage that another program wrote, in the cage's order: float64, shape (n, 3).
+
+    The faces tell the order of the points. Arrays have no faces, so Binding.pose() and Binding.update() trust the order
+    of theirs.
 
     cage: the Mesh at rest
     posed: a Mesh with the cage's faces, in any order; its points may be in another order too
-    The faces tell which point is which: by them the points are put into order. Arrays have none, so Binding.pose() and
-    Binding.update() trust the order of what they get.
     Raises InputError where the faces are not the cage's, or points in another order fit in several ways.
     """
     return _vdbcage.posed_points(_mesh("cage", cage), _mesh("posed", posed))
@@ -595,8 +626,9 @@ class Mask:
     """A set of voxels, sparse, and where they are in the world. It never changes.
 
     voxels: array-like of whole numbers, shape (n, 3): indices i, j, k of the active voxels, -2**30 to 2**30 - 1
-    voxel_size: world units
-    origin: world position of the centre of the voxel 0, 0, 0
+    voxel_size: world units, 1e-100 to 1e100
+    origin: array-like, shape (3,): world position of the centre of the voxel 0, 0, 0
+    Raises InputError.
     """
 
     __slots__ = ("_mask",)
@@ -609,7 +641,7 @@ class Mask:
 
     @classmethod
     def _of(cls, mask):
-        """What the core made."""
+        """Returns a mask that the core made."""
         self = cls.__new__(cls)
         self._mask = mask
         return self
@@ -617,10 +649,13 @@ class Mask:
     @classmethod
     def from_dense(cls, array: npt.ArrayLike, corner: npt.ArrayLike = (0, 0, 0), voxel_size: float = 1.0,
                    origin: npt.ArrayLike = (0.0, 0.0, 0.0)) -> Mask:
-        """A mask from a box of voxels, those that are true or not 0.
+        """Returns the Mask of those voxels of a box that are true or not 0.
 
         array: array-like of bool or whole numbers, shape (x, y, z)
-        corner: the indices of its first voxel
+        corner: array-like of whole numbers, shape (3,): the indices of its first voxel
+        voxel_size: as for Mask
+        origin: as for Mask
+        Raises InputError.
         """
         try:
             dense = numpy.asarray(array)
@@ -633,14 +668,14 @@ class Mask:
         return Mask(numpy.argwhere(dense) + first.astype(numpy.int64), voxel_size, origin)
 
     def voxels(self) -> npt.NDArray[numpy.int32]:
-        """The active voxels: int32, shape (n, 3), in the order of i, then j, then k.
+        """Returns the active voxels: int32, shape (n, 3), in the order of i, then j, then k.
 
         Raises InputError for more than 2**30 of them.
         """
         return self._mask.voxels()
 
     def dense(self) -> tuple[npt.NDArray[numpy.bool_], npt.NDArray[numpy.int32]]:
-        """The box around the active voxels: (bool array of shape (x, y, z), int32 indices of its first voxel).
+        """Returns the box around the active voxels: (bool array, shape (x, y, z), int32 indices of its first voxel).
 
         Raises InputError for more than 2**32 voxels in it.
         """
@@ -656,12 +691,15 @@ class Mask:
 
     @property
     def matrix(self) -> npt.NDArray[numpy.float64]:
-        """From indices to the world: float64, shape (4, 4), for columns (i, j, k, 1)."""
+        """The transform from indices to the world: float64, shape (4, 4), for columns (i, j, k, 1)."""
         return self._mask.matrix()
 
     @property
     def voxel_size(self) -> float:
-        """World units. Raises InputError for a mask of a file whose voxels are no upright cubes; see matrix."""
+        """The side of a voxel, world units.
+
+        Raises InputError for a mask of a file whose voxels are no upright cubes; see matrix.
+        """
         matrix = self.matrix[:3, :3]
         if matrix[0, 0] <= 0 or not numpy.array_equal(matrix, matrix[0, 0] * numpy.eye(3)):
             raise InputError("voxel_size: the voxels of this mask are no upright cubes; matrix says what they are")
@@ -669,11 +707,11 @@ class Mask:
 
     @property
     def origin(self) -> npt.NDArray[numpy.float64]:
-        """World position of the centre of the voxel 0, 0, 0: float64, shape (3,)."""
+        """The world position of the centre of the voxel 0, 0, 0: float64, shape (3,)."""
         return self.matrix[:3, 3].copy()
 
     def __len__(self) -> int:
-        """The number of active voxels."""
+        """Returns the number of active voxels."""
         return self._mask.count
 
     def __bool__(self) -> bool:
@@ -685,13 +723,14 @@ class Mask:
 
 def voxelize(model: Mesh, resolution: int = 128, *, voxelizer: str | None = None, interior: str | None = "solid",
              box: npt.ArrayLike | None = None, progress: _Progress = None) -> Mask:
-    """The voxels that a face of the model touches, and those inside, as a Mask. It has no cavities.
+    """Returns the voxels that a face of the model touches, and those inside, as a Mask. It has no cavities.
 
     model: a Mesh of any kind
     resolution: voxels along the model's longest side, 1 to 4096
-    voxelizer: None (auto), "cpu", "gl" or "cgal"; all give the same voxels
-    interior: "solid", "shell" or None (auto), what counts as the inside of a model with holes
+    voxelizer: None (auto), "cpu", "gl" or "cgal"; all make the same voxels
+    interior: "solid", "shell" or None (auto), the inside of a model with holes
     box: array-like, shape (2, 3): lower and upper corner; the voxels are laid out as for a model with this bounding box
+    progress: see the help of vdbcage
     Raises InputError, DeviceError, Cancelled.
     """
     resolution = _arguments.whole("resolution", resolution, 1, 4096)
@@ -707,12 +746,14 @@ def voxelize(model: Mesh, resolution: int = 128, *, voxelizer: str | None = None
 
 def close_mask(mask: Mask, close_radius: float, erode_radius: float | None = None, *, element: str = "sphere",
                scale_field: str | os.PathLike[str] | None = None, progress: _Progress = None) -> Mask:
-    """The closing of a mask: its dilation by the close radius, eroded by the erode radius.
+    """Returns the closing of a mask, as a Mask: its dilation by the close radius, eroded by the erode radius.
 
     mask: a Mask
-    close_radius, erode_radius: voxels, 0 to 512; the erode radius is at most the close radius, which None stands for
+    close_radius: voxels, 0 to 512
+    erode_radius: voxels, 0 to the close radius, which None stands for
     element: "sphere" or "cube"
-    scale_field: None, or what the radii are multiplied by in places, as in VOLUMES.md
+    scale_field: None, or the factors of the radii in places, as in VOLUMES.md
+    progress: see the help of vdbcage
     Raises InputError, IoError for the file of a scale field, Cancelled.
     """
     mask = _mask("mask", mask)
@@ -729,7 +770,10 @@ def close_mask(mask: Mask, close_radius: float, erode_radius: float | None = Non
 def read_vdb(path: _Path) -> Mask:
     """Reads a Mask from a .vdb: its first grid named density, or else its only grid, of floats, doubles or booleans.
 
-    Active are voxels above 0.5, below 0 in a level set, or true. The file need not be trusted. Raises IoError.
+    Active are voxels above 0.5, below 0 in a level set, or true.
+
+    path: of the .vdb, which need not be trusted
+    Raises IoError.
     """
     return Mask._of(_vdbcage.read_vdb(_arguments.path(path)))
 
@@ -737,8 +781,10 @@ def read_vdb(path: _Path) -> Mask:
 def write_vdb(mask: Mask, path: _Path, metadata: dict[str, str] | None = None) -> None:
     """Writes a Mask as a .vdb with one FloatGrid named density, a fog volume of 1 in the active voxels.
 
-    metadata: a dict of strings; each becomes a string of the grid named vdbcage_KEY
-    Raises IoError.
+    mask: a Mask
+    path: of the .vdb
+    metadata: a dict of strings; each becomes a string of the grid named vdbcage_KEY; None for none
+    Raises IoError, InputError.
     """
     metadata = {} if metadata is None else metadata
     if not isinstance(metadata, dict) or not all(isinstance(text, str) for item in metadata.items() for text in item):

@@ -10,7 +10,7 @@ from . import InputError
 
 
 def matrix(name, value, columns, kinds, content):
-    """`value` as an array of shape (n, columns) whose dtype is of one of `kinds`; nothing at all is n = 0."""
+    """Returns `value` as an array of shape (n, columns) whose dtype is of one of `kinds`; None is n = 0."""
     try:
         array = numpy.asarray(() if value is None else value)
     except (TypeError, ValueError) as error:
@@ -25,7 +25,7 @@ def matrix(name, value, columns, kinds, content):
 
 
 def points(name, value, count=None, owner=""):
-    """Finite points as an array of shape (n, 3); n is `count`, which `owner` has, if that is given."""
+    """Returns finite points as an array of shape (n, 3); n is `count`, which `owner` has, if that is given."""
     array = matrix(name, value, 3, "fiu", "numbers")
     if count is not None and len(array) != count:
         raise InputError(f"{name}: it has {len(array)} rows; {owner} has {count} points")
@@ -41,7 +41,7 @@ def points(name, value, count=None, owner=""):
 
 
 def indices(name, value, corners, count):
-    """Faces as an array of shape (n, corners) of indices below `count`."""
+    """Returns faces as an array of shape (n, corners) of indices below `count`."""
     array = matrix(name, value, corners, "iu", "whole numbers")
     outside = (array < 0) | (array >= count)
     if outside.any():
@@ -52,7 +52,7 @@ def indices(name, value, corners, count):
 
 
 def places(name, value, count):
-    """Indices below `count` as a list."""
+    """Returns indices below `count` as a list."""
     rows = numpy.asarray(() if value is None else value)
     if rows.ndim != 1:
         raise InputError(f"{name}: an array of shape {rows.shape} is not allowed; it must be (n,)")
@@ -60,7 +60,7 @@ def places(name, value, count):
 
 
 def path(value):
-    """The bytes of a path."""
+    """Returns the bytes of a path."""
     try:
         path = os.fsencode(value)
     except (TypeError, UnicodeError):
@@ -71,21 +71,21 @@ def path(value):
 
 
 def number(name, value, least, most):
-    """A float within these bounds."""
+    """Returns `value` as a float within these bounds."""
     if isinstance(value, numbers.Real) and not isinstance(value, (bool, numpy.bool_)) and least <= value <= most:
         return float(value)
     raise InputError(f"{name}: {value!r} is not allowed; it must be a number, {least:g} to {most:g}")
 
 
 def whole(name, value, least, most):
-    """An int within these bounds."""
+    """Returns `value` as an int within these bounds."""
     if isinstance(value, numbers.Integral) and not isinstance(value, bool) and least <= value <= most:
         return operator.index(value)
     raise InputError(f"{name}: {value!r} is not allowed; it must be a whole number, {least} to {most}")
 
 
 def rows(name, value, shape, kinds, content):
-    """A small array of this shape and finite entries."""
+    """Returns `value` as a small array of this shape and finite entries."""
     try:
         array = numpy.asarray(value)
     except (TypeError, ValueError) as error:
@@ -96,7 +96,7 @@ def rows(name, value, shape, kinds, content):
 
 
 def voxels(name, value):
-    """Indices of voxels as an array of shape (n, 3)."""
+    """Returns indices of voxels as an array of shape (n, 3)."""
     array = matrix(name, value, 3, "iu", "whole numbers")
     outside = (array < -2**30) | (array >= 2**30)
     if outside.any():
