@@ -9,6 +9,7 @@
 #include <vdbcage/core/stages.h>
 
 using namespace vdbcage;
+using report::RunProgress;
 
 namespace {
 

@@ -229,7 +229,7 @@ State openScene(const fs::path& given)
         }
         if (scene.contains("elasticity")) state.document.elasticity = elasticityOf(scene["elasticity"]);
     } catch (const Json::exception& error) {
-        throw InputError(path.string(), "it is no scene: " + error.what());
+        throw InputError(path.string(), std::string("it is no scene: ") + error.what());
     } catch (const InputError& error) {
         throw InputError(path.string(), error.what());
     }
