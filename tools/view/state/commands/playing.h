@@ -3,10 +3,10 @@
 #include <tools/view/state/commands/coordinates.h>
 #include <tools/view/state/commands/view_field.h>
 
-/// Which pose is seen, and by which coordinates.
+/// Commands that choose the shown pose and the compared coordinates.
 namespace vdbcage::view {
 
-/// A second picture beside the first has the model by another family, in mode pose.
+/// Shows a second picture beside the first, with the model by another family, in mode pose.
 struct Compare {
     std::optional<Coordinates> family;
 
