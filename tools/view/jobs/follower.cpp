@@ -46,9 +46,7 @@ void Follower::followValues(const State& state, const MeshPtr& cage)
 {
     const bool isBound = bound_ && bound_->whole && bound_->order == bindOrder(state.document, cage);
     ModelColours colours = isBound && state.view.mode == Mode::pose ? state.view.modelColours : ModelColours::plain;
-    if (colours == ModelColours::stretch && !model_.isWhole())
-        colours = ModelColours::plain; // at rest nothing is
-                                       // stretched
+    if (colours == ModelColours::stretch && !model_.isWhole()) colours = ModelColours::plain; // it is at rest
     std::vector<openvdb::Index32> points;
     if (colours == ModelColours::influence) points = selectedPoints(*cage, state.view.selection);
     const std::uint64_t version = colours == ModelColours::stretch ? model_.version() : 0;
