@@ -5,7 +5,7 @@
 
 namespace vdbcage::view {
 
-/// Performs the actions of panels, keys and scripts, and records them.
+/// The performer of the actions of panels, keys and scripts, which also records them.
 class ActionRunner {
 public:
     explicit ActionRunner(AppParts& parts) : parts_(parts) {}

@@ -4,7 +4,7 @@
 
 namespace vdbcage::view {
 
-/// Lays out the panels, and performs the actions that the user asks for in them.
+/// The layout of the panels, which performs the actions that the user asks for in them.
 class PanelLayout {
 public:
     PanelLayout(AppParts& parts, ActionRunner& actions) : parts_(parts), actions_(actions) {}

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-/// An entry of the file browser. Below, the files that were opened last.
+/// The content of the file browser, and the files that were opened last.
 namespace vdbcage::view {
 
 struct FolderEntry {

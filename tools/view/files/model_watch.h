@@ -4,7 +4,7 @@
 
 namespace vdbcage::view {
 
-/// Notices that the model's file has changed on disk since it was opened.
+/// A watch for changes of the model's file on disk since it was opened.
 class ModelWatch {
 public:
     /// Returns whether it has changed since the last call.

@@ -10,7 +10,7 @@
 
 namespace vdbcage::view {
 
-/// Writes files on its own thread, one file or sequence at a time. Call it from one thread, the owner's. Only
+/// A writer of files on its own thread, one file or sequence at a time. Call it from one thread, the owner's. Only
 /// waitForNews() waits.
 class Saver {
 public:

@@ -20,7 +20,7 @@ struct SaveSource {
     const Posing& posing;
 };
 
-/// Writes the file, on any thread. \throw InputError, IoError, Cancelled
+/// A function that writes the file, on any thread. \throw InputError, IoError, Cancelled
 using Write = std::function<void(Interrupter*)>;
 
 /// NAME FILE

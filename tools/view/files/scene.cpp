@@ -73,7 +73,7 @@ OpenedMeshPtr editedCage(const fs::path& file)
     return std::make_shared<const OpenedMesh>(std::move(edited));
 }
 
-/// Reads poses from files beside a scene. Those of one cage at rest share its file.
+/// A reader of poses from files beside a scene. Poses of one cage at rest share its file.
 class PoseReader {
 public:
     explicit PoseReader(fs::path folder) : folder_(std::move(folder)) {}

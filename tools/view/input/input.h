@@ -20,7 +20,7 @@ enum class Key {
 };
 // clang-format on
 
-/// Every key, in the order of `Key`.
+/// Returns every key, in the order of `Key`.
 const std::vector<Key>& allKeys();
 
 /// Returns one word in lower case, such as "z", "7", "f5", "page-up" or "keypad-add".

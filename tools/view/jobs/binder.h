@@ -10,9 +10,9 @@
 
 namespace vdbcage::view {
 
-/// Binds models to cages on its own thread: coarsely first, then completely. A wanted job begins at once; one under way
-/// for another order is stopped. Results are kept, so that users can switch between families. Call it from one thread,
-/// the owner's. Only waitForNews() waits.
+/// A thread that binds models to cages: coarsely first, then completely. A wanted job begins at once; one under way for
+/// another order is stopped. Results are kept, so that users can switch between families. Call it from one thread, the
+/// owner's. Only waitForNews() waits.
 class Binder {
 public:
     using Work = Worker<BindOrder, BoundModelPtr>::Work;

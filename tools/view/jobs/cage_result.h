@@ -51,7 +51,7 @@ struct Job {
     bool intermediates = false; ///< whether the result must have them
 };
 
-/// Makes cages, on the runner's thread. Tests have makers of their own.
+/// A maker of cages, on the runner's thread. Tests have makers of their own.
 class CageMaker {
 public:
     virtual ~CageMaker() = default;

@@ -10,7 +10,7 @@
 
 namespace vdbcage::view {
 
-/// Carries poses over to newly made cages, on its own thread. Call it from one thread, the owner's. Only waitForNews()
+/// A thread that carries poses over to newly made cages. Call it from one thread, the owner's. Only waitForNews()
 /// waits.
 class Carrier {
 public:

@@ -8,7 +8,7 @@
 
 namespace vdbcage::view {
 
-/// Decides which cage is made next, whether the job under way is still useful, and which cage is shown. It has no
+/// The decision which cage is made next, whether the job under way is still useful, and which cage is shown. It has no
 /// thread and no clock: it is told about events, and asked.
 ///
 /// At most one job is under way, and at most one waits, for the wanted cage. While a value is dragged only previews are

@@ -30,7 +30,7 @@ struct PoseCheck {
 };
 using PoseCheckPtr = std::shared_ptr<const PoseCheck>;
 
-/// Checks poses on its own thread. Call it from one thread, the owner's. Only waitForNews() waits.
+/// A thread that checks poses. Call it from one thread, the owner's. Only waitForNews() waits.
 class PoseChecker {
 public:
     /// `wake`: see Worker.

@@ -14,7 +14,7 @@ struct Progress : WorkProgress {
     Job::Kind kind = Job::Kind::full;
 };
 
-/// Makes cages on its own thread, as a Planner decides. Call it from one thread, the owner's. Only waitForNews() waits.
+/// A thread that makes cages as a Planner decides. Call it from one thread, the owner's. Only waitForNews() waits.
 class Runner {
 public:
     /// `wake` is called, from any thread, whenever update() has something to do or progress has changed; it must only

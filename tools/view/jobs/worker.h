@@ -23,7 +23,7 @@ struct WorkProgress {
     int percent = -1;  ///< of the job, 0 to 99; -1: unknown
 };
 
-/// Does one job at a time on its own thread. Call it from one thread, the owner's. Only waitForNews() waits.
+/// A thread that does one job at a time. Call it from one thread, the owner's. Only waitForNews() waits.
 template <class Job, class Result>
 class Worker {
 public:
@@ -33,9 +33,9 @@ public:
         std::string error;            ///< the reason why it failed; empty if it was stopped
         bool isLast = true;           ///< false: more of the same job follows
     };
-    /// Takes a part of the job's result before the job is done.
+    /// A function that takes a part of the job's result before the job is done.
     using Publish = std::function<void(Result)>;
-    /// Does a job on the worker's thread. \throw std::exception, Cancelled
+    /// A function that does a job on the worker's thread. \throw std::exception, Cancelled
     using Work = std::function<Result(const Job&, Interrupter&, const Publish&)>;
 
     /// `wake` is called, from any thread, whenever there is an outcome to take or progress has changed; it must only
@@ -91,7 +91,8 @@ public:
     }
 
 private:
-    /// Passes progress to the owner's thread, and the owner's wish to stop to the job.
+    /// The link from a job to the owner's thread: passes progress to the owner, and the owner's wish to stop to the
+    /// job.
     class Reporter : public Interrupter {
     public:
         explicit Reporter(Worker& worker) : worker_(worker) {}

@@ -55,7 +55,7 @@ struct PanelContent {
     bool asksToQuit = false;                  ///< there is unsaved work
 };
 
-/// The user's answers: actions, the begin and end of a drag of a value, and errors of typed texts.
+/// The user's answers: actions, the beginning and end of a drag of a value, and errors of typed texts.
 struct PanelAnswer {
     std::vector<Action> actions;
     bool beginsDrag = false, endsDrag = false;

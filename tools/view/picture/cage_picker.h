@@ -10,8 +10,8 @@
 
 namespace vdbcage::view {
 
-/// Finds points, edges and faces of the cage by their places in the picture. It keeps data for the next call until it
-/// is told to forget it.
+/// A search for points, edges and faces of the cage by their places in the picture. It keeps data for the next call
+/// until it is told to forget it.
 class CagePicker {
 public:
     /// The picture to pick in; pixels count from its top left.

@@ -8,7 +8,7 @@
 #include <tools/view/picture/gizmo.h>
 #include <tools/view/picture/rectangle.h>
 
-/// Drags in the picture: one moves the camera, or draws a border for a selection.
+/// The drags in the picture: they move the camera, or draw a border for a selection.
 namespace vdbcage::view {
 
 /// Returns a pixel's place in the panel, [-1, 1] both ways, y up.
@@ -21,7 +21,7 @@ struct CameraDrag {
     DragAction action{};
     Pixel from{};            ///< the pixel where it began
     openvdb::Vec3d pivot{0}; ///< the point that the view turns around, drawing coordinates
-    double pixel = 1;        ///< pixels per unit of length on an ordinary screen
+    double pixel = 1;        ///< pixels per pixel of an ordinary screen
 
     /// Returns the camera after (dx, dy) pixels more, right and down.
     draw::Camera moved(const draw::Camera& camera, const Rectangle& picture, double dx, double dy) const;

@@ -33,7 +33,7 @@ inline bool operator==(const Handle& a, const Handle& b)
 struct GizmoFrame {
     draw::Eye eye;
     int width = 1, height = 1; ///< pixels of the picture
-    double pixel = 1;          ///< pixels per unit of length on an ordinary screen
+    double pixel = 1;          ///< pixels per pixel of an ordinary screen
     openvdb::Vec3d origin{0};
     std::array<openvdb::Vec3d, 3> axes{}; ///< orthonormal
 };

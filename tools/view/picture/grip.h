@@ -11,7 +11,7 @@ namespace vdbcage::view {
 /// A motion of the selection under way: moving, turning or scaling by the pointer, or by typed numbers.
 class Grip {
 public:
-    /// The values at its begin.
+    /// The values at its beginning.
     struct Start {
         Tool tool = Tool::move; ///< not select
         Handle handle;

@@ -13,9 +13,9 @@
 
 namespace vdbcage::view {
 
-/// Handles the pointer in the picture, and the keys during a motion: it turns the view (see CameraDrag), selects parts
-/// of the cage (see Band), and moves the selection (see Grip), by handles or freely. It acts by commands; it changes
-/// nothing else.
+/// The control of the picture by the pointer, and by keys during a motion: it turns the view (see CameraDrag), selects
+/// parts of the cage (see Band), and moves the selection (see Grip), by handles or freely. It acts by commands; it
+/// changes nothing else.
 class PictureControl {
 public:
     /// The things that it acts on. All must outlive it.
@@ -25,7 +25,7 @@ public:
         std::function<void(const Command&)> attempt; ///< performs it for the user
         std::function<void()> endDrag;               ///< ends the session's drag and records its effect
         std::function<Rectangle()> place;            ///< of the picture in the window
-        double pixel = 1;                            ///< pixels per unit of length on an ordinary screen
+        double pixel = 1;                            ///< pixels per pixel of an ordinary screen
     };
     explicit PictureControl(Host host) : host_(std::move(host)) {}
 
@@ -45,7 +45,7 @@ public:
 
     /// Returns the pointer's position, in pixels of the window.
     Pixel pointer() const { return at_; }
-    /// Returns its position at the begin of the drag or motion under way.
+    /// Returns its position at the beginning of the drag or motion under way.
     Pixel home() const { return home_; }
     /// Returns whether it gets all events of the pointer, wherever that is.
     bool isHeld() const { return held_.has_value() || (grip_ && grip_->isFree()); }

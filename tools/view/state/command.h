@@ -21,7 +21,7 @@
 ///     void apply(Document& document, const Situation& now) const;
 ///
 ///     void apply(ViewState& view) const;
-///     static T of(const ViewState& view); // the command that makes this view; or its value, or a vector
+///     static T of(const ViewState& view); // a T for this view, a value that converts to T, or a vector of T
 namespace vdbcage::view {
 
 /// All commands, in the order of help.

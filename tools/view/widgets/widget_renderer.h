@@ -6,7 +6,7 @@
 
 namespace vdbcage::view {
 
-/// Draws widgets by OpenGL 4.5. Its context must be current in each call, and must outlive it.
+/// A renderer of widgets by OpenGL 4.5. Its context must be current in each call, and must outlive it.
 class WidgetRenderer {
 public:
     /// \throw DeviceError

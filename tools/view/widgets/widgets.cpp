@@ -34,7 +34,7 @@ constexpr std::array<ImWchar, 3> headingRanges{0x0020, 0x017F, 0};
 
 enum Font { textFont, headingFont };
 
-/// Makes a context ImGui's current one, and restores the previous one at its end.
+/// A scope in which a context is ImGui's current one; the previous one is restored at its end.
 class Use {
 public:
     explicit Use(ImGuiContext* context) : before_(ImGui::GetCurrentContext()) { ImGui::SetCurrentContext(context); }
@@ -229,7 +229,7 @@ Drawing toDrawing(const ImDrawData& data, int width, int height)
     return drawing;
 }
 
-/// Passes an event to ImGui: sets fields of `io` that hold from the next layout on.
+/// A visitor that passes an event to ImGui: it sets fields of `io` that hold from the next layout on.
 struct Feed {
     ImGuiIO& io;
 
@@ -453,7 +453,7 @@ PointerShape Widgets::pointerShape() const
 
 namespace {
 
-/// Sets colours of a widget until its end.
+/// A scope in which colours of a widget are set.
 class Colours {
 public:
     Colours(std::initializer_list<std::pair<ImGuiCol, draw::Colour>> colours) : count_(static_cast<int>(colours.size()))

@@ -24,8 +24,8 @@ enum class PointerShape { arrow, text, hand, resizeHorizontally, resizeVerticall
 /// written. Several may exist; each is used by one thread at a time, and a thread lays out one at a time.
 class Widgets {
 public:
-    /// Builds the panels by calls of ImGui, which return the user's acts. It is called more than once for an event, but
-    /// each act is reported to it once.
+    /// A function that builds the panels by calls of ImGui, which return the user's acts. It is called more than once
+    /// for an event, but each act is reported to it once.
     using Build = std::function<void()>;
 
     /// `scale`: pixels per unit of length, 1 on an ordinary screen. Only a clipboard with both functions is used; else

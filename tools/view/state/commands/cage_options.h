@@ -51,7 +51,7 @@ struct ResetOptions {
     }
 };
 
-/// Resets the options that the preset does not name.
+/// A command that sets the options of a preset, and resets all others.
 struct ApplyPreset {
     std::string name; ///< of a built-in preset, or a file's path
 

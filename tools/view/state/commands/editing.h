@@ -7,7 +7,7 @@
 /// Commands for the selection and for moving it by hand.
 namespace vdbcage::view {
 
-/// Selects parts of the cage, or none. Edges are numbered in the order of their two points.
+/// A selection of parts of the cage, or of none. Edges are numbered in the order of their two points.
 struct Select {
     edit::Selection selection;
 
@@ -81,7 +81,7 @@ struct SetSeeThrough : ViewSwitch<&ViewState::seeThrough> {
     static LineInfo info() { return {"see-through", "on|off", 1, 1, "selects what is hidden too"}; }
 };
 
-/// Also moves points near the selection, along the cage's surface.
+/// The radius of soft selection: points near the selection, along the cage's surface, move too.
 struct SetSoft {
     double radius = 0; ///< as a fraction of the model's longest side, 0 to 10
 
@@ -96,7 +96,7 @@ struct SetSoft {
     void apply(ViewState& view) const { view.softRadius = radius; }
 };
 
-/// Points with a partner across the plane move as its mirror image.
+/// The plane of symmetric editing. Points with a partner across it move as the partner's mirror image.
 struct SetMirror {
     std::optional<SymmetryPlane> plane;
 

@@ -16,7 +16,7 @@
 /// Lines of scripts. In the program a line is a value: a struct of its own, with its row of the table:
 ///
 ///     static LineInfo info();                     // its name and its help
-///     static T read(const Arguments& arguments);  // or a value that makes a T; none for a line of its name alone
+///     static T read(const Arguments& arguments);  // or a value that converts to T; none for a line of its name alone
 ///     std::string text() const;                   // its arguments, by written(); none for a line of its name alone
 ///
 /// Text is only for scripts, records and help.

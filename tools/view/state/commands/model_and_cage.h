@@ -7,7 +7,7 @@
 /// Commands that open the model and the cage.
 namespace vdbcage::view {
 
-/// Opens another model, for which a cage is made.
+/// A command that opens another model, for which a cage is made.
 struct OpenModel {
     std::string path;
 
@@ -24,7 +24,7 @@ struct OpenModel {
     }
 };
 
-/// Opens a cage in place of a made one.
+/// A command that opens a cage in place of a made one.
 struct OpenCage {
     std::string path;
 

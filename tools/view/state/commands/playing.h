@@ -6,7 +6,7 @@
 /// Commands that choose the shown pose and the compared coordinates.
 namespace vdbcage::view {
 
-/// Shows a second picture beside the first, with the model by another family, in mode pose.
+/// The family of a second picture of the model beside the first, in mode pose.
 struct Compare {
     std::optional<Coordinates> family;
 

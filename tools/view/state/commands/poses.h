@@ -19,7 +19,7 @@ inline PoseKey requiredKey(const TimeLine& poses, int frame, const std::string& 
     return *key;
 }
 
-/// Sets the pose of the view's frame.
+/// A command that sets the pose of the view's frame.
 struct OpenPose {
     std::string path;
 
@@ -32,7 +32,7 @@ struct OpenPose {
     }
 };
 
-/// Replaces all poses by a sequence of posed cages, or by a file of parameters.
+/// A command that replaces all poses by a sequence of posed cages, or by a file of parameters.
 struct OpenPoses {
     std::string path;
     int frames = 25; ///< of a file of parameters, 1 to lastFrame + 1
@@ -53,7 +53,7 @@ struct OpenPoses {
     }
 };
 
-/// Makes the pose at the frame a key if there is none, and names it.
+/// A command that makes the pose at the frame a key if there is none, and names it.
 struct SetKey {
     int frame = 0;
     std::optional<std::string> name = {}; ///< none: the present name
@@ -85,7 +85,7 @@ struct DeleteKey {
     }
 };
 
-/// Moves a key to a frame that has none.
+/// A command that moves a key to a frame that has none.
 struct MoveKey {
     int from = 0, to = 0;
 
@@ -107,7 +107,7 @@ struct MoveKey {
     }
 };
 
-/// Replaces all poses.
+/// A command that replaces all poses by a motion from rest.
 struct MakeInBetweens {
     int frames = 25; ///< 2 to lastFrame + 1
 

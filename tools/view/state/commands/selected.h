@@ -43,7 +43,7 @@ struct RotateSelected {
     }
 };
 
-/// Scales from a point, along the axes of the world, or along two others and their normal.
+/// A scaling from a point, along the axes of the world, or along two others and their normal.
 struct ScaleSelected {
     openvdb::Vec3d factors{1};
     openvdb::Vec3d pivot{0};
@@ -80,7 +80,7 @@ struct ScaleSelected {
     }
 };
 
-/// Changes faces of the cage at rest.
+/// A change of faces of the cage at rest.
 struct EditCage {
     CageEdit edit{};
 
@@ -94,7 +94,7 @@ struct EditCage {
     void apply(Document& document, const Situation& now) const { document = withEdit(now.state, now.cage, edit); }
 };
 
-/// Changes the pose of the view's frame.
+/// A command that undoes the pose of the view's frame.
 struct ResetPose {
     bool onlySelected = false;
 
