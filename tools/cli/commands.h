@@ -21,7 +21,7 @@ inline std::string printable(const std::filesystem::path& text)
 /// Flushes standard output. \throw IoError if the text does not arrive
 void flushOutput();
 
-/// Each runs a command and returns the exit status. \throw Error
+/// Run a command and return the exit status. \throw Error
 int runMake(Call call);
 int runCheck(Call call);
 int runRender(Call call);

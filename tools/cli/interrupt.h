@@ -45,8 +45,8 @@ enum class ProgressForm {
     farm   ///< on standard output `Progress: 42%` and `ALF_PROGRESS 42%`, as it rises
 };
 
-/// Shows the progress of the whole command, by RunProgress, and passes a signal on to it. If that knows the time left,
-/// bar and lines have `, N s left`.
+/// The progress display of the whole command, by RunProgress, which also passes a signal on to it. If the time left is
+/// known, bar and lines have `, N s left`.
 class Progress : public Interrupter {
 public:
     explicit Progress(ProgressForm form);

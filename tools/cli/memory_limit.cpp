@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 constexpr std::size_t unlimited = std::numeric_limits<std::size_t>::max();
 constexpr double share = 0.8; ///< of the memory at hand: the rest is for other programs and the unforeseen
 
-/// Returns the number at the begin of a file; unlimited if there is none, as in "max".
+/// Returns the number at the beginning of a file; unlimited if there is none, as in "max".
 std::size_t numberIn(const fs::path& file)
 {
     std::ifstream in(file);

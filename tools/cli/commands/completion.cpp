@@ -13,10 +13,10 @@ namespace vdbcage::cli {
 
 namespace {
 
-/// Prints the completions at the cursor, one per line: a word, then a tab and its description; or a kind of file.
+/// A printer of the completions at the cursor, one per line: a word, then a tab and its description; or a kind of file.
 class Offers {
 public:
-    /// Only words that begin with `begun` are printed.
+    /// Prints only words that begin with `begun`.
     explicit Offers(std::string begun) : begun_(std::move(begun)) {}
 
     void word(const std::string& word, const std::string& about = "") const
