@@ -61,7 +61,7 @@ struct Look {
     std::optional<Section> section = std::nullopt;
 };
 
-/// Draws layers by OpenGL 4.5. Its context must be current in each call, and must outlive it.
+/// A renderer of layers by OpenGL 4.5. Its context must be current in each call, and must outlive it.
 class Renderer {
 public:
     /// Compiles the shaders. \throw DeviceError
