@@ -15,7 +15,7 @@ namespace {
 
 using openvdb::Vec3d;
 
-/// Finds the points that faces use by their places.
+/// The points that faces use, sorted by their places.
 class PlacedPoints {
 public:
     explicit PlacedPoints(const Mesh& mesh) : points_(mesh.points)

@@ -208,7 +208,7 @@ Ids Picking::facesAt(Element kind, const Index& id) const
     return {&id, &id + 1};
 }
 
-/// Returns the begin of the line of sight to the place.
+/// Returns the beginning of the line of sight to the place.
 Vec3d Picking::startTowards(const Spot& spot) const
 {
     const draw::Eye& eye = view_.eye;

@@ -31,7 +31,7 @@ struct PickView {
     bool seeThrough = false;              ///< nothing hides anything
 };
 
-/// Finds the elements of a cage at places of a panel, which is how users point at them.
+/// A search for the elements of a cage at places of a panel, which is how users point at them.
 ///
 /// Places are in pixels, x to the right and y down from the panel's upper left corner. Points nearer than Eye::nearest
 /// are not drawn, so they are not found. A point less than 1e-6 (drawing coordinates) behind a face is not hidden by

@@ -123,7 +123,8 @@ Index opposite(const Elements& elements, Index point, Index edge)
     return around.empty() ? none : around[valence / 2];
 }
 
-/// Marks the edges of the loop through `edge`. A step can be taken back, so a walk without end comes back to its begin.
+/// Marks the edges of the loop through `edge`. A step can be taken back, so a walk without end comes back to its
+/// beginning.
 void markEdgeLoop(const Elements& elements, Index edge, Marks& edges)
 {
     const auto& ends = elements.edges();
