@@ -25,7 +25,7 @@ public:
     std::optional<int> secondsLeft(double seconds) const;
 
 private:
-    /// The begin and end of a stage in one try, in percent.
+    /// The beginning and end of a stage in one try, in percent.
     struct Share {
         int from, to;
     };
@@ -39,7 +39,7 @@ private:
     Share stage_{0, 100};
     int stagePercent_ = 0;
     double stageBegan_ = 0;
-    double tryFrom_ = 0;     ///< the try's begin, in percent of a try
+    double tryFrom_ = 0;     ///< the try's beginning, in percent of a try
     double triesBefore_ = 0; ///< the part of the run before it, 0 to 1
     double inTry_ = 0;       ///< its progress, in percent
     std::optional<double> end_;
