@@ -14,7 +14,7 @@ namespace vdbcage::bench {
 
 using Json = nlohmann::ordered_json;
 
-/// Each runs a benchmark: takes its arguments with the program's name first, and returns the exit status. \throw Error
+/// Run a benchmark with the program's name as the first argument, and return the exit status. \throw Error
 int runStages(int argc, char** argv);
 int runCage(int argc, char** argv);
 int runClosing(int argc, char** argv);

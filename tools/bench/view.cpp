@@ -196,7 +196,7 @@ Json measurePosing(App& app, double pass)
     return list;
 }
 
-/// Asks to stop from some moment on.
+/// An interrupter that asks to stop from some moment on.
 struct Stopper : Interrupter {
     std::atomic<bool> stop{false};
     bool wasInterrupted(int) override { return stop; }
