@@ -8,7 +8,7 @@
 
 #include <sys/wait.h>
 
-/// Returns the folder of a process that was started.
+/// Observations of a command that was started.
 namespace vdbcage::test {
 
 inline std::filesystem::path procFolder(pid_t process)
