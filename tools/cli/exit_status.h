@@ -6,8 +6,7 @@ namespace vdbcage::cli {
 
 constexpr int exitGood = 0, exitError = 1, exitNotBounding = 2;
 constexpr int exitTryAgain = 75; ///< EX_TEMPFAIL: memory, disk space, threads or a device are missing
-/// 128 and the signal's number, as shells have it, of SIGTERM after SIGTERM and of SIGINT after any other signal that
-/// asks for an end.
+/// 128 + SIGTERM after SIGTERM, 128 + SIGINT after any other signal that asks for an end; shells add 128, too.
 constexpr int exitCancelled = 130, exitTerminated = 143;
 
 /// The message and exit status of a failed command. `text` lives as long as the exception.

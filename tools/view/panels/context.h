@@ -25,7 +25,7 @@ inline ImU32 packed(const draw::Colour& colour, float opacity = 1)
     return ImGui::ColorConvertFloat4ToU32(toImGui(colour, opacity));
 }
 
-/// Returns the length that `pixels` have on an ordinary screen.
+/// Returns the pixels of this screen for `pixels` of an ordinary one, rounded down.
 inline float length(float pixels)
 {
     return std::floor(pixels * scale());

@@ -15,8 +15,7 @@ struct FileLine {
     Action (*of)(const std::string& path);
     const char* title;
     std::vector<std::string> extensions; ///< empty: folders are chosen
-    const char* ending = nullptr;        ///< of the suggested name, which is the model's with this ending; null: files
-                                         ///< are opened
+    const char* ending = nullptr;        ///< of the suggested name, after the model's; null: files are opened
     bool isSequence = false;
 };
 
