@@ -5,8 +5,8 @@
 
 namespace vdbcage::test {
 
-/// Calls `work` within a task of a group that is cancelled already, as a host may that has changed its mind: TBB's
-/// loops in it do nothing and return as if they had run.
+/// Calls `work` within a task of a group that is cancelled already, as a host may cancel it: TBB's loops in it do
+/// nothing and return as if they had run.
 template <typename Work>
 void inCancelledHost(const Work& work)
 {

@@ -8,7 +8,7 @@
 
 namespace vdbcage::test {
 
-/// Whether this system has OSMesa, which Mesa gave up in 2025.
+/// Returns whether this system has OSMesa, which Mesa gave up in 2025.
 inline bool hasOsmesa()
 {
     try {
@@ -19,14 +19,15 @@ inline bool hasOsmesa()
     }
 }
 
-/// The sources that must work on this machine, without a display.
+/// Returns the sources that must work on this machine, without a display.
 inline std::vector<gl::OffscreenContext::Source> everySource()
 {
     using Source = gl::OffscreenContext::Source;
     return hasOsmesa() ? std::vector{Source::egl, Source::osmesa} : std::vector{Source::egl};
 }
 
-/// The source that draws by software whatever devices there are; without OSMesa that is EGL, on machines without any.
+/// Returns the source that draws by software even if there are devices; without OSMesa that is EGL, on machines without
+/// devices.
 inline gl::OffscreenContext::Source softwareSource()
 {
     return everySource().back();

@@ -4,7 +4,7 @@
 
 namespace vdbcage::test {
 
-/// Whether the faces of a mesh form closed surfaces that meet nowhere, by their indices.
+/// Returns whether the faces of a mesh form closed surfaces that meet nowhere, by their indices.
 inline bool isClosedManifold(const Mesh& mesh)
 {
     const MeshTopology topology = analyzeTopology(mesh);

@@ -8,7 +8,7 @@
 
 #include <sys/wait.h>
 
-/// What there is to see of a command that was started.
+/// Observations of a command that was started.
 namespace vdbcage::test {
 
 inline std::filesystem::path procFolder(pid_t process)
@@ -16,15 +16,15 @@ inline std::filesystem::path procFolder(pid_t process)
     return "/proc/" + std::to_string(process);
 }
 
-/// Whether it has ended; it is still to be waited for.
+/// Returns whether it has ended; its status can still be waited for.
 inline bool hasEnded(pid_t process)
 {
     siginfo_t info{};
     return ::waitid(P_PID, static_cast<id_t>(process), &info, WEXITED | WNOHANG | WNOWAIT) != 0 || info.si_pid != 0;
 }
 
-/// The clock ticks of the processor, hundredths of a second, that a process or thread has used. `folder` is its own in
-/// /proc; 0 if it is gone.
+/// Returns the processor time that a process or thread has used, in clock ticks (hundredths of a second). `folder` is
+/// its own in /proc; 0 if it is gone.
 inline long ticks(const std::filesystem::path& folder)
 {
     std::ifstream file(folder / "stat");

@@ -8,7 +8,7 @@
 
 namespace vdbcage::test {
 
-/// Reads a PNG file that holds what a draw::Picture holds.
+/// Reads a PNG file as a draw::Picture. \throw std::runtime_error it is not RGB
 inline draw::Picture readPng(const std::filesystem::path& path)
 {
     png_image image{};

@@ -8,10 +8,10 @@
 
 #include <vdbcage/mesh/mesh.h>
 
-/// The same surface as another program may write it.
+/// Functions that write a surface as another program might.
 namespace vdbcage::test {
 
-/// A random order of 0, 1, 2 ...
+/// Returns a random order of 0, 1, 2 ...
 inline std::vector<std::size_t> shuffled(std::size_t count, std::mt19937& random)
 {
     std::vector<std::size_t> order(count);
@@ -20,7 +20,7 @@ inline std::vector<std::size_t> shuffled(std::size_t count, std::mt19937& random
     return order;
 }
 
-/// The same faces, in another order and with other first corners.
+/// Returns the same faces, in another order and with other first corners.
 inline Mesh withFacesShuffled(Mesh mesh, std::mt19937& random)
 {
     const auto shuffle = [&](auto& faces) {
@@ -36,7 +36,7 @@ inline Mesh withFacesShuffled(Mesh mesh, std::mt19937& random)
     return mesh;
 }
 
-/// The same surface: point `order[i]` is now point i.
+/// Returns the same surface: point `order[i]` is now point i.
 inline Mesh withPointsIn(const std::vector<std::size_t>& order, const Mesh& mesh)
 {
     std::vector<openvdb::Index32> now(order.size());
@@ -57,13 +57,13 @@ inline Mesh withPointsIn(const std::vector<std::size_t>& order, const Mesh& mesh
     return result;
 }
 
-/// All of that at once.
+/// Does all of these at once.
 inline Mesh reordered(const Mesh& mesh, std::mt19937& random)
 {
     return withFacesShuffled(withPointsIn(shuffled(mesh.points.size(), random), mesh), random);
 }
 
-/// The mesh with some of its quads split, so that it is the same from no other side. \pre eight quads or more
+/// Returns the mesh with some of its quads split, so that it looks different from each side. \pre eight quads or more
 inline Mesh lopsided(Mesh mesh)
 {
     const auto taken = [&](std::size_t quad) {

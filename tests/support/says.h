@@ -7,7 +7,7 @@
 
 namespace vdbcage::test {
 
-/// For BOOST_CHECK_EXCEPTION: the error's text has `text` in it.
+/// Returns a predicate for BOOST_CHECK_EXCEPTION: the error's text contains `text`.
 inline auto says(const std::string& text)
 {
     return [text](const std::exception& error) {

@@ -6,7 +6,7 @@
 
 namespace vdbcage::test {
 
-/// A box from `low` to `high`, six quads facing outward.
+/// Returns a box from `low` to `high`, six quads facing outward.
 inline Mesh box(const openvdb::Vec3d& low, const openvdb::Vec3d& high)
 {
     Mesh mesh;
@@ -18,7 +18,7 @@ inline Mesh box(const openvdb::Vec3d& low, const openvdb::Vec3d& high)
     return mesh;
 }
 
-/// A closed sphere of `rings` x `2 rings` faces: quads with triangles at the poles, facing outward.
+/// Returns a closed sphere of `rings` x `2 rings` faces: quads with triangles at the poles, facing outward.
 inline Mesh sphere(const openvdb::Vec3d& centre, double radius, int rings)
 {
     const int around = 2 * rings;
@@ -47,7 +47,7 @@ inline Mesh sphere(const openvdb::Vec3d& centre, double radius, int rings)
     return mesh;
 }
 
-/// A closed torus around the z axis, `around` x `across` quads facing outward.
+/// Returns a closed torus around the z axis, `around` x `across` quads facing outward.
 inline Mesh torus(double radius, double tube, int around, int across)
 {
     Mesh mesh;
@@ -66,7 +66,7 @@ inline Mesh torus(double radius, double tube, int around, int across)
     return mesh;
 }
 
-/// `mesh`, turned about the z axis through the origin.
+/// Returns the mesh turned about the z axis through the origin.
 inline Mesh turnedAboutZ(Mesh mesh, double degrees)
 {
     const double angle = degrees * M_PI / 180, c = std::cos(angle), s = std::sin(angle);
@@ -74,14 +74,14 @@ inline Mesh turnedAboutZ(Mesh mesh, double degrees)
     return mesh;
 }
 
-/// `mesh` with every point scaled, then moved.
+/// Returns the mesh with every point scaled, then moved.
 inline Mesh transformed(Mesh mesh, double scale, const openvdb::Vec3d& move)
 {
     for (openvdb::Vec3d& point : mesh.points) point = scale * point + move;
     return mesh;
 }
 
-/// Both meshes in one.
+/// Returns both meshes in one.
 inline Mesh joined(Mesh a, const Mesh& b)
 {
     const auto offset = static_cast<openvdb::Index32>(a.points.size());

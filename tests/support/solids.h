@@ -13,7 +13,8 @@ namespace vdbcage::test {
 
 using openvdb::Vec3d;
 
-/// The voxels of the unit cube around the origin, `resolution` along a side, where `inside` (of a world point) holds.
+/// Returns the voxels of the unit cube around the origin, `resolution` along a side, for which `inside` (of a world
+/// point) is true.
 template <typename Inside>
 openvdb::MaskGrid::Ptr sample(int resolution, const Inside& inside)
 {
@@ -43,14 +44,14 @@ inline bool inTorus(const Vec3d& p)
     return std::hypot(std::hypot(p.x(), p.y()) - 0.3, p.z()) < 0.13;
 }
 
-/// The distance to a cone-shaped limb from a (radius ra) to b (radius rb), roughly.
+/// Returns the approximate distance to a cone-shaped limb from a (radius ra) to b (radius rb).
 inline double limb(const Vec3d& p, const Vec3d& a, const Vec3d& b, double ra, double rb)
 {
     const double t = std::clamp((p - a).dot(b - a) / (b - a).lengthSqr(), 0.0, 1.0);
     return (p - (a + (b - a) * t)).length() - (ra + (rb - ra) * t);
 }
 
-/// A four-legged animal with horns and a tail, its limbs blended into one skin.
+/// Returns whether p is in a four-legged animal with horns and a tail, its limbs blended into one skin.
 inline bool inCreature(const Vec3d& p)
 {
     const auto blend = [](double a, double b) {
@@ -68,7 +69,7 @@ inline bool inCreature(const Vec3d& p)
     return d < 0;
 }
 
-/// Each voxel of a cube of `side` voxels at `low` is active with the given probability.
+/// Returns a cube of `side` voxels at `low`, each active with the given probability.
 inline openvdb::MaskGrid::Ptr randomSolid(std::uint32_t seed, int side, double density, const openvdb::Coord& low)
 {
     std::mt19937 random(seed);

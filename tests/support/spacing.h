@@ -9,8 +9,9 @@
 
 namespace vdbcage::test {
 
-/// The pairs of triangles of a surface that are nearer to each other than a guard allows, whichever way its quads are
-/// split. `part`: of the spacing, less than all of it where coordinates across a plane of symmetry are rounded.
+/// Returns the number of pairs of triangles of a surface that are nearer to each other than a guard allows, for either
+/// split of its quads. `part` is a factor of the spacing, less than 1 if coordinates across a plane of symmetry are
+/// rounded.
 inline std::size_t pairsTooNear(const Mesh& surface, const BoundingGuard& guard, double part = 1)
 {
     using openvdb::Vec3I;
@@ -20,7 +21,7 @@ inline std::size_t pairsTooNear(const Mesh& surface, const BoundingGuard& guard,
     spacing.sine *= part;
     struct Triangle {
         std::size_t face;
-        int split; // 0: no quad's
+        int split; // 0: not of a quad
         detail::SurfaceTriangle triangle;
     };
     std::vector<Triangle> triangles;

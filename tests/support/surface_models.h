@@ -10,7 +10,7 @@
 
 namespace vdbcage::test {
 
-/// Random triangles in a ball of radius 0.4: needles, crossings, one piece each.
+/// Returns random triangles in a ball of radius 0.4: needles, crossings, one piece each.
 inline Mesh soup(unsigned seed, int count, double size)
 {
     std::mt19937 random(seed);
@@ -32,13 +32,13 @@ inline Mesh soup(unsigned seed, int count, double size)
     return mesh;
 }
 
-/// A surface with a clearance around everything in the ball of radius 0.42.
+/// Returns a surface with a clearance around everything in the ball of radius 0.42.
 inline Mesh ball(int resolution = 16)
 {
     return extractSurface(*sample(resolution, [](const openvdb::Vec3d& p) { return inSphere(p, 0.48); }));
 }
 
-/// Symmetric: with the plane where x = 0.
+/// Returns a guard around `inside`, symmetric in the plane x = 0 if `isSymmetric`.
 inline BoundingGuard guardOf(const Mesh& inside, bool isSymmetric)
 {
     GuardOptions options;

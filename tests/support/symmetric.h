@@ -18,7 +18,7 @@ inline openvdb::Vec3d mirrored(openvdb::Vec3d p, const SymmetryPlane& plane)
     return p;
 }
 
-/// The mirror image of a mesh; faces look outward again.
+/// Returns the mirror image of a mesh, with its faces outward again.
 inline Mesh mirrored(Mesh mesh, const SymmetryPlane& plane)
 {
     for (auto& p : mesh.points) p = mirrored(p, plane);
@@ -27,7 +27,8 @@ inline Mesh mirrored(Mesh mesh, const SymmetryPlane& plane)
     return mesh;
 }
 
-/// Whether a mesh and its mirror image have the same points and faces: bit for bit, quads with the same first diagonal.
+/// Returns whether a mesh and its mirror image have the same points and faces: bit for bit, quads with the same first
+/// diagonal.
 inline bool isSymmetric(const Mesh& mesh, const SymmetryPlane& plane)
 {
     using Key = std::tuple<double, double, double>;

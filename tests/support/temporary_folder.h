@@ -10,7 +10,7 @@
 
 namespace vdbcage::test {
 
-/// A folder of its own, removed with all it holds when the scope is left.
+/// A folder of its own, removed with its content when the scope is left.
 class TemporaryFolder {
 public:
     TemporaryFolder()
@@ -29,7 +29,7 @@ public:
 
     const std::filesystem::path& path() const { return path_; }
     std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
-    /// The number of entries, hidden ones included.
+    /// Returns the number of entries, hidden ones included.
     std::size_t entries() const
     {
         return static_cast<std::size_t>(std::distance(std::filesystem::directory_iterator(path_), {}));

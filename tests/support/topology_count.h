@@ -12,7 +12,7 @@
 
 namespace vdbcage::test {
 
-/// The plainest count there is of how a surface hangs together; independent of the library's own.
+/// The topology of a surface by the plainest counts; independent of the library's own.
 struct TopologyCount {
     std::size_t points = 0, edges = 0, faces = 0; // points used by faces; quads count once
     std::size_t openEdges = 0;                    // without exactly one face on each side
@@ -86,7 +86,7 @@ inline TopologyCount countTopology(const Mesh& mesh)
     return count;
 }
 
-/// All angles of the triangles in degrees (quads split by the diagonal of corners 0 and 2), ascending.
+/// Returns all angles of the triangles in degrees (quads split by the diagonal of corners 0 and 2), ascending.
 inline std::vector<double> sortedAngles(const Mesh& mesh)
 {
     std::vector<double> angles;

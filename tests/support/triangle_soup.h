@@ -7,12 +7,12 @@
 
 namespace vdbcage::test {
 
-/// Triangles as trees take them.
+/// Triangles in the form that trees take.
 struct TriangleSoup {
     std::vector<openvdb::Vec3d> points;
     std::vector<openvdb::Vec3I> triangles;
 
-    /// With three points of its own.
+    /// Adds a triangle with three points of its own.
     void add(const detail::Corners& corners)
     {
         const auto first = static_cast<std::uint32_t>(points.size());

@@ -50,7 +50,7 @@ Json usage()
 {
     rusage used{};
     ::getrusage(RUSAGE_SELF, &used);
-    // Not ru_maxrss: that of a child begins with what its parent held when it was started.
+    // Not ru_maxrss: a child's begins with the memory that its parent held when it started.
     return {{"cpu_seconds", seconds(used.ru_utime) + seconds(used.ru_stime)},
             {"memory_peak_mib", processMemory("VmHWM")}};
 }

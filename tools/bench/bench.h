@@ -14,7 +14,7 @@ namespace vdbcage::bench {
 
 using Json = nlohmann::ordered_json;
 
-/// One benchmark: its arguments with the program's name first; returns the exit status. \throw Error
+/// Run a benchmark with the program's name as the first argument, and return the exit status. \throw Error
 int runStages(int argc, char** argv);
 int runCage(int argc, char** argv);
 int runClosing(int argc, char** argv);
@@ -22,8 +22,8 @@ int runDeform(int argc, char** argv);
 int runVoxelize(int argc, char** argv);
 int runView(int argc, char** argv); ///< in builds with the window
 
-/// Gives `app` a flag for every option of a cage but those in `except`; it sets `options`. The flags in use and their
-/// values, as given, are added to `words`, for another process that is to have the same.
+/// Adds a flag to `app` for every option of a cage except those in `except`; it sets `options`. The used flags and
+/// their values, as typed, are added to `words`, for another process with the same options.
 void addCageOptions(CLI::App& app, const std::vector<std::string>& except, CageOptions& options,
                     std::vector<std::string>& words);
 
@@ -37,24 +37,24 @@ CLI::Option* addList(CLI::App& app, const std::string& name, std::vector<T>& val
 /// \throw InputError unless `count` is at least 1
 void requirePositive(const char* option, int count);
 
-/// What this process has used so far: "cpu_seconds" and "memory_peak_mib".
+/// Returns the resources that this process has used so far: "cpu_seconds" and "memory_peak_mib".
 Json usage();
 
-/// A line of /proc/self/status in MiB, as VmHWM.
+/// Returns the value of a line of /proc/self/status in MiB, such as VmHWM.
 double processMemory(const std::string& name);
 
-/// What work has cost, in seconds: of the clock, and of all of the process's threads.
+/// The cost of work, in seconds: of the clock, and of all threads of the process.
 struct Cost {
     double wallSeconds = 0, cpuSeconds = 0;
 };
 
-/// What the process has cost since some fixed moment; only differences mean anything.
+/// Returns the cost of the process since some fixed moment; only differences have a meaning.
 Cost costSoFar();
 
-/// What it has cost since `before`.
+/// Returns the cost since `before`.
 Cost costSince(const Cost& before);
 
-/// What `work` costs; to free what it returns is not part of it.
+/// Returns the cost of `work`, except that of freeing its result.
 template <class Work>
 Cost costOf(const Work& work)
 {
@@ -68,13 +68,13 @@ Cost costOf(const Work& work)
     }
 }
 
-/// The least of each: times are only ever longer for what others do on the machine.
+/// Returns the lesser of each: other processes can only lengthen times.
 inline Cost leastOf(const Cost& a, const Cost& b)
 {
     return {std::min(a.wallSeconds, b.wallSeconds), std::min(a.cpuSeconds, b.cpuSeconds)};
 }
 
-/// The least of several runs of `work`.
+/// Returns the least cost of several runs of `work`.
 template <class Work>
 Cost leastCost(int runs, const Work& work)
 {
@@ -83,14 +83,14 @@ Cost leastCost(int runs, const Work& work)
     return least;
 }
 
-/// "wall_seconds" and "cpu_seconds".
+/// Returns "wall_seconds" and "cpu_seconds".
 Json toJson(const Cost& cost);
 
-/// The stages by name: "stage_seconds" of wall clock, "stage_cpu_seconds" of all threads.
+/// Returns the stages by name: "stage_seconds" of wall clock, "stage_cpu_seconds" of all threads.
 Json toJson(const std::vector<StageTime>& stages);
 
-/// Runs this program again with `words` (the first is its name), in a process of its own, so that its peak memory and
-/// its warm-up are its own. Returns what it prints. \throw Error if it fails
+/// Runs this program again with `words` (the first is its name) in a process of its own, which has its own peak memory
+/// and warm-up. Returns its output. \throw Error if it fails
 std::string runSelf(const std::vector<std::string>& words);
 
 } // namespace vdbcage::bench

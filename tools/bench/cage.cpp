@@ -1,5 +1,5 @@
-// vdbcage-bench cage: what cages cost, how tight they are and how their triangles are shaped, by number of faces and
-// effort, beside plain quadric decimation of the model, which cuts it.
+// vdbcage-bench cage: costs of cages, their tightness and the shape of their triangles, by number of faces and effort,
+// beside plain quadric decimation of the model, which cuts it.
 
 #include <algorithm>
 #include <iostream>
@@ -20,7 +20,7 @@ namespace vdbcage::bench {
 
 namespace {
 
-/// The copies of a model: the same shape, but other voxels and other ties. Copy 0 is the model itself.
+/// Returns a copy of a model: the same shape, but other voxels and other ties. Copy 0 is the model itself.
 Mesh copyOf(Mesh model, int copy)
 {
     constexpr double radians = 0.3 * 3.14159265358979323846 / 180;
@@ -29,7 +29,7 @@ Mesh copyOf(Mesh model, int copy)
     return model;
 }
 
-/// Distances are in % of the diagonal, as papers on cages give them.
+/// Returns the quality. Distances are in % of the diagonal, as in papers on cages.
 Json quality(const Mesh& cage, const CageCheck& check)
 {
     return {{"faces", faceCount(cage)},
@@ -42,7 +42,7 @@ Json quality(const Mesh& cage, const CageCheck& check)
              {{"0", check.minAngleDegrees}, {"1", check.angle1stPercentileDegrees}, {"50", check.medianAngleDegrees}}}};
 }
 
-/// The model itself with as few triangles; null where it is no surface that can be decimated.
+/// Returns the model decimated to that number of triangles; null if it is no surface that can be decimated.
 Json decimated(const Mesh& model, int faces)
 {
     StageClock clock;
@@ -61,7 +61,7 @@ Json decimated(const Mesh& model, int faces)
     return line;
 }
 
-/// One run in this process.
+/// Measures one run in this process.
 Json measure(const std::string& model, int copy, const std::string& effort, CageOptions options)
 {
     setOption(options, "effort", effort);
@@ -88,8 +88,8 @@ Json measure(const std::string& model, int copy, const std::string& effort, Cage
     return line;
 }
 
-/// Several runs as one: of numbers the median (of an even count the greater of the two), of truths whether all hold, of
-/// texts the first; a number that a run lacks is 0, as the time of a stage that it did without.
+/// Merges several runs into one: of numbers the median (of an even count the greater of the two), of truths whether all
+/// hold, of texts the first; a number that a run lacks is 0, such as the time of a stage that it skipped.
 Json median(std::vector<Json> runs)
 {
     const Json& first = runs.front();

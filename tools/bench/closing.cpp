@@ -1,5 +1,4 @@
-// vdbcage-bench closing: what dilating, eroding and closing a model's voxels cost, beside what a user would do
-// otherwise.
+// vdbcage-bench closing: costs of dilating, eroding and closing a model's voxels, beside other ways to do it.
 
 #include <algorithm>
 #include <fstream>
@@ -23,13 +22,13 @@ namespace {
 using openvdb::MaskGrid;
 using openvdb::MaskTree;
 
-/// How much memory in MiB `work` takes at its peak, more than there was; pages the process had but did not use are
-/// given back first.
+/// Returns the memory in MiB that `work` takes at its peak, beyond the memory before; unused pages of the process are
+/// freed first.
 template <class Work>
 double memoryPeak(const Work& work)
 {
     ::malloc_trim(0);
-    std::ofstream("/proc/self/clear_refs") << 5; // VmHWM starts anew
+    std::ofstream("/proc/self/clear_refs") << 5; // resets VmHWM
     const double before = processMemory("VmRSS");
     work();
     return processMemory("VmHWM") - before;
@@ -42,7 +41,7 @@ double threadSeconds()
     return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-/// How long the thread that asks has worked between two questions at most.
+/// The longest time that the asking thread has worked between two questions.
 class GapClock : public Interrupter {
 public:
     bool wasInterrupted(int percent) override
@@ -57,15 +56,15 @@ public:
         return false;
     }
     double seconds = 0;
-    int percentAfter = 0; ///< the progress at its end
+    int percentAfter = 0; ///< the progress at the gap's end
     int questions = 0;
 
 private:
     double last_ = threadSeconds();
 };
 
-/// The largest gap between two questions on one thread, of several runs the least: gaps are only ever longer for what
-/// others do on the machine.
+/// Returns the largest gap between two questions on one thread; of several runs the least, as other processes can only
+/// lengthen gaps.
 template <class Work>
 Json largestGap(int runs, const Work& work)
 {

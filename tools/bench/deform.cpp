@@ -1,4 +1,4 @@
-// vdbcage-bench deform: what binding points to cages and posing them costs, per family of coordinates.
+// vdbcage-bench deform: costs of binding points to cages and of posing them, for each family of coordinates.
 
 #include <cmath>
 #include <iostream>
@@ -17,7 +17,7 @@ namespace {
 
 using openvdb::Vec3d;
 
-/// `count` points of the model's faces, as many of each face, evenly over it.
+/// Returns `count` points on the model's faces, equally many on each face, evenly over it.
 std::vector<Vec3d> pointsOn(const Mesh& model, std::size_t count)
 {
     const std::vector<openvdb::Vec3I> triangles = triangulate(model);

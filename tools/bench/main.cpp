@@ -1,6 +1,6 @@
-// vdbcage-bench: what cages cost and how good they are, as JSON lines on standard output. Each whole run (`cage`, or no
-// subcommand) is a process of its own; closing, voxelize, deform and view run in this process. paper.py makes
-// a page of them.
+// vdbcage-bench: costs and quality of cages, as JSON lines on standard output. Each whole run (`cage`, or no
+// subcommand) is a process of its own; closing, voxelize, deform and view run in this process. paper.py makes a page of
+// them.
 
 #include <cstdio>
 #include <exception>

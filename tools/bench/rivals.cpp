@@ -1,5 +1,5 @@
 // Based on: Meijster, Roerdink, Hesselink, A General Algorithm for Computing Distance Transforms in Linear Time, 2000.
-// Differs: several lines are worked on side by side, so that memory is read along its rows.
+// Differs: several lines are processed side by side, so that memory is read along its rows.
 #include "rivals.h"
 
 #include <algorithm>
@@ -27,7 +27,7 @@ public:
     {
     }
 
-    /// Zero where `mask` is active.
+    /// Sets 0 where `mask` is active.
     void setFrom(const openvdb::MaskTree& mask)
     {
         tbb::parallel_for(Index{0}, x_, [&](Index x) {
@@ -39,7 +39,7 @@ public:
             }
         });
     }
-    /// Zero where the distance is above a radius, far elsewhere.
+    /// Sets 0 where the distance is above a radius, far elsewhere.
     void turnOver(std::int32_t squaredRadius)
     {
         tbb::parallel_for(tbb::blocked_range<std::size_t>(0, squares_.size()), [&](const auto& range) {
@@ -47,7 +47,7 @@ public:
                 squares_[i] = squares_[i] > squaredRadius ? 0 : far;
         });
     }
-    /// From zeros and fars to the squared distance to the nearest zero.
+    /// Turns zeros and fars into the squared distance to the nearest zero.
     void transform()
     {
         tbb::parallel_for(Index{0}, x_, [&](Index x) {
@@ -104,7 +104,7 @@ private:
         }
         for (Index z = 0; z < z_; ++z) line[z] = line[z] * line[z];
     }
-    /// line[i] = min over j of line[j] + (i - j)^2, for `count` lines next to each other.
+    /// Sets line[i] = min over j of line[j] + (i - j)^2, for `count` lines next to each other.
     static void lowerEnvelopes(std::int32_t* lines, Index stride, Index length, Index count)
     {
         thread_local std::vector<std::int32_t> values, result;

@@ -13,7 +13,7 @@ namespace vdbcage::bench {
 
 namespace {
 
-/// One run in this process.
+/// Measures one run in this process.
 void measure(const std::string& model, int threads, const CageOptions& options)
 {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));

@@ -1,4 +1,4 @@
-// vdbcage-bench view: how fast the window answers, as ratios to what cannot be had faster, measured in one run.
+// vdbcage-bench view: the speed of the window's answers, as ratios to the least possible times, measured in one run.
 
 #include <atomic>
 #include <chrono>
@@ -29,7 +29,7 @@ double secondsSince(Clock::time_point began)
     return std::chrono::duration<double>(Clock::now() - began).count();
 }
 
-/// Wall seconds that `work` takes.
+/// Returns the wall seconds of `work`.
 template <class Work>
 double secondsOf(const Work& work)
 {
@@ -39,11 +39,12 @@ double secondsOf(const Work& work)
 }
 
 struct Reading {
-    double base = 0;  ///< of reading the model and making a context
-    double first = 0; ///< until the first frame is there, that included
+    double base = 0;  ///< for reading the model and making a context
+    double first = 0; ///< until the first frame is there, including `base`
 };
 
-/// The first frame, against what it needs at least. `making`: what the context took. The app is left with the model.
+/// Measures the first frame beside the least time that it needs. `making`: the time for the context. The app keeps the
+/// model.
 Reading measureFirstFrame(const std::string& model, const gl::OffscreenContext& context, double making,
                           std::optional<App>& app)
 {
@@ -59,13 +60,14 @@ Reading measureFirstFrame(const std::string& model, const gl::OffscreenContext& 
     return reading;
 }
 
-/// What frames cost, CPU seconds: while the view moves, one pass of a still one, all passes, and the widgets alone.
+/// Measures frames in CPU seconds: while the view moves, one pass of a still one, all passes, and the widgets alone.
 Json measureFrames(App& app)
 {
     constexpr int passes = 16, runs = 5;
     double still = 1e9, moving = 1e9, refined = 1e9, widgets = 1e9;
     for (int run = 0; run < runs; ++run) {
-        runLine(app, "opacity model " + std::to_string(run % 2 == 0 ? 1 : 0.999)); // something to draw anew
+        runLine(app, "opacity model " + std::to_string(run % 2 == 0 ? 1 : 0.999)); // forces the picture to be drawn
+                                                                                   // again
         refined = std::min(refined, costOf([&] { app.picture(); }).cpuSeconds);
         still = refined / passes;
         runLine(app, "mouse move picture");
@@ -89,8 +91,8 @@ Json measureFrames(App& app)
             {"widgets_over_still_pass", widgets / still}};
 }
 
-/// The time that a run for another face count takes in a pipeline that has made 400 before, and then each of `faces`:
-/// the median.
+/// Returns the median time of a run for another face count in a pipeline that has made the default one before, and then
+/// each of `faces`.
 double rerunSeconds(const Mesh& model, Effort effort, const std::vector<int>& faces)
 {
     Pipeline pipeline(model);
@@ -106,7 +108,7 @@ double rerunSeconds(const Mesh& model, Effort effort, const std::vector<int>& fa
     return times[times.size() / 2];
 }
 
-/// Drags the slider of the faces from 98 to 546, as Window::run lets it be dragged, and lets it go.
+/// Drags the slider of the faces from 98 to 546 at the pace of Window::run, and releases it.
 Json measureDrag(App& app, const Mesh& model, double seconds)
 {
     const double fast = rerunSeconds(model, Effort::fast, {98, 151, 244, 351, 484}); // as the drag meets them
@@ -118,7 +120,7 @@ Json measureDrag(App& app, const Mesh& model, double seconds)
     const auto began = Clock::now();
     for (double now = 0; now < seconds; now = secondsSince(began)) {
         if (now >= drawn + app.secondsBetweenFrames()) {
-            // One way only, so that no cage is one that was made before.
+            // It moves one way only, so that no cage was made before.
             runLine(app, "mouse move faces.slider " + std::to_string(0.22 + 0.16 * now / seconds));
             if (app.needsFrame()) {
                 app.drawFrame();
@@ -131,7 +133,7 @@ Json measureDrag(App& app, const Mesh& model, double seconds)
             shown = app.planner().shown();
             ++cages;
         }
-        std::this_thread::sleep_for(std::chrono::milliseconds(5)); // a window sleeps until something comes
+        std::this_thread::sleep_for(std::chrono::milliseconds(5)); // a window sleeps until an event comes
     }
     const double dragged = secondsSince(began);
     const double settled = secondsOf([&] {
@@ -150,8 +152,8 @@ Json measureDrag(App& app, const Mesh& model, double seconds)
             {"let_go_over_full_run", settled / full}};
 }
 
-/// Binding the model to its cage, coarsely and whole, CPU seconds; and what following a pose costs in one frame, by
-/// each family, against drawing the model once, in `pass`.
+/// Measures binding the model to its cage, coarsely and completely, in CPU seconds, and following a pose in one frame
+/// by each family, beside drawing the model once, in `pass`.
 Json measurePosing(App& app, double pass)
 {
     constexpr int runs = 5;
@@ -172,7 +174,7 @@ Json measurePosing(App& app, double pass)
         app.waitUntilSettled();
         double follow = 1e9, frame = 1e9;
         for (int run = 0; run < runs; ++run) {
-            // Each point moves: none of the weights can be left out.
+            // Each point moves: no weight can be skipped.
             follow = std::min(follow, costOf([&] { runLine(app, "rotate 0 1 0 0.1 0 0 0"); }).cpuSeconds);
             app.drawFrame();
         }
@@ -194,13 +196,13 @@ Json measurePosing(App& app, double pass)
     return list;
 }
 
-/// Says stop from some moment on.
+/// An interrupter that asks to stop from some moment on.
 struct Stopper : Interrupter {
     std::atomic<bool> stop{false};
     bool wasInterrupted(int) override { return stop; }
 };
 
-/// The longest time from a cancel to its answer, as a share of the run.
+/// Measures the longest time from a cancel to its answer, as a share of the run.
 Json measureCancels(const OpenedMeshPtr& model, int count)
 {
     std::mt19937 random(1);
@@ -224,7 +226,7 @@ Json measureCancels(const OpenedMeshPtr& model, int count)
                 asked = Clock::now();
                 stopper.stop = true;
             });
-            Clock::time_point answered = Clock::time_point::min(); // it was done before
+            Clock::time_point answered = Clock::time_point::min(); // min: the run ended before
             try {
                 maker->make(job, stopper);
             } catch (const Cancelled&) {
@@ -240,7 +242,7 @@ Json measureCancels(const OpenedMeshPtr& model, int count)
     return list;
 }
 
-/// Frames that are drawn while nothing changes.
+/// Returns the number of frames that are drawn while nothing changes.
 int idleFrames(App& app)
 {
     app.picture();

@@ -1,5 +1,5 @@
-// vdbcage-bench voxelize: every voxelizer on the same models and resolutions in one run, beside OpenVDB's
-// meshToVolume, which makes distances and so does more, for scale.
+// vdbcage-bench voxelize: every voxelizer on the same models and resolutions in one run, and for comparison OpenVDB's
+// meshToVolume, which also computes distances.
 
 #include <algorithm>
 #include <functional>
@@ -25,7 +25,7 @@ using detail::BitGrid;
 using detail::Frame;
 using detail::GlVoxelizer;
 
-/// The context and shaders that are used again and again, and what it took to make them.
+/// The context and shaders, which are reused, and the time that making them took.
 class Device {
 public:
     Device() : began_(costSoFar().wallSeconds), current_(context_.makeCurrent()), contextMade_(costSoFar().wallSeconds)
@@ -53,7 +53,7 @@ private:
     std::unique_ptr<GlVoxelizer> compute_, raster_;
 };
 
-/// The faces in the index space of a transform, as meshToVolume asks for them.
+/// The faces in the index space of a transform, in the form that meshToVolume requires.
 class IndexSpaceFaces {
 public:
     IndexSpaceFaces(const Mesh& mesh, const openvdb::math::Transform& transform) : triangles_(triangulate(mesh))

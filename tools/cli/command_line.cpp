@@ -16,7 +16,7 @@ namespace {
 CommandFacts factsOf(const CLI::App& app)
 {
     const std::string text = app.get_description();
-    // The usage may have a colon itself: only one with a space after it ends it.
+    // The usage may contain a colon: only one before a space ends it.
     const std::size_t end = std::min(text.find('\n'), text.find(": "));
     CommandFacts facts;
     facts.name = app.get_name();
@@ -24,7 +24,7 @@ CommandFacts factsOf(const CLI::App& app)
     if (end < text.size()) facts.text = text.substr(end + (text[end] == '\n' ? 1 : 2));
     facts.notes = app.get_footer();
     for (const CLI::Option* option : app.get_options()) {
-        if (option->get_lnames().empty()) continue; // what is no option is in the usage
+        if (option->get_lnames().empty()) continue; // positional arguments are in the usage
         OptionFacts& added = facts.options.emplace_back();
         if (!option->get_snames().empty()) added.letter = '-' + option->get_snames().front();
         added.name = "--" + option->get_lnames().front();
@@ -36,7 +36,7 @@ CommandFacts factsOf(const CLI::App& app)
     return facts;
 }
 
-/// One option a line.
+/// Returns a line for each option.
 std::string helpOf(const CLI::App& app, bool isFull)
 {
     const CommandFacts facts = factsOf(app);
@@ -68,7 +68,7 @@ std::size_t editDistance(const std::string& a, const std::string& b)
     return row[b.size()];
 }
 
-/// Whether `argument` is meant as a file: an option with one dash has one letter that is known.
+/// Returns whether `argument` is meant as a file: an option with one dash has one known letter.
 bool isFileName(const std::string& argument, const std::string& knownLetters)
 {
     if (argument.size() < 2 || argument[0] != '-' || argument[1] == '-' || argument[1] == '.') return false;
@@ -78,7 +78,7 @@ bool isFileName(const std::string& argument, const std::string& knownLetters)
            (argument.size() > 2 && std::filesystem::exists(argument, ignored));
 }
 
-/// Refuses options that there are not, with a hint. \throw InputError
+/// Refuses unknown options, with a hint. \throw InputError
 void requireKnown(const CLI::App& app, const std::vector<std::string>& words)
 {
     std::vector<std::string> known;
@@ -101,7 +101,7 @@ void requireKnown(const CLI::App& app, const std::vector<std::string>& words)
     }
 }
 
-/// The option that CLI11 speaks of: all its versions name it, in words of their own.
+/// Returns the option that an error of CLI11 is about: all its versions name it, in texts of their own.
 const CLI::Option* optionOf(const CLI::App& app, const CLI::ParseError& error)
 {
     const std::string words = error.what();
@@ -113,7 +113,7 @@ const CLI::Option* optionOf(const CLI::App& app, const CLI::ParseError& error)
     return found;
 }
 
-/// Says in our words what is wrong with the words of a call. \throw InputError always
+/// Reports an error of a call in our own words. \throw InputError always
 [[noreturn]] void refuse(const CLI::App& app, const CLI::ParseError& error)
 {
     const CLI::Option* option = optionOf(app, error);
@@ -137,7 +137,7 @@ const CLI::Option* optionOf(const CLI::App& app, const CLI::ParseError& error)
 
 std::string didYouMean(const std::string& word, const std::vector<std::string>& known)
 {
-    std::size_t least = 3; // further away is no likely slip
+    std::size_t least = 3; // a word farther away is no likely slip
     std::string nearest;
     for (const std::string& candidate : known) {
         const std::size_t distance = editDistance(word, candidate);

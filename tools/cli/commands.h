@@ -12,16 +12,16 @@
 
 namespace vdbcage::cli {
 
-/// A name or a driver's words for the terminal.
+/// Makes a name or a driver's text printable on a terminal.
 inline std::string printable(const std::filesystem::path& text)
 {
     return detail::printable(text.string());
 }
 
-/// Sends what was printed on standard output on its way. \throw IoError if it does not arrive
+/// Flushes standard output. \throw IoError if the text does not arrive
 void flushOutput();
 
-/// Each does what it is called for and returns the exit status. \throw Error
+/// Run a command and return the exit status. \throw Error
 int runMake(Call call);
 int runCheck(Call call);
 int runRender(Call call);
@@ -33,41 +33,41 @@ int runReport(Call call);
 int runMan(Call call);
 int runCompletion(Call call);
 
-/// A command line that can be tried, and what it is for.
+/// A command line to try, and its purpose.
 struct Example {
     std::string purpose; ///< a sentence
     std::string line;
 };
 
-/// One command of `vdbcage`.
+/// A command of `vdbcage`.
 struct Command {
     std::string name, summary;
     int (*run)(Call);
-    std::string details; ///< what its manual page has beyond the help; may be empty
-    /// For its manual page. One after the other they run in a folder that has bishop.obj, creature.obj (of data/) and
-    /// posed.obj, the cage as posed: a test does it.
+    std::string details; ///< additions of its manual page to the help; may be empty
+    /// For its manual page. A test runs all in order in a folder that has bishop.obj, creature.obj (of data/) and
+    /// posed.obj, the posed cage.
     std::vector<Example> examples;
 };
 
-/// All of them, in the order of the help.
+/// Returns all commands, in the order of the help.
 const std::vector<Command>& commands();
 
 std::vector<std::string> commandNames();
 
-/// \throw InputError there is none of this name; with a hint
+/// Returns the command of this name. \throw InputError there is none; with a hint
 const Command& commandNamed(const std::string& name);
 
-/// What can be said to `command`.
+/// Returns the description of `command`.
 CommandFacts describe(const Command& command);
 
-/// Adds the options of cages, which set `options`, and returns them. Must outlive parsing.
+/// Adds the options of cages, which set `options`, and returns them. Both must outlive parsing.
 std::vector<CLI::Option*> addCageOptions(CLI::App& app, CageOptions& options);
 
-/// Makes the options of a cage those for a file that it is written to, which is then certified as it is.
-/// \throw InputError the file cannot hold the precision that is asked for; IoError unknown extension
+/// Sets the precision of the file that the cage is written to, so that the written cage is certified.
+/// \throw InputError the file cannot hold the requested precision; IoError unknown extension
 void setPrecisionFor(const std::filesystem::path& cage, CageOptions& options);
 
-/// Adds --memory, for memoryLimit(). Must outlive parsing.
+/// Adds --memory, for memoryLimit(). `text` must outlive parsing.
 CLI::Option* addMemoryOption(CLI::App& app, std::string& text);
 
 } // namespace vdbcage::cli

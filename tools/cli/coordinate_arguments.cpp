@@ -7,7 +7,7 @@ namespace vdbcage::cli {
 
 namespace {
 
-/// "FAMILY is one of mvc (qmvc), green (qgc), mlc, harmonic"
+/// Returns a text such as "FAMILY is one of mvc (qmvc), green (qgc), mlc, harmonic".
 std::string familyHelp()
 {
     std::string text = "\nFAMILY is one of ";
@@ -19,7 +19,7 @@ std::string familyHelp()
     return text;
 }
 
-/// The families that have the fact: "harmonic", "a, b".
+/// Returns the families that have the property: "harmonic", "a, b".
 std::string namesOf(bool FamilyInfo::*has)
 {
     std::string names;

@@ -7,23 +7,24 @@
 
 namespace vdbcage::cli {
 
-/// The options of the commands that bind: --coordinates and --resolution. Those that pose also have the options of an
-/// elastic material.
+/// The options of the commands that bind: --coordinates and --resolution. Commands that pose also have the options of
+/// an elastic material.
 class CoordinateArguments {
 public:
     enum class For { weights, poses };
 
-    /// `purpose` is the help: what the coordinates are for. Must outlive parsing.
+    /// `purpose` is the help: the use of the coordinates. It must outlive parsing.
     explicit CoordinateArguments(CLI::App& app, For use, const std::string& purpose = "how the cage moves the model");
 
     bool familyIsGiven() const { return familyOption_->count() > 0; }
     bool resolutionIsGiven() const { return resolutionOption_->count() > 0; }
     const std::string& familyName() const { return family_; }
-    /// \throw InputError no such family; an option out of range, or of a family that has none
+    /// Returns the chosen options. \throw InputError no such family; an option out of range, or of a family that has
+    /// none
     CoordinateOptions options() const;
-    /// Likewise of another family than --coordinates.
+    /// Returns the same for another family than --coordinates.
     CoordinateOptions optionsOf(Coordinates family) const;
-    /// For all families one after the other.
+    /// Returns the same for any of all families, which may lack some of the options.
     /// \throw InputError an option out of range
     CoordinateOptions optionsOfEach(Coordinates family) const;
 

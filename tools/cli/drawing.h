@@ -9,7 +9,7 @@ namespace vdbcage::cli {
 /// \throw InputError unless the name ends in .png
 void requirePngExtension(const std::filesystem::path& path);
 
-/// The model shaded, the cage as a wireframe over it.
+/// Draws the model shaded, with the cage as a wireframe over it.
 Picture drawCage(const Mesh& model, const Mesh& cage);
 
 } // namespace vdbcage::cli

@@ -20,7 +20,7 @@ Failure failureOf(const std::exception& exception) noexcept
     if (dynamic_cast<const DeviceError*>(&exception)) return {exception.what(), exitTryAgain};
     if (dynamic_cast<const std::bad_alloc*>(&exception)) return {"not enough memory", exitTryAgain};
     const auto* const system = dynamic_cast<const std::system_error*>(&exception);
-    // TBB has the system's words only.
+    // TBB's exceptions have only the system's text.
     if ((system && system->code() == std::errc::resource_unavailable_try_again) ||
         (!dynamic_cast<const Error*>(&exception) && std::strstr(exception.what(), std::strerror(EAGAIN)))) {
         return {"not enough threads can be started; look at limits on processes (ulimit -u)", exitTryAgain};

@@ -12,7 +12,7 @@ std::string fingerprint(const std::vector<std::filesystem::path>& files, const C
 {
     detail::Hash hash;
     const auto add = [&](std::string_view bytes) {
-        // With the length, so that what ends one text cannot begin the next.
+        // The length keeps the end of a text apart from the beginning of the next.
         hash.add(std::to_string(bytes.size()) + ' ');
         hash.add(bytes);
     };

@@ -8,8 +8,8 @@
 
 namespace vdbcage::cli {
 
-/// 16 hexadecimal digits that tell the version of vdbcage, the contents of `files` and the values of `options` apart:
-/// FNV-1a of all bytes. \throw IoError a file cannot be read
+/// Returns 16 hexadecimal digits that differ for different versions of vdbcage, contents of `files` or values of
+/// `options`: FNV-1a of all bytes. \throw IoError a file cannot be read
 std::string fingerprint(const std::vector<std::filesystem::path>& files, const CageOptions& options);
 
 } // namespace vdbcage::cli

@@ -15,7 +15,7 @@ namespace vdbcage::cli {
 
 namespace {
 
-// A signal handler can use nothing but static storage. It runs on any thread.
+// A signal handler can use only static storage. It runs on any thread.
 std::atomic<int> signalCame{0};
 std::atomic<bool> lineOnScreen{false};
 std::atomic<int> holds{0};
@@ -29,10 +29,10 @@ void write(std::string_view text)
 
 extern "C" void onSignal(int signal, siginfo_t* info, void* /*context*/)
 {
-    // One that a write of ours raised: the write fails, and whoever wrote says so.
+    // A write of this process raised it: the write fails, and its caller reports that.
     if (signal == SIGPIPE && info->si_pid == ::getpid()) return;
     int none = 0;
-    const bool isFirst = signalCame.compare_exchange_strong(none, signal); // before it looks for holds: see `signalled`
+    const bool isFirst = signalCame.compare_exchange_strong(none, signal); // before holds are read: see `signalled`
     if (holds > 0 || !isFirst) return;
     sayCancelled();
     ::_exit(cancelledStatus());
@@ -60,7 +60,7 @@ void catchSignals() noexcept
     action = {};
     action.sa_handler = SIG_IGN;
     ::sigaction(SIGXFSZ, &action, nullptr);
-    ::sigprocmask(SIG_UNBLOCK, &caught, nullptr); // whoever started us may have had them blocked
+    ::sigprocmask(SIG_UNBLOCK, &caught, nullptr); // the parent process may have blocked them
 }
 
 SignalHold::SignalHold() noexcept
@@ -127,7 +127,7 @@ void Progress::end()
 {
     const std::lock_guard lock(mutex_);
     run_.advance(100, seconds());
-    if (form_ != ProgressForm::lines) draw(); // there the next stage says as much
+    if (form_ != ProgressForm::lines) draw(); // lines end with the next stage anyway
 }
 
 bool Progress::wasInterrupted(int percent)
@@ -141,7 +141,7 @@ bool Progress::wasInterrupted(int percent)
     return signalled();
 }
 
-/// Allocates nothing: it also runs while an exception is on its way.
+/// Draws the bar. Allocates nothing: it also runs while an exception is thrown.
 void Progress::draw()
 {
     if (form_ == ProgressForm::none) return;

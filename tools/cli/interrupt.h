@@ -9,13 +9,14 @@
 
 namespace vdbcage::cli {
 
-/// From here on SIGINT (Ctrl-C), SIGTERM, SIGHUP and SIGPIPE end the process at once with cancelledStatus() and
-/// a line on standard error, unless a SignalHold lives: then they ask for a clean stop. A write beyond a limit of size
-/// or into a pipe that nobody reads fails with a reason instead of a signal. SIGHUP that was ignored stays so (nohup).
+/// Handles signals from here on: SIGINT (Ctrl-C), SIGTERM, SIGHUP and SIGPIPE end the process at once with
+/// cancelledStatus() and a line on standard error, unless a SignalHold lives: then they ask for a clean stop. A write
+/// beyond a limit of size or into a pipe without a reader fails with a reason instead of a signal. An ignored SIGHUP
+/// stays ignored (nohup).
 void catchSignals() noexcept;
 
-/// While one lives there is something to clean up, and a signal only sets `signalled`. One that came just before may be
-/// about to end the process: ask `signalled` before there is anything.
+/// A hold on the end of the process while there is something to clean up: a signal only sets `signalled`. One that came
+/// just before may be about to end the process: ask `signalled` before there is anything.
 class SignalHold {
 public:
     SignalHold() noexcept;
@@ -24,19 +25,19 @@ public:
     SignalHold& operator=(const SignalHold&) = delete;
 };
 
-/// Whether a signal has come that asks for a stop.
+/// Returns whether a signal asked for a stop.
 bool signalled() noexcept;
 
-/// The exit status after a signal, the first that came: exitTerminated after SIGTERM, else exitCancelled.
+/// Returns the exit status by the first signal: exitTerminated after SIGTERM, else exitCancelled.
 int cancelledStatus() noexcept;
 
-/// From here on signals change nothing: the work is done, and only words are left.
+/// Ignores signals from here on: the work is done, and only messages are left.
 void ignoreSignals() noexcept;
 
-/// Prints that the command was cancelled, unless that was said before.
+/// Prints that the command was cancelled, unless it was printed before.
 void sayCancelled() noexcept;
 
-/// How progress is told.
+/// The form of progress reports.
 enum class ProgressForm {
     none,
     bar,   ///< one line on standard error, redrawn at most ten times a second
@@ -44,14 +45,14 @@ enum class ProgressForm {
     farm   ///< on standard output `Progress: 42%` and `ALF_PROGRESS 42%`, as it rises
 };
 
-/// Shows how far the whole command is, by RunProgress, and passes a signal on to it. Where that knows, bar and lines
-/// have `, N s left`.
+/// The progress display of the whole command, by RunProgress, which also passes a signal on to it. If the time left is
+/// known, bar and lines have `, N s left`.
 class Progress : public Interrupter {
 public:
     explicit Progress(ProgressForm form);
     ~Progress() override;
 
-    /// The work is done: what has a percentage shows 100.
+    /// Ends with 100 % in forms that have a percentage: the work is done.
     void succeed();
 
     void start(const char* name = nullptr) override;
@@ -66,7 +67,7 @@ private:
     using Clock = std::chrono::steady_clock;
     const ProgressForm form_;
     const Clock::time_point began_ = Clock::now();
-    std::mutex mutex_; // guards what follows: wasInterrupted is called from many threads
+    std::mutex mutex_; // guards the members below: wasInterrupted is called from many threads
     std::string stage_;
     report::RunProgress run_;
     int shownToFarm_ = -1;

@@ -1,4 +1,4 @@
-// The command `vdbcage`: words to standard error, data to files and standard output.
+// The command `vdbcage`: messages to standard error, data to files and standard output.
 
 #include <cerrno>
 #include <cstdio>
@@ -58,8 +58,8 @@ int run(const std::vector<std::string>& arguments)
     return commandNamed(name).run({std::move(words)});
 }
 
-/// Opens what the caller has closed of standard input, output and error: otherwise the next file that is opened would
-/// be taken for one of them. Writing to them fails, as before.
+/// Opens those of standard input, output and error that the caller has closed: otherwise the next opened file would be
+/// taken for one of them. Writing to them fails, as before.
 void openStandardStreams()
 {
     for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
@@ -69,7 +69,8 @@ void openStandardStreams()
     }
 }
 
-/// Allocates nothing, as there may be no memory left. `text` is one printable line.
+/// Prints the error and returns the status. Allocates nothing, as there may be no memory left. `text` is one printable
+/// line.
 int fail(const char* text, int status) noexcept
 {
     std::fprintf(stderr, "vdbcage: error: %s\n", text);
@@ -85,7 +86,7 @@ int failWords(const char* text, int status) noexcept
     }
 }
 
-/// Calls `work` and turns what it throws into an exit status and a line on standard error.
+/// Calls `work` and turns its exceptions into an exit status and a line on standard error.
 template <typename Work>
 int guarded(const Work& work) noexcept
 {
@@ -102,17 +103,17 @@ int guarded(const Work& work) noexcept
     }
 }
 
-/// What could not be passed on as an exception: one in a destructor, in a thread's start, before main.
+/// Handles exceptions that could not be passed on: from a destructor, from a thread's start, before main.
 [[noreturn]] void onTerminate() noexcept
 {
     const std::exception_ptr exception = std::current_exception();
-    if (!exception) std::abort(); // a defect, not a lack of anything
+    if (!exception) std::abort(); // a defect, not a lack of resources
     Outputs::abandon();
     const int status = guarded([&]() -> int { std::rethrow_exception(exception); });
     ::_exit(status);
 }
 
-/// As onTerminate, for GMP, which CGAL's exact numbers are of: by itself it aborts where memory lacks.
+/// Does the same as onTerminate for GMP, which makes CGAL's exact numbers: by itself it aborts if memory lacks.
 [[noreturn]] void onLackOfMemory() noexcept
 {
     Outputs::abandon();

@@ -17,9 +17,9 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t unlimited = std::numeric_limits<std::size_t>::max();
-constexpr double share = 0.8; ///< of what is at hand: the rest is for other programs, and for what was not foreseen
+constexpr double share = 0.8; ///< of the memory at hand: the rest is for other programs and the unforeseen
 
-/// The number that a file begins with; unlimited if there is none, as in "max".
+/// Returns the number at the beginning of a file; unlimited if there is none, as in "max".
 std::size_t numberIn(const fs::path& file)
 {
     std::ifstream in(file);
@@ -27,7 +27,7 @@ std::size_t numberIn(const fs::path& file)
     return in >> number ? number : unlimited;
 }
 
-/// MemAvailable: what can be had without swapping.
+/// Returns MemAvailable: the memory available without swapping.
 std::size_t availableOfMachine(const fs::path& root)
 {
     std::ifstream in(root / "proc/meminfo");
@@ -38,8 +38,8 @@ std::size_t availableOfMachine(const fs::path& root)
     return unlimited;
 }
 
-/// The least limit of the group `path` of a hierarchy and of the groups around it. In a container the path may be one
-/// of outside, of which only the last group around it is there: the hierarchy's own folder.
+/// Returns the least limit of the group `path` of a hierarchy and of its parents. In a container the path may be one of
+/// the outside, of which only the outermost group is visible: the hierarchy's own folder.
 std::size_t leastLimit(const fs::path& hierarchy, const std::string& path, const char* file)
 {
     std::size_t least = numberIn(hierarchy / file);

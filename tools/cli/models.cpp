@@ -16,7 +16,7 @@ namespace vdbcage::cli {
 
 namespace {
 
-/// Puts the points and faces of `mesh` behind those of `all`.
+/// Appends the points and faces of `mesh` to those of `all`.
 void append(const Mesh& mesh, Mesh& all)
 {
     const auto before = static_cast<openvdb::Index32>(all.points.size());
@@ -32,8 +32,8 @@ void append(const Mesh& mesh, Mesh& all)
     appendFaces(mesh.alternatives, all.alternatives);
 }
 
-/// Whether the boxes overlap, or the gap between them is a small part of the longest side of both. Parts of one thing
-/// touch or nearly do, as a hat above a head.
+/// Returns whether the boxes overlap, or the gap between them is a small part of the longest side of both. Parts of one
+/// thing touch or nearly do, as a hat above a head.
 bool areNear(const openvdb::BBoxd& a, const openvdb::BBoxd& b)
 {
     constexpr double smallPart = 0.1;
@@ -52,7 +52,7 @@ std::vector<ModelFile> readModels(const std::vector<std::filesystem::path>& path
     std::vector<ModelFile> models;
     for (const std::filesystem::path& path : paths) {
         for (const ModelFile& other : models) {
-            std::error_code ignored; // reading says what is wrong
+            std::error_code ignored; // reading reports the error
             if (std::filesystem::equivalent(path, other.path, ignored)) {
                 throw InputError(path.string() + ": this model is named twice");
             }

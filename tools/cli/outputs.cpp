@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// A command has one Outputs. Who ends the process can use nothing but static storage.
+// A command has one Outputs. A handler that ends the process can use only static storage.
 std::atomic<Outputs*> pending{nullptr};
 
 std::string notMade(const fs::path& path)
@@ -53,7 +53,7 @@ void Outputs::abandon() noexcept
 Outputs::Identity Outputs::identityOf(const fs::path& path)
 {
     std::error_code error;
-    // Absolute first: where a relative path leads to nothing it would be left as it is.
+    // Absolute first: a relative path without a target would stay relative.
     const fs::path absolute = fs::absolute(path, error);
     fs::path existing = fs::weakly_canonical(absolute, error);
     if (error) existing = absolute.lexically_normal();

@@ -13,8 +13,8 @@
 
 namespace vdbcage::cli {
 
-/// All files that one command writes: they appear together at the end, or none does. The command first says what it
-/// reads and writes; no output may be an input or another output, by whatever name.
+/// All files that one command writes: they appear together at the end, or none does. The command first declares its
+/// inputs and outputs; no output may be an input or another output, by whatever name.
 class Outputs {
 public:
     Outputs() = default;
@@ -22,29 +22,29 @@ public:
     Outputs(const Outputs&) = delete;
     Outputs& operator=(const Outputs&) = delete;
 
-    /// Says that the command reads `path`, which need not exist. All inputs come before all outputs.
+    /// Declares that the command reads `path`, which need not exist. All inputs come before all outputs.
     void reads(const std::filesystem::path& path);
-    /// Says that files will be written into the folder `path`, which is made if it does not exist. \throw IoError
+    /// Declares that files will be written into the folder `path`, which is made if it does not exist. \throw IoError
     void writesInto(const std::filesystem::path& path);
-    /// Says that the command writes `path`. \throw IoError if that cannot be done; InputError if it is an input or is
-    /// written already
+    /// Declares that the command writes `path`. \throw IoError if that is impossible; InputError if it is an input or
+    /// declared already
     void writes(const std::filesystem::path& path);
 
-    /// Writes one of the files under a temporary name. From here on signals wait, and end the command by Cancelled
-    /// between two files. \throw IoError naming `path`; Cancelled
+    /// Writes a file under a temporary name. From here on signals wait, and end the command by Cancelled between two
+    /// files. \throw IoError naming `path`; Cancelled
     void add(const std::filesystem::path& path, const FileWriter& write);
-    /// Gives every file its name. \throw IoError; Cancelled
+    /// Gives all files their names. \throw IoError; Cancelled
     void commit();
 
-    /// Takes away what has been written and not committed, for a sudden end of the process. Allocates nothing.
+    /// Removes written files that are not committed, for a sudden end of the process. Allocates nothing.
     static void abandon() noexcept;
 
 private:
-    /// What a path leads to, whether it exists or not: the nearest folder that does, and the names below it.
+    /// The target of a path, whether it exists or not: the nearest folder that does, and the names below it.
     using Identity = std::tuple<unsigned long long, unsigned long long, std::filesystem::path>;
     static Identity identityOf(const std::filesystem::path& path);
 
-    /// Folders that go again, if they are empty.
+    /// Folders that are removed at the end if they are empty.
     struct MadeFolders {
         MadeFolders() = default;
         ~MadeFolders() { remove(); }
@@ -55,10 +55,10 @@ private:
     };
 
     std::optional<SignalHold> hold_;
-    std::map<Identity, std::filesystem::path> known_; // the name of an input; none of an output
+    std::map<Identity, std::filesystem::path> known_; // the names of inputs; empty for outputs
     std::vector<std::filesystem::path> toMake_;       // folders
     MadeFolders made_;
-    PendingFiles files_; // goes before the folders that it is in
+    PendingFiles files_; // destroyed before the folders that it is in
 };
 
 } // namespace vdbcage::cli

@@ -74,7 +74,7 @@ void requireScene(const Scene& scene)
     }
 }
 
-/// The number of columns that makes the shorter side of a panel longest; of equals, the one with the most columns.
+/// Returns the number of columns that makes the shorter side of a panel longest; of equals, the greatest one.
 int chooseColumns(int panels, int width, int height)
 {
     int best = 1;
@@ -109,7 +109,7 @@ std::vector<Rectangle> layOut(const Scene& scene, int width, int height)
     return panels;
 }
 
-/// The last row of the grid may have no panel everywhere.
+/// Returns an empty picture: the last row of the grid may lack panels.
 Picture blank(int width, int height, const Colour& background)
 {
     Picture picture{width, height, {}};
@@ -186,7 +186,7 @@ void drawPanel(const gl::Api& api, draw::Renderer& renderer, const std::vector<d
             const draw::Canvas canvas(api, tile.width * supersampling, tile.height * supersampling, samples);
             draw::Target target = canvas.target();
             target.pixelScale = supersampling;
-            // So wide that lines look alike whatever the panel's size, but neither thin nor fat.
+            // Lines look alike at any size of the panel, but are neither thin nor fat.
             target.lineWidth = std::clamp(std::min(panel.width, panel.height) / 600.0, 1.1, 6.0);
             renderer.draw(target, look, layers);
             read(canvas, {panel.left + left, panel.top + top, tile.width, tile.height}, picture);

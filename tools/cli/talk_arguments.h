@@ -8,13 +8,13 @@
 
 namespace vdbcage::cli {
 
-/// \throw InputError `--progress` knows no such form
+/// \throw InputError `--progress` has no such form
 void requireProgress(const std::string& form);
 
-/// The options of a command that takes its time: -q and --progress, and where it has more to say -v.
+/// The options of a long command: -q and --progress, and -v if it has more to say.
 class TalkArguments {
 public:
-    /// `verboseHelp` is the help of -v; null: the command has no -v. Must outlive parsing.
+    /// `verboseHelp` is the help of -v; null: the command has no -v. It must outlive parsing.
     explicit TalkArguments(CLI::App& app, const char* verboseHelp = nullptr);
 
     bool quiet() const { return quiet_; }

@@ -2,8 +2,8 @@
 
 namespace vdbcage::cli {
 
-/// From here on the process works with at most `count` threads, at least 1. To be called once, and before OpenGL is
-/// first used. Libraries may have more that wait.
+/// Limits the process to `count` threads, at least 1, from here on. Call it once, before the first use of OpenGL.
+/// Libraries may have more that wait.
 void limitThreads(int count);
 
 } // namespace vdbcage::cli

@@ -16,9 +16,9 @@ using openvdb::Vec3d;
 constexpr double degree = M_PI / 180;
 constexpr double viewAngle = 22 * degree; // across the shorter side of a panel
 constexpr double margin = 0.05;           // on each side, of the panel
-// In perspective nothing nearer than this part of the distance is drawn, or depth would have no bits left.
+// In perspective nothing nearer than this fraction of the distance is drawn, or depth would have no bits left.
 constexpr double nearestShare = 0.05;
-// From here on 24 bits of a coordinate are too few for a pixel.
+// At this distance and below, 24 bits of a coordinate are too few for a pixel.
 constexpr double closeUp = 0.5;
 
 struct Axes {
@@ -38,7 +38,7 @@ Axes axesOf(const View& view)
     return axes;
 }
 
-/// Half the size of what is seen at distance 1.
+/// Half the size of the view at distance 1.
 struct Extent {
     double halfWidth, halfHeight;
 };
@@ -49,7 +49,7 @@ Extent extentOf(double aspect)
     return {half * std::max(aspect, 1.0), half * std::max(1 / aspect, 1.0)};
 }
 
-/// The largest value over the points; -infinity if there are none.
+/// Returns the largest value over the points; -infinity if there are none.
 template <typename Value>
 double largest(const PointSets& points, const Value& value)
 {
@@ -74,7 +74,8 @@ Row operator-(const Row& a, const Row& b)
     return {a.x - b.x, a.y - b.y, a.z - b.z, a.w - b.w};
 }
 
-/// The coordinate along `axis`, counted from `position`; of points that count from `origin`.
+/// Returns the row of a matrix for the coordinate along `axis`, relative to `position`; its points are relative to
+/// `origin`.
 Row rowOf(const Vec3d& axis, const Vec3d& position, const Vec3d& origin)
 {
     return {axis.x(), axis.y(), axis.z(), -axis.dot(position - origin)};
@@ -118,7 +119,7 @@ Camera fit(const View& view, Projection projection, const PointSets& points, dou
 
     // A point at (x, z) is inside the right side of the view if x - ex <= t (ez - z), that is x + t z <= ex + t ez;
     // with the left side the same for -x. Both bounds are reached when ex and ez solve the two equations. Orthographic
-    // sides are parallel: t z is left out of the points' part.
+    // sides are parallel: there the points' part lacks t z.
     struct Bounds {
         double middle, distance;
     };

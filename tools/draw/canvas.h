@@ -8,19 +8,18 @@
 
 namespace vdbcage::draw {
 
-/// A framebuffer to draw into, and to read what was drawn. Its context must be current whenever it is used, and must
-/// outlive it.
+/// A framebuffer to draw into and to read. Its context must be current in each call, and must outlive it.
 class Canvas {
 public:
-    /// `samples` samples a pixel, 1 or a number that the device has (4 is always there).
+    /// `samples` samples a pixel, 1 or a number that the device has (every one has 4).
     /// \throw DeviceError (too large, out of memory)
     Canvas(const gl::Api& api, int width, int height, int samples);
 
-    /// All of it, with lines as wide as `Target` has them.
+    /// Returns a target that is the whole canvas, with the line width of `Target`.
     Target target() const;
 
-    /// Its pixels, samples averaged: width * height * 4 bytes, row by row from the bottom left; colours are times their
-    /// alpha. \throw DeviceError if anything failed since the canvas was made
+    /// Returns its pixels, samples averaged: width * height * 4 bytes, row by row from the bottom left; colours are
+    /// multiplied by their alpha. \throw DeviceError if anything failed since the canvas was made
     std::vector<std::uint8_t> pixels() const;
 
 private:

@@ -6,7 +6,7 @@
 
 namespace vdbcage::draw {
 
-/// A colour for each value: from blue, negative, over light grey to red. The largest size of a value has the full
+/// Returns a colour for each value: from blue, negative, over light grey to red. The value of largest size has the full
 /// colour; the square root between makes small values visible too.
 std::vector<Colour> divergingColours(const std::vector<double>& values);
 

@@ -20,7 +20,7 @@ Frame::Frame(const openvdb::BBoxd& box)
 {
     double largest = 0;
     for (int i = 0; i < 3; ++i) largest = std::max({largest, std::abs(box.min()[i]), std::abs(box.max()[i])});
-    // Coordinates of magnitude 1 at most, so that no later step overflows or underflows.
+    // Coordinates of at most magnitude 1 keep later steps from overflow and underflow.
     std::frexp(largest, &exponent_);
     const Vec3d min = timesPowerOfTwo(box.min(), -exponent_);
     const Vec3d max = timesPowerOfTwo(box.max(), -exponent_);

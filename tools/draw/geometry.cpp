@@ -34,8 +34,8 @@ Vec3d unitOrZero(const Vec3d& v)
     return length > 0 ? v / length : Vec3d(0);
 }
 
-/// For each point the one that stands for all at its place. Points that no face uses (they may be anything) stand for
-/// themselves.
+/// Returns for each point the one that represents all at its place. Points that no face uses (they may be anything)
+/// represent themselves.
 std::vector<Index> weld(const Mesh& mesh)
 {
     const HalfEdges halfEdges(mesh);
@@ -56,7 +56,7 @@ std::vector<Index> weld(const Mesh& mesh)
     return same;
 }
 
-/// The mesh with one point for each place that its faces use, in drawing coordinates.
+/// Returns the mesh with one point for each place that its faces use, in drawing coordinates.
 Mesh weldedMesh(const Mesh& mesh, const Frame& frame)
 {
     const std::vector<Index> same = weld(mesh);
@@ -132,7 +132,7 @@ Geometry::Geometry(const Mesh& mesh, const Frame& frame, double creaseDegrees)
     const EdgeTable edges(halfEdges, welded.points.size());
     UnionFind sets = joinSmooth(welded, halfEdges, edges, creaseDegrees);
 
-    // A set's first corner stands for it, so it comes before the others.
+    // A set's first corner represents it, so it comes before the others.
     std::vector<Index> vertices(halfEdges.size());
     for (Index corner = 0; corner < vertices.size(); ++corner) {
         const Index first = sets.find(corner);

@@ -9,7 +9,7 @@ namespace {
 
 using openvdb::Vec3d;
 
-/// So far outside, as a part of its size, a triangle is met too: no ray passes between two.
+/// The fraction of its size by which a triangle is met outside, too: no ray passes between two.
 constexpr double slack = 1e-9;
 
 Vec3d toDouble(const Vec3f& v)

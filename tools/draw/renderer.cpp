@@ -11,7 +11,7 @@ namespace {
 
 using openvdb::Vec3d;
 
-// The part of the way to the eye by which lines stand out of the faces that they lie in.
+// The fraction of the way to the eye by which lines stand out of their faces.
 constexpr double lineLift = 0.0005;
 
 bool isSolid(const Layer& layer)
@@ -19,7 +19,7 @@ bool isSolid(const Layer& layer)
     return layer.opacity >= 1;
 }
 
-/// The part of the way to the viewpoint that is lineLift of the way to the eye.
+/// Returns the fraction of the way to the viewpoint that is lineLift of the way to the eye.
 double liftOf(const Eye& eye)
 {
     return eye.projection == Projection::perspective ? lineLift : lineLift / orthographicViewpoint;
@@ -47,7 +47,7 @@ void Renderer::draw(const Target& target, const Look& look, const std::vector<La
             seeThrough.push_back(&layer);
         }
     }
-    // A layer that is not solid is hidden by solid ones and by itself, not by others of its kind.
+    // A layer that is not solid is hidden by solid ones and by itself, not by others that are not solid.
     const bool several = seeThrough.size() > 1;
     if (several) copyDepth(target, target.framebuffer, depthStore(target).name());
     for (const Layer* layer : seeThrough) {
@@ -59,7 +59,7 @@ void Renderer::draw(const Target& target, const Look& look, const std::vector<La
     }
 }
 
-/// Sets what of the context's state the drawing needs, and clears the target.
+/// Sets the needed state of the context, and clears the target.
 void Renderer::prepare(const Target& target, const Look& look) const
 {
     for (const GLenum state : {GL_CULL_FACE, GL_STENCIL_TEST}) api_.Disable(state);
@@ -71,7 +71,7 @@ void Renderer::prepare(const Target& target, const Look& look) const
     } else {
         api_.Disable(GL_CLIP_DISTANCE0);
     }
-    // Colours in the framebuffer are times their alpha.
+    // Colours in the framebuffer are multiplied by their alpha.
     api_.BlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
     api_.StencilFunc(GL_EQUAL, 0, 0xFF);
     api_.StencilOp(GL_KEEP, GL_KEEP, GL_INCR);
@@ -88,12 +88,13 @@ void Renderer::prepare(const Target& target, const Look& look) const
     api_.ClearNamedFramebufferfi(target.framebuffer, GL_DEPTH_STENCIL, 0, 1, 0);
 }
 
-/// Aims the programs at what the target shows.
+/// Sets the view in the programs.
 void Renderer::aim(const Target& target, const Look& look) const
 {
     const Eye& eye = look.eye;
     const Matrix toClip = clipMatrix(eye, look.crop);
-    // Without a section nothing is cut off; Mesa's software drivers ask the shader's distances even when told not to.
+    // If there is no section nothing is cut off; Mesa's software drivers use the shader's distances even when told not
+    // to.
     const Vec3d sectionNormal = look.section ? look.section->normal : Vec3d(0);
     const double sectionShift = look.section ? sectionNormal.dot(eye.origin) - look.section->offset : 1;
     for (const gl::ProgramObject* program : {&surface_, &tint_, &line_}) {
@@ -133,7 +134,7 @@ void Renderer::drawSeeThrough(const Target& target, const Layer& layer) const
     drawEdges(target, *layer.shape, *layer.edges, layer.edges->opacity, GL_LEQUAL);
 }
 
-/// `setBack`: by how many pixels' worth of their slope the faces step back behind lines that lie in them.
+/// `setBack`: the pixels' worth of their slope by which the faces step back behind their lines.
 void Renderer::drawFaces(const gl::ProgramObject& program, const Layer& layer, float opacity, GLenum depthTest,
                          int setBack) const
 {
@@ -166,7 +167,7 @@ void Renderer::drawEdges(const Target& target, const Shape& shape, const Edges& 
     api_.DepthMask(GL_TRUE);
 }
 
-/// Whatever `draw` draws covers each sample once, so that lines do not darken where they meet.
+/// Makes `draw` cover each sample at most once, so that lines do not darken where they meet.
 template <typename Draw>
 void Renderer::once(const Target& target, const Draw& draw) const
 {
@@ -185,13 +186,13 @@ void Renderer::copyDepth(const Target& target, GLuint from, GLuint to) const
                               GL_DEPTH_BUFFER_BIT, GL_NEAREST);
 }
 
-/// Where depths of the target can be kept; it may be larger.
+/// Returns a framebuffer for depths of the target; it may be larger.
 const gl::Framebuffer& Renderer::depthStore(const Target& target)
 {
     const int width = target.left + target.width;
     const int height = target.bottom + target.height;
     if (width > storeWidth_ || height > storeHeight_ || target.samples != storeSamples_) {
-        storeSamples_ = 0; // none, if this throws
+        storeSamples_ = 0; // no samples, in case this throws
         store_ = gl::Framebuffer();
         storedDepth_ = gl::makeTexture2D(api_, GL_DEPTH24_STENCIL8, width, height, target.samples);
         store_ = gl::makeFramebuffer(api_, gl::Texture(), storedDepth_);

@@ -10,33 +10,33 @@
 
 namespace vdbcage::draw {
 
-/// How a layer's edges are drawn: each as a line of constant width.
+/// The look of a layer's edges: lines of constant width.
 struct Edges {
     Colour colour{};
     float opacity = 1;             ///< in [0, 1]
-    float hiddenOpacity = 0.16F;   ///< of what solid layers or the layer's own faces hide, in [0, 1]
+    float hiddenOpacity = 0.16F;   ///< of parts behind solid layers or the layer's own faces, in [0, 1]
     double relativeWidth = 1;      ///< > 0; 1: Target::lineWidth
     double relativeFadeLength = 0; ///< edges shorter than this many line widths fade out; 0: none do
 };
 
-/// One shape and how it is drawn.
+/// A shape and its look.
 struct Layer {
     const Shape* shape = nullptr; ///< not owned
     bool visible = true;
-    bool shaded = true; ///< faces under lamps; else of their plain colour, without colours of points
+    bool shaded = true; ///< faces are lit; else of their plain colour, without colours of points
     Colour colour{0.88F, 0.855F, 0.815F};
-    std::optional<Colour> quadColour; ///< of faces that are quads; none: `colour`
-    /// Of faces, in [0, 1]. 1 makes a solid layer, which hides what is behind it. Of other layers only the nearest
-    /// faces are seen; they hide no other layer and are drawn over solid ones, in the layers' order. At 0 faces are not
-    /// seen but hide the layer's own edges.
+    std::optional<Colour> quadColour; ///< of quads; none: `colour`
+    /// Opacity of faces, in [0, 1]. 1 makes a solid layer, which hides everything behind it. Other layers show only
+    /// their nearest faces; they hide no other layer and are drawn over solid ones, in the layers' order. At 0 faces
+    /// are invisible but hide the layer's own edges.
     float opacity = 1;
     std::optional<Edges> edges; ///< none: no edges
-    /// Of faces with these flags, and the least opacity that they have in layers that are not solid.
+    /// The colours of faces with these flags, and the least opacity that they have in layers that are not solid.
     Colour markedColour{0.86F, 0.16F, 0.12F}, selectedColour{1.0F, 0.62F, 0.12F};
     float flagOpacity = 0.6F;
 };
 
-/// Cuts off all layers where normal . p < offset, in drawing coordinates; one sees inside.
+/// A plane that cuts off all layers where normal . p < offset, in drawing coordinates, which opens their inside.
 struct Section {
     openvdb::Vec3d normal{1, 0, 0}; ///< not zero
     double offset = 0;
@@ -46,32 +46,32 @@ struct Section {
 struct Target {
     GLuint framebuffer = 0; ///< OpenGL's name
     int left = 0, bottom = 0, width = 0, height = 0;
-    int samples = 1;        ///< of the framebuffer, a pixel
+    int samples = 1;        ///< per pixel of the framebuffer
     double lineWidth = 1.1; ///< pixels of the picture
-    int pixelScale = 1;     ///< pixels of the framebuffer that one of the picture has, each way
+    int pixelScale = 1;     ///< pixels of the framebuffer per pixel of the picture, each way
 };
 
-/// What is seen where.
+/// The eye, the part of the panel, the background and the section of a picture.
 struct Look {
     Eye eye;
-    /// The part of the panel that fills the target. Shifted by parts of a pixel, frames can be averaged.
+    /// The part of the panel that fills the target. Frames shifted by parts of a pixel can be averaged.
     Crop crop = {};
     Colour background{1, 1, 1};
-    float backgroundOpacity = 1; ///< in [0, 1]; colours in the framebuffer are times their alpha
+    float backgroundOpacity = 1; ///< in [0, 1]; colours in the framebuffer are multiplied by their alpha
     std::optional<Section> section = std::nullopt;
 };
 
-/// Draws layers by OpenGL 4.5. Its context must be current whenever it is used, and must outlive it.
+/// A renderer of layers by OpenGL 4.5. Its context must be current in each call, and must outlive it.
 class Renderer {
 public:
     /// Compiles the shaders. \throw DeviceError
     explicit Renderer(const gl::Api& api);
 
-    /// Clears the target and draws the visible layers. Solid layers first, in any order; then the others in the given
-    /// order. It takes no state of the context for granted; after it, blending and all tests are off, and bound are its
-    /// own framebuffer, program and arrays. The same call gives the same bytes on one machine.
-    /// \throw DeviceError if memory for depths is needed (two layers that are not solid) and cannot be had. Other
-    /// failures are for the caller to ask for (gl::throwIfFailed), which waits for the device.
+    /// Clears the target and draws the visible layers: solid ones first, in any order; then the others in the given
+    /// order. It assumes no state of the context; after it, blending and all tests are off, and bound are its own
+    /// framebuffer, program and arrays. The same call makes the same bytes on one machine.
+    /// \throw DeviceError if memory for depths is needed (two layers that are not solid) and is not available. The
+    /// caller must ask for other failures (gl::throwIfFailed), which waits for the device.
     void draw(const Target& target, const Look& look, const std::vector<Layer>& layers);
 
 private:

@@ -26,7 +26,7 @@ void replace(const gl::Api& api, const gl::Buffer& buffer, const std::vector<Val
     api.NamedBufferSubData(buffer.name(), 0, static_cast<GLsizeiptr>(values.size() * sizeof(Value)), values.data());
 }
 
-/// Attribute `attribute` of `layout` takes three floats from binding `binding`, `offset` bytes into each element.
+/// Makes attribute `attribute` of `layout` take three floats from binding `binding`, `offset` bytes into each element.
 void describe(const gl::Api& api, const gl::VertexArray& layout, GLuint attribute, GLuint binding, GLuint offset)
 {
     api.VertexArrayAttribFormat(layout.name(), attribute, 3, GL_FLOAT, GL_FALSE, offset);
@@ -80,7 +80,7 @@ void Shape::setPointColours(const std::vector<Colour>& colours)
     if (single) own.push_back({1, 1, 1});
     colours_ = gl::makeBuffer(*api_, own);
     api_->VertexArrayVertexBuffer(faces_.name(), 2, colours_.name(), 0, vectorSize);
-    // A divisor makes all vertices of the one instance take the first.
+    // With a divisor all vertices of the single instance take the first colour.
     api_->VertexArrayBindingDivisor(faces_.name(), 2, single ? 1 : 0);
 }
 

@@ -10,17 +10,17 @@
 
 namespace vdbcage::draw {
 
-/// What one face looks like, beside what its layer says.
+/// The look of one face, beside that of its layer.
 struct FaceLook {
-    /// They can be added up; selected is seen before marked.
+    /// Flags can be combined; selected is drawn over marked.
     enum Flag : std::uint8_t { plain = 0, marked = 1, selected = 2 };
 
-    std::array<std::uint8_t, 3> colour{255, 255, 255}; ///< sRGB, by which the layer's colour is multiplied
+    std::array<std::uint8_t, 3> colour{255, 255, 255}; ///< sRGB, a factor of the layer's colour
     std::uint8_t flags = plain;
 };
 
 /// A Geometry in a device's memory, made once. Points, colours and looks are replaced without remaking it; a shape
-/// whose points were replaced gives the bytes of a new one that has the same sharp edges. Its context must be current
+/// whose points were replaced makes the bytes of a new one that has the same sharp edges. Its context must be current
 /// whenever it is made, changed, drawn and destroyed, and must outlive it.
 class Shape {
 public:
@@ -29,22 +29,23 @@ public:
 
     const Geometry& geometry() const { return geometry_; }
 
-    /// Geometry::setPoints, and its upload: 24 bytes a vertex and 24 an edge. \throw InputError
+    /// Calls Geometry::setPoints and uploads the result: 24 bytes per vertex and 24 per edge. \throw InputError
     void setPoints(const std::vector<openvdb::Vec3d>& points);
 
-    /// A colour for each point of the mesh, by which the layer's colour is multiplied; empty: none.
-    /// \throw InputError if there are neither none nor one for each; DeviceError
+    /// Sets a colour for each point of the mesh, a factor of the layer's colour; empty: none.
+    /// \throw InputError if there is neither none nor one for each; DeviceError
     void setPointColours(const std::vector<Colour>& colours);
 
-    /// A look for each face of the mesh, triangles first; empty: all look as the layer says. Uploads 4 bytes a face.
-    /// \throw InputError if there are neither none nor one for each; DeviceError
+    /// Sets a look for each face of the mesh, triangles first; empty: all have their layer's look. Uploads 4 bytes per
+    /// face.
+    /// \throw InputError if there is neither none nor one for each; DeviceError
     void setFaceLooks(const std::vector<FaceLook>& looks);
 
     /// Draws with the program in use: attributes 0 to 2 are position, normal and colour of points.
     void drawFaces() const;
-    /// Four corners of a strip for each edge; attributes 0 and 1 are its ends.
+    /// Draws four corners of a strip for each edge; attributes 0 and 1 are its ends.
     void drawEdges() const;
-    /// The looks as a buffer texture of GL_RGBA8UI; of name 0 if there are none.
+    /// Returns the looks as a buffer texture of GL_RGBA8UI; of name 0 if there are none.
     const gl::Texture& looks() const { return looksTexture_; }
 
 private:
@@ -53,7 +54,7 @@ private:
     const gl::Api* api_;
     Geometry geometry_;
     gl::Buffer positions_, normals_, indices_, segments_;
-    gl::Buffer colours_; ///< one a vertex, or a single white
+    gl::Buffer colours_; ///< one per vertex, or a single white
     gl::Buffer looks_;
     gl::Texture looksTexture_;
     gl::VertexArray faces_, edges_;

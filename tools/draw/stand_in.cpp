@@ -32,7 +32,7 @@ struct Cluster {
     double count = 0;
 };
 
-/// The mesh with the points of each cell of a grid made one. Cells are `size` wide, counted from `origin`.
+/// Returns the mesh with the points of each cell of a grid merged. Cells are `size` wide, from `origin` on.
 StandIn clustered(const Mesh& mesh, const std::vector<Vec3I>& triangles, const Vec3d& origin, double scale, double size)
 {
     std::unordered_map<std::uint64_t, openvdb::Index32> cells;
@@ -92,14 +92,14 @@ StandIn standIn(const Mesh& mesh, std::size_t mostTriangles)
     const openvdb::BBoxd box = boundingBox(mesh);
     const Vec3d extents = box.extents();
     const double longest = std::max({extents.x(), extents.y(), extents.z()});
-    // In a box of size 1, where nothing overflows.
+    // In a box of size 1 nothing overflows.
     const double scale = longest > 0 && std::isfinite(1 / longest) ? 1 / longest : 1;
-    // A closed surface has two triangles a cell that it runs through.
+    // A closed surface has two triangles in each cell that it runs through.
     double size = std::sqrt(2 * areaOf(mesh, triangles, scale) / static_cast<double>(mostTriangles));
     size = std::clamp(size, 1e-6, 1.0);
     for (;; size *= 1.3) {
         StandIn result = clustered(mesh, triangles, box.min(), scale, size);
-        // Without a triangle there is nothing to see, which is worse than too many.
+        // A stand-in with no triangle would be invisible, which is worse than too many triangles.
         if (result.mesh.triangles.empty()) return itself();
         if (result.mesh.triangles.size() <= mostTriangles) return result;
     }

@@ -7,15 +7,15 @@
 
 namespace vdbcage::draw {
 
-/// A coarse picture of a mesh, and which of the mesh's points each of its points goes with.
+/// A coarse copy of a mesh, with a point of the mesh for each of its points.
 struct StandIn {
     Mesh mesh;
-    std::vector<openvdb::Index32> points; ///< for each point of `mesh` the nearest of those that it stands for
+    std::vector<openvdb::Index32> points; ///< for each point of `mesh` the nearest of the points that it replaces
 };
 
-/// A stand-in of at most `mostTriangles` triangles, to be drawn while something moves. Any soup will do, and nothing is
-/// promised of the result but that it looks alike. A mesh that is small enough stands for itself.
-/// Cost: some passes over the mesh, 0.1 us a face each. \pre requireUsable(mesh), mostTriangles >= 100
+/// Returns a stand-in of at most `mostTriangles` triangles, for drawing while something moves. It takes any soup, and
+/// guarantees only that the result looks similar. The stand-in of a mesh that is small enough is the mesh.
+/// Cost: some passes over the mesh, 0.1 us per face each. \pre requireUsable(mesh), mostTriangles >= 100
 StandIn standIn(const Mesh& mesh, std::size_t mostTriangles);
 
 } // namespace vdbcage::draw

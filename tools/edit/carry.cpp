@@ -15,7 +15,7 @@ namespace {
 
 using openvdb::Vec3d;
 
-/// The points that faces use, to be found by their places.
+/// The points that faces use, sorted by their places.
 class PlacedPoints {
 public:
     explicit PlacedPoints(const Mesh& mesh) : points_(mesh.points)
@@ -33,7 +33,7 @@ public:
 
     const std::vector<Index>& all() const { return sorted_; }
 
-    /// The first one at that place; `none` if there is none.
+    /// Returns the first one at that place; `none` if there is none.
     Index at(const Vec3d& place) const
     {
         const auto found = std::lower_bound(sorted_.begin(), sorted_.end(), place,
@@ -54,13 +54,13 @@ std::vector<std::vector<Vec3d>> carriedPoses(const Mesh& rest, const std::vector
                                              const Mesh& other, Interrupter* interrupter)
 {
     constexpr Coordinates family = Coordinates::meanValue;
-    // So many rows at a time: of two cages of 10,000 faces all of them would be 200 MB.
+    // Rows at a time: for two cages of 10,000 faces all rows would be 200 MB.
     constexpr std::size_t block = 512;
     const PlacedPoints places(rest);
     std::vector<std::vector<Vec3d>> results(poses.size(), other.points);
-    // Of this family handles are the points, and those that no face uses have the weight 0.
+    // The handles of this family are the points; those that no face uses have the weight 0.
     const std::vector<Vec3d> handles = cageHandles(rest, rest.points, family);
-    std::vector<std::pair<std::size_t, std::vector<Vec3d>>> moved; // poses, and by how much
+    std::vector<std::pair<std::size_t, std::vector<Vec3d>>> moved; // poses and their displacements
     for (std::size_t k = 0; k < poses.size(); ++k) {
         std::vector<Vec3d> shifts = cageHandles(rest, poses[k], family);
         const bool isAtRest = std::all_of(places.all().begin(), places.all().end(),

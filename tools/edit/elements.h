@@ -17,10 +17,10 @@ using Index = openvdb::Index32;
 /// Stands for "no such element".
 constexpr Index none = std::numeric_limits<Index>::max();
 
-/// What a mesh is made of.
+/// The kinds of a mesh's elements.
 enum class Element : std::uint8_t { point, edge, face };
 
-/// What they are called, in the order of Element.
+/// Their names, in the order of Element.
 inline constexpr std::array<const char*, 3> elementNames{"points", "edges", "faces"};
 inline const char* elementsName(Element kind)
 {
@@ -36,7 +36,7 @@ struct Selection {
     friend bool operator!=(const Selection& a, const Selection& b) { return !(a == b); }
 };
 
-/// Element numbers that follow each other in memory. A view: what gave it must outlive it.
+/// Element numbers that follow each other in memory. A view: its source must outlive it.
 class Ids {
 public:
     Ids(const Index* first, const Index* last) : first_(first), last_(last) {}
@@ -50,45 +50,46 @@ private:
     const Index *first_, *last_;
 };
 
-/// The points, edges and faces of a mesh and how they hang together, by indices alone.
+/// The points, edges and faces of a mesh and their connections, by indices alone.
 ///
 /// Points have the mesh's indices. Faces are numbered triangles first, then quads. An edge is a pair of different
 /// points that follow each other around a face; edges are numbered in the order of their points, the smaller one first.
-/// Any soup will do. Immutable: any number of threads may ask.
+/// It takes any soup. Immutable: any number of threads may use it.
 class Elements {
 public:
     /// \pre the indices of faces are in range
     /// Cost: O(n log d) for n faces, where d is the most at one point.
     explicit Elements(const Mesh& mesh);
 
-    /// Of points: all that the mesh has, also those that no face uses.
+    /// Returns the number of elements; of points all, even if no face uses them.
     std::size_t count(Element kind) const;
 
-    /// The points of each edge, the smaller index first.
+    /// Returns the points of each edge, the smaller index first.
     const std::vector<std::pair<Index, Index>>& edges() const { return edges_; }
-    /// The edge between two points, in either order; `none` if there is none.
+    /// Returns the edge between two points, in either order; `none` if there is none.
     Index edgeBetween(Index a, Index b) const;
 
-    /// Three or four, counter-clockwise seen from outside.
+    /// Returns three or four points, counter-clockwise seen from outside.
     Ids pointsOfFace(Index face) const { return pointsOfFaces_[face]; }
-    /// As many: edge i joins point i and the next one. It is `none` where these are the same point.
+    /// Returns as many edges: edge i joins point i and the next one. It is `none` if these are the same point.
     Ids edgesOfFace(Index face) const { return edgesOfFaces_[face]; }
-    /// Ascending; a face that uses the edge twice is there once. So are the following.
+    /// Return ascending numbers, each once, even if a face uses the edge twice.
     Ids facesOfEdge(Index edge) const { return facesOfEdges_[edge]; }
     Ids edgesOfPoint(Index point) const { return edgesOfPoints_[point]; }
     Ids facesOfPoint(Index point) const { return facesOfPoints_[point]; }
 
-    /// Whether a face uses the point.
+    /// Returns whether a face uses the point.
     bool isUsed(Index point) const { return facesOfPoint(point).size() > 0; }
 
 private:
-    /// For each of some elements a list of others.
+    /// A list of elements for each of some others.
     class Lists {
     public:
         Lists() = default;
         /// Adds the list of the next element.
         void add(const std::vector<Index>& ids);
-        /// For each of `count` elements the numbers of the lists of `of` that name it, each once; `none` is skipped.
+        /// Returns for each of `count` elements the numbers of the lists of `of` that name it, each once; `none` is
+        /// skipped.
         static Lists inverse(const Lists& of, std::size_t count);
 
         Ids operator[](std::size_t i) const { return {ids_.data() + first_[i], ids_.data() + first_[i + 1]}; }

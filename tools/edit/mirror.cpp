@@ -25,11 +25,11 @@ void requirePlane(int axis, double place)
     }
 }
 
-/// Two coordinates that are each other's mirror images: `x`, rounded if need be, and the other one.
+/// Returns two coordinates that are each other's mirror images: `x`, rounded if need be, and the other one.
 std::pair<double, double> mutualImages(double x, double place)
 {
     double image = mirroredCoordinate(x, place);
-    // Rounded once, the distance to the plane has so few bits that the next image is exact, but in rare ties.
+    // After one rounding the distance to the plane has so few bits that the next image is exact, except in rare ties.
     for (int i = 0; i < 4 && mirroredCoordinate(image, place) != x; ++i) {
         x = mirroredCoordinate(image, place);
         image = mirroredCoordinate(x, place);
@@ -78,7 +78,7 @@ std::vector<Index> mirrorPartners(const std::vector<Vec3d>& points, int axis, do
             found[(image++)->point] = (at++)->point;
         }
     }
-    // What rounding makes one-sided is no pair.
+    // A partner that rounding makes one-sided is dropped.
     std::vector<Index> partners(points.size(), none);
     for (Index i = 0; i < points.size(); ++i) {
         if (found[i] != none && found[found[i]] == i) partners[i] = found[i];

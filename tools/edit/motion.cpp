@@ -17,14 +17,14 @@ struct Turn {
     double sine, cosine;
 };
 
-/// Of the remainder to the nearest multiple of 90 degrees, which is exact.
+/// Returns sine and cosine by the remainder to the nearest multiple of 90 degrees, which is exact.
 Turn turnBy(double degrees)
 {
     constexpr double radiansPerDegree = M_PI / 180;
     int quarters = 0;
     const double rest = std::remquo(degrees, 90.0, &quarters) * radiansPerDegree;
     const double sine = std::sin(rest), cosine = std::cos(rest);
-    switch (quarters & 3) { // the last bits are right for negative ones too
+    switch (quarters & 3) { // the last bits are right for negative numbers too
     case 0:
         return {sine, cosine};
     case 1:
@@ -80,7 +80,7 @@ void requireValid(const Scale& scale)
     }
 }
 
-/// By how much a point is moved.
+/// Return the displacement of a point.
 Vec3d shiftOf(const Vec3d&, double weight, const Move& move)
 {
     return weight * move.by;
@@ -88,7 +88,7 @@ Vec3d shiftOf(const Vec3d&, double weight, const Move& move)
 
 Vec3d shiftOf(const Vec3d& point, double weight, const Rotate& rotate)
 {
-    // Rodrigues' formula, less the point: no turn shifts by exactly nothing.
+    // Rodrigues' formula, less the point: no turn makes a shift of exactly 0.
     const Turn turn = turnBy(weight * rotate.degrees);
     const Vec3d across = rotate.axis.cross(point - rotate.pivot);
     return turn.sine * across + (1 - turn.cosine) * rotate.axis.cross(across);

@@ -19,13 +19,13 @@ using detail::TriangleBvh;
 using openvdb::Vec2d;
 using openvdb::Vec3d;
 
-/// What is so little in front of a place does not hide it: models are drawn, and hide, in single precision.
+/// A face that is so little in front of a place does not hide it: models are drawn, and hide, in single precision.
 constexpr double slack = 1e-6;
 
-/// A triangle is met so far outside too, as a part of its size: nothing is seen between two.
+/// The fraction of its size by which a triangle is met outside, too: nothing is visible between two.
 constexpr double seam = 1e-9;
 
-/// Where the segment meets the triangle, from 0 at `from` to 1 at `to`; none if nowhere.
+/// Returns the place where the segment meets the triangle, from 0 at `from` to 1 at `to`; none if they do not meet.
 std::optional<double> meet(const Vec3d& from, const Vec3d& to, const Corners& triangle)
 {
     const Vec3d direction = to - from, ab = triangle[1] - triangle[0], ac = triangle[2] - triangle[0];
@@ -42,14 +42,14 @@ std::optional<double> meet(const Vec3d& from, const Vec3d& to, const Corners& tr
     return t >= 0 && t <= 1 ? std::optional(t) : std::nullopt;
 }
 
-/// Calls `visit(triangle's number, where, 0 to 1)` for each triangle that the segment meets, until it answers false;
+/// Calls `visit(triangle's number, place, 0 to 1)` for each triangle that the segment meets, until it returns false;
 /// returns false if it did.
 template <typename Visit>
 bool forEachMeeting(const TriangleBvh& tree, const Vec3d& from, const Vec3d& to, const Visit& visit)
 {
     constexpr double thickness = 1e-4; // of its length
-    // A tetrahedron around the segment, which joins the middles of two of its edges: slabs cut off what boxes would
-    // not.
+    // A tetrahedron around the segment, which joins the middles of two of its edges: its slabs exclude more than boxes
+    // would.
     const Vec3d along = to - from;
     const int least = std::abs(along.x()) < std::abs(along.y()) ? (std::abs(along.x()) < std::abs(along.z()) ? 0 : 2)
                                                                 : (std::abs(along.y()) < std::abs(along.z()) ? 1 : 2);
@@ -64,7 +64,7 @@ bool forEachMeeting(const TriangleBvh& tree, const Vec3d& from, const Vec3d& to,
     });
 }
 
-/// The part of 0 to 1 where what goes from `atStart` to `atEnd` is not negative.
+/// Clips [first, last] to the part of [0, 1] where the value is not negative; it goes evenly from `atStart` to `atEnd`.
 void clip(double atStart, double atEnd, double& first, double& last)
 {
     if (atStart < 0 && atEnd < 0) {
@@ -93,7 +93,7 @@ Vec3d toDouble(const draw::Vec3f& v)
     return {double{v[0]}, double{v[1]}, double{v[2]}};
 }
 
-/// What has no area hides nothing, and rounding would have it met anywhere.
+/// Returns whether it has an area: without one it hides nothing, and rounding would have it met anywhere.
 bool hasArea(const std::vector<Vec3d>& points, const openvdb::Vec3I& triangle)
 {
     return !detail::isDegenerate(points[triangle[0]], points[triangle[1]], points[triangle[2]]);
@@ -154,7 +154,7 @@ std::optional<Picking::Spot> Picking::spotAt(const Vec3d& point) const
     return Spot{point, {0.5 * (1 + place.x()) * view_.width, 0.5 * (1 - place.y()) * view_.height}, place.z()};
 }
 
-/// What of the edge looks nearest to the pixel.
+/// Returns the point of the edge that looks nearest to the pixel.
 std::optional<Picking::Spot> Picking::spotOnEdge(Index edge, const Vec2d& pixel) const
 {
     const Vec3d a = points_[elements_.edges()[edge].first], along = points_[elements_.edges()[edge].second] - a;
@@ -166,7 +166,7 @@ std::optional<Picking::Spot> Picking::spotOnEdge(Index edge, const Vec2d& pixel)
         clip(section.normal.dot(a) - section.offset, section.normal.dot(a + along) - section.offset, first, last);
     }
     if (!(first <= last)) return std::nullopt;
-    const auto spot = [&](double t) { // its ends are there but for rounding, which does not matter
+    const auto spot = [&](double t) { // its ends are visible up to rounding, which does not matter
         const Vec3d point = a + t * along, place = draw::project(view_.eye, point);
         return Spot{point, {0.5 * (1 + place.x()) * view_.width, 0.5 * (1 - place.y()) * view_.height}, place.z()};
     };
@@ -194,7 +194,7 @@ std::optional<Picking::Spot> Picking::middleOf(Element kind, Index id) const
     return spotAt(sum / static_cast<double>(corners.size()));
 }
 
-/// The faces that an element is part of, which do not hide it.
+/// Returns the faces that an element belongs to, which do not hide it.
 Ids Picking::facesAt(Element kind, const Index& id) const
 {
     switch (kind) {
@@ -208,7 +208,7 @@ Ids Picking::facesAt(Element kind, const Index& id) const
     return {&id, &id + 1};
 }
 
-/// Where the line of sight to the place begins.
+/// Returns the beginning of the line of sight to the place.
 Vec3d Picking::startTowards(const Spot& spot) const
 {
     const draw::Eye& eye = view_.eye;
@@ -216,7 +216,8 @@ Vec3d Picking::startTowards(const Spot& spot) const
     return eye.position + eye.nearest / spot.depth * (spot.point - eye.position);
 }
 
-/// Whether a triangle of the tree is in front of `to`, seen from `from`. It does not count where `isOwn(triangle)`.
+/// Returns whether a triangle of the tree is in front of `to`, seen from `from`. Triangles for which `isOwn` is true do
+/// not count.
 template <typename IsOwn>
 bool Picking::isBehind(const TriangleBvh& tree, const Vec3d& from, const Vec3d& to, const IsOwn& isOwn) const
 {

@@ -12,10 +12,10 @@
 
 namespace vdbcage::edit {
 
-/// What hides parts of a cage: a model that is shown solid. Made once for each model and pose of it.
+/// A model that is drawn solid and hides parts of a cage. Make it once for each model and pose.
 class Occluder {
 public:
-    /// Cost: O(n log n), in parallel: some 0.3 us a triangle.
+    /// Cost: O(n log n), in parallel: some 0.3 us per triangle.
     explicit Occluder(const draw::Geometry& geometry);
 
 private:
@@ -23,46 +23,46 @@ private:
     detail::TriangleBvh tree_;
 };
 
-/// How a cage is seen.
+/// The view of a cage.
 struct PickView {
     draw::Eye eye;
     double width = 1, height = 1;         ///< of the panel, in pixels; > 0
-    std::optional<draw::Section> section; ///< what it cuts off is not there: neither picked nor hiding anything
+    std::optional<draw::Section> section; ///< parts that it cuts off are neither picked nor hide anything
     bool seeThrough = false;              ///< nothing hides anything
 };
 
-/// Finds the parts of a cage at places of a panel, which is how users point at them.
+/// A search for the elements of a cage at places of a panel, which is how users point at them.
 ///
-/// Places are in pixels, x to the right and y down from the panel's upper left corner. What is nearer than Eye::nearest
-/// is not drawn, so it is not there. What is less than 1e-6 (drawing coordinates) behind something is not hidden by it.
-/// Ties go to the smaller index.
+/// Places are in pixels, x to the right and y down from the panel's upper left corner. Points nearer than Eye::nearest
+/// are not drawn, so they are not found. A point less than 1e-6 (drawing coordinates) behind a face is not hidden by
+/// it. Ties go to the smaller index.
 class Picking {
 public:
-    /// `points` are the cage's, in drawing coordinates. `occluder` may be null; else it must outlive this, as must
-    /// `elements`.
+    /// `points` are the cage's, in drawing coordinates. `occluder` may be null; else it must outlive this object, as
+    /// must `elements`.
     /// \throw InputError not one point for each of `elements`, or one that faces use is not finite
     /// Cost: O(n log n).
     Picking(const Elements& elements, std::vector<openvdb::Vec3d> points, const PickView& view,
             const Occluder* occluder = nullptr);
 
-    /// The element that a user means by a click.
+    /// Returns the element that a user means by a click.
     ///
-    /// Points and edges: of those that are not hidden and at most `radius` pixels away the nearest, of equal ones the
-    /// one in front. Of an edge its point that looks nearest to the click counts: that one must not be hidden. Other
-    /// faces than the element's own may hide it. Faces: the first that is seen there, from either side; `radius` does
-    /// not matter, and only the occluder can hide it.
-    /// Cost: O(n), and O(log n) for each of the nearest until one is not hidden.
+    /// Points and edges: the nearest of those that are visible and at most `radius` pixels away; of equal ones the one
+    /// in front. An edge counts by its point that looks nearest to the click: that one must be visible. Faces other
+    /// than the element's own may hide it. Faces: the first that is drawn there, from either side; `radius` does not
+    /// matter, and only the occluder can hide it.
+    /// Cost: O(n), and O(log n) for each of the nearest until one is visible.
     std::optional<Index> at(Element kind, double x, double y, double radius) const;
 
-    /// What lies within a polygon, which may cross itself (even-odd rule), such as a box or a lasso; ascending.
+    /// Returns the elements in a polygon, which may cross itself (even-odd rule), such as a box or a lasso; ascending.
     ///
-    /// Points: they are inside and not hidden. Edges: both ends are inside, and the middle is not hidden. Faces: the
-    /// mean of the corners is inside and not hidden.
+    /// Points: they are inside and visible. Edges: both ends are inside, and the middle is visible. Faces: the mean of
+    /// the corners is inside and visible.
     /// Cost: O(n m) for m corners, and O(log n) for each element inside.
     std::vector<Index> within(Element kind, const std::vector<openvdb::Vec2d>& polygon) const;
 
 private:
-    /// A place of the cage that is there to be seen.
+    /// A point on the cage that is neither cut off nor too near.
     struct Spot {
         openvdb::Vec3d point;
         openvdb::Vec2d pixel;

@@ -11,7 +11,7 @@ namespace vdbcage::edit {
 
 namespace {
 
-/// Which elements of a kind are selected, by their numbers.
+/// Whether each element of a kind is selected, by its number.
 using Marks = std::vector<char>;
 
 Marks marksOf(const Elements& elements, const Selection& selection)
@@ -44,7 +44,7 @@ void forEachPoint(const Elements& elements, Element kind, Index id, const Visit&
     }
 }
 
-/// The elements of a kind whose points all are marked; of points those marked.
+/// Returns the elements of a kind of which all points are marked.
 Selection within(const Elements& elements, Element kind, const Marks& points)
 {
     Selection result{kind, {}};
@@ -72,14 +72,14 @@ void requireOneKind(const Selection& a, const Selection& b)
                      " do not go together; both must be of one kind");
 }
 
-/// The corner of the face that `point` is.
+/// Returns the corner of the face at `point`.
 std::size_t cornerOf(const Elements& elements, Index face, Index point)
 {
     const Ids points = elements.pointsOfFace(face);
     return static_cast<std::size_t>(std::find(points.begin(), points.end(), point) - points.begin());
 }
 
-/// The face beyond an edge; `none` unless the edge has two faces.
+/// Returns the face beyond an edge; `none` unless the edge has two faces.
 Index faceAcross(const Elements& elements, Index edge, Index face)
 {
     const Ids faces = elements.facesOfEdge(edge);
@@ -87,8 +87,8 @@ Index faceAcross(const Elements& elements, Index edge, Index face)
     return faces[0] == face ? faces[1] : faces[0];
 }
 
-/// The edges around a point, each with its neighbours beside it, `edge` first; empty unless they form one closed
-/// umbrella.
+/// Returns the edges around a point, each with its neighbours beside it, `edge` first; empty unless they form one
+/// closed umbrella.
 std::vector<Index> umbrella(const Elements& elements, Index point, Index edge)
 {
     const std::size_t valence = elements.edgesOfPoint(point).size();
@@ -109,7 +109,7 @@ std::vector<Index> umbrella(const Elements& elements, Index point, Index edge)
     return edges.size() == valence ? edges : std::vector<Index>(); // fewer: there are several umbrellas
 }
 
-/// The edge that goes on from `edge` beyond `point`; `none` where the loop ends.
+/// Returns the edge that goes on from `edge` beyond `point`; `none` if the loop ends there.
 Index opposite(const Elements& elements, Index point, Index edge)
 {
     const std::size_t valence = elements.edgesOfPoint(point).size();
@@ -123,8 +123,8 @@ Index opposite(const Elements& elements, Index point, Index edge)
     return around.empty() ? none : around[valence / 2];
 }
 
-/// Marks the edges of the loop through `edge`. A step can be taken back, so a walk that does not end comes back to
-/// where it began.
+/// Marks the edges of the loop through `edge`. A step can be taken back, so a walk without end comes back to its
+/// beginning.
 void markEdgeLoop(const Elements& elements, Index edge, Marks& edges)
 {
     const auto& ends = elements.edges();

@@ -2,29 +2,31 @@
 
 #include <tools/edit/elements.h>
 
-/// Selections from selections. In all of it the numbers of elements must be below their count. Points that no face uses
-/// are nowhere to be seen, so nothing here adds them.
+/// Operations on selections. The numbers of elements must be below their count. Points that no face uses are invisible,
+/// so no operation adds them.
 namespace vdbcage::edit {
 
-/// The points of what is selected, ascending.
+/// Returns the points of the selected elements, ascending.
 std::vector<Index> pointsOf(const Elements& elements, const Selection& selection);
 
-/// The same in elements of another kind. Of edges and faces: those whose points are all points of what is selected. Of
-/// its own kind it is unchanged.
+/// Returns the selection in elements of another kind: edges and faces of which all points belong to selected elements.
+/// A selection of the same kind is unchanged.
 Selection converted(const Elements& elements, const Selection& selection, Element kind);
 
 Selection all(const Elements& elements, Element kind);
-/// All but what is selected.
+/// Returns all elements that are not selected.
 Selection inverted(const Elements& elements, const Selection& selection);
-/// The whole connected components of what is selected. Faces with a common point are connected.
+/// Returns the whole connected components of the selected elements. Faces with a common point are connected.
 Selection linked(const Elements& elements, const Selection& selection);
 
-/// With all neighbours. Neighbours are points that an edge joins, edges with a common point, faces with a common point.
+/// Returns the selection with all neighbours. Neighbours are points that an edge joins, edges with a common point,
+/// faces with a common point.
 Selection grown(const Elements& elements, const Selection& selection);
-/// Without what has a neighbour that is not selected. It is grown() of what is not selected.
+/// Returns the selection except elements with a neighbour that is not selected. The rest is grown() of the elements
+/// that are not selected.
 Selection shrunk(const Elements& elements, const Selection& selection);
 
-/// With the loops through what is selected.
+/// Returns the selection with the loops through it.
 ///
 /// Edges: each selected edge is followed both ways. Beyond a point it goes on to the opposite edge, with as many edges
 /// on its left as on its right. There is one at points of four edges, and at those of 6, 8, ... edges whose faces are
@@ -39,9 +41,9 @@ Selection shrunk(const Elements& elements, const Selection& selection);
 /// strip.
 Selection loop(const Elements& elements, const Selection& selection);
 
-/// What is in either. \throw InputError of two kinds
+/// Returns the elements in either. \throw InputError of two kinds
 Selection added(const Selection& selection, const Selection& more);
-/// What is in the first and not in the second. \throw InputError of two kinds
+/// Returns the elements in the first and not in the second. \throw InputError of two kinds
 Selection removed(const Selection& selection, const Selection& less);
 
 } // namespace vdbcage::edit

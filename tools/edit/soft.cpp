@@ -16,7 +16,7 @@ namespace {
 
 using openvdb::Vec3d;
 
-/// The distance along the surface to the nearest selected point; infinity where it is `farthest` or more.
+/// Returns the distance along the surface to the nearest selected point; infinity if it is at least `farthest`.
 std::vector<double> surfaceDistances(const Elements& elements, const std::vector<Vec3d>& points,
                                      const std::vector<Index>& selected, double farthest)
 {
@@ -32,7 +32,7 @@ std::vector<double> surfaceDistances(const Elements& elements, const std::vector
     while (!front.empty()) {
         const auto [distance, point] = front.top();
         front.pop();
-        if (distance > distances[point]) continue; // it was reached again, by a shorter way
+        if (distance > distances[point]) continue; // a shorter way reached it later
         for (const Index face : elements.facesOfPoint(point)) {
             for (const Index other : elements.pointsOfFace(face)) {
                 const double there = distance + (points[other] - points[point]).length();

@@ -1,5 +1,5 @@
 // Based on: Dey, Edelsbrunner, Guha and Nekhayev, Topology preserving edge contraction, 1999.
-// Differs: quads beside a collapsed edge become triangles, so the link condition is asked of points, and the result is
+// Differs: quads beside a collapsed edge become triangles, so the link condition is tested on points, and the result is
 // examined.
 #include <tools/edit/topology.h>
 
@@ -22,14 +22,14 @@ using openvdb::Vec3d;
 /// Three or four points.
 using Corners = std::vector<Index>;
 
-/// Perpendicular to the face; its length is twice the area.
+/// Returns a normal of the face; its length is twice the area.
 Vec3d normalOf(const std::vector<Vec3d>& points, const Corners& face)
 {
     const Vec3d &a = points[face[0]], &c = points[face[2]];
     return face.size() == 3 ? (points[face[1]] - a).cross(c - a) : (c - a).cross(points[face[3]] - points[face[1]]);
 }
 
-/// A face that an edit makes of another one.
+/// A face that replaces another one in an edit.
 struct Replacement {
     Corners corners;
     Vec3d oldNormal;
@@ -41,10 +41,10 @@ bool isClosedManifold(const MeshTopology& topology)
            topology.misorientedEdges == 0 && topology.nonManifoldVertices == 0;
 }
 
-/// One edit of a mesh: what is at an edge or face, and the result.
+/// One edit of a mesh: the surroundings of an edge or face, and the result.
 class Edit {
 public:
-    /// Of the edge or face `id`.
+    /// Prepares an edit of the edge or face `id`.
     /// \throw InputError it is none; the mesh cannot be edited
     Edit(const Mesh& mesh, Element kind, Index id)
         : kind_(kind), id_(id), elements_(checked(mesh)), topology_(analyzeTopology(mesh))
@@ -73,7 +73,7 @@ public:
         Index face;
         Corners corners;
     };
-    /// Both sides: along the edge from its smaller point to its larger one, then the other way.
+    /// Returns both sides: along the edge from its smaller point to its larger one, then the other way.
     std::pair<Side, Side> sides() const
     {
         const Ids faces = elements_.facesOfEdge(id_);
@@ -92,7 +92,7 @@ public:
         return {std::move(one), std::move(other)};
     }
 
-    /// Both sides, which must be triangles.
+    /// Returns both sides, which must be triangles.
     std::pair<Side, Side> triangles() const
     {
         auto both = sides();
@@ -116,7 +116,7 @@ public:
         fail("points " + std::to_string(a) + " and " + std::to_string(b) + " have an edge already");
     }
 
-    /// The mesh with `added` instead of the faces `gone`, at `points`, and with the new corners of a face by
+    /// Returns the mesh with `added` instead of the faces `gone`, at `points`, and with corners renamed by
     /// `rename(corner)` in all faces that stay.
     template <typename Rename>
     Mesh replaced(std::vector<Vec3d> points, std::vector<Index> gone, const std::vector<Replacement>& added,
@@ -222,7 +222,7 @@ Mesh collapseEdge(const Mesh& mesh, Index edge)
     std::vector<Replacement> added;
     for (const Index end : {kept, gone}) {
         for (const Index face : elements.facesOfPoint(end)) {
-            if (end == gone && (face == one.face || face == other.face)) continue; // they were at the first end
+            if (end == gone && (face == one.face || face == other.face)) continue; // handled at the first end
             Corners corners = edit.cornersOf(face);
             const Vec3d normal = normalOf(mesh.points, corners);
             const bool isBeside = face == one.face || face == other.face;
@@ -254,7 +254,7 @@ Mesh flipEdge(const Mesh& mesh, Index edge)
     edit.requireNoEdge(c, d);
     const Vec3d first = normalOf(mesh.points, one.corners), second = normalOf(mesh.points, other.corners);
     const Corners atA{a, d, c}, atB{d, b, c};
-    // Each of the new triangles replaces a part of both old ones.
+    // Each new triangle replaces a part of both old ones.
     for (const Corners& corners : {atA, atB}) {
         if (!(normalOf(mesh.points, corners).dot(second) > 0)) edit.fail("a face would turn over");
     }

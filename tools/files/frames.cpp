@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A file name around its number.
+/// The parts of a file name around its number.
 struct Pattern {
     std::string before, after;
     std::size_t digits = 0;

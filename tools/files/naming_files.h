@@ -7,7 +7,7 @@
 
 namespace vdbcage::files {
 
-/// Returns what `work` returns. The library knows no files: where it objects to an argument, such as "cage", the error
+/// Returns the result of `work`. The library knows no files: if it objects to an argument, such as "cage", the error
 /// names the file that the argument was read from.
 /// \param files names of files, by the argument
 /// \throw InputError

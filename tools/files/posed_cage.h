@@ -8,11 +8,11 @@
 
 namespace vdbcage::files {
 
-/// posedPoints() of the cage that was read from `path`. \throw InputError as posedPoints, naming the file
+/// Returns posedPoints() of the cage that was read from `path`. \throw InputError as posedPoints, naming the file
 PosedPoints posedPointsOf(const std::filesystem::path& path, const Mesh& posed, const Mesh& cage);
 
-/// What users are to know of poses that were read: that of `reordered` of these files the points were put into the
-/// order of the cage. Empty if there are none. `path` is the file, or the pattern of all `frames` files.
+/// Returns a note that the points of `reordered` of the read poses were put into the order of the cage. Empty if there
+/// are none. `path` is the file, or the pattern of all `frames` files.
 std::string describeOrder(const std::filesystem::path& path, std::size_t reordered, std::size_t frames);
 
 } // namespace vdbcage::files

@@ -47,7 +47,7 @@ void writeStages(const Stages& stages, const fs::path& folder,
         std::replace(key.begin(), key.end(), '-', '_');
         metadata["option_" + key] = option.second;
     }
-    const CageReport& report = stages.report; // what was left to vdbcage came to
+    const CageReport& report = stages.report; // the values that vdbcage chose by itself
     metadata["resolution"] = std::to_string(report.resolution);
     metadata["close_radius"] = detail::numberText(report.closeRadius);
     metadata["erode_radius"] = detail::numberText(report.erodeRadius);

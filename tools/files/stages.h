@@ -13,7 +13,7 @@
 
 namespace vdbcage::files {
 
-/// What a cage was made through. Nothing is owned.
+/// The volumes and surfaces between the stages of a cage. None is owned.
 struct Stages {
     std::string source; ///< the name of the model's file, for metadata
     const CageOptions& options;
@@ -25,11 +25,11 @@ struct Stages {
     const Mesh& decimated;
 };
 
-/// The files that writeStages makes in `folder`: solid, dilated, closed and contour (.vdb), surface, smoothed and
-/// decimated (.obj).
+/// Returns the files that writeStages makes in `folder`: solid, dilated, closed and contour (.vdb), surface, smoothed
+/// and decimated (.obj).
 std::vector<std::filesystem::path> stageFiles(const std::filesystem::path& folder);
 
-/// Hands each of these files to `add`, in their order. \throw Cancelled, and what `add` throws
+/// Passes each of these files to `add`, in their order. \throw Cancelled, and all that `add` throws
 void writeStages(const Stages& stages, const std::filesystem::path& folder,
                  const std::function<void(const std::filesystem::path&, const FileWriter&)>& add,
                  Interrupter* interrupter);

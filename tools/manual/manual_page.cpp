@@ -10,7 +10,8 @@ namespace vdbcage::manual {
 
 namespace {
 
-/// `text` as roff shows it: nothing in it is an order. Hyphens are those of the keyboard, which can be copied.
+/// Returns `text` such that roff shows it and takes no part for an order. Hyphens are those of the keyboard, which can
+/// be copied.
 std::string escaped(const std::string& text)
 {
     std::string result;
@@ -29,7 +30,7 @@ std::string escaped(const std::string& text)
     return result;
 }
 
-/// Text that roff fills, in lines as mandoc wants them: short, and none with two sentences.
+/// Returns text that roff fills, in lines as mandoc wants them: short, and none with two sentences.
 std::string filled(const std::string& text)
 {
     constexpr std::size_t longest = 72;
@@ -47,7 +48,7 @@ std::string filled(const std::string& text)
     return lines + escaped(line) + '\n';
 }
 
-/// Without line ends before and behind it.
+/// Returns the text without line ends before and behind it.
 std::string trimmed(const std::string& text)
 {
     const std::size_t begin = text.find_first_not_of('\n'), end = text.find_last_not_of('\n');
@@ -74,7 +75,7 @@ void ManualPage::section(const std::string& title)
 
 void ManualPage::beginParagraph()
 {
-    if (!atSectionStart_) text_ += ".PP\n"; // where a section begins it would be superfluous
+    if (!atSectionStart_) text_ += ".PP\n"; // it would be superfluous where a section begins
     atSectionStart_ = false;
 }
 

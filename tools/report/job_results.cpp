@@ -25,7 +25,7 @@ std::string modelsOf(const Json& report)
                           [](const Json& model) { return model.at("file").get<std::string>(); });
 }
 
-/// None: the text is no report of `make`.
+/// Returns the result in `text`; none: it is no report of `make`.
 std::optional<JobResult> resultOf(const fs::path& file, const std::string& text)
 {
     JobResult result;
@@ -33,7 +33,7 @@ std::optional<JobResult> resultOf(const fs::path& file, const std::string& text)
         const Json report = Json::parse(text);
         result.report = file;
         if (report.at("format") != 1 || report.at("kind") != "make") return std::nullopt;
-        // The window knows no file of the cage.
+        // A report by the window has no file of the cage.
         const Json& cage = report.at("cage");
         result.cage = cage.is_null() ? file.string() : cage.get<std::string>();
         result.models = modelsOf(report);

@@ -27,7 +27,7 @@ double meanOf(const std::vector<double>& values)
     return values.empty() ? 0 : sum / static_cast<double>(values.size());
 }
 
-/// The value that `share` of all are not above.
+/// Returns the value that `share` of all do not exceed.
 double percentile(std::vector<double> values, double share)
 {
     if (values.empty()) return 0;
@@ -79,8 +79,8 @@ void countValences(const Mesh& mesh, const detail::HalfEdges& halfEdges, const d
     quality.irregular = static_cast<double>(vertices - regulars) / static_cast<double>(vertices);
 }
 
-/// Quads joined across opposite sides. From a half-edge of a quad one goes to the opposite side, and over it into the
-/// next quad. Each polychord is met in both directions.
+/// Follows quads across opposite sides: from a half-edge of a quad to the opposite side, and over it into the next
+/// quad. Each polychord is met in both directions.
 void followPolychords(const Mesh& mesh, const detail::HalfEdges& halfEdges, const detail::EdgeTable& edges,
                       QuadQuality& quality)
 {
@@ -108,7 +108,7 @@ void followPolychords(const Mesh& mesh, const detail::HalfEdges& halfEdges, cons
         } while (h != none && isOfQuad(h) && !seen[h]);
         ++polychords;
         if (h != start || !isSimple || static_cast<double>(passed.size()) > longest) continue;
-        // The same in the other direction.
+        // Follows the other direction.
         for (std::size_t back = edges.opposite(start); back != none && isOfQuad(back) && !seen[back];) {
             seen[back] = true;
             back = across(back);

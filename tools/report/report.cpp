@@ -50,7 +50,7 @@ Json toJson(const CageCheck& check)
             {"median_angle_degrees", check.medianAngleDegrees}};
 }
 
-/// An option's value as one writes it.
+/// Returns an option's value as text.
 std::string textOf(const CageOptions& options, const char* name)
 {
     for (const auto& option : optionValues(options)) {
@@ -59,7 +59,8 @@ std::string textOf(const CageOptions& options, const char* name)
     return {};
 }
 
-/// What was taken for the inside of an open model, where others might have taken the other; else empty.
+/// Returns a remark on the chosen inside of an open model, if rays agree on it neither clearly nor clearly not; else
+/// empty.
 std::string remarkOnInterior(const VoxelizeReport& report)
 {
     constexpr double surelySheet = 0.15, surelySolid = 0.95;
@@ -136,7 +137,7 @@ Json toJson(const Mesh& mesh, const ReadSummary& summary, const std::filesystem:
             {"degenerate_faces", summary.degenerateFaces},
             {"ignored_elements", summary.ignoredElements},
             {"warnings", summary.warnings},
-            {"sha256", nullptr}, // who knows them sets these two
+            {"sha256", nullptr}, // set by the caller, if it has them
             {"check", nullptr}};
 }
 
@@ -165,7 +166,7 @@ Json toJson(const QuadQuality& quality)
             {"aspect_median", quality.aspect}};
 }
 
-/// A number, a truth, or the text that one writes: words, and names of files; null where there is none.
+/// Returns a number, a truth, or the text of an option: words, and names of files; null if there is none.
 template <typename Value>
 Json typed(const Value& value, const std::string& text)
 {
@@ -210,7 +211,7 @@ Json reportOf(const CageOrder& order, const std::string& error, int status)
     report["exit_status"] = status;
     report["error"] = error.empty() ? Json() : Json(error);
     report["memory_peak_mib"] = peakMemory();
-    // What a failure has none of.
+    // A failure has none of these.
     for (const char* name : {"cage_sha256", "seconds", "stages", "result", "quads", "check"}) report[name] = nullptr;
     return report;
 }
@@ -224,7 +225,7 @@ double peakMemory()
 
 std::string toText(const Json& report)
 {
-    // A path is any bytes; JSON is UTF-8: what is not gets the replacement character.
+    // A path is any bytes, JSON is UTF-8: other bytes become the replacement character.
     return report.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
 }
 
@@ -254,7 +255,7 @@ std::vector<std::string> remarks(const CageReport& report, const CageOptions& op
     } else if (report.start == CageStart::box) {
         lines.emplace_back("this is a box around the model: nothing tighter with so few faces was certified");
     }
-    constexpr double aPlace = 1e-4; // of the longest side: what planes are told apart by
+    constexpr double aPlace = 1e-4; // of the longest side: the precision of places of planes
     if (report.symmetry) {
         const SymmetryPlane& plane = report.symmetry->plane;
         const bool isFound = options.symmetry == CageSymmetry::automatic;

@@ -15,7 +15,7 @@ namespace vdbcage::report {
 
 using Json = nlohmann::ordered_json;
 
-/// JSON forms of what is reported, as REPORT.md has them. Lengths are fractions of the model's longest side.
+/// Return JSON forms, as REPORT.md describes them. Lengths are fractions of the model's longest side.
 Json toJson(const CageCheck& check);
 Json toJson(const QuadQuality& quality);
 Json toJson(const CageReport& report);
@@ -23,12 +23,12 @@ Json toJson(const Mesh& mesh, const ReadSummary& summary, const std::filesystem:
 Json toJson(const std::vector<StageTime>& stages);
 Json toJson(const CageOptions& options);
 
-/// What was asked for, by the command or in the window.
+/// The order of a cage, by the command or in the window.
 struct CageOrder {
     std::vector<std::string> arguments; ///< see runFacts()
     Json models;                        ///< see cli::entryOf()
-    std::string inputs;                 ///< cli::fingerprint() of what it was to be made from; empty: not known
-    std::filesystem::path cage;         ///< where it is, or will be, written; empty: nowhere
+    std::string inputs;                 ///< cli::fingerprint() of its inputs; empty: not known
+    std::filesystem::path cage;         ///< the file that it is, or will be, written to; empty: none
     const CageOptions& options;
 };
 /// A cage that was made.
@@ -39,23 +39,23 @@ struct CageMade {
     const std::vector<StageTime>& stages;
     const CageReport& report;
 };
-/// What `make --report` tells.
+/// Returns the content of `make --report`.
 Json reportOf(const CageOrder& order, const CageMade& made);
-/// The same of an order that failed, for `error`, with an exit status.
+/// Returns the same for an order that failed by `error`, with an exit status.
 Json reportOf(const CageOrder& order, const std::string& error, int status);
 
-/// Largest amount of memory this process has held, in MiB.
+/// Returns the largest amount of memory that this process has held, in MiB.
 double peakMemory();
 
-/// `report` as indented text with a last line break.
+/// Returns `report` as indented text with a last line break.
 std::string toText(const Json& report);
 
-/// The verdict in words, one line a finding, for a person.
+/// Returns the verdict in words, a line for each finding.
 std::string describe(const CageCheck& check);
-/// How the cage came about, where that is worth telling: what it was shrunk from and why, its symmetry, what made its
-/// voxels, parts and handles. One line each, without a line break.
+/// Returns remarks on how the cage came about: its start and the reason for it, its symmetry, the voxelizer, parts and
+/// handles. One line each, without a line break.
 std::vector<std::string> remarks(const CageReport& report, const CageOptions& options);
-/// What the file has otherwise than its format: "  warning: FILE: line 7: ...", one line each with its end.
+/// Returns the file's deviations from its format: "  warning: FILE: line 7: ...", one line each with its end.
 std::string warningLines(const std::filesystem::path& path, const ReadSummary& summary);
 
 } // namespace vdbcage::report

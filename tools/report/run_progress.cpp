@@ -9,9 +9,9 @@ namespace vdbcage::report {
 
 namespace {
 
-constexpr int prepared = stageInfo(StageName::surface).to; // until here stages come several times in one try
-constexpr int longStage = 20;   // percent, at least: how long a run takes shows in such a one
-constexpr int leastPercent = 5; // of the stage; below, and in its first second, what is left is a guess
+constexpr int prepared = stageInfo(StageName::surface).to; // until here stages may repeat within one try
+constexpr int longStage = 20;   // percent, the least of a stage from which the time left is estimated
+constexpr int leastPercent = 5; // of the stage; below, and in its first second, the time left is a guess
 constexpr double leastSeconds = 1;
 
 } // namespace
@@ -64,7 +64,7 @@ void RunProgress::advance(int percent, double seconds)
     inTry_ = std::max(inTry_, stage_.from + 0.01 * (stage_.to - stage_.from) * percent);
     const double took = seconds - stageBegan_;
     if (!isFirstTry_ || !isLong(stage_) || percent < leastPercent || took < leastSeconds) return;
-    // The stage goes on as it went; what comes after it takes its share of all.
+    // The stage continues at its speed; the stages after it take their shares of all.
     const double stageEnd = seconds + took * (100 - percent) / percent;
     end_ = stageEnd / wholeAt(stage_.to);
 }

@@ -5,43 +5,43 @@
 
 namespace vdbcage::report {
 
-/// Turns the stages that an interrupter is told into how far the whole run is, and how long it will still take.
+/// The progress of a whole run, and the time left, computed from the stages that an interrupter is told.
 ///
-/// A run goes through several stages, and through all of them again where a cage was not good enough: nobody knows how
-/// often. So another try shares out what is left of the run, and from then on no time left is told.
+/// A run goes through several stages, and through all of them again if a cage was not good enough: their number is
+/// unknown. So another try divides the rest of the run, and from then on no time left is told.
 ///
-/// It reads no clock: `seconds` are of the run so far. One thread at a time.
+/// It reads no clock: `seconds` are those of the run so far. Use it from one thread at a time.
 class RunProgress {
 public:
-    /// The stage `name` begins; empty if it has none.
+    /// Begins the stage `name`; empty if it has none.
     void start(std::string_view name, double seconds);
-    /// The stage says that it is so far, 0 to 100 %. What is less than it said before changes nothing.
+    /// Sets the stage's percentage, 0 to 100. Values less than before are ignored.
     void advance(int percent, double seconds);
 
-    /// How far the run is, 0 to 99 %: never less than it was.
+    /// Returns the run's percentage, 0 to 99, which never falls.
     int percent() const;
-    /// How long the run still takes, in whole seconds from 1; nothing where that is a guess. It is counted down until
-    /// the stage says how far it is.
+    /// Returns the time left in whole seconds, at least 1; nothing if it would be a guess. It is counted down until the
+    /// stage reports its next percentage.
     std::optional<int> secondsLeft(double seconds) const;
 
 private:
-    /// Where a stage begins and ends in one try, in percent.
+    /// The beginning and end of a stage in one try, in percent.
     struct Share {
         int from, to;
     };
-    /// As stageTable has it; of others the first is the whole run, later ones take none of it.
+    /// Returns the share by stageTable; the first stage that it lacks gets the whole run, later ones none.
     Share shareOf(std::string_view name) const;
     static bool isLong(const Share& share);
-    /// How much of the run is done where the try is so far, 0 to 1.
+    /// Returns the done part of the run when `inTry` of the try is done, 0 to 1.
     double wholeAt(double inTry) const;
 
     bool isFirstTry_ = true, hasBegun_ = false;
     Share stage_{0, 100};
     int stagePercent_ = 0;
     double stageBegan_ = 0;
-    double tryFrom_ = 0;     ///< where the try began, in percent of a try
-    double triesBefore_ = 0; ///< how much of the run came before it, 0 to 1
-    double inTry_ = 0;       ///< how far it is, in percent
+    double tryFrom_ = 0;     ///< the try's beginning, in percent of a try
+    double triesBefore_ = 0; ///< the part of the run before it, 0 to 1
+    double inTry_ = 0;       ///< its progress, in percent
     std::optional<double> end_;
 };
 

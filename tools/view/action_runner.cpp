@@ -96,7 +96,7 @@ struct ActionRunner::VerbEffect {
     {
         const OpenedMeshPtr model = parts.session.state().document.model;
         if (!model) throw InputError("reload", "there is no model yet");
-        parts.watch.ignore(); // what cannot be read is not offered again
+        parts.watch.ignore(); // a file that cannot be read is not offered again
         parts.session.execute(OpenModel{model->path.string()});
     }
     void operator()(const Browse& verb) const { parts.panels.browse(verb.line); }
@@ -174,10 +174,10 @@ void ActionRunner::run(const Command& command)
     parts_.recentFiles = recentFiles(parts_.setup.recentFiles);
     parts_.watch = {};
     parts_.refresh();
-    // Not a line of its own: it follows from this one.
+    // These are not recorded as lines: they follow from the command.
     session.execute(SetCamera{parts_.screen.pictures().first().fitted(session.state().view, false)});
     session.execute(SetFrame{0});
-    // To have opened a model is no work that could be lost.
+    // A newly opened model is no work that could be lost.
     if (!hadModel || wasSaved) parts_.saved = session.state().document;
 }
 
@@ -215,7 +215,7 @@ bool ActionRunner::dismiss()
 void ActionRunner::pass(double seconds)
 {
     if (!parts_.isAnimated()) return;
-    // It is no step that could be undone.
+    // This is no step that could be undone.
     parts_.session.replaceView(parts_.animation.passed(parts_.session.state(), seconds));
     parts_.refresh();
 }

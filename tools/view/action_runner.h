@@ -5,34 +5,34 @@
 
 namespace vdbcage::view {
 
-/// Does what panels, keys and scripts ask for, and records it.
+/// The performer of the actions of panels, keys and scripts, which also records them.
 class ActionRunner {
 public:
     explicit ActionRunner(AppParts& parts) : parts_(parts) {}
 
-    /// Does it, and waits until what it saves is written. \throw Error it cannot be done; all is as it was
+    /// Performs it and waits until its files are written. \throw Error the action failed; nothing has changed
     void perform(const Action& action);
-    /// For a user: it is recorded, and what is wrong becomes a message.
+    /// Performs and records the action of a user; errors become messages.
     void attempt(const Action& action);
-    /// A file that is dropped on the window: a model, or a scene.
+    /// Opens a file that was dropped on the window: a model or a scene.
     void drop(const std::filesystem::path& path);
 
-    /// Ends a drag: it becomes the line that its end amounts to.
+    /// Ends a drag and records it as one line.
     void endDrag();
-    /// Closes what is open on top: a message, a panel, a question. Returns whether there was anything.
+    /// Closes the topmost open message, panel or question. Returns whether there was one.
     bool dismiss();
-    /// So much time has passed for what moves by itself.
+    /// Advances animations by that time.
     void pass(double seconds);
 
-    /// Takes what was done on other threads.
+    /// Takes the results of other threads.
     void update();
-    /// Waits until the cage that is wanted is there, or cannot be had, and all that was to be written is.
+    /// Waits until the wanted cage is made or has failed, and all files are written.
     void waitUntilSettled();
-    /// Waits until all that was to be written is. \throw InputError why something could not be
+    /// Waits until all files are written. \throw InputError the reason why one could not be written
     void finishSaving();
 
 private:
-    struct VerbEffect; ///< what each verb does that amounts to no command
+    struct VerbEffect; ///< the effects of verbs that amount to no command
 
     void begin(const Action& action);
     void beginAndRecord(const Action& action);

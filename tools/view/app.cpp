@@ -23,10 +23,10 @@ App::App(const gl::Api& api, AppSetup setup)
 
 void App::handle(const InputEvent& event)
 {
-    const bool hadMessage = !parts_.messages.empty(); // one that the event brings is not dismissed by it
-    panels_.update();                                 // the event is meant for what is to be seen
+    const bool hadMessage = !parts_.messages.empty(); // the event must not dismiss a message that it causes
+    panels_.update();                                 // the event is meant for the visible panels
     const bool isTaken = panels_.handle(event);
-    // Where the pointer is must be known when a key begins something.
+    // The pointer's position must be known when a key begins a motion.
     if (!isTaken || parts_.control.isHeld() || std::holds_alternative<PointerMoved>(event.what)) {
         parts_.control.handle(event);
     }

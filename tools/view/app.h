@@ -14,7 +14,7 @@ namespace vdbcage::view {
 /// The program behind a window: state, making of cages, panels and picture. It knows neither GLFW nor scripts: events,
 /// actions (see verbs.h) and files come in, a picture goes out.
 ///
-/// Its context must be current whenever it is used, and must outlive it. All of it is for one thread.
+/// Its context must be current in each call, and must outlive it. Use it from one thread.
 class App {
 public:
     /// \throw DeviceError
@@ -30,46 +30,46 @@ public:
     /// \throw DeviceError
     void resize(int width, int height);
 
-    /// Takes what the maker of cages has done. Call it when woken.
+    /// Takes the results of other threads. Call it when woken.
     void update() { actions_.update(); }
-    /// Looks whether the model's file has changed; the user is then asked.
+    /// Checks whether the model's file has changed; if so, asks the user.
     void checkFiles();
-    /// So much time has passed for what moves by itself.
+    /// Advances animations by that time.
     void pass(double seconds) { actions_.pass(seconds); }
-    /// Something moves by itself.
+    /// Returns whether a turntable or poses are moving.
     bool isAnimated() const { return parts_.isAnimated(); }
 
-    /// There is something to draw.
+    /// Returns whether there is something to draw.
     bool needsFrame();
-    /// Seconds that should be between two frames at least; until then only update() is called.
+    /// Returns the least time between two frames, in seconds; between them only update() is called.
     double secondsBetweenFrames() const;
     /// Draws the next frame into canvas(). \throw DeviceError
     void drawFrame();
     const draw::Canvas& canvas() const { return parts_.screen.canvas(); }
-    /// What the window shows when nothing moves: draws all that is left to draw. \throw DeviceError
+    /// Returns the window's picture at rest: draws all that is left to draw. \throw DeviceError
     draw::Picture picture();
 
     /// See ActionRunner.
     void waitUntilSettled() { actions_.waitUntilSettled(); }
     void waitUntilSaved() { actions_.finishSaving(); }
-    /// What a script can expect, by name. \throw InputError no such name
+    /// Returns the value of that name, for a script's `expect`. \throw InputError no such name
     std::string value(const std::string& name);
-    /// All these names.
+    /// Returns the names of all values.
     std::vector<std::string> valueNames() const;
-    /// Where a widget is, or a handle in the picture such as "handle.x"; none: it is not to be seen.
+    /// Returns the place of a widget, or of a handle in the picture such as "handle.x"; none: it is invisible.
     std::optional<Rectangle> widget(const std::string& name);
     /// Scrolls to a widget.
     void reveal(const std::string& name);
     Rectangle viewport() const { return parts_.viewport(); }
-    /// Where the pointer is, pixels from the top left.
+    /// Returns the pointer's position, in pixels from the top left.
     Pixel pointer() const { return parts_.control.pointer(); }
 
     const Session& session() const { return parts_.session; }
     const Planner& planner() const { return parts_.making.planner(); }
     const std::vector<std::string>& messages() const { return parts_.messages; }
-    /// The user wants to go, and has been asked about unsaved work.
+    /// Returns whether the user has quit, after the question about unsaved work.
     bool isEnded() const { return parts_.isEnded; }
-    /// The name of what is worked on, for the window's title.
+    /// Returns the window's title: the names of the model and the program.
     std::string title() const;
     PointerShape pointerShape() const { return parts_.widgets.pointerShape(); }
 

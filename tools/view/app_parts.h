@@ -17,21 +17,21 @@
 
 namespace vdbcage::view {
 
-/// With what a window begins.
+/// The settings that a window starts with.
 struct AppSetup {
     int width = 1280, height = 800; ///< pixels
-    float scale = 1;                ///< pixels that a length of 1 has
-    bool isSoftware = false;        ///< a program on the CPU draws
+    float scale = 1;                ///< pixels per unit of length
+    bool isSoftware = false;        ///< the CPU draws
     Clipboard clipboard = {};
     std::function<void()> wake = [] {};                  ///< called from any thread when update() has something to do
-    std::filesystem::path recentFiles = {};              ///< the list of them; empty: none is kept
-    std::filesystem::path preferences = {};              ///< the file of them; empty: those by default, not kept
+    std::filesystem::path recentFiles = {};              ///< their list; empty: none is kept
+    std::filesystem::path preferences = {};              ///< their file; empty: the defaults, and nothing is kept
     std::unique_ptr<CageMaker> maker = {};               ///< null: pipelines
     Binder::Work binding = {};                           ///< empty: by the library
-    std::function<void(const std::string&)> record = {}; ///< gets each line that the user's doing amounts to
+    std::function<void(const std::string&)> record = {}; ///< gets each line that the user's actions amount to
 };
 
-/// The parts of the program behind a window, and what is known beside them. The parts do not know each other.
+/// The parts of the program behind a window, and the data beside them. The parts do not know each other.
 struct AppParts {
     /// `attempt`, `endDrag`: see PictureControl. \throw DeviceError
     AppParts(const gl::Api& api, AppSetup given, std::function<void(const Command&)> attempt,
@@ -48,33 +48,35 @@ struct AppParts {
     Screen screen;
     PictureControl control;
 
-    Document saved; ///< as it was last saved, or opened
+    Document saved; ///< when last saved or opened
     std::vector<std::filesystem::path> recentFiles;
     KeyMap keys{};
-    std::vector<std::string> messages; ///< that wait to be dismissed
-    std::string note;                  ///< what was done last; empty: nothing yet
-    bool isValueDragged = false;       ///< of an option, by its slider or the like
+    std::vector<std::string> messages; ///< waiting to be dismissed
+    std::string note;                  ///< the last thing done; empty: nothing yet
+    bool isValueDragged = false;       ///< an option's, by its slider or the like
     bool asksToQuit = false, isEnded = false;
-    bool arePanelsCurrent = false; ///< they show the state as it is
+    bool arePanelsCurrent = false; ///< they show the present state
 
     bool isSaved() const { return session.state().document == saved; }
-    /// What is dragged is of the frame and the camera at which that began.
+    /// Returns whether a turntable or poses are moving. They stand still in a drag, which belongs to its first frame
+    /// and camera.
     bool isAnimated() const { return Animation::isAnimated(session.state()) && !session.isDragging(); }
-    /// While a value is dragged the processor is for the cages that follow it, not for fine pictures or many.
+    /// Returns whether cages are following a dragged value: they need the processor more than many or refined pictures
+    /// do.
     bool awaitsCage() const { return isValueDragged && !making.planner().isSettled(); }
-    /// There will be another frame in a moment.
+    /// Returns whether another frame will follow in a moment.
     bool isMoving() const { return control.isCameraDragged() || control.isMoving() || isAnimated() || awaitsCage(); }
 
-    /// Where the picture is in the window, or both of them.
+    /// Returns the viewport: the place of the picture in the window, or of both pictures.
     Rectangle viewport() const;
-    /// The one that what is done with the pointer belongs to.
+    /// Returns the place of the picture in which the pointer acts.
     Rectangle pictureInUse() const;
 
     void chooseKeys(KeyMap map);
-    /// Brings what is made and what is seen in line with the state; the panels follow when they are needed.
+    /// Updates results and pictures to the state; the panels follow when they are needed.
     void refresh();
     void say(const std::string& text);
-    /// A message, which waits to be dismissed.
+    /// Adds a message, which waits to be dismissed.
     void complain(const std::string& text);
 };
 

@@ -34,7 +34,7 @@ struct Arguments {
     std::string context;
 };
 
-using Rows = std::vector<std::pair<std::string, std::string>>; // what is written or pressed, and what it does
+using Rows = std::vector<std::pair<std::string, std::string>>; // (syntax or key, effect)
 
 struct Section {
     std::string title;
@@ -78,7 +78,7 @@ void printHelp()
     for (const Section& section : describeAll()) {
         std::cout << '\n' << section.title << ":\n";
         for (const auto& [left, help] : section.rows) {
-            // What is too long for its column has a line of its own.
+            // A text too long for its column gets a line of its own.
             const bool fits = left.size() < column;
             std::cout << "  " << left
                       << (fits ? std::string(column - left.size(), ' ') : '\n' + std::string(column + 2, ' ')) << help
@@ -135,7 +135,7 @@ void openFiles(App& app, const Arguments& arguments)
     }
 }
 
-/// Opens the files, does the script and, with a window, what the user wants.
+/// Opens the files, runs the script and, with a window, follows the user.
 void run(const gl::Api& api, AppSetup setup, const Arguments& arguments, Window* window)
 {
     std::string recorded = "# recorded by vdbcage-view " VDBCAGE_VERSION "\n";
@@ -197,7 +197,7 @@ int runProgram(int count, char** words)
     }
     Window window(1280, 800);
     AppSetup setup = window.setup();
-    // What scripts do is no use of files by a user, and the same for every user.
+    // Scripts must not depend on a user's recent files and preferences, nor change them.
     if (arguments.script.empty()) {
         setup.recentFiles = recentFilesPath();
         setup.preferences = preferencesPath();

@@ -15,7 +15,7 @@ Counts countsOf(const Mesh& mesh, std::size_t edges)
     return {mesh.points.size(), edges, faceCount(mesh)};
 }
 
-/// x, y and z as they are seen: to the right, up, to the viewer.
+/// Returns x, y and z as seen: to the right, up, to the viewer.
 std::array<Vec3d, 3> axesSeenBy(const draw::Camera& camera)
 {
     const draw::Eye eye = draw::eyeOf(camera, 1, {});
@@ -32,7 +32,7 @@ std::array<Vec3d, 3> axesSeenBy(const draw::Camera& camera)
 
 void PanelLayout::update()
 {
-    // What a layout answers may change the state, and with it the layout.
+    // The answer of a layout may change the state, and with it the layout.
     for (int i = 0; i < 3 && !parts_.arePanelsCurrent; ++i) {
         parts_.arePanelsCurrent = true;
         PanelAnswer answer;

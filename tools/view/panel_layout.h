@@ -4,14 +4,14 @@
 
 namespace vdbcage::view {
 
-/// Lays the panels out, and has done what the user asks for in them.
+/// The layout of the panels, which performs the actions that the user asks for in them.
 class PanelLayout {
 public:
     PanelLayout(AppParts& parts, ActionRunner& actions) : parts_(parts), actions_(actions) {}
 
-    /// Brings the panels in line with the state, if they are not.
+    /// Updates the panels to the state if they are not current.
     void update();
-    /// Hands them an event. Returns whether they took it.
+    /// Passes an event to the panels. Returns whether they took it.
     bool handle(const InputEvent& event);
 
 private:

@@ -10,7 +10,7 @@ Screen::Screen(const gl::Api& api, bool isSoftware, const Widgets& widgets)
 bool Screen::resize(int width, int height)
 {
     if (canvas_ && width == width_ && height == height_) return false;
-    canvas_.reset(); // its memory first
+    canvas_.reset(); // frees its memory first
     canvas_.emplace(api_, width, height, 1);
     width_ = width;
     height_ = height;

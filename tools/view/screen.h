@@ -11,30 +11,31 @@
 
 namespace vdbcage::view {
 
-/// What the window shows: the pictures, and the panels over them. A frame is drawn only when one of them changed.
+/// The content of the window: the pictures, and the panels over them. A frame is drawn only when one of them changed.
 ///
-/// Its context must be current whenever it is used, and must outlive it.
+/// Its context must be current in each call, and must outlive it.
 class Screen {
 public:
     /// See Viewport. \throw DeviceError
     Screen(const gl::Api& api, bool isSoftware, const Widgets& widgets);
 
-    /// Returns whether it had another size before. \pre width > 0, height > 0 \throw DeviceError
+    /// Sets the size. Returns whether it changed. \pre width > 0, height > 0 \throw DeviceError
     bool resize(int width, int height);
     int width() const { return width_; }
     int height() const { return height_; }
 
-    /// Something else than panels and pictures is to be seen in another way.
+    /// Notes that something other than panels and pictures changed.
     void invalidate() { isStale_ = true; }
 
-    /// `isMoving`, here and below: there will be another frame in a moment, so this one may be rough.
+    /// Returns whether there is something to draw. `isMoving`, here and below: another frame will follow in a moment,
+    /// so this one may be rough.
     bool needsFrame(bool isMoving) const;
     /// Draws the next frame into canvas(). \throw DeviceError
     void drawFrame(bool isMoving);
-    /// The frame, after all that is left to draw. \throw DeviceError
+    /// Returns the frame, after all that is left to draw. \throw DeviceError
     draw::Picture picture(bool isMoving);
     const draw::Canvas& canvas() const { return *canvas_; }
-    /// How many frames were drawn.
+    /// Returns the number of frames drawn.
     std::uint64_t frames() const { return frames_; }
 
     Pictures& pictures() { return pictures_; }

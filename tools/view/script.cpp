@@ -22,7 +22,7 @@ void send(App& app, decltype(InputEvent::what) what, const Modifiers& modifiers 
     app.handle({std::move(what), modifiers});
 }
 
-/// "1280x800"
+/// Reads a size such as "1280x800".
 std::pair<int, int> sizeOf(const std::string& text)
 {
     const std::size_t cross = text.find('x');
@@ -61,7 +61,7 @@ void press(App& app, const KeyChord& chord)
     send(app, KeyUp{chord.key}, chord.modifiers);
 }
 
-/// The characters of UTF-8 text. What is not UTF-8 is refused.
+/// Returns the characters of UTF-8 text, and refuses other text.
 std::vector<char32_t> charactersOf(const std::string& text)
 {
     std::vector<char32_t> characters;
@@ -126,7 +126,7 @@ bool isKnown(const App& app, const std::string& value)
     return std::find(names.begin(), names.end(), value) != names.end();
 }
 
-/// Gives a widget a value as a hand would: fields by typing, lists by choosing, the others by clicks.
+/// Sets the value of a widget as a user does: fields by typing, lists by choosing, others by clicks.
 void setWidget(App& app, const std::string& name, const std::string& value)
 {
     const auto clickOn = [&](const std::string& widget) {
@@ -146,7 +146,7 @@ void setWidget(App& app, const std::string& name, const std::string& value)
     press(app, {Key::enter, {}});
 }
 
-/// Whether `have` is as `wanted` says: the same text, or after < <= > >= a number on that side.
+/// Returns whether `have` fits `wanted`: the same text, or a number that is < <= > >= the one after that sign.
 bool isAs(const std::string& have, const std::string& wanted)
 {
     const std::size_t length = wanted.find_first_not_of("<>=");

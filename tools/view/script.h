@@ -9,15 +9,15 @@
 
 namespace vdbcage::view {
 
-/// Does the lines of a script, one after the other: those of App, and those of describeScript(), which do what hands
-/// and eyes do. Files are counted from the current folder. Stops when the App has ended. \throw InputError "FILE:LINE:
-/// " and what is wrong, or not as it is expected; IoError
+/// Runs the lines of a script in order: those of App, and those of describeScript(), which stand for the user's hands
+/// and eyes. Paths are relative to the current folder. Stops when the App has ended. \throw InputError "FILE:LINE: "
+/// and the error or the failed expectation; IoError
 void runScript(App& app, const std::filesystem::path& path);
 
-/// One line. \throw Error
+/// Runs one line. \throw Error
 void runLine(App& app, const std::string& line);
 
-/// Lines that only scripts have: (usage, help).
+/// Returns (usage, help) of each line that only scripts have.
 std::vector<std::pair<std::string, std::string>> describeScript();
 
 } // namespace vdbcage::view

@@ -8,7 +8,7 @@
 
 namespace vdbcage::view {
 
-/// What scripts can expect, by names. The parts must outlive it.
+/// Returns functions for the values that scripts can expect, by name. The parts must outlive the functions.
 std::map<std::string, std::function<std::string()>> valuesOf(const AppParts& parts);
 
 } // namespace vdbcage::view

@@ -14,9 +14,9 @@ namespace vdbcage::view {
 
 namespace {
 
-/// Presses within this time and distance are a double click.
+/// The most time and distance between the presses of a double click.
 constexpr double secondsOfDoubleClick = 0.35, pixelsOfDoubleClick = 6;
-/// So often files are looked at that may have changed.
+/// The time between two checks whether files have changed.
 constexpr double secondsBetweenLooks = 1;
 
 [[noreturn]] void fail(const std::string& what)
@@ -31,7 +31,7 @@ gl::AnyFunction procOf(const char* name)
     return glfwGetProcAddress(name);
 }
 
-/// Keys by GLFW's numbers.
+/// Returns the keys by GLFW's numbers.
 const std::map<int, Key>& keys()
 {
     static const std::map<int, Key> list = [] {
@@ -81,7 +81,7 @@ const std::map<int, Key>& keys()
     return list;
 }
 
-/// Which key it is by what is printed on it: a letter of a keyboard that has it elsewhere than an American one.
+/// Returns the key by its label: letters may have other places than on an American keyboard.
 std::optional<Key> keyOf(int key, int scancode)
 {
     if (const char* const name = glfwGetKeyName(key, scancode); name && name[0] >= 'a' && name[0] <= 'z' && !name[1]) {
@@ -98,7 +98,7 @@ struct Window::State {
     GLFWwindow* window = nullptr;
     std::optional<gl::Api> api;
     std::array<GLFWcursor*, 5> cursors{};
-    App* app = nullptr;               ///< while it runs
+    App* app = nullptr;               ///< while run() runs
     std::optional<PointerMoved> move; ///< not passed on yet: a mouse moves more often than frames are drawn
     Modifiers modifiers;
     double pressedAt = -1, pressedX = 0, pressedY = 0, pointerX = 0, pointerY = 0;
@@ -111,7 +111,7 @@ struct Window::State {
         glfwTerminate();
     }
 
-    /// Pixels that a length of the desktop's coordinates has: more than one on some.
+    /// Returns the pixels per unit of the desktop's coordinates: more than one on some.
     double pixelsPerUnit() const
     {
         int pixels = 0, units = 0;
@@ -127,7 +127,7 @@ struct Window::State {
         if (app) app->handle({std::move(what), modifiers});
     }
 
-    /// What is done next is done where the pointer is by then.
+    /// Passes the pointer's last position on: further events happen there.
     void sendMove()
     {
         if (!move) return;
@@ -137,7 +137,7 @@ struct Window::State {
 
     void setModifiers(int bits)
     {
-        sendMove(); // it was made with those before
+        sendMove(); // the motion was made with the previous modifiers
         modifiers.shift = (bits & GLFW_MOD_SHIFT) != 0;
         modifiers.control = (bits & GLFW_MOD_CONTROL) != 0;
         modifiers.alt = (bits & GLFW_MOD_ALT) != 0;
@@ -241,7 +241,7 @@ Window::Window(int width, int height)
     glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 4);
     glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 5);
     glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
-    glfwWindowHint(GLFW_DEPTH_BITS, 0); // it is drawn elsewhere and copied
+    glfwWindowHint(GLFW_DEPTH_BITS, 0); // the picture is drawn elsewhere and copied
     glfwWindowHint(GLFW_STENCIL_BITS, 0);
     glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);
     state_->window = glfwCreateWindow(width, height, "vdbcage", nullptr, nullptr);

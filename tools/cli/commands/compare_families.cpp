@@ -30,7 +30,8 @@ std::string rounded(const char* format, double value)
     return text.data();
 }
 
-/// How many triangles the pose turns inside out; - where the family is not defined just below the surface.
+/// Returns the number of triangles that the pose turns inside out; - if the family is not defined just below the
+/// surface.
 std::string invertedText(const Binding& binding, const Mesh& model, const Mesh& posed, Interrupter* interrupter)
 {
     try {

@@ -10,13 +10,15 @@
 
 namespace vdbcage::cli {
 
-/// A model as the families of coordinates pose it.
+/// A model posed by each of the families of coordinates.
 struct FamilyComparison {
-    draw::Picture sheet; ///< a panel a family, in the order of the table, row by row, with the posed cage
-    std::string table;   ///< a line a family: distortion, volume and inverted triangles, or why it has no panel
+    draw::Picture sheet; ///< a panel for each family, in the order of the table, row by row, with the posed cage
+    std::string table;   ///< a line for each family: distortion, volume and inverted triangles, or the reason why it
+                         ///< has no panel
 };
 
-/// `posed` is the cage with its points moved. `optionsOf` tells with which options a family is taken.
+/// Poses the model by each family and draws it. `posed` is the cage with its points moved. `optionsOf` returns the
+/// options of a family.
 /// \throw InputError no family can pose the model; as Binding if the cage cannot be used
 /// \throw Cancelled
 /// \throw DeviceError no OpenGL 4.5

@@ -1,5 +1,5 @@
-// The shells ask the command itself what can stand at the cursor: bash(1), "Programmable Completion"; zsh's
-// zshcompsys(1), _describe; fish's complete(1).
+// The shells ask the command itself for completions: bash(1), "Programmable Completion"; zsh's zshcompsys(1),
+// _describe; fish's complete(1).
 
 #include <iostream>
 #include <sstream>
@@ -13,10 +13,10 @@ namespace vdbcage::cli {
 
 namespace {
 
-/// What can stand at the cursor, one a line: a word, then a tab and what it is; or a kind of file.
+/// A printer of the completions at the cursor, one per line: a word, then a tab and its description; or a kind of file.
 class Offers {
 public:
-    /// Of words those that begin with `begun`.
+    /// Prints only words that begin with `begun`.
     explicit Offers(std::string begun) : begun_(std::move(begun)) {}
 
     void word(const std::string& word, const std::string& about = "") const
@@ -30,7 +30,7 @@ private:
     std::string begun_;
 };
 
-/// By the option's type: "auto|N" has the word auto; capitals are a file, a folder or a number.
+/// Prints the values of the option's type: "auto|N" has the word auto; capitals are a file, a folder or a number.
 void offerValues(const OptionFacts& option, const Offers& offers)
 {
     std::istringstream parts(option.value);
@@ -53,14 +53,14 @@ void offerCommands(const Offers& offers)
     for (const Command& command : commands()) offers.word(command.name, command.summary);
 }
 
-/// Prints what the last of `words` can become; the first is the command's name.
+/// Prints the completions of the last of `words`; the first is the command's name.
 void printOffers(std::vector<std::string> words)
 {
     std::string option = words.size() > 1 ? words[words.size() - 2] : "", begun = words.back();
     if (const std::size_t sign = begun.find('='); begun[0] == '-' && sign != std::string::npos) { // --mesh=q
         option = begun.substr(0, sign);
         begun.erase(0, sign + 1);
-    } else if (option == "=" && words.size() > 2) { // bash takes it for three words
+    } else if (option == "=" && words.size() > 2) { // bash splits it into three words
         option = words[words.size() - 3];
     } else if (begun == "=") {
         begun.clear();

@@ -27,21 +27,22 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Returns what `bind` returns; its objection to the points or the cage names their file.
+/// Returns the result of `bind`; its objection to the points or the cage names their file.
 template <typename Bind>
 auto bindFiles(const fs::path& cagePath, const fs::path& modelPath, const Bind& bind)
 {
     return files::namingFiles({{"cage", cagePath.string()}, {"points", modelPath.string()}}, bind);
 }
 
-/// The options with the model's points that no face uses.
+/// Adds the model's points that no face uses to the options.
 CoordinateOptions forModel(const Mesh& model, CoordinateOptions options)
 {
     options.loose.indices = loosePoints(model);
     return options;
 }
 
-/// "  points of MODEL that no face uses: 2; where the family is not defined they ride along by mean value coordinates"
+/// Returns a line such as "  points of MODEL that no face uses: 2; where the family is not defined they ride along by
+/// mean value coordinates".
 std::string describeLoose(const fs::path& path, const CoordinateOptions& options)
 {
     if (options.loose.indices.empty()) return {};
@@ -51,8 +52,8 @@ std::string describeLoose(const fs::path& path, const CoordinateOptions& options
                 : "; outside of the cage they ride along by mean value coordinates\n");
 }
 
-/// A line where the cage at rest does not bound the model, or crosses itself: such weights pose it less well. Empty: it
-/// does neither.
+/// Returns a line if the cage at rest does not bound the model, or crosses itself: such weights pose it less well.
+/// Empty if the cage is good.
 std::string describeFit(const Mesh& cage, const Mesh& model, Interrupter* interrupter)
 {
     CheckOptions options;
@@ -70,7 +71,8 @@ std::string describeFit(const Mesh& cage, const Mesh& model, Interrupter* interr
     return text.empty() ? text : "  " + text + '\n';
 }
 
-/// A line a frame: how many triangles of the model the pose turns inside out, and whether the posed cage is one.
+/// Returns a line for each frame: the number of triangles of the model that the pose turns inside out, and whether the
+/// posed cage is valid.
 std::string describeInversions(const Binding& binding, const Mesh& model, const std::vector<files::Frame>& frames,
                                const std::vector<std::vector<openvdb::Vec3d>>& poses, Interrupter* interrupter)
 {
@@ -90,7 +92,8 @@ std::string describeInversions(const Binding& binding, const Mesh& model, const 
     return text;
 }
 
-/// Where the weights of each model go: into `output`, or for several models into that folder, by their names.
+/// Returns the files for the weights of each model: `output`, or for several models files in that folder, named after
+/// them.
 std::vector<fs::path> weightsFiles(const fs::path& output, const std::vector<fs::path>& models)
 {
     if (models.size() == 1) {
@@ -111,20 +114,20 @@ std::vector<fs::path> weightsFiles(const fs::path& output, const std::vector<fs:
     return files;
 }
 
-/// describeOrder() as a line for the terminal.
+/// Returns describeOrder() as a line for the terminal.
 std::string orderLine(const fs::path& posedPath, std::size_t reordered, std::size_t frames)
 {
     const std::string text = files::describeOrder(posedPath, reordered, frames);
     return text.empty() ? text : "  " + printable(text) + '\n';
 }
 
-/// What deform --compare does.
+/// Runs deform --compare.
 int drawComparison(const fs::path& cagePath, const fs::path& posedPath, const fs::path& modelPath,
                    const fs::path& picture, const CoordinateArguments& arguments, const TalkArguments& talk)
 {
     requirePngExtension(picture);
     const auto optionsOf = [&](Coordinates family) { return arguments.optionsOfEach(family); };
-    optionsOf(coordinateFamilies().front().family); // fails before anything is read
+    optionsOf(coordinateFamilies().front().family); // throws before any file is read
     if (files::isPattern(posedPath))
         throw InputError("--compare is of one pose; POSED_CAGE must not have a frame number");
     Outputs outputs;
@@ -272,7 +275,7 @@ int runDeform(Call call)
     }
     const std::string fit = weights.empty() ? describeFit(cage, model, &*progress) : "";
     if (!weights.empty()) binding = binding.with(arguments.optionsOf(binding.family()).elasticity);
-    std::vector<std::vector<openvdb::Vec3d>> poses; // kept for what is printed
+    std::vector<std::vector<openvdb::Vec3d>> poses; // kept for the printed text
     std::size_t reordered = 0;
     for (const files::Frame& frame : frames) {
         PosedPoints pose = files::posedPointsOf(frame.path, readMesh(frame.path, warnings), cage);

@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// As a word of a POSIX shell.
+/// Returns `word` quoted for a POSIX shell if need be.
 std::string shellWord(const std::string& word)
 {
     constexpr const char* plain = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_@%+=:,./-";
@@ -27,7 +27,7 @@ std::string shellWord(const std::string& word)
     return text + "'";
 }
 
-/// A name that is no option.
+/// Returns a name that cannot be taken for an option.
 std::string asFile(const fs::path& path)
 {
     const std::string name = path.string();

@@ -38,7 +38,7 @@ struct MakeArguments {
     bool isVerbose = false;
 };
 
-/// All files that are read.
+/// Returns all files that are read.
 std::vector<fs::path> inputsOf(const MakeArguments& arguments)
 {
     std::vector<fs::path> files = arguments.models;
@@ -49,7 +49,7 @@ std::vector<fs::path> inputsOf(const MakeArguments& arguments)
     return files;
 }
 
-/// All that are written beside the report.
+/// Returns all files that are written beside the report.
 std::vector<fs::path> resultsOf(const MakeArguments& arguments)
 {
     std::vector<fs::path> files{arguments.cage};
@@ -60,7 +60,7 @@ std::vector<fs::path> resultsOf(const MakeArguments& arguments)
     return files;
 }
 
-/// Refuses what cannot work before any work is done: formats, folders, permissions, one file under two names.
+/// Refuses impossible calls before any work is done: formats, folders, permissions, one file under two names.
 void announce(const MakeArguments& arguments, Outputs& outputs)
 {
     if (!arguments.picture.empty()) requirePngExtension(arguments.picture);
@@ -128,7 +128,7 @@ std::string summaryOf(const MakeArguments& arguments, const std::vector<ModelFil
     return out.str();
 }
 
-/// Whether the report that there is tells of the same inputs, whose fingerprint this is, and all results are there.
+/// Returns whether the report is about the same inputs, with this fingerprint, and all results exist.
 bool wasDone(const MakeArguments& arguments, const std::string& inputs)
 {
     std::error_code ignored;
@@ -143,7 +143,7 @@ bool wasDone(const MakeArguments& arguments, const std::string& inputs)
     return has("format", 1) && has("cage", arguments.cage.string()) && has("inputs", inputs);
 }
 
-/// Leaves a report of it, if that can be written: what failed before is worth more than a failure of this.
+/// Writes a report of the failure if possible. Ignores errors of that: the first failure matters more.
 void reportFailure(const MakeArguments& arguments, const Failure& failure) noexcept
 {
     try {
@@ -157,17 +157,17 @@ void reportFailure(const MakeArguments& arguments, const Failure& failure) noexc
     }
 }
 
-/// As they will be in its file, whose hash reports have.
+/// Returns the bytes of the cage's file, for its hash in reports.
 std::string bytesOf(const Mesh& cage, const fs::path& path)
 {
     std::ostringstream out;
-    out.exceptions(std::ios::badbit); // it would hide a lack of memory
+    out.exceptions(std::ios::badbit); // the stream would hide a lack of memory
     writeMesh(cage, out, path);
     return out.str();
 }
 
-/// Makes the cage, writes all files and returns what there is to say. All that it took is given back before the files
-/// get their names: giving back may fail too (trees of OpenVDB ask for memory for it), and ends the process.
+/// Makes the cage, writes all files and returns the text to print. All memory is freed before the files get their
+/// names: freeing may fail too (trees of OpenVDB ask for memory for it), and ends the process.
 std::string makeFiles(const MakeArguments& arguments, const std::string& inputs, Outputs& outputs,
                       Interrupter& interrupter)
 {
@@ -184,7 +184,7 @@ std::string makeFiles(const MakeArguments& arguments, const std::string& inputs,
     checkEach(models, cage, pipeline.report().leastPartSide, &clock);
 
     std::optional<Stage> writing(std::in_place, &clock, StageName::write);
-    // All work first: while files are waiting a signal has to wait for work.
+    // All work comes first: while files are waiting a signal has to wait for work.
     const std::string picture = arguments.picture.empty() ? std::string() : encodePng(drawCage(pipeline.model(), cage));
     if (!arguments.stages.empty()) addStages(pipeline, arguments, &clock, outputs);
     const std::string cageFile = bytesOf(cage, arguments.cage);
@@ -263,11 +263,11 @@ int runMake(Call call)
     std::optional<Outputs> outputs(std::in_place);
     announce(arguments, *outputs);
     std::string text;
-    std::optional<SignalHold> hold; // a run that is cancelled leaves a report, too
+    std::optional<SignalHold> hold; // a cancelled run leaves a report, too
     if (!arguments.report.empty()) hold.emplace();
     try {
         std::optional<Progress> progress(talk.progressForm());
-        // Of the files as they are before the work: what changes meanwhile is done anew.
+        // Hashes the files before the work: a run is repeated if they change meanwhile.
         const std::string inputs =
             arguments.report.empty() ? std::string() : fingerprint(inputsOf(arguments), arguments.options);
         if (skipsDone && wasDone(arguments, inputs)) {
@@ -278,7 +278,7 @@ int runMake(Call call)
         }
         progress->succeed();
     } catch (const std::exception& exception) {
-        outputs.reset(); // what was written goes, and makes room
+        outputs.reset(); // removes written files, which also makes room
         if (!arguments.report.empty()) reportFailure(arguments, failureOf(exception));
         throw;
     }

@@ -11,7 +11,7 @@ namespace vdbcage::cli {
 
 namespace {
 
-/// With a capital first, and a full stop.
+/// Returns the text with a capital first, and a full stop.
 std::string sentence(std::string text)
 {
     if (!text.empty() && text[0] >= 'a' && text[0] <= 'z') text[0] = static_cast<char>(text[0] - 'a' + 'A');
@@ -29,14 +29,14 @@ void addOptions(manual::ManualPage& page, const CommandFacts& facts, bool rareOn
 
 constexpr const char* statusTwo = "Exit status 2: ";
 
-/// What it is, where the text of a command says so; else empty.
+/// Returns the meaning of status 2 if the text of a command has it; else empty.
 std::string meaningOfTwo(const CommandFacts& facts)
 {
     const std::size_t at = facts.text.find(statusTwo);
     return at == std::string::npos ? "" : facts.text.substr(at + std::string(statusTwo).size());
 }
 
-/// What it can be of some commands.
+/// Adds the exit statuses of these commands.
 void addExitStatus(manual::ManualPage& page, const std::vector<Command>& some)
 {
     page.section("EXIT STATUS");
@@ -52,7 +52,7 @@ void addExitStatus(manual::ManualPage& page, const std::vector<Command>& some)
               "It was ended, by SIGINT (Ctrl+C) or SIGHUP, or by SIGTERM. Nothing half-written is left.");
 }
 
-/// vdbcage(1)
+/// Returns vdbcage(1).
 std::string mainPage()
 {
     manual::ManualPage page("vdbcage", "coarse, tight, strictly bounding cages for any model");
@@ -76,7 +76,7 @@ std::string mainPage()
     return page.text();
 }
 
-/// vdbcage-COMMAND(1)
+/// Returns vdbcage-COMMAND(1).
 std::string pageOf(const Command& command)
 {
     const CommandFacts facts = describe(command);
@@ -84,7 +84,7 @@ std::string pageOf(const Command& command)
     page.section("SYNOPSIS");
     page.code(facts.usage);
     page.section("DESCRIPTION");
-    page.paragraph(facts.text.substr(0, facts.text.find(statusTwo))); // which has its own section
+    page.paragraph(facts.text.substr(0, facts.text.find(statusTwo))); // the status has its own section
     if (!command.details.empty()) page.paragraph(command.details);
     page.section("OPTIONS");
     page.paragraph("What holds without an option is in brackets.");

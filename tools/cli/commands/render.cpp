@@ -68,13 +68,13 @@ void colourByInfluence(std::vector<Layer>& panel, int vertex, const CoordinateOp
     }
 }
 
-/// A file of a panel. It is joined to the one before by a lone +: drawn in the same way.
+/// A file of a panel. A lone + joins it to the one before: both are drawn in the same way.
 struct PanelFile {
     std::string name;
     bool isJoined = false;
 };
 
-/// The files of each panel, of words with a lone / between panels.
+/// Returns the files of each panel, from words with a lone / between panels.
 std::vector<std::vector<PanelFile>> panelsOf(const std::vector<std::string>& words)
 {
     std::vector<std::vector<PanelFile>> panels(1);
@@ -97,7 +97,7 @@ std::vector<std::vector<PanelFile>> panelsOf(const std::vector<std::string>& wor
     return panels;
 }
 
-/// The surface of a volume; an objection to it names its file.
+/// Returns the surface of a volume; an objection to it names its file.
 Mesh readVoxels(const fs::path& path)
 {
     const openvdb::MaskGrid::Ptr mask = readVdb(path);

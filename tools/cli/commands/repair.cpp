@@ -52,7 +52,7 @@ std::string bytesOf(const Mesh& mesh, const std::filesystem::path& path)
     return bytes.str();
 }
 
-/// What keeps a mesh from being a valid cage.
+/// Returns the defects that keep a mesh from being a valid cage.
 std::string defects(const CageCheck& check)
 {
     const std::pair<std::size_t, const char*> counts[] = {
@@ -67,7 +67,7 @@ std::string defects(const CageCheck& check)
     return text;
 }
 
-/// What became of the cage, for a person: how much there is of it, and what was done, as far as there is any.
+/// Returns the repairs of the cage in words, with their numbers, as far as there are any.
 std::string describe(const RepairReport& report)
 {
     std::ostringstream text;
@@ -119,11 +119,11 @@ int runRepair(Call call)
 
     std::optional<Progress> progress(talk.progressForm());
     const MeshFile cage = readMeshFile(cagePath);
-    // As the format of the output has it: what that rounds or leaves out is mended too.
+    // The cage as the output's format stores it: roundings and losses are mended too.
     const Mesh given = detail::parseMesh(bytesOf(cage.mesh, outputPath), outputPath).mesh;
     const RepairedCage mended = repair(given, &*progress);
     const std::string bytes = bytesOf(mended.cage, outputPath);
-    // The verdict is on what is written, by itself: any model does.
+    // The verdict is on the written cage alone: any model does.
     CheckOptions unmeasured;
     unmeasured.measure = false;
     const CageCheck check = checkCage(detail::parseMesh(bytes, outputPath).mesh, given, unmeasured, &*progress);

@@ -7,8 +7,8 @@
 
 namespace vdbcage::cli {
 
-/// A page of HTML with all results, in one file. A picture that lies beside a report, of the same name, is in it, made
-/// smaller. \throw IoError a picture cannot be read
+/// Returns a page of HTML with all results, in one file. It contains the picture beside each report, of the same name,
+/// reduced in size. \throw IoError a picture cannot be read
 std::string pageOf(const std::vector<report::JobResult>& results);
 
 } // namespace vdbcage::cli

@@ -38,7 +38,7 @@ std::vector<FolderEntry> listFolder(const fs::path& folder, const std::vector<st
     std::vector<FolderEntry> list;
     for (; entries != fs::directory_iterator(); entries.increment(error)) {
         FolderEntry entry{entries->path().filename().string()};
-        std::error_code ignored; // what cannot be asked about is shown as a file
+        std::error_code ignored; // an entry that cannot be examined is shown as a file
         entry.isFolder = entries->is_directory(ignored);
         if (entry.name[0] == '.' && wanted.rfind('.', 0) != 0) continue;
         if (lower(entry.name).find(wanted) == std::string::npos) continue;
@@ -81,7 +81,7 @@ std::vector<fs::path> recentFiles(const fs::path& list)
         for (std::string line; std::getline(lines, line) && files.size() < mostRecentFiles;) {
             if (fs::is_regular_file(line, error)) files.emplace_back(line);
         }
-    } catch (const IoError&) { // no list is as good as an unreadable one
+    } catch (const IoError&) { // an unreadable list counts as none
     }
     return files;
 }
@@ -99,7 +99,7 @@ void addRecentFile(const fs::path& list, const fs::path& file)
         writeFileAtomically(list, [&](std::ostream& out) {
             for (const fs::path& path : files) out << path.string() << '\n';
         });
-    } catch (const IoError&) { // see the header
+    } catch (const IoError&) { // ignored, see the header
     }
 }
 

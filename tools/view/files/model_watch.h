@@ -4,23 +4,23 @@
 
 namespace vdbcage::view {
 
-/// Looks whether the model's file has changed on disk since it was opened.
+/// A watch for changes of the model's file on disk since it was opened.
 class ModelWatch {
 public:
-    /// Returns whether it has changed since the last look.
+    /// Returns whether it has changed since the last call.
     bool look(const OpenedMesh& model)
     {
         const FileStamp stamp = stampOf(model.path);
-        // A file that is gone may come back in a moment, as when a program saves.
+        // A missing file may come back in a moment, as when a program saves.
         if (stamp == FileStamp{} || stamp == model.stamp || stamp == ignored_ || hasChanged_) return false;
         hasChanged_ = true;
         changed_ = stamp;
         return true;
     }
 
-    /// It has changed, and the user has not said yet what to do.
+    /// Returns whether it has changed and the user has not answered yet.
     bool hasChanged() const { return hasChanged_; }
-    /// The user knows: what is there now is not spoken of again.
+    /// Notes that the user knows: the present change is not reported again.
     void ignore()
     {
         hasChanged_ = false;

@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// A larger file is none of ours.
+/// The size above which a file is not one of ours.
 constexpr std::uintmax_t mostBytes = 65536;
 
 void readLine(const std::string& line, Preferences& preferences)
@@ -50,7 +50,7 @@ Preferences readPreferences(const fs::path& file)
     try {
         std::istringstream lines(detail::readFile(file));
         for (std::string line; std::getline(lines, line);) readLine(line, preferences);
-    } catch (const IoError&) { // see the header
+    } catch (const IoError&) { // ignored, see the header
     }
     return preferences;
 }
@@ -64,7 +64,7 @@ void writePreferences(const fs::path& file, const Preferences& preferences)
         writeFileAtomically(file, [&](std::ostream& out) {
             out << "keys " << keyMapNames[static_cast<std::size_t>(preferences.keys)] << '\n';
         });
-    } catch (const IoError&) { // see the header
+    } catch (const IoError&) { // ignored, see the header
     }
 }
 

@@ -10,23 +10,23 @@
 
 namespace vdbcage::view {
 
-/// Writes files on a thread of its own, one file or sequence at a time. All its functions are for one thread, the
-/// owner's, and none of them waits but waitForNews().
+/// A writer of files on its own thread, one file or sequence at a time. Call it from one thread, the owner's. Only
+/// waitForNews() waits.
 class Saver {
 public:
     /// `wake`: see Worker.
     explicit Saver(std::function<void()> wake);
 
-    /// Begins to write a file; `makeWriter` is called with its path. \throw InputError something is still being
+    /// Begins to write a file; `makeWriter` is called with its path. \throw InputError another one is still being
     /// written, or as makeWriter
     void save(const std::filesystem::path& path, bool isSequence,
               const std::function<Write(const std::filesystem::path&)>& makeWriter);
 
-    /// What has been written since the last call: the name of a file.
-    /// \throw InputError why it could not be written
+    /// Returns the name of the file that has been written since the last call.
+    /// \throw InputError the reason why it could not be written
     std::optional<std::string> take();
     bool isBusy() const { return isBusy_; }
-    /// Stops what is under way: nothing is written.
+    /// Stops the present job: nothing is written.
     void stop() { worker_.stop(); }
     /// Waits until there is something to take, or `seconds` have passed.
     void waitForNews(double seconds) { worker_.waitForNews(seconds); }
@@ -34,7 +34,7 @@ public:
 
 private:
     struct Job {
-        std::string name; ///< of what is written
+        std::string name; ///< of the file
         Write write;
     };
     Worker<Job, std::string> worker_;

@@ -12,10 +12,10 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// \throw InputError the cage that is seen is not the current one, or a pose is not there for it
+/// \throw InputError the shown cage is not the current one, or lacks a pose
 void requirePoses(const SaveSource& source, const std::string& verb)
 {
-    // Of the cage that is seen; a new one may not have its poses yet.
+    // The poses belong to the shown cage; a new one may not have them yet.
     const CageResultPtr current = currentCage(source.planner, verb);
     if (!source.cage || source.cage->rest().get() != &current->cage) {
         throw InputError(verb + ": the poses are not carried over to the new cage yet");
@@ -27,7 +27,7 @@ void requirePoses(const SaveSource& source, const std::string& verb)
     }
 }
 
-/// What is posed at the frames of the verb T. \throw as requirePoses
+/// Returns the poses at the frames of the verb T. \throw as requirePoses
 template <class T>
 PosedScene posedScene(const SaveSource& source)
 {

@@ -7,12 +7,12 @@
 #include <tools/view/jobs/posing.h>
 #include <tools/view/state/commands/line.h>
 
-/// Verbs that write a file of what is made and posed, each a line (see line.h) with what it writes:
+/// Verbs that write a file of the scene's results. Each is a line (see line.h) with a writer:
 ///
-///     static Write writer(const SaveSource& source, const fs::path& file); // \throw InputError it is not there
+///     static Write writer(const SaveSource& source, const fs::path& file); // \throw InputError nothing to write yet
 namespace vdbcage::view {
 
-/// What is saved.
+/// The data that is saved.
 struct SaveSource {
     const State& state;
     const ShownCage& cage;
@@ -20,13 +20,13 @@ struct SaveSource {
     const Posing& posing;
 };
 
-/// Writes the file, on any thread. \throw InputError, IoError, Cancelled
+/// A function that writes the file, on any thread. \throw InputError, IoError, Cancelled
 using Write = std::function<void(Interrupter*)>;
 
 /// NAME FILE
 struct SaveFile {
     static constexpr bool isRecorded = true;
-    /// It writes a file for each frame; its path gets a place for their numbers (see files::patternFor).
+    /// Whether it writes a file for each frame; its path gets a place for their numbers then (see files::patternFor).
     static constexpr bool isSequence = false;
     std::string path;
 
@@ -103,7 +103,8 @@ struct SaveOptions : SaveFile {
     static Write writer(const SaveSource& source, const std::filesystem::path& file);
 };
 
-/// The cage of the options that are set now, or that was opened. \throw InputError naming the verb: it is not there yet
+/// Returns the cage of the present options, or the one that was opened. \throw InputError naming the verb: it is not
+/// there yet
 CageResultPtr currentCage(const Planner& planner, const std::string& verb);
 
 } // namespace vdbcage::view

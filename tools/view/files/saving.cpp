@@ -29,7 +29,7 @@ void saveText(const std::string& text, const fs::path& path)
 
 using Points = std::vector<openvdb::Vec3d>;
 
-/// Writes a file a frame; all appear or none.
+/// Writes a file for each frame; all appear or none.
 template <class Write>
 void saveFrames(PosedScene& scene, const fs::path& path, Interrupter* interrupter, const Write& write)
 {
@@ -76,7 +76,7 @@ void saveOptions(const CageOptions& options, const fs::path& path)
 void saveReport(const CageResult& result, const fs::path& path)
 {
     const OpenedMesh& model = *result.order.model;
-    // Without a hash: the file may be another by now.
+    // No hash: the file may have changed.
     const report::Json facts = report::toJson(model.mesh, model.summary, model.path);
     const report::CageOrder order{{}, report::Json::array({facts}), "", "", result.order.options};
     const report::CageMade made{result.cage, "", result.seconds, result.stages, result.report};

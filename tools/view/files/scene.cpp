@@ -25,8 +25,8 @@ namespace {
 
 constexpr int formatVersion = 1;
 
-/// A file as it is named in a scene: from the scene's folder where both have a common one, so that a folder with a
-/// scene can be moved.
+/// Returns a file as named in a scene: relative to the scene's folder if it is in or below it, so that the folder can
+/// be moved.
 Json fileOf(const fs::path& path, const fs::path& scene)
 {
     const fs::path folder = fs::absolute(scene).lexically_normal().parent_path();
@@ -35,7 +35,7 @@ Json fileOf(const fs::path& path, const fs::path& scene)
     return {{"file", (isBelow ? relative : path).string()}, {"digest", digestOf(path)}};
 }
 
-/// Where it is. \throw InputError it is another one now
+/// Returns the path of the file. \throw InputError it has changed
 fs::path sameFile(const Json& file, const fs::path& scene)
 {
     const fs::path path = scene.parent_path() / file.at("file").get<std::string>();
@@ -65,7 +65,7 @@ Elasticity elasticityOf(const Json& json)
     return elasticity;
 }
 
-/// A cage that was edited has no file of its own.
+/// Reads an edited cage, which has no file of its own.
 OpenedMeshPtr editedCage(const fs::path& file)
 {
     OpenedMesh edited;
@@ -73,7 +73,7 @@ OpenedMeshPtr editedCage(const fs::path& file)
     return std::make_shared<const OpenedMesh>(std::move(edited));
 }
 
-/// Poses to and from files beside a scene. Those of one cage at rest share its file.
+/// A reader of poses from files beside a scene. Poses of one cage at rest share its file.
 class PoseReader {
 public:
     explicit PoseReader(fs::path folder) : folder_(std::move(folder)) {}
@@ -141,7 +141,7 @@ void saveScene(const State& state, const CageResult* current, const fs::path& pa
     const auto nameOf = [](const fs::path& file) { return file.filename().string(); };
     Json poses = Json::array();
     std::vector<MeshPtr> rests;
-    std::vector<Mesh> posed; // one for each key that has a pose
+    std::vector<Mesh> posed; // one for each key with a pose
     for (const PoseKey& key : document.poses.keys()) {
         Json entry{{"frame", key.frame}, {"name", key.name}, {"rest", nullptr}, {"posed", nullptr}};
         if (key.pose) {
@@ -210,13 +210,13 @@ State openScene(const fs::path& given)
         }
         state.document.model = openMesh(sameFile(scene.at("model"), path));
         if (!scene.at("opened_cage").is_null()) state.document.cage = openMesh(sameFile(scene.at("opened_cage"), path));
-        // Scenes of before have none of these.
+        // Older scenes lack these.
         if (scene.contains("edited_cage") && !scene["edited_cage"].is_null()) {
             state.document.cage = editedCage(path.parent_path() / scene["edited_cage"].get<std::string>());
         }
         PoseReader poses(path.parent_path());
         if (scene.contains("poses")) state.document.poses = poses.read(scene["poses"]);
-        if (scene.contains("pose") && !scene["pose"].is_null()) { // there was one alone
+        if (scene.contains("pose") && !scene["pose"].is_null()) { // an older scene with a single pose
             const Json& one = scene["pose"];
             state.document.poses = poses.read(
                 Json::array({Json{{"frame", 0}, {"name", ""}, {"rest", one.at("rest")}, {"posed", one.at("posed")}}}));

@@ -121,7 +121,7 @@ constexpr std::array<NamedModifier, 3> modifierNames{
 // In the order of Button.
 constexpr std::array<std::string_view, 3> buttonNames{"left", "right", "middle"};
 
-/// Takes the modifiers off the front of `name`. None: what stands before a plus is no modifier, or one again.
+/// Takes the modifiers off the front of `name`. None: a word before a plus is no modifier, or a repeated one.
 std::optional<Modifiers> takeModifiers(std::string_view& name)
 {
     Modifiers modifiers;

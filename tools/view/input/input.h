@@ -7,7 +7,7 @@
 
 namespace vdbcage::view {
 
-/// A key of the keyboard, by what is printed on it. Shift, control and alt are `Modifiers`.
+/// A key of the keyboard, named by its label. Shift, control and alt are `Modifiers`.
 // clang-format off
 enum class Key {
     a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, v, w, x, y, z,
@@ -20,26 +20,26 @@ enum class Key {
 };
 // clang-format on
 
-/// Every key, in the order of `Key`.
+/// Returns every key, in the order of `Key`.
 const std::vector<Key>& allKeys();
 
-/// One word in lower case, such as "z", "7", "f5", "page-up" or "keypad-add".
+/// Returns one word in lower case, such as "z", "7", "f5", "page-up" or "keypad-add".
 std::string nameOf(Key key);
 
 /// \throw InputError no key has this name
 Key keyNamed(std::string_view name);
 
-/// Keys that change what others mean, and are held with them.
+/// Keys that are held with others and change their meaning.
 struct Modifiers {
     bool shift = false, control = false, alt = false;
 };
 
 bool operator==(const Modifiers& a, const Modifiers& b);
 
-/// Such as "control+shift", in the order control, shift, alt; empty: none.
+/// Returns a text such as "control+shift", in the order control, shift, alt; empty: none.
 std::string nameOf(const Modifiers& modifiers);
 
-/// A key and what is held with it.
+/// A key and the modifiers held with it.
 struct KeyChord {
     Key key = Key::a;
     Modifiers modifiers = {};
@@ -47,36 +47,36 @@ struct KeyChord {
 
 bool operator==(const KeyChord& a, const KeyChord& b);
 
-/// Such as "control+shift+z": the modifiers in the order control, shift, alt, then the key.
+/// Returns a text such as "control+shift+z": the modifiers in the order control, shift, alt, then the key.
 std::string nameOf(const KeyChord& chord);
 
-/// Reads what `nameOf` writes, with the modifiers in any order.
+/// Reads a text of `nameOf`, with the modifiers in any order.
 /// \throw InputError not such a text
 KeyChord chordNamed(std::string_view name);
 
 enum class Button { left, right, middle };
 
-/// "left", "right" or "middle".
+/// Returns "left", "right" or "middle".
 std::string nameOf(Button button);
 
-/// A button and what is held with it.
+/// A button and the modifiers held with it.
 struct ButtonChord {
     Button button = Button::left;
     Modifiers modifiers = {};
 };
 
-/// Reads such as "left" or "control+shift+left", the modifiers in any order.
+/// Reads a text such as "left" or "control+shift+left", with the modifiers in any order.
 /// \throw InputError not such a text
 ButtonChord buttonNamed(std::string_view name);
 
 struct PointerMoved {
     double x = 0, y = 0; ///< pixels from the top left
 };
-struct PointerLeft {}; ///< the window
+struct PointerLeft {}; ///< the pointer left the window
 struct ButtonDown {
     Button button = Button::left;
     int clicks =
-        1; ///< 2: the second press of a double click, and so on. Who makes the event decides; no clock is asked
+        1; ///< 2: the second press of a double click, and so on. The maker of the event decides; no clock is asked
 };
 struct ButtonUp {
     Button button = Button::left;
@@ -85,7 +85,7 @@ struct WheelTurned {
     double x = 0, y = 0; ///< notches; positive y is away from the user
 };
 struct KeyDown {
-    Key key = Key::a; ///< again without a `KeyUp` between: the keyboard repeats it
+    Key key = Key::a; ///< again without a `KeyUp` between: a repetition by the keyboard
 };
 struct KeyUp {
     Key key = Key::a;
@@ -94,7 +94,7 @@ struct Typed {
     char32_t character = 0;
 };
 
-/// One thing that the user did, in a window or in a script.
+/// One act of the user, in a window or in a script.
 struct InputEvent {
     std::variant<PointerMoved, PointerLeft, ButtonDown, ButtonUp, WheelTurned, KeyDown, KeyUp, Typed> what;
     Modifiers modifiers = {}; ///< held meanwhile

@@ -9,10 +9,10 @@
 #include <tools/view/input/input.h>
 #include <tools/view/input/verbs.h>
 
-/// What keys and mouse buttons do, in each key map.
+/// The actions of keys and mouse buttons in each key map.
 namespace vdbcage::view {
 
-/// A key and what it stands for.
+/// A key and its action.
 struct Shortcut {
     std::string chord; ///< as nameOf(KeyChord)
     Action action;
@@ -20,22 +20,22 @@ struct Shortcut {
     std::string help;
 };
 
-/// No chord is there twice.
+/// Returns the shortcuts of the map, with no chord twice.
 const std::vector<Shortcut>& shortcuts(KeyMap map);
 
-/// What a drag in the picture does.
+/// The effect of a drag in the picture.
 enum class DragAction : std::uint8_t { turn, pan, zoom, box, lasso };
 struct DragBinding {
     ButtonChord chord;
     DragAction action{};
-    bool winsOverHandles = false; ///< it does so where it begins on a handle too
+    bool winsOverHandles = false; ///< it also does if it begins on a handle
 };
 
-/// What becomes of what is selected when something else is picked.
+/// The change of the selection when something else is picked.
 enum class PickAction : std::uint8_t {
     none,
-    replace, ///< what is picked alone is selected
-    toggle,  ///< what is picked becomes selected if it was not, and is taken out if it was
+    replace, ///< only the picked elements are selected
+    toggle,  ///< picked elements that were not selected become so; others are removed
     add,
     remove
 };
@@ -44,22 +44,23 @@ struct PickBinding {
     PickAction action{};
 };
 
-/// What the mouse does in the picture. Of each list the first entry counts whose modifiers are held, whatever else is.
+/// The actions of the mouse in the picture. In each list the first entry whose modifiers are held decides, whatever
+/// else is held.
 struct MouseMap {
     std::vector<DragBinding> drags;
-    std::vector<PickBinding> clicks; ///< of the left button, by what is held when it goes down
-    std::vector<PickBinding> bands;  ///< of boxes and lassos, by what is held at their end
+    std::vector<PickBinding> clicks; ///< of the left button, by the modifiers held when it goes down
+    std::vector<PickBinding> bands;  ///< of boxes and lassos, by the modifiers held at their end
 };
 
 const MouseMap& mouseMap(KeyMap map);
 
-/// Null: it does nothing.
+/// Returns the binding of the button; null: it has none.
 const DragBinding* dragOf(const MouseMap& map, const ButtonChord& held);
 PickAction pickOf(const std::vector<PickBinding>& bindings, const Modifiers& held);
 
-/// What modifiers do at the end of a box or lasso, such as "shift adds, alt takes out".
+/// Returns the effect of modifiers at the end of a box or lasso, such as "shift adds, alt takes out".
 std::string describeBands(const MouseMap& map);
-/// All that the mouse does in the picture: (what is done, what it does), for help and docs.
+/// Returns all acts of the mouse in the picture and their effects, for help and docs.
 std::vector<std::pair<std::string, std::string>> describeMouse(KeyMap map);
 
 } // namespace vdbcage::view

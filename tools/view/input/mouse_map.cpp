@@ -10,7 +10,7 @@ namespace {
 constexpr Modifiers nothing{}, shift{true, false, false}, control{false, true, false}, alt{false, false, true},
     controlShift{true, true, false};
 
-/// Whether all that `wanted` has is held.
+/// Returns whether all modifiers of `wanted` are held.
 bool areHeld(const Modifiers& wanted, const Modifiers& held)
 {
     return (held.shift || !wanted.shift) && (held.control || !wanted.control) && (held.alt || !wanted.alt);
@@ -41,7 +41,7 @@ MouseMap mayaMouse()
                   {{Button::right, nothing}, DragAction::lasso}},
                  picks,
                  picks};
-    // A view that is not turned after all leaves what is selected.
+    // A click that begins to turn the view, without a drag, keeps the selection.
     map.clicks.insert(map.clicks.begin(), {alt, PickAction::none});
     return map;
 }
@@ -86,7 +86,7 @@ const char* textOf(PickAction action)
     return "";
 }
 
-/// Of a box or a lasso.
+/// Returns the effect of a box or a lasso.
 const char* bandTextOf(PickAction action)
 {
     switch (action) {

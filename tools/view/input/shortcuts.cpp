@@ -10,7 +10,7 @@ struct Row {
     const char* blender; ///< the chord in this map; empty: none
     Action action;
     const char* help;
-    const char* maya = nullptr; ///< the chord in this map; empty: none; null: that of Blender's
+    const char* maya = nullptr; ///< the chord in this map; empty: none; null: the one of Blender
 };
 
 const std::vector<Row>& rows()

@@ -19,7 +19,7 @@ Command withFaces(const Situation& now, int steps)
     return SetOption{"faces", std::to_string(steppedFaces(options.faces, steps, options.mesh))};
 }
 
-/// The plane is that in which the cage was made symmetric, or else the middle of the cage.
+/// Returns the mirror in the plane of the cage's symmetry, or else through the cage's middle.
 SetMirror toggledMirror(const Situation& now, int axis)
 {
     const State& state = now.state;
@@ -30,7 +30,7 @@ SetMirror toggledMirror(const Situation& now, int axis)
     return {SymmetryPlane{axis, 0.5 * (box.min()[axis] + box.max()[axis])}};
 }
 
-/// The selection after `change`, which gets the cage and what is selected of it.
+/// Returns the selection after `change`, which gets the cage and its selection.
 template <class T, class Change>
 Command selected(const Situation& now, const Change& change)
 {
@@ -39,7 +39,7 @@ Command selected(const Situation& now, const Change& change)
     return Select{change(elements, withinCage(now.state.view.selection, elements))};
 }
 
-/// The frame of the next key in a direction, or where it is now if there is none.
+/// Returns the frame of the next key in a direction, or the present one if there is none.
 SetFrame nextKey(const Situation& now, int direction)
 {
     const int frame = now.state.view.frame;
@@ -70,7 +70,7 @@ Command Toggle::command(const Situation& now) const
     if (what == "axes") return ShowAxes{!view.axes};
     if (what == "turntable") return SetTurntable{!view.turntable};
     if (what == "see-through") return SetSeeThrough{!view.seeThrough};
-    // What cannot play now would begin by itself later.
+    // Playing without keys must not begin, or it would start by itself later.
     State playing = now.state;
     playing.view.isPlaying = true;
     if (what == "play") return Play{!view.isPlaying && Animation::isPlaying(playing)};

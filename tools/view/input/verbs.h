@@ -9,11 +9,11 @@
 #include <tools/view/files/saves.h>
 #include <tools/view/state/command.h>
 
-/// Verbs are the lines (see line.h) beside the commands: what menus and keys do. Some amount to a command:
+/// Verbs are the lines (see line.h) beside the commands: the actions of menus and keys. Some amount to a command:
 ///
-///     Command command(const Situation& now) const; // \throw InputError what is missing
+///     Command command(const Situation& now) const; // \throw InputError naming the missing thing
 ///
-/// The app does the others. Those that a recording needs say so: static constexpr bool isRecorded = true.
+/// The app performs the others. Those that a recording needs have: static constexpr bool isRecorded = true.
 namespace vdbcage::view {
 
 struct Undo {
@@ -221,7 +221,7 @@ struct Reload {
     static LineInfo info() { return {"reload", "", 0, 0, "reads the model's file anew"}; }
 };
 struct Browse {
-    std::string line; ///< the name of one that takes a file
+    std::string line; ///< the name of a line that takes a file
 
     static LineInfo info() { return {"browse", "LINE", 1, 1, "asks for a file, and then does LINE with it"}; }
     static Browse read(const Arguments& arguments) { return {arguments[0]}; }
@@ -257,7 +257,7 @@ struct Tick {
     std::string text() const { return written(seconds); }
 };
 
-/// In the order of help.
+/// All verbs, in the order of help.
 using Verb =
     std::variant<Undo, Redo, UndoView, RedoView, MakeAgain, Cancel, MoreFaces, FewerFaces, Toggle, FrameView, Look,
                  SetProjection, SetUp, SelectKind, SelectAll, SelectNone, SelectInvert, SelectLinked, SelectGrow,
@@ -272,19 +272,19 @@ constexpr bool amountsToCommand = false;
 template <class T>
 constexpr bool amountsToCommand<T, std::void_t<decltype(&T::command)>> = true;
 
-/// How each verb is written, and what it does, for help and docs.
+/// Returns the syntax and a line of help of each verb, for help and docs.
 LineHelp describeVerbs();
 
-/// What panels, keys and scripts can ask for.
+/// Everything that panels, keys and scripts can ask for.
 using Action = std::variant<Command, Verb>;
 
-/// Its line, without a line break; actionOf gives an equal action back.
+/// Returns its line, without a line break; actionOf makes an equal action of it.
 std::string textOf(const Action& action);
 
-/// The command or verb in `words` (see wordsOf). \throw InputError naming it, the value and what is allowed
+/// Returns the command or verb in `words` (see wordsOf). \throw InputError naming it, the value and the allowed values
 Action actionOf(const Words& words);
 
-/// Whether a recording needs it: commands, and verbs that say so.
+/// Returns whether a recording needs it: commands, and verbs with isRecorded.
 bool isRecorded(const Action& action);
 
 } // namespace vdbcage::view

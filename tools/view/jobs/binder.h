@@ -10,36 +10,36 @@
 
 namespace vdbcage::view {
 
-/// Binds models to cages on a thread of its own: coarsely first, then whole. What is wanted now is begun at once; what
-/// is under way for something else is stopped. What was bound is kept, so that families can be switched to and fro. All
-/// its functions are for one thread, the owner's, and none of them waits but waitForNews().
+/// A thread that binds models to cages: coarsely first, then completely. A wanted job begins at once; one under way for
+/// another order is stopped. Results are kept, so that users can switch between families. Call it from one thread, the
+/// owner's. Only waitForNews() waits.
 class Binder {
 public:
     using Work = Worker<BindOrder, BoundModelPtr>::Work;
 
-    /// `wake`: see Worker. `mostBytes`: bindings of more than that in all are not kept, the oldest going first.
+    /// `wake`: see Worker. `mostBytes`: the most that kept bindings take; the oldest go first.
     Binder(Work work, std::function<void()> wake, std::size_t mostBytes = std::size_t{1} << 30);
 
-    /// What is wanted now; none: nothing. Asking for the same again changes nothing.
+    /// Sets the wanted order; none: nothing. The same order again changes nothing.
     void want(const std::optional<BindOrder>& order);
-    /// Stops what is under way; nothing is bound until something else is wanted, or again() is called.
+    /// Stops the present job; nothing is bound until another order is wanted, or again() is called.
     void cancel();
     void again();
 
-    /// Takes what has ended and begins what is next. Returns whether anything ended or began.
+    /// Takes the finished result and begins the next job. Returns whether one ended or began.
     bool update();
     /// Waits until there is something to take, or `seconds` have passed. Returns at once if nothing is under way.
     void waitForNews(double seconds);
 
-    /// What is bound of what is wanted; null: nothing yet.
+    /// Returns the result for the wanted order, as far as it is bound; null: nothing yet.
     const BoundModelPtr& bound() const { return bound_; }
-    /// Nothing of what is wanted is left to do.
+    /// Returns whether nothing is left to do for the wanted order.
     bool isSettled() const;
-    /// What is wanted was cancelled, or failed.
+    /// Returns whether the wanted job was cancelled or failed.
     bool isHalted() const { return isHalted_; }
-    /// Why it failed; empty if it did not.
+    /// Returns the reason why it failed; empty if it did not.
     const std::string& error() const { return error_; }
-    /// None: nothing is under way.
+    /// Returns the progress; none: nothing is under way.
     std::optional<WorkProgress> progress() const;
 
 private:
@@ -52,10 +52,10 @@ private:
     BoundModelPtr bound_;
     bool isHalted_ = false;
     std::string error_;
-    std::list<BoundModelPtr> kept_; ///< whole ones, the last one first
+    std::list<BoundModelPtr> kept_; ///< complete ones, the last one first
 };
 
-/// Binds by the library.
+/// Returns a function that binds by the library.
 Binder::Work bindingWork();
 
 } // namespace vdbcage::view

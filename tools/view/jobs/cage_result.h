@@ -15,7 +15,7 @@ namespace vdbcage::view {
 struct Order {
     OpenedMeshPtr model;
     CageOptions options;
-    OpenedMeshPtr cage; ///< one that was opened, which is only checked; null: it is made
+    OpenedMeshPtr cage; ///< an opened one, which is only checked; null: it is made
 };
 bool operator==(const Order& a, const Order& b);
 inline bool operator!=(const Order& a, const Order& b)
@@ -23,34 +23,35 @@ inline bool operator!=(const Order& a, const Order& b)
     return !(a == b);
 }
 
-/// The same with least effort: what is shown until the cage itself is there. Of an opened cage: itself.
+/// Returns the order with least effort: its cage is shown until the full one is there. An order of an opened cage stays
+/// as it is.
 Order previewOf(Order order);
 
-/// A cage with what it was made by. It never changes.
+/// A cage and the data that it was made by. It never changes.
 struct CageResult {
     Order order;
     Mesh cage;
     CageReport report; ///< of an opened cage only its `check`
     std::vector<StageTime> stages;
     double seconds = 0; ///< wall clock
-    /// Null if they were not asked for. An opened cage has only the distances.
+    /// Null if they were not requested. An opened cage has only the distances.
     std::shared_ptr<const Intermediates> intermediates;
 };
 using CageResultPtr = std::shared_ptr<const CageResult>;
 
-/// One thing to do.
+/// A job of the maker.
 struct Job {
     enum class Kind {
-        preview, ///< of what is wanted
-        full,    ///< what is wanted
-        ahead    ///< a preview of what may be wanted next
+        preview, ///< a preview of the wanted cage
+        full,    ///< the wanted cage
+        ahead    ///< a preview of a cage that may be wanted next
     };
     Kind kind = Kind::full;
     Order order;
-    bool intermediates = false; ///< the result is to have them
+    bool intermediates = false; ///< whether the result must have them
 };
 
-/// Makes cages, on the thread of the runner. Tests have others.
+/// A maker of cages, on the runner's thread. Tests have makers of their own.
 class CageMaker {
 public:
     virtual ~CageMaker() = default;

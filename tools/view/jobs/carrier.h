@@ -10,36 +10,36 @@
 
 namespace vdbcage::view {
 
-/// Carries poses over to cages that are made anew, on a thread of its own. All its functions are for one thread, the
-/// owner's, and none of them waits but waitForNews().
+/// A thread that carries poses over to newly made cages. Call it from one thread, the owner's. Only waitForNews()
+/// waits.
 class Carrier {
 public:
     /// `wake`: see Worker.
     explicit Carrier(std::function<void()> wake);
 
-    /// `cage` with all poses of a time line. Null: some have to be carried over, which is under way now; what was under
-    /// way for something else is stopped. Poses that cannot be carried over are at rest; error() says why.
+    /// Returns `cage` with all poses of a time line. Null: some are being carried over now; a job for another cage or
+    /// time line is stopped. Poses that cannot be carried over are at rest; error() says why.
     ShownCage carried(const MeshPtr& cage, const TimeLine& poses);
 
-    /// Takes what has ended. Ask for carried() again then.
+    /// Takes the finished result. Call carried() again then.
     void update();
-    /// Something is under way.
+    /// Returns whether a job is under way.
     bool isBusy() const { return isRunning_; }
     /// Waits until there is something to take, or `seconds` have passed. Returns at once if nothing is under way.
     void waitForNews(double seconds);
-    /// Why the last poses could not be carried over; empty: they could.
+    /// Returns the reason why the last poses could not be carried over; empty: they could.
     const std::string& error() const { return error_; }
 
 private:
     struct Job {
         MeshPtr cage;
-        std::vector<PosePtr> poses; ///< that were made for other cages
+        std::vector<PosePtr> poses; ///< made for other cages
     };
 
     Worker<Job, ShownCage> worker_;
     Job running_;
     bool isRunning_ = false;
-    ShownCage ready_; ///< null: nothing
+    ShownCage ready_; ///< null: none
     std::string error_;
 };
 

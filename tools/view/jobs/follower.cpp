@@ -32,11 +32,11 @@ void Follower::followCheck(const State& state, const MeshPtr& cage, const std::v
     if (standsStill && cagePoints != cage->points) {
         const BindOrder bound = bindOrder(state.document, cage);
         order = PoseCheckOrder{bound, cagePoints, nullptr};
-        // Given weights are not known at the points that are looked at to count them.
+        // Given weights are unknown at the points that counting needs.
         const bool areCounted =
             state.view.modelColours == ModelColours::inverted && state.document.coordinates != Coordinates::given;
         if (areCounted) order->binding = bindingOf(bound);
-        // It is counted once it is bound.
+        // Triangles are counted once the model is bound.
         if (areCounted && !order->binding && !binder_.isHalted()) order.reset();
     }
     checker_.want(order);
@@ -51,7 +51,7 @@ void Follower::followValues(const State& state, const MeshPtr& cage)
     if (colours == ModelColours::influence) points = selectedPoints(*cage, state.view.selection);
     const std::uint64_t version = colours == ModelColours::stretch ? model_.version() : 0;
     const PoseCheckPtr check = colours == ModelColours::inverted ? checker_.result() : nullptr;
-    // Until the next pose is checked the colours are those of the last one.
+    // Until the next pose is checked the colours are those of the previous one.
     if (colours == ModelColours::inverted && valuesOf_ == colours && model_.bound() && !check) return;
     valuesOf_ = colours;
     values_ = valuesMemo_.of(std::tie(colours, bound_, points, version, check), [&]() -> Values {

@@ -14,7 +14,7 @@ namespace {
 
 using openvdb::Vec3d;
 
-/// The voxels' faces; none if they are more than can be extracted, which is no reason to have no cage.
+/// Returns the voxels' faces; none if there are too many to extract, which must not prevent the cage.
 Mesh facesOf(const openvdb::MaskGrid& grid, Interrupter* interrupter)
 {
     try {
@@ -28,7 +28,7 @@ void addBox(const openvdb::CoordBBox& box, const openvdb::math::Transform& trans
 {
     const auto first = static_cast<openvdb::Index32>(mesh.points.size());
     for (int i = 0; i < 8; ++i) {
-        // A voxel reaches half a step to both sides of its place.
+        // A voxel reaches half a step to both sides of its centre.
         const Vec3d low = box.min().asVec3d() - Vec3d(0.5), high = box.max().asVec3d() + Vec3d(0.5);
         const Vec3d corner((i & 1) != 0 ? high.x() : low.x(), (i & 2) != 0 ? high.y() : low.y(),
                            (i & 4) != 0 ? high.z() : low.z());
@@ -53,7 +53,7 @@ Mesh nodesOf(const openvdb::MaskGrid& grid)
     return mesh;
 }
 
-/// Cuts a triangle into n^2.
+/// Cuts a triangle into n^2 parts.
 void addCut(const std::array<Vec3d, 3>& corners, int n, Mesh& mesh)
 {
     const auto first = static_cast<openvdb::Index32>(mesh.points.size());

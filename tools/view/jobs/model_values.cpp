@@ -9,8 +9,8 @@ namespace {
 
 using openvdb::Vec3d;
 
-/// Of the cage's longest side: small enough for the normals of Green coordinates to change evenly, large enough for
-/// single precision weights.
+/// As a fraction of the cage's longest side: small enough for the normals of Green coordinates to change evenly, large
+/// enough for single precision weights.
 constexpr double relativeStep = 1e-3;
 constexpr double mostStretch = 4;
 

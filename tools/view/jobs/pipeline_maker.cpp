@@ -35,7 +35,7 @@ private:
     detail::TriangleBvh tree_;
 };
 
-/// A pipeline with the order that it has carried out last.
+/// A pipeline with the order of its last run.
 class OrderedPipeline {
 public:
     CageResultPtr make(const Job& job, ModelTree& trees, Interrupter& interrupter)
@@ -59,7 +59,7 @@ public:
             result.seconds = secondsSince(began);
             done_ = std::make_shared<const CageResult>(std::move(result));
         }
-        // They may be asked for when the cage is made already.
+        // The intermediates may be requested after the cage is made.
         if (job.intermediates && !done_->intermediates) {
             const Stage stage(&interrupter, StageName::layers);
             CageResult result = *done_;
@@ -73,7 +73,7 @@ public:
 private:
     OpenedMeshPtr model_;
     std::optional<Pipeline> pipeline_;
-    CageResultPtr done_; ///< what the pipeline holds; null: nothing that is known
+    CageResultPtr done_; ///< the pipeline's result; null: unknown
 };
 
 class PipelineMaker : public CageMaker {

@@ -7,7 +7,7 @@ namespace vdbcage::view {
 
 namespace {
 
-/// Whether cages by both can share the model's voxels and their closing.
+/// Returns whether cages by both orders can share the model's voxels and their closing.
 bool shareStages(const Order& a, const Order& b)
 {
     if (a.model != b.model || a.cage || b.cage) return false;
@@ -28,7 +28,7 @@ std::size_t bytesOf(const Mesh& mesh)
 
 std::size_t bytesOf(const CageResult& result)
 {
-    std::size_t bytes = bytesOf(result.cage) + 10000; // the rest of it, about
+    std::size_t bytes = bytesOf(result.cage) + 10000; // the rest of the result, about
     if (const Intermediates* const inner = result.intermediates.get()) {
         for (const Mesh* mesh : {&inner->solidFaces, &inner->closedFaces, &inner->solidNodes, &inner->closedNodes,
                                  &inner->surface, &inner->smoothed, &inner->decimated, &inner->distance.mesh}) {
@@ -110,7 +110,7 @@ void Planner::finished(CageResultPtr result)
     running_.reset();
     keep(result);
     choose();
-    // Nothing of what is wanted is there yet: the newest of this model is nearest to it.
+    // Neither the wanted cage nor its preview is there yet: the newest one of this model is nearest to it.
     const bool isShown = shown_ && wanted_ && (*wanted_ == shown_->order || previewOf(*wanted_) == shown_->order);
     if (!isShown && kind != Job::Kind::ahead && wanted_ && wanted_->model == result->order.model) {
         shown_ = std::move(result);
@@ -121,7 +121,7 @@ void Planner::failed(const std::string& error)
 {
     const Job job = *std::move(running_);
     running_.reset();
-    // A preview that fails says the same of the cage itself, and what was made ahead was not asked for.
+    // If a preview fails, so does its cage; a job made ahead was not requested.
     const bool isWanted = wanted_ && (job.order == *wanted_ || job.order == previewOf(*wanted_));
     if (!isWanted || job.kind == Job::Kind::ahead) return;
     isHalted_ = true;
@@ -159,7 +159,7 @@ std::optional<Job> Planner::nextJob() const
     }
     if (isDragging_ && (full || preview != *wanted_)) return std::nullopt;
     if (!hasFull) return Job{Job::Kind::full, *wanted_, intermediates_};
-    // Once for each thing that is wanted, whatever comes of it.
+    // Each neighbour is tried once for each wanted cage, whether it succeeds or not.
     for (int side = madeAhead_; side < 2 && !wanted_->cage; ++side) {
         Order next = preview;
         next.options.faces = steppedFaces(next.options.faces, side == 0 ? -1 : 1, next.options.mesh);
@@ -207,7 +207,7 @@ bool Planner::isUseful(const Job& job) const
     return job.order == preview || (!kept(preview) && shareStages(job.order, preview));
 }
 
-/// Takes the best of what is kept.
+/// Shows the best of the kept results.
 void Planner::choose()
 {
     if (!wanted_ || !wanted_->model) {

@@ -8,52 +8,53 @@
 
 namespace vdbcage::view {
 
-/// Decides which cage is made next, which one under way is of no use any more, and which one is shown. It has no thread
-/// and no clock: it is told what happens, and asked.
+/// The decision which cage is made next, whether the job under way is still useful, and which cage is shown. It has no
+/// thread and no clock: it is told about events, and asked.
 ///
-/// At most one job is under way. What waits is what is wanted now, so at most one. While a value is dragged only
-/// previews are made. A preview under way is left to finish, unless what is wanted now shares none of its stages. A
-/// full run is stopped as soon as something else is wanted. When a drag ends the full run begins at once; after any
-/// other change its preview comes first. Results are kept by their orders, so what was made once is there at once. When
-/// nothing is to do, previews of the neighbouring face counts are made ahead.
+/// At most one job is under way, and at most one waits, for the wanted cage. While a value is dragged only previews are
+/// made. A preview under way is finished, unless it shares no stage with the wanted cage. A full run is stopped as soon
+/// as another cage is wanted. When a drag ends the full run begins at once; after any other change its preview comes
+/// first. Results are kept by their orders, so a cage that was made once is there at once. When nothing else is to do,
+/// previews of the neighbouring face counts are made ahead.
 class Planner {
 public:
-    /// `mostBytes`: results of more than that in all are not kept, the oldest going first (two always stay).
+    /// `mostBytes`: the most that kept results take; the oldest go first (two always stay).
     explicit Planner(std::size_t mostBytes = std::size_t{256} << 20) : mostBytes_(mostBytes) {}
 
-    /// What is wanted now; none: nothing. Asking for the same again changes nothing. `intermediates`: of the full one.
+    /// Sets the wanted order; none: nothing. The same order again changes nothing. `intermediates`: the full result
+    /// must have them.
     void want(const std::optional<Order>& order, bool isDragging, bool intermediates = false);
-    /// Stops what is under way, and makes nothing until something else is wanted, or again() is called.
+    /// Stops the present job, and makes nothing until another cage is wanted, or again() is called.
     void cancel();
-    /// Makes what is wanted although it was cancelled or failed.
+    /// Makes the wanted cage although it was cancelled or failed.
     void again();
 
-    /// What is to be done now, which is under way from here on. None while something is.
+    /// Returns the next job, which is under way from then on. None while another one is.
     std::optional<Job> start();
-    /// Whether the job under way is to be stopped.
+    /// Returns whether the job under way must stop.
     bool shouldStop() const { return running_ && stop_; }
-    /// How the job under way ended. \pre it is under way
+    /// Report the end of the job under way. \pre there is one
     void finished(CageResultPtr result);
     void failed(const std::string& error);
     void stopped();
 
     const std::optional<Job>& running() const { return running_; }
-    /// Nothing is under way, and nothing is to be done.
+    /// Returns whether nothing is under way or to be done.
     bool isIdle() const { return !running_ && !nextJob(); }
-    /// As isIdle, but what is made ahead does not count.
+    /// Returns the same as isIdle, except that jobs made ahead do not count.
     bool isSettled() const;
-    /// What is wanted was cancelled, or failed.
+    /// Returns whether the wanted cage was cancelled, or failed.
     bool isHalted() const { return isHalted_; }
-    /// Why what is wanted cannot be had; empty if it did not fail.
+    /// Returns the reason why the wanted cage failed; empty if it did not.
     const std::string& error() const { return error_; }
 
     enum class Standing {
         none,    ///< there is nothing to show
-        current, ///< it is what is wanted
-        preview, ///< it is the preview of what is wanted
-        stale    ///< it was made by other options, for the same model
+        current, ///< it is the wanted one
+        preview, ///< it is the preview of the wanted one
+        stale    ///< it was made with other options, for the same model
     };
-    /// The cage to show, with its own options; null if there is none.
+    /// Returns the cage to show, with its own options; null if there is none.
     const CageResultPtr& shown() const { return shown_; }
     Standing standing() const;
 
@@ -68,10 +69,10 @@ private:
     std::optional<Order> wanted_;
     bool isDragging_ = false;
     bool intermediates_ = false;
-    bool skipsPreview_ = false; ///< a drag has ended: what was dragged has been seen
+    bool skipsPreview_ = false; ///< a drag has ended: its last value has been previewed
     bool isHalted_ = false;
     std::string error_;
-    int madeAhead_ = 0; ///< neighbours of what is wanted, of two
+    int madeAhead_ = 0; ///< neighbours of the wanted cage, of two
     std::optional<Job> running_;
     bool stop_ = false;
     std::list<CageResultPtr> kept_; ///< the last one first
@@ -79,7 +80,7 @@ private:
     CageResultPtr shown_;
 };
 
-/// The next face count that a step up or down leads to: a twentieth, at least 1. Within the option's range.
+/// Returns the face count of a step up or down: a twentieth, at least 1. Within the option's range.
 int steppedFaces(int faces, int direction, CageFaces mesh);
 
 } // namespace vdbcage::view

@@ -10,7 +10,7 @@ namespace vdbcage::view {
 
 namespace {
 
-/// Keeps what is the same for all poses of a binding, by any material.
+/// The data that all poses of a binding share, for any material.
 class Checks {
 public:
     PoseCheckPtr operator()(const PoseCheckOrder& order, Interrupter& interrupter)

@@ -43,7 +43,7 @@ void Posing::follow(const State& state, const Planner& planner, bool standsStill
     Follower::Effort effort;
     effort.isPosing = state.view.mode == Mode::pose && document.model && posable_;
     if (effort.isPosing && !areCarried(document.poses, *posable_)) return;
-    // A preview's cage is gone in a moment.
+    // A preview's cage is replaced in a moment.
     effort.isToStay = planner.standing() == Planner::Standing::current || planner.isHalted();
     effort.standsStill = standsStill;
     poses_ = document.poses;
@@ -72,7 +72,7 @@ bool Posing::isPosed(const State& state) const
 bool Posing::hasMaterial(const State& state) const
 {
     if (state.view.mode != Mode::pose) return false;
-    const BoundModelPtr& bound = follower_.bound(); // weights from a file can be of the family
+    const BoundModelPtr& bound = follower_.bound(); // weights from a file may belong to the family
     const auto isElastic = [](Coordinates family) { return familyInfo(family).hasElasticity; };
     return isElastic(state.document.coordinates) || (state.view.compared && isElastic(*state.view.compared)) ||
            (bound && bound->whole && isElastic(bound->whole->family()));

@@ -13,8 +13,8 @@
 
 namespace vdbcage::view {
 
-/// What is to be seen of a state: the cage, where its points are, and where these take the model, by one family of
-/// coordinates or by two that are compared.
+/// The shown parts of a state: the cage, its points, and the model as these pose it, by one family of coordinates or by
+/// two that are compared.
 class Posing {
 public:
     /// See Binder.
@@ -23,38 +23,39 @@ public:
     {
     }
 
-    /// The cage to show; null: none. One that was opened or moved by hand is there without a verdict until it is
-    /// checked. In mode pose it is the one before, while poses are carried over to a new one.
+    /// Returns the cage to show; null: none. One that was opened or moved by hand is there without a verdict until it
+    /// is checked. In mode pose it is the previous one while poses are carried over to a new one.
     CageResultPtr cageOf(const State& state, const Planner& planner);
-    /// The same to be posed, as of the last cageOf().
+    /// Returns the cage of the last cageOf() for posing.
     const ShownCage& posable() const { return posable_; }
 
-    /// Follows a state, with the cage of the last cageOf(): binds what is to be posed, and poses it. Until something
-    /// new is bound, or carried over, all stays as it was posed before. A pose that stands still is checked.
+    /// Follows a state, with the cage of the last cageOf(): binds the model and poses it. Until a new binding is there,
+    /// or poses are carried over, the model stays as it was posed. A pose that stands still is checked.
     /// Cost: as Binding::pose, if the pose is another.
     void follow(const State& state, const Planner& planner, bool standsStill);
 
-    /// As of the last follow(): where the cage's points are, and the model.
+    /// Return the cage's points and the model, of the last follow().
     const std::vector<openvdb::Vec3d>& cagePoints() const { return *cagePoints_; }
     const Follower& follower() const { return follower_; }
-    /// The model by the family that is compared; null: none is.
+    /// Returns the model by the compared family; null: none is compared.
     const Follower* compared() const { return compared_.get(); }
 
-    /// In mode pose, as of the last follow(): the cage is not at rest.
+    /// Returns whether the cage was not at rest in the last follow(), in mode pose.
     bool isPosed(const State& state) const;
-    /// In mode pose: the model follows by Somigliana coordinates, or is compared by them, so it has a material.
+    /// Returns whether the model follows by Somigliana coordinates, or is compared by them, in mode pose: only these
+    /// have a material.
     bool hasMaterial(const State& state) const;
 
-    /// Takes what was done on other threads, and begins what is next.
+    /// Takes the results of other threads, and begins the next jobs.
     void update();
-    /// Nothing that was wanted by the last follow() is left to do.
+    /// Returns whether all work for the last follow() is done.
     bool isSettled() const;
     /// Waits until there is something to take, or `seconds` have passed. \pre not isSettled()
     void waitForNews(double seconds);
     /// See Binder.
     void again();
     void cancel();
-    /// Why something could not be done; empty: it could.
+    /// Returns the reason why a job failed; empty: none did.
     const std::string& error() const;
 
 private:
@@ -70,7 +71,7 @@ private:
     ShownCage posable_;
     TimeLine poses_; // of the last follow()
     using Points = std::shared_ptr<const std::vector<openvdb::Vec3d>>;
-    using PointsKey = std::tuple<TimeLine, ShownCage, Mode, int>; // with the frame
+    using PointsKey = std::tuple<TimeLine, ShownCage, Mode, int>; // the int is the frame
     vdbcage::detail::Memo<PointsKey, Points> pointsMemo_;
     Points cagePoints_ = std::make_shared<const std::vector<openvdb::Vec3d>>();
 };

@@ -9,13 +9,12 @@
 
 namespace vdbcage::view {
 
-/// How far the job under way is.
+/// The progress of the job under way.
 struct Progress : WorkProgress {
     Job::Kind kind = Job::Kind::full;
 };
 
-/// Makes cages on a thread of its own, as a Planner says. All its functions are for one thread, the owner's, and none
-/// of them waits but waitForNews().
+/// A thread that makes cages as a Planner decides. Call it from one thread, the owner's. Only waitForNews() waits.
 class Runner {
 public:
     /// `wake` is called, from any thread, whenever update() has something to do or progress has changed; it must only
@@ -26,23 +25,24 @@ public:
     void cancel();
     void again();
 
-    /// Takes what has ended and begins what is next. Returns whether anything ended or began.
+    /// Takes the finished result and begins the next job. Returns whether one ended or began.
     bool update();
     /// Waits until the job under way ends, or `seconds` have passed. Returns at once if there is none.
     void waitForNews(double seconds);
 
-    /// What is known as of the last update().
+    /// Returns the state as of the last update().
     const Planner& planner() const { return planner_; }
-    /// None: nothing is under way.
+    /// Returns the progress; none: nothing is under way.
     std::optional<Progress> progress() const;
 
 private:
     Planner planner_;
-    std::unique_ptr<CageMaker> maker_; ///< the worker's alone
+    std::unique_ptr<CageMaker> maker_; ///< used only by the worker
     Worker<Job, CageResultPtr> worker_;
 };
 
-/// Makes cages by two pipelines, one for previews and one for the rest: a change of effort would cost each its stages.
+/// Returns a maker with two pipelines, one for previews and one for the rest: a change of effort would cost each its
+/// stages.
 /// \return an object for one thread at a time
 std::unique_ptr<CageMaker> makePipelineMaker();
 

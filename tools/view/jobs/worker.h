@@ -17,26 +17,25 @@
 
 namespace vdbcage::view {
 
-/// How far a job is.
+/// The progress of a job.
 struct WorkProgress {
     std::string stage; ///< empty before the first
     int percent = -1;  ///< of the job, 0 to 99; -1: unknown
 };
 
-/// Does one job at a time on a thread of its own. All its functions are for one thread, the owner's, and none of them
-/// waits but waitForNews().
+/// A thread that does one job at a time. Call it from one thread, the owner's. Only waitForNews() waits.
 template <class Job, class Result>
 class Worker {
 public:
-    /// How a job ended, or a part of it.
+    /// The result or failure of a job, or of a part of it.
     struct Outcome {
-        std::optional<Result> result; ///< none: it failed, or was stopped
-        std::string error;            ///< why it failed; empty if it was stopped
-        bool isLast = true;           ///< more of the same job comes
+        std::optional<Result> result; ///< none: it failed or was stopped
+        std::string error;            ///< the reason why it failed; empty if it was stopped
+        bool isLast = true;           ///< false: more of the same job follows
     };
-    /// Takes a part of what the job gives before it is done.
+    /// A function that takes a part of the job's result before the job is done.
     using Publish = std::function<void(Result)>;
-    /// Does a job, on the worker's thread. \throw std::exception, Cancelled
+    /// A function that does a job on the worker's thread. \throw std::exception, Cancelled
     using Work = std::function<Result(const Job&, Interrupter&, const Publish&)>;
 
     /// `wake` is called, from any thread, whenever there is an outcome to take or progress has changed; it must only
@@ -45,7 +44,7 @@ public:
         : work_(std::move(work)), wake_(std::move(wake)), thread_([this] { run(); })
     {
     }
-    /// Stops what is under way.
+    /// Stops the present job.
     ~Worker()
     {
         stop_ = true;
@@ -59,7 +58,7 @@ public:
     Worker(const Worker&) = delete;
     Worker& operator=(const Worker&) = delete;
 
-    /// \pre no job is under way: the last outcome of the one before was taken
+    /// Begins a job. \pre no job is under way: the last outcome of the previous one was taken
     void start(Job job)
     {
         stop_ = false;
@@ -73,7 +72,7 @@ public:
     /// Asks the job under way to stop. Its outcome still comes.
     void stop() { stop_ = true; }
 
-    /// What has ended since the last call. What came before it of the same job and was not taken is left out.
+    /// Returns the last outcome since the previous call. Earlier ones of the same job are dropped.
     std::optional<Outcome> take()
     {
         const std::lock_guard<std::mutex> lock(mutex_);
@@ -92,7 +91,8 @@ public:
     }
 
 private:
-    /// Passes progress to the owner's thread and its wish to stop to the job.
+    /// The link from a job to the owner's thread: passes progress to the owner, and the owner's wish to stop to the
+    /// job.
     class Reporter : public Interrupter {
     public:
         explicit Reporter(Worker& worker) : worker_(worker) {}
@@ -153,7 +153,7 @@ private:
             return {work_(job, reporter, [this](Result part) { publish({std::move(part), {}, false}); }), {}, true};
         } catch (const Cancelled&) {
             return {};
-        } catch (const std::exception& error) { // of memory too: the window stays, with what it has
+        } catch (const std::exception& error) { // also if memory ran out: the window stays, with its content
             const std::string text = error.what();
             return {std::nullopt, text.empty() ? "it cannot be done" : text, true};
         }
@@ -169,17 +169,17 @@ private:
         wake_();
     }
 
-    Work work_; ///< the thread's alone
+    Work work_; ///< used only by the thread
     std::function<void()> wake_;
 
-    mutable std::mutex mutex_; ///< guards what follows
+    mutable std::mutex mutex_; ///< guards the members below
     std::condition_variable changed_;
     std::optional<Job> job_;         ///< for the thread to take
     std::optional<Outcome> outcome_; ///< for the owner to take
     WorkProgress progress_;
     bool quits_ = false;
 
-    std::atomic<bool> stop_{false}; ///< asks the thread to stop what it does
+    std::atomic<bool> stop_{false}; ///< asks the thread to stop its job
     std::thread thread_;
 };
 

@@ -12,7 +12,7 @@
 #include <tools/view/widgets/widgets.h>
 #include <vdbcage/core/error.h>
 
-/// What the parts of the panels share.
+/// Helpers that all parts of the panels share.
 namespace vdbcage::view {
 
 inline ImVec4 toImGui(const draw::Colour& colour, float opacity = 1)
@@ -25,7 +25,7 @@ inline ImU32 packed(const draw::Colour& colour, float opacity = 1)
     return ImGui::ColorConvertFloat4ToU32(toImGui(colour, opacity));
 }
 
-/// `pixels` on an ordinary screen.
+/// Returns the pixels of this screen for `pixels` of an ordinary one, rounded down.
 inline float length(float pixels)
 {
     return std::floor(pixels * scale());
@@ -45,10 +45,10 @@ inline void coloured(const draw::Colour& colour, const std::string& text)
     ImGui::PopStyleColor();
 }
 
-/// Of a slider that shows no number: Tab and control do not make a field of it, in which its share would be typed.
+/// Flags of a slider that shows no number: Tab and control do not turn it into a field for typing its share.
 constexpr ImGuiSliderFlags pointerOnly = ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_NoInput;
 
-/// Help for the last item.
+/// Shows help for the last item.
 inline void help(const std::string& text)
 {
     if (!ImGui::IsItemHovered()) return;
@@ -59,7 +59,7 @@ inline void help(const std::string& text)
     ImGui::EndTooltip();
 }
 
-/// One layout.
+/// The data of one layout: the content, the answer and the places of widgets.
 class PanelContext {
 public:
     PanelContext(const PanelContent& shown, PanelAnswer& answer, std::map<std::string, Rectangle>& places,
@@ -71,7 +71,7 @@ public:
     const PanelContent& content;
 
     void ask(const Action& action) const { answer_.actions.push_back(action); }
-    /// Asks for the line T with words that were typed.
+    /// Asks for the line T with typed words.
     template <class T>
     void askTyped(const Words& typed) const
     {
@@ -84,7 +84,7 @@ public:
         }
     }
 
-    /// The first key of an action, such as "control+z"; empty: it has none.
+    /// Returns the first key of an action, such as "control+z"; empty: it has none.
     std::string keyOf(const Action& action) const
     {
         const std::string line = textOf(action);
@@ -93,7 +93,7 @@ public:
         }
         return {};
     }
-    /// The text, and the key of the action if it has one: "no handles (w)".
+    /// Returns the text, with the key of the action if it has one: "no handles (w)".
     std::string withKey(const std::string& text, const Action& action) const
     {
         const std::string key = keyOf(action);
@@ -113,7 +113,7 @@ public:
                            static_cast<int>(std::lround(high.y - low.y))};
     }
 
-    /// Of the last item, a slider: where its drag begins and ends.
+    /// Notes where a drag of the last item, a slider, begins and ends.
     void followDrag() const
     {
         if (ImGui::IsItemActivated()) answer_.beginsDrag = true;

@@ -4,7 +4,8 @@ namespace vdbcage::view {
 
 namespace {
 
-/// A window in the middle, over a dimmed one. ImGui closes it only from inside, so it is built once more for that.
+/// Builds a window in the middle, over a dimmed one. ImGui closes it only from inside, so it is built once more for
+/// that.
 template <class Build>
 void dialog(bool isWanted, const char* title, float width, const Build& build)
 {
@@ -121,7 +122,7 @@ void buildHelp(const PanelContext& context, bool isWanted, bool& isOpen)
 
 void buildDialogs(const PanelContext& context, bool& isHelpOpen, FileBrowser& browser)
 {
-    // ImGui has one of them at a time; the others come back.
+    // ImGui shows one of them at a time; the others come back.
     const PanelContent& content = context.content;
     const bool isMessage = !content.messages.empty();
     const bool isBrowser = !isMessage && browser.isOpen;

@@ -102,7 +102,7 @@ void readFolder(FileBrowser& browser)
     }
 }
 
-/// Takes what is typed: goes to a folder, asks before a file is written over, or asks for the line. A name to save by
+/// Takes the typed name: goes to a folder, asks before a file is overwritten, or performs the line. A name to save by
 /// gets an extension if it has none.
 void choose(const PanelContext& context, FileBrowser& browser, bool isConfirmed)
 {
@@ -131,7 +131,7 @@ void choose(const PanelContext& context, FileBrowser& browser, bool isConfirmed)
 void buildList(const PanelContext& context, FileBrowser& browser)
 {
     ImGui::BeginChild("list", {0, length(300)}, true);
-    const auto entries = browser.entries; // a click reads another folder
+    const auto entries = browser.entries; // a copy, as a click reads another folder
     for (const FolderEntry& entry : entries) {
         const std::string label = (entry.isFolder ? "\xe2\x96\xb6 " : "   ") + entry.name;
         const bool isChosen = entry.name == browser.name;

@@ -9,27 +9,27 @@
 
 namespace vdbcage::view {
 
-/// A line that takes a file, and how the file is asked for.
+/// A line that takes a file, and the question for the file.
 struct FileLine {
     std::string name;
     Action (*of)(const std::string& path);
     const char* title;
     std::vector<std::string> extensions; ///< empty: folders are chosen
-    const char* ending = nullptr;        ///< of the name offered to save by: the model's, and this; null: it opens
+    const char* ending = nullptr;        ///< of the suggested name, after the model's; null: files are opened
     bool isSequence = false;
 };
 
-/// What is remembered of the file browser.
+/// The state of the file browser.
 struct FileBrowser {
     bool isOpen = false;
-    const FileLine* line = nullptr; ///< that is asked for in the end; null: it was never open
+    const FileLine* line = nullptr; ///< the line that gets the file; null: it was never open
     std::filesystem::path folder;
-    std::string name;     ///< the name that is typed, or a path
-    std::string filter;   ///< part of the names that are listed
-    std::string question; ///< that must be answered first: the file is there already
+    std::string name;     ///< the typed name or path
+    std::string filter;   ///< part of the listed names
+    std::string question; ///< to be answered first: the file is there already
     std::string problem;
     std::vector<FolderEntry> entries;
-    bool isStale = true; ///< `entries` are to be read anew
+    bool isStale = true; ///< `entries` must be read again
 };
 
 /// Opens the browser for a line, such as "open" or "save-cage". `suggested` is a path whose folder and name are

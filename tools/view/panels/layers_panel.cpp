@@ -66,7 +66,7 @@ void buildLayer(const PanelContext& context, const LayerText& text)
     ImGui::PopID();
 }
 
-/// Whether the choice was made. Three of them have room in a row beside a scroll bar.
+/// Builds a choice; returns whether it was made. Three of them have room in a row beside a scroll bar.
 bool choice(const char* label, bool isChosen, bool isFirst)
 {
     if (!isFirst) ImGui::SameLine(0, length(4));
@@ -110,7 +110,7 @@ void buildModelColours(const PanelContext& context)
     }
 }
 
-/// A list of families, of which one is seen in a second picture.
+/// Builds the list of families for the second picture.
 void buildCompare(const PanelContext& context)
 {
     const auto& compared = context.content.session.state().view.compared;
@@ -132,7 +132,7 @@ void buildCompare(const PanelContext& context)
     ImGui::EndCombo();
 }
 
-/// What Somigliana coordinates move.
+/// Builds the sliders of the material of Somigliana coordinates.
 void buildMaterial(const PanelContext& context)
 {
     const Elasticity& now = context.content.session.state().document.elasticity;
@@ -142,7 +142,7 @@ void buildMaterial(const PanelContext& context)
         const char* name;
         double Elasticity::*value;
         float least, most;
-        double perUnit; ///< steps that a hand can set
+        double perUnit; ///< steps of the slider
         const char* format;
         const char* text;
     };
@@ -240,14 +240,14 @@ void buildSection(const PanelContext& context)
     context.name("section.flip");
 }
 
-/// In the field a coordinate that is 0 but for rounding is 0. Others have six digits at least.
+/// Returns a coordinate's text for its field: 0 if it is 0 up to rounding, else with at least six digits.
 std::string coordinateText(double value, double longest)
 {
     if (!(std::abs(value) > 1e-9 * longest)) return "0";
     return detail::lengthText(value, std::min(1e-6 * longest, 1e-5 * std::abs(value)));
 }
 
-/// Where what is selected is: fields for the mean of its points, which moves to where it is typed.
+/// Builds fields for the mean of the selected points, which move so that it gets the typed place.
 void buildSelected(const PanelContext& context, std::map<std::string, std::string>& typed)
 {
     const auto& selected = context.content.selected;
@@ -276,7 +276,7 @@ void buildSelected(const PanelContext& context, std::map<std::string, std::strin
         Words by{"0", "0", "0"};
         try {
             by[static_cast<std::size_t>(k)] = detail::numberText(numberOf(*text, name) - selected->mean[k]);
-        } catch (const InputError&) { // the command says what is wrong
+        } catch (const InputError&) { // the command reports the error
             by[static_cast<std::size_t>(k)] = *text;
         }
         context.askTyped<MoveSelected>(by);

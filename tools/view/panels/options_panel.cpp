@@ -1,4 +1,4 @@
-// A row for every option, made from visitOptions: what it can be follows from its type and its entry there.
+// A row for every option, made from visitOptions: its widget follows from its type and its entry there.
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -14,8 +14,8 @@ namespace {
 // Widths on an ordinary screen.
 constexpr float labelWidth = 128, fieldWidth = 70, autoWidth = 44, resetWidth = 24;
 
-/// A number between its ends as a place of a slider, 0 to 1. Ranges of more than a factor of 100 are by their
-/// logarithm, those from 0 are finer near 0.
+/// Returns the place of a number between its ends on a slider, 0 to 1. Ranges of more than a factor of 100 are
+/// logarithmic, those from 0 are finer near 0.
 double placeOf(double value, const Range& range)
 {
     const double span = range.most - range.least;
@@ -38,7 +38,7 @@ double valueAt(double place, const Range& range)
     return range.least + share * (range.most - range.least);
 }
 
-/// With three digits: what a hand can set.
+/// Returns the value with three digits, which a slider can set.
 double rounded(double value)
 {
     char text[32];
@@ -46,7 +46,7 @@ double rounded(double value)
     return std::strtod(text, nullptr);
 }
 
-/// As setOption takes it.
+/// Returns the value in the form that setOption reads.
 std::string textOf(double value, bool isWhole)
 {
     return isWhole ? std::to_string(std::lround(value)) : detail::numberText(rounded(value));
@@ -108,15 +108,15 @@ public:
     }
 
 private:
-    /// Of an option that can be left to the pipeline.
+    /// The state of an option that can be left to the pipeline.
     struct Auto {
         bool isOn = false;
-        std::optional<double> came; ///< what it came to
+        std::optional<double> came; ///< the pipeline's choice
     };
 
     void ask(const std::string& value) const { context_.ask(SetOption{name_, value}); }
 
-    /// A field for text that is taken over by Enter, or when another place is clicked.
+    /// Builds a field whose text is taken over by Enter or a click elsewhere.
     void buildField(const std::string& shown, float width) const
     {
         if (const auto text = typedField(context_, typed_, name_, shown, width)) ask(*text);
@@ -138,7 +138,7 @@ private:
         if (isAuto) ImGui::PopStyleVar();
         ImGui::SameLine(0, length(4));
         if (isAuto) ImGui::PushStyleColor(ImGuiCol_Text, toImGui(theme::mutedText));
-        // What it came to is rounded: it is there to be read.
+        // The pipeline's choice is rounded for reading.
         buildField(isAuto ? (automatic->came ? detail::numberText(rounded(*automatic->came)) : "auto") : value_,
                    length(fieldWidth));
         if (isAuto) ImGui::PopStyleColor();
@@ -194,7 +194,7 @@ private:
     const std::string& value_;
 };
 
-/// What `auto` came to in the cage that is shown, by the option's name.
+/// Returns the pipeline's choice for `auto` in the shown cage, by the option's name.
 std::optional<double> cameTo(const std::string& name, const CageResultPtr& shown)
 {
     if (!shown || shown->order.cage) return std::nullopt;

@@ -1,4 +1,4 @@
-// What lies over the picture. None of it takes the pointer.
+// Overlays of the picture. None of them takes the pointer.
 #include <algorithm>
 #include <cstdio>
 #include <numeric>
@@ -14,7 +14,7 @@ namespace {
 
 constexpr draw::Colour inkColour{0.20F, 0.21F, 0.23F};
 
-/// Options by which two cages differ, in words: "faces 300, not 400".
+/// Returns the options by which two cages differ, in words: "faces 300, not 400".
 std::string differences(const CageOptions& shown, const CageOptions& wanted)
 {
     const auto have = optionValues(shown), want = optionValues(wanted);
@@ -26,7 +26,7 @@ std::string differences(const CageOptions& shown, const CageOptions& wanted)
     return text;
 }
 
-/// What has to be known of the cage that is seen; empty if it is the one that is wanted.
+/// Returns a note on the shown cage; empty if it is the wanted one.
 std::string standingText(const PanelContent& content)
 {
     const Planner& planner = content.planner;
@@ -68,7 +68,7 @@ void drawAxes(ImDrawList& list, const Rectangle& viewport, const std::array<open
     const ImVec2 centre{static_cast<float>(viewport.left) + length(46),
                         static_cast<float>(viewport.top + viewport.height) - length(50)};
     std::array<std::size_t, 3> order{0, 1, 2};
-    // The nearest last.
+    // The nearest axis is drawn last.
     std::sort(order.begin(), order.end(), [&](auto a, auto b) { return axes[a].z() < axes[b].z(); });
     for (const std::size_t i : order) {
         const ImVec2 tip{centre.x + length(28) * static_cast<float>(axes[i].x()),
@@ -128,7 +128,7 @@ void drawGizmo(ImDrawList& list, const Rectangle& viewport, const PictureOverlay
         const std::vector<ImVec2> line = inWindow(viewport, part.line);
         const int count = static_cast<int>(line.size());
         if (!part.isFilled) {
-            // A pale rim, so that it is seen on any ground.
+            // A pale rim makes it visible on any ground.
             list.AddPolyline(line.data(), count, packed(white, 0.6F), 0, length(5));
             list.AddPolyline(line.data(), count, packed(colour), 0, length(3));
             continue;
@@ -160,7 +160,7 @@ void drawEditing(ImDrawList& list, const Rectangle& viewport, const PictureOverl
     }
 }
 
-/// What is edited, in each picture, and by which coordinates the model follows where there are two.
+/// Draws the editing overlay of each picture, and the names of the coordinates if there are two.
 void drawPictures(ImDrawList& list, const PanelContent& content)
 {
     const State& state = content.session.state();

@@ -14,7 +14,7 @@ constexpr ImGuiWindowFlags fixed = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlag
                                    ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoBringToFrontOnFocus |
                                    ImGuiWindowFlags_NoSavedSettings;
 
-/// A window that stays where it is.
+/// Builds a window with a fixed place.
 template <class Build>
 void pane(const char* name, const Rectangle& place, ImGuiWindowFlags flags, const Build& build)
 {
@@ -42,7 +42,7 @@ struct Panels::State {
     FileBrowser browser;
     TimeLineMemory timeLine;
     bool isHelpOpen = false;
-    std::filesystem::path suggested; ///< where files are looked for first
+    std::filesystem::path suggested; ///< the folder where files are looked for first
 };
 
 Panels::Panels() : state_(std::make_unique<State>())

@@ -20,49 +20,49 @@
 
 namespace vdbcage::view {
 
-/// How many of each a mesh has.
+/// The numbers of points, edges and faces of a mesh.
 struct Counts {
     std::size_t points = 0, edges = 0, faces = 0;
 };
 
-/// What the panels show. They own nothing of it.
+/// The content of the panels. They own none of it.
 struct PanelContent {
     const Session& session;
     const Planner& planner;
     std::optional<Progress> progress;
     const std::vector<std::string>& messages; ///< the first is shown
-    const std::string& note;                  ///< what was done last; empty: nothing yet
+    const std::string& note;                  ///< the last thing done; empty: nothing yet
     const std::vector<Shortcut>& shortcuts;
     const std::vector<std::filesystem::path>& recentFiles;
     std::array<openvdb::Vec3d, 3> axes{}; ///< x, y and z as seen: to the right, up, to the viewer
     double gridStep = 0;                  ///< world units
-    double largestDistance = 0;           ///< of the colours, a fraction of the model's longest side; 0: none
+    double largestDistance = 0;           ///< of the colours, as a fraction of the model's longest side; 0: none
     std::optional<Counts> model = {}, cage = {};
     std::optional<openvdb::math::BBox<openvdb::Vec3d>> box = {}; ///< of the model
     PictureOverlay overlay = {};
     std::vector<Rectangle> pictures = {};     ///< of the window: one, or two side by side
     std::optional<WorkProgress> binding = {}; ///< none: nothing is being bound
-    bool isPosedCoarsely = false;             ///< what is seen of the model is a stand-in, as not all is bound yet
+    bool isPosedCoarsely = false;             ///< a stand-in is shown, as not all points are bound yet
     std::string bindingError = {};            ///< empty: none
-    KeyMap keys{};                            ///< whose shortcuts these are
-    std::optional<SelectionFrame> selected{}; ///< its axes are not used; none: nothing of the cage is
+    KeyMap keys{};                            ///< the map of the shortcuts
+    std::optional<SelectionFrame> selected{}; ///< its axes are not used; none: nothing is selected
     bool isPosed = false;                     ///< the cage is not at rest
     bool hasMaterial = false;                 ///< see Posing
-    bool isPoseChecked = false;               ///< just now
+    bool isPoseChecked = false;               ///< a check is under way
     PoseCheckPtr poseCheck = {};              ///< null: the pose is not checked, or not yet
     std::optional<WorkProgress> saving = {};  ///< none: nothing is being written
     bool hasModelChanged = false;             ///< on disk
     bool asksToQuit = false;                  ///< there is unsaved work
 };
 
-/// What the user asked for, where a drag of a value begins and ends, and what is wrong with a text that was typed.
+/// The user's answers: actions, the beginning and end of a drag of a value, and errors of typed texts.
 struct PanelAnswer {
     std::vector<Action> actions;
     bool beginsDrag = false, endsDrag = false;
     std::vector<std::string> problems;
 };
 
-/// All panels of the window. Every widget that can be used has a name, by which scripts and tests find it.
+/// All panels of the window. Every usable widget has a name, by which scripts and tests find it.
 class Panels {
 public:
     Panels();
@@ -70,21 +70,21 @@ public:
     Panels(const Panels&) = delete;
     Panels& operator=(const Panels&) = delete;
 
-    /// For Widgets::Build. What is asked for is added to `answer`.
+    /// Builds the panels, for Widgets::Build. Adds the user's actions to `answer`.
     void build(const PanelContent& content, PanelAnswer& answer);
 
-    /// What is left for the picture, in a window of that size, with the time line or without.
+    /// Returns the place of the picture in a window of that size, with the time line or without.
     static Rectangle viewport(int width, int height, float scale, bool hasTimeLine);
 
-    /// Where the widgets of the last layout are, by their names.
+    /// Returns the places of the last layout's widgets by name.
     const std::map<std::string, Rectangle>& places() const;
-    /// Scrolls to the widget, by the next layout.
+    /// Scrolls to the widget in the next layout.
     void reveal(const std::string& name);
 
-    /// Asks for a file, and then for the line with that file. \throw InputError it is no line that takes a file
+    /// Asks for a file, and then performs the line with it. \throw InputError it is no line that takes a file
     void browse(const std::string& line);
     void showHelp();
-    /// Closes what is open on top. Returns whether there was anything.
+    /// Closes the topmost open part. Returns whether there was one.
     bool dismiss();
 
 private:

@@ -7,41 +7,43 @@
 #include <tools/view/panels/context.h>
 #include <tools/view/panels/file_browser.h>
 
-/// The parts of the window; each is built once a layout. Those that remember something take it.
+/// The parts of the window; each is built once in a layout. Parts with a state get it as a parameter.
 namespace vdbcage::view {
 
-/// What users know a family of coordinates by.
+/// Returns the name of a family of coordinates for users.
 const char* titleOf(Coordinates family);
-/// What a family does, and its paper.
+/// Returns a description of a family and its paper.
 std::string describe(const FamilyInfo& family);
 
-/// Below the menu: what is done in the picture.
+/// Builds the toolbar below the menu, for work in the picture.
 void buildToolbar(const PanelContext& context);
 void buildMenu(const PanelContext& context);
-/// `typed`, here and below: by the name of a field, what was typed and is not taken over yet.
+/// `typed`, here and below: texts that were typed and not taken over yet, by the names of their fields.
 void buildLayers(const PanelContext& context, std::map<std::string, std::string>& typed);
 void buildOptions(const PanelContext& context, std::map<std::string, std::string>& typed);
 void buildResult(const PanelContext& context);
-/// What is remembered of the time line.
+/// The state of the time line.
 struct TimeLineMemory {
-    std::optional<int> last;       ///< the last frame of the track while it is held
+    std::optional<int> last;       ///< the last frame of the track while it is dragged
     std::optional<int> draggedKey; ///< the frame of a key that is being moved
-    float besideKey = 0;           ///< how far to its right the pointer took it, pixels
+    float besideKey = 0;           ///< distance to its right at which the pointer took it, pixels
 };
-/// Below the picture, in mode pose: playing, the key at this frame, and a track of frames and keys.
+/// Builds the time line below the picture, in mode pose: playing, the key at this frame, and a track of frames and
+/// keys.
 void buildTimeLine(const PanelContext& context, std::map<std::string, std::string>& typed, TimeLineMemory& memory);
 void buildStatusLine(const PanelContext& context);
-/// What lies over the picture, or over two: what is shown and what is being made, axes, scale of the grid, legend.
+/// Builds the overlays of one picture or two: the standing of the shown cage and model, axes, scale of the grid,
+/// legend.
 void buildOverlays(const PanelContext& context, const Rectangle& viewport);
-/// Messages, the question before the end, the file browser, help; one at a time. `isHelpOpen` is set back when it is
-/// closed.
+/// Builds the messages, the question before the end, the file browser and help; one at a time. `isHelpOpen` is set to
+/// false when it is closed.
 void buildDialogs(const PanelContext& context, bool& isHelpOpen, FileBrowser& browser);
-/// A field for text that is taken over by Enter, Tab, or when another place is clicked; a name, a width in pixels, a
-/// hint that is seen while it is empty. Returns what is taken over, if it is another text than `shown`.
+/// Builds a field whose text is taken over by Enter, Tab, or a click elsewhere; with a name, a width in pixels, and a
+/// hint that is shown while it is empty. Returns the text taken over, if it differs from `shown`.
 std::optional<std::string> typedField(const PanelContext& context, std::map<std::string, std::string>& typed,
                                       const std::string& name, const std::string& shown, float width,
                                       const char* hint = "");
-/// The inside of the file browser.
+/// Builds the content of the file browser.
 void buildBrowser(const PanelContext& context, FileBrowser& browser);
 
 } // namespace vdbcage::view

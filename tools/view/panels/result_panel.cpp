@@ -59,13 +59,13 @@ void buildStages(const CageResult& shown)
     }
 }
 
-/// In mode pose: how far the binding is.
+/// Builds the progress of the binding, in mode pose.
 void buildBinding(const PanelContext& context)
 {
     if (context.content.session.state().view.mode != Mode::pose) return;
     const PanelContent& content = context.content;
     if (!content.bindingError.empty()) {
-        coloured(theme::bad, "the pose is not followed"); // why is in the panel of options
+        coloured(theme::bad, "the pose is not followed"); // the reason is in the panel of options
         return ImGui::SameLine(0, length(18));
     }
     if (!content.binding) return;
@@ -76,7 +76,7 @@ void buildBinding(const PanelContext& context)
     ImGui::SameLine(0, length(18));
 }
 
-/// The verdict on the pose.
+/// Builds the verdict on the pose.
 void buildPose(const PanelContext& context)
 {
     const PanelContent& content = context.content;

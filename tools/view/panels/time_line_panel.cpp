@@ -8,10 +8,10 @@ namespace vdbcage::view {
 
 namespace {
 
-/// A track shows so many frames at least.
+/// The least number of frames that a track shows.
 constexpr int leastFrames = 24;
 
-/// Where frames are along a track, in pixels of the window.
+/// The places of frames along a track, in pixels of the window.
 struct Track {
     float left = 0, right = 0;
     int last = leastFrames; ///< the frame at `right`
@@ -25,7 +25,8 @@ struct Track {
         const float share = std::clamp((x - left) / std::max(1.0F, right - left), 0.0F, 1.0F);
         return static_cast<int>(std::lround(share * static_cast<float>(last)));
     }
-    /// Frames between two numbers that are written: 1, 2 or 5 times a power of ten, so that they do not touch.
+    /// Returns the frames between two written numbers: 1, 2 or 5 times a power of ten, so that the numbers do not
+    /// touch.
     int step() const
     {
         for (int power = 1; power <= lastFrame; power *= 10) {
@@ -126,7 +127,7 @@ void drawTrack(const State& state, const Track& track, const ImVec2& low, const 
     }
 }
 
-/// The frame of the key that is hit at `x`; none if there is none.
+/// Returns the frame of the key that is hit at `x`; none if there is none.
 std::optional<int> nearestKey(const TimeLine& poses, const Track& track, float x)
 {
     std::optional<int> nearest;
@@ -154,7 +155,7 @@ void buildTrack(const PanelContext& context, TimeLineMemory& memory)
     ImGui::InvisibleButton("##track", size);
     context.name("time-line");
     context.followDrag();
-    // While it is held it keeps its length, which follows the frame otherwise.
+    // A track keeps its length while it is dragged; else the length follows the frame.
     if (!ImGui::IsItemActive() && !ImGui::IsItemDeactivated()) memory = {};
     track.last = memory.last.value_or(std::max({leastFrames, poses.finalFrame(), state.view.frame}));
     const ImVec2 pointer = ImGui::GetIO().MousePos;

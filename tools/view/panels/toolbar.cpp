@@ -1,4 +1,4 @@
-// What is done in the picture: mode, what is selected, tool, and how what is selected moves.
+// The toolbar for work in the picture: mode, kind of selection, tool, and options of motions.
 #include <cstdio>
 
 #include <tools/view/panels/parts.h>
@@ -14,7 +14,7 @@ struct Choice {
     std::string text;
 };
 
-/// Buttons side by side, of which one is down.
+/// Builds buttons side by side, one of which is down.
 void choices(const PanelContext& context, const char* group, const std::vector<Choice>& list)
 {
     for (const Choice& choice : list) {
@@ -40,7 +40,7 @@ struct Entry {
     Command command;
 };
 
-/// A list of which one is chosen.
+/// Builds a list with the chosen entry.
 void list(const PanelContext& context, const std::string& name, const std::vector<Entry>& entries, std::size_t chosen,
           float width)
 {
@@ -116,7 +116,7 @@ void buildToolbar(const PanelContext& context)
     const State& state = context.content.session.state();
     const ViewState& view = state.view;
     const bool isPose = view.mode == Mode::pose;
-    // Narrower than elsewhere: all of it has room in a window of 1100 pixels.
+    // Narrower than elsewhere: all widgets have room in a window of 1100 pixels.
     ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {length(6), length(4)});
     ImGui::BeginDisabled(!state.document.model);
     choices(context, "mode",
@@ -168,7 +168,7 @@ void buildToolbar(const PanelContext& context)
         for (const FamilyInfo& family : coordinateFamilies()) {
             families.push_back({family.name, family.title, describe(family), SetCoordinates{family.family}});
         }
-        if (now == Coordinates::given) { // they are chosen by their file
+        if (now == Coordinates::given) { // given weights are chosen by their file
             families.push_back(
                 {coordinatesName(now), titleOf(now), "weights from a file (File > Open weights)", SetCoordinates{now}});
         }

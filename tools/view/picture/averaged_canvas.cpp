@@ -7,8 +7,8 @@ namespace vdbcage::view {
 
 namespace {
 
-/// Where the i-th of `shifts` frames looks within a pixel, in [-1/2, 1/2]: each row and each column of a grid of 16 by
-/// 16 once (Shirley, Discrepancy as a quality measure for sample distributions, 1991: n rooks).
+/// Returns the place of the i-th of `shifts` frames within a pixel, in [-1/2, 1/2]: each row and each column of a grid
+/// of 16 by 16 once (Shirley, Discrepancy as a quality measure for sample distributions, 1991: n rooks).
 std::array<double, 2> shiftOf(int i)
 {
     return {(i + 0.5) / 16 - 0.5, (i * 7 % 16 + 0.5) / 16 - 0.5};
@@ -24,7 +24,7 @@ AveragedCanvas::AveragedCanvas(const gl::Api& api) : api_(&api)
 bool AveragedCanvas::resize(int width, int height)
 {
     if (width == width_ && height == height_) return false;
-    canvas_.reset(); // its memory first
+    canvas_.reset(); // frees its memory first
     canvas_.emplace(*api_, width, height, 1);
     averageFramebuffer_ = gl::Framebuffer();
     average_ = gl::makeTexture2D(*api_, GL_RGBA8, width, height);

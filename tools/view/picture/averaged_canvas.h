@@ -11,37 +11,37 @@
 namespace vdbcage::view {
 
 /// A canvas for a picture that moves or stands still. While it moves a frame has one sample a pixel. When it stands
-/// still, frames shifted by parts of a pixel are averaged, one a call.
+/// still, frames shifted by parts of a pixel are averaged, one in each call.
 ///
-/// Its context must be current whenever it is used, and must outlive it.
+/// Its context must be current in each call, and must outlive it.
 class AveragedCanvas {
 public:
     /// \throw DeviceError
     explicit AveragedCanvas(const gl::Api& api);
 
-    /// Returns whether it had another size before. \pre width > 0, height > 0 \throw DeviceError
+    /// Sets the size. Returns whether it changed. \pre width > 0, height > 0 \throw DeviceError
     bool resize(int width, int height);
     int width() const { return width_; }
     int height() const { return height_; }
 
-    /// Something changed: what was drawn is no longer what is to be seen.
+    /// Notes that the content changed, so all frames must be drawn again.
     void restart();
-    /// Nothing is left to draw until something changes.
+    /// Returns whether nothing is left to draw until the next change.
     bool isRefined() const { return frames_ == shifts; }
-    /// What is to be seen was drawn once at least, if only as it is while something moves.
+    /// Returns whether the present content was drawn at least once, if only roughly, as during motion.
     bool isDrawn() const { return isDrawn_; }
 
-    /// Draws a frame by `drawFrame`, which gets a target and the part of the panel that fills it, if there is any left
-    /// to draw. \throw DeviceError
+    /// Draws a frame by `drawFrame`, if any is left to draw. It gets a target and the part of the panel that fills it.
+    /// \throw DeviceError
     void draw(bool isMoving, const std::function<void(const draw::Target&, const draw::Crop&)>& drawFrame);
 
-    /// The mean of all frames. \pre isRefined()
+    /// Returns the mean of all frames. \pre isRefined()
     draw::Picture picture() const;
-    /// Copies what was drawn to a framebuffer, its lower left corner to (left, bottom).
+    /// Copies the drawn picture to a framebuffer, its lower left corner to (left, bottom).
     void copyTo(GLuint framebuffer, int left, int bottom) const;
 
 private:
-    static constexpr int shifts = 16; ///< frames that are averaged
+    static constexpr int shifts = 16; ///< number of averaged frames
 
     const gl::Api* api_;
     int width_ = 0, height_ = 0;

@@ -8,8 +8,8 @@
 
 namespace vdbcage::view {
 
-/// The colour of a share of the largest distance, 0 to 1: from pale yellow over orange to dark violet. Its lightness
-/// falls evenly, so that it can be read without colours too.
+/// Returns the colour of a share of the largest distance, 0 to 1: from pale yellow over orange to dark violet. Its
+/// lightness falls evenly, so that it can be read without colours too.
 inline draw::Colour distanceColour(double share)
 {
     constexpr std::array<draw::Colour, 5> stops{{{0.99F, 0.97F, 0.76F},

@@ -15,10 +15,11 @@ constexpr double armLength = 84, planeFrom = 26, planeTo = 46, headLength = 12, 
 constexpr std::array<draw::Colour, 3> axisColours{
     {{0.86F, 0.24F, 0.22F}, {0.27F, 0.62F, 0.22F}, {0.20F, 0.42F, 0.88F}}};
 constexpr draw::Colour screenColour{0.30F, 0.31F, 0.33F};
-/// An axis seen under a smaller sine has no arm, and a plane under a smaller one no square: they cannot be dragged.
+/// The least sine of the angle between an axis and the line of sight for its arm, and of that between a plane and the
+/// line of sight for its square: others cannot be dragged.
 constexpr double leastSine = 0.12;
 
-/// From farther away the pixels of single precision are no numbers any more. In drawing units: the model has about 2.
+/// The farthest distance whose pixels single precision can express, in drawing units: the model has about 2.
 constexpr double farthestOrigin = 1e6;
 
 Vec3d towardsEye(const GizmoFrame& frame)
@@ -26,11 +27,11 @@ Vec3d towardsEye(const GizmoFrame& frame)
     if (frame.eye.projection == draw::Projection::orthographic) return frame.eye.back;
     const Vec3d away = frame.eye.position - frame.origin;
     const double length = away.length();
-    // A pivot can be anywhere: in the eye too, and so far away that its square is no number.
+    // A pivot can be anywhere, even in the eye, or so far away that its square is no number.
     return length > 0 && std::isfinite(length) ? away / length : frame.eye.back;
 }
 
-/// The length in space that a pixel has at the origin.
+/// Returns the length in space of a pixel at the origin.
 double lengthOfPixel(const GizmoFrame& frame)
 {
     const bool isPerspective = frame.eye.projection == draw::Projection::perspective;
@@ -43,7 +44,7 @@ draw::Ray rayAt(const GizmoFrame& frame, const Pixel& at)
     return draw::rayThrough(frame.eye, 2 * at[0] / frame.width - 1, 1 - 2 * at[1] / frame.height);
 }
 
-/// Where a line of sight meets the plane through the origin with the normal.
+/// Returns the point where a line of sight meets the plane through the origin with the normal.
 std::optional<Vec3d> onPlane(const GizmoFrame& frame, const Vec3d& normal, const Pixel& at)
 {
     const draw::Ray ray = rayAt(frame, at);
@@ -52,7 +53,7 @@ std::optional<Vec3d> onPlane(const GizmoFrame& frame, const Vec3d& normal, const
     return ray.from + ray.direction * ((frame.origin - ray.from).dot(normal) / slope);
 }
 
-/// The place along the axis through the origin that is nearest to a line of sight.
+/// Returns the place along the axis through the origin that is nearest to a line of sight.
 double onAxis(const GizmoFrame& frame, const Vec3d& axis, const Pixel& at)
 {
     const draw::Ray ray = rayAt(frame, at);
@@ -114,11 +115,11 @@ public:
     {
         addCircle({Handle::Kind::screen, 0}, frame_.eye.right, frame_.eye.up, screenRingRadius, false);
         for (const int k : backToFront()) {
-            // The half in front: the other one is hidden by what one thinks of as a ball.
+            // Only the half in front is drawn: the ball that one imagines hides the other one.
             const Vec3d &u = axisOf((k + 1) % 3), &v = axisOf((k + 2) % 3);
             std::vector<Pixel> line;
             constexpr int steps = 96;
-            // From where the ring passes behind, so that what is seen is one stroke.
+            // It starts where the ring passes behind, so that the visible part is one stroke.
             const double start = std::atan2(v.dot(eye_), u.dot(eye_)) + M_PI;
             for (int i = 0; i <= steps; ++i) {
                 const double angle = start + 2 * M_PI * i / steps;
@@ -179,7 +180,7 @@ private:
 
     const GizmoFrame& frame_;
     std::vector<GizmoPart>& parts_;
-    double unit_; ///< in space, of a pixel on an ordinary screen
+    double unit_; ///< length in space of a pixel on an ordinary screen
     Vec3d eye_;
 };
 
@@ -284,11 +285,11 @@ Amount turnedAmount(const GizmoFrame& frame, const Handle& handle, const Pixel& 
     const Pixel centre = pixelOf(frame, frame.origin);
     double degrees = 0;
     if (std::abs(facing) > 0.2) {
-        // As a wheel that is seen from one of its sides.
+        // The ring turns as a wheel seen from one of its sides.
         const double x0 = from[0] - centre[0], y0 = from[1] - centre[1], x1 = to[0] - centre[0], y1 = to[1] - centre[1];
         degrees = -std::atan2(x0 * y1 - y0 * x1, x0 * x1 + y0 * y1) * 180 / M_PI * (facing > 0 ? 1 : -1);
     } else {
-        // As a wheel that is seen from its edge: what is near to the eye follows the pointer.
+        // The ring turns as a wheel seen from its edge: its part nearest to the eye follows the pointer.
         const Vec3d way = axis.cross(towardsEye(frame));
         const double x = way.dot(frame.eye.right), y = -way.dot(frame.eye.up),
                      length = std::max(1e-9, std::hypot(x, y));
@@ -310,7 +311,7 @@ Amount scaledAmount(const GizmoFrame& frame, const Handle& handle, const Pixel& 
         if (std::abs(start) > 1e-12) amount.values[handle.axis] = onAxis(frame, axis, to) / start;
         return amount;
     }
-    // From nearer than some pixels it would be wild.
+    // A start within some pixels of the centre would scale wildly.
     const Pixel centre = pixelOf(frame, frame.origin);
     const double start = std::max(20 * frame.pixel, std::hypot(from[0] - centre[0], from[1] - centre[1]));
     const double end =

@@ -16,14 +16,14 @@ using openvdb::Vec3d;
 
 constexpr double snappedDegrees = 15, snappedFactor = 0.1;
 
-/// Numbers separated by spaces; what cannot be read is 0.
+/// Returns numbers separated by spaces; words that cannot be read are 0.
 std::vector<double> numbersIn(const std::string& text)
 {
     std::vector<double> numbers;
     for (const std::string& word : wordsOf(text)) {
         try {
             numbers.push_back(numberOf(word, "number"));
-        } catch (const InputError&) { // it is not complete yet, such as "-"
+        } catch (const InputError&) { // an incomplete number, such as "-"
             numbers.push_back(0);
         }
     }
@@ -44,7 +44,7 @@ void Grip::press(const KeyDown& down, const Modifiers& modifiers)
     if (down.key >= Key::x && down.key <= Key::z) {
         const int axis = static_cast<int>(down.key) - static_cast<int>(Key::x);
         const Handle wanted{modifiers.shift ? Handle::Kind::plane : Handle::Kind::axis, axis};
-        // The same key again makes it free again.
+        // The same key again removes the choice.
         start_.handle = start_.handle == wanted ? Handle{} : wanted;
     } else if (down.key == Key::backspace) {
         if (!typed_.empty()) typed_.pop_back();
@@ -82,7 +82,7 @@ Amount Grip::amount() const
         amount.values[0] = typed[0];
         return amount;
     }
-    // Numbers are for the axes that can be set, in order. One alone scales all of them.
+    // The numbers are for the axes that can be set, in order. A single factor scales all of them.
     amount.values = Vec3d(start_.tool == Tool::scale ? 1 : 0);
     std::size_t next = 0;
     for (int k = 0; k < 3; ++k) {

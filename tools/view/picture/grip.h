@@ -8,10 +8,10 @@
 
 namespace vdbcage::view {
 
-/// What is selected, while it is moved, turned or scaled: by the pointer, or by numbers that are typed.
+/// A motion of the selection under way: moving, turning or scaling by the pointer, or by typed numbers.
 class Grip {
 public:
-    /// How it begins.
+    /// The values at its beginning.
     struct Start {
         Tool tool = Tool::move; ///< not select
         Handle handle;
@@ -19,7 +19,7 @@ public:
         Pixel at{};
         GizmoFrame frame;
         openvdb::Vec3d pivot{0}; ///< world space
-        double unit = 1;         ///< world units of a drawing unit
+        double unit = 1;         ///< world units per drawing unit
         double gridStep = 1;     ///< world units; moves snap to a tenth
     };
     explicit Grip(Start start) : start_(std::move(start)), at_(start_.at) {}
@@ -27,23 +27,23 @@ public:
     bool isFree() const { return start_.isFree; }
 
     void moveTo(const Pixel& at, bool isSnapping);
-    /// A key that says along which axis, or a part of a number.
+    /// Takes a key that chooses an axis, or a part of a number.
     void press(const KeyDown& down, const Modifiers& modifiers);
 
-    /// What it amounts to now.
+    /// Returns the command for its present amount.
     Command command() const;
-    /// The same in words, such as "Move along X, world: 0.5  0  0".
+    /// Returns the same in words, such as "Move along X, world: 0.5  0  0".
     std::string describe(Orientation orientation) const;
 
 private:
     double snappingStep() const;
-    /// In world units.
+    /// Returns the amount in world units.
     Amount amount() const;
 
     Start start_;
     Pixel at_;
     bool isSnapping_ = false;
-    std::string typed_; ///< numbers, by which the amount is set instead of by the pointer
+    std::string typed_; ///< numbers that replace the pointer's amount
 };
 
 } // namespace vdbcage::view

@@ -10,7 +10,7 @@ using openvdb::Vec3d;
 
 namespace {
 
-/// 1, 2 or 5 times a power of ten, at least `least`.
+/// Returns 1, 2 or 5 times a power of ten, at least `least`.
 double roundStep(double least)
 {
     const double power = std::pow(10.0, std::floor(std::log10(least)));

@@ -7,15 +7,15 @@
 
 namespace vdbcage::view {
 
-/// A grid of lines below the model. They are at multiples of a round step, so that coordinates can be read.
+/// A grid of lines below the model, at multiples of a round step, so that coordinates can be read.
 class GroundGrid {
 public:
-    /// Below a box. \throw DeviceError
+    /// Makes the grid below a box. \throw DeviceError
     void fill(const gl::Api& api, const draw::Frame& frame, const openvdb::BBoxd& box, draw::UpAxis up);
 
-    /// None: it was not filled yet.
+    /// Returns the shape; none: it was not filled yet.
     const std::optional<draw::Shape>& shape() const { return shape_; }
-    /// Distance between two lines, in world space: 1, 2 or 5 times a power of ten.
+    /// Returns the distance between two lines, in world space: 1, 2 or 5 times a power of ten.
     double step() const { return step_; }
 
 private:

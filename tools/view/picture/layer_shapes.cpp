@@ -59,7 +59,7 @@ draw::Edges edgesOf(LayerId id, const LayerLook& look)
     return edges;
 }
 
-/// What a layer shows of a cage; null: nothing.
+/// Returns the mesh that a layer shows of a cage; null: none.
 const Mesh* meshOf(LayerId id, const CageResultPtr& cage)
 {
     if (!cage) return nullptr;
@@ -135,7 +135,7 @@ void LayerShapes::setModel(const OpenedMeshPtr& model)
 bool LayerShapes::fillLayer(LayerId id, const CageResultPtr& cage, const ViewState& view)
 {
     if (id == LayerId::model) return false;
-    // What was never seen is not made.
+    // Layers that are hidden are not made.
     const Mesh* mesh = id == LayerId::cage || view.layer(id).shown ? meshOf(id, cage) : nullptr;
     if (mesh && mesh->points.empty()) mesh = nullptr;
     const std::shared_ptr<const void> source = mesh ? std::shared_ptr<const void>(cage) : nullptr;

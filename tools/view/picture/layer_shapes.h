@@ -13,53 +13,53 @@
 
 namespace vdbcage::view {
 
-/// What is to be seen.
+/// The content of the picture.
 struct Shown {
     OpenedMeshPtr model;
     CageResultPtr cage;                     ///< null: none
     bool isStale = false;                   ///< it fades the cage
-    std::vector<openvdb::Vec3d> cagePoints; ///< where the cage's points are; of another number: at rest
-    ModelValues modelValues;                ///< that colours show; null: none
-    const PosedModel* posed = nullptr;      ///< where the model is
+    std::vector<openvdb::Vec3d> cagePoints; ///< points of the cage; if their number differs from its own: it is at rest
+    ModelValues modelValues;                ///< shown by colours; null: none
+    const PosedModel* posed = nullptr;      ///< the posed model; null or unbound: at rest
 };
 
-/// The layers of the picture, and the ground below them, as shapes. Only what is new is made and uploaded.
+/// The layers of the picture, and the ground below them, as shapes. Only new parts are made and uploaded.
 class LayerShapes {
 public:
     /// `isSoftware`: see ModelShape.
     LayerShapes(const gl::Api& api, bool isSoftware);
 
-    /// What a call of show() changed.
+    /// The changes of a call of show().
     struct Change {
         bool any = false;
-        bool model = false; ///< or where it is
+        bool model = false; ///< the model or its points
     };
-    /// Takes over what is to be seen. \throw DeviceError
+    /// Takes new content. \throw DeviceError
     Change show(const Shown& shown, const ViewState& view);
 
-    /// As of the last show().
+    /// Returns the view of the last show().
     const ViewState& view() const { return view_; }
-    /// How each is drawn, as of the last show(), from the back to the front.
+    /// Returns the layers of the last show() and how to draw them, from back to front.
     std::vector<draw::Layer> layers(bool isMoving) const;
-    /// The points of what is drawn: with the ground or without.
+    /// Returns the points of the drawn shapes, with the ground or without it.
     draw::PointSets points(const ViewState& view, bool withGround) const;
-    /// The first face of a layer that the ray meets, and the section does not cut off.
+    /// Returns the first point where the ray meets a face that the section does not cut off.
     std::optional<draw::Hit> nearestHit(const draw::Ray& ray) const;
-    /// What cuts off, as of the last show().
+    /// Returns the section plane of the last show().
     std::optional<draw::Section> section() const;
 
-    /// In which it all is drawn: that of the model.
+    /// Returns the frame of all shapes: the model's.
     const draw::Frame& frame() const { return frame_; }
-    /// Of the model, world space; without a model [-1, 1].
+    /// Returns the model's box in world space; [-1, 1] if there is no model.
     const openvdb::BBoxd& box() const { return box_; }
     const GroundGrid& ground() const { return ground_; }
     const ModelShape& model() const { return model_; }
     const CageResultPtr& cage() const { return cage_; }
-    /// Where the cage's points are seen, world space.
+    /// Returns the drawn positions of the cage's points, world space.
     const std::vector<openvdb::Vec3d>& cagePoints() const { return cagePoints_; }
-    /// Edges of what a layer shows, 0 if it shows nothing.
+    /// Returns the number of edges that a layer shows, 0 if it shows nothing.
     std::size_t edgeCount(LayerId layer) const;
-    /// Of the distances that colours show now, world units; 0 if they show none.
+    /// Returns the largest of the distances that colours show now, in world units; 0 if they show none.
     double largestDistance() const { return largestDistance_; }
 
 private:
@@ -77,8 +77,8 @@ private:
     openvdb::BBoxd box_;
     draw::Frame frame_;
     ModelShape model_;
-    std::array<ShapeSlot, layerCount> slots_; ///< of all layers but the model
-    ShapeSlot distances_;                     ///< the cage in colours of its distance
+    std::array<ShapeSlot, layerCount> slots_; ///< of all layers except the model
+    ShapeSlot distances_;                     ///< the cage coloured by its distance
     GroundGrid ground_;
     ViewState view_;
     CageResultPtr cage_;

@@ -10,12 +10,12 @@
 
 namespace vdbcage::view {
 
-/// A shape, and the thing that it was made of. It is made again only for another thing.
+/// A shape and its source. It is made again only for another source.
 struct ShapeSlot {
-    std::shared_ptr<const void> source; ///< kept, so that no other thing has its address
-    std::optional<draw::Shape> shape;   ///< none: there is nothing to be seen
+    std::shared_ptr<const void> source; ///< kept, so that no other object has its address
+    std::optional<draw::Shape> shape;   ///< none: there is nothing to draw
 
-    /// `mesh`: of `from`; null: none. \throw DeviceError
+    /// Makes the shape of `mesh`, which belongs to `from`; null: no shape. \throw DeviceError
     void fill(const gl::Api& api, const draw::Frame& frame, const std::shared_ptr<const void>& from, const Mesh* mesh,
               double creaseDegrees)
     {
@@ -25,27 +25,28 @@ struct ShapeSlot {
     }
 };
 
-/// Values that colours of the model tell, one a point; null: none.
+/// Values that colours of the model show, one per point; null: none.
 using ModelValues = std::shared_ptr<const std::vector<double>>;
 
-/// The model as it is seen: at rest or posed, coloured by values, or by a stand-in for it.
+/// The model as drawn: at rest or posed, coloured by values, or by a stand-in for it.
 class ModelShape {
 public:
-    /// `isSoftware`: a program on the CPU draws; while something moves a stand-in is drawn for a large model.
+    /// `isSoftware`: the CPU draws; while something moves, a large model is drawn by a stand-in.
     ModelShape(const gl::Api& api, bool isSoftware) : api_(&api), isSoftware_(isSoftware) {}
 
-    /// Each returns whether anything changed. \throw DeviceError
+    /// Set the model, pose or colours. Each returns whether anything changed. \throw DeviceError
     bool show(const OpenedMeshPtr& model, const draw::Frame& frame);
     bool pose(const OpenedMeshPtr& model, const PosedModel* posed, const draw::Frame& frame);
     bool colour(const OpenedMeshPtr& model, const ModelValues& values);
 
-    /// All of it is forgotten, as in another frame.
+    /// Forgets everything, as for another frame.
     void clear() { *this = ModelShape(*api_, isSoftware_); }
 
-    /// The model's own shape.
+    /// Returns the model's own shape.
     const std::optional<draw::Shape>& shape() const { return model_.shape; }
     const std::shared_ptr<const void>& source() const { return model_.source; }
-    /// What is drawn of it: a stand-in while not all of the model is bound, or for a large one while something moves.
+    /// Returns the shape to draw: a stand-in while not all points of the model are bound, or for a large one while
+    /// something moves.
     const std::optional<draw::Shape>& drawn(bool isMoving) const;
     bool isDrawnInValues() const { return values_ && !hasOnlyStandIn_; }
 
@@ -53,9 +54,9 @@ private:
     const gl::Api* api_;
     bool isSoftware_;
     ShapeSlot model_;
-    draw::StandIn movingModel_; ///< what is drawn while something moves; empty: the model itself
+    draw::StandIn movingModel_; ///< drawn while something moves; empty: the model itself is
     ShapeSlot movingShape_;     ///< its shape
-    ShapeSlot bound_;           ///< the part of the model that is bound, as long as not all of it is
+    ShapeSlot bound_;           ///< the bound stand-in, until all points of the model are bound
     ModelValues values_;
     std::uint64_t posedVersion_ = 0;
     bool isPosed_ = false;        ///< the shape is not at rest

@@ -11,12 +11,12 @@ namespace vdbcage::view {
 namespace {
 
 constexpr double factorPerNotch = 1.15;
-/// A press that moves less is a click; what is nearer to one is hit. Pixels on an ordinary screen.
+/// The longest motion of a click, and the farthest distance of a hit. Pixels on an ordinary screen.
 constexpr double clickRadius = 3, pickRadius = 9;
-/// Of a lasso, two corners are farther apart.
+/// The least distance between two corners of a lasso.
 constexpr double lassoStep = 3;
 
-/// What is selected after `these` are picked.
+/// Returns the selection after `these` are picked.
 edit::Selection picked(const edit::Selection& selected, const edit::Selection& these, PickAction action)
 {
     switch (action) {
@@ -181,7 +181,7 @@ std::optional<Grip> PictureControl::gripOf(Tool tool, const Handle& handle, bool
     if (!frame) return std::nullopt;
     const LayerShapes& shapes = host_.viewport.shapes();
     const SelectionFrame selected = *selectionFrame(host_.session.state(), host_.session.cage(), frame->axes);
-    // What is moved freely stays under the pointer, wherever the pivot is.
+    // A selection that is moved freely stays under the pointer, wherever the pivot is.
     if (isFree && tool == Tool::move) frame->origin = shapes.frame().toDrawing(selected.mean);
     return Grip(
         {tool, handle, isFree, inPicture(), *frame, selected.origin, shapes.frame().unit(), shapes.ground().step()});

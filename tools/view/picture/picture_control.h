@@ -13,52 +13,52 @@
 
 namespace vdbcage::view {
 
-/// What the pointer does in the picture, and the keys while it moves something: it turns the view (see CameraDrag),
-/// selects parts of the cage (see Band), and moves what is selected (see Grip), by handles or freely. What it does is
-/// commands; it changes nothing else.
+/// The control of the picture by the pointer, and by keys during a motion: it turns the view (see CameraDrag), selects
+/// parts of the cage (see Band), and moves the selection (see Grip), by handles or freely. It acts by commands; it
+/// changes nothing else.
 class PictureControl {
 public:
-    /// All of it must outlive the control.
+    /// The things that it acts on. All must outlive it.
     struct Host {
         Session& session;
         Viewport& viewport;
-        std::function<void(const Command&)> attempt; ///< does it as a user would
-        std::function<void()> endDrag;               ///< ends the session's drag and records what it amounts to
+        std::function<void(const Command&)> attempt; ///< performs it for the user
+        std::function<void()> endDrag;               ///< ends the session's drag and records its effect
         std::function<Rectangle()> place;            ///< of the picture in the window
-        double pixel = 1;                            ///< pixels that a length of 1 has on an ordinary screen
+        double pixel = 1;                            ///< pixels per pixel of an ordinary screen
     };
     explicit PictureControl(Host host) : host_(std::move(host)) {}
 
-    /// What its buttons do from now on; what is under way goes on as it began.
+    /// Sets the actions of its buttons; a drag under way goes on as it began.
     void setMouse(const MouseMap& map) { mouse_ = map; }
 
-    /// A pointer event that no panel took, or any while isHeld().
+    /// Takes a pointer event that no panel took, or any while isHeld().
     void handle(const InputEvent& event);
-    /// A key that it wants for what it is doing. Returns whether it took it.
+    /// Takes a key for the motion under way. Returns whether it took it.
     bool press(const KeyDown& down, const Modifiers& modifiers);
 
-    /// Moves, turns or scales what is selected with the pointer until a click, Enter or Escape. \pre tool is not select
+    /// Moves, turns or scales the selection with the pointer until a click, Enter or Escape. \pre tool is not select
     /// \throw InputError nothing is selected, or there is no cage
     void grab(Tool tool);
-    /// The next drag selects what is in a box.
+    /// Makes the next drag select the elements in a box.
     void startBox();
 
-    /// Where the pointer is, pixels of the window.
+    /// Returns the pointer's position, in pixels of the window.
     Pixel pointer() const { return at_; }
-    /// The same where what is under way began.
+    /// Returns its position at the beginning of the drag or motion under way.
     Pixel home() const { return home_; }
-    /// It has the pointer, wherever that goes.
+    /// Returns whether it gets all events of the pointer, wherever that is.
     bool isHeld() const { return held_.has_value() || (grip_ && grip_->isFree()); }
-    /// The view is turned, moved or zoomed.
+    /// Returns whether the view is turned, moved or zoomed.
     bool isCameraDragged() const { return isCameraDragged_; }
-    /// Something is being moved.
+    /// Returns whether the selection is being moved.
     bool isMoving() const { return grip_.has_value(); }
-    /// Something is under way that Escape ends.
+    /// Returns whether something is under way that Escape ends.
     bool isBusy() const { return grip_ || isBoxArmed_ || band_.isThere(); }
-    /// Ends what is under way as if it had not been.
+    /// Ends the motion or box under way without effect.
     void cancel();
 
-    /// What is to be seen over the picture.
+    /// Returns the overlay of the picture.
     PictureOverlay overlay() const;
 
 private:
@@ -72,15 +72,15 @@ private:
     void follow();
     void finish();
     Pixel inPicture() const;
-    /// The pointer has not moved since the button went down, but for a hand that shakes.
+    /// Returns whether the pointer has not moved since the button went down, except for a shaking hand.
     bool isStill() const;
 
     Host host_;
     MouseMap mouse_ = mouseMap(KeyMap::blender);
-    Pixel at_{}, home_{}, pressed_{}; ///< of the window
+    Pixel at_{}, home_{}, pressed_{}; ///< in the window
     std::optional<ButtonDown> held_;
     Modifiers heldWith_;
-    std::optional<CameraDrag> cameraDrag_; ///< what a drag of the held button does; none: nothing to the camera
+    std::optional<CameraDrag> cameraDrag_; ///< of the held button; none: it does not move the camera
     bool isCameraDragged_ = false, isBoxArmed_ = false;
     Band band_;
     std::optional<Grip> grip_;

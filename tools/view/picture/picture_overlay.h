@@ -9,18 +9,18 @@
 
 namespace vdbcage::view {
 
-/// What is drawn over the picture for who edits it. Pixels count from the picture's top left.
+/// The overlay of the picture for editing. Pixels count from the picture's top left.
 struct PictureOverlay {
     struct Point {
         Pixel at;
         bool isSelected = false;
     };
-    std::vector<Point> points;               ///< of the cage, where points are selected
-    std::vector<std::array<Pixel, 2>> edges; ///< that are selected
+    std::vector<Point> points;               ///< of the cage, if points are selected
+    std::vector<std::array<Pixel, 2>> edges; ///< the selected ones
     std::vector<GizmoPart> gizmo;
-    std::optional<Handle> hot; ///< of the gizmo, under the pointer
+    std::optional<Handle> hot; ///< the handle under the pointer
     std::vector<Pixel> band;   ///< the border of a box or lasso that is being drawn
-    std::string hint;          ///< what is under way, and by how much
+    std::string hint;          ///< the motion under way and its amount
 };
 
 } // namespace vdbcage::view

@@ -9,16 +9,16 @@
 
 namespace vdbcage::view {
 
-/// The picture of the window, or two side by side where two families of coordinates are compared. Both have one camera.
+/// The picture of the window, or two side by side if two families of coordinates are compared. Both have one camera.
 ///
-/// Its context must be current whenever it is used, and must outlive it.
+/// Its context must be current in each call, and must outlive it.
 class Pictures {
 public:
     /// See Viewport. \throw DeviceError
     Pictures(const gl::Api& api, bool isSoftware) : api_(api), isSoftware_(isSoftware), first_(api, isSoftware) {}
 
-    /// Takes over what is to be seen within `place`, with the model as it follows the cage, and as `compared` has it
-    /// if that is not null. Returns whether anything changed. \throw DeviceError
+    /// Takes new content for the pictures within `place`: with the model as it follows the cage, and as `compared` has
+    /// it if that is not null. Returns whether anything changed. \throw DeviceError
     bool show(const Rectangle& place, Shown shown, const Follower& follower, const Follower* compared,
               const ViewState& view);
 
@@ -26,12 +26,12 @@ public:
     void draw(bool isMoving);
     bool isRefined() const { return first_.canvas().isRefined() && (!second_ || second_->canvas().isRefined()); }
     bool isDrawn() const { return first_.canvas().isDrawn() && (!second_ || second_->canvas().isDrawn()); }
-    /// Copies what was drawn to a window of that height.
+    /// Copies the drawn pictures to a window of that height.
     void copyTo(GLuint framebuffer, int height) const;
 
-    /// Where they are in the window: one, or two.
+    /// Returns the places of the one or two pictures in the window.
     const std::vector<Rectangle>& places() const { return places_; }
-    /// That of the model as it follows the cage: the left one.
+    /// Returns the left picture: the model as it follows the cage.
     Viewport& first() { return first_; }
     const Viewport& first() const { return first_; }
 

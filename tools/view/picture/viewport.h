@@ -9,36 +9,36 @@
 
 namespace vdbcage::view {
 
-/// The picture of model, cage and what is between them (see AveragedCanvas, LayerShapes, CagePicker). What is seen in
-/// the end does not depend on how it came about.
+/// The picture of model, cage and the stages between them (see AveragedCanvas, LayerShapes, CagePicker). The final
+/// picture does not depend on the calls before.
 ///
-/// Its context must be current whenever it is used, and must outlive it.
+/// Its context must be current in each call, and must outlive it.
 class Viewport {
 public:
-    /// `isSoftware`: a program on the CPU draws. \throw DeviceError
+    /// `isSoftware`: the CPU draws. \throw DeviceError
     Viewport(const gl::Api& api, bool isSoftware);
 
     /// \pre width > 0, height > 0 \throw DeviceError
     void resize(int width, int height);
 
-    /// Takes over what is to be seen. Returns whether anything changed. \throw DeviceError
+    /// Takes new content. Returns whether anything changed. \throw DeviceError
     bool show(const Shown& shown, const ViewState& view);
 
     /// Draws a frame, if there is any left to draw. \throw DeviceError
     void draw(bool isMoving);
-    /// What is seen when nothing moves, without what others draw over it. \throw DeviceError
+    /// Returns the picture at rest, without overlays. \throw DeviceError
     draw::Picture picture();
     const AveragedCanvas& canvas() const { return canvas_; }
 
     const LayerShapes& shapes() const { return shapes_; }
-    /// Of what is shown.
+    /// Returns the eye of the shown picture.
     const draw::Eye& eye() const { return eye_; }
 
-    /// The camera of `view` moved to see all that is shown, or the selected faces.
+    /// Returns the camera of `view`, moved to see all of the picture, or the selection if there is one.
     draw::Camera fitted(const ViewState& view, bool selection) const;
-    /// What is seen at (x, y) of the panel, [-1, 1] both ways, y up.
+    /// Returns the visible point of a layer at (x, y) of the panel, [-1, 1] both ways, y up.
     std::optional<openvdb::Vec3d> pointAt(double x, double y) const;
-    /// The middle of what is selected, in drawing coordinates; none if nothing is selected.
+    /// Returns the mean of the selected points, in drawing coordinates; none if nothing is selected.
     std::optional<openvdb::Vec3d> selectionCentre(const ViewState& view) const;
 
     /// See CagePicker.
@@ -47,10 +47,10 @@ public:
     void addElements(const ViewState& view, bool isMoved, PictureOverlay& overlay);
 
 private:
-    /// Something changed: what was drawn is no longer what is to be seen.
+    /// Notes a change: the picture must be drawn again.
     void restart();
     double aspect() const { return 1.0 * canvas_.width() / canvas_.height(); }
-    /// Those of the cage that are selected, or belong to what is; in drawing coordinates.
+    /// Returns the points of the cage that are selected or belong to selected elements, in drawing coordinates.
     std::vector<openvdb::Vec3d> selectedPoints(const ViewState& view) const;
     CagePicker::Picture pickedPicture() const { return {shapes_, eye_, canvas_.width(), canvas_.height()}; }
 

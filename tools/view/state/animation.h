@@ -4,14 +4,14 @@
 
 namespace vdbcage::view {
 
-/// What moves by itself: the turntable, and poses that are played from the first key to the last, and again.
+/// Animated views: the turntable, and poses played from the first key to the last, over and over.
 class Animation {
 public:
     static bool isTurning(const State& state);
     static bool isPlaying(const State& state);
     static bool isAnimated(const State& state) { return isTurning(state) || isPlaying(state); }
 
-    /// The view after so many seconds. \pre seconds >= 0
+    /// Returns the view after that time. \pre seconds >= 0
     ViewState passed(const State& state, double seconds);
 
 private:

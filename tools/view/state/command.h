@@ -21,10 +21,10 @@
 ///     void apply(Document& document, const Situation& now) const;
 ///
 ///     void apply(ViewState& view) const;
-///     static T of(const ViewState& view); // what makes this view; what T is made of is enough, or a vector of T
+///     static T of(const ViewState& view); // a T for this view, a value that converts to T, or a vector of T
 namespace vdbcage::view {
 
-/// In the order of help.
+/// All commands, in the order of help.
 using Command = std::variant<OpenModel, OpenCage, CloseCage, SetOption, ResetOptions, ApplyPreset, SetCoordinates,
                              OpenWeights, SetMaterial, MoveSelected, RotateSelected, ScaleSelected, EditCage, ResetPose,
                              OpenPose, OpenPoses, SetKey, DeleteKey, MoveKey, MakeInBetweens, ClearPoses, SetCamera,
@@ -36,27 +36,27 @@ using Command = std::variant<OpenModel, OpenCage, CloseCage, SetOption, ResetOpt
 template <class T>
 constexpr bool changesView = std::is_invocable_v<decltype(&T::apply), const T&, ViewState&>;
 
-/// Whether it changes the document; else it changes the view.
+/// Returns whether it changes the document; else it changes the view.
 bool changesDocument(const Command& command);
 
-/// Its line, without a line break; commandOf gives an equal command back.
+/// Returns its line, without a line break; commandOf makes an equal command of it.
 std::string toText(const Command& command);
 
-/// The command in `words` (see wordsOf). \throw InputError naming the command, the value and what is allowed
+/// Returns the command in `words` (see wordsOf). \throw InputError naming the command, the value and the allowed values
 Command commandOf(const Words& words);
 
-/// None: no command has that name. \throw as commandOf
+/// Returns the command in `words`; none: no command has that name. \throw as commandOf
 std::optional<Command> tryCommandOf(const Words& words);
 
-/// How each command is written, and what it does in one line, for help and docs.
+/// Returns the syntax of each command and a line of help, for help and docs.
 LineHelp describeCommands();
 
-/// The commands that make this view of the default one, each layer and all.
+/// Returns the commands that turn the default view into this one, including each layer.
 std::vector<Command> commandsFor(const ViewState& view);
 
-/// The state after the command. OpenModel, OpenCage, OpenPose and OpenPoses read their files. `cage` is the one that is
-/// shown: what moves or resets points needs it. `remark` gets what the user is to know of what was done, if there is
-/// anything. \throw InputError, IoError; the state is as it was
+/// Returns the state after the command. OpenModel, OpenCage, OpenPose and OpenPoses read their files. `cage` is the
+/// shown one: commands that move or reset points need it. `remark` gets a note for the user, if there is one.
+/// \throw InputError, IoError; the state is unchanged
 State applied(const State& state, const Command& command, const ShownCage& cage = nullptr,
               std::string* remark = nullptr);
 

@@ -25,7 +25,7 @@ std::vector<Index32> requiredPoints(const State& state, const Mesh& cage)
     return points;
 }
 
-/// How far each point goes with what is selected.
+/// Returns how far each point moves with the selection, 0 to 1.
 std::vector<double> weightsOf(const State& state, const Mesh& cage, const std::vector<Index32>& points)
 {
     if (state.view.softRadius > 0) {
@@ -38,13 +38,13 @@ std::vector<double> weightsOf(const State& state, const Mesh& cage, const std::v
     return weights;
 }
 
-/// Axes of which the last is along `normal`, or those of the world if it is 0.
+/// Returns axes of which the last is along `normal`, or those of the world if it is 0.
 std::array<Vec3d, 3> axesWithZ(const Vec3d& normal)
 {
     const double length = normal.length();
     if (!(length > 0)) return {Vec3d(1, 0, 0), Vec3d(0, 1, 0), Vec3d(0, 0, 1)};
     const Vec3d z = normal / length;
-    // The axis of the world that is least along it.
+    // The axis of the world at the largest angle to it.
     int least = 0;
     for (int k = 1; k < 3; ++k) {
         if (std::abs(z[k]) < std::abs(z[least])) least = k;
@@ -55,7 +55,7 @@ std::array<Vec3d, 3> axesWithZ(const Vec3d& normal)
     return {x, z.cross(x), z};
 }
 
-/// The sum of the area vectors of the faces that touch what is selected.
+/// Returns the sum of the area vectors of the faces that touch the selected points.
 Vec3d meanNormal(const Mesh& cage, const std::vector<Vec3d>& points, const std::vector<Index32>& selected)
 {
     Vec3d sum(0);
@@ -68,7 +68,7 @@ Vec3d meanNormal(const Mesh& cage, const std::vector<Vec3d>& points, const std::
     return sum;
 }
 
-/// The axes of the least and largest extents: x along the longest.
+/// Returns the axes of the points' extents: x along the longest.
 std::array<Vec3d, 3> principalAxes(const std::vector<Vec3d>& points, const std::vector<Index32>& selected,
                                    const Vec3d& mean)
 {
@@ -87,7 +87,7 @@ std::array<Vec3d, 3> principalAxes(const std::vector<Vec3d>& points, const std::
     return {x, y, x.cross(y)};
 }
 
-/// \pre something is selected, with the mean `mean`
+/// Returns the pivot. \pre some points are selected, with the mean `mean`
 Vec3d pivotPoint(const Pivot& pivot, const std::vector<Vec3d>& points, const std::vector<Index32>& selected,
                  const Vec3d& mean)
 {
@@ -98,7 +98,8 @@ Vec3d pivotPoint(const Pivot& pivot, const std::vector<Vec3d>& points, const std
     return 0.5 * (box.min() + box.max());
 }
 
-/// What is farther away than this many longest sides of the cage is not to be seen, and cannot be drawn in the end.
+/// The farthest distance of a point, in longest sides of the cage: points beyond it are invisible, and cannot be drawn
+/// in the end.
 constexpr double farthest = 1e9;
 
 void requireNear(const std::vector<Vec3d>& points, const openvdb::BBoxd& cage)
@@ -122,12 +123,12 @@ Document withRest(const State& state, Mesh cage)
 
 using Edge = std::pair<Index32, Index32>;
 
-/// The selected edges by their points; of points and faces the edges between them.
+/// Returns the selected edges by their points; if points or faces are selected, the edges between them.
 std::vector<Edge> selectedEdges(const edit::Elements& elements, const edit::Selection& selection)
 {
     std::vector<Edge> edges;
     if (selection.kind == edit::Element::face) {
-        // An edge between two of them.
+        // These are the edges between two selected faces.
         for (Index32 e = 0; e < elements.edges().size(); ++e) {
             const edit::Ids faces = elements.facesOfEdge(e);
             const auto isSelected = [&](Index32 face) {
@@ -146,17 +147,17 @@ std::vector<Edge> selectedEdges(const edit::Elements& elements, const edit::Sele
 Mesh withEditedEdges(Mesh cage, std::vector<Edge> edges, CageEdit edit)
 {
     for (std::size_t i = 0; i < edges.size(); ++i) {
-        // Collapses before it may have turned it around.
+        // Earlier collapses may have turned it around.
         const Index32 a = std::min(edges[i].first, edges[i].second), b = std::max(edges[i].first, edges[i].second);
         if (a == b) continue;
         const Index32 edge = edit::Elements(cage).edgeBetween(a, b);
-        if (edge == edit::none) continue; // one before it took it away
+        if (edge == edit::none) continue; // an earlier edit removed it
         if (edit == CageEdit::split) cage = edit::splitEdge(cage, edge);
         if (edit == CageEdit::flip) cage = edit::flipEdge(cage, edge);
         if (edit == CageEdit::merge) cage = edit::mergeFaces(cage, edge);
         if (edit != CageEdit::collapse) continue;
         cage = edit::collapseEdge(cage, edge);
-        // The larger index is gone.
+        // The larger index was removed.
         for (Edge& other : edges) {
             for (Index32* const end : {&other.first, &other.second}) {
                 if (*end == b) {
@@ -170,7 +171,7 @@ Mesh withEditedEdges(Mesh cage, std::vector<Edge> edges, CageEdit edit)
     return cage;
 }
 
-/// From the last quad on: those before it keep their places among quads.
+/// Cuts the quads from the last one on, so that those before keep their numbers.
 Mesh withCutQuads(Mesh cage, const std::vector<Index32>& faces)
 {
     const std::size_t triangles = cage.triangles.size();
@@ -219,7 +220,7 @@ std::optional<SelectionFrame> selectionFrame(const State& state, const ShownCage
     if (!cage) return std::nullopt;
     const std::vector<Index32> selected = selectedPoints(*cage->rest(), state.view.selection);
     if (selected.empty()) return std::nullopt;
-    // It is asked for at each event: carrying over is for those who can wait.
+    // This is called at each event, which must not wait for poses to be carried over.
     if (state.view.mode == Mode::pose && !areCarried(state.document.poses, *cage)) return std::nullopt;
     const std::vector<Vec3d> points = cagePoints(state, cage);
     SelectionFrame frame;
@@ -304,7 +305,7 @@ Document withPose(const State& state, const ShownCage& cage, std::vector<Vec3d> 
     key.frame = state.view.frame;
     if (const PoseKey* const before = poses.keyAt(key.frame)) key.name = before->name;
     key.pose = poseOf(rest, std::move(points));
-    // Where all is at rest there is no pose, whatever way led there.
+    // If everything is at rest there is no pose, whatever edit led there.
     const bool isAlone = poses.without(key.frame).isEmpty();
     poses = !key.pose && isAlone && key.name.empty() ? TimeLine() : poses.with(std::move(key));
     return document;

@@ -7,58 +7,59 @@
 #include <tools/edit/motion.h>
 #include <tools/view/state/state.h>
 
-/// What is done with the selected points of the cage that is shown. Each function that returns the document after it
-/// throws InputError where there is no cage, or nothing of it is selected.
+/// Operations on the selected points of the shown cage. Each function that returns the document after it throws
+/// InputError if there is no cage, or no part of it is selected.
 namespace vdbcage::view {
 
-/// The cage at rest. \throw InputError there is none
+/// Returns the cage at rest. \throw InputError there is none
 const MeshPtr& restOf(const ShownCage& cage);
 
-/// A selection without what the cage does not have, as a script may name it.
+/// Returns the selection except elements that the cage does not have, as a script may name them.
 edit::Selection withinCage(edit::Selection selection, const edit::Elements& elements);
 
-/// The points that are selected, or belong to what is. They are numbers of points that the cage has.
+/// Returns the points that are selected or belong to selected elements. All are points of the cage.
 std::vector<openvdb::Index32> selectedPoints(const Mesh& cage, const edit::Selection& selection);
 
-/// By what the model follows the cage. \pre there is a model
+/// Returns the settings by which the model is bound to the cage. \pre there is a model
 BindOrder bindOrder(const Document& document, const MeshPtr& cage);
 
-/// Where the cage's points are now: posed in mode pose, else at rest. Empty without a cage.
+/// Returns the present points of the cage: posed in mode pose, else at rest. Empty if there is no cage.
 std::vector<openvdb::Vec3d> cagePoints(const State& state, const ShownCage& cage);
 
-/// Where what is selected is moved, turned and scaled from, and along which axes.
+/// The pivot and axes of the selection, for moving, turning and scaling.
 struct SelectionFrame {
     openvdb::Vec3d origin{0};             ///< the view's pivot, world space
     openvdb::Vec3d mean{0};               ///< of the selected points, world space
     std::size_t count = 0;                ///< of the selected points
     std::array<openvdb::Vec3d, 3> axes{}; ///< orthonormal, right-handed
 };
-/// By the view's orientation and pivot; `view`: right, up and to the viewer. None: there is nothing to move, or poses
-/// are still to be carried over to the cage.
+/// Returns them by the view's orientation and pivot; `view`: right, up and to the viewer. None: nothing is selected, or
+/// poses are still to be carried over to the cage.
 std::optional<SelectionFrame> selectionFrame(const State& state, const ShownCage& cage,
                                              const std::array<openvdb::Vec3d, 3>& view);
 
-/// Moves what is selected, and with it what soft selection and the mirror add. In mode pose the pose changes, else the
+/// Moves the selection, and the points that soft selection and the mirror add. In mode pose the pose changes, else the
 /// cage at rest.
-/// \throw InputError also where a point would be no finite number, or farther away than 1e9 sizes of the cage
+/// \throw InputError also if a point would not be finite, or farther away than 1e9 sizes of the cage
 Document withMotion(const State& state, const ShownCage& cage, const edit::Motion& motion);
 
-/// Changes the faces of the cage at rest: of what is selected, one after the other, as edit::splitEdge and the others.
-/// Edges are those that are selected, or else those between selected points or faces.
-/// \throw InputError also: the mode is not shape, or one of them cannot be changed so
+/// Changes the faces of the cage at rest by edit::splitEdge and the others, one selected element after the other. Edges
+/// are the selected ones, or else those between selected points or faces.
+/// \throw InputError also if the mode is not shape, or an element cannot be changed so
 Document withEdit(const State& state, const ShownCage& cage, CageEdit edit);
 
-/// The pose of the view's frame undone: that of all points, or of those that are selected.
+/// Undoes the pose of the view's frame: of all points, or of the selected ones.
 Document withResetPose(const State& state, const ShownCage& cage, bool onlySelected);
 
-/// The pose of the view's frame is that in which the cage's points are at `points`.
-/// \throw InputError not as many as the cage has, or one not finite
+/// Sets the pose of the view's frame to the cage's points at `points`.
+/// \throw InputError their number is not that of the cage's points, or one is not finite
 Document withPose(const State& state, const ShownCage& cage, std::vector<openvdb::Vec3d> points);
 
-/// The pose that is seen at `frame` is a key there, with that name; none: with the one that it has.
+/// Makes the pose at `frame` a key there, with that name; none: with its present name.
 Document withKey(const State& state, const ShownCage& cage, int frame, const std::optional<std::string>& name);
 
-/// From rest at frame 0 to the pose of the view's frame at the last of `frames`; no other poses. \pre frames > 1
+/// Replaces all poses by a motion from rest at frame 0 to the pose of the view's frame at the last of `frames`.
+/// \pre frames > 1
 Document withInBetweens(const State& state, const ShownCage& cage, int frames);
 
 } // namespace vdbcage::view

@@ -9,7 +9,7 @@
 
 namespace vdbcage::view {
 
-/// By what one sees that a file is another one than it was.
+/// The size and time of a file, by which a change is noticed.
 struct FileStamp {
     std::uintmax_t bytes = 0;
     std::filesystem::file_time_type changed{};
@@ -21,15 +21,15 @@ struct FileStamp {
     friend bool operator!=(const FileStamp& a, const FileStamp& b) { return !(a == b); }
 };
 
-/// Of the file at `path`; all zero if there is none.
+/// Returns the stamp of the file at `path`; all zero if there is none.
 FileStamp stampOf(const std::filesystem::path& path);
 
-/// 16 hexadecimal digits of the bytes of the file at `path`: for files that changed by chance, not by intent.
+/// Returns 16 hexadecimal digits of the file's bytes: for files that changed by chance, not by intent.
 /// \throw IoError
 /// Cost: one pass.
 std::string digestOf(const std::filesystem::path& path);
 
-/// A model or cage as it was read from a file. It never changes, so everything that needs it shares it.
+/// A model or cage as read from a file. It never changes, so all users share it.
 struct OpenedMesh {
     std::filesystem::path path; ///< absolute
     FileStamp stamp;            ///< of the file, before it was read
@@ -38,7 +38,7 @@ struct OpenedMesh {
 };
 using OpenedMeshPtr = std::shared_ptr<const OpenedMesh>;
 
-/// \throw IoError as readMeshFile
+/// Reads the mesh at `path`. \throw IoError as readMeshFile
 OpenedMeshPtr openMesh(const std::filesystem::path& path);
 
 } // namespace vdbcage::view

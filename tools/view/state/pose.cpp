@@ -23,7 +23,7 @@ bool PosableCage::has(const PosePtr& pose) const
 
 void PosableCage::carry(const std::vector<PosePtr>& poses, Interrupter* interrupter)
 {
-    // Those of one cage together: the weights by which it carries are the same.
+    // Poses of one cage are carried over together, by the same weights.
     std::map<MeshPtr, std::vector<PosePtr>> byRest;
     for (const PosePtr& pose : poses) {
         if (!has(pose)) byRest[pose->rest].push_back(pose);

@@ -10,40 +10,40 @@
 
 namespace vdbcage::view {
 
-/// A posed cage. It never changes. It stays with the cage at rest that it was made for, so it can be carried over to
+/// A posed cage. It never changes. It keeps the cage at rest that it was made for, so that it can be carried over to
 /// any other (see edit::carriedPoses).
 struct Pose {
     MeshPtr rest;                       ///< not null
-    std::vector<openvdb::Vec3d> points; ///< of the cage: one for each of rest's
+    std::vector<openvdb::Vec3d> points; ///< one for each point of `rest`
 };
 using PosePtr = std::shared_ptr<const Pose>;
 
 bool areEqual(const PosePtr& a, const PosePtr& b);
 
-/// The cage with its points at `points`; null if that is at rest. \pre as many as the cage has
+/// Returns the pose with the cage's points at `points`; null if that is at rest. \pre as many as the cage has
 PosePtr poseOf(const MeshPtr& cage, std::vector<openvdb::Vec3d> points);
 
-/// A cage that can be posed: at rest, and where its points are in each pose. Poses that were made for another cage are
-/// carried over once, and kept. For one thread at a time.
+/// A cage that can be posed: its points at rest and in each pose. Poses that were made for another cage are carried
+/// over once, and kept. Use it from one thread at a time.
 class PosableCage {
 public:
     explicit PosableCage(MeshPtr rest) : rest_(std::move(rest)) {}
 
-    /// The cage at rest.
+    /// Returns the cage at rest.
     const MeshPtr& rest() const { return rest_; }
 
-    /// Whether points() of each has nothing to compute. Null is at rest.
+    /// Returns whether points() of the pose has nothing to compute. Null is at rest.
     bool has(const PosePtr& pose) const;
 
-    /// Carries over those that are not yet here.
+    /// Carries over the poses that are not yet here.
     /// \throw InputError as edit::carriedPoses; Cancelled
     void carry(const std::vector<PosePtr>& poses, Interrupter* interrupter);
 
-    /// Poses that cannot be carried over: they are at rest here.
+    /// Puts poses that cannot be carried over at rest.
     void giveUp(const std::vector<PosePtr>& poses);
     bool isGivenUp(const PosePtr& pose) const { return givenUp_.count(pose) > 0; }
 
-    /// Where the cage's points are; null: at rest. Stays valid as long as this object and the pose.
+    /// Returns the cage's points; null: at rest. They stay valid as long as this object and the pose.
     /// \throw InputError as carry()
     const std::vector<openvdb::Vec3d>& points(const PosePtr& pose);
 
@@ -53,7 +53,7 @@ private:
     std::set<PosePtr> givenUp_;
 };
 
-/// The cage that is shown; null: none. It follows from the document after a while.
+/// The shown cage; null: none. It follows from the document after a while.
 using ShownCage = std::shared_ptr<PosableCage>;
 
 } // namespace vdbcage::view

@@ -48,7 +48,7 @@ TimeLine openSequence(const MeshPtr& cage, const fs::path& path, std::string* re
     return poses;
 }
 
-/// Reads the numbers of a file of parameters one after the other.
+/// A reader of the numbers of a file of parameters.
 class Parameters {
 public:
     explicit Parameters(const fs::path& path) : path_(path.string()), words_(detail::readFile(path)) {}

@@ -48,7 +48,7 @@ CageOptions presetOptions(const std::string& name)
     for (const Preset& preset : presets()) {
         if (preset.name == name) return optionsOf(preset.text, "preset " + name);
     }
-    // Names of ours have no dot and no slash, so what has none is a name that was mistyped.
+    // Built-in names have no dot and no slash, so another name without them was mistyped.
     if (name.find_first_of("./") == std::string::npos) {
         const std::string known = detail::joined(presets(), ", ", [](const Preset& preset) { return preset.name; });
         throw InputError("preset",

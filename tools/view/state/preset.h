@@ -6,27 +6,27 @@
 
 #include <vdbcage/pipeline/options.h>
 
-/// Presets: options by a name. A file of options has lines of an option's name and its value, and comments after #.
+/// Presets: options under a name. A line of their files has an option's name and its value; comments begin with #.
 namespace vdbcage::view {
 
 struct Preset {
     std::string name;
     std::string help; ///< one line
-    std::string text; ///< as in a file
+    std::string text; ///< in the format of files
 };
 
-/// Those that come with the window: balanced, tight, coarse, blocky.
+/// Returns the presets that come with the window: balanced, tight, coarse, blocky.
 const std::vector<Preset>& presets();
 
-/// The options in `text`, a file's; those that it does not name are as by default. `source` names it in errors.
-/// \throw InputError naming source, line, value and what is allowed
+/// Returns the options in `text`, the content of a file; others have their defaults. `source` names it in errors.
+/// \throw InputError naming source, line, value and the allowed values
 CageOptions optionsOf(const std::string& text, const std::string& source);
 
-/// The options of the preset `name`, or of the file with that path if there is no such preset.
+/// Returns the options of the preset `name`, or of the file with that path if there is no such preset.
 /// \throw InputError as optionsOf; IoError
 CageOptions presetOptions(const std::string& name);
 
-/// A file of the options that are not as by default.
+/// Returns the content of a file with the options that differ from their defaults.
 std::string presetText(const CageOptions& options);
 
 } // namespace vdbcage::view

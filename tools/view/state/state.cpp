@@ -42,7 +42,7 @@ std::array<LayerLook, layerCount> ViewState::defaultLayers()
 
 bool areEqual(const CageOptions& a, const CageOptions& b)
 {
-    // What was read anew from a changed file has the same text.
+    // Grids that were read again from a changed file have the same text.
     return a.scale.grid == b.scale.grid && a.density.grid == b.density.grid && a.joints == b.joints &&
            optionValues(a) == optionValues(b);
 }

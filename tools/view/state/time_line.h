@@ -8,7 +8,7 @@
 
 namespace vdbcage::view {
 
-/// Frames are numbered from 0 to this.
+/// The number of the last frame; the first one is 0.
 constexpr int lastFrame = 99999;
 
 /// A pose at a frame.
@@ -18,29 +18,28 @@ struct PoseKey {
     std::string name; ///< empty: none
 };
 
-/// Poses along frames. A value; a copy shares the keys. Without keys all is at rest. Before the first key the pose is
-/// that of the first, after the last that of the last. Between two keys points go straight and evenly from one to the
-/// other.
+/// Poses along frames. A value; copies share the keys. Before the first key the pose is that of the first, after the
+/// last that of the last, and at rest if there are no keys. Between two keys points move straight and evenly.
 class TimeLine {
 public:
-    /// By frame, each frame once.
+    /// Returns the keys in order, at most one for a frame.
     const std::vector<PoseKey>& keys() const;
-    /// Null: there is none.
+    /// Returns the key at the frame; null: there is none.
     const PoseKey* keyAt(int frame) const;
     bool isEmpty() const { return keys().empty(); }
-    /// Frames of the first and the last key. 0 if there are none.
+    /// Returns the frame of the first or last key; 0 if there are none.
     int firstFrame() const { return isEmpty() ? 0 : keys().front().frame; }
     int finalFrame() const { return isEmpty() ? 0 : keys().back().frame; }
 
-    /// With this key, in place of one that is at its frame.
+    /// Returns a copy with this key, in place of one at its frame.
     TimeLine with(PoseKey key) const;
-    /// Without the key at the frame, if there is one.
+    /// Returns a copy without the key at the frame, if there is one.
     TimeLine without(int frame) const;
 
-    /// What the pose at a frame is made of: a share of the way from one pose to another.
+    /// The pose at a frame: a share of the way from one pose to another.
     struct Between {
         PosePtr from, to; ///< null: at rest
-        double share = 0; ///< 0 to 1; 0 where `from` is all of it
+        double share = 0; ///< 0 to 1; 0 where the pose is `from`
     };
     Between at(int frame) const;
 
@@ -51,10 +50,10 @@ private:
     std::shared_ptr<const std::vector<PoseKey>> keys_; // null: none
 };
 
-/// Whether pointsAt() has nothing to carry over, at any frame. Cost: O(keys).
+/// Returns whether pointsAt() has nothing to carry over, at any frame. Cost: O(keys).
 bool areCarried(const TimeLine& timeLine, const PosableCage& cage);
 
-/// The cage's points at a frame.
+/// Returns the cage's points at a frame.
 /// Cost: O(points), and once for each pose that was made for another cage as PosableCage::points.
 std::vector<openvdb::Vec3d> pointsAt(const TimeLine& timeLine, int frame, PosableCage& cage);
 

@@ -6,14 +6,14 @@
 
 namespace vdbcage::view {
 
-/// What the widgets look like: triangles, in the order in which they are drawn. A value; two can be compared.
+/// The picture of the widgets: triangles, in the order in which they are drawn. A value that can be compared.
 struct Drawing {
     struct Vertex {
         float x, y;                       ///< pixels from the top left
         float u, v;                       ///< in the texture, from its first row
-        std::array<std::uint8_t, 4> rgba; ///< sRGB, not times alpha
+        std::array<std::uint8_t, 4> rgba; ///< sRGB, not multiplied by alpha
     };
-    /// Triangles of one texture that are seen only inside one rectangle.
+    /// Triangles of one texture, clipped to one rectangle.
     struct Batch {
         int left, top, right, bottom; ///< pixels from the top left
         std::uint32_t texture;        ///< OpenGL's name; 0: the glyphs
@@ -22,7 +22,7 @@ struct Drawing {
 
     int width = 0, height = 0; ///< pixels
     std::vector<Vertex> vertices;
-    std::vector<std::uint32_t> indices; ///< three a triangle
+    std::vector<std::uint32_t> indices; ///< three per triangle
     std::vector<Batch> batches;
 };
 

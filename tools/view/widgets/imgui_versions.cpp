@@ -19,7 +19,7 @@ constexpr ImGuiKey_ keypadEnter = ImGuiKey_KeyPadEnter;
 constexpr ImGuiKey keypadEnter = ImGuiKey_KeypadEnter;
 #endif
 
-// Those that ImGui asks for by itself.
+// The keys that ImGui uses by itself.
 constexpr std::array<std::pair<decltype(ImGuiKey_Tab), Key>, 22> keys{{
     {ImGuiKey_Tab, Key::tab},
     {ImGuiKey_LeftArrow, Key::left},
@@ -85,7 +85,7 @@ void setModifiers(const Modifiers& modifiers)
 
 void chooseByEnter()
 {
-    ImGui::GetIO().NavInputs[ImGuiNavInput_Activate] = 1; // ImGui itself chooses by the space bar only
+    ImGui::GetIO().NavInputs[ImGuiNavInput_Activate] = 1; // ImGui itself chooses only by the space bar
 }
 
 bool isPressed(Key key)
@@ -110,7 +110,7 @@ void setUp()
     ImGuiIO& io = ImGui::GetIO();
     io.ConfigInputTrickleEventQueue = false; // a frame gets one event, and modifiers
 #if IMGUI_VERSION_NUM >= 19140
-    // A frame that is abandoned is no mistake to be told of.
+    // An abandoned frame is no error to report.
     io.ConfigErrorRecoveryEnableAssert = false;
     io.ConfigErrorRecoveryEnableDebugLog = false;
     io.ConfigErrorRecoveryEnableTooltip = false;

@@ -6,39 +6,39 @@
 
 #include <tools/view/input/input.h>
 
-/// What versions 1.86 to 1.92 of Dear ImGui want to be told in different ways. The rest of the window is the same for
-/// all of them.
+/// Wrappers of the functions that differ between versions 1.86 to 1.92 of Dear ImGui. The rest of the window is the
+/// same for all of them.
 namespace vdbcage::view::imgui {
 
-/// Prepares the current context for what follows. To be called once, before its first frame.
+/// Prepares the current context for the functions below. Call it once, before its first frame.
 void setUp();
 
-/// Each holds from the next frame on.
+/// Take effect in the next frame.
 void movePointer(float x, float y);
 void setButton(Button button, bool isDown);
 void turnWheel(float x, float y);
-/// Keys that ImGui has no use for are passed over.
+/// Sets a key. Keys that ImGui has no use for are ignored.
 void setKey(Key key, bool isDown);
 void setModifiers(const Modifiers& modifiers);
 
-/// Lets the enter key, which goes down now, choose what the arrows went to.
+/// Makes the enter key, which goes down now, choose the entry that the arrows went to.
 void chooseByEnter();
 
-/// Ends the frame, of which the caller built a part only.
+/// Ends a frame that the caller built only in part.
 void abandonFrame();
 
-/// Whether a key was pressed, within a frame.
+/// Returns whether a key was pressed, within a frame.
 bool isPressed(Key key);
 
-/// Until ImGui::PopFont().
+/// Sets the font until ImGui::PopFont().
 void pushFont(ImFont* font);
 
-/// The glyph of the current font; null if it has none.
+/// Returns the glyph of the current font; null if it has none.
 const ImFontGlyph* glyphOf(char16_t letter);
 
-/// What ImGui::Image() takes for a texture of OpenGL.
+/// Returns the argument of ImGui::Image() for a texture of OpenGL.
 ImTextureID textureNamed(std::uint32_t name);
-/// The texture of a command; 0: that of the glyphs.
+/// Returns the texture of a command; 0: that of the glyphs.
 std::uint32_t textureOf(const ImDrawCmd& command);
 
 } // namespace vdbcage::view::imgui

@@ -4,8 +4,8 @@
 
 #include <tools/draw/colour.h>
 
-/// The colours of the window: neutral greys, one accent, and three for messages. Text on what it stands on has the
-/// contrast of WCAG 2.1 AA (4.5 to 1), which test_widgets checks.
+/// The colours of the window: neutral greys, one accent, and three for messages. Text has the contrast of WCAG 2.1 AA
+/// (4.5 to 1) to its background, which test_widgets checks.
 namespace vdbcage::view::theme {
 
 /// `code` is 0xRRGGBB.
@@ -15,7 +15,7 @@ constexpr draw::Colour colour(std::uint32_t code)
             static_cast<float>(code & 0xFF) / 255.0F};
 }
 
-// From the back to the front.
+// From back to front.
 constexpr draw::Colour title = colour(0x202022);
 constexpr draw::Colour panel = colour(0x2A2A2C);
 constexpr draw::Colour popup = colour(0x303033);
@@ -26,9 +26,9 @@ constexpr draw::Colour grip = colour(0x5A5A60); ///< of scroll bars and corners
 constexpr draw::Colour gripHovered = colour(0x75757C);
 
 constexpr draw::Colour text = colour(0xECECEE);
-constexpr draw::Colour mutedText = colour(0xA8A8AE); ///< labels, units, what cannot be used now
+constexpr draw::Colour mutedText = colour(0xA8A8AE); ///< labels, units, disabled items
 
-constexpr draw::Colour accent = colour(0x6BA6F7);     ///< marks, handles, what is active
+constexpr draw::Colour accent = colour(0x6BA6F7);     ///< marks, handles, active items
 constexpr draw::Colour accentFill = colour(0x2A60B4); ///< under `text`
 constexpr draw::Colour accentFillHovered = colour(0x3068BE), accentFillActive = colour(0x2657A6);
 constexpr draw::Colour selected = colour(0x34476B); ///< under `text`: a row or some letters

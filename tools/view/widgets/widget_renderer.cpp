@@ -12,7 +12,8 @@ namespace {
 
 using GLenums = std::initializer_list<GLenum>; // the constants are signed
 
-/// Glyphs are white; what OpenGL reads is their coverage in every channel, as colours times alpha are.
+/// Returns the texture of the glyphs. They are white, so OpenGL reads their coverage in every channel, as in colours
+/// that are multiplied by alpha.
 gl::Texture makeGlyphTexture(const gl::Api& api, const Glyphs& glyphs)
 {
     gl::Texture texture = gl::makeTexture2D(api, GL_R8, glyphs.width, glyphs.height);
@@ -29,7 +30,7 @@ gl::Texture makeGlyphTexture(const gl::Api& api, const Glyphs& glyphs)
     return texture;
 }
 
-/// Room for `needed` bytes, and for some more so that a panel that grows seldom needs another.
+/// Makes room for `needed` bytes, and for some more so that a growing panel seldom needs another buffer.
 void grow(const gl::Api& api, gl::Buffer& buffer, std::size_t& capacity, std::size_t needed)
 {
     if (buffer.name() != 0 && needed <= capacity) return;

@@ -6,19 +6,19 @@
 
 namespace vdbcage::view {
 
-/// Draws widgets by OpenGL 4.5. Its context must be current whenever it is used, and must outlive it.
+/// A renderer of widgets by OpenGL 4.5. Its context must be current in each call, and must outlive it.
 class WidgetRenderer {
 public:
     /// \throw DeviceError
     WidgetRenderer(const gl::Api& api, const Glyphs& glyphs);
 
-    /// Draws over what the target has. Colours in it are times their alpha, and so are those of textures that the
-    /// drawing names.
-    /// It takes no state of the context for granted. After it, blending and all tests are off; bound are the target's
+    /// Draws over the target's content. The target's colours are multiplied by their alpha, as must be those of
+    /// textures that the drawing names.
+    /// It assumes no state of the context. After it, blending and all tests are off; bound are the target's
     /// framebuffer, its own program and arrays, and at texture unit 0 any texture.
     /// \pre the drawing has the size of the target, in pixels of the framebuffer
-    /// \pre one sample a pixel: of several, Mesa's software cuts rectangles off in the middle of pixels
-    /// \throw DeviceError out of memory. Other failures are for the caller to ask for (gl::throwIfFailed).
+    /// \pre one sample a pixel: with several, Mesa's software cuts rectangles off in the middle of pixels
+    /// \throw DeviceError out of memory. The caller must ask for other failures (gl::throwIfFailed).
     void draw(const draw::Target& target, const Drawing& drawing);
 
 private:

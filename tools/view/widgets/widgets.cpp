@@ -19,13 +19,13 @@ namespace vdbcage::view {
 
 namespace {
 
-// Line height of text, in lengths of 1. Inter's letters then have the size that desktops use.
+// Line height of text, in units of length. Inter's letters then have the size that desktops use.
 constexpr float textHeight = 16;
 
-// ImGui's clock. A layout takes so long that whatever ImGui fades in or out is at its end after one.
+// The seconds of ImGui's clock for each layout: long enough for all fading to end within one.
 constexpr float secondsOfLayout = 1;
 
-// What names of files and figures need: Latin, Greek and Cyrillic letters, punctuation, arrows, mathematical signs and
+// The letters of file names and figures: Latin, Greek and Cyrillic letters, punctuation, arrows, mathematical signs and
 // marks.
 constexpr std::array<ImWchar, 21> textRanges{0x0020, 0x017F, 0x0370, 0x03FF, 0x0400, 0x045F, 0x2010,
                                              0x2027, 0x2030, 0x203A, 0x2190, 0x2199, 0x21BA, 0x21BB,
@@ -34,7 +34,7 @@ constexpr std::array<ImWchar, 3> headingRanges{0x0020, 0x017F, 0};
 
 enum Font { textFont, headingFont };
 
-/// Makes a context ImGui's current one, and after it the one that was.
+/// A scope in which a context is ImGui's current one; the previous one is restored at its end.
 class Use {
 public:
     explicit Use(ImGuiContext* context) : before_(ImGui::GetCurrentContext()) { ImGui::SetCurrentContext(context); }
@@ -62,7 +62,7 @@ Context makeContext()
     return Context(ImGui::CreateContext());
 }
 
-/// A length of so many pixels at least as wide as one.
+/// Returns the length in whole pixels, at least one.
 float wholePixels(float length)
 {
     return std::max(1.0F, std::floor(length));
@@ -93,7 +93,7 @@ void setColours(ImGuiStyle& style)
     set(ImGuiCol_ScrollbarGrabHovered, theme::gripHovered);
     set(ImGuiCol_ScrollbarGrabActive, theme::gripHovered);
     set(ImGuiCol_CheckMark, theme::accent);
-    set(ImGuiCol_SliderGrab, theme::accentFillHovered); // the value may stand on it
+    set(ImGuiCol_SliderGrab, theme::accentFillHovered); // the value may be drawn on it
     set(ImGuiCol_SliderGrabActive, theme::accentFillHovered);
     set(ImGuiCol_Button, theme::button);
     set(ImGuiCol_ButtonHovered, theme::buttonHovered);
@@ -161,7 +161,7 @@ Glyphs makeGlyphs(ImFontAtlas& atlas, float scale)
     const auto add = [&](const unsigned char* data, std::size_t size, const ImWchar* ranges) {
         ImFontConfig config;
         config.FontDataOwnedByAtlas = false;
-        // ImGui only reads what is not its own.
+        // ImGui only reads data that it does not own.
         atlas.AddFontFromMemoryTTF(const_cast<unsigned char*>(data), static_cast<int>(size),
                                    std::round(textHeight * scale), &config, ranges);
     };
@@ -179,13 +179,13 @@ Glyphs makeGlyphs(ImFontAtlas& atlas, float scale)
     return glyphs;
 }
 
-/// A number of pixels inside [0, limit].
+/// Returns a number of pixels within [0, limit].
 int pixel(float value, int limit)
 {
     return static_cast<int>(std::lround(std::clamp(value, 0.0F, static_cast<float>(limit))));
 }
 
-/// Calls that ImGui keeps for its own back ends are left out; ours makes none.
+/// Appends the triangles of a list, except calls that ImGui keeps for its own back ends; ours makes none.
 void append(Drawing& drawing, const ImDrawList& list)
 {
     static_assert(sizeof(Drawing::Vertex) == sizeof(ImDrawVert) && sizeof(ImDrawVert) == 20, "the same bytes");
@@ -229,7 +229,7 @@ Drawing toDrawing(const ImDrawData& data, int width, int height)
     return drawing;
 }
 
-/// What an event is to ImGui: fields of `io` that hold from the next layout on.
+/// A visitor that passes an event to ImGui: it sets fields of `io` that hold from the next layout on.
 struct Feed {
     ImGuiIO& io;
 
@@ -243,7 +243,7 @@ struct Feed {
     void operator()(const ButtonDown& down) const
     {
         const auto button = static_cast<std::size_t>(down.button);
-        // ImGui counts by its clock. It takes a press for another one of a row if that is younger than this time.
+        // ImGui counts clicks by its clock. It takes a press for a further one of a row if it comes within this time.
         io.MouseDoubleClickTime = down.clicks > 1 ? FLT_MAX : 0;
         io.MouseClickedLastCount[button] = static_cast<ImU16>(std::clamp(down.clicks, 1, 100) - 1);
         imgui::setButton(down.button, true);
@@ -261,10 +261,11 @@ struct Feed {
     void operator()(const Typed& typed) const { io.AddInputCharacter(typed.character); }
 };
 
-/// Whether ImGui, which has begun to lay out with `event`, takes it. `tookPointer`: what it wanted before.
+/// Returns whether ImGui, which has begun to lay out with `event`, takes it. `tookPointer`: whether it took the pointer
+/// before.
 bool takes(const ImGuiIO& io, const InputEvent& event, bool tookPointer)
 {
-    // Who had the press gets the release, wherever the pointer is by then.
+    // The release goes where the press went, wherever the pointer is by then.
     if (std::holds_alternative<ButtonUp>(event.what)) return tookPointer;
     if (std::holds_alternative<Typed>(event.what)) return io.WantTextInput;
     if (std::holds_alternative<KeyDown>(event.what) || std::holds_alternative<KeyUp>(event.what)) {
@@ -315,7 +316,7 @@ Widgets::State::State(float scaleIn, Clipboard clipboardIn) : scale(scaleIn), cl
     io.MouseDragThreshold = 4 * scale;
     io.ConfigInputTextCursorBlink = false;
     io.ConfigWindowsMoveFromTitleBarOnly = true;
-    io.ConfigMemoryCompactTimer = -1; // seconds of a clock that tells nothing
+    io.ConfigMemoryCompactTimer = -1; // seconds of a clock that has no meaning here
     io.UserData = &scale;             // for view::scale
     if (clipboard.get && clipboard.set) {
         io.ClipboardUserData = this;
@@ -331,12 +332,12 @@ Widgets::State::State(float scaleIn, Clipboard clipboardIn) : scale(scaleIn), cl
     glyphs = makeGlyphs(*io.Fonts, scale);
 }
 
-/// `event`: what was fed since the last layout, or null.
+/// `event`: the one fed since the last layout, or null.
 Drawing Widgets::State::layOutOnce(int width, int height, const Build& build, const InputEvent* event)
 {
     ImGuiIO& io = ImGui::GetIO();
     io.DisplaySize = ImVec2(static_cast<float>(width), static_cast<float>(height));
-    // An open popup is chosen from by arrows, enter and escape. Without one, ImGui would take keys that are for others.
+    // In an open popup arrows, enter and escape choose. Without one, ImGui would take keys that are for others.
     const bool choosing = popupIsOpen();
     io.ConfigFlags = choosing ? ImGuiConfigFlags_NavEnableKeyboard : ImGuiConfigFlags_None;
     if (choosing && event != nullptr && isEnterDown(*event)) {
@@ -375,12 +376,12 @@ bool Widgets::layOut(const InputEvent* event, int width, int height, const Build
     if (event != nullptr) {
         const auto* down = std::get_if<KeyDown>(&event->what);
         if (down != nullptr && state_->held[static_cast<std::size_t>(down->key)]) {
-            // ImGui sees a repeated key only if it goes up before.
+            // ImGui sees a repeated key only if it goes up in between.
             imgui::setKey(down->key, false);
             state_->layOutOnce(width, height, build, nullptr);
         }
         imgui::setModifiers(event->modifiers);
-        // Tab goes from field to field. Where nothing is typed into, ImGui would begin to with the first field.
+        // Tab goes from field to field. If no field is being typed into, ImGui would start with the first one.
         const bool isIdleTab = down != nullptr && down->key == Key::tab && !io.WantTextInput && !popupIsOpen();
         if (!isIdleTab) std::visit(Feed{io}, event->what);
         if (down != nullptr) state_->held[static_cast<std::size_t>(down->key)] = !isIdleTab;
@@ -452,7 +453,7 @@ PointerShape Widgets::pointerShape() const
 
 namespace {
 
-/// Colours of a widget, until this ends.
+/// A scope in which colours of a widget are set.
 class Colours {
 public:
     Colours(std::initializer_list<std::pair<ImGuiCol, draw::Colour>> colours) : count_(static_cast<int>(colours.size()))
@@ -484,7 +485,8 @@ bool section(const std::string& title, bool open)
                           {ImGuiCol_HeaderHovered, theme::button},
                           {ImGuiCol_HeaderActive, theme::buttonActive}};
     ImGui::PushStyleVar(ImGuiStyleVar_FrameBorderSize, 0.0F);
-    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(5 * scale(), 4 * scale())); // the title nearer to its arrow
+    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(5 * scale(), 4 * scale())); // moves the title nearer to its
+                                                                                       // arrow
     imgui::pushFont(ImGui::GetIO().Fonts->Fonts[headingFont]);
     const bool shown = ImGui::CollapsingHeader(title.c_str(), open ? ImGuiTreeNodeFlags_DefaultOpen : 0);
     ImGui::PopFont();

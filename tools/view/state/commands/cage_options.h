@@ -6,8 +6,8 @@
 #include <tools/view/state/commands/situation.h>
 #include <tools/view/state/preset.h>
 
-/// The options of the cage. Each command puts away a cage that was opened or edited: the one that they make is shown.
-/// They must be allowed together only when a cage is made of them: one by one they may pass through what is not.
+/// Commands for the options of the cage. Each closes an opened or edited cage, so that the made one is shown.
+/// Combinations are checked only when a cage is made: in between they may be invalid.
 namespace vdbcage::view {
 
 struct SetOption {
@@ -44,16 +44,16 @@ struct ResetOptions {
         for (const std::string& name : names) {
             const auto known =
                 std::find_if(defaults.begin(), defaults.end(), [&](const auto& o) { return o.first == name; });
-            // setOption says which names there are.
+            // setOption lists the allowed names.
             setOption(document.options, name, known == defaults.end() ? std::string() : known->second);
         }
         document.cage.reset();
     }
 };
 
-/// The options that the preset does not name are reset.
+/// A command that sets the options of a preset, and resets all others.
 struct ApplyPreset {
-    std::string name; ///< of a preset of ours, or a file's path
+    std::string name; ///< of a built-in preset, or a file's path
 
     static LineInfo info()
     {

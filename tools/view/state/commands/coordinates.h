@@ -4,10 +4,10 @@
 #include <tools/view/state/commands/situation.h>
 #include <vdbcage/core/detail/joined.h>
 
-/// How the model follows the cage.
+/// Commands that choose how the model follows the cage.
 namespace vdbcage::view {
 
-/// The names of all families, with bars between them.
+/// Returns the names of all families, with bars between them.
 inline std::string familyWords()
 {
     return vdbcage::detail::joined(coordinateFamilies(), "|", [](const FamilyInfo& family) { return family.name; });
@@ -44,7 +44,7 @@ struct OpenWeights {
     }
 };
 
-/// What Somigliana coordinates move.
+/// The material of Somigliana coordinates.
 struct SetMaterial {
     Elasticity elasticity;
 

@@ -4,10 +4,10 @@
 
 #include <tools/view/state/commands/view_field.h>
 
-/// What is selected, and how it is moved by hand.
+/// Commands for the selection and for moving it by hand.
 namespace vdbcage::view {
 
-/// Parts of the cage, or none of them. Edges are in the order of their two points.
+/// A selection of parts of the cage, or of none. Edges are numbered in the order of their two points.
 struct Select {
     edit::Selection selection;
 
@@ -81,9 +81,9 @@ struct SetSeeThrough : ViewSwitch<&ViewState::seeThrough> {
     static LineInfo info() { return {"see-through", "on|off", 1, 1, "selects what is hidden too"}; }
 };
 
-/// What is near to what is selected, along the cage's surface, moves too.
+/// The radius of soft selection: points near the selection, along the cage's surface, move too.
 struct SetSoft {
-    double radius = 0; ///< a part of the model's longest side, 0 to 10
+    double radius = 0; ///< as a fraction of the model's longest side, 0 to 10
 
     static LineInfo info()
     {
@@ -96,7 +96,7 @@ struct SetSoft {
     void apply(ViewState& view) const { view.softRadius = radius; }
 };
 
-/// Points that have a partner there move exactly as it.
+/// The plane of symmetric editing. Points with a partner across it move as the partner's mirror image.
 struct SetMirror {
     std::optional<SymmetryPlane> plane;
 

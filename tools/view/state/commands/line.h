@@ -13,26 +13,26 @@
 #include <tools/view/state/words.h>
 #include <vdbcage/core/range.h>
 
-/// Lines of scripts. In the program a line is a value: a struct of its own, which has its row of the table:
+/// Lines of scripts. In the program a line is a value: a struct of its own, with its row of the table:
 ///
 ///     static LineInfo info();                     // its name and its help
-///     static T read(const Arguments& arguments);  // what T is made of is enough; none for a line of its name alone
+///     static T read(const Arguments& arguments);  // or a value that converts to T; none for a line of its name alone
 ///     std::string text() const;                   // its arguments, by written(); none for a line of its name alone
 ///
-/// Text is for scripts, records and help only.
+/// Text is only for scripts, records and help.
 namespace vdbcage::view {
 
-/// How a line is written, and its effect.
+/// The syntax of a line, and its help.
 struct LineInfo {
     std::string name;
-    std::string arguments; ///< as help shows them
+    std::string arguments; ///< as in the help
     std::size_t least = 0; ///< words after the name
     std::size_t most = 0;
     std::string help;
 };
 constexpr std::size_t anyNumber = ~std::size_t{0};
 
-/// The words of a line after its name. Each function throws InputError with the name, the word and what is allowed.
+/// The words of a line after its name. Each function throws InputError with the name, the word and the allowed values.
 class Arguments {
 public:
     /// \pre there is a name
@@ -47,16 +47,16 @@ public:
     double number(std::size_t i, const Range& range) const;
     int whole(std::size_t i, int least, int most) const { return wholeNumberOf(words_[i], name_, least, most); }
     bool isOn(std::size_t i) const { return switchOf(words_[i], name_); }
-    /// Three words from the i-th on.
+    /// Returns the vector in the three words from the i-th on.
     openvdb::Vec3d vector(std::size_t i) const { return {number(i), number(i + 1), number(i + 2)}; }
-    /// The value of a list of names; the first name is value 0.
+    /// Returns the value of a name in the list; the first name is value 0.
     template <class Enum, std::size_t count>
     Enum choice(std::size_t i, const std::array<const char*, count>& names) const
     {
         return static_cast<Enum>(placeAmong(i, names.data(), count));
     }
 
-    /// \throw InputError "NAME: " and what is wrong
+    /// \throw InputError "NAME: " and the problem
     [[noreturn]] void fail(const std::string& problem) const;
 
 private:
@@ -66,7 +66,7 @@ private:
     Words words_;
 };
 
-/// The name of a value in a list of names.
+/// Returns the name of a value in a list of names.
 template <class Enum, std::size_t count>
 const char* nameIn(const std::array<const char*, count>& names, Enum value)
 {
@@ -74,7 +74,7 @@ const char* nameIn(const std::array<const char*, count>& names, Enum value)
     return first[static_cast<std::size_t>(value)];
 }
 
-/// The words of values, each after a blank.
+/// Return the words of values, each after a blank.
 std::string written(double value);
 std::string written(int value);
 std::string written(bool isOn);
@@ -90,7 +90,7 @@ std::string written(const First& first, const Others&... others)
 /// Usage and help of each line.
 using LineHelp = std::vector<std::pair<std::string, std::string>>;
 
-/// All lines that `Line`, a std::variant of their structs, can be. Help has them in its order.
+/// The table of all lines that `Line`, a std::variant of their structs, can be. Help has them in its order.
 template <class Line>
 class LineTable;
 
@@ -99,7 +99,8 @@ class LineTable<std::variant<Each...>> {
 public:
     using Line = std::variant<Each...>;
 
-    /// None: no line has that name. \throw InputError naming the line, the word and what is allowed
+    /// Returns the line in `words`; none: no line has that name. \throw InputError naming the line, the word and the
+    /// allowed values
     static std::optional<Line> read(const Words& words)
     {
         for (const Row& row : rows()) {
@@ -113,7 +114,7 @@ public:
         return std::nullopt;
     }
 
-    /// Without a line break; read() of its words gives an equal line back.
+    /// Returns the text without a line break; read() makes an equal line of its words.
     static std::string text(const Line& line)
     {
         const auto arguments = [](const auto& each) {

@@ -5,7 +5,7 @@
 #include <tools/view/state/commands/view_field.h>
 #include <vdbcage/core/error.h>
 
-/// What is seen, and from where.
+/// Commands for the look of the picture and its camera.
 namespace vdbcage::view {
 
 struct SetCamera {
@@ -42,7 +42,7 @@ struct SetCamera {
     void apply(ViewState& view) const { view.camera = camera; }
 };
 
-/// A command for each layer.
+/// Returns a command for each layer.
 template <class Line>
 std::vector<Line> ofLayers(const ViewState& view)
 {
@@ -97,7 +97,7 @@ struct ColourLayer {
     static std::vector<ColourLayer> of(const ViewState& view) { return ofLayers<ColourLayer>(view); }
     std::string text() const
     {
-        // As doubles: exact, and read back as the same floats.
+        // Doubles are exact, and are read as the same floats.
         return written(nameOf(layer), double{colour[0]}, double{colour[1]}, double{colour[2]});
     }
     void apply(ViewState& view) const { view.layer(layer).colour = colour; }

@@ -4,10 +4,10 @@
 #include <tools/view/state/commands/situation.h>
 #include <vdbcage/core/error.h>
 
-/// The model and the cage that one works on, from files.
+/// Commands that open the model and the cage.
 namespace vdbcage::view {
 
-/// Another model, whose cage is made.
+/// A command that opens another model, for which a cage is made.
 struct OpenModel {
     std::string path;
 
@@ -24,7 +24,7 @@ struct OpenModel {
     }
 };
 
-/// A cage instead of one that is made.
+/// A command that opens a cage in place of a made one.
 struct OpenCage {
     std::string path;
 

@@ -3,10 +3,10 @@
 #include <tools/view/state/commands/coordinates.h>
 #include <tools/view/state/commands/view_field.h>
 
-/// Which pose is seen, and by which coordinates.
+/// Commands that choose the shown pose and the compared coordinates.
 namespace vdbcage::view {
 
-/// A second picture beside the first has the model by another family, in mode pose.
+/// The family of a second picture of the model beside the first, in mode pose.
 struct Compare {
     std::optional<Coordinates> family;
 

@@ -8,10 +8,10 @@
 #include <tools/view/state/pose_files.h>
 #include <vdbcage/core/error.h>
 
-/// The poses on the time line. Frames are 0 to lastFrame.
+/// Commands for the poses on the time line. Frames are 0 to lastFrame.
 namespace vdbcage::view {
 
-/// \throw InputError naming the command: there is none at the frame
+/// Returns the key at the frame. \throw InputError naming the command: there is none
 inline PoseKey requiredKey(const TimeLine& poses, int frame, const std::string& command)
 {
     const PoseKey* const key = poses.keyAt(frame);
@@ -19,7 +19,7 @@ inline PoseKey requiredKey(const TimeLine& poses, int frame, const std::string& 
     return *key;
 }
 
-/// At the view's frame.
+/// A command that sets the pose of the view's frame.
 struct OpenPose {
     std::string path;
 
@@ -32,7 +32,7 @@ struct OpenPose {
     }
 };
 
-/// A sequence of posed cages, or a file of parameters, in place of all poses.
+/// A command that replaces all poses by a sequence of posed cages, or by a file of parameters.
 struct OpenPoses {
     std::string path;
     int frames = 25; ///< of a file of parameters, 1 to lastFrame + 1
@@ -53,10 +53,10 @@ struct OpenPoses {
     }
 };
 
-/// The pose that is seen at the frame becomes a key, if there is none.
+/// A command that makes the pose at the frame a key if there is none, and names it.
 struct SetKey {
     int frame = 0;
-    std::optional<std::string> name = {}; ///< none: as it is
+    std::optional<std::string> name = {}; ///< none: the present name
 
     static LineInfo info()
     {
@@ -85,7 +85,7 @@ struct DeleteKey {
     }
 };
 
-/// To a frame that has no key.
+/// A command that moves a key to a frame that has none.
 struct MoveKey {
     int from = 0, to = 0;
 
@@ -107,7 +107,7 @@ struct MoveKey {
     }
 };
 
-/// In place of all poses.
+/// A command that replaces all poses by a motion from rest.
 struct MakeInBetweens {
     int frames = 25; ///< 2 to lastFrame + 1
 

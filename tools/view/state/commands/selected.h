@@ -6,7 +6,7 @@
 #include <tools/view/state/commands/situation.h>
 #include <tools/view/state/move.h>
 
-/// What is done with the selected part of the cage: it is moved, or its faces are changed.
+/// Commands that move the selection or change its faces.
 namespace vdbcage::view {
 
 struct MoveSelected {
@@ -43,11 +43,11 @@ struct RotateSelected {
     }
 };
 
-/// From a point, along the axes of the world or along two others, and the one at right angles to both.
+/// A scaling from a point, along the axes of the world, or along two others and their normal.
 struct ScaleSelected {
     openvdb::Vec3d factors{1};
     openvdb::Vec3d pivot{0};
-    std::array<openvdb::Vec3d, 2> axes{openvdb::Vec3d(1, 0, 0), openvdb::Vec3d(0, 1, 0)}; ///< at right angles, not zero
+    std::array<openvdb::Vec3d, 2> axes{openvdb::Vec3d(1, 0, 0), openvdb::Vec3d(0, 1, 0)}; ///< orthogonal, not zero
 
     static LineInfo info()
     {
@@ -80,7 +80,7 @@ struct ScaleSelected {
     }
 };
 
-/// Changes faces of the cage at rest.
+/// A change of faces of the cage at rest.
 struct EditCage {
     CageEdit edit{};
 
@@ -94,7 +94,7 @@ struct EditCage {
     void apply(Document& document, const Situation& now) const { document = withEdit(now.state, now.cage, edit); }
 };
 
-/// At the view's frame.
+/// A command that undoes the pose of the view's frame.
 struct ResetPose {
     bool onlySelected = false;
 

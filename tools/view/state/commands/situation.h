@@ -6,12 +6,12 @@
 
 namespace vdbcage::view {
 
-/// What a line finds when it is done.
+/// The circumstances in which a line is performed.
 struct Situation {
     const State& state;
     const ShownCage& cage;
-    const SymmetryPlane* symmetry = nullptr; ///< in which the cage that is shown was made; null: in none
-    std::string* remark = nullptr;           ///< gets what the user is to know of it; null: nobody asks
+    const SymmetryPlane* symmetry = nullptr; ///< of the shown cage; null: it was made without symmetry
+    std::string* remark = nullptr;           ///< gets a note for the user; null: not needed
 };
 
 } // namespace vdbcage::view
