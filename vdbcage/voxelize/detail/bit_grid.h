@@ -7,7 +7,7 @@
 
 #include <openvdb/math/Coord.h>
 #include <openvdb/math/Transform.h>
-#include <vdbcage/core/detail/grids.h>
+#include <vdbcage/core/grids.h>
 #include <vdbcage/core/interrupter.h>
 
 namespace vdbcage::detail {
@@ -53,7 +53,7 @@ private:
 /// There is nothing left to prune.
 /// \throw Cancelled
 /// Cost: O(words of bits), in parallel.
-openvdb::MaskGrid::Ptr toMask(const BitGrid& bits, const openvdb::math::Transform::Ptr& transform,
+std::shared_ptr<openvdb::MaskGrid> toMask(const BitGrid& bits, const openvdb::math::Transform::Ptr& transform,
                               Interrupter* interrupter = nullptr);
 
 } // namespace vdbcage::detail
