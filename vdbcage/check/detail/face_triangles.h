@@ -8,8 +8,8 @@
 
 namespace vdbcage::detail {
 
-/// All triangles that the faces of a mesh stand for. A triangle has one. A quad has the two of the diagonal 0-2, then
-/// the two of the diagonal 1-3.
+/// All triangles of the faces of a mesh. A triangle has one. A quad has the two of the diagonal 0-2, then the two of
+/// the diagonal 1-3.
 class FaceTriangles {
 public:
     explicit FaceTriangles(const Mesh& mesh) : plain_(mesh.triangles.size()), triangles_(mesh.triangles)
@@ -37,7 +37,7 @@ public:
         return static_cast<std::uint32_t>(triangle < plain_ ? triangle : plain_ + (triangle - plain_) / 4);
     }
     bool ofQuad(std::size_t triangle) const { return triangle >= plain_; }
-    /// Whether it is of the surface in which every quad is split by its diagonal 0-2.
+    /// Returns whether a triangle belongs to the surface in which every quad is split by its diagonal 0-2.
     bool ofFirstDiagonal(std::size_t triangle) const { return !ofQuad(triangle) || (triangle - plain_) % 4 < 2; }
 
 private:
