@@ -19,9 +19,9 @@ std::vector<BitGrid::Word> paritiesAlongX(const SlabbedTriangles& triangles, int
 
 /// Finds the inside of a model in plane x of a slab from the crossings there.
 ///
-/// It adds to `surface` the voxels for which at least two of the three parities are odd, except those of leaking rays,
-/// and clears the crossings. `alongX` has the parities along x of the plane before, and afterwards of this one.
-/// `leakingX` has the leaking rays along x. `rows` has room for two rows.
+/// It adds to `surface` the voxels where at least two of the three parities are odd and of rays that do not leak, and
+/// clears the crossings. `alongX` has the parities along x of the plane before, and afterwards of this one. `leakingX`
+/// has the leaking rays along x. `rows` has room for two rows.
 /// Cost: O(words of the plane).
 void voteInside(const Slab& slab, int x, BitGrid::Word* alongX, const BitGrid::Word* leakingX, BitGrid::Word* rows);
 
