@@ -15,9 +15,9 @@ struct AlignedAxes {
     double share = 1; ///< the surface of voxels along these axes, over that of voxels along x, y and z; at most 1
 };
 
-/// Returns the right-handed axes along which voxels around the model have the smallest surface. Of fine voxels the
-/// surface is the sum of the faces' areas projected along each axis. The faces of a box, and of parallel boxes, are
-/// thus square to the axes. With `kept`, 0 to 2, that axis stays.
+/// Returns the right-handed axes along which voxels around the model have the smallest surface. The surface of fine
+/// voxels is the sum of the faces' areas projected along each axis. The faces of a box, and of parallel boxes, are thus
+/// square to the axes. With `kept`, 0 to 2, that axis stays.
 ///
 /// From the directions of the model's larger faces, axes are turned about one at a time to the best angle there. This
 /// works for a soup, too. Axes that are better by less than a millionth are not taken: x, y and z are returned.

@@ -128,7 +128,7 @@ bool areWorthTheirFaces(const CageCheck& more, const CageCheck& fewer, double cl
 /// Returns the voxels to try: one ladder for the finest, and one for each of its halves. Options that are not `auto`
 /// are obeyed.
 ///
-/// Of each ladder the first rung that leads to few enough handles is taken. The rung of the first ladder competes with
+/// The first rung of each ladder that leads to few enough handles is taken. That of the first ladder competes with
 /// those of the others if mayCoarserBeTighter().
 std::vector<std::vector<Voxels>> ladders(const CageOptions& options, double share = 1);
 

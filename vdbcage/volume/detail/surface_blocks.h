@@ -55,8 +55,8 @@ void forEachBlock(std::size_t count, const openvdb::MaskTree& tree, Interrupter*
 
 void sortUnique(std::vector<openvdb::Coord>& coords);
 
-/// Returns the origins of the 8^3 blocks that have active voxels and touch a surface, sorted. Of an active tile only
-/// the blocks of its outer layer can.
+/// Returns the origins of the 8^3 blocks that have active voxels and touch a surface, sorted. Only the blocks of the
+/// outer layer of an active tile can.
 /// \throw InputError active voxels outside [-2^30, 2^30); more than 2^22 blocks; more than 2^26 to examine, which are
 /// the leaves and the outer layers of tiles
 /// \throw Cancelled

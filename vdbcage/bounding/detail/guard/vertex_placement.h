@@ -35,7 +35,7 @@ struct StepLimit {
 
 /// Looks for a place of the star's centre where `change` is negative. Returns whether there was one.
 ///
-/// It slides along the planes of the contacts that it meets. Of the places that the guard allows, the first for which
+/// It slides along the planes of the contacts that it meets. The first place that the guard allows and for which
 /// accepts(place) is true becomes `p`.
 /// \pre the centre is allowed at `p`
 bool descend(const GuardedMesh& surface, const StarChange& star, Vec3d& p, const Quadratic& change,

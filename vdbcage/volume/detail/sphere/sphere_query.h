@@ -30,7 +30,7 @@ struct NearLeaf {
 /// entries. Entry (x, y, z) of a part is bit 16 x + 4 y + z. A pile is four entries along z.
 ///
 /// For the exact result, let h(dx, dy) be half the sphere's chord in a column along z. A contour voxel q covers the
-/// voxels up to h above and below it. Of the contour voxels below an entry, the largest q.z + h thus decides, and for
+/// voxels up to h above and below it. The largest q.z + h of the contour voxels below an entry thus decides, and for
 /// the next entry above, too. Columns are compared side by side, in bytes (16-bit integers beyond smallRadius). Voxels
 /// hidden behind others of their leaf are left out before, and so are leaves that can add nothing.
 ///
