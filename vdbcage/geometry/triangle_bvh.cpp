@@ -291,7 +291,8 @@ TriangleBvh::Query TriangleBvh::Query::along(const Frame& frame) const
     return query;
 }
 
-/// Has slabs along the first axis alone; is without points where there are none, or if they are too far away.
+/// Returns a query with slabs along the first axis alone; without points if there are none, or if they are too far
+/// away.
 TriangleBvh::Query TriangleBvh::Query::aroundPoints(const Frame& frame) const
 {
     if (count_ == 0) return {};

@@ -141,7 +141,7 @@ void addProduct(double factor, View<const double> a, View<const double> b, std::
                 std::size_t rows, std::size_t columns)
 {
     typedef double Pair __attribute__((vector_size(16)));
-    constexpr std::size_t side = 4; // registers hold this many sums squared
+    constexpr std::size_t side = 4; // registers hold the sums of a square of this side
     constexpr std::size_t most = 128;
     std::vector<double> packed(2 * most * tile);
     for (std::size_t begin = 0; begin < depth; begin += most) {
