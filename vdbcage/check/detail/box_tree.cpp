@@ -239,8 +239,8 @@ Box BoxTree::boxAlong(const Axes& axes, const Corners& triangle)
 
 BoxTree::Slab BoxTree::slabOf(const Corners& triangle, double maxDistance) const
 {
-    // Right for any normal; the triangle's own is the best. Without a normal nothing is beside the slab. The same holds
-    // where lengths lose digits or the heights below overflow.
+    // Right for any normal; the triangle's own is the best. If there is no normal, nothing is beside the slab. The same
+    // holds where lengths lose digits or the heights below overflow.
     const double infinity = std::numeric_limits<double>::infinity();
     const Slab everything{Vec3d(0.0), -infinity, infinity};
     Vec3d normal = (triangle[1] - triangle[0]).cross(triangle[2] - triangle[0]);

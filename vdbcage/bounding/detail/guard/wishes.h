@@ -9,7 +9,7 @@
 
 namespace vdbcage::detail {
 
-/// Where faces should go, in the units of a guard's model.
+/// The wishes for the places of faces, in the units of a guard's model.
 class Wishes {
 public:
     /// Wishes nothing.

@@ -1,8 +1,8 @@
 // Based on: Garland, Heckbert, "Surface Simplification Using Quadric Error Metrics", 1997.
 //           Sander, Gu, Gortler, Hoppe, Snyder, "Silhouette Clipping", 2000 (decimation that stays outside).
 //           Hoppe, "Progressive Meshes", 1996 (a recorded sequence of collapses answers every number of faces).
-// Differs: every collapse has to pass the guard, its vertex pushed outward until it does and then drawn along what it
-// touches to where its quadric is least.
+// Differs: every collapse must pass the guard; its vertex is pushed outward until it does, and then moved along the
+// planes of its contacts to where its quadric is least.
 
 #include <vdbcage/bounding/detail/triangles/collapse.h>
 

@@ -77,7 +77,7 @@ std::optional<Vec3d> VertexQuadrics::findPlace(const StarChange& star, const Qua
     return std::nullopt;
 }
 
-/// Moves an allowed place towards the best one along what it touches.
+/// Moves an allowed place towards the best one along the planes of its contacts.
 void VertexQuadrics::slide(const StarChange& star, const Quadric& q, const Vec3d& best, Vec3d& place) const
 {
     Quadratic change;
