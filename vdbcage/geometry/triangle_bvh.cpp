@@ -2,7 +2,7 @@
 //           C. Ericson, "Real-Time Collision Detection", 2005, 5.1.5 (closest point on a triangle).
 //           I. Wald, C. Benthin, S. Boulos, "Getting Rid of Packets", 2008 (trees of four children for SIMD).
 //           S. Woop et al., "Exploiting Local Orientation Similarity for Efficient Ray Traversal of Hair and Fur",
-//           2014 (boxes along what they hold, triangles told apart by direction).
+//           2014 (boxes along their content, triangles sorted by direction).
 // Differs: bins along one axis only (the longest of the centroids); all boxes below a node are along the same axes.
 #include <vdbcage/geometry/triangle_bvh.h>
 

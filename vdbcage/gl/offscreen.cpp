@@ -15,8 +15,8 @@ namespace vdbcage::gl {
 
 namespace {
 
-/// Whether this thread has a context. OpenGL itself knows this for each thread, but drivers do not see contexts of each
-/// other.
+/// The flag of a thread that has a context. OpenGL itself knows this for each thread, but drivers do not see contexts
+/// of each other.
 thread_local bool threadHasContext = false;
 
 /// Threads that do nothing until all of them exist.

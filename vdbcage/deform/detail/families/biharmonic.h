@@ -38,8 +38,8 @@ public:
 
     /// `cage` must outlive this. \pre all of its faces are triangles
     ///
-    /// For n points and faces together: Memory: 8 n^2 bytes, and four times as much during the construction. Cost:
-    /// O(n^3), in parallel: 0.2 s of a processor core for n = 600, 80 s for n = 5700.
+    /// Memory: 8 n^2 bytes for n points and faces together, and four times as much during the construction.
+    /// Cost: O(n^3), in parallel: 0.2 s of a processor core for n = 600, 80 s for n = 5700.
     /// \throw InputError n is more than `mostData`
     /// \throw Cancelled
     explicit BiharmonicCage(const UnitCage& cage, Interrupter* interrupter = nullptr);

@@ -1,7 +1,7 @@
 // Based on: Joshi, Meyer, DeRose, Green, Sanocki, "Harmonic Coordinates for Character Articulation", 2007; Gibou,
 // Fedkiw, Cheng, Kang, "A Second-Order-Accurate Symmetric Discretization of the Poisson Equation on Irregular Domains",
 // 2002; for the preconditioner Bridson, "Fluid Simulation for Computer Graphics", 2008.
-// Differs: Joshi et al. give boundary values to the voxels that the cage meets. Here they are given where edges of the
+// Differs: Joshi et al. set boundary values in the voxels that the cage meets. Here they are set where edges of the
 // grid cross the cage, so that points are reproduced. Values near the cage are interpolated up to it.
 
 #include <vdbcage/deform/detail/families/harmonic.h>

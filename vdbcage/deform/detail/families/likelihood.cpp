@@ -3,7 +3,7 @@
 // Differs: a face's non-negative weights of its corners are its mean value integrals, which grow without bound towards
 // it, so that also bilinear faces are interpolated. The face's vector, its corners so weighted, keeps its length
 // instead of being made a unit vector, so that many small faces far away count no more than one large one; and it is
-// divided by the square of the face's distance, so that near faces count most. Equal lengths would give back mean value
+// divided by the square of the face's distance, so that near faces count most. Equal lengths would make mean value
 // coordinates wherever these are not negative.
 
 #include <algorithm>
