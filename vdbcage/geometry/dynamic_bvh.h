@@ -23,7 +23,7 @@ public:
     static constexpr std::uint32_t none = ~std::uint32_t(0);
 
     DynamicBvh() = default;
-    /// Thing i has boxes[i].
+    /// Makes things numbered from 0: thing i has boxes[i].
     /// Cost: O(n log n), in parallel.
     explicit DynamicBvh(std::vector<Box> boxes) : boxes_(std::move(boxes)), placeOf_(boxes_.size(), none)
     {

@@ -29,7 +29,7 @@ public:
 
     std::size_t faces() const { return plain_ + (triangles_.size() - plain_) / 4; }
     bool isQuad(std::size_t face) const { return face >= plain_; }
-    /// The triangles of a face are first(face) ... first(face + 1) - 1.
+    /// Returns the first triangle of a face; the last is first(face + 1) - 1.
     std::size_t first(std::size_t face) const { return face < plain_ ? face : plain_ + 4 * (face - plain_); }
 
     std::uint32_t face(std::size_t triangle) const
