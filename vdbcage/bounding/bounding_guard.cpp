@@ -36,7 +36,7 @@ std::vector<std::size_t> BoundingGuard::facesTooNear(const Mesh& surface) const
 {
     const auto isClear = [&](const detail::Corners& t) {
         if (!model_->clear(t, detail::TriangleBvh::none, nullptr)) return false;
-        // What is behind the plane of symmetry comes as near as its mirror image.
+        // Parts behind the plane of symmetry come as near as their mirror images.
         return !model_->symmetry() ||
                model_->clear({model_->mirrored(t[0]), model_->mirrored(t[1]), model_->mirrored(t[2])},
                              detail::TriangleBvh::none, nullptr);
@@ -88,7 +88,7 @@ Mesh BoundingGuard::symmetrized(const Mesh& surface, double snap) const
         places.push_back(model_->rounded(p));
     }
     const auto isBeyond = [&](Index32 i) { return places[i][axis] > offset; };
-    // The number of each point and of its mirror image, once a face has asked for them.
+    // The number of each point and of its mirror image, set when a face needs them.
     constexpr Index32 unused = ~Index32(0);
     std::vector<std::array<Index32, 2>> numbers(places.size(), {unused, unused});
     Mesh result;

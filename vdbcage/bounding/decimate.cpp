@@ -19,7 +19,8 @@ GuardedMesh shrunk(const Mesh& surface, const BoundingGuard& guard, const FaceWi
     return guarded;
 }
 
-/// Redistributions end where none is better on the whole; a surface that was perturbed has others that are.
+/// Redistributes and perturbs by turns. Redistributions end where none is better on the whole; after a perturbation
+/// others are.
 void redistributeAndPerturb(GuardedMesh& surface, Interrupter* interrupter)
 {
     constexpr int turns = 2, firstRounds = 3, rounds = 2, perturbations = 2, redistributeSweeps = 6;
@@ -40,7 +41,7 @@ void redistributeAndPerturb(GuardedMesh& surface, Interrupter* interrupter)
     }
 }
 
-/// What decimate() makes of a shrunk surface. `collapsed(faces, interrupter)` is what collapseInBatches() makes of it.
+/// Decimates a shrunk surface. collapsed(faces, interrupter) is that surface after collapseInBatches().
 template <typename Collapsed>
 Mesh decimated(const Collapsed& collapsed, std::size_t copies, const BoundingDecimateOptions& options,
                Interrupter* interrupter)
@@ -50,7 +51,7 @@ Mesh decimated(const Collapsed& collapsed, std::size_t copies, const BoundingDec
     constexpr int sweepsAtStop = 2;
     const std::size_t faces = options.faces / copies;
     const int samples = tightenOptions(effort).samples;
-    // Quadrics know the surface that they were made from: one that was pulled onto the model on the way is better.
+    // Quadrics are those of the surface from which they were made: one already pulled onto the model is better.
     const auto facesAtStop = static_cast<std::size_t>(stop * static_cast<double>(faces));
     const int share = effort == Effort::fast ? 80 : effort == Effort::fair ? 40 : 20; // percent
     StagePart collapsing(interrupter, 0, share);
@@ -58,8 +59,7 @@ Mesh decimated(const Collapsed& collapsed, std::size_t copies, const BoundingDec
     tighten(guarded, sweepsAtStop, areaPerSample(guarded, 2 * faces, samples), interrupter);
     collapseByQuadrics(guarded, faces, interrupter);
     throwIfInterrupted(interrupter, share);
-    // Where the model is in the way of every collapse, there is room farther out (the model's
-    // longest side is 1 to 2).
+    // Where the model is in the way of every collapse, there is room farther out (the model's longest side is 1 to 2).
     for (double push = 0.02; guarded.liveFaces() > faces && push < 1; push *= 2) {
         inflate(guarded, push, interrupter);
         collapseByQuadrics(guarded, faces, interrupter);

@@ -44,7 +44,8 @@ public:
 
     const StarChange& star() const { return star_; }
 
-    /// How many edges are neither flat nor bent with the centre at `p`, those along the link, too.
+    /// Returns the number of edges that are neither flat nor bent with the centre at `p`, those along the link
+    /// included.
     int between(const Vec3d& p) const
     {
         boost::container::small_vector<Vec3d, 16> normals;
@@ -62,7 +63,7 @@ public:
         return count;
     }
 
-    /// The nearest places for the centre where one of the edges would be flat.
+    /// Returns the nearest places for the centre where one of the edges would be flat.
     std::vector<Vec3d> flatPlaces() const
     {
         std::vector<Vec3d> places;
@@ -82,7 +83,7 @@ public:
         return places;
     }
 
-    /// The mean length of the edges at the centre.
+    /// Returns the mean length of the edges at the centre.
     double size() const
     {
         double sum = 0;
@@ -91,7 +92,8 @@ public:
     }
 
 private:
-    /// Whether two triangles with these normals, twice their areas long, meet in an edge that is neither flat nor bent.
+    /// Returns whether two triangles with these normals, twice their areas long, meet in an edge that is neither flat
+    /// nor bent.
     bool isBetween(const Vec3d& a, const Vec3d& b, const Vec3d& edge) const
     {
         const double cosine = a.dot(b); // times both lengths, as the sine
@@ -101,9 +103,10 @@ private:
         return off2 > leastOff_ * leastOff_ * edge.lengthSqr();
     }
 
-    /// What is around one of the triangles. In half a star the first and the last have edges on the plane of symmetry.
+    /// The neighbours of one of the triangles. In half a star the first and the last have edges on the plane of
+    /// symmetry.
     struct Side {
-        std::size_t next; ///< the triangle at its link edge's end; as many as there are for the last
+        std::size_t next; ///< the triangle at its link edge's end; the number of triangles for the last
         bool isFirst;
         std::optional<Vec3d> across; ///< the normal of the one across its link edge; none if that is on the plane
     };
@@ -123,11 +126,11 @@ private:
 
     const GuardedMesh& surface_;
     StarChange star_;
-    double leastOff_; // the other's plane, for corners of triangles that are not flat together
+    double leastOff_; // from the other's plane, for corners of triangles that are not flat together
     boost::container::small_vector<Side, 16> sides_; // by link edge
 };
 
-/// A near place for a vertex that leaves fewer edges neither flat nor bent, if there is one.
+/// Returns a near place for a vertex that leaves fewer edges neither flat nor bent, if there is one.
 std::optional<Vec3d> betterPlace(const GuardedMesh& surface, const Bends& bends)
 {
     const StarChange& star = bends.star();
@@ -143,10 +146,10 @@ std::optional<Vec3d> betterPlace(const GuardedMesh& surface, const Bends& bends)
     }
     const auto isFar = [&](const Vec3d& p) { return (p - now).length() > 4 * unit; };
     places.erase(std::remove_if(places.begin(), places.end(), isFar), places.end());
-    // The one farthest inward first.
+    // The place farthest inward comes first.
     std::stable_sort(places.begin(), places.end(),
                      [&](const Vec3d& a, const Vec3d& b) { return (a - now).dot(normal) < (b - now).dot(normal); });
-    // What is in the way of all these, a smallest angle or the model, may not be where an edge gets shorter as well.
+    // A smallest angle or the model that forbids all these may allow places where an edge gets shorter as well.
     for (const double step : steps) {
         for (const double side : {-unit, unit}) {
             for (const auto& edge : star.link) {

@@ -22,7 +22,7 @@ using namespace detail;
 
 namespace {
 
-/// Adds the rings that joints lack, and takes as many other quads away, in rounds: the one with most rings is kept.
+/// Adds the rings that joints lack, and removes as many other quads, in rounds: the round with most rings is kept.
 void completeRings(GuardedMesh& surface, QuadTable& table, std::size_t quads, Interrupter* interrupter)
 {
     constexpr int rounds = 4;
@@ -48,7 +48,7 @@ void completeRings(GuardedMesh& surface, QuadTable& table, std::size_t quads, In
     }
 }
 
-/// Tightens with the least weights of the shape that make the corners as square as asked.
+/// Tightens with the least weights of the shape for which the corners are as square as the options ask.
 void tightenSquarely(GuardedMesh& surface, const QuadTable& table, const QuadLoopsOptions& options,
                      Interrupter* interrupter)
 {
@@ -96,7 +96,7 @@ Mesh quadLoops(const Mesh& surface, const BoundingGuard& guard, const QuadLoopsO
     completeRings(guarded, table, faces, interrupter);
     exchangeLoops(guarded, table, faces, options.exchanges, interrupter);
     completeRings(guarded, table, faces, interrupter);
-    // Where a quad cannot be made, the loops through it go.
+    // Loops through quads that cannot be made are collapsed.
     constexpr int attempts = 10;
     GuardedMesh paired = guarded;
     std::vector<std::uint32_t> left = makeQuads(paired, table, interrupter);

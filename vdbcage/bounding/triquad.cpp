@@ -19,18 +19,18 @@ namespace vdbcage {
 
 namespace {
 
-/// Pairs up the triangles of a surface in rounds, until enough are quads.
+/// Pairs the triangles of a surface in rounds, until enough are quads.
 void makeQuads(detail::GuardedMesh& surface, const BoundingTriquadOptions& options, Interrupter* interrupter)
 {
     constexpr int rounds = 6;
     constexpr int sweepsBefore = 4;
     double room = 0;
-    double loss = 1; // what a change may cost: the costly ones only where the others do not suffice
+    double loss = 1; // allowed for a change: costly ones are made only where the others are not enough
     for (int round = 0; round < rounds; ++round) {
         detail::tighten(surface, sweepsBefore,
                         detail::areaPerSample(surface, surface.liveFaces(), options.tightening.samples), interrupter);
-        // The other diagonals need about as much room as the first ones have; it is made before pairing, since quads
-        // hold their vertices. Then only what is still triangles gets more.
+        // The other diagonals need about as much room as the first ones have. It is made before pairing, since quads
+        // hold their vertices. Then only the remaining triangles get more.
         if (round == 0) room = detail::medianDistance(surface);
         detail::inflateTriangles(surface, room, interrupter);
         detail::PairingOptions pairing{};
@@ -47,8 +47,8 @@ void makeQuads(detail::GuardedMesh& surface, const BoundingTriquadOptions& optio
     }
 }
 
-/// Cleans up the quads of a paired surface. Returns whether so many of its faces are quads again, or `share`, and there
-/// are no more of them than `faces`.
+/// Cleans up the quads of a paired surface. Returns whether as large a share of its faces as before, or `share`, are
+/// quads again, and there are at most `faces` faces.
 bool cleanUpPairs(detail::GuardedMesh& surface, std::size_t faces, double share, Interrupter* interrupter)
 {
     constexpr int sweepsBefore = 6, attempts = 3;
@@ -79,7 +79,7 @@ bool cleanUpPairs(detail::GuardedMesh& surface, std::size_t faces, double share,
     return false;
 }
 
-/// Tightens a paired surface so that corners of quads come to be square, more so for a `shape` nearer to 1.
+/// The tightening of a paired surface so that corners of quads become square, more so for a `shape` nearer to 1.
 class SquareTightening {
 public:
     SquareTightening(double shape, const TightenOptions& options, Interrupter* interrupter)
@@ -87,7 +87,7 @@ public:
     {
     }
 
-    /// The first sweeps, in the room that pairing took. Returns the integral of the distance that is left.
+    /// Makes the first sweeps, in the room that pairing took. Returns the integral of the distance that is left.
     double begin(detail::GuardedMesh& surface) const
     {
         constexpr int sweeps = 6;
@@ -99,7 +99,7 @@ public:
         return detail::integratedDistance(surface, sample, interrupter_);
     }
 
-    /// `interrupter` is of this part of the stage.
+    /// Tightens. `interrupter` is of this part of the stage.
     void finish(detail::GuardedMesh& surface, Interrupter* interrupter) const
     {
         const detail::QuadTable table = detail::QuadTable::ofPairs(surface);
@@ -141,7 +141,8 @@ Mesh triquad(const Mesh& surface, const BoundingGuard& guard, const BoundingTriq
     const detail::GuardedMesh fine(surface, detail::modelOf(guard), detail::GuardedMesh::Quads::split, wishes);
     if (fine.liveFaces() == 0) return fine.mesh();
 
-    // How many triangles become the faces wanted shows when they are paired; `low` of them do not become too many.
+    // The number of triangles that become the wanted faces is known only after pairing; `low` of them do not become too
+    // many.
     const std::size_t most = options.faces / fine.copies();
     const auto wanted = static_cast<double>(most);
     double low = wanted, high = std::max(wanted, static_cast<double>(fine.liveFaces()));
@@ -165,8 +166,8 @@ Mesh triquad(const Mesh& surface, const BoundingGuard& guard, const BoundingTriq
             bestCount = counted;
         }
         if (isEnough || high - low < 2) break;
-        // Where polychords are split for want of pairs, faces are many of few triangles, too: longer steps until some
-        // fit.
+        // Where polychords are split for lack of pairs, few triangles become many faces, too: steps get longer until
+        // some number fits.
         target *= std::pow(aim * wanted / faces, best ? 1 : i + 1);
         if (!(target > low && target < high)) target = 0.5 * (low + high);
     }
@@ -179,7 +180,7 @@ Mesh triquad(const Mesh& surface, const BoundingGuard& guard, const BoundingTriq
         detail::tightenAndPerturb(*best, options.tightening, tightening.passedOn());
         return best->mesh();
     }
-    constexpr double mostLoss = 1.2; // of the distance before it is tightened: what a clean-up may cost
+    constexpr double mostLoss = 1.2; // allowed for a clean-up: the distance over that without it, before tightening
     const SquareTightening square(options.quadShape, options.tightening, interrupter);
     detail::GuardedMesh cleaned = *best;
     const bool isClean = cleanUpPairs(cleaned, most, options.quads, interrupter);

@@ -42,7 +42,7 @@ std::size_t countInwardComponents(const Mesh& mesh, const MeshTopology& topology
     for (std::size_t i = 0; i < mesh.quads.size(); ++i) {
         const openvdb::Vec4I& q = mesh.quads[i];
         std::vector<Vec3I>& component = components[topology.faceComponent[mesh.triangles.size() + i]];
-        // The diagonal that gives the component the smaller volume.
+        // The diagonal with which the component has the smaller volume.
         const std::vector<Vec3d>& p = mesh.points;
         if (detail::sideOfPlane(p[q[0]], p[q[1]], p[q[2]], p[q[3]]) >= 0) {
             component.emplace_back(q[0], q[1], q[2]);

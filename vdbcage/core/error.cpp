@@ -10,7 +10,7 @@ Error::Error(const std::string& text) : std::runtime_error(detail::printable(tex
 {
 }
 
-// The destructors are the key functions that pin each vtable (and type_info) to the library, so that an exception
+// The destructors are the key functions that place each vtable (and type_info) in the library, so that an exception
 // thrown inside the shared library is caught by its type outside.
 Error::~Error() = default;
 InputError::InputError(const std::string& text) : Error(text)

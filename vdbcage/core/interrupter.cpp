@@ -36,7 +36,7 @@ StageClock::~StageClock() = default;
 
 void StageClock::start(const char* name)
 {
-    // All that allocates is done here: `end` may run while an exception is on its way.
+    // All allocations are made here: `end` may run while an exception is on its way.
     const std::string stage = name ? name : "";
     current_ = static_cast<std::size_t>(
         std::find_if(stages_.begin(), stages_.end(), [&](const StageTime& known) { return known.name == stage; }) -

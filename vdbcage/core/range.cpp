@@ -9,7 +9,7 @@ namespace vdbcage {
 
 namespace {
 
-/// Whole numbers in full: 1000000, not 1e+06.
+/// Returns a number as text, whole ones in full: 1000000, not 1e+06.
 std::string textOf(double value)
 {
     constexpr double largest = 1e15; // all whole numbers up to here are doubles

@@ -1,6 +1,6 @@
-// Differs from the papers: a pose adds what the handles moved by to the rest pose, instead of summing up their
-// positions. So single precision suffices, the rest pose is exact, and the weights of handles that do not move are not
-// read.
+// Differs from the papers: a pose adds the moves of the handles to the rest pose, instead of summing up their
+// positions. Single precision is thus enough, the rest pose is exact, and the weights of handles that do not move are
+// not read.
 
 #include <vdbcage/deform/binding.h>
 
@@ -21,7 +21,7 @@ using openvdb::Vec3d;
 
 namespace {
 
-/// How far each handle goes, about, in units of the cage's longest side: its points as far as it is large.
+/// Returns about how far each handle goes, in units of the cage's longest side: its points as far as the cage is large.
 std::vector<float> maxDistancesOf(const Mesh& cage, Coordinates family)
 {
     std::vector<float> maxDistances(cage.points.size(), 1.0F);

@@ -24,7 +24,7 @@ std::vector<Number> computeRows(const Mesh& cage, const std::vector<Vec3d>& poin
     std::vector<Number> rows;
     const std::size_t count = points.size() * maker.columns();
     rows.reserve(count);
-    while (rows.size() < count) { // getting gigabytes takes seconds
+    while (rows.size() < count) { // allocating gigabytes takes seconds
         throwIfInterrupted(interrupter);
         rows.resize(std::min(count, rows.size() + (1U << 22)));
     }

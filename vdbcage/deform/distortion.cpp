@@ -16,11 +16,12 @@ using openvdb::Vec3d;
 
 namespace {
 
-/// The energy of a triangle with sides `a` and `b` that are posed at `posedA` and `posedB`; `area` is twice its area.
+/// Returns the energy of a triangle with sides `a` and `b` that are posed at `posedA` and `posedB`; `area` is twice its
+/// area.
 double energyOf(const Vec3d& a, const Vec3d& b, double area, const Vec3d& posedA, const Vec3d& posedB)
 {
-    // The squares of the principal stretches are the eigenvalues of the metric; what is asked for needs only their sum
-    // and product. The sum is over the dual basis of the sides.
+    // The squares of the principal stretches are the eigenvalues of the metric; the energy needs only their sum and
+    // product. The sum is over the dual basis of the sides.
     const double aa = a.dot(a), ab = a.dot(b), bb = b.dot(b);
     const double sum =
         (posedA.dot(posedA) * bb - 2 * posedA.dot(posedB) * ab + posedB.dot(posedB) * aa) / (area * area);

@@ -1,6 +1,6 @@
-// A surface alone does not tell which side of it was inside, and where it folds it depends on the eye which fold is the
-// wrong one. The sign of the Jacobian of the deformation does; here it is taken with the posed triangle as two of its
-// columns, so that folds finer than the deformation's own count too.
+// A surface alone does not determine which side was inside, and where it folds, the wrong fold depends on the point of
+// view. The sign of the Jacobian of the deformation determines both. Here it has the posed triangle as two of its
+// columns, so that folds finer than the deformation's own count, too.
 
 #include <vdbcage/deform/inversions.h>
 
@@ -31,7 +31,7 @@ double longestEdge(const std::vector<Vec3d>& points, const openvdb::Vec3I& t)
                      (points[t[0]] - points[t[2]]).length()});
 }
 
-/// Two points of each triangle in turn: its middle and one below.
+/// Binds two points of each triangle in turn: its middle and one below.
 Binding bindBeside(const Binding& binding, const Mesh& model, const std::vector<openvdb::Vec3I>& triangles,
                    const std::vector<std::uint32_t>& piece, Interrupter* interrupter)
 {
@@ -52,12 +52,12 @@ Binding bindBeside(const Binding& binding, const Mesh& model, const std::vector<
     }
 }
 
-/// Some of the triangles, in the order of their indices, and what is bound beside them.
+/// Some of the triangles, in the order of their indices, and the points bound beside them.
 struct Piece {
     std::vector<std::uint32_t> indices;
     Binding beside;
 
-    /// Adds those that the pose `cagePoints` inverts, which moves the model's points to `posed`.
+    /// Adds the triangles that the pose `cagePoints`, which moves the model's points to `posed`, inverts.
     void addInverted(const std::vector<openvdb::Vec3I>& triangles, const std::vector<Vec3d>& cagePoints,
                      const std::vector<Vec3d>& posed, std::vector<std::uint32_t>& inverted) const
     {
@@ -83,7 +83,7 @@ void requirePair(const Binding& binding, const Mesh& model)
     }
 }
 
-/// Gives `take` the triangles that have a side piece by piece.
+/// Calls `take` for the triangles that have a side, piece by piece.
 template <typename Take>
 void forEachPiece(const Binding& binding, const Mesh& model, const std::vector<openvdb::Vec3I>& triangles,
                   Interrupter* interrupter, const Take& take)

@@ -20,7 +20,7 @@ using openvdb::Vec4I;
 
 constexpr std::size_t none = detail::EdgeTable::none;
 
-/// Triangles, whichever corner they begin at.
+/// A set of triangles, each beginning at any corner.
 class TriangleSet {
 public:
     explicit TriangleSet(std::vector<Vec3I> triangles) : sorted_(std::move(triangles))
@@ -40,7 +40,7 @@ private:
     std::vector<Vec3I> sorted_;
 };
 
-/// How many faces of `mesh` are none of a mesh, whose triangles by every split are `ofOther`.
+/// Returns the number of faces of `mesh` that are not in another mesh, whose triangles by every split are `ofOther`.
 std::size_t otherFaces(const Mesh& mesh, const TriangleSet& ofOther)
 {
     const auto isOther = [&](const Vec3I& t) { return !ofOther.has(t[0], t[1], t[2]); };
@@ -52,8 +52,8 @@ std::size_t otherFaces(const Mesh& mesh, const TriangleSet& ofOther)
                                     std::count_if(mesh.quads.begin(), mesh.quads.end(), isOtherQuad));
 }
 
-/// The faces of `mesh`, of which quads that its reader split are whole again: which ones are concave depends on the
-/// pose.
+/// Returns the faces of `mesh`, with the quads that its reader split made whole again: which ones are concave depends
+/// on the pose.
 Mesh withWholeQuads(const Mesh& mesh)
 {
     if (mesh.alternatives.empty()) return mesh;
@@ -61,8 +61,8 @@ Mesh withWholeQuads(const Mesh& mesh)
     const Mesh triangles{mesh.points, mesh.triangles, {}};
     const detail::HalfEdges halfEdges(triangles);
     const detail::EdgeTable edges(halfEdges, mesh.points.size());
-    // The half-edge of each triangle behind which the other half of its quad is, and how many there are that could be:
-    // of larger polygons several.
+    // The half-edge of each triangle beyond which the other half of its quad is, and the number of possible ones:
+    // larger polygons have several.
     std::vector<std::size_t> diagonal(mesh.triangles.size(), none), candidates(mesh.triangles.size(), 0);
     for (std::size_t h = 0; h < halfEdges.size(); ++h) {
         const std::size_t opposite = edges.opposite(h);
@@ -88,10 +88,10 @@ Mesh withWholeQuads(const Mesh& mesh)
     return whole;
 }
 
-/// The faces of a mesh as half-edges, and what sets these apart whatever the numbers of points and faces are.
+/// The faces of a mesh as half-edges, with properties that do not depend on the numbers of points and faces.
 class Connectivity {
 public:
-    /// `mesh` must outlive it.
+    /// `mesh` must outlive this.
     explicit Connectivity(const Mesh& mesh)
         : halfEdges_(mesh), edges_(halfEdges_, mesh.points.size()), degrees_(mesh.points.size(), 0)
     {
@@ -101,9 +101,9 @@ public:
     std::size_t size() const { return halfEdges_.size(); }
     Index32 from(std::size_t h) const { return halfEdges_.from(h); }
     std::size_t next(std::size_t h) const { return halfEdges_.next(h); }
-    /// `none` at a boundary.
+    /// Returns the opposite half-edge; `none` at a boundary.
     std::size_t opposite(std::size_t h) const { return edges_.opposite(h); }
-    /// Points that no face has.
+    /// Returns the points that no face has.
     std::vector<std::size_t> loosePoints() const
     {
         std::vector<std::size_t> found;
@@ -113,7 +113,7 @@ public:
         return found;
     }
 
-    /// Whether no edge has more than two faces, and the two of each run along it in opposite directions.
+    /// Returns whether no edge has more than two faces, and the two of each run along it in opposite directions.
     bool isManifold() const
     {
         for (std::size_t h = 0; h < size(); ++h) {
@@ -123,7 +123,7 @@ public:
         return true;
     }
 
-    /// The corners of the faces on both sides, 0 behind a boundary, and the degrees of both ends.
+    /// The numbers of corners of the faces on both sides, 0 beyond a boundary, and the degrees of both ends.
     using Kind = std::array<Index32, 4>;
     Kind kind(std::size_t h) const
     {
@@ -135,21 +135,21 @@ public:
 private:
     detail::HalfEdges halfEdges_;
     detail::EdgeTable edges_;
-    std::vector<Index32> degrees_; ///< of each point, how many corners of faces are there
+    std::vector<Index32> degrees_; ///< by point: the number of corners of faces there
 };
 
 using Pair = std::pair<std::size_t, std::size_t>;
 
-/// Numbers paired one to one with numbers.
+/// A one-to-one pairing of numbers with numbers.
 class Pairing {
 public:
     Pairing(std::size_t left, std::size_t right) : ofLeft_(left, none), ofRight_(right, none) {}
 
-    /// What `left` is paired with; `none`.
+    /// Returns the partner of `left`, or `none`.
     std::size_t operator[](std::size_t left) const { return ofLeft_[left]; }
     std::size_t size() const { return pairs_.size(); }
 
-    /// False if one of both is paired with another one.
+    /// Pairs two numbers. Returns false if one of them has another partner.
     bool add(const Pair& pair)
     {
         const auto& [left, right] = pair;
@@ -160,7 +160,7 @@ public:
         pairs_.push_back(pair);
         return true;
     }
-    /// Takes back all but the first pairs, and returns them.
+    /// Removes all except the first pairs, and returns them.
     std::vector<Pair> takeAfter(std::size_t count)
     {
         const std::vector<Pair> taken(pairs_.begin() + static_cast<std::ptrdiff_t>(count), pairs_.end());
@@ -174,7 +174,7 @@ private:
     std::vector<Pair> pairs_;
 };
 
-/// Looks for the orders of the points of a posed cage by which its faces are those of the cage.
+/// The search for the orders of the points of a posed cage in which its faces are those of the cage.
 class Matching {
 public:
     enum class Found { nothing, one, several };
@@ -188,7 +188,7 @@ public:
 
     Found find()
     {
-        if (!cage_.isManifold()) return Found::several; // its edges do not tell which faces go on
+        if (!cage_.isManifold()) return Found::several; // its edges do not determine the next faces
         if (cage_.size() != posed_.size() || !posed_.isManifold()) return Found::nothing;
         Found found = Found::one;
         for (const std::size_t seed : seeds()) {
@@ -196,18 +196,18 @@ public:
             if (part == Found::nothing) return part;
             if (part == Found::several) found = part;
         }
-        // No face tells which one a point without faces is.
+        // No face identifies a point without faces.
         const std::vector<std::size_t> loose = cage_.loosePoints();
         if (loose.size() > 1) return Found::several;
         if (found == Found::one && !loose.empty()) points_.add({loose.front(), posed_.loosePoints().front()});
         return found;
     }
 
-    /// Of each point of the cage that of the posed one. \pre find() was one
+    /// Returns the posed point of a point of the cage. \pre find() was `one`
     std::size_t operator[](std::size_t point) const { return points_[point]; }
 
 private:
-    /// Of each component that edges connect, the half-edge with the fewest like it in the cage.
+    /// Returns, for each component connected over edges, the half-edge with the fewest like it in the cage.
     std::vector<std::size_t> seeds() const
     {
         std::map<Connectivity::Kind, std::size_t> counts;
@@ -238,7 +238,7 @@ private:
         return found;
     }
 
-    /// Pairs the component of `seed`, if only one way to do so fits.
+    /// Pairs the component of `seed`, if there is exactly one way to do so.
     Found matchFrom(std::size_t seed)
     {
         const auto candidates = posedOfKind_.find(cage_.kind(seed));
@@ -258,7 +258,7 @@ private:
         return pairsOfEdges.empty() ? Found::nothing : Found::one;
     }
 
-    /// Pairs two half-edges, and all that follows from it. False: they do not fit.
+    /// Pairs two half-edges, and all that follows from it. Returns false if they do not fit.
     bool follow(std::size_t seed, std::size_t candidate)
     {
         std::vector<Pair> pending{{seed, candidate}};

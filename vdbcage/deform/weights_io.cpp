@@ -26,10 +26,10 @@ namespace {
 static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "reverse the bytes here");
 
 const std::string numpy = "\x93NUMPY", magic("\x93NUMPY\x01\x00", 8);
-constexpr std::size_t nameSizes[] = {8, 16}; // a family's name is written in the first that has room for it
+constexpr std::size_t nameSizes[] = {8, 16}; // a family's name is written in the first that is long enough
 const std::string afterCounts = "))], 'fortran_order': False, 'shape': (), }";
 
-/// What comes before the weights.
+/// The data before the weights.
 struct Hashes {
     std::uint64_t cage = 0, points = 0;
 };
@@ -53,14 +53,14 @@ Hashes hashesOf(const Mesh& cage, const std::vector<openvdb::Vec3d>& points)
     return {ofCage.value(), ofPoints.value()};
 }
 
-/// The header's text up to the counts.
+/// Returns the header's text up to the counts.
 std::string beforeCounts(std::size_t nameSize)
 {
     return "{'descr': [('family', '|S" + std::to_string(nameSize) +
            "'), ('cage_hash', '<u8'), ('points_hash', '<u8'), ('weights', '<f4', (";
 }
 
-/// Magic, length and text, padded as NumPy does so that the data are aligned.
+/// Returns magic, length and text, padded as NumPy does so that the data are aligned.
 std::string headerOf(std::size_t nameSize, std::size_t points, std::size_t handles)
 {
     std::string text = beforeCounts(nameSize) + std::to_string(points) + ", " + std::to_string(handles) + afterCounts;
@@ -77,7 +77,7 @@ bool isDmat(const std::filesystem::path& path)
     return extension == ".dmat";
 }
 
-/// The family of a name as a file has it; `given` too, which coordinatesNamed does not take.
+/// Returns the family of a name in a file; accepts `given`, too, unlike coordinatesNamed.
 Coordinates familyOf(std::string name)
 {
     name.resize(::strnlen(name.data(), name.size()));
@@ -174,7 +174,7 @@ Binding readWeights(const std::filesystem::path& path, const Mesh& cage, std::ve
         fail("it has " + std::to_string(columns) + " handles; " + coordinatesName(family) +
              " coordinates of this cage have " + std::to_string(handleCount(cage, family)));
     }
-    // What the header says is bounded by the file's size before memory is taken for it. Neither sum can overflow: rows
+    // The file's size bounds the numbers of the header before memory is taken for them. Neither sum can overflow: rows
     // and columns are those of a model and a cage in memory.
     const std::uintmax_t expectedSize =
         start.size() + text.size() + nameSize + sizeof hashes + rows * columns * sizeof(float);

@@ -13,17 +13,17 @@
 
 namespace vdbcage::detail {
 
-/// Boxes of things that move, come and vanish, in a tree of four children a node. Deterministic.
+/// Boxes of things that move, are added and removed, in a tree of four children a node. Deterministic.
 ///
-/// Boxes are refitted from changed leaves upwards. Things that came since the tree was built are looked through one by
-/// one. Children's boxes are compared at once, in float. Rounding keeps the order, so no meeting is missed; what is
-/// left is told apart in double.
+/// Boxes are refitted from changed leaves upwards. Things added since the tree was built are searched one by one. The
+/// boxes of a node's children are compared at once, in float. Rounding keeps the order, so no meeting is missed; the
+/// remaining candidates are tested in double.
 class DynamicBvh {
 public:
     static constexpr std::uint32_t none = ~std::uint32_t(0);
 
     DynamicBvh() = default;
-    /// Thing i has boxes[i].
+    /// Makes things numbered from 0: thing i has boxes[i].
     /// Cost: O(n log n), in parallel.
     explicit DynamicBvh(std::vector<Box> boxes) : boxes_(std::move(boxes)), placeOf_(boxes_.size(), none)
     {
@@ -33,7 +33,7 @@ public:
         build(things);
     }
 
-    /// Builds it anew if so many things have come or gone since it was built that this pays.
+    /// Builds the tree again if this pays, after many additions or removals.
     void rebuildIfWorthwhile()
     {
         constexpr std::size_t mostLate = 32;
@@ -47,7 +47,7 @@ public:
         build(things);
     }
 
-    /// Adds a thing of the next number.
+    /// Adds a thing with the next number.
     void insert(std::uint32_t thing, const Box& box)
     {
         boxes_.push_back(box);
@@ -56,7 +56,7 @@ public:
         ++live_;
     }
 
-    /// Adds a thing that was removed.
+    /// Adds a removed thing again.
     void restore(std::uint32_t thing, const Box& box)
     {
         boxes_[thing] = box;
@@ -64,14 +64,14 @@ public:
         ++live_;
     }
 
-    /// Changes the box of a thing. Seen after refit().
+    /// Changes the box of a thing; takes effect with refit().
     void update(std::uint32_t thing, const Box& box)
     {
         boxes_[thing] = box;
         if (placeOf_[thing] != none) set(placeOf_[thing], rounded(box));
     }
 
-    /// Removes a thing. Seen after refit().
+    /// Removes a thing; takes effect with refit().
     void remove(std::uint32_t thing)
     {
         --live_;
@@ -83,8 +83,7 @@ public:
         placeOf_[thing] = none;
     }
 
-    /// Makes updates and removals seen. To be called once for many changes, so that a node above several of them is
-    /// computed once.
+    /// Applies updates and removals. One call for many changes computes a node above several of them once.
     void refit()
     {
         // A node's number is above its parent's.
@@ -98,7 +97,7 @@ public:
         }
     }
 
-    /// Calls visit(thing, itsBox) for each thing whose box meets `box`, until it answers false. Returns false if it
+    /// Calls visit(thing, itsBox) for each thing whose box meets `box`, until it returns false. Returns false if it
     /// stopped.
     template <typename Visit>
     bool forEachOverlap(const Box& box, const Visit& visit) const
@@ -145,7 +144,7 @@ private:
         return result;
     }
 
-    /// The place of a child: four times its parent's number and which of the four it is.
+    /// The place of a child: four times its parent's number, plus its index in the parent.
     using Place = std::uint32_t;
 
     struct alignas(64) Node : FourBoxes {
@@ -197,8 +196,8 @@ private:
         return {Range{things.begin, middle}, Range{middle, things.end}};
     }
 
-    /// Brings the half of the things that is lower along the longest side of their centres' box before the others; so
-    /// in each half.
+    /// Sorts the half of the things that is lower along the longest side of their centres' box before the others, and
+    /// each half in the same way.
     static void sort(const Range& things)
     {
         constexpr std::ptrdiff_t taskSize = 1024; // worth a task
@@ -220,7 +219,7 @@ private:
         }
     }
 
-    /// \param things all there are, in any order
+    /// Builds the tree. \param things all, in any order
     void build(std::vector<Thing>& things)
     {
         live_ = built_ = things.size();
@@ -280,7 +279,7 @@ private:
     std::vector<Box> boxes_;     // by thing
     std::vector<Place> placeOf_; // by thing; none: gone, or late
     std::vector<std::uint32_t> late_;
-    std::vector<std::uint64_t> changed_; // nodes, a bit each: their own boxes are to be set in their parents
+    std::vector<std::uint64_t> changed_; // a bit for each node whose box must be set in its parent
     std::size_t live_ = 0, built_ = 0;
 };
 

@@ -12,7 +12,7 @@
 namespace vdbcage::detail {
 
 using Floats = float __attribute__((vector_size(16)));
-using Lanes = std::int32_t __attribute__((vector_size(16))); ///< what a comparison of Floats answers: 0 or -1 each
+using Lanes = std::int32_t __attribute__((vector_size(16))); ///< the result of a comparison of Floats: 0 or -1 each
 
 inline Floats least(Floats a, Floats b)
 {
@@ -33,7 +33,7 @@ inline float greatestOf(Floats v)
     return -leastOf(-v);
 }
 
-/// The answers of a comparison, a bit each.
+/// Returns the results of a comparison, a bit each.
 inline unsigned bits(const Lanes& lanes)
 {
 #ifdef __SSE2__
@@ -43,7 +43,7 @@ inline unsigned bits(const Lanes& lanes)
 #endif
 }
 
-/// A box, of which the fourth components mean nothing. By default it is empty.
+/// A box; the fourth components mean nothing. It is empty by default.
 struct FloatBox {
     Floats lo = Floats{} + std::numeric_limits<float>::infinity(), hi = -lo;
 
@@ -59,11 +59,11 @@ struct FloatBox {
     }
 };
 
-/// The boxes of a node's children. There is no such child where a value is NaN, or the least is above the most.
+/// The boxes of a node's children. A child is absent where a value is NaN, or the least is above the most.
 struct FourBoxes {
     std::array<Floats, 3> lo, hi;
 
-    /// Which of them meet the box from `otherLo` to `otherHi`. Each of these is the same four times.
+    /// Returns which of them meet the box from `otherLo` to `otherHi`, each of which has the same value four times.
     Lanes meet(const std::array<Floats, 3>& otherLo, const std::array<Floats, 3>& otherHi) const
     {
         return (lo[0] <= otherHi[0]) & (hi[0] >= otherLo[0]) & (lo[1] <= otherHi[1]) & (hi[1] >= otherLo[1]) &

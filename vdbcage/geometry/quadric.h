@@ -11,11 +11,11 @@
 namespace vdbcage::detail {
 
 /// The cost of merging points into one place: the integral of the squared distance to the planes of the faces around
-/// them, and the spread. The spread is the integral of the squared distance to where their area was.
+/// them, and the spread. The spread is the integral of the squared distance to the area of these faces.
 ///
-/// The planes say where the surface is; the spread says nothing about it. But on flat ground, where the planes do not
-/// care, the spread alone makes the places even. In the cost it has a small weight. In the choice of the place it
-/// counts only in directions that the planes leave open: a corner of a box stays where it is.
+/// The planes determine the surface. Where they leave directions open, on flat ground, the spread distributes the
+/// places evenly. It has a small weight in the cost. In the choice of the place it counts only in directions that the
+/// planes leave open, so a corner of a box stays where it is.
 class Quadric {
 public:
     /// Adds the plane through `point` with the normal `unitNormal`. `weight` is its area.
@@ -56,8 +56,8 @@ public:
         return *this;
     }
 
-    /// Becomes the mean of itself and its mirror image in the plane through the origin across `axis` (0 to 2). Places
-    /// in that plane cost as much as before.
+    /// Averages this with its mirror image in the plane through the origin across `axis` (0 to 2). The cost of places
+    /// in that plane stays.
     void symmetrize(int axis)
     {
         if (axis != 2) xy_ = 0;
@@ -66,7 +66,7 @@ public:
         linear_[axis] = first_[axis] = 0;
     }
 
-    /// The cost of the place `p`, at least 0. `spreadWeight` is that of the spread.
+    /// Returns the cost of the place `p`, at least 0. `spreadWeight` is that of the spread.
     double cost(const openvdb::Vec3d& p, double spreadWeight) const
     {
         const double planes = p.dot(times(p)) + 2 * linear_.dot(p) + constant_;
@@ -74,11 +74,11 @@ public:
         return std::max(0.0, planes) + spreadWeight * std::max(0.0, spread);
     }
 
-    /// Half the second derivative of the plane error.
+    /// Returns half the second derivative of the plane error.
     openvdb::Mat3d planes() const { return {xx_, xy_, xz_, xy_, yy_, yz_, xz_, yz_, zz_}; }
 
-    /// The place of least plane error nearest to the middle of the area. Directions in which the planes are softer than
-    /// `stiffness` times the area count as open. False, and no place, if there is no area.
+    /// Finds the place of least plane error nearest to the middle of the area. Directions in which the planes are
+    /// softer than `stiffness` times the area count as open. Returns false, without a place, if there is no area.
     bool bestPlace(double stiffness, openvdb::Vec3d& place) const
     {
         std::array<openvdb::Vec3d, 1> places;
@@ -87,15 +87,15 @@ public:
         return found[0];
     }
 
-    /// bestPlace() of several quadrics, to the bit. It waits for divisions, so four side by side take little longer
-    /// than one.
+    /// Finds the same places as bestPlace() for several quadrics, to the bit. Divisions take most of the time, so four
+    /// side by side take little longer than one.
     template <std::size_t n>
     static std::array<bool, n> bestPlaces(const std::array<Quadric, n>& quadrics, double stiffness,
                                           std::array<openvdb::Vec3d, n>& places)
     {
         // Proximal point iteration: each step keeps open directions and at least halves the error in stiff ones. The
         // matrix planes + stiffness * identity is positive definite: Cholesky.
-        using Row = std::array<double, n>; // a number of each quadric
+        using Row = std::array<double, n>; // one number for each quadric
         Row l00, l10, l20, l11, l21, l22, x, y, z, change;
         for (std::size_t i = 0; i < n; ++i) {
             const Quadric& q = quadrics[i];
@@ -137,7 +137,7 @@ public:
 
 private:
     static constexpr double rounding = 1e-14; // of coordinates, which are about 1
-    static constexpr int steps = 8;           // enough to put the corner of a box where it is to 12 digits
+    static constexpr int steps = 8;           // enough for the corner of a box to 12 digits
 
     openvdb::Vec3d times(const openvdb::Vec3d& p) const
     {

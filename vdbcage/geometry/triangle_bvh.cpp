@@ -2,7 +2,7 @@
 //           C. Ericson, "Real-Time Collision Detection", 2005, 5.1.5 (closest point on a triangle).
 //           I. Wald, C. Benthin, S. Boulos, "Getting Rid of Packets", 2008 (trees of four children for SIMD).
 //           S. Woop et al., "Exploiting Local Orientation Similarity for Efficient Ray Traversal of Hair and Fur",
-//           2014 (boxes along what they hold, triangles told apart by direction).
+//           2014 (boxes along their content, triangles sorted by direction).
 // Differs: bins along one axis only (the longest of the centroids); all boxes below a node are along the same axes.
 #include <vdbcage/geometry/triangle_bvh.h>
 
@@ -27,32 +27,32 @@ namespace vdbcage::detail {
 namespace {
 
 constexpr std::size_t binCount = 16;
-constexpr std::size_t binnedDepth = 60;           // deeper nodes are halved: 2^32 leaves end within 32 more
+constexpr std::size_t binnedDepth = 60;           // deeper nodes are halved: 2^32 leaves end within 32 more levels
 constexpr std::size_t taskSize = 4096;            // leaves in a subtree that are worth a task
 constexpr std::size_t parallelBinSize = 1U << 17; // leaves in a node that are worth binning in parallel
-// Trees of many triangles take leaves of several: memory is what they wait for, and so they have far fewer nodes. Those
-// of fewer triangles fit into caches and gain nothing.
+// Trees of many triangles have leaves of several, which makes far fewer nodes, since memory limits their speed. Smaller
+// trees fit into caches and gain nothing.
 constexpr std::size_t manyTriangles = 1U << 19;
 constexpr std::uint32_t leafSize = 4;
-constexpr float leafGrowth = 1.6F; // how much a leaf's box may outdo the largest of its triangles', in area
-// A needle is what has so many times the area in a box along x, y and z that it has in one along itself. Of needles
-// side by side so many boxes have to meet in a place, or other axes gain too little.
+constexpr float leafGrowth = 1.6F; // the largest ratio of a leaf's box to the largest of its triangles', in area
+// A needle has at least this many times as large an area in a box along x, y and z as in one along itself. At least
+// `crowd` boxes of needles side by side must meet in a place, or other axes gain too little.
 constexpr float needle = 4;
 constexpr std::uint32_t crowd = 32;
 
-// A leaf's box while the tree is built, in the tree's units. The fourth component of lo and hi means nothing. Not
+// A leaf's box while the tree is built, in the tree's units. The fourth components of lo and hi mean nothing. Not
 // initialized by default.
 struct Ref {
     Floats lo, hi;
-    std::uint32_t triangle; // the first of those that it holds
+    std::uint32_t triangle; // the first of its triangles
     std::uint32_t count;
     float leastArea; // of a box along its triangles, about
 
     Floats twiceCentre() const { return lo + hi; }
 };
 
-// A child of a node and the square of its distance, in one word: two halves that were just stored cannot be forwarded
-// to a load of both, which has to wait for them.
+// A child of a node and the square of its distance, in one word: a load of both halves that were just stored would have
+// to wait, since they cannot be forwarded.
 class Near {
 public:
     Near() = default; // not initialized
@@ -99,7 +99,8 @@ struct Merge {
     Bins operator()(const Bins& a, const Bins& b) const { return a + b; }
 };
 
-// Folds add(T, Ref) over the range, in parallel if it is long. Minima, maxima and counts: the order does not matter.
+// Folds add(T, Ref) over the range, in parallel if it is long. The order does not matter: results are minima, maxima
+// and counts.
 template <typename T, typename Add>
 T fold(const Ref* begin, const Ref* end, const Add& add)
 {
@@ -111,7 +112,7 @@ T fold(const Ref* begin, const Ref* end, const Add& add)
     return parallelReduce(tbb::blocked_range<const Ref*>(begin, end, parallelBinSize / 8), T(), foldRange, Merge());
 }
 
-// Which bin of the longest axis of the centroids a leaf belongs to.
+// The assignment of leaves to bins of the longest axis of the centroids.
 struct Binning {
     explicit Binning(const FloatBox& centroids)
     {
@@ -131,8 +132,8 @@ struct Binning {
     float origin, scale;
 };
 
-// The number of bins on the left side of the cheapest split by the surface area heuristic, 0 if no split leaves two or
-// more leaves on either side (two, so that there are never more nodes than leaves).
+// Returns the number of bins on the left side of the cheapest split by the surface area heuristic, 0 if no split leaves
+// two or more leaves on either side (two, so that there are never more nodes than leaves).
 std::size_t cheapestSplit(const Bins& bins)
 {
     std::array<float, binCount> rightCost{};
@@ -169,10 +170,10 @@ Vec3d closestPointOnSegment(const Vec3d& p, const Vec3d& a, const Vec3d& b)
 }
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-// Slivers below have no plane to speak of: one that is computed from them may point astray by more than 1e-7.
+// Narrower slivers have no usable plane: one computed from them may point astray by more than 1e-7.
 constexpr double leastSine = 1e-8, smallest = 1e-100;
 
-// Floats not above and not below, off by up to 2e-7 of the value.
+// Return floats not above and not below, off by up to 2e-7 of the value.
 float roundedDown(double value)
 {
     return static_cast<float>(value - 1.2e-7 * std::abs(value) - 1e-40);
@@ -203,7 +204,7 @@ void Box::expand(const Box& other)
 
 Vec3d closestPointOnTriangle(const Vec3d& p, const Corners& triangle)
 {
-    // Which of the seven regions p lies above: a corner's, an edge's or the inside's.
+    // The region of seven above which p lies: a corner's, an edge's or the inside's.
     const auto& [a, b, c] = triangle;
     const Vec3d ab = b - a, ac = c - a, ap = p - a, bp = p - b, cp = p - c;
     const double d1 = ab.dot(ap), d2 = ac.dot(ap), d3 = ab.dot(bp), d4 = ac.dot(bp), d5 = ab.dot(cp), d6 = ac.dot(cp);
@@ -215,7 +216,7 @@ Vec3d closestPointOnTriangle(const Vec3d& p, const Corners& triangle)
     if (wc <= 0 && d1 > 0 && d3 < 0) return a + (d1 / (d1 - d3)) * ab;
     if (wb <= 0 && d2 > 0 && d6 < 0) return a + (d2 / (d2 - d6)) * ac;
     if (wa <= 0 && d4 > d3 && d5 > d6) return b + ((d4 - d3) / (d4 - d3 + d5 - d6)) * (c - b);
-    // Only for degenerate triangles, or nearly so: the nearest point of the three edges.
+    // Only for degenerate or nearly degenerate triangles: the nearest point of the three edges.
     Vec3d best = closestPointOnSegment(p, a, b);
     for (const Vec3d& other : {closestPointOnSegment(p, b, c), closestPointOnSegment(p, c, a)}) {
         if ((other - p).lengthSqr() < (best - p).lengthSqr()) best = other;
@@ -225,7 +226,7 @@ Vec3d closestPointOnTriangle(const Vec3d& p, const Corners& triangle)
 
 TriangleBvh::Query::Query(const Box& box)
 {
-    // All nodes lie within [-1.1, 1.1]; NaN, of a box too far away to compute with, stays and is met nowhere.
+    // All nodes lie within [-1.1, 1.1]. NaN, of a box too far away for the arithmetic, stays and is met nowhere.
     for (std::size_t i = 0; i < 3; ++i) {
         const int axis = static_cast<int>(i);
         lo_[i] = Floats{} + roundedDown(std::clamp(box.lo[axis], -4.0, 4.0));
@@ -233,10 +234,10 @@ TriangleBvh::Query::Query(const Box& box)
     }
 }
 
-/// `farthest`: the largest coordinate that went into the slab.
+/// Adds a slab. `farthest` is the largest coordinate from which it was computed.
 void TriangleBvh::Query::addSlab(const Vec3d& normal, double low, double high, double farthest)
 {
-    // Projections of nodes, in float, are wrong by less than 3e-6; a normal may point astray by 1e-7.
+    // Projections of nodes, in float, are off by less than 3e-6; a normal may point astray by 1e-7.
     const double slack = 4e-6 + 2e-7 * farthest;
     Slab& slab = slab_[slabs_++];
     for (std::size_t i = 0; i < 3; ++i) {
@@ -262,7 +263,7 @@ TriangleBvh::Query TriangleBvh::Query::along(const Frame& frame) const
     const auto absolute = [](Floats v) { return greatest(v, -v); };
     Query query = aroundPoints(frame);
     if (query.count_ == 0) {
-        // Places are within 4 in each direction, and what has been turned within 7: wrong by less than 4e-6 in float.
+        // Places are within 4 in each direction, turned ones within 7: off by less than 4e-6 in float.
         std::array<Floats, 3> middle, half;
         for (std::size_t i = 0; i < 3; ++i) {
             middle[i] = (lo_[i] + hi_[i]) * 0.5F;
@@ -283,14 +284,15 @@ TriangleBvh::Query TriangleBvh::Query::along(const Frame& frame) const
             to.normal[i] = turned(i, from.normal);
             to.absolute[i] = absolute(to.normal[i]);
         }
-        // Projections of nodes, twice, are wrong by less than 5e-6 by the boxes, and by 4e-6 by the normal.
+        // Projections of nodes, twice, are off by less than 5e-6 by the boxes, and by 4e-6 by the normal.
         to.twiceLow = from.twiceLow - 1e-5F;
         to.twiceHigh = from.twiceHigh + 1e-5F;
     }
     return query;
 }
 
-/// With slabs along the first axis alone; without points where these are none, or too far away to compute with.
+/// Returns a query with slabs along the first axis alone; without points if there are none, or if they are too far
+/// away.
 TriangleBvh::Query TriangleBvh::Query::aroundPoints(const Frame& frame) const
 {
     if (count_ == 0) return {};
@@ -309,7 +311,7 @@ TriangleBvh::Query TriangleBvh::Query::aroundPoints(const Frame& frame) const
     query.points_ = points_;
     query.count_ = count_;
     query.margin_ = margin_;
-    // A needle is long: whether it passes by shows along it.
+    // A needle is long: along it, it shows whether it passes by.
     for (std::size_t i = 0; i < count_; ++i) {
         for (std::size_t j = 0; j < i; ++j) {
             const Vec3d edge = turned[i] - turned[j];
@@ -321,7 +323,7 @@ TriangleBvh::Query TriangleBvh::Query::aroundPoints(const Frame& frame) const
                 low = std::min(low, normal.dot(turned[k]));
                 high = std::max(high, normal.dot(turned[k]));
             }
-            // Nodes are within 2 here, so their projections are wrong by twice as much as addSlab() takes for it.
+            // Nodes are within 2 here, so their projections are off by twice as much as in addSlab().
             constexpr double rounding = 4e-6;
             query.addSlab(normal, low - reach[0] - rounding, high + reach[0] + rounding, farthest);
         }
@@ -426,7 +428,7 @@ private:
         tree_.scale_ = std::isfinite(inverse) ? inverse : 1.0;
     }
 
-    // Triangles that follow each other in about the same box, as those of a quad do, get into one leaf. In blocks of
+    // Puts triangles that follow each other in about the same box, as those of a quad do, into one leaf. Blocks have a
     // fixed size, so that the leaves are the same for any number of threads.
     void makeRefs()
     {
@@ -473,7 +475,7 @@ private:
         Ref ref = boxed(Box::of(t));
         ref.triangle = static_cast<std::uint32_t>(triangle);
         ref.count = 1;
-        // However thin it is, boxes are rounded outward, by less than 3e-7.
+        // Boxes of any thinness are rounded outward, by less than 3e-7.
         const Vec3d u = t[1] - t[0], v = t[2] - t[0];
         const double length = std::max(maxAbs(u), maxAbs(v));
         ref.leastArea = static_cast<float>(u.cross(v).length() + 1e-6 * length + 1e-12);
@@ -488,7 +490,7 @@ private:
         return ref;
     }
 
-    // The box of the same triangles along other axes.
+    // Returns the box of the same triangles along other axes.
     FloatBox boxAlong(const TriangleBvh::Frame& frame, const Ref& ref) const
     {
         // Turning a point within [-1, 1] adds an error of less than 2e-15, in a query and here.
@@ -503,7 +505,7 @@ private:
         return sum;
     }
 
-    // Along the longest edge of the ref's first triangle, and along its plane.
+    // Returns axes along the longest edge of the ref's first triangle, and along its plane.
     TriangleBvh::Frame frameOf(const Ref& ref) const
     {
         const Corners t = cornersInUnits(ref.triangle);
@@ -513,7 +515,7 @@ private:
         TriangleBvh::Frame frame;
         frame.axes[0] = edges[0].unit();
         const Vec3d across = frame.axes[0].cross(edges[1]);
-        // A sliver without a plane may lie in any.
+        // A sliver without a plane may lie in any plane.
         const bool hasPlane = across.length() > leastSine * edges[0].length();
         frame.axes[2] = hasPlane ? across.unit() : anyAcross(frame.axes[0]);
         frame.axes[1] = frame.axes[2].cross(frame.axes[0]).unit();
@@ -535,7 +537,7 @@ private:
         return box;
     }
 
-    // Leaves have been numbered as the refs are now; their items follow each other in this order.
+    // Places the items of the leaves in the present order of the refs.
     void placeItems()
     {
         std::vector<std::uint32_t> firstItem(refCount_);
@@ -583,18 +585,18 @@ private:
     struct Range {
         std::uint32_t begin, end;
         std::size_t depth;   // of binary splits
-        std::uint32_t frame; // what the boxes of its refs are along
+        std::uint32_t frame; // the axes of the boxes of its refs
 
         std::uint32_t size() const { return end - begin; }
     };
 
-    // Returns the box of the node, along the axes that its range came with.
+    // Builds a node. Returns its box along the axes of its range.
     FloatBox buildNode(std::uint32_t nodeIndex, Range whole)
     {
         const bool large = whole.size() > taskSize;
         std::array<Range, 4> ranges;
         std::size_t count = 0;
-        FloatBox before; // if it is turned
+        FloatBox before; // the box before turning, if it is turned
         const bool isTurned = [&] {
             if (!hasNeedles_ || whole.size() < crowd || whole.depth >= binnedDepth) return false;
             const auto needles = crowdedNeedles(whole);
@@ -604,7 +606,7 @@ private:
                 turn(whole, needles->frame);
                 return true;
             }
-            // They are turned once they are a node of their own.
+            // They are turned when they become a node.
             ranges[count++] = {whole.begin, needles->end, whole.depth + 1, whole.frame};
             return false;
         }();
@@ -616,7 +618,7 @@ private:
             if (largest->size() == 1) break;
             const std::size_t depth = largest->depth + 1;
             const std::uint32_t middle = whole.size() <= 4 ? largest->begin + 1 : split(*largest);
-            if (middle == largest->end) continue; // all were copies: one is left
+            if (middle == largest->end) continue; // all others were copies: one is left
             ranges[count++] = {middle, largest->end, depth, whole.frame};
             *largest = {largest->begin, middle, depth, whole.frame};
         }
@@ -674,20 +676,20 @@ private:
         bool isCrowded() const { return count >= crowd && area > crowd * around.area(); }
     };
 
-    // The first refs of a range, up to `end`, are better along other axes.
+    // The first refs of a range, up to `end`, for which other axes are better.
     struct Needles {
         std::uint32_t end;
         TriangleBvh::Frame frame;
     };
 
-    // Puts needles side by side in the range to its beginning, if there are any.
+    // Moves needles side by side in the range to its beginning, if there are any.
     std::optional<Needles> crowdedNeedles(const Range& range)
     {
         constexpr std::uint32_t tries = 8; // directions
         Asker ask(interrupter_);
         Ref* const first = refs_.get() + range.begin;
         Ref* const last = refs_.get() + range.end;
-        // A place is in as many boxes as their areas are together by that of the box around them.
+        // A place is in as many boxes on average as the sum of their areas over that of the box around them.
         Group all;
         for (const Ref* ref = first; ref != last; ++ref) {
             ask();
@@ -722,7 +724,8 @@ private:
                        rolled(alongLongest(bestFrame, first, end), first, end)};
     }
 
-    // The same axes, first the one along which most of the refs are long: it may be across the one that they came from.
+    // Returns the same axes, first the one along which most of the refs are long: it may be perpendicular to the one
+    // from which they came.
     TriangleBvh::Frame alongLongest(const TriangleBvh::Frame& frame, const Ref* first, const Ref* last) const
     {
         Asker ask(interrupter_);
@@ -738,7 +741,7 @@ private:
         return ordered;
     }
 
-    // Turned about its first axis, so that the box of the refs is small.
+    // Returns the axes turned about the first, so that the box of the refs is small.
     TriangleBvh::Frame rolled(const TriangleBvh::Frame& frame, const Ref* first, const Ref* last) const
     {
         constexpr int tries = 8;
@@ -777,8 +780,8 @@ private:
         tree_.frames_.push_back(frame);
     }
 
-    // Sorts the range of refs into two sides and returns where the second begins. Copies come together at last in a
-    // range where all have the same centre: there they are dropped, if they are to be, which makes the range shorter.
+    // Sorts the range of refs into two sides and returns the beginning of the second. Copies meet at last in a range
+    // where all have the same centre. If copies are dropped, they are dropped there, which makes the range shorter.
     std::uint32_t split(Range& range)
     {
         if (range.size() > taskSize) throwIfInterrupted(interrupter_);
@@ -815,7 +818,7 @@ private:
         return middle;
     }
 
-    // The first of refs with the same triangles stays; returns the end of what is left. O(n).
+    // Keeps the first of refs with the same triangles; returns the end of those left. O(n).
     Ref* dropCopies(Ref* first, Ref* last) const
     {
         const auto hash = [&](const Ref* ref) {
@@ -854,7 +857,7 @@ private:
         return t;
     }
 
-    // The same for any order of the corners, and for zeros of either sign.
+    // Returns the same value for any order of the corners, and for zeros of either sign.
     static std::size_t hashOf(const Corners& t)
     {
         std::size_t sum = 0;
@@ -901,8 +904,8 @@ TriangleBvh::Closest TriangleBvh::closest(const Vec3d& p, std::uint32_t seed, do
     };
     if (seed != none) tryItem(seed);
 
-    // In the tree's units, in float: what is within `maxSquaredDistance`, which is rounded up, may be nearer. Points
-    // far away are taken for nearer ones.
+    // In the tree's units, in float: nodes within `maxSquaredDistance`, which is rounded up, may be nearer. Points far
+    // away are moved nearer.
     const Vec3d place = openvdb::math::minComponent(Vec3d(1e15), openvdb::math::maxComponent(Vec3d(-1e15), inUnits(p)));
     std::array<float, 3> lo, hi;
     const auto round = [&](const Vec3d& inFrame) {
@@ -944,7 +947,7 @@ TriangleBvh::Closest TriangleBvh::closest(const Vec3d& p, std::uint32_t seed, do
             squaredDistance += away * away;
         }
         const unsigned met = bits(squaredDistance <= maxSquaredDistance);
-        // The nearest is to be popped first.
+        // The nearest must be popped first.
         std::array<Near, 4> near;
         std::size_t count = 0;
         for (std::size_t i = 0; i < 4; ++i) {

@@ -34,7 +34,7 @@ struct Box {
         return lo[0] <= other.hi[0] && other.lo[0] <= hi[0] && lo[1] <= other.hi[1] && other.lo[1] <= hi[1] &&
                lo[2] <= other.hi[2] && other.lo[2] <= hi[2];
     }
-    /// Squared distance from p, 0 inside; rounded.
+    /// Returns the squared distance from p, 0 inside; rounded.
     double squaredDistance(const Vec3d& p) const
     {
         double sum = 0;
@@ -46,20 +46,20 @@ struct Box {
     }
 };
 
-/// The point of the closed triangle nearest to `p`; rounded. The triangle may be degenerate.
+/// Returns the point of the closed triangle nearest to `p`; rounded. The triangle may be degenerate.
 Vec3d closestPointOnTriangle(const Vec3d& p, const Corners& triangle);
 
 /// A bounding volume hierarchy over triangles, which are indices into points and may be degenerate.
 ///
-/// It is immutable once built: any number of threads may ask at the same time. The tree, and so the order of its
-/// answers, is the same for any number of threads that built it.
+/// It is immutable once built, so any number of threads may query it at the same time. The tree, and with it the order
+/// of results, is the same for any number of threads that built it.
 ///
-/// Nodes have up to four children, whose boxes are compared at once, in float. They are rounded outward, so that no
-/// triangle is missed; what is left is told apart in double. Leaves hold a triangle. In large trees they hold up to
-/// four that follow each other in the list in about the same box.
+/// Nodes have up to four children, whose boxes are compared at once, in float. The boxes are rounded outward, so that
+/// no triangle is missed; the remaining candidates are tested in double. Leaves hold one triangle; in large trees, up
+/// to four that follow each other in the list and have about the same box.
 ///
-/// Boxes are along x, y and z, but where long thin triangles lie side by side at an angle to these: below such a node
-/// they are along the triangles. Else each box would hold all the others.
+/// Boxes are along x, y and z, except where long thin triangles lie side by side at an angle to these: below such a
+/// node they are along the triangles. Otherwise each box would contain all the others.
 class TriangleBvh {
 public:
     static constexpr std::uint32_t none = ~std::uint32_t(0);
@@ -68,9 +68,9 @@ public:
         Vec3I corners;          ///< indices into points()
         std::uint32_t triangle; ///< its number in the list that the tree was built from
     };
-    /// Whether triangles with the same three points in space as another, in any order, are to be items. A query that
-    /// meets one of a million copies meets all. Where copies are dropped, those that make queries slow are: some of a
-    /// few may stay.
+    /// The treatment of triangles with the same three points in space as another, in any order. A query that meets one
+    /// of a million copies meets all of them. `drop` removes the copies that make queries slow; where there are few,
+    /// some may stay.
     enum class Copies { keep, drop };
     struct Closest {
         Vec3d point;
@@ -89,13 +89,13 @@ public:
 
     bool empty() const { return items_.empty(); }
     const std::vector<Vec3d>& points() const { return points_; }
-    /// The triangles in the tree's order: neighbours in space are mostly neighbours here.
+    /// Returns the triangles in the tree's order: neighbours in space are mostly neighbours here.
     const std::vector<Item>& items() const { return items_; }
     Corners corners(const Item& item) const
     {
         return {points_[item.corners[0]], points_[item.corners[1]], points_[item.corners[2]]};
     }
-    /// The box of everything.
+    /// Returns the box of everything.
     /// \pre the tree is not empty
     const Box& box() const { return box_; }
 
@@ -106,27 +106,27 @@ public:
     /// Selects items that meet a tetrahedron, which may be flat.
     Query inTetrahedron(const std::array<Vec3d, 4>& corners) const;
 
-    /// Calls `visit(item)` for each triangle that meets `query`, and for some more beside it, always in the same order.
-    /// `visit` answers whether to go on; returns false if it stopped. `visit` may make `query` narrower: what is left
-    /// out then is not looked at any more.
+    /// Calls visit(item) for each triangle that meets `query`, and for some others near it, always in the same order,
+    /// until it returns false. Returns false if it stopped. `visit` may make `query` narrower; the traversal then skips
+    /// items outside the new query.
     template <typename Visit>
     bool traverse(const Query& query, const Visit& visit) const;
 
-    /// Calls `visit(item)` for each triangle that meets `box`, and for some more whose boxes do, until it answers
+    /// Calls visit(item) for each triangle that meets `box`, and for some others whose boxes do, until it returns
     /// false.
     template <typename Visit>
     bool forEachOverlap(const Box& box, const Visit& visit) const;
 
-    /// The closest point of the triangles to `p`. `seed` is an item number, such as that of the last answer for a point
-    /// nearby: it makes it faster, and may decide between equals. With `slack` a point up to 1 + slack times as far may
-    /// be given, which is faster too.
+    /// Returns the point of the triangles closest to `p`. `seed` is an item number, such as that of the last result for
+    /// a point nearby: it saves time, and may decide between equals. With `slack` the point may be up to 1 + slack
+    /// times as far, which saves time too.
     Closest closest(const Vec3d& p, std::uint32_t seed = none, double slack = 0) const;
 
 private:
     friend class TreeBuilder;
     struct alignas(64) Node : FourBoxes {   // two cache lines
         std::array<std::uint32_t, 4> child; // a node, or a leaf
-        std::uint32_t frame;                // what the boxes are along: of frames_
+        std::uint32_t frame;                // the axes of the boxes: of frames_
     };
     // Orthonormal axes, through the middle of the tree's units.
     struct Frame {
@@ -155,7 +155,7 @@ private:
     template <typename T>
     class Stack;
 
-    /// Prefetches a child that is looked at soon: of a large tree most are in no cache.
+    /// Prefetches a child that will be visited soon: most nodes of a large tree are in no cache.
     void prefetch(std::uint32_t child) const
     {
         if (child & isLeaf) {
@@ -167,7 +167,8 @@ private:
         }
     }
 
-    /// A point in the units of nodes, in which the box is [-1, 1] along its longest side. Monotone in every coordinate.
+    /// Returns a point in the units of nodes, in which the box is [-1, 1] along its longest side. Monotone in every
+    /// coordinate.
     Vec3d inUnits(const Vec3d& p) const { return (p - centre_) * scale_; }
 
     std::vector<Vec3d> points_;
@@ -179,12 +180,12 @@ private:
     double scale_ = 1;
 };
 
-/// Where a tree is to look: a box, cut by slabs, in the units of the tree that made it. Along other axes the box is
-/// that of up to four points with a margin, if it came from these. Other slabs are along needles and edges between
+/// The region of a query: a box, cut by slabs, in the units of the tree that made it. If it came from up to four points
+/// with a margin, its box along other axes is computed from these. Other slabs are along needles and edges between
 /// points.
 class TriangleBvh::Query {
 public:
-    /// Which of the node's children it meets, a bit each. Never wrongly denied.
+    /// Returns which of the node's children it meets, a bit each. No child that it meets is left out.
     unsigned meets(const Node& node) const
     {
         Lanes met = node.meet(lo_, hi_);
@@ -195,14 +196,14 @@ public:
             if (bits(met) == 0) return 0;
             const Floats middle = s.normal[0] * sum[0] + s.normal[1] * sum[1] + s.normal[2] * sum[2];
             const Floats radius = s.absolute[0] * size[0] + s.absolute[1] * size[1] + s.absolute[2] * size[2];
-            // What cannot be computed (NaN) counts as met.
+            // A result that cannot be computed (NaN) counts as met.
             met &= ~((middle - radius > s.twiceHigh) | (middle + radius < s.twiceLow));
         }
         return bits(met);
     }
-    /// The same query for nodes whose boxes are along other axes: perhaps a little wider.
+    /// Returns the same query for nodes whose boxes are along other axes; it may be a little wider.
     Query along(const Frame& frame) const;
-    /// Whether it is sure that both came from the same points, if perhaps along other axes.
+    /// Returns whether both certainly came from the same points, perhaps along other axes.
     bool isFromSamePoints(const Query& other) const
     {
         return count_ > 0 && count_ == other.count_ && margin_ == other.margin_ &&
@@ -249,7 +250,7 @@ template <typename Visit>
 bool TriangleBvh::traverse(const Query& query, const Visit& visit) const
 {
     if (empty()) return true;
-    Query turned; // along the axes of the last node that has some of its own
+    Query turned; // along the axes of the last node that has its own
     std::uint32_t frame = 0;
     Stack<std::uint32_t> stack;
     stack.push(0);

@@ -20,8 +20,8 @@ double volume(const Vec3d& a, const Vec3d& b, const Vec3d& c, const Vec3d& d)
     return (b - a).cross(c - a).dot(d - a);
 }
 
-/// Whether an edge of `from` crosses the inside of `t`, far enough from every border that rounding cannot matter; the
-/// rest is covered by distances between vertices, edges and faces.
+/// Returns whether an edge of `from` crosses the inside of `t`, far enough from every border that rounding cannot
+/// matter; distances between vertices, edges and faces cover the rest.
 bool pierces(const Corners& from, const Corners& t)
 {
     const Vec3d normal = (t[1] - t[0]).cross(t[2] - t[0]);
@@ -37,7 +37,7 @@ bool pierces(const Corners& from, const Corners& t)
     return false;
 }
 
-/// Whether a pair of planes along an edge of each keeps the triangles farther apart than `distance`.
+/// Returns whether a pair of planes along an edge of each keeps the triangles farther apart than `distance`.
 bool edgesSeparate(const Corners& first, const Corners& second, double distance)
 {
     for (std::size_t i = 0; i < 3; ++i) {

@@ -4,7 +4,7 @@
 
 #include <vdbcage/geometry/triangle_bvh.h>
 
-/// How near triangles come to each other, in rounded arithmetic with stated errors.
+/// Distances between triangles, in rounded arithmetic with stated errors.
 namespace vdbcage::detail {
 
 /// The nearest points of two triangles.
@@ -13,18 +13,18 @@ struct Nearness {
     double squaredDistance = 0; ///< 0 if they cross; then the points mean nothing
 };
 
-/// The nearest points of two closed triangles, either of which may be degenerate. Rounded: the error of the distance is
-/// a few units of 2^-52 of their sizes, far below any clearance.
+/// Returns the nearest points of two closed triangles, either of which may be degenerate. Rounded: the error of the
+/// distance is a few units of 2^-52 of their sizes, far below any clearance.
 Nearness nearness(const Corners& first, const Corners& second);
 
-/// Whether two triangles come nearer than `distance`. As nearness(), but faster where a pair of planes along edges
-/// tells. Planes of the triangles are for the caller to try, who may have them.
+/// Returns whether two triangles come nearer than `distance`. It is as exact as nearness(), but faster where a pair of
+/// planes along edges decides. It does not try the planes of the triangles; the caller, who may have them, should.
 bool comeWithin(const Corners& first, const Corners& second, double distance);
 
-/// The nearest points of two segments.
+/// Returns the nearest points of two segments.
 Nearness segmentNearness(const Vec3d& p1, const Vec3d& q1, const Vec3d& p2, const Vec3d& q2);
 
-/// Distances between two sets of points along the cross product of u and v. Never wrongly yes.
+/// The cross product of u and v, to measure distances between two sets of points along it.
 class Axis {
 public:
     Axis(const Vec3d& u, const Vec3d& v)
@@ -32,8 +32,8 @@ public:
     {
     }
     double along(const Vec3d& p) const { return direction_.dot(p); }
-    /// Whether a gap is wider than `distance` for sure. The gap is computed of vectors no longer than the root of
-    /// `size2`.
+    /// Returns whether a gap is certainly wider than `distance`. The gap is computed from vectors no longer than the
+    /// root of `size2`.
     bool isWider(double gap, double distance, double size2) const
     {
         // The error is below 1e-14 |u| |v| size; (r + e)^2 < 1.001 r^2 + 1001 e^2.
@@ -45,7 +45,7 @@ private:
     double length2_, product2_;
 };
 
-/// The plane of a triangle, to tell quickly that another triangle is far on one side of it.
+/// The plane of a triangle, for a quick test that another triangle is far on one side of it.
 class Separator {
 public:
     explicit Separator(const Corners& t)
@@ -53,7 +53,7 @@ public:
           size2_(std::max((t[1] - t[0]).lengthSqr(), (t[2] - t[0]).lengthSqr()))
     {
     }
-    /// Whether all corners of `other` lie on one side, farther than `distance`.
+    /// Returns whether all corners of `other` certainly lie on one side, farther than `distance`.
     bool separates(const Corners& other, double distance) const
     {
         const Vec3d u = other[0] - corner_, v = other[1] - corner_, w = other[2] - corner_;

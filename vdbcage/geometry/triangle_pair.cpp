@@ -24,8 +24,8 @@ Kernel::Triangle_3 exact(const Corners& t)
     return {exact(t[0]), exact(t[1]), exact(t[2])};
 }
 
-/// The sine of the angle between a direction and the nearest one between two others, all from one point; 1 if that is
-/// not less than 90 degrees.
+/// Returns the sine of the angle between a direction and the nearest one between two others, all from one point; 1 if
+/// that is not less than 90 degrees.
 double sineBetween(const Vec3d& p, const Vec3d& from, const Vec3d& to, const Vec3d& normal)
 {
     const double length2 = p.lengthSqr();
@@ -39,8 +39,8 @@ double sineBetween(const Vec3d& p, const Vec3d& from, const Vec3d& to, const Vec
     return least;
 }
 
-/// Whether a plane lies between two pairs of directions from one point, and so between all directions between those of
-/// a pair, that leaves the angle between them. Most pairs of triangles that are nearly in one plane are told apart so.
+/// Returns whether a plane that leaves the angle lies between two pairs of directions from one point, and so between
+/// all directions between those of each pair. This decides most pairs of triangles that are nearly in one plane.
 bool lieApart(const std::array<Vec3d, 2>& first, const std::array<Vec3d, 2>& second, double sine)
 {
     const Vec3d u = first[0] + first[1], v = second[0] + second[1];
@@ -53,7 +53,7 @@ bool lieApart(const std::array<Vec3d, 2>& first, const std::array<Vec3d, 2>& sec
            isBeyond(-across.dot(second[0]), second[0]) && isBeyond(-across.dot(second[1]), second[1]);
 }
 
-/// tooNear() for two triangles with one common corner.
+/// Does the same as tooNear() for two triangles with one common corner.
 bool tooNearAt(const SurfaceTriangle& a, int tipOfA, const SurfaceTriangle& b, int tipOfB, double sine)
 {
     const Vec3d& tip = a.corner(tipOfA);

@@ -7,21 +7,21 @@
 #include <boost/container/small_vector.hpp>
 #include <vdbcage/geometry/triangle_bvh.h>
 
-/// How the triangles of one surface touch each other, decided exactly.
+/// Tests of how the triangles of one surface touch each other, decided exactly.
 namespace vdbcage::detail {
 
-/// How near two triangles of a surface may come to each other. Tools that take surfaces for cages, mesh generators most
-/// of all, fail at large triangles that nearly touch. Small ones are always near some others.
+/// The spacing that two triangles of a surface must keep. Tools that take cages, above all mesh generators, fail at
+/// large triangles that nearly touch. Small ones are always near some others.
 struct Spacing {
     double distance = 0; ///< between any two without a common corner, or `share` of the longest edge, if that is less
     double share = 0;    ///< of the smaller triangle's longest edge
     double sine = 0;     ///< of the angle between two with a common corner, less than 30 degrees
 
-    /// The distance that a triangle keeps from larger ones.
+    /// Returns the distance that a triangle keeps from larger ones.
     double around(double longestEdge) const { return std::min(distance, share * longestEdge); }
 };
 
-/// The plane of a triangle, to tell sides without exact arithmetic where that is safe.
+/// The plane of a triangle, for tests of sides without exact arithmetic where that is safe.
 class Plane {
 public:
     explicit Plane(const Corners& t) : corner_(t[0])
@@ -31,20 +31,22 @@ public:
         length2_ = normal_.lengthSqr();
         error2_ = 1e-28 * u.lengthSqr() * v.lengthSqr();
     }
-    /// On which side p lies: -1, 0 or 1. It is 0 where rounding could decide, or the distance is less.
+    /// Returns the side on which p lies: -1, 0 or 1. It is 0 where rounding could decide, or where p is nearer to the
+    /// plane than `distance`.
     int side(const Vec3d& p, double distance) const
     {
         const Vec3d w = p - corner_;
         return side(w, normal_.dot(w), length2_ * distance * distance);
     }
-    /// The same as seen from a corner of the triangle at `from`. It is 0 where the angle with the plane is less.
+    /// Returns the same, seen from a corner of the triangle at `from`: 0 where the sine of the angle with the plane is
+    /// less than `sine`.
     int sideSeenFrom(const Vec3d& from, const Vec3d& p, double sine) const
     {
         const Vec3d w = p - from;
         return side(w, normal_.dot(w), length2_ * sine * sine * w.lengthSqr());
     }
 
-    /// Its length is twice the area.
+    /// Returns the normal; its length is twice the area.
     const Vec3d& normal() const { return normal_; }
 
 private:
@@ -75,27 +77,27 @@ struct SurfaceTriangle {
 
 using SurfaceTriangles = boost::container::small_vector<SurfaceTriangle, 16>;
 
-/// Whether a triangle has no area, exactly.
+/// Returns whether a triangle has no area, exactly.
 bool hasNoArea(const Corners& t);
 
-/// The sine of the smallest angle of a triangle; rounded. It is 0 for one without an area.
+/// Returns the sine of the smallest angle of a triangle; rounded. It is 0 for one without an area.
 double minSine(const Corners& t);
 
-/// The distance that two triangles without a common corner have to keep.
+/// Returns the distance that two triangles without a common corner must keep.
 inline double distanceBetween(const SurfaceTriangle& a, const SurfaceTriangle& b, const Spacing& spacing)
 {
     return spacing.around(std::min(a.longestEdge(), b.longestEdge()));
 }
 
-/// Whether two triangles of a surface come nearer than they may, or meet in more than the corners that they share.
-/// Rounded, but it never misses that they meet.
+/// Returns whether two triangles of a surface come nearer than they may, or meet in more than the corners that they
+/// share. Rounded, but it never misses that they meet.
 bool tooNear(const SurfaceTriangle& a, const SurfaceTriangle& b, const Spacing& spacing);
 
-/// Whether, seen along some direction, a star lies spread out around its centre, without overlap and with no triangle
-/// steep. The centre is corner 0 of all triangles.
+/// Returns whether, seen along some direction, a star is spread out around its centre, without overlap and without
+/// steep triangles. The centre is corner 0 of all triangles.
 ///
-/// Then no two triangles are too near, if no angle of one has a sine less than `leastSine`. The answer is false where
-/// rounding could matter.
+/// If so, no two triangles are too near, provided that no angle has a sine less than `leastSine`. The result is false
+/// where rounding could matter.
 bool spreadOut(const SurfaceTriangles& star, const Spacing& spacing, double leastSine);
 
 } // namespace vdbcage::detail

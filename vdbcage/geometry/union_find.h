@@ -9,7 +9,7 @@
 namespace vdbcage::detail {
 
 /// Disjoint sets of the numbers 0 ... n - 1 that several threads may unite at once. The root of a set is its smallest
-/// member. So the sets and their roots do not depend on the order of the calls.
+/// member, so the sets and their roots do not depend on the order of the calls.
 class UnionFind {
 public:
     explicit UnionFind(std::size_t n) : parents_(n)
@@ -36,7 +36,7 @@ public:
             b = find(b);
             if (a == b) return;
             if (a < b) std::swap(a, b);
-            std::uint32_t expected = a; // hang the larger root below the smaller one, if it still is a root
+            std::uint32_t expected = a; // put the larger root below the smaller one, if it still is a root
             if (parents_[a].compare_exchange_strong(expected, b)) return;
         }
     }

@@ -44,7 +44,7 @@ Api::Api(GetProc getProc)
     VDBCAGE_GL_ENTRY_POINTS(VDBCAGE_GL_LOAD)
 #undef VDBCAGE_GL_LOAD
 
-    // Drivers hand out entry points of versions that they do not have.
+    // Drivers return entry points of versions that they do not have.
     GLint major = 0;
     GLint minor = 0;
     GetIntegerv(GL_MAJOR_VERSION, &major);
@@ -73,7 +73,7 @@ void enableDebugMessages(const Api& api)
 {
     api.Enable(GL_DEBUG_OUTPUT);
     api.Enable(GL_DEBUG_OUTPUT_SYNCHRONOUS);
-    // The log is short (ten entries in Mesa): keep advice about speed out of it.
+    // The log is short (ten entries in Mesa), so advice about speed must not fill it.
     api.DebugMessageControl(GL_DONT_CARE, GL_DONT_CARE, GL_DONT_CARE, 0, nullptr, GL_FALSE);
     for (const GLenum type : std::array<GLenum, 2>{GL_DEBUG_TYPE_ERROR, GL_DEBUG_TYPE_UNDEFINED_BEHAVIOR}) {
         api.DebugMessageControl(GL_DONT_CARE, type, GL_DONT_CARE, 0, nullptr, GL_TRUE);

@@ -88,15 +88,15 @@
 
 namespace vdbcage::gl {
 
-/// Looks an entry point up by its full name, such as "glClear". Null if there is none.
+/// A function that returns the entry point of a full name, such as "glClear", or null.
 using AnyFunction = void (*)();
 using GetProc = AnyFunction (*)(const char* name);
 
-/// The entry points of ONE context: two contexts may come from two drivers, so nothing here is global. Functions that
-/// take an `Api` need its context to be current on the calling thread.
+/// The entry points of ONE context: two contexts may come from two drivers, so nothing here is global. The context of
+/// an `Api` must be current on a thread that calls a function with it.
 struct Api {
     /// Fills the table through the context's own `getProc`.
-    /// \pre that context is current
+    /// \pre the context is current
     /// \throw DeviceError an entry point is missing, or the context is older than OpenGL 4.5
     explicit Api(GetProc getProc);
 
@@ -105,21 +105,22 @@ struct Api {
 #undef VDBCAGE_GL_DECLARE
 };
 
-/// The drawing program of a context.
+/// The driver of a context.
 struct Driver {
     std::string description; ///< its name and version
     bool isSoftware = false; ///< a program on the CPU, rather than a device
 };
 Driver driverOf(const Api& api);
 
-/// Makes the context record in full what it calls an error or undefined, for `throwIfFailed` to report.
+/// Makes the context record errors and undefined behaviour in full, for throwIfFailed() to report.
 void enableDebugMessages(const Api& api);
 
 /// Returns the errors since the last call, in words; empty if there was none.
 std::string takeFailures(const Api& api);
 
-/// Asks the context whether anything failed since the last call. `what` says what was being done, such as "rendering".
-/// \throw DeviceError with the error codes and, after `enableDebugMessages`, the driver's own words
+/// Throws if anything in the context failed since the last call. `what` names the work for the message, such as
+/// "rendering".
+/// \throw DeviceError with the error codes and, after enableDebugMessages(), the driver's messages
 void throwIfFailed(const Api& api, const char* what);
 
 } // namespace vdbcage::gl

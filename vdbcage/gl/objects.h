@@ -8,7 +8,7 @@
 
 namespace vdbcage::gl {
 
-/// Owns one OpenGL object; movable. It must be destroyed before its context, and while that is current.
+/// The owner of one OpenGL object; movable. It must be destroyed before its context, and while that is current.
 template <void (*destroy)(const Api&, GLuint)>
 class Object {
 public:
@@ -28,7 +28,7 @@ public:
     Object(const Object&) = delete;
     Object& operator=(const Object&) = delete;
 
-    /// OpenGL's name for it, 0 for none.
+    /// Returns the object's name in OpenGL, 0 for none.
     GLuint name() const { return name_; }
 
 private:
@@ -54,8 +54,8 @@ using Framebuffer = Object<detail::deleteFramebuffer>;
 using ShaderObject = Object<detail::deleteShader>;
 using ProgramObject = Object<detail::deleteProgram>;
 
-/// Memory of the device that holds `size` bytes of `data`; null leaves the contents undefined. Shaders may write to it.
-/// `flags` of GL_DYNAMIC_STORAGE_BIT lets the program do so too.
+/// Makes a buffer on the device with `size` bytes of `data`; null leaves the contents undefined. Shaders may write to
+/// it. With GL_DYNAMIC_STORAGE_BIT in `flags` the program may, too.
 /// \throw DeviceError out of memory
 [[nodiscard]] Buffer makeBuffer(const Api& api, std::size_t size, const void* data, GLbitfield flags = 0);
 
@@ -67,19 +67,19 @@ template <typename Value>
 
 [[nodiscard]] VertexArray makeVertexArray(const Api& api);
 
-/// A picture of `width` x `height` pixels with `samples` samples a pixel; 1 is an ordinary texture.
+/// Makes a texture of `width` x `height` pixels with `samples` samples a pixel; 1 makes an ordinary texture.
 /// \throw DeviceError too large, or out of memory
 [[nodiscard]] Texture makeTexture2D(const Api& api, GLenum format, int width, int height, int samples = 1);
 
-/// The values of `format` in `buffer` as an image of one row. `buffer` must outlive it.
+/// Makes a texture of one row from the values of `format` in `buffer`, which must outlive it.
 /// \throw DeviceError
 [[nodiscard]] Texture makeBufferTexture(const Api& api, GLenum format, const Buffer& buffer);
 
-/// Draws into `colour` and `depthStencil`, of which one may be empty. Both must outlive it.
+/// Makes a framebuffer that draws into `colour` and `depthStencil`, one of which may be empty. Both must outlive it.
 /// \throw DeviceError
 [[nodiscard]] Framebuffer makeFramebuffer(const Api& api, const Texture& colour, const Texture& depthStencil);
 
-/// A framebuffer of `width` x `height` pixels with nothing to draw into, for fragment shaders that write elsewhere.
+/// Makes a framebuffer of `width` x `height` pixels without attachments, for fragment shaders that write elsewhere.
 /// \throw DeviceError
 [[nodiscard]] Framebuffer makeEmptyFramebuffer(const Api& api, int width, int height);
 

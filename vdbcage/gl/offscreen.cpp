@@ -15,10 +15,11 @@ namespace vdbcage::gl {
 
 namespace {
 
-/// OpenGL itself keeps this for each thread, but drivers do not see contexts of each other.
+/// The flag of a thread that has a context. OpenGL itself knows this for each thread, but drivers do not see contexts
+/// of each other.
 thread_local bool threadHasContext = false;
 
-/// Threads that do nothing until all of them are there.
+/// Threads that do nothing until all of them exist.
 class IdleThreads {
 public:
     ~IdleThreads()
@@ -42,11 +43,11 @@ private:
     std::vector<std::thread> threads_;
 };
 
-/// Mesa in software does not look whether its threads could be started, and then waits for them without end: as many
-/// are started here before, for a moment. Some 0.1 ms for two cores.
+/// Throws unless Mesa's software can start its threads: it does not check whether they could be started, and then waits
+/// for them without end. As many are started here first, for a moment. About 0.1 ms for two cores.
 void requireThreads()
 {
-    constexpr unsigned mostForDrawing = 32, others = 8; // one a core; those for shaders and caches
+    constexpr unsigned mostForDrawing = 32, others = 8; // one for each core; those for shaders and caches
     try {
         IdleThreads().start(std::min(std::thread::hardware_concurrency(), mostForDrawing) + others);
     } catch (const std::system_error& error) {

@@ -7,8 +7,8 @@
 
 namespace vdbcage::gl {
 
-/// An OpenGL 4.5 core context that needs no display. It has no usable default framebuffer: draw into framebuffers of
-/// your own. Any number may exist. One may be used from any thread, by one thread at a time.
+/// An OpenGL 4.5 core context that needs no display. It has no usable default framebuffer: the caller draws into its
+/// own. Any number may exist. Any thread may use one, but only one thread at a time.
 class OffscreenContext {
     struct State;
 
@@ -16,20 +16,20 @@ public:
     enum class Debug { off, on };
     enum class Source {
         any,      ///< hardware by EGL if there is any, else software by EGL, else OSMesa
-        hardware, ///< hardware by EGL only; where there is none, that takes a few ms
+        hardware, ///< hardware by EGL only; if there is none, it takes a few ms to find out
         egl,      ///< EGL only: hardware if there is any, else software
-        osmesa    ///< OSMesa only: Mesa's rasterizer in software, which needs nothing but its library
+        osmesa    ///< OSMesa only: Mesa's software rasterizer, which needs only its library
     };
 
-    /// With `Debug::on` errors carry the driver's own words (see `throwIfFailed`).
-    /// \throw DeviceError no such context can be had here, and why not, for each way that was tried
-    /// Cost: some 10 ms; the first of a process loads the driver too.
+    /// With `Debug::on` errors have the driver's messages (see throwIfFailed()).
+    /// \throw DeviceError there is no such context here, with the reason for each way that was tried
+    /// Cost: about 10 ms; the first of a process loads the driver too.
     explicit OffscreenContext(Debug debug = Debug::off, Source source = Source::any);
     ~OffscreenContext();
     OffscreenContext(const OffscreenContext&) = delete;
     OffscreenContext& operator=(const OffscreenContext&) = delete;
 
-    /// Keeps the context current on the calling thread until it is destroyed by that same thread.
+    /// A scope in which the context is current on a thread; that thread must destroy it.
     class Current {
     public:
         ~Current();
@@ -42,18 +42,18 @@ public:
         State& state_;
     };
 
-    /// Makes the context current: `const auto current = context.makeCurrent();`. Needed before any call through
-    /// `api()`, and before GL objects of this context are destroyed.
+    /// Makes the context current: `const auto current = context.makeCurrent();`. This is needed before any call through
+    /// api(), and before GL objects of this context are destroyed.
     /// \throw DeviceError a context is current on this thread already, or this one elsewhere
     [[nodiscard]] Current makeCurrent() const;
 
-    /// The entry points. Valid as long as this object is.
+    /// Returns the entry points, valid as long as this object.
     const Api& api() const;
 
-    /// Where it comes from and the driver's name and version, for reports.
+    /// Returns the context's source and the driver's name and version, for reports.
     const std::string& description() const;
 
-    /// Whether a program on the CPU draws, rather than a device.
+    /// Returns whether a program on the CPU draws, rather than a device.
     bool isSoftware() const;
 
 private:

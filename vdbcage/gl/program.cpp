@@ -9,7 +9,7 @@ namespace vdbcage::gl {
 
 namespace {
 
-/// The driver's log of what failed, on one line; debug messages say it again and are dropped.
+/// Returns the driver's log of a failure, on one line. Debug messages repeat it and are dropped.
 template <typename GetValue, typename GetLog>
 std::string readLog(const Api& api, GLuint name, GetValue getValue, GetLog getLog)
 {

@@ -7,7 +7,7 @@
 
 namespace vdbcage::gl {
 
-/// One stage of a program. cmake/EmbedShaders.cmake makes them from the files in shaders/.
+/// One stage of a program. cmake/EmbedShaders.cmake generates these from the files in shaders/.
 struct ShaderSource {
     GLenum stage;     ///< GL_VERTEX_SHADER, ...
     const char* name; ///< for messages: the file's name
@@ -15,10 +15,10 @@ struct ShaderSource {
 };
 
 /// Compiles and links the stages.
-/// \throw DeviceError naming the stage and carrying the driver's log
+/// \throw DeviceError with the name of the stage and the driver's log
 [[nodiscard]] ProgramObject makeProgram(const Api& api, std::initializer_list<ShaderSource> stages);
 
-/// The place of a uniform that the program uses.
+/// Returns the location of a uniform that the program uses.
 /// \throw DeviceError there is none of this name
 GLint uniformLocation(const Api& api, const ProgramObject& program, const char* name);
 

@@ -25,9 +25,9 @@ namespace {
 
 struct Format {
     const char* extension;
-    Precision precision; ///< of what is written
+    Precision precision; ///< of the written numbers
     MeshFile (*parse)(std::string_view, const std::string&);
-    void (*write)(const Mesh&, const std::string&, std::ostream&); ///< of points that have this precision
+    void (*write)(const Mesh&, const std::string&, std::ostream&); ///< writes points that have this precision
 };
 
 constexpr std::array<Format, 4> formats{{{".obj", Precision::float64, detail::parseObj, detail::writeObj},
@@ -59,7 +59,7 @@ void requireFinitePoints(const std::vector<openvdb::Vec3d>& points, const std::s
     }
 }
 
-/// As asWritten().
+/// Does the same as asWritten().
 Mesh rounded(Mesh mesh, const Format& format, const std::string& name)
 {
     if (format.precision == Precision::float64) return mesh;

@@ -41,7 +41,7 @@ public:
     }
 
     std::uint32_t of(Index32 point) { return sets_.find(point); }
-    /// The longest side of a part that has faces.
+    /// Returns the longest side of a part that has faces.
     double side(std::uint32_t part) const { return sideOf(boxes_.at(part)); }
     double largest() const
     {
@@ -74,7 +74,7 @@ private:
     }
 
     detail::UnionFind sets_;
-    std::unordered_map<std::uint32_t, openvdb::BBoxd> boxes_; // by their roots; only asked, not walked through in order
+    std::unordered_map<std::uint32_t, openvdb::BBoxd> boxes_; // by their roots; only looked up, never iterated
 };
 
 LargeParts withoutSmall(const Mesh& mesh, Parts& parts, double side)

@@ -1,8 +1,8 @@
 // Based on: Besl and McKay, "A Method for Registration of 3-D Shapes", 1992 (nearest points as counterparts).
-// Differs: the motion is a mirror image, in a plane across a given axis, of which the offset alone is looked for, or in
-// any plane; and the sum of distances is made small, not of their squares, so that parts without a counterpart do not
-// disturb. Where any plane may be it, all directions are looked at first, after Podolak, Shilane, Golovinskiy,
-// Rusinkiewicz and Funkhouser, "A Planar-Reflective Symmetry Transform for 3D Shapes", 2006.
+// Differs: the motion is a mirror image, in a plane across a given axis, with only its offset unknown, or in any plane;
+// and the sum of distances is made small, not of their squares, so that parts without a counterpart do not disturb.
+// Where any plane is allowed, all directions are tried first, after Podolak, Shilane, Golovinskiy, Rusinkiewicz and
+// Funkhouser, "A Planar-Reflective Symmetry Transform for 3D Shapes", 2006.
 
 #include <vdbcage/mesh/symmetry.h>
 
@@ -28,11 +28,11 @@ using detail::Corners;
 using detail::TriangleBvh;
 using openvdb::Vec3d;
 
-/// By how much coordinates of six digits are rounded at most, and those of floats less: of the longest side of a model
-/// that lies on both sides of a plane through the origin.
+/// The largest rounding of coordinates of six digits, over the longest side of a model that lies on both sides of a
+/// plane through the origin. That of floats is less.
 constexpr double rounding = 2.5e-6;
 
-/// A model as a tree, in units of its longest side from the middle of its box.
+/// A model as a tree, in units of its longest side, relative to the middle of its box.
 class MirroredModel {
 public:
     MirroredModel(const Mesh& model, Interrupter* interrupter) : interrupter_(interrupter)
@@ -54,7 +54,7 @@ public:
         const AcrossAxis found = improved(AcrossAxis{axis, 0});
         const double offset = centre_[axis] + found.offset * side_;
         if (std::abs(offset) > rounding * side_) return {{axis, offset}, fit(found).deviation};
-        // The model is not exact enough to tell the plane from that through the origin: it is meant to be that.
+        // The model is too inexact to distinguish the plane from that through the origin, so the latter is meant.
         return {{axis, 0}, fit(AcrossAxis{axis, -centre_[axis] / side_}).deviation};
     }
 
@@ -88,7 +88,7 @@ public:
 private:
     using Vec3I = openvdb::Vec3I;
 
-    /// A plane, with the mirror image of a point, and how fast that moves along `normal` with each parameter.
+    /// A plane, with the mirror image of a point, and the speed of that image along `normal` for each parameter.
     struct AcrossAxis {
         static constexpr int parameters = 1;
         int axis;
@@ -137,8 +137,8 @@ private:
         return unit;
     }
 
-    /// How far the mirrored samples are from the model, on average and almost all of them, and by how much the plane
-    /// should move.
+    /// Returns the distance of the mirrored samples from the model, the mean and that of almost all of them, and the
+    /// move that the plane should make.
     template <int parameters>
     struct Fit {
         double distance, deviation;
@@ -163,7 +163,8 @@ private:
         return plane;
     }
 
-    /// Across the principal axes of the samples, and across 500 directions spread evenly over half the sphere.
+    /// Returns planes across the principal axes of the samples, and across 500 directions spread evenly over half the
+    /// sphere.
     std::vector<Tilted> planesThroughCentroid() const
     {
         constexpr int directions = 500;
@@ -182,7 +183,7 @@ private:
         if (openvdb::math::diagonalizeSymmetricMatrix(spread, axes, sizes)) {
             for (int i = 0; i < 3; ++i) add(axes.col(i));
         }
-        constexpr double golden = 2.399963229728653; // angle from one to the next, which never comes round again
+        constexpr double golden = 2.399963229728653; // angle from one to the next, which never repeats
         for (int i = 0; i < directions; ++i) {
             const double z = (i + 0.5) / directions, radius = std::sqrt(1 - z * z);
             add({radius * std::cos(golden * i), radius * std::sin(golden * i), z});
@@ -190,7 +191,7 @@ private:
         return planes;
     }
 
-    /// The mean distance of some mirrored samples.
+    /// Returns the mean distance of some mirrored samples.
     double roughDistance(const Tilted& plane) const
     {
         constexpr std::size_t every = 8;
@@ -201,7 +202,7 @@ private:
         return total;
     }
 
-    /// Points spread evenly over the area.
+    /// Takes points spread evenly over the area.
     void takeSamples(const std::vector<Vec3d>& points, const std::vector<Vec3I>& triangles)
     {
         constexpr std::size_t wanted = 2000;
@@ -214,8 +215,8 @@ private:
         for (const Vec3I& t : triangles) {
             const Corners c = corners(t);
             const double size = area(c);
-            // The k-th sample stands for the area from k to k + 1 steps; where it lies in its triangle follows from
-            // two sequences that fill the unit interval evenly.
+            // The k-th sample stands for the area from k to k + 1 steps. Two sequences that fill the unit interval
+            // evenly determine its place in its triangle.
             while ((static_cast<double>(samples_.size()) + 0.5) * step < done + size) {
                 const auto k = static_cast<double>(samples_.size());
                 double u = std::fmod(k * 0.7548776662466927, 1.0), v = std::fmod(k * 0.5698402909980532, 1.0);
@@ -230,13 +231,13 @@ private:
         if (samples_.empty()) samples_.push_back(points[triangles.front()[0]]); // an area too small for double
     }
 
-    /// One step of reweighted least squares, towards the planes of the nearest faces.
+    /// Makes one step of reweighted least squares, towards the planes of the nearest faces.
     template <typename Plane>
     Fit<Plane::parameters> fit(const Plane& plane) const
     {
         throwIfInterrupted(interrupter_);
         constexpr double most = 0.99;  // of the samples
-        constexpr double least = 1e-6; // distances below weigh no more
+        constexpr double least = 1e-6; // smaller distances do not weigh more
         struct Share {
             std::array<double, Plane::parameters> speeds{};
             double weight = 0, toPlane = 0;
@@ -274,7 +275,7 @@ private:
     {
         return {stiffness[0][0] > 0 ? pull[0] / stiffness[0][0] : 0};
     }
-    /// Directions that change nothing, as turning a ball's plane, are left alone.
+    /// Leaves directions alone that change nothing, such as turning a ball's plane.
     static std::array<double, 3> solved(const std::array<std::array<double, 3>, 3>& stiffness,
                                         const std::array<double, 3>& pull)
     {
@@ -317,7 +318,7 @@ TiltedSymmetry bestTiltedSymmetry(const Mesh& model, Interrupter* interrupter)
 
 std::optional<Symmetry> findSymmetry(const Mesh& model, double tolerance, Interrupter* interrupter)
 {
-    constexpr double equallyGood = 1e-6; // the rounding of models in floats: of such planes the first
+    constexpr double equallyGood = 1e-6; // the rounding of models in floats: the first of such planes is taken
     const MirroredModel mirrored(model, interrupter);
     Symmetry best = mirrored.best(0);
     for (const int axis : {1, 2}) {

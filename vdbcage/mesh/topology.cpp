@@ -17,8 +17,8 @@ namespace {
 using detail::HalfEdges;
 using Index = HalfEdges::Index;
 
-// For each point the half-edges that leave it, one a corner: those of point p are corners[first[p]] ...
-// corners[first[p + 1] - 1], ascending.
+// The half-edges that leave each point, one for each corner: those of point p are corners[first[p]] ... corners[first[p
+// + 1] - 1], ascending.
 struct CornersOfPoints {
     CornersOfPoints(const HalfEdges& all, std::size_t points, Interrupter* interrupter)
         : first(points + 1, 0), corners(all.size())
@@ -58,7 +58,7 @@ struct Counts {
     }
 };
 
-// What the threads find out about faces together.
+// The facts about faces that the threads find together.
 struct FaceFacts {
     explicit FaceFacts(std::size_t faces) : sets(faces), unbalanced(faces) {}
 

@@ -10,7 +10,7 @@ namespace vdbcage {
 
 namespace {
 
-/// Passes questions on, but no stages: to count is none of a run's.
+/// An interrupter that passes questions on, but no stages: the count belongs to no stage of a run.
 class QuestionsOnly : public Interrupter {
 public:
     explicit QuestionsOnly(Interrupter* next) : next_(next) {}

@@ -87,7 +87,7 @@ std::string nameList()
     return detail::joined(names(Value{}), "|", [](const auto& entry) { return entry.first; });
 }
 
-/// One overload set a concern: the text of a value, setting it from text, its range, its placeholder in the help.
+/// One overload set for each task: the text of a value, setting it from text, its range, its placeholder in the help.
 struct ToText {
     std::string operator()(int value) const { return std::to_string(value); }
     std::string operator()(double value) const { return detail::numberText(value); }

@@ -24,7 +24,7 @@ using detail::FieldVersion;
 
 namespace {
 
-/// Whether two sets of options are equal, but for fields, which count by their versions.
+/// Returns whether two sets of options are equal, except for fields, which count by their versions.
 bool areEqual(const CageOptions& a, const CageOptions& b)
 {
     bool equal = true;
@@ -113,7 +113,7 @@ public:
     const CageReport& report() const { return report_; }
 
 private:
-    /// What is made of the model, or of its large parts.
+    /// The data made of the model, or of its large parts.
     struct Work {
         Work(const Mesh& whole, double least)
             : leastPart(least), parts(least > 0 ? std::optional(largeParts(whole, least)) : std::nullopt),
@@ -121,7 +121,7 @@ private:
         {
         }
 
-        /// The same for every copy of the model that voxels are made of, also for those that are turned.
+        /// Returns the same interior for every copy of the model, turned ones included, of which voxels are made.
         Interior interior(Interrupter* interrupter)
         {
             if (!agreement) {
@@ -132,12 +132,12 @@ private:
         }
 
         double leastPart;
-        std::optional<LargeParts> parts; // none are left out without it
+        std::optional<LargeParts> parts; // without it none are left out
         const Mesh& model;
         detail::Volumes volumes{model};
         detail::Certifier certifier{model};
         detail::BoundingSearch search{model, volumes, certifier};
-        std::optional<double> agreement; // of rays about the model's inside, once it was asked for
+        std::optional<double> agreement; // of rays about the model's inside, once it is needed
     };
 
     Work& workFor(double leastPart)
@@ -146,7 +146,7 @@ private:
         return *work_;
     }
 
-    /// What the cage was made with.
+    /// The options with which the cage was made.
     struct Last {
         CageOptions options;
         FieldVersion scale, density;

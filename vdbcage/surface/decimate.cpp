@@ -1,6 +1,7 @@
 // Based on: Garland, Heckbert, Surface Simplification Using Quadric Error Metrics, SIGGRAPH 1997.
-// Differs: area-weighted; a small spread term evens out flat ground (see detail/quadric.h); the shape of the triangles
-// enters the cost; the heap is lazy: costs in it are lower bounds, the true one is worked out when its turn comes.
+// Differs: area-weighted; a small spread term evens out flat ground (see geometry/quadric.h); the shape of the
+// triangles enters the cost; the heap is lazy: its costs are lower bounds, and the true cost is computed when its turn
+// comes.
 #include <vdbcage/surface/decimate.h>
 
 #include <algorithm>
@@ -31,7 +32,7 @@ constexpr double boundaryWeight = 10; // of the planes that keep a boundary in p
 constexpr double goodQuality = 0.5;   // triangles at least this good cost nothing extra
 constexpr unsigned goodValence = 8;   // so do vertices of at most this valence
 
-/// What a collapse may do to the triangles around it. Each level is tried until nothing moves any more.
+/// The limits of a collapse for the triangles around it. Each level is tried until no collapse is allowed.
 struct Limits {
     double quality; ///< a triangle may not become worse than this, unless it was worse before
     double turn;    ///< least cosine between a triangle's normal before and after
@@ -40,7 +41,7 @@ struct Limits {
 constexpr std::array<Limits, 4> levels = {
     {{0.1, 0.2, -0.8}, {0.02, 0.1, -0.9}, {1e-3, 0.0, -0.95}, {1e-9, -1.0, -1.0}}};
 
-/// 1 for an equilateral triangle, 0 for one without area; `doubledArea` is the length of the cross product.
+/// Returns 1 for an equilateral triangle, 0 for one without area; `doubledArea` is the length of the cross product.
 double quality(const Vec3d& a, const Vec3d& b, const Vec3d& c, double doubledArea)
 {
     const double edges = (b - a).lengthSqr() + (c - b).lengthSqr() + (a - c).lengthSqr();
@@ -70,9 +71,9 @@ private:
     double firstLength_ = 0, lastLength_ = 0;
 };
 
-/// A way to collapse an edge: its two ends become one vertex at `place`.
+/// A collapse of an edge: its two ends become one vertex at `place`.
 struct Collapse {
-    HalfEdge halfEdge; // its origin goes, its target stays
+    HalfEdge halfEdge; // its origin is removed, its target stays
     Vec3d place{0.0};
     double cost = 0;
 };
@@ -147,7 +148,7 @@ private:
     std::vector<unsigned> valences_;
     std::vector<std::size_t> marks_; // of vertices, by the last of `mark_`
     std::size_t mark_ = 0;
-    std::vector<double> bounds_;          // of edges: what they cost at least
+    std::vector<double> bounds_;          // of edges: lower bounds of their cost
     std::vector<State> states_;           // of edges
     std::vector<std::uint32_t> versions_; // of edges: an entry of another version is void
     std::priority_queue<Entry> queue_;
@@ -171,7 +172,7 @@ Decimation::Decimation(const Mesh& surface, Interrupter* interrupter)
     initQueue(interrupter);
 }
 
-/// Adds what the face on the left of the half-edge means to its origin; at a boundary, what the boundary does.
+/// Adds the quadrics of the face on the left of the half-edge to its origin; at a boundary, those of the boundary.
 void Decimation::addQuadrics(Quadric& sum, HalfEdge outgoing) const
 {
     const Vec3d& p = at(mesh_.from_vertex_handle(outgoing));
@@ -186,7 +187,7 @@ void Decimation::addQuadrics(Quadric& sum, HalfEdge outgoing) const
         }
         return;
     }
-    // Both boundary edges at the vertex hold it by the plane through them, upright on their face.
+    // Both boundary edges at the vertex hold it by the plane through them, perpendicular to their face.
     for (const HalfEdge side : {outgoing, mesh_.prev_halfedge_handle(outgoing)}) {
         const HalfEdge inner = mesh_.opposite_halfedge_handle(side);
         const Vec3d& start = at(mesh_.from_vertex_handle(inner));
@@ -200,7 +201,7 @@ void Decimation::addQuadrics(Quadric& sum, HalfEdge outgoing) const
 void Decimation::initQuadrics(Interrupter* interrupter)
 {
     quadrics_.resize(places_.size());
-    // Each vertex gathers for itself, in the order of its star: the same sums for any number of threads.
+    // Each vertex sums up alone, in the order of its star: the same sums for any number of threads.
     detail::parallelFor(tbb::blocked_range<std::size_t>(0, places_.size(), 1024), [&](const auto& range) {
         throwIfInterrupted(interrupter, 0);
         for (std::size_t i = range.begin(); i != range.end(); ++i) {
@@ -209,7 +210,7 @@ void Decimation::initQuadrics(Interrupter* interrupter)
     });
 }
 
-/// The least cost that the edge can have, and the place for it; false if there is no such place.
+/// Finds the least cost that the edge can have, and its place; returns false if there is no such place.
 bool Decimation::lowerBound(Edge edge, Collapse& optimum) const
 {
     optimum.halfEdge = mesh_.halfedge_handle(edge, 0);
@@ -248,7 +249,7 @@ void Decimation::enqueue(Edge edge, double cost, State state)
     queue_.push({cost, std::uint32_t(edge.idx()), ++versions_[index(edge)]});
 }
 
-/// The link condition: the collapse leaves a 2-manifold of the same topology.
+/// Tests the link condition: the collapse leaves a 2-manifold of the same topology.
 bool Decimation::keepsTopology(HalfEdge halfEdge)
 {
     const Vertex origin = mesh_.from_vertex_handle(halfEdge), target = mesh_.to_vertex_handle(halfEdge);
@@ -267,15 +268,15 @@ bool Decimation::keepsTopology(HalfEdge halfEdge)
     return common == sides && (sides == 1 || !mesh_.is_boundary(origin) || !mesh_.is_boundary(target));
 }
 
-/// The worst quality of the triangles that a collapse changes, before and after it. False if one turns, folds or
-/// degenerates more than the level permits.
+/// Finds the worst quality of the triangles that a collapse changes, before and after it. Returns false if one turns,
+/// folds or degenerates more than the level permits.
 bool Decimation::shapeAround(HalfEdge halfEdge, const Vec3d& place, double& worstBefore, double& worstAfter) const
 {
     const Limits& limits = levels[level_];
     worstBefore = worstAfter = 1;
     bool good = true;
-    // Around the origin from one apex of the edge to the other, and back around the target: this is the order of the
-    // triangles in the star that the collapse makes, so each shares an edge with the one before.
+    // Goes around the origin from one apex of the edge to the other, and back around the target. This is the order of
+    // the triangles in the star that the collapse makes, so each shares an edge with the one before.
     Fold incidentEdgesBefore, incidentEdgesAfter;
     for (const HalfEdge first : {halfEdge, mesh_.opposite_halfedge_handle(halfEdge)}) {
         const Vertex other = mesh_.to_vertex_handle(first);
@@ -316,7 +317,8 @@ bool Decimation::shapeAround(HalfEdge halfEdge, const Vec3d& place, double& wors
     return incidentEdgesAfter.sharpest >= std::min(limits.fold, incidentEdgesBefore.sharpest);
 }
 
-/// Whether the collapse to collapse.place is permitted at this level; works out its cost. Every veto belongs here.
+/// Returns whether the collapse to collapse.place is permitted at this level; computes its cost. Every veto belongs
+/// here.
 bool Decimation::allowed(Collapse& collapse, const Quadric& sum) const
 {
     double worstBefore, worstAfter;
@@ -332,7 +334,7 @@ bool Decimation::allowed(Collapse& collapse, const Quadric& sum) const
     return true;
 }
 
-/// Makes of an edge's optimum the cheapest permitted collapse of the edge: there, else in the middle or at an end.
+/// Changes an edge's optimum to the cheapest permitted collapse of the edge: there, else in the middle or at an end.
 bool Decimation::price(Collapse& collapse, bool hasOptimum)
 {
     if (!keepsTopology(collapse.halfEdge)) return false;
@@ -364,7 +366,7 @@ void Decimation::apply(const Collapse& collapse)
     places_[index(kept)] = collapse.place;
     mesh_.set_point(kept, detail::fromVec3d(collapse.place * scale_ + centre_));
     mesh_.collapse(collapse.halfEdge);
-    // Bounds of edges near by still hold: quadrics only grow. What was priced or blocked gets another chance.
+    // Bounds of edges near by still hold: quadrics only grow. Priced or blocked ones are tried again.
     forEachOutgoing(kept, [&](HalfEdge edge) {
         forEachOutgoing(mesh_.to_vertex_handle(edge),
                         [&](HalfEdge outgoing) { reconsider(mesh_.edge_handle(outgoing)); });
@@ -387,7 +389,7 @@ void Decimation::reduceTo(std::size_t faces)
         queue_.pop();
         const Edge edge{int(entry.edge)};
         if (versions_[entry.edge] != entry.version || mesh_.status(edge).deleted()) continue;
-        // First the bound, cheap to bring up to date, then the true cost: is it still this edge's turn?
+        // First the bound, which is cheap to update, then the true cost: is it still this edge's turn?
         const auto mustWait = [&](double cost) {
             return cost > entry.cost && !queue_.empty() && cost > queue_.top().cost;
         };

@@ -52,7 +52,7 @@ using Index = std::uint32_t;
 using detail::Meetings;
 using detail::UnionFind;
 
-/// As CGAL's functions for polygon soups take it. Faces have three or four corners.
+/// The soup in CGAL's form for polygon soups. Faces have three or four corners.
 struct Soup {
     std::vector<Point> points;
     std::vector<Polygon> faces;
@@ -60,7 +60,7 @@ struct Soup {
     const Point& corner(const Polygon& face, std::size_t i) const { return points[face[i % face.size()]]; }
 };
 
-/// Faces in the order of the mesh: triangles first, then quads.
+/// Converts to faces in the order of the mesh: triangles first, then quads.
 Soup toSoup(const Mesh& mesh)
 {
     Soup soup;
@@ -70,7 +70,7 @@ Soup toSoup(const Mesh& mesh)
     return soup;
 }
 
-/// Faces keep their order, but for quads, which come last.
+/// Converts to a mesh. Faces keep their order, except for quads, which come last.
 Mesh toMesh(const Soup& soup)
 {
     Mesh mesh;
@@ -86,7 +86,7 @@ Mesh toMesh(const Soup& soup)
     return mesh;
 }
 
-/// For each edge the faces around it.
+/// Returns for each edge the faces around it.
 std::map<Edge, std::vector<Index>> facesAroundEdges(const std::vector<Polygon>& faces)
 {
     std::map<Edge, std::vector<Index>> edges;
@@ -99,7 +99,7 @@ std::map<Edge, std::vector<Index>> facesAroundEdges(const std::vector<Polygon>& 
     return edges;
 }
 
-/// Sets of faces that are connected over edges.
+/// Returns the sets of faces that are connected over edges.
 UnionFind partsOf(const std::vector<Polygon>& faces)
 {
     UnionFind parts(faces.size());
@@ -118,7 +118,7 @@ double areaOf(const Soup& soup, const Polygon& face)
     return sum;
 }
 
-/// Of the cone from `tip`.
+/// Returns the volume of the cone from `tip` over a face.
 double volumeOf(const Soup& soup, const Polygon& face, const Point& tip)
 {
     double sum = 0;
@@ -148,7 +148,7 @@ bool isDegenerate(const Soup& soup, const Polygon& face, const std::array<std::s
     return CGAL::collinear(soup.corner(face, corners[0]), soup.corner(face, corners[1]), soup.corner(face, corners[2]));
 }
 
-/// The two triangles of a quad that has the diagonal of corner `first` and the one across.
+/// Returns the two triangles of a quad with the diagonal of corner `first` and the one opposite.
 std::array<Polygon, 2> halves(const Polygon& quad, std::size_t first)
 {
     const auto corner = [&](std::size_t i) { return quad[(first + i) % 4]; };
@@ -164,8 +164,8 @@ void removeFaces(Soup& soup, const std::vector<bool>& gone)
     soup.faces = std::move(kept);
 }
 
-/// Drops corners that follow themselves, and faces that are left with none to speak of. Quads with a degenerate half
-/// become the triangles of their other diagonal.
+/// Drops corners that follow themselves, faces with fewer than three corners left, and quads with equal opposite
+/// corners. Quads with a degenerate half become the triangles of their other diagonal.
 void simplifyFaces(Soup& soup)
 {
     std::vector<Polygon> faces;
@@ -189,8 +189,8 @@ void simplifyFaces(Soup& soup)
     soup.faces = std::move(faces);
 }
 
-/// Takes a degenerate triangle out. The face beyond its longest side is split at the corner on that side, so that no
-/// gap is left.
+/// Removes a degenerate triangle. The face beyond its longest side is split at the corner on that side, so that no gap
+/// is left.
 void removeDegenerate(Soup& soup, std::size_t index)
 {
     const Polygon t = soup.faces[index];
@@ -216,14 +216,14 @@ void removeDegenerate(Soup& soup, std::size_t index)
     soup.faces.insert(soup.faces.end(), more.begin(), more.end());
 }
 
-/// Leaves one point a place, no degenerate face and no face twice.
+/// Merges points at one place, and removes degenerate faces and copies of faces.
 void clean(Soup& soup, RepairReport& report, Interrupter* interrupter)
 {
     report.mergedPoints += pmp::merge_duplicate_points_in_polygon_soup(soup.points, soup.faces);
     std::size_t before = soup.faces.size();
     simplifyFaces(soup);
     report.removedFaces += before - std::min(before, soup.faces.size());
-    for (bool found = true; found;) { // a face that was split may be degenerate then
+    for (bool found = true; found;) { // a face that was split may then be degenerate
         found = false;
         for (std::size_t f = 0; f < soup.faces.size();) {
             if (soup.faces[f].size() != 3 || !isDegenerate(soup, soup.faces[f], {0, 1, 2})) {
@@ -242,9 +242,9 @@ void clean(Soup& soup, RepairReport& report, Interrupter* interrupter)
     report.removedFaces += before - soup.faces.size();
 }
 
-/// Takes out pieces of surface that hang in edges with more than two faces: first those with a boundary, then the
+/// Removes pieces of surface that hang in edges with more than two faces: first those with a boundary, then the
 /// smallest, which of three that share their edges is the wall between the other two. Where an even number of faces
-/// shares an edge, parts touch, and none is taken out.
+/// shares an edge, parts touch, and no piece without a boundary is removed.
 void removeHanging(Soup& soup, RepairReport& report, Interrupter* interrupter)
 {
     struct Piece {
@@ -253,7 +253,7 @@ void removeHanging(Soup& soup, RepairReport& report, Interrupter* interrupter)
         std::vector<Index> faces;
         std::vector<std::size_t*> counts; // of the faces at each edge where it hangs, once a face
     };
-    for (bool found = true; found;) { // what is left may be connected otherwise
+    for (bool found = true; found;) { // the rest may be connected in other ways
         throwIfInterrupted(interrupter);
         found = false;
         const auto edges = facesAroundEdges(soup.faces);
@@ -301,14 +301,14 @@ void removeHanging(Soup& soup, RepairReport& report, Interrupter* interrupter)
     }
 }
 
-/// Turns parts that enclose a negative volume.
+/// Reverses parts that enclose a negative volume.
 void turnOutward(Soup& soup)
 {
     UnionFind parts = partsOf(soup.faces);
     std::map<Index, double> volumes;
     const auto partOf = [&](std::size_t f) { return parts.find(static_cast<Index>(f)); };
     for (std::size_t f = 0; f < soup.faces.size(); ++f) {
-        // From a point of the part, so that parts far away have exact enough a volume.
+        // Relative to a point of the part, so that the volume of parts far away is exact enough.
         volumes[partOf(f)] += volumeOf(soup, soup.faces[f], soup.corner(soup.faces[partOf(f)], 0));
     }
     for (std::size_t f = 0; f < soup.faces.size(); ++f) {
@@ -316,7 +316,7 @@ void turnOutward(Soup& soup)
     }
 }
 
-/// Whether a face runs through the same places as another, the other way round.
+/// Returns whether a face runs through the same places as another, the other way round.
 bool isReversed(const Soup& soup, const Polygon& face, const std::array<Point, 2>& firstEdge)
 {
     for (std::size_t i = 0; i < face.size(); ++i) {
@@ -325,8 +325,8 @@ bool isReversed(const Soup& soup, const Polygon& face, const std::array<Point, 2
     return false;
 }
 
-/// Makes the soup an oriented 2-manifold: vertices and edges of several sheets are cut, boundaries at one place
-/// stitched, holes filled, and parts turned outward.
+/// Makes the soup an oriented 2-manifold: cuts vertices and edges of several sheets, stitches boundaries at one place,
+/// fills holes, and turns parts outward.
 void sew(Soup& soup, RepairReport& report)
 {
     std::vector<std::array<Point, 2>> firstEdges;
@@ -368,7 +368,7 @@ void sew(Soup& soup, RepairReport& report)
     }
 }
 
-/// Pairs of faces that meet. A quad folded over a diagonal is one with itself.
+/// Returns the pairs of faces that meet. A quad folded over a diagonal makes a pair with itself.
 std::set<std::array<Index, 2>> facesThatMeet(const Meetings& meetings, Interrupter* interrupter)
 {
     std::set<std::array<Index, 2>> result;
@@ -378,7 +378,7 @@ std::set<std::array<Index, 2>> facesThatMeet(const Meetings& meetings, Interrupt
     return result;
 }
 
-/// Whether CageCheck::valid would say so, but that volumes are rounded.
+/// Returns whether a mesh is valid as CageCheck::valid says, except that volumes are rounded.
 bool isValid(Mesh mesh, Interrupter* interrupter)
 {
     const MeshTopology topology = analyzeTopology(mesh, interrupter);
@@ -402,8 +402,8 @@ bool isValid(Mesh mesh, Interrupter* interrupter)
     return meetings.pairs(interrupter).empty();
 }
 
-/// Splits quads that meet others under one diagonal alone by the other one; with `all` those, too, that meet others
-/// under both.
+/// Splits quads that meet others under only one diagonal by the other one; with `all` also those that meet others under
+/// both.
 Mesh withQuadsSplit(Mesh mesh, bool all, Interrupter* interrupter)
 {
     std::vector<std::array<bool, 2>> meets(faceCount(mesh));
@@ -456,14 +456,15 @@ public:
         }
     }
 
-    /// The surface of what has a winding number of 1 or more, rounded to double.
+    /// Returns the surface of the space with a winding number of 1 or more, rounded to double.
     Soup outside()
     {
         Soup result;
         for (const Exact::Point_3& p : points_) {
             result.points.emplace_back(CGAL::to_double(p.x()), CGAL::to_double(p.y()), CGAL::to_double(p.z()));
         }
-        // Winding numbers are the same all over a piece of surface between cuts: one ray does, from its largest face.
+        // Winding numbers are the same all over a piece of surface between cuts: one ray is enough, from its largest
+        // face.
         UnionFind pieces = connected();
         std::map<Index, std::pair<double, Index>> largest;
         for (Index f = 0; f < pieces_.size(); ++f) {
@@ -484,10 +485,10 @@ public:
     }
 
 private:
-    /// A part of a face, or several on each other.
+    /// A part of a face, or several parts on each other.
     struct Piece {
         Polygon corners;
-        int layers; ///< by how much the winding number is greater behind it
+        int layers; ///< the increase of the winding number behind it
     };
     using Triangulation =
         CGAL::Constrained_Delaunay_triangulation_2<Exact, CGAL::Default, CGAL::Exact_intersections_tag>;
@@ -506,15 +507,15 @@ private:
         return place.first->second;
     }
 
-    /// Cuts triangles of one plane by each other and by what they meet.
+    /// Cuts triangles of one plane by each other and by the faces that they meet.
     void cut(const std::vector<Polygon>& faces, const std::vector<Index>& inPlane,
              const std::vector<std::set<Index>>& others)
     {
         const auto triangle = [&](Index f) {
             return Exact::Triangle_3(points_[faces[f][0]], points_[faces[f][1]], points_[faces[f][2]]);
         };
-        // In two dimensions, along the axis that the plane is steepest to. Exact, so any axis does that it is not
-        // parallel to; x, y and that axis are right-handed.
+        // In two dimensions, along the axis to which the plane is steepest. The arithmetic is exact, so any axis not
+        // parallel to the plane is right; x, y and that axis are right-handed.
         const Exact::Point_3 origin = triangle(inPlane[0])[0];
         const Exact::Vector_3 normal =
             CGAL::cross_product(triangle(inPlane[0])[1] - origin, triangle(inPlane[0])[2] - origin);
@@ -573,7 +574,7 @@ private:
         }
     }
 
-    /// Pieces connected over edges at which the surface goes on without a cut.
+    /// Returns the sets of pieces connected over edges at which the surface continues without a cut.
     UnionFind connected() const
     {
         std::vector<Polygon> faces;
@@ -595,7 +596,7 @@ private:
         return result;
     }
 
-    /// The winding number in front of a piece, by a ray from its middle that hits no edge.
+    /// Returns the winding number in front of a piece, by a ray from its middle that hits no edge.
     int windingBefore(const Piece& piece) const
     {
         const Exact::Point_3 &a = points_[piece.corners[0]], &b = points_[piece.corners[1]],
@@ -617,7 +618,8 @@ private:
         }
     }
 
-    /// None if the ray meets an edge. Triangles that it starts on do not count.
+    /// Returns the winding number along a ray; nothing if the ray meets an edge. Triangles on which it starts do not
+    /// count.
     std::optional<int> windingAlong(const Exact::Point_3& from, const Exact::Vector_3& along) const
     {
         const Exact::Point_3 to = from + along;
@@ -633,7 +635,7 @@ private:
             if (low == CGAL::NEGATIVE && high == CGAL::POSITIVE) continue;
             const CGAL::Orientation side = CGAL::orientation(p, q, r, from);
             const CGAL::Sign slope = CGAL::sign(along * CGAL::normal(p, q, r));
-            // It starts on it, or goes away from it.
+            // The ray starts on the triangle, or goes away from it.
             if (slope != CGAL::ZERO && (side == CGAL::COPLANAR || side == slope)) continue;
             if (slope == CGAL::ZERO && side != CGAL::COPLANAR) continue;
             if (low == CGAL::COPLANAR || high == CGAL::COPLANAR) return std::nullopt;
@@ -661,7 +663,7 @@ std::size_t countMeetings(Mesh mesh, Interrupter* interrupter)
     return facesThatMeet(Meetings(mesh), interrupter).size();
 }
 
-/// How many faces of one soup the other has not, wherever their points are in the lists.
+/// Returns the number of faces of one soup that the other lacks, wherever their points are in the lists.
 std::size_t countMissing(const Soup& from, const Soup& in)
 {
     const auto places = [](const Soup& soup, const Polygon& face) {
@@ -677,7 +679,7 @@ std::size_t countMissing(const Soup& from, const Soup& in)
     }));
 }
 
-/// Parts that meet each other or themselves become the surface of what they enclose, if fewer faces meet then.
+/// Makes of parts that meet each other or themselves the surface of the enclosed space, if fewer faces meet then.
 Soup resolved(const Soup& group, RepairReport& report, Interrupter* interrupter)
 {
     constexpr int rounds = 3; // rounding to double may let some faces meet again
@@ -688,7 +690,7 @@ Soup resolved(const Soup& group, RepairReport& report, Interrupter* interrupter)
     for (int round = 0; round < rounds && least > 0 && analyzeTopology(best, interrupter).isCycle(); ++round) {
         Soup outside = Arrangement(toSoup(best), interrupter).outside();
         if (outside.faces.empty()) break;
-        RepairReport ofPieces; // tells nothing of the cage that was given
+        RepairReport ofPieces; // does not concern the given cage
         clean(outside, ofPieces, interrupter);
         removeHanging(outside, ofPieces, interrupter);
         sew(outside, ofPieces);
@@ -711,7 +713,7 @@ Soup resolved(const Soup& group, RepairReport& report, Interrupter* interrupter)
     return result;
 }
 
-/// Resolves each group of parts that meet. Other parts stay as they are.
+/// Resolves each group of parts that meet. Other parts stay unchanged.
 Mesh withGroupsResolved(Mesh mesh, RepairReport& report, Interrupter* interrupter)
 {
     const auto meeting = facesThatMeet(Meetings(mesh), interrupter);
@@ -772,7 +774,7 @@ RepairedCage repair(const Mesh& cage, Interrupter* interrupter)
         mesh = withQuadsSplit(std::move(mesh), false, interrupter);
         throwIfInterrupted(interrupter, 40);
         report.movedPoints = detail::pullApart(mesh, true, interrupter);
-        mesh = turnedOutward(mesh); // what was pulled through decided before
+        mesh = turnedOutward(mesh); // before, parts pulled through decided
         throwIfInterrupted(interrupter, 60);
         mesh = withGroupsResolved(std::move(mesh), report, interrupter);
     }

@@ -1,4 +1,4 @@
-// What stands in for repair.cpp in builds without CGAL's GPL packages.
+// Replaces repair.cpp in builds without CGAL's GPL packages.
 
 #include <vdbcage/core/error.h>
 #include <vdbcage/surface/repair.h>

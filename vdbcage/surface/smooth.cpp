@@ -24,7 +24,7 @@ void forEachPoint(std::size_t count, Interrupter* interrupter, int percent, cons
     });
 }
 
-/// For each point the points it shares an edge with, ascending: those of point i are [first[i], last[i]) in `points`.
+/// The points that share an edge with each point, ascending: those of point i are [first[i], last[i]) in `points`.
 struct Neighbours {
     std::vector<std::size_t> first, last;
     std::vector<Index32> points;
@@ -93,13 +93,13 @@ Mesh smooth(const Mesh& surface, const SmoothOptions& options, Interrupter* inte
     std::vector<Vec3d> moved(count), corrections(count, Vec3d(0.0));
     for (int iteration = 0; iteration < options.iterations; ++iteration) {
         const int percent = 100 * iteration / options.iterations;
-        // The Laplacian step, and how far it took each vertex from where it was and where it started.
+        // The Laplacian step, and its distance for each vertex from its place before and from its start.
         forEachPoint(count, interrupter, percent, [&](std::size_t i) {
             if (neighbours.count(i) == 0) return;
             moved[i] = neighbours.mean(i, points);
             corrections[i] = moved[i] - (options.alpha * original[i] + (1 - options.alpha) * points[i]);
         });
-        // Taken back, evened out over the neighbours.
+        // The step back, evened out over the neighbours.
         forEachPoint(count, interrupter, percent, [&](std::size_t i) {
             if (neighbours.count(i) == 0) return;
             points[i] =

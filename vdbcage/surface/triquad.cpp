@@ -1,4 +1,4 @@
-// Greedy pairing, best pairs first; what makes a pair good or impossible is stated in the functions below.
+// Greedy pairing, best pairs first; the functions below define good and impossible pairs.
 #include <vdbcage/surface/triquad.h>
 
 #include <algorithm>
@@ -21,7 +21,7 @@ using openvdb::Vec4I;
 constexpr double angleRoundingDegrees = 1e-6;
 constexpr std::size_t none = detail::EdgeTable::none;
 
-/// Who meets whom across which edge, and how many edges a point may yet lose.
+/// The faces across each edge, and the number of edges that a point may still lose.
 class Adjacency {
 public:
     explicit Adjacency(const Mesh& mesh)
@@ -38,7 +38,7 @@ public:
     }
 
     const detail::HalfEdges& halfEdges() const { return halfEdges_; }
-    /// `none` at a boundary or where the mesh is not an oriented 2-manifold.
+    /// Returns the opposite half-edge; `none` at a boundary or where the mesh is not an oriented 2-manifold.
     std::size_t opposite(std::size_t h) const { return edges_.opposite(h); }
     bool canLoseEdge(Index32 point) const { return valence_[point] > least_[point]; }
     void loseEdge(Index32 point) { --valence_[point]; }
@@ -47,7 +47,7 @@ private:
     detail::HalfEdges halfEdges_;
     detail::EdgeTable edges_;
     std::vector<unsigned> valence_; // edges of each point
-    std::vector<unsigned> least_;   // the fewest that it may be left with
+    std::vector<unsigned> least_;   // the fewest that it may keep
 };
 
 /// The two triangles on the half-edges s and t of an edge as one quad.
@@ -93,7 +93,7 @@ Mesh triquad(const Mesh& triangles, const TriquadOptions& options)
     Adjacency adjacency(triangles);
     Mesh result = triangles;
     std::vector<std::size_t> partner(triangles.triangles.size(), none);
-    // A face is known by its first triangle; quads of the input follow the triangles.
+    // A face's number is that of its first triangle; quads of the input follow the triangles.
     const auto faceOf = [&](std::size_t side) {
         const std::size_t face = adjacency.halfEdges().face(side);
         return face < partner.size() && partner[face] != none ? std::min(face, partner[face]) : face;

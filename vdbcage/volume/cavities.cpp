@@ -1,5 +1,5 @@
 // Connected components of the inactive voxels by union-find, on the tree's own nodes: a voxel component of a leaf, an
-// empty entry, a run of empty blocks along x. Lines of blocks without any node belong to the outside as wholes.
+// empty entry, a run of empty blocks along x. Lines of blocks without any node belong to the outside completely.
 #include <vdbcage/volume/cavities.h>
 
 #include <algorithm>
@@ -22,7 +22,7 @@ namespace {
 using namespace detail;
 using openvdb::MaskGrid;
 
-// The bits of `space` that are face-connected, within the entry, to those of `seed`.
+// Returns the bits of `space` that are face-connected, within the entry, to those of `seed`.
 Words flood(Words seed, const Words& space)
 {
     constexpr std::uint64_t firstZ = 0x0101010101010101ULL, lastZ = firstZ << 7;
@@ -46,8 +46,8 @@ Words flood(Words seed, const Words& space)
     }
 }
 
-// The bits on one face of an entry, where the two faces that meet have the same places: a byte a row, so that they are
-// compared with one `and`.
+// Returns the bits on one face of an entry, such that two faces that meet have the same places: a byte for each row, to
+// be compared with one `and`.
 std::uint64_t faceBits(const std::uint64_t* words, int axis, bool upper)
 {
     if (axis == 0) return words[upper ? 7 : 0];
@@ -116,7 +116,7 @@ public:
     }
     std::uint32_t component(std::uint32_t piece) const { return component_[piece]; }
 
-    /// The block with the components that isFilled(component) names filled.
+    /// Returns the block with the components filled for which isFilled(component) is true.
     template <class IsFilled>
     BuiltBlock fill(const IsFilled& isFilled) const
     {
@@ -196,7 +196,7 @@ public:
         }
     }
 
-    /// Each bounded run is an element; element 0 is the outside.
+    /// Returns the number of elements: each bounded run is one; element 0 is the outside.
     std::uint32_t elementCount() const { return elementCount_; }
     void uniteNeighbours(UnionFind& elements) const
     {
@@ -213,7 +213,7 @@ public:
             }
         }
     }
-    /// The element of an empty block; `origin` in voxels.
+    /// Returns the element of an empty block; `origin` in voxels.
     std::uint32_t elementAt(const Coord& origin) const
     {
         const auto line = lines_.find({origin.y() / blockSize, origin.z() / blockSize});
@@ -328,7 +328,7 @@ FilledMask fillCavities(const MaskGrid& mask, Interrupter* interrupter)
         }
     }
 
-    // Read only from here on, by several threads: the roots are looked up once.
+    // From here on the data are only read, by several threads: the roots are looked up once.
     std::vector<char> isCavity(elementCount);
     std::size_t count = 0;
     for (std::uint32_t i = 0; i < elementCount; ++i) {

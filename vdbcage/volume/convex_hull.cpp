@@ -1,4 +1,4 @@
-// Based on: Barber, Dobkin, Huhdanpaa, The Quickhull Algorithm for Convex Hulls, 1996, as libqhull has it.
+// Based on: Barber, Dobkin, Huhdanpaa, The Quickhull Algorithm for Convex Hulls, 1996, as in libqhull.
 
 #include <vdbcage/volume/convex_hull.h>
 
@@ -27,13 +27,13 @@ namespace {
 using openvdb::Coord;
 using openvdb::CoordBBox;
 
-/// Points p with normal . p + offset <= 0 are inside.
+/// A facet. Points p with normal . p + offset <= 0 are inside.
 struct Facet {
     double normal[3];
     double offset;
 };
 
-/// One run of Qhull, which keeps what it would print.
+/// One run of Qhull, which keeps its messages.
 class Qhull {
 public:
     explicit Qhull(std::vector<double>& points) : messages_(::open_memstream(&text_, &size_))
@@ -74,7 +74,7 @@ private:
     std::size_t size_ = 0;
     std::FILE* messages_;
     qhT qh_;
-    int status_ = 0; ///< as qh_new_qhull returns it
+    int status_ = 0; ///< as returned by qh_new_qhull
 };
 
 /// The lowest and the highest corner of each column of corners between columns of voxels.
@@ -97,7 +97,7 @@ public:
         }
     }
 
-    /// x, y, z of each, where voxels have their centres at integers from the origin of the box.
+    /// Returns x, y, z of each, where voxels have their centres at integers from the origin of the box.
     std::vector<double> points() const
     {
         std::vector<double> list;
@@ -134,7 +134,7 @@ openvdb::MaskGrid::Ptr convexHull(const openvdb::MaskGrid& mask, Interrupter* in
 {
     constexpr int mostExtent = 1 << 20;
     constexpr std::int64_t mostColumns = 1 << 28;
-    // Centres on a facet are inside. Qhull's facets are off by rounding, some 1e-14 of the extent.
+    // Centres on a facet are inside. Qhull's facets are off by rounding, about 1e-14 of the extent.
     constexpr double onFacet = 1e-7;
     const openvdb::MaskGrid::Ptr result = detail::maskGridLike(mask, detail::emptyTree<openvdb::MaskTree>(false));
     const CoordBBox box = detail::isolated([&] { return mask.evalActiveVoxelBoundingBox(); });

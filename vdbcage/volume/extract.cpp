@@ -21,8 +21,8 @@ using detail::MaskAccessor;
 using detail::Window;
 using openvdb::Coord;
 
-/// Of the box of voxels at `low` with the given sides, the inactive one with most active face neighbours (adding it
-/// makes the least new surface); the first of them in order x, y, z.
+/// Returns the voxel to add in the box of voxels at `low` with the given sides: the inactive one with most active face
+/// neighbours (adding it makes the least new surface), the first in order x, y, z.
 Coord voxelToAdd(const MaskAccessor& tree, const Coord& low, const Coord& sides)
 {
     Coord best = low;
@@ -90,13 +90,13 @@ openvdb::MaskGrid::Ptr makeWellComposed(const openvdb::MaskGrid& solid, Interrup
 {
     const openvdb::MaskGrid::Ptr result = detail::maskGridLike(solid, detail::maskTreeLike(solid.tree()));
     openvdb::MaskTree& tree = result->tree();
-    // Voxels are added inside the box of those that are there, so this ends.
+    // Voxels are added only inside the box of those that exist, so this ends.
     for (std::vector<Coord> blocks = detail::surfaceBlocks(tree, interrupter); !blocks.empty();) {
         std::vector<std::vector<Coord>> found(blocks.size());
         detail::forEachBlock(blocks.size(), tree, interrupter, [&](std::size_t i, const MaskAccessor& accessor) {
             findCritical(accessor, blocks[i], found[i]);
         });
-        // What is found depends on the state before the round alone: the order does not matter.
+        // The voxels found depend only on the state before the round: the order does not matter.
         blocks.clear();
         openvdb::tree::ValueAccessor<openvdb::MaskTree> accessor(tree);
         for (const std::vector<Coord>& voxels : found) {

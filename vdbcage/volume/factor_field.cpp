@@ -39,7 +39,7 @@ void require(bool isRight, const char* name, double value, const char* allowed)
                      " field; it must be a .vdb file, sphere:X,Y,Z,RADIUS,SCALE or box:X,Y,Z,X,Y,Z,SCALE");
 }
 
-// The numbers after the colon, separated by commas.
+// Returns the numbers after the colon, separated by commas.
 std::vector<double> numbers(const std::string& part, const std::string& name, std::size_t count)
 {
     std::vector<double> list;
@@ -57,7 +57,7 @@ std::vector<double> numbers(const std::string& part, const std::string& name, st
     return list;
 }
 
-/// The box of the active voxels.
+/// Returns the box of the active voxels.
 openvdb::CoordBBox boxOf(const MaskGrid& mask)
 {
     return detail::isolated([&] { return mask.evalActiveVoxelBoundingBox(); });

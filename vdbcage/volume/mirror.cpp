@@ -18,7 +18,7 @@ openvdb::MaskGrid::Ptr withMirrorImage(const openvdb::MaskGrid& mask, int axis, 
     if (axis < 0 || axis > 2) {
         throw InputError("axis", std::to_string(axis) + " is not allowed; it must be 0, 1 or 2");
     }
-    const auto a = static_cast<std::size_t>(axis); // as OpenVDB's Coord has it
+    const auto a = static_cast<std::size_t>(axis); // the index in OpenVDB's Coord
     const auto image = [&](Coord voxel) {
         voxel[a] = sum - voxel[a];
         return voxel;

@@ -30,7 +30,7 @@ void requireRadius(double radius, const char* name, double maximum)
     throw InputError(text.str());
 }
 
-// The largest integer that is not above radius^2; the product may have been rounded up to one.
+// Returns the largest integer that is not above radius^2; the product may have been rounded up to one.
 std::int64_t squared(double radius)
 {
     const double square = std::floor(radius * radius);

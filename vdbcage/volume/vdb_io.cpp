@@ -24,7 +24,7 @@ using openvdb::MaskTree;
 
 constexpr const char* gridName = "density";
 
-// openvdb::io::File does not notice a full disk. This writes the same bytes to a stream, whose state can be asked.
+// Writes the same bytes as openvdb::io::File, which does not notice a full disk, to a stream with a state to check.
 class SeekableArchive : public openvdb::io::Archive {
 public:
     Ptr copy() const override { return std::make_shared<SeekableArchive>(*this); }
@@ -86,7 +86,7 @@ MaskGrid::Ptr toMask(const openvdb::GridBase& grid, const std::string& path)
     return maskOfBits(dynamic_cast<const MaskGrid&>(grid), path);
 }
 
-/// The file is read once: what was checked is what is used.
+/// Reads a grid. The file is read once: the checked bytes are the ones that are used.
 openvdb::GridBase::Ptr readGrid(const std::filesystem::path& path, const std::string& wanted, detail::VdbValues values)
 {
     openvdb::initialize();
@@ -117,7 +117,7 @@ void writeVdb(const MaskGrid& mask, std::ostream& out, const std::filesystem::pa
         SeekableArchive().writeTo(out, {grid});
     } catch (const openvdb::Exception& error) {
         if (out) throw IoError(path.string() + ": cannot be written: " + error.what());
-    } // a failed stream is the caller's to report, with the system's reason
+    } // the caller reports a failed stream, with the system's reason
 }
 
 MaskGrid::Ptr readVdb(const std::filesystem::path& path)

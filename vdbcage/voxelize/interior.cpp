@@ -27,7 +27,8 @@ struct Rays {
     using Plane = std::array<Word, std::size_t(rows* wordsPerRow)>;
     Plane crossed{}, odd{};
 
-    /// `triangle` has the axis of the rays first. `scratch` is all zero, before and after.
+    /// Sets the rays that cross `triangle` in `crossed`, and flips them in `odd`. The axis of the rays is the first of
+    /// `triangle`. `scratch` is all zero, before and after.
     void cross(const detail::LatticeTriangle& triangle, Plane& scratch)
     {
         const auto [low, high] =

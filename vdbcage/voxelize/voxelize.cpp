@@ -27,7 +27,7 @@ std::pair<BitGrid, VoxelizeReport> voxelizeAutomatically(const Mesh& model, cons
 
 namespace {
 
-/// Rays cross every face twice, so that none holds anything to be inside.
+/// Returns the model with every face twice: rays cross both, so that none counts anything as inside.
 Mesh withEveryFaceTwice(const Mesh& model)
 {
     Mesh doubled = model;

@@ -14,7 +14,7 @@ namespace {
 
 using Range = tbb::blocked_range<std::size_t>;
 
-/// Bits 0 to 20 of n, with two zeros between each.
+/// Returns bits 0 to 20 of n, with two zeros between each.
 std::uint64_t spread(std::uint64_t n)
 {
     n = (n | n << 32U) & 0x001f00000000ffffU;
@@ -24,7 +24,7 @@ std::uint64_t spread(std::uint64_t n)
     return (n | n << 2U) & 0x1249249249249249U;
 }
 
-/// Where a point is on the curve through `all`, 63 bits.
+/// Returns the position of a point on the curve through `all`, in 63 bits.
 std::uint64_t mortonCode(const Vec3d& p, const Box& all)
 {
     std::uint64_t code = 0;
@@ -44,7 +44,7 @@ Corners cornersOf(const std::vector<Vec3d>& points, const Vec3I& triangle)
     return {points[triangle[0]], points[triangle[1]], points[triangle[2]]};
 }
 
-/// Its corners in the order of their coordinates: the same for every copy.
+/// Returns the corners in the order of their coordinates: the same for every copy.
 Corners sorted(Corners corners)
 {
     std::sort(corners.begin(), corners.end());
@@ -57,7 +57,7 @@ Box joined(Box a, const Box& b)
     return a;
 }
 
-/// Half the area of its sides.
+/// Returns half the area of a box's sides.
 double areaOf(const Box& box)
 {
     const Vec3d size = box.hi - box.lo;
@@ -74,14 +74,14 @@ struct Coded {
     }
 };
 
-/// Where runs of equal codes end that begin at `run`.
+/// Returns the end of the run of equal codes that begins at `run`.
 std::vector<Coded>::iterator endOfRun(std::vector<Coded>::iterator run, std::vector<Coded>::iterator end)
 {
     return std::find_if(run, end, [code = run->code](const Coded& coded) { return coded.code != code; });
 }
 
-/// Puts those from `begin` to `end` in the order of the curve through the box of their centres. Those of one cell
-/// follow a curve through that cell. What has one centre is in a run of one code.
+/// Sorts triangles from `begin` to `end` along the curve through the box of their centres. Those of one cell follow a
+/// curve through that cell. Triangles with one centre are in a run of one code.
 /// Cost: O(n log n); the cells of a curve are 2^21 times smaller than its box.
 void sortAlongCurve(const std::vector<Vec3d>& centres, std::vector<Coded>::iterator begin,
                     std::vector<Coded>::iterator end, std::size_t leafSize, Interrupter* interrupter)
@@ -108,7 +108,7 @@ void sortAlongCurve(const std::vector<Vec3d>& centres, std::vector<Coded>::itera
     }
 }
 
-/// Of each triangle with copies the first is left. Copies have one centre, and so are in one run of equal codes.
+/// Drops all but the first of equal triangles. Copies have one centre, so they are in one run of equal codes.
 void dropCopies(const std::vector<Vec3d>& points, const std::vector<Vec3I>& triangles, std::vector<Coded>& order,
                 Interrupter* interrupter)
 {
@@ -226,7 +226,7 @@ std::optional<BoxTree::Axes> BoxTree::axesOfNeedles(const std::vector<Vec3d>& po
 Box BoxTree::boxAlong(const Axes& axes, const Corners& triangle)
 {
     // The rounding of such a dot product is at most 3 eps (|a0| + |a1| + |a2|) farthest, below 6 eps farthest, as the
-    // axis has length 1 within 4 eps. It is the same points that come near, so axes need not be across each other.
+    // axis has length 1 within 4 eps. The same points come near along any axes, so these need not be perpendicular.
     Corners turned;
     for (std::size_t k = 0; k < 3; ++k) {
         turned[k] = {axes[0].dot(triangle[k]), axes[1].dot(triangle[k]), axes[2].dot(triangle[k])};
@@ -239,8 +239,8 @@ Box BoxTree::boxAlong(const Axes& axes, const Corners& triangle)
 
 BoxTree::Slab BoxTree::slabOf(const Corners& triangle, double maxDistance) const
 {
-    // Right for any normal, the triangle's own is the best. Without one nothing is beside the slab. Nor is it where
-    // lengths lose digits or the heights below overflow.
+    // Right for any normal; the triangle's own is the best. If there is no normal, nothing is beside the slab. The same
+    // holds where lengths lose digits or the heights below overflow.
     const double infinity = std::numeric_limits<double>::infinity();
     const Slab everything{Vec3d(0.0), -infinity, infinity};
     Vec3d normal = (triangle[1] - triangle[0]).cross(triangle[2] - triangle[0]);
@@ -256,7 +256,7 @@ BoxTree::Slab BoxTree::slabOf(const Corners& triangle, double maxDistance) const
         for (int i = 0; i < 3; ++i) farthest = std::max(farthest, std::abs(p[i]));
     }
     // The rounding of such a dot product is at most 3 eps (|n0| + |n1| + |n2|) farthest, and there are two of them. The
-    // normal's length is 1 within 4 eps. The least normal number is more than what subnormal ones lose.
+    // normal's length is 1 within 4 eps. The least normal number is more than the loss of subnormal ones.
     if (!(farthest < 1e300)) return everything;
     const double rounding = 16 * std::numeric_limits<double>::epsilon() * farthest + std::numeric_limits<double>::min();
     slab.low -= 1.001 * maxDistance + rounding;

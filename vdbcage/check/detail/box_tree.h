@@ -15,11 +15,11 @@ namespace vdbcage::detail {
 
 /// Triangles in the order of a space-filling curve, under a complete binary tree of their boxes, in double.
 ///
-/// Where most of them are long and thin, and side by side at an angle to the axes, each node has a second box, along
-/// them.
+/// Where most triangles are long and thin, and side by side at an angle to the axes, each node has a second box, along
+/// the triangles.
 ///
-/// It is how the check finds what may meet. The guard has TriangleBvh for that: two ways, so that a triangle which one
-/// of them misses does not deceive both.
+/// The check uses it to find candidates that may meet. The guard uses TriangleBvh instead, so that a triangle missed by
+/// one of them cannot deceive both.
 ///
 /// Based on: Morton 1966, "A Computer Oriented Geodetic Data Base".
 class BoxTree {
@@ -28,7 +28,7 @@ public:
         Vec3I corners;          ///< indices of points
         std::uint32_t triangle; ///< its number in the list that the tree was built from
     };
-    /// Whether triangles with the same three points in space as another, in any order, are to be items.
+    /// The treatment of triangles with the same three points in space as another, in any order.
     enum class Copies { keep, drop };
 
     BoxTree() = default;
@@ -38,27 +38,27 @@ public:
     BoxTree(const std::vector<Vec3d>& points, const std::vector<Vec3I>& triangles, Copies copies,
             Interrupter* interrupter);
 
-    /// Those left.
+    /// Returns the number of items left.
     std::size_t size() const { return items_.size(); }
 
-    /// Calls `visit(item)` for each triangle whose box meets `box`, whose sides may be infinite, and for some more
-    /// beside it, until it answers false. Returns false if it stopped.
+    /// Calls visit(item) for each triangle whose box meets `box`, and for some others near it, until it returns false.
+    /// Returns false if it stopped. The sides of `box` may be infinite.
     template <typename Visit>
     bool inBox(const Box& box, const Visit& visit) const;
 
-    /// The same for each triangle that comes within `maxDistance` of `triangle`, which may be degenerate.
+    /// Does the same for each triangle that comes within `maxDistance` of `triangle`, which may be degenerate.
     template <typename Visit>
     bool near(const Corners& triangle, double maxDistance, const Visit& visit) const;
 
 private:
     static constexpr std::size_t leafSize = 4;
 
-    /// Selects items between two planes across `normal`.
+    /// The space between two planes across `normal`.
     struct Slab {
         Vec3d normal{0.0};
         double low = 0, high = 0;
 
-        /// Whether the box lies beside it for certain. What cannot be computed (NaN) does not.
+        /// Returns whether the box certainly lies outside. A result that cannot be computed (NaN) counts as inside.
         bool isBeside(const Box& box) const;
     };
 
@@ -66,27 +66,29 @@ private:
               Interrupter* interrupter);
     using Axes = std::array<Vec3d, 3>;
     using Levels = std::vector<std::vector<Box>>;
-    /// Along the triangle that loses most in boxes along x, y and z, if all lose much by these.
+    /// Returns axes along the triangle that fills least of its box along x, y and z, if boxes along these axes are much
+    /// smaller for all triangles together.
     std::optional<Axes> axesOfNeedles(const std::vector<Vec3d>& points, Interrupter* interrupter) const;
-    /// Builds the tree of what `boxOf` gives for each item.
+    /// Builds the tree of the boxes that boxOf(i) returns for each item.
     template <typename BoxOf>
     Levels boxes(const BoxOf& boxOf, Interrupter* interrupter) const;
     Slab slabOf(const Corners& triangle, double maxDistance) const;
-    /// The largest absolute coordinate.
+    /// Returns the largest absolute coordinate.
     static double farthestOf(const Box& box);
-    /// Rounded outward: two triangles that meet have boxes that meet, and those of two nearer than some distance are no
-    /// farther apart along any axis.
+    /// Returns the box of a triangle along `axes`, rounded outward: two triangles that meet have boxes that meet, and
+    /// the boxes of two triangles are no farther apart along any axis than the triangles.
     static Box boxAlong(const Axes& axes, const Corners& triangle);
 
-    /// Calls visit(item) for those in leaves that are `wanted(level, index)`, as all above them are.
+    /// Calls visit(item) for the items of each leaf for which wanted(level, index) is true, as well as for all nodes
+    /// above it.
     template <typename Wanted, typename Visit>
     bool traverse(const Wanted& wanted, const Visit& visit) const;
 
     std::vector<Item> items_;
-    /// Boxes of leafSize items that follow each other; then of two boxes each that follow each other there; and so on
-    /// up to the box of all.
+    /// Boxes of leafSize consecutive items, then of two consecutive boxes of the level before each, and so on up to the
+    /// box of all.
     Levels levels_;
-    Levels alongNeedles_; ///< the same along needles_, if there are
+    Levels alongNeedles_; ///< the same along needles_; empty if there are no such axes
     Axes needles_;
     double farthest_ = 0; ///< the largest absolute coordinate
 };
@@ -98,7 +100,7 @@ bool BoxTree::traverse(const Wanted& wanted, const Visit& visit) const
     struct Place {
         std::size_t level, index;
     };
-    std::array<Place, 64> stack; // one more a level, and one
+    std::array<Place, 64> stack; // at most the number of levels and one
     std::size_t size = 0;
     stack[size++] = {levels_.size() - 1, 0};
     while (size > 0) {
@@ -127,7 +129,7 @@ bool BoxTree::inBox(const Box& box, const Visit& visit) const
 template <typename Visit>
 bool BoxTree::near(const Corners& triangle, double maxDistance, const Visit& visit) const
 {
-    const Vec3d margin(1.001 * maxDistance); // however it is rounded
+    const Vec3d margin(1.001 * maxDistance); // enough under any rounding
     const auto around = [&](Box box) { return Box{box.lo - margin, box.hi + margin}; };
     const Box box = around(Box::of(triangle));
     const Slab slab = slabOf(triangle, maxDistance);
@@ -135,7 +137,7 @@ bool BoxTree::near(const Corners& triangle, double maxDistance, const Visit& vis
         const Box& node = levels_[level][index];
         return box.meets(node) && !slab.isBeside(node);
     };
-    // Where what is turned may overflow it tells nothing.
+    // Turned coordinates that may overflow tell nothing.
     if (alongNeedles_.empty() || !(farthestOf(box) < 1e300)) return traverse(wanted, visit);
     const Box turned = around(boxAlong(needles_, triangle));
     return traverse(

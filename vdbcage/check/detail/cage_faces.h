@@ -13,7 +13,7 @@
 
 namespace vdbcage::detail {
 
-/// Flags that are only ever set, by any thread.
+/// Flags that any thread may set and none clears.
 using Flags = std::vector<std::atomic<bool>>;
 
 inline void set(std::atomic<bool>& flag)
@@ -26,7 +26,7 @@ inline bool isSet(const std::atomic<bool>& flag)
     return flag.load(std::memory_order_relaxed);
 }
 
-/// The cage as its examinations need it.
+/// The cage in the form that its examinations need.
 struct CageFaces {
     /// `cage` must outlive this.
     /// \pre `cage` has passed requireSound
@@ -55,8 +55,8 @@ struct CageFaces {
     Flags bad;                    ///< by face
 };
 
-/// Counts the pairs of faces that meet in more than the corners and edges they share, and folded quads. It counts up to
-/// `mostSelfIntersections`. All of these faces are marked bad.
+/// Counts the pairs of faces that meet in more than the corners and edges they share, and folded quads, up to
+/// `mostSelfIntersections`. Marks all of these faces bad.
 /// \throw Cancelled
 /// Cost: O(n log n + candidates), in parallel.
 std::size_t countSelfIntersections(CageFaces& cage, Interrupter* interrupter);

@@ -43,7 +43,7 @@ void requireSound(const Mesh& mesh, const char* what)
 
 namespace {
 
-// Those of a face follow each other.
+// Returns all triangles; those of a face follow each other.
 std::vector<Vec3I> everyTriangle(const Mesh& mesh, const FaceTriangles& faces)
 {
     std::vector<Vec3I> triangles = faces.triangles();
@@ -75,7 +75,7 @@ CheckedModel::CheckedModel(const Mesh& mesh, Interrupter* interrupter)
             if (topology.isCycle()) volume = std::abs(detail::volume(mesh.points, faces));
             hollows = countHollows(mesh.points, faces, topology, interrupter);
         });
-    // What touches a copy that was dropped is only known to touch the one that was kept, maybe of another part.
+    // A part that touches a dropped copy is only known to touch the kept one, which may be of another part.
     if (dropped) findParts(mesh, faces, true, interrupter);
     const Vec3d extent = tree.box().hi - tree.box().lo;
     longestSide = std::max({extent[0], extent[1], extent[2]});

@@ -12,13 +12,13 @@
 
 namespace vdbcage::detail {
 
-/// \throw InputError an index that is not below the number of points; a point of a face that is not finite
+/// \throw InputError an index is not below the number of points; a point of a face is not finite
 void requireSound(const Mesh& mesh, const char* what);
 
-/// Facts about a model that are found out once: its triangles in trees, and its parts.
+/// Facts about a model, computed once: its triangles in trees, and its parts.
 ///
-/// A part is what hangs together over shared vertices. Vertices are shared by index. Where triangles were dropped as
-/// copies of others, points in one place are shared too.
+/// A part consists of faces connected by shared vertices. Vertices are shared by index. Where triangles were dropped as
+/// copies of others, points in one place count as shared too.
 struct CheckedModel {
     /// \throw InputError no faces; as requireSound
     /// \throw Cancelled
@@ -40,14 +40,14 @@ struct CheckedModel {
         {
             return {point(item.corners[0]), point(item.corners[1]), point(item.corners[2])};
         }
-        /// How far its triangles may lie from those in the trees.
+        /// Returns how far its triangles may lie from those in the trees.
         double maxDistance() const
         {
             return asFloats ? 2 * floatRounding({model.tree.box().lo, model.tree.box().hi}) : 0;
         }
     };
 
-    // Of all four triangles of a quad. Copies are dropped, from `tree` only those that make it slow.
+    // The trees hold all four triangles of a quad. They drop copies, `tree` only those that make it slow.
     BoxTree candidates;                      ///< for the verdict
     TriangleBvh tree;                        ///< for distances; it has the points
     std::size_t usedVertices = 0;            ///< points that faces use

@@ -22,7 +22,7 @@ bool liesOnCage(const CageFaces& cage, const Vec3d& p)
                             [&](const BoxTree::Item& item) { return !contains(cage.corners(item.triangle), p); });
 }
 
-// p does not lie on the cage. `crossed` gets the quads between whose diagonals p is.
+// Returns whether p is inside. `crossed` gets the quads between whose diagonals p is. \pre p does not lie on the cage
 //
 // The winding number counts one diagonal of every quad. Another choice of diagonals changes it exactly if p lies in the
 // tetrahedron of such a quad, so p must be in none. The ray crosses the tetrahedron's four triangles once if p is in
@@ -86,8 +86,8 @@ std::size_t countOutside(CageFaces& cage, const CheckedModel::View& view, const 
                          Interrupter* interrupter)
 {
     // A part is connected: its triangles share vertices. If it does not meet the cage (under either diagonal of any
-    // quad), no path within it crosses the cage or the tetrahedron of a quad, so all its vertices are on the same side
-    // of everything, and one stands for all.
+    // quad), no path within it crosses the cage or the tetrahedron of a quad. All its vertices are then on the same
+    // side of everything, and one stands for all.
     const CheckedModel& model = view.model;
     struct Question {
         std::uint32_t vertex;

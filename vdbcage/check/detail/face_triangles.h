@@ -8,8 +8,8 @@
 
 namespace vdbcage::detail {
 
-/// All triangles that the faces of a mesh stand for. A triangle has one. A quad has the two of the diagonal 0-2, then
-/// the two of the diagonal 1-3.
+/// All triangles of the faces of a mesh. A triangle has one. A quad has the two of the diagonal 0-2, then the two of
+/// the diagonal 1-3.
 class FaceTriangles {
 public:
     explicit FaceTriangles(const Mesh& mesh) : plain_(mesh.triangles.size()), triangles_(mesh.triangles)
@@ -29,7 +29,7 @@ public:
 
     std::size_t faces() const { return plain_ + (triangles_.size() - plain_) / 4; }
     bool isQuad(std::size_t face) const { return face >= plain_; }
-    /// The triangles of a face are first(face) ... first(face + 1) - 1.
+    /// Returns the first triangle of a face; the last is first(face + 1) - 1.
     std::size_t first(std::size_t face) const { return face < plain_ ? face : plain_ + 4 * (face - plain_); }
 
     std::uint32_t face(std::size_t triangle) const
@@ -37,7 +37,7 @@ public:
         return static_cast<std::uint32_t>(triangle < plain_ ? triangle : plain_ + (triangle - plain_) / 4);
     }
     bool ofQuad(std::size_t triangle) const { return triangle >= plain_; }
-    /// Whether it is of the surface in which every quad is split by its diagonal 0-2.
+    /// Returns whether a triangle belongs to the surface in which every quad is split by its diagonal 0-2.
     bool ofFirstDiagonal(std::size_t triangle) const { return !ofQuad(triangle) || (triangle - plain_) % 4 < 2; }
 
 private:

@@ -19,10 +19,11 @@ namespace {
 /// A component that is closed.
 struct Closed {
     bool isMet = false;
-    Vec3d point{0.0};             ///< one of its own, from which its volume is taken
-    double volume = 0, terms = 0; ///< six times, by the longest edge; and the sum of its absolute terms
+    Vec3d point{0.0};             ///< a point of the component, the origin for its volume
+    double volume = 0, terms = 0; ///< six times the volume, by the longest edge; and the sum of its absolute terms
 
-    /// 1 if it faces outward, -1 inward; 0 if rounding may tell, which is less for up to ten million triangles.
+    /// Returns 1 if it faces outward, -1 if inward; 0 if rounding may decide, which is less for up to ten million
+    /// triangles.
     int sign() const { return !(std::abs(volume) > 1e-8 * terms) ? 0 : volume > 0 ? 1 : -1; }
 };
 

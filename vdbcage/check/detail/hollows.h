@@ -9,11 +9,11 @@
 
 namespace vdbcage::detail {
 
-/// Counts the components whose inside is empty though others go around it: the winding number there is 0, and that of
-/// the others is not. A component whose volume may be nothing but rounding has no inside.
+/// Counts the components whose inside is empty although others go around it: the winding number there is 0, but that of
+/// the others is not. A component whose volume may be only rounding has no inside.
 /// \pre the faces are sound, and `topology` is theirs
 /// \throw Cancelled
-/// Cost: O(faces); O(n log n) of them where some components face outward and others inward.
+/// Cost: O(n) for n faces; O(n log n) where some components face outward and others inward.
 std::size_t countHollows(const std::vector<openvdb::Vec3d>& points, const FaceTriangles& faces,
                          const MeshTopology& topology, Interrupter* interrupter);
 

@@ -15,8 +15,8 @@ double area(const std::vector<Vec3d>& points, const Vec3I& t)
     return 0.5 * (points[t[1]] - points[t[0]]).cross(points[t[2]] - points[t[0]]).length();
 }
 
-// The k-th point of a sequence that fills the triangle evenly: the plastic number's lattice (Roberts, 2018), folded
-// from the square onto the triangle.
+// Returns the k-th point of a sequence that fills the triangle evenly: the plastic number's lattice (Roberts, 2018),
+// folded from the square onto the triangle.
 Vec3d pointWithin(const std::vector<Vec3d>& points, const Vec3I& t, std::size_t k)
 {
     const double n = static_cast<double>(k);
@@ -31,8 +31,8 @@ Vec3d pointWithin(const std::vector<Vec3d>& points, const Vec3I& t, std::size_t 
     return a + u * (points[t[1]] - a) + v * (points[t[2]] - a);
 }
 
-// Systematic sampling: equal shares of area, a sample in the middle of each, so that every triangle gets its share to
-// within one sample. They come one by one: a caller that wants very many need not hold them.
+// Systematic sampling: equal shares of area with a sample in the middle of each, so that every triangle gets its share
+// to within one sample. Samples come one by one: a caller that wants very many need not hold them.
 class EvenSamples {
 public:
     EvenSamples(const std::vector<Vec3d>& points, const FaceTriangles& faces, std::size_t count,
@@ -72,7 +72,7 @@ private:
 std::vector<double> distancesOf(const std::vector<Vec3d>& from, const TriangleBvh& tree, Interrupter* interrupter)
 {
     std::vector<double> result(from.size());
-    // Blocks of fixed size: each answer is the next one's seed, and a seed may change the last bit.
+    // Blocks of fixed size: each result is the next one's seed, and a seed may change the last bit.
     constexpr std::size_t block = 64;
     parallelFor(std::size_t(0), (from.size() + block - 1) / block, [&](std::size_t b) {
         throwIfInterrupted(interrupter);
@@ -86,7 +86,7 @@ std::vector<double> distancesOf(const std::vector<Vec3d>& from, const TriangleBv
     return result;
 }
 
-// The points that faces use, in order.
+// Returns the points that faces use, in order.
 std::vector<Vec3d> usedPoints(const std::vector<Vec3d>& points, const FaceTriangles& faces)
 {
     std::vector<char> used(points.size(), 0);
@@ -101,7 +101,7 @@ std::vector<Vec3d> usedPoints(const std::vector<Vec3d>& points, const FaceTriang
 double angleDegrees(const Vec3d& at, const Vec3d& b, const Vec3d& c)
 {
     Vec3d u = b - at, v = c - at;
-    u.normalize(); // leaves a zero vector as it is
+    u.normalize(); // leaves a zero vector unchanged
     v.normalize();
     return std::atan2(u.cross(v).length(), u.dot(v)) * (180 / M_PI);
 }

@@ -9,23 +9,23 @@
 
 namespace vdbcage::detail {
 
-/// The signed volume within a surface, the mean over the diagonals of its quads.
+/// Returns the signed volume within a surface, the mean over the diagonals of its quads.
 /// \pre the surface has no boundary
 double volume(const std::vector<Vec3d>& points, const FaceTriangles& faces);
 
 struct Angles {
     double least = 0, firstPercentile = 0, median = 0; ///< degrees
 };
-/// Of all corners of all triangles. Zeros for no faces. \throw Cancelled
+/// Returns the angles of all corners of all triangles; zeros for no faces. \throw Cancelled
 Angles angles(const std::vector<Vec3d>& points, const FaceTriangles& faces, Interrupter* interrupter);
 
 struct Distances {
     double mean = 0, most = 0, least = 0; ///< in world units
 };
-/// Distances from the faces to the triangles of the tree. Zeros for no faces.
+/// Returns the distances from the faces to the triangles of the tree; zeros for no faces.
 ///
-/// The mean is over `samples` points spread evenly over the faces' area, of a quad over both diagonals. The extremes
-/// are over these points and the faces' corners. \throw Cancelled
+/// The mean is over `samples` points spread evenly over the faces' area, on quads over both diagonals. The extremes are
+/// over these points and the faces' corners. \throw Cancelled
 Distances distances(const std::vector<Vec3d>& points, const FaceTriangles& faces, const TriangleBvh& tree,
                     std::size_t samples, Interrupter* interrupter);
 

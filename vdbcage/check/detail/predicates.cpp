@@ -41,7 +41,7 @@ bool between(double x, double a, double b)
     return std::min(a, b) <= x && x <= std::max(a, b);
 }
 
-// p, on the line of a and b, lies on the segment.
+// Returns whether p, on the line of a and b, lies on the segment.
 bool between(const Point2& p, const Point2& a, const Point2& b)
 {
     return between(p[0], a[0], b[0]) && between(p[1], a[1], b[1]);
@@ -56,8 +56,8 @@ bool segmentsMeet(const Point2& a, const Point2& b, const Point2& c, const Point
            (cdb == 0 && between(b, c, d));
 }
 
-// The segments may be points. Four points of one plane: at least one of the three projections is one-to-one on what
-// they span, so the segments meet if all three projections do.
+// Returns whether two segments, which may be points, meet. Four points in one plane: at least one of the three
+// projections is one-to-one on their span, so the segments meet if all three projections do.
 bool segmentsMeet(const Vec3d& a, const Vec3d& b, const Vec3d& c, const Vec3d& d)
 {
     if (orientation(a, b, c, d) != 0) return false;
@@ -67,7 +67,7 @@ bool segmentsMeet(const Vec3d& a, const Vec3d& b, const Vec3d& c, const Vec3d& d
     return true;
 }
 
-// p lies in the plane of the triangle, which is not degenerate.
+// Returns whether a triangle, which is not degenerate, contains p, which lies in its plane.
 bool containsInPlane(const Corners& t, const Vec3d& p)
 {
     for (int axis = 0; axis < 3; ++axis) {
@@ -79,7 +79,7 @@ bool containsInPlane(const Corners& t, const Vec3d& p)
     return false;
 }
 
-// The segment may be a point; the triangle is not degenerate.
+// Returns whether a segment, which may be a point, meets a triangle that is not degenerate.
 bool segmentMeetsTriangle(const Vec3d& a, const Vec3d& b, const Corners& t)
 {
     const int sideA = orientation(t[0], t[1], t[2], a), sideB = orientation(t[0], t[1], t[2], b);
@@ -95,14 +95,14 @@ bool segmentMeetsTriangle(const Vec3d& a, const Vec3d& b, const Corners& t)
     return (s0 >= 0 && s1 >= 0 && s2 >= 0) || (s0 <= 0 && s1 <= 0 && s2 <= 0);
 }
 
-// The segment that a degenerate triangle is. On a line the order of the coordinates is the order of the points.
+// Returns the segment that a degenerate triangle is. On a line the order of the coordinates is the order of the points.
 std::pair<Vec3d, Vec3d> asSegment(const Corners& t)
 {
     const auto [first, last] = std::minmax_element(t.begin(), t.end());
     return {*first, *last};
 }
 
-// All of t lies strictly on one side of the plane of s.
+// Returns whether all of t lies strictly on one side of the plane of s.
 bool planeSeparates(const Corners& s, const Corners& t)
 {
     const int side = orientation(s[0], s[1], s[2], t[0]);
@@ -138,13 +138,13 @@ bool trianglesMeet(const Corners& s, const Corners& t)
         const auto [a, b] = asSegment(sIsSegment ? s : t);
         return segmentMeetsTriangle(a, b, sIsSegment ? t : s);
     }
-    // What two triangles share ends on an edge of one of them.
+    // The intersection of two triangles ends on an edge of one of them.
     return anyEdgeMeets(s, t) || anyEdgeMeets(t, s);
 }
 
 bool meetBeyondCorner(const Corners& s, const Corners& t)
 {
-    // What they share is convex and contains the corner. Seen from there, another shared point lies in a direction in
+    // The intersection is convex and contains the corner. Seen from there, another shared point lies in a direction in
     // which both triangles extend, up to the nearer of the two edges opposite to the corner.
     return segmentMeetsTriangle(s[1], s[2], t) || segmentMeetsTriangle(t[1], t[2], s);
 }
@@ -183,7 +183,7 @@ int rayCrossing(const Corners& t, const Vec3d& p)
         if (fromAbove && side > 0) ++turns;
     }
     if (turns == 0) return 0;
-    // The triangle is ahead if p lies below it as seen against the ray.
+    // The triangle is ahead if p lies below it, seen against the ray.
     return orientation(t[0], t[1], t[2], p) * turns < 0 ? turns : 0;
 }
 
@@ -206,7 +206,7 @@ int volumeSign(const std::vector<Vec3d>& points, const std::vector<Vec3I>& trian
             magnitude += std::abs(a[i]) * (std::abs(b[j] * c[k]) + std::abs(b[k] * c[j]));
         }
     }
-    // At most 8 roundings a product and one a sum; twice that covers the rounding of the bound itself. 1e-200 is for
+    // At most 8 roundings a product and one a sum; twice that covers the rounding of the bound itself. 1e-200 covers
     // products that underflow; nothing overflows.
     const double bound = (16 + 6 * static_cast<double>(triangles.size())) * std::numeric_limits<double>::epsilon();
     if (largest < 1e90 && std::abs(volume) > bound * magnitude + 1e-200) return volume > 0 ? 1 : -1;

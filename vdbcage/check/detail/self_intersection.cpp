@@ -27,7 +27,8 @@ bool isEdge(const Mesh& mesh, std::size_t face, Index a, Index b)
                                         : follows(mesh.quads[face - mesh.triangles.size()], 4);
 }
 
-// Two triangles of different faces, not degenerate, share more than the corners and edges that their faces share.
+// Returns whether two triangles of different faces, not degenerate, share more than the corners and edges that their
+// faces share.
 bool collide(const CageFaces& cage, std::size_t s, std::size_t t)
 {
     const Vec3I &a = cage.faces[s], &b = cage.faces[t];
@@ -51,7 +52,7 @@ bool collide(const CageFaces& cage, std::size_t s, std::size_t t)
     case 1:
         return meetBeyondCorner(turned(a, inA[0]), turned(b, inB[0]));
     case 2: {
-        // Two corners that are no edge of both faces: a diagonal lies on the other face.
+        // Two corners that are not an edge of both faces: a diagonal lies on the other face.
         const Index u = a[inA[0]], v = a[inA[1]];
         if (!isEdge(cage.mesh, cage.faces.face(s), u, v) || !isEdge(cage.mesh, cage.faces.face(t), u, v)) return true;
         return foldOver(p[u], p[v], p[a[3 - inA[0] - inA[1]]], p[b[3 - inB[0] - inB[1]]]);
@@ -105,7 +106,7 @@ tbb::blocked_range<std::size_t> allFaces(const CageFaces& cage)
     return {0, cage.faces.faces(), 4};
 }
 
-// As soon as there are too many pairs to count: which faces are in one, each by the first that is found.
+// Marks the faces in pairs, each by the first pair found, when there are too many pairs to count.
 void markSelfIntersections(CageFaces& cage, Interrupter* interrupter)
 {
     parallelFor(allFaces(cage), [&](const tbb::blocked_range<std::size_t>& range) {
@@ -132,7 +133,7 @@ void markSelfIntersections(CageFaces& cage, Interrupter* interrupter)
 std::size_t countSelfIntersections(CageFaces& cage, Interrupter* interrupter)
 {
     std::atomic<std::size_t> result{0};
-    // For each face the last one that counted a pair with it: a pair of quads has up to 16 chances to collide.
+    // By face: the last face that counted a pair with it. A pair of quads can collide in up to 16 ways.
     tbb::enumerable_thread_specific<std::vector<Index>> counted(
         [&] { return std::vector<Index>(cage.faces.faces(), ~Index(0)); });
     parallelFor(allFaces(cage), [&](const tbb::blocked_range<std::size_t>& range) {
@@ -153,7 +154,7 @@ std::size_t countSelfIntersections(CageFaces& cage, Interrupter* interrupter)
             result += pairs;
         }
     });
-    // Whether the sum comes so far does not depend on the order in which it is made.
+    // Whether the sum reaches the limit does not depend on the order of the additions.
     if (result < mostSelfIntersections) return result;
     markSelfIntersections(cage, interrupter);
     return mostSelfIntersections;

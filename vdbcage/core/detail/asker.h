@@ -6,8 +6,8 @@
 
 namespace vdbcage::detail {
 
-/// Asks an interrupter at every 65536th call: for loops whose turns take nanoseconds, and for comparisons in a sort.
-/// For one thread.
+/// A function object that asks an interrupter at every 65536th call: for loops whose turns take nanoseconds, and for
+/// comparisons in a sort. For one thread.
 class Asker {
 public:
     explicit Asker(Interrupter* interrupter) : interrupter_(interrupter) {}

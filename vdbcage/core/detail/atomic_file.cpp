@@ -32,7 +32,7 @@ fs::path folderOf(const fs::path& file)
     return file.has_parent_path() ? file.parent_path() : fs::path(".");
 }
 
-/// A name that nobody else has thought of: 64 random bits are unique among processes, hosts and runs.
+/// Returns a name that nobody else uses: 64 random bits are unique among processes, hosts and runs.
 fs::path hiddenName(const fs::path& folder)
 {
     std::random_device random;
@@ -42,7 +42,7 @@ fs::path hiddenName(const fs::path& folder)
     return folder / name;
 }
 
-/// Where `target` leads, if it is a symbolic link, whether that exists or not; else itself.
+/// Returns the target of a symbolic link, whether it exists or not; `target` itself if it is no link.
 fs::path followed(const fs::path& target)
 {
     std::error_code error;
@@ -52,7 +52,8 @@ fs::path followed(const fs::path& target)
     return file;
 }
 
-/// What a stream writes to. It keeps the reason of the first failure, which streams and errno lose.
+/// The buffer of a stream that writes to a descriptor. It keeps the reason of the first failure, which streams and
+/// errno lose.
 class DescriptorBuffer : public std::streambuf {
 public:
     explicit DescriptorBuffer(int descriptor) : descriptor_(descriptor) { setp(buffer_.data(), end()); }
@@ -124,7 +125,7 @@ void requireWritable(const fs::path& path)
     if (::lstat(hiddenName(folder).c_str(), &ignored) != 0 && errno != ENOENT) fail(path, errno);
 }
 
-/// A temporary file, its target, and for the time of a commit what stood there.
+/// A temporary file, its target, and, during a commit, the file that was there.
 class PendingFiles::File {
 public:
     explicit File(fs::path target) : target_(std::move(target)), place_(followed(target_)) {}
@@ -150,7 +151,7 @@ public:
         } while (descriptor_ < 0 && errno == EEXIST);
         if (descriptor_ < 0 || ::fstat(descriptor_, &made_) != 0) fail(errno);
         if (isNew_) return;
-        // The owner first: changing it takes some permissions away. Only root and members of the group may.
+        // The owner first, since changing it removes some permissions. Only root and members of the group may do so.
         static_cast<void>(::fchown(descriptor_, existing.st_uid, existing.st_gid) == 0);
         if (::fchmod(descriptor_, existing.st_mode & 07777U) != 0) fail(errno);
     }
@@ -180,16 +181,16 @@ public:
         if (::rename(temporary_.c_str(), place_.c_str()) != 0) fail(errno);
     }
 
-    /// Undoes `replace`; false if that cannot be done.
+    /// Undoes replace(). Returns false if that is impossible.
     bool restore() noexcept
     {
-        isBack_ = !isMade(place_) || // by now somebody else's
+        isBack_ = !isMade(place_) || // by now another program's file
                   (isNew_ ? ::unlink(place_.c_str()) == 0 : hasOld_ && ::rename(old_.c_str(), place_.c_str()) == 0);
         isKept_ = !isBack_ && hasOld_;
         hasOld_ = false;
         return isBack_;
     }
-    /// What there is to tell a person of a file that could not be restored.
+    /// Returns the hint for a person about a file that could not be restored.
     std::string remains() const
     {
         if (isBack_) return {};
@@ -200,26 +201,25 @@ public:
 private:
     [[noreturn]] void fail(int error) const { vdbcage::fail(target_, error); }
 
-    /// Whether the file that was made here, and no other, stands at `path`. The number of a file that is gone is soon
-    /// given to another.
+    /// Returns whether the file made here, and no other, is at `path`. The number of a removed file is soon reused.
     bool isMade(const fs::path& path) const
     {
         struct stat found {};
         if (::lstat(path.c_str(), &found) != 0) return false;
         const bool isSameFile = found.st_dev == made_.st_dev && found.st_ino == made_.st_ino && S_ISREG(found.st_mode);
-        if (descriptor_ >= 0) return isSameFile; // while it is open its number stays its own
+        if (descriptor_ >= 0) return isSameFile; // while it is open, no other file gets its number
         return isSameFile && found.st_size == made_.st_size && found.st_mtim.tv_sec == made_.st_mtim.tv_sec &&
                found.st_mtim.tv_nsec == made_.st_mtim.tv_nsec;
     }
 
-    fs::path target_;                      // as it was given, for messages
-    fs::path place_;                       // the same, links followed
+    fs::path target_;                      // as given, for messages
+    fs::path place_;                       // the same, with links followed
     fs::path temporary_;                   // beside it
-    fs::path old_;                         // a second name of what stood there
+    fs::path old_;                         // a second name of the file that was there
     struct stat made_ {};                  // of the temporary file
-    bool isNew_ = false;                   // nothing stood there
-    bool hasOld_ = false;                  // `old_` exists, and goes with this object
-    bool isBack_ = false, isKept_ = false; // after `restore`: whether all is as it was; whether `old_` stays
+    bool isNew_ = false;                   // nothing was there
+    bool hasOld_ = false;                  // `old_` exists; the destructor removes it
+    bool isBack_ = false, isKept_ = false; // after restore(): whether all is as before; whether `old_` stays
     int descriptor_ = -1;
 };
 
@@ -228,7 +228,7 @@ PendingFiles::~PendingFiles() = default;
 
 void PendingFiles::add(const fs::path& target, const FileWriter& write)
 {
-    files_.push_back(std::make_unique<File>(target)); // first, so that `clear` knows of it all the time
+    files_.push_back(std::make_unique<File>(target)); // first, so that clear() always knows of it
     try {
         files_.back()->make();
         files_.back()->fill(write);

@@ -11,22 +11,22 @@
 
 namespace vdbcage {
 
-/// Checks, without touching anything, that a file can be written at `path`. Its folder exists and can be written to,
-/// and its name is not too long. What stands there, if anything, is a file that can be replaced.
+/// Checks, without touching anything, that a file can be written at `path`: its folder exists and can be written to,
+/// its name is not too long, and anything there already is a file that can be replaced.
 /// \throw IoError naming `path` and the reason
 VDBCAGE_API void requireWritable(const std::filesystem::path& path);
 
-/// Fills a file. The stream can seek. It need not look whether the stream has failed.
+/// A function that fills a file. The stream can seek. The function need not check whether the stream has failed.
 using FileWriter = std::function<void(std::ostream&)>;
 
 /// Files that appear together or not at all.
 ///
-/// Each is written to a temporary file in the folder of its target, under a name that no other process has on any
-/// machine. It takes the target's name at `commit`. Until then nothing that existed is touched, and the temporary files
-/// go with this object.
+/// Each is written to a temporary file in the folder of its target, under a name that no other process uses on any
+/// machine, and takes the target's name at `commit`. Until then no existing file is touched, and this object's
+/// destructor removes the temporary files.
 ///
-/// A file that is replaced gives its permissions (and, where the system allows it, its owner) to the new one. A target
-/// that is a symbolic link stays one, and the file it leads to is replaced.
+/// The new file takes the permissions (and, where the system allows it, the owner) of the one that it replaces. A
+/// target that is a symbolic link stays one, and the file it leads to is replaced.
 class VDBCAGE_API PendingFiles {
 public:
     PendingFiles();
@@ -34,12 +34,12 @@ public:
     PendingFiles(const PendingFiles&) = delete;
     PendingFiles& operator=(const PendingFiles&) = delete;
 
-    /// Has `write` fill the file that is to stand at `target`. Throws whatever `write` throws.
+    /// Lets `write` fill the file for `target`. Throws whatever `write` throws.
     /// \throw IoError naming `target` and the reason (no such folder, no permission, disk full)
     void add(const std::filesystem::path& target, const FileWriter& write);
 
-    /// Gives every file its name. If one cannot have it, those that were replaced so far get their old content back.
-    /// \throw IoError naming the target and the reason, and each target that could not be put back
+    /// Renames every file to its target. If one rename fails, the targets replaced so far get their old content back.
+    /// \throw IoError naming the target and the reason, and each target that could not be restored
     void commit();
 
     /// Removes the temporary files. Allocates nothing.

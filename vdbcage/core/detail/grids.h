@@ -2,8 +2,8 @@
 
 #include <openvdb/openvdb.h>
 
-/// OpenVDB's grids in full, for files that look into them. The two kinds that vdbcage makes are compiled once, in
-/// grids.cpp: their virtual functions, some hundred, would else be compiled again with every file that makes a grid.
+/// OpenVDB's grids in full, for files that use their content. The two kinds that vdbcage makes are compiled once, in
+/// grids.cpp. Otherwise every file that makes a grid would compile their virtual functions, about a hundred, again.
 namespace openvdb {
 OPENVDB_USE_VERSION_NAMESPACE
 namespace OPENVDB_VERSION_NAME {

@@ -8,7 +8,7 @@
 
 namespace vdbcage::detail {
 
-/// FNV-1a of 64 bits: tells contents apart, where nobody tries to make two alike.
+/// FNV-1a of 64 bits, to tell contents apart where nobody tries to make collisions.
 class Hash {
 public:
     void add(std::string_view bytes)
@@ -17,7 +17,7 @@ public:
     }
 
     std::uint64_t value() const { return value_; }
-    /// The value in 16 hexadecimal digits.
+    /// Returns the value in 16 hexadecimal digits.
     std::string digits() const
     {
         std::array<char, 17> text{};

@@ -7,8 +7,8 @@
 
 namespace vdbcage::detail {
 
-/// What a variant holds if it is a T, or null: Boost's, of which CGAL 5 makes intersections, or the standard one, which
-/// CGAL 6 takes.
+/// Returns the T that a variant holds, or null. The variant is Boost's, as CGAL 5 returns intersections, or the
+/// standard one, as CGAL 6 does.
 template <typename T, typename... Types>
 const T* heldBy(const boost::variant<Types...>& variant)
 {

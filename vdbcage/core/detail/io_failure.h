@@ -9,11 +9,11 @@
 
 namespace vdbcage::detail {
 
-/// \throw ResourceError if `error`, an errno, says that memory or room is lacking; else IoError. The text is `what`,
-/// and the system's words if there are any
+/// \throw ResourceError if `error`, an errno, means that memory or disk space is lacking; else IoError. The text is
+/// `what`, and the system's message if there is one
 [[noreturn]] VDBCAGE_API void throwIoError(const std::string& what, int error);
 
-/// What `read` returns. \throw ResourceError naming `path` if there is not enough memory for it
+/// Returns the result of `read`. \throw ResourceError naming `path` if there is not enough memory for it
 template <typename Read>
 auto withMemoryToRead(const std::filesystem::path& path, const Read& read)
 {

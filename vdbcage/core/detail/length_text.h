@@ -8,11 +8,11 @@
 
 namespace vdbcage::detail {
 
-/// A length or coordinate to be read: with the digits that tell `step` apart, and no zeros behind them.
+/// Returns the text of a length or coordinate for people: with the digits that resolve `step`, and no zeros after them.
 /// \pre step is above 0
 inline std::string lengthText(double value, double step)
 {
-    constexpr int most = 15;                                         // a double has so many digits
+    constexpr int most = 15;                                         // digits of a double
     const int last = static_cast<int>(std::floor(std::log10(step))); // the power of ten of the last digit
     if (std::abs(value) < std::pow(10.0, last) / 2) return "0";
     const int first = static_cast<int>(std::floor(std::log10(std::abs(value))));

@@ -8,10 +8,10 @@
 
 namespace vdbcage::detail {
 
-// Where memory lacks OpenVDB's own trees end the program when they go, as they ask for memory in their destructor; and
-// what a copy has copied so far is lost. Trees of vdbcage are made here.
+// Where memory is lacking, OpenVDB's own trees end the program, since their destructor allocates; and a copy that
+// fails leaks the part it has copied. These functions make the trees of vdbcage.
 
-/// An empty tree, which takes no memory to be given back.
+/// Returns an empty tree, whose deleter allocates no memory.
 template <typename Tree>
 std::shared_ptr<Tree> emptyTree(const typename Tree::ValueType& background)
 {
@@ -22,13 +22,13 @@ std::shared_ptr<Tree> emptyTree(const typename Tree::ValueType& background)
     return {new Tree(background), giveBack};
 }
 
-/// A tree whose active voxels are those of `source`, and have the value `on`; all others have `off`.
+/// Returns a tree whose active voxels are those of `source`, with the value `on`; all others have `off`.
 template <typename Tree, typename Source>
 std::shared_ptr<Tree> treeLike(const Source& source, const typename Tree::ValueType& off,
                                const typename Tree::ValueType& on)
 {
     const auto tree = emptyTree<Tree>(off);
-    // Else the root would lose a new child if there were no memory for its place.
+    // Otherwise the root would leak a new child if there were no memory for its entry.
     for (auto child = source.root().cbeginChildOn(); child; ++child) tree->root().addTile(child.getCoord(), off, false);
     auto tile = source.cbeginValueOn();
     tile.setMaxDepth(Source::ValueOnCIter::LEAF_DEPTH - 1);
@@ -46,15 +46,15 @@ std::shared_ptr<Tree> treeLike(const Source& source, const typename Tree::ValueT
     return tree;
 }
 
-/// A mask tree with the active voxels of `source`.
+/// Returns a mask tree with the active voxels of `source`.
 template <typename Source>
 openvdb::MaskTree::Ptr maskTreeLike(const Source& source)
 {
     return treeLike<openvdb::MaskTree>(source, false, true);
 }
 
-/// Gives `grid` a copy of the transform of `source`. Where voxels are smaller than some 1e-5 the two share one: OpenVDB
-/// can read and write it, but refuses to copy it.
+/// Sets the transform of `grid` to a copy of that of `source`. Where voxels are smaller than about 1e-5 the grids share
+/// it, since OpenVDB can read and write such a transform, but refuses to copy it.
 inline void copyTransform(const openvdb::GridBase& source, openvdb::GridBase& grid)
 {
     try {
@@ -64,7 +64,7 @@ inline void copyTransform(const openvdb::GridBase& source, openvdb::GridBase& gr
     }
 }
 
-/// A grid around `tree` with a copy of the transform of `source`, and no metadata.
+/// Returns a grid of `tree` with a copy of the transform of `source`, and no metadata.
 inline openvdb::MaskGrid::Ptr maskGridLike(const openvdb::GridBase& source, openvdb::MaskTree::Ptr tree)
 {
     auto grid = openvdb::MaskGrid::create(std::move(tree));

@@ -5,22 +5,22 @@
 
 namespace vdbcage::detail {
 
-/// Keeps the value that was made last, with the key that it was made for. Equal keys must mean equal values. A key may
-/// be asked for by anything that compares with a Key and converts to one, such as a tuple of references.
+/// The last value that was made, with its key. Equal keys must mean equal values. Any type that compares with a Key and
+/// converts to one, such as a tuple of references, can stand for a key.
 template <typename Key, typename Value>
 class Memo {
 public:
-    /// Returns the value for `key`: the one that is kept, or else make(), which takes its place.
+    /// Returns the value for `key`: the kept one, or else make(), which replaces it.
     template <typename Other, typename Make>
     Value& of(const Other& key, const Make& make)
     {
         if (!find(key)) {
-            kept_.reset(); // before more memory is taken
+            kept_.reset(); // before make() takes more memory
             kept_.emplace(Key(key), make());
         }
         return kept_->second;
     }
-    /// Returns the value that is kept if it is that of `key`, else null.
+    /// Returns the kept value if its key is `key`, else null.
     template <typename Other>
     Value* find(const Other& key)
     {

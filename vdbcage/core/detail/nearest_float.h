@@ -7,7 +7,7 @@
 
 namespace vdbcage::detail {
 
-/// The float nearest to `value`. Volatile, because g++ 12 -O3 drops the conversion in parts of vectorized code.
+/// Returns the float nearest to `value`. Volatile, because g++ 12 -O3 drops the conversion in parts of vectorized code.
 inline double nearestFloat(double value)
 {
     const volatile float rounded = static_cast<float>(value);
@@ -19,7 +19,7 @@ inline openvdb::Vec3d nearestFloat(const openvdb::Vec3d& p)
     return {nearestFloat(p[0]), nearestFloat(p[1]), nearestFloat(p[2])};
 }
 
-/// The largest absolute value of a coordinate in `box`.
+/// Returns the largest absolute value of a coordinate in `box`.
 inline double farthest(const openvdb::BBoxd& box)
 {
     double largest = 0;
@@ -27,20 +27,20 @@ inline double farthest(const openvdb::BBoxd& box)
     return largest;
 }
 
-/// How far rounding to float moves a coordinate in `box`, at most: 2^-24 of the largest, and no less than floats tell
-/// apart.
+/// Returns how far rounding to float moves a coordinate in `box`, at most: 2^-24 of the largest, plus the least
+/// positive float.
 inline double floatRounding(const openvdb::BBoxd& box)
 {
     return farthest(box) * 0x1p-24 + 0x1p-149;
 }
 
-/// Whether a model in `box` is too large or too small for floats and their squares.
+/// Returns whether a model in `box` is too large or too small for floats and their squares.
 inline bool isBeyondFloat(const openvdb::BBoxd& box)
 {
     return !(floatRounding(box) < 1e23 && box.extents()[static_cast<int>(box.maxExtent())] > 1e-30);
 }
 
-/// Whether a host that stores floats can hold a model of this box at all: rounding is far below its size.
+/// Returns whether a host that stores floats can hold a model of this box: rounding is far below its size.
 /// \pre `box` is not empty
 inline bool fitsFloat(const openvdb::BBoxd& box)
 {

@@ -5,7 +5,7 @@
 
 namespace vdbcage::detail {
 
-/// The shortest decimal digits that read back as the same value, whatever the locale; or nan, inf, -inf.
+/// Returns the shortest decimal digits that read back as the same value, in any locale; or nan, inf, -inf.
 inline std::string numberText(double value)
 {
     char digits[32];

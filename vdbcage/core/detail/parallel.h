@@ -10,13 +10,13 @@
 #include <tbb/parallel_sort.h>
 #include <tbb/task_group.h>
 
-/// TBB's parallel loops, but each runs all of its bodies or throws. The arguments are those of TBB's functions of the
-/// same name, without a context.
+/// TBB's parallel loops, each of which runs all of its bodies or throws. The arguments are those of TBB's functions of
+/// the same name, without a context.
 ///
-/// TBB cancels the loops within a loop when one of its bodies throws. A loop that was cancelled so returns as if it had
-/// run. What its bodies should have filled stays empty, and whoever called it cannot tell. The loop around may be the
-/// host's. Here every loop has a context of its own, which only an exception of its own bodies cancels. So a body that
-/// throws lets the bodies beside it go on until they ask the interrupter themselves.
+/// When a body of a loop throws, TBB also cancels the loops that run within that loop's bodies. A loop cancelled in
+/// this way returns as if it had run: its output stays unfilled, and the caller cannot tell. The outer loop may be the
+/// host's. Here every loop has a context of its own, which only an exception of its own bodies cancels. After a body
+/// throws, loops within the bodies beside it thus go on until they ask the interrupter themselves.
 namespace vdbcage::detail {
 
 template <typename... Arguments>
@@ -40,8 +40,8 @@ void parallelInvoke(Arguments&&... arguments)
     tbb::parallel_invoke(std::forward<Arguments>(arguments)..., own);
 }
 
-/// Runs a function whose parallel loops are not ours (OpenVDB's, say) and returns what it returns. Its loops, too, run
-/// whole or throw.
+/// Runs a function whose parallel loops are not ours, such as OpenVDB's, and returns its result. These loops, too, run
+/// all of their bodies or throw.
 template <typename Function>
 auto isolated(const Function& function)
 {

@@ -9,7 +9,8 @@ namespace vdbcage::detail {
 
 namespace {
 
-/// The bytes of the well-formed character that `text` begins with, 0 if there is none, and its code.
+/// Finds the well-formed character that `text` begins with: returns the number of its bytes, 0 if there is none, and
+/// sets its code.
 std::size_t decode(std::string_view text, std::uint32_t& code)
 {
     const auto byte = [&](std::size_t i) { return std::uint32_t{static_cast<unsigned char>(text[i])}; };

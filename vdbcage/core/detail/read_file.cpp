@@ -35,7 +35,7 @@ public:
         while (got < bytes.size()) {
             const ssize_t count = ::read(descriptor_, bytes.data() + got, bytes.size() - got);
             if (count < 0 && errno != EINTR) fail(errno);
-            if (count == 0) break; // it became shorter meanwhile
+            if (count == 0) break; // it became shorter in the meantime
             if (count > 0) got += static_cast<std::size_t>(count);
         }
         bytes.resize(got);

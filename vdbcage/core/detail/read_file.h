@@ -5,12 +5,12 @@
 
 namespace vdbcage::detail {
 
-/// Checks that `path`, if it exists, is a regular file: pipes and devices have no size and may never end. What does not
-/// exist is left to whoever opens it.
+/// Checks that `path`, if it exists, is a regular file: pipes and devices have no size and may never end. Whether it
+/// exists is left to the code that opens it.
 /// \throw IoError naming the path: a directory, pipe, socket or device
 void requireRegularFile(const std::filesystem::path& path);
 
-/// Reads all of a regular file. Its size is asked once: what is appended meanwhile is not read.
+/// Reads all of a regular file. It asks the size once, so bytes appended meanwhile are not read.
 /// \throw IoError naming the path: a directory, pipe, socket or device; cannot be read; empty
 std::string readFile(const std::filesystem::path& path);
 

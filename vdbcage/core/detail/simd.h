@@ -4,18 +4,18 @@
 
 /// The instruction sets that kernels are compiled for; one of them is chosen at run time.
 ///
-/// Kernels are written in GNU vector types, which any machine has. Those of volume are inline templates over the width
-/// of the vectors, which a few functions with the attributes below instantiate. Those of deform are a source that is
-/// compiled once for each set.
+/// Kernels use GNU vector types, which work on any machine. Those of volume are inline templates over the width of the
+/// vectors, instantiated by a few functions with the attributes below. Those of deform are one source, compiled once
+/// for each set.
 namespace vdbcage::detail {
 
 enum class Simd {
-    plain, ///< what every machine of the architecture has
+    plain, ///< the set of every machine of the architecture
     avx2,
     avx512 ///< F, BW, DQ and VL, as x86-64-v4
 };
 
-/// Lists the sets that this build and machine have, plain first, best last.
+/// Returns the sets that this build and machine have, plain first, best last.
 const std::vector<Simd>& supportedSimd();
 inline Simd bestSimd()
 {
@@ -29,7 +29,7 @@ inline Simd bestSimd()
 #else
 #define VDBCAGE_WITH_AVX 0
 #endif
-/// Inlines a function by force. It takes on the target of the kernel that it is called in.
+/// Forces a function to be inlined, so that it has the target of the kernel that calls it.
 #define VDBCAGE_INLINE inline __attribute__((always_inline))
 
 } // namespace vdbcage::detail

@@ -9,15 +9,15 @@
 
 #include <vdbcage/core/interrupter.h>
 
-/// Progress of work that is a part of a stage. Null stands for nobody who watches, as everywhere.
+/// Progress of parts of a stage. A null Interrupter means that nobody watches, as everywhere.
 namespace vdbcage::detail {
 
-/// One of several steps, one after another: 0 to 100 % of it are `from` to `to` of the whole.
+/// One of several steps in sequence: 0 to 100 % of it are `from` to `to` of the whole.
 class StagePart : public Interrupter {
 public:
     StagePart(Interrupter* whole, int from, int to) : whole_(whole), from_(from), to_(to) {}
 
-    /// To be passed on to the work.
+    /// Returns the interrupter for the work of this part.
     Interrupter* passedOn() { return whole_ ? this : nullptr; }
 
     bool wasInterrupted(int percent) override
@@ -30,8 +30,8 @@ private:
     int from_, to_;
 };
 
-/// Several pieces of work side by side, each of which says how far it is: together they are as far as the mean by
-/// weight, and never go back.
+/// Several pieces of work side by side, each with its own progress. The progress of the whole is their weighted mean
+/// and never decreases.
 class StagesSideBySide {
 public:
     /// \param weights of the pieces, positive
@@ -43,7 +43,7 @@ public:
     StagesSideBySide(const StagesSideBySide&) = delete;
     StagesSideBySide& operator=(const StagesSideBySide&) = delete;
 
-    /// To be passed on to the i-th piece of work. Any thread may ask it.
+    /// Returns the interrupter for the i-th piece of work. Any thread may ask it.
     Interrupter* passedOn(std::size_t i) { return whole_ ? &pieces_[i] : nullptr; }
 
 private:
@@ -68,7 +68,7 @@ private:
     };
 
     Interrupter* whole_;
-    std::mutex mutex_;    // held while the whole is told, so that nothing older is told later
+    std::mutex mutex_;    // held while progress is reported, so that no older value follows a newer one
     const double weight_; // of all
     double sum_ = 0;
     std::deque<Piece> pieces_; // they cannot be moved

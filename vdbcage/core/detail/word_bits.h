@@ -6,7 +6,7 @@
 
 namespace vdbcage::detail {
 
-/// Swaps the bits of `low` that are `shift` places above `mask` with those of `high` under it. Takes words, or vectors
+/// Swaps the bits of `low` that are `shift` places above `mask` with those of `high` at `mask`. Takes words, or vectors
 /// of them.
 template <class Word>
 inline void swapBits(Word& low, Word& high, std::uint64_t mask, int shift)
@@ -38,7 +38,7 @@ inline void transposeLanes(std::array<std::uint64_t, 16>& w)
     swapApart(1, 0x5555555555555555ULL);
 }
 
-/// How many bits are set. The builtin would call a function where the processor may lack the instruction.
+/// Returns the number of set bits. The builtin would call a function where the processor may lack the instruction.
 inline unsigned bitCount(std::uint16_t bits)
 {
     unsigned v = bits;

@@ -13,50 +13,51 @@
 
 namespace vdbcage::detail {
 
-using Packet = double[packetSize]; ///< a number of each of some points
+using Packet = double[packetSize]; ///< one number for each of several points
 
-/// Computes rows of coordinates in one cage, which must outlive this, from any number of threads. One of the two is
-/// set.
+/// Functions that compute rows of coordinates in one cage, which must outlive this, on any number of threads. One of
+/// the two is set.
 struct CageRows {
-    /// Writes the row of the point `x`, which is scaled. Returns false where the family is not defined.
+    /// Writes the row of the scaled point `x`. Returns false where the family is not defined.
     std::function<bool(const openvdb::Vec3d& x, double* row)> one;
     /// Writes the rows of `count` points, at most `packetSize`: number k of point i to rows[k][i]. Returns a bit for
     /// each point where the family is not defined. A row depends on its own point only.
     std::function<unsigned(const openvdb::Vec3d* points, std::size_t count, Packet* rows)> several = nullptr;
 };
 
-/// CageRows of a formula that needs only the cage: `row` writes as CageRows::one.
+/// Returns the CageRows of a formula that needs only the cage: `row` is their CageRows::one.
 template <bool (*row)(const UnitCage& cage, const openvdb::Vec3d& x, double* row)>
 CageRows formulaRows(const UnitCage& cage, const CoordinateOptions& /*options*/, Interrupter* /*interrupter*/)
 {
     return {[&cage](const openvdb::Vec3d& x, double* to) { return row(cage, x, to); }};
 }
 
-/// The handles that follow the cage's points: see cageHandles().
+/// The handles that come after the cage's points: see cageHandles().
 struct Vectors {
     std::size_t perTriangle = 0, perQuad = 0;
     /// Appends them to `handles`.
     void (*add)(const Mesh& cage, const std::vector<openvdb::Vec3d>& posed, const CoordinateOptions& options,
                 std::vector<openvdb::Vec3d>& handles) = nullptr;
-    /// Appends to `maxDistances` how far each of them goes, about, in units of the cage's longest side.
+    /// Appends to `maxDistances` about how far each of them goes, in units of the cage's longest side.
     void (*addMaxDistances)(const Mesh& cage, std::vector<float>& maxDistances) = nullptr;
 };
 
-/// A family of coordinates: all that tells it from the others. Each has a file in families/.
+/// The parts of a family of coordinates that differ from the others. Each family has a file in families/.
 struct CoordinateFamily {
     FamilyInfo info;
-    /// Prepares what rows need. Null: the family cannot be computed. `cage` has triangles only if info.splitsQuads.
+    /// Prepares the computation of rows. Null: the family cannot be computed. If info.splitsQuads, `cage` must have
+    /// triangles only.
     /// \throw InputError the family cannot take the cage or the options
     /// \throw Cancelled
     CageRows (*rowsIn)(const UnitCage& cage, const CoordinateOptions& options, Interrupter* interrupter);
-    RowKernels::Rows* RowKernels::*kernel = nullptr; ///< faster than CageRows::one, which has the points it leaves out
+    RowKernels::Rows* RowKernels::*kernel = nullptr; ///< faster than CageRows::one, which computes the rows left out
     Vectors vectors = {};                            ///< none, if handles are points only
 };
 
-/// Finds the family of a value. families/families.cpp has the list.
+/// Returns the family of a value. families/families.cpp has the list.
 const CoordinateFamily& coordinateFamily(Coordinates family);
 
-/// The names of all that can be computed: "mvc, green".
+/// Returns the names of all that can be computed: "mvc, green".
 std::string familyNames();
 
 } // namespace vdbcage::detail

@@ -7,7 +7,7 @@ namespace vdbcage::detail {
 
 namespace {
 
-/// Roots of the Legendre polynomial by Newton's method.
+/// Finds the roots of the Legendre polynomial by Newton's method.
 GaussRule makeRule(int points)
 {
     constexpr double pi = 3.14159265358979323846;

@@ -11,7 +11,7 @@ struct GaussRule {
     std::array<double, mostGaussPoints> weight; ///< of sum 1
 };
 
-/// Gauss-Legendre quadrature.
+/// Returns the Gauss-Legendre rule with `points` points.
 /// \pre `points` is 1 to mostGaussPoints
 const GaussRule& gaussRule(int points);
 

@@ -1,7 +1,7 @@
 // Based on: H. Cheng, Z. Gimbutas, P. Martinsson, V. Rokhlin, "On the Compression of Low Rank Matrices", 2005.
-// Differs: the decomposition is of the differences from one row, so that what all rows share is exact and rounding the
-// factors costs next to nothing; rows are chosen by the sum of absolute values, which bounds what a point is off by.
-// Nothing bounds the factors, so rows that large ones put too far off are found and kept.
+// Differs: the decomposition is of the differences from one row, so that the part shared by all rows is exact and
+// rounding the factors costs almost nothing; rows are chosen by the sum of absolute values, which bounds the error of a
+// point. Nothing bounds the factors, so rows that large factors put too far off are found and kept.
 
 #include <vdbcage/deform/detail/interpolative.h>
 
@@ -16,13 +16,13 @@ namespace vdbcage::detail {
 
 namespace {
 
-// Rounding may bring what a row is off by to so many times the tolerance.
+// The largest error of a row with rounding, in tolerances.
 constexpr double withRounding = 4;
-// Rounding costs about 2^-26 of what a combination adds up. Where that is less than so many times the row's size, it is
-// not looked at: of coordinates it is 10 to 20 times, and 65 at most (creature, cages of 400 and 1500 faces).
+// Rounding costs about 2^-26 of the terms of a combination. Where these are less than this many times the row's size,
+// it is ignored: for coordinates they are 10 to 20 times, and 65 at most (creature, cages of 400 and 1500 faces).
 constexpr double harmlessGrowth = 24;
 
-/// What is left of each row after its projection on the rows kept so far, by Gram and Schmidt.
+/// The residuals of the rows after their projection on the rows kept so far, by Gram and Schmidt.
 class Residuals {
 public:
     Residuals(const std::vector<float>& rows, const std::vector<float>& scale, float tolerance)
@@ -41,17 +41,18 @@ public:
         difference_ = size_;
     }
 
-    /// Asks for the row to be kept, whatever is left of it.
+    /// Makes the row be kept, whatever its residual.
     void ask(std::size_t row) { asked_[row] = 1; }
 
-    /// How much more is left of the row than may be; infinite where that is no number, or the row was asked for.
+    /// Returns how far the row's residual is above the allowed one; infinite where it is no number, or the row must be
+    /// kept.
     float excess(std::size_t row) const
     {
         const float excess = size_[row] - allowed_[row];
         return asked_[row] != 0 || std::isnan(excess) ? std::numeric_limits<float>::infinity() : excess;
     }
 
-    /// Takes the projections on row `pivot`, the `step`th kept, off `rows`.
+    /// Subtracts the projections on row `pivot`, the `step`th kept, from `rows`.
     void project(const std::vector<std::uint32_t>& rows, std::uint32_t pivot, std::size_t step)
     {
         std::vector<float*> places;
@@ -65,15 +66,15 @@ public:
         }
     }
 
-    /// The size of the row less the first one.
+    /// Returns the size of the row minus the first one.
     float difference(std::size_t row) const { return difference_[row]; }
-    /// `tolerance` times the size of the row.
+    /// Returns `tolerance` times the size of the row.
     float allowed(std::size_t row) const { return allowed_[row]; }
 
     float coefficient(std::size_t row, std::size_t step) const { return coefficients_[row * count_ + step]; }
 
 private:
-    /// The sum of `term` of each entry of the row, in parts for vectors.
+    /// Returns the sum of `term` of each entry of the row, in parts for vectors.
     template <typename Term>
     float sumOf(std::size_t row, const Term& term) const
     {
@@ -87,7 +88,7 @@ private:
     {
         return sumOf(row, [](float entry) { return std::abs(entry); });
     }
-    /// One over the sum of squares; 0 where there is none.
+    /// Returns one over the sum of squares, or 0 if that is zero.
     float inverseSquare(std::size_t row) const
     {
         const float square = sumOf(row, [](float entry) { return entry * entry; });
@@ -99,10 +100,10 @@ private:
     std::vector<char> asked_;
 };
 
-/// The factors of the first `kept` of `order`, less one, for the row order[i].
+/// Returns the factors of the first `kept` of `order`, except one, for the row order[i].
 ///
-/// A row is a combination of what was left of the kept ones when they were; what was left of each is itself less
-/// a combination of those before. Solved from the last to the first.
+/// A row is a combination of the residuals of the kept rows at the time when they were kept. Each residual is itself a
+/// kept row minus a combination of those before. The factors are solved for from the last to the first.
 std::vector<double> factorsOf(const Residuals& residuals, const std::vector<std::uint32_t>& order, std::size_t kept,
                               std::size_t i)
 {
@@ -116,7 +117,7 @@ std::vector<double> factorsOf(const Residuals& residuals, const std::vector<std:
     return factors;
 }
 
-/// What the combination by `factors` is off by in the row order[i].
+/// Returns the error of the combination by `factors` in the row order[i].
 double offBy(const std::vector<float>& rows, const std::vector<float>& scale, const std::vector<std::uint32_t>& order,
              std::size_t i, const float* factors, std::size_t factorCount)
 {
@@ -154,7 +155,7 @@ InterpolativeRows interpolativeRows(const std::vector<float>& rows, const std::v
     for (std::size_t kept = 1;;) {
         for (;; ++kept) {
             throwIfInterrupted(interrupter);
-            if (kept > scale.size()) return all; // factors would be as many as the entries that they stand for
+            if (kept > scale.size()) return all; // there would be as many factors as the entries that they replace
             const auto worst = std::max_element(
                 order.begin() + static_cast<std::ptrdiff_t>(kept), order.end(),
                 [&](std::uint32_t a, std::uint32_t b) { return residuals.excess(a) < residuals.excess(b); });

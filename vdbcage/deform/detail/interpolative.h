@@ -8,7 +8,7 @@
 
 namespace vdbcage::detail {
 
-/// The rows of a matrix by a few of them. The first `kept` of `order` are kept. Row order[kept + i] is
+/// The rows of a matrix as combinations of a few of them. The first `kept` of `order` are kept. Row order[kept + i] is
 ///     row(order[0]) + the sum over j of factors[i * (kept - 1) + j] * (row(order[j + 1]) - row(order[0])).
 struct InterpolativeRows {
     std::vector<std::uint32_t> order;
@@ -16,11 +16,12 @@ struct InterpolativeRows {
     std::vector<float> factors;
 };
 
-/// Keeps as many rows as it takes for the others to be off by at most `tolerance` of their size, but for rounding, and
-/// by four times that with it.
+/// Decomposes a matrix. It keeps enough rows for the others to be off by at most `tolerance` of their size before
+/// rounding, and by four times that with rounding.
 ///
-/// The size of a row is the sum of its entries' absolute values, each times its column's `scale`. A multiple of `unit`
-/// is kept, or all where that is no more to hold. `rows` are row after row. Cost: O(rows x kept x columns).
+/// The size of a row is the sum of its entries' absolute values, each times its column's `scale`. The number of kept
+/// rows is a multiple of `unit`, or all rows where that takes no more memory. `rows` are row after row.
+/// Cost: O(rows x kept x columns).
 /// \throw Cancelled
 InterpolativeRows interpolativeRows(const std::vector<float>& rows, const std::vector<float>& scale, float tolerance,
                                     std::size_t unit, Interrupter* interrupter = nullptr);

@@ -22,8 +22,8 @@ void copy(const Vec3d& from, double (&to)[3])
 
 KernelRules kernelRules()
 {
-    // Of the tolerance, see samplePatch(): one digit less than there keeps weights to 3e-9, and takes a fifth less
-    // time.
+    // Digits of the tolerance, see samplePatch(): one digit less than there keeps weights to 3e-9, and takes a fifth
+    // less time.
     constexpr double digits = 8 * 2.302585092994046;
     static_assert(KernelRules::most == mostGaussPoints);
     KernelRules rules{};
@@ -52,7 +52,7 @@ struct Place {
     double at[3];
 };
 
-/// A KernelCage and what it points to.
+/// A KernelCage and the arrays that it points to.
 struct Arrays {
     explicit Arrays(const UnitCage& unitCage);
     Arrays(const Arrays&) = delete;

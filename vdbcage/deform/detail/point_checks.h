@@ -8,7 +8,7 @@
 
 namespace vdbcage::detail {
 
-/// "(1, 2, 3)"
+/// Returns a text such as "(1, 2, 3)".
 std::string toText(const openvdb::Vec3d& point);
 
 /// \throw InputError naming the first of `points` that is not finite, after `what`

@@ -24,7 +24,7 @@ const CoordinateFamily& computable(Coordinates family)
                      "'given' weights were made elsewhere and cannot be computed; there are " + familyNames());
 }
 
-/// The cage as a family takes it.
+/// Returns the cage in the form that a family takes.
 Mesh cageFor(const CoordinateFamily& family, const Mesh& cage)
 {
     if (!family.info.splitsQuads) return cage;
@@ -55,7 +55,7 @@ RowMaker::RowMaker(const Mesh& cage, const std::vector<Vec3d>& points, const Coo
 template <typename Number>
 void RowMaker::make(const std::uint32_t* indices, std::size_t count, Number* rows)
 {
-    constexpr std::size_t grain = 8 * packetSize; // its buffers are worth it
+    constexpr std::size_t grain = 8 * packetSize; // large enough for the cost of its buffers
     parallelFor(tbb::blocked_range<std::size_t>(0, count, grain), [&](const auto& range) {
         const std::size_t chunks = scratchSize(*kernelCage_) / sizeof(Chunk) + 1;
         const Buffers buffers{std::make_unique<Packet[]>(columns_), std::unique_ptr<Chunk[]>(new Chunk[chunks])};
@@ -131,8 +131,8 @@ unsigned RowMaker::makePacket(const Vec3d* points, std::size_t count, const Buff
     return undefined;
 }
 
-/// Makes the row of a loose point, which has that of the family where it is defined. Mean value coordinates are of the
-/// cage's points, the first handles of every family. False where they are not defined.
+/// Makes the row of a loose point: that of the family where it is defined, unless the point stays. Mean value
+/// coordinates are of the cage's points, the first handles of every family. Returns false where they are not defined.
 template <typename Number>
 bool RowMaker::moveLoosely(const Vec3d& at, bool isDefined, Number* row) const
 {

@@ -10,7 +10,7 @@
 
 namespace vdbcage::detail {
 
-/// Computes rows of coordinates of any family, also of points that are loose.
+/// The computation of rows of coordinates of any family, loose points included.
 class RowMaker {
 public:
     /// `points` must outlive this.
@@ -21,16 +21,16 @@ public:
     RowMaker(const RowMaker&) = delete;
     RowMaker& operator=(const RowMaker&) = delete;
 
-    /// The number of weights a point.
+    /// Returns the number of weights a point.
     std::size_t columns() const { return columns_; }
 
-    /// Writes `count` rows in parallel, one after the other: of the points `indices`, or of the first ones if it is
-    /// null. `Number` is float or double.
+    /// Writes `count` rows, one after the other in `rows`, in parallel: those of the points `indices`, or of the first
+    /// points if it is null. `Number` is float or double.
     /// \throw Cancelled
     template <typename Number>
     void make(const std::uint32_t* indices, std::size_t count, Number* rows);
 
-    /// \throw InputError a row that was asked for is of a point where it is not defined
+    /// \throw InputError make() was called for a point where the family is not defined
     void requireDefined() const;
 
 private:
@@ -39,7 +39,7 @@ private:
     };
     struct Buffers {
         std::unique_ptr<Packet[]> rows;
-        std::unique_ptr<Chunk[]> scratch; ///< not set to zero: it is large
+        std::unique_ptr<Chunk[]> scratch; ///< large, and not set to zero
     };
 
     unsigned makePacket(const openvdb::Vec3d* points, std::size_t count, const Buffers& buffers) const;

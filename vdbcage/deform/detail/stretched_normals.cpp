@@ -8,13 +8,14 @@ using openvdb::Vec3d;
 
 namespace {
 
-/// The normal of the parallelogram of two edges `a` and `b`, counter-clockwise, that became `posedA` and `posedB`.
+/// Returns the normal of the parallelogram of two edges `a` and `b`, counter-clockwise, that became `posedA` and
+/// `posedB`.
 Vec3d stretchedNormal(const Vec3d& a, const Vec3d& b, const Vec3d& posedA, const Vec3d& posedB)
 {
     const Vec3d normal = posedA.cross(posedB);
     const double length = normal.length();
     if (!(length > 0)) return Vec3d(0);
-    // The norm of the matrix posedA b^T - posedB a^T, which does not cancel for slivers as its expansion does.
+    // The norm of the matrix posedA b^T - posedB a^T. It does not cancel for slivers, unlike its expansion.
     double square = 0;
     for (int i = 0; i < 3; ++i) square += (posedA[i] * b - posedB[i] * a).lengthSqr();
     return std::sqrt(0.5 * square) / length * normal;
@@ -43,7 +44,7 @@ void addNormalMaxDistances(const Mesh& cage, const std::vector<openvdb::Vec3I>& 
         const auto edge = [&](int to) {
             return (cage.points[corner[to]] / size - cage.points[corner[0]] / size).length();
         };
-        // No less than the edges' product, and not zero if one of them is.
+        // Not less than the edges' product, and not zero if one of them is not.
         const double mean = 0.5 * (edge(1) + edge(2));
         maxDistances.push_back(static_cast<float>(mean * mean));
     }

@@ -12,7 +12,7 @@ using openvdb::Vec3d;
 
 namespace {
 
-/// The integral of 1 / distance from the origin along the edge from `a` to `b`; 0 if it would be infinite.
+/// Returns the integral of 1 / distance from the origin along the edge from `a` to `b`; 0 if it would be infinite.
 double edgePotential(const Vec3d& a, const Vec3d& b)
 {
     const Vec3d edge = b - a;

@@ -6,7 +6,7 @@
 
 namespace vdbcage::detail {
 
-/// What the closed forms of integrals over a triangle are made of, for the origin: see Wilton and others, "Potential
+/// The terms of the closed forms of integrals over a triangle, seen from the origin: see Wilton and others, "Potential
 /// Integrals for Uniform and Linear Source Distributions on Polygonal and Polyhedral Domains", 1984.
 ///
 /// Edge i begins at corner i.
@@ -21,25 +21,25 @@ struct TrianglePotentials {
     std::array<openvdb::Vec3d, 3> along; ///< the edges' directions, of length 1
     std::array<double, 3> foot;          ///< from the origin's foot on the plane to the edge's line, outward
 
-    /// The edge's outward direction in the plane, of length 1.
+    /// Returns the edge's outward direction in the plane, of length 1.
     openvdb::Vec3d outward(std::size_t i) const { return along[i].cross(normal); }
 };
 
-/// `corners` are counter-clockwise, and not in line. `onFace`: the origin lies on the triangle, whose solid angle is
-/// left out then, as is its height.
+/// Computes the potentials. `corners` are counter-clockwise, and not in line. `onFace`: the origin lies on the
+/// triangle, whose solid angle and height are then left out.
 TrianglePotentials trianglePotentials(const std::array<openvdb::Vec3d, 3>& corners, bool onFace);
 
 /// The solid angle of all directions.
 constexpr double fourPi = 4 * 3.14159265358979323846;
 
-/// A triangle that is narrower than this, over its longest side, has too few digits for closed forms.
+/// The width of a triangle over its longest side below which closed forms lose too many digits.
 constexpr double sliverWidth = 1e-7;
 
-/// Whether the triangle of the sides `a` and `b` is that narrow.
+/// Returns whether the triangle of the sides `a` and `b` is that narrow.
 bool isSliver(const openvdb::Vec3d& a, const openvdb::Vec3d& b);
 
-/// Half the solid angle of the triangle that has these corners, seen from the origin: van Oosterom, Strackee 1983.
-/// `determinant` is that of the corners, whose sign it has.
+/// Returns half the solid angle of the triangle that has these corners, seen from the origin: van Oosterom, Strackee
+/// 1983. `determinant` is that of the corners; the angle has its sign.
 double halfSolidAngle(const openvdb::Vec3d& a, const openvdb::Vec3d& b, const openvdb::Vec3d& c, double determinant);
 
 } // namespace vdbcage::detail

@@ -22,7 +22,7 @@ std::vector<openvdb::Vec3I> triangulateByShorterDiagonal(const Mesh& cage)
 
 double sixfoldVolume(const std::vector<openvdb::Vec3d>& points, const std::vector<openvdb::Vec3I>& triangles)
 {
-    double volume = 0; // from one of the points: no digits are lost far from the origin
+    double volume = 0; // relative to one of the points, so that no digits are lost far from the origin
     for (const openvdb::Vec3I& t : triangles) {
         const openvdb::Vec3d& apex = points[triangles.front()[0]];
         volume += (points[t[0]] - apex).dot((points[t[1]] - apex).cross(points[t[2]] - apex));

@@ -38,7 +38,7 @@ void consider(const PatchCorners& corners, const std::array<double, 4>& weights,
     if (distance < best.distance) best = {weights, distance};
 }
 
-/// The point of an edge that is nearest to the origin.
+/// Tries the point of an edge that is nearest to the origin.
 void considerEdge(const PatchCorners& corners, std::size_t i, std::size_t j, Weights& best)
 {
     const Vec3d edge = corners[j] - corners[i];
@@ -59,7 +59,7 @@ void considerInsideTriangle(const PatchCorners& c, Weights& best)
     if (w0 > 0 && w1 > 0 && w0 + w1 < 1) consider(c, {w0, w1, 1 - w0 - w1, 0}, best);
 }
 
-/// Newton's method from the best of a few places.
+/// Runs Newton's method from the best of a few places.
 void considerInsidePatch(const PatchCorners& c, Weights& best)
 {
     double u = 0.5, v = 0.5, least = std::numeric_limits<double>::infinity();
@@ -133,7 +133,7 @@ UnitCage::UnitCage(const Mesh& cage)
     for (const openvdb::Vec4I& q : cage.quads) faces_.push_back({{q[0], q[1], q[2], q[3]}, true});
 
     std::vector<bool> used(cage.points.size());
-    double volume = 0; // six times; a bilinear patch has the mean of its two splits
+    double volume = 0; // six times the volume; a bilinear patch has the mean of its two splits
     points_.resize(cage.points.size(), Vec3d(0));
     for (const Face& face : faces_) {
         for (const openvdb::Index32 i : face.at) {

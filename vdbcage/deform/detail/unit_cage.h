@@ -11,8 +11,8 @@ namespace vdbcage::detail {
 
 /// Corners of a face seen from a point, counter-clockwise from outside.
 ///
-/// A triangle repeats its last corner. As a bilinear patch that is the same surface. Its barycentric coordinates are
-/// the patch's with the last two added.
+/// A triangle repeats its last corner, which makes a bilinear patch with the same surface. Its barycentric coordinates
+/// are the patch's with the last two added.
 using PatchCorners = std::array<openvdb::Vec3d, 4>;
 
 struct KernelCage;
@@ -30,7 +30,7 @@ public:
     struct Place {
         std::size_t face = 0;
         std::array<double, 4> weights{};
-        double distance = 0; ///< to the point that was asked for
+        double distance = 0; ///< to the point for which it was sought
     };
 
     /// \throw InputError the cage is not closed; it faces inward; it is flat
@@ -43,25 +43,24 @@ public:
 
     PatchCorners cornersFrom(const Face& face, const openvdb::Vec3d& x) const;
 
-    /// The place nearest to `x`.
+    /// Returns the place nearest to `x`.
     /// Cost: O(faces).
     Place nearest(const openvdb::Vec3d& x) const;
-    /// The place of face `face` nearest to `x`.
+    /// Returns the place of face `face` nearest to `x`.
     Place nearestOf(std::size_t face, const openvdb::Vec3d& x) const;
 
-    /// Completes weights that are solid angles over 4 pi, of `x`: all faces around an inner point cover the whole
-    /// sphere.
+    /// Completes weights of `x` that are solid angles over 4 pi: around a point inside they sum up to 1.
     ///
-    /// What is lacking goes to `nearest`, the place nearest to `x`. Then the weights are restored; `missing` is `x`
-    /// less what is not the points'. Returns false, and changes nothing, if `x` is outside.
+    /// The difference goes to `nearest`, the place nearest to `x`. Then the weights are restored; `missing` is `x`
+    /// minus the part of other handles than the points. Returns false, and changes nothing, if `x` is outside.
     bool completeSolidAngles(const Place& nearest, openvdb::Vec3d missing, double* weights) const;
 
     /// Changes the points' weights so that the sum of the points times their weights grows by `missing`.
     ///
-    /// The sum of the weights stays. The change is the least in the sum of squares. Weights that were rounded or
-    /// integrated reproduce affine maps after it.
+    /// The sum of the weights stays. The change has the least sum of squares. Afterwards weights that were rounded or
+    /// integrated reproduce affine maps.
     void restore(const openvdb::Vec3d& missing, double* weights) const;
-    /// By point: its weight's change for each missing unit.
+    /// Returns by point the change of its weight for each missing unit.
     const std::vector<openvdb::Vec3d>& restoring() const { return restoring_; }
 
 private:
@@ -72,10 +71,10 @@ private:
     std::vector<openvdb::Vec3d> restoring_;
 };
 
-/// The longest side of the box of the mesh's faces: the unit of its UnitCage.
+/// Returns the longest side of the box of the mesh's faces: the unit of its UnitCage.
 double longestSide(const Mesh& mesh);
 
-/// `cage` as plain data for the kernels. It must outlive the result.
+/// Returns `cage` as plain data for the kernels. It must outlive the result.
 std::shared_ptr<const KernelCage> kernelCage(const UnitCage& cage);
 
 } // namespace vdbcage::detail

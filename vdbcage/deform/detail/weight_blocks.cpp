@@ -21,23 +21,24 @@ using openvdb::Vec3f;
 namespace {
 
 // The larger a block, the fewer of its points are held (of 100000 in a cage of 400 quads 50 % by 128, 33 % by 256), but
-// the longer it takes to combine the others, and to find out how: at this size 3 to 16 % of computing the weights.
+// the longer it takes to find the combinations of the others and to compute them: at this size 3 to 16 % of the time of
+// computing the weights.
 constexpr std::size_t blockSize = 256;
-// Points of a group are side by side, so that one weight's worth of work is the same for all of them.
+// Points of a group are side by side, so that the work for one weight is the same for all of them.
 constexpr std::size_t groupSize = 16;
-// Posing is as fast as weights come from memory, and processors by themselves do not look ahead far enough: weights are
-// asked for this many moves before their turn, which takes four tenths off the time (AMD Zen).
+// Posing is as fast as weights come from memory, and processors do not prefetch far enough on their own. Weights are
+// prefetched this many moves ahead, which takes four tenths off the time (AMD Zen).
 constexpr std::size_t movesAhead = 24;
-// So many moves are summed up at a time: rounding grows with the length of a sum.
+// The number of moves that are summed up at a time: rounding grows with the length of a sum.
 constexpr std::size_t movesTogether = 64;
 
-/// What moves a group, by how much: its weights are `at` floats behind the first of the group.
+/// A move of a group: its weights are `at` floats behind the first of the group.
 struct Move {
     std::uint32_t at;
     float x, y, z;
 };
 
-/// All that moves a group; behind, for lookAhead(), where the weights of the same in the next groups are.
+/// All moves of a group; after them, for lookAhead(), the places of the same weights in the next group.
 class Moves {
 public:
     void clear() { moves_.clear(); }
@@ -66,7 +67,7 @@ struct GroupSums {
     Vec3f operator[](std::size_t i) const { return {x[i], y[i], z[i]}; }
 };
 
-/// What a group moves by whose weights begin at `weights`.
+/// Returns the moves of a group whose weights begin at `weights`.
 GroupSums sumUp(const float* weights, const Moves& moves)
 {
     GroupSums sums;
@@ -75,7 +76,7 @@ GroupSums sumUp(const float* weights, const Moves& moves)
         for (std::size_t m = first; m < std::min(moves.size(), first + movesTogether); ++m) {
             const Move& move = moves[m];
             const float* const weight = weights + move.at;
-            // By a number, for it may lie behind the last group.
+            // As a number, since it may lie behind the last group.
             __builtin_prefetch(reinterpret_cast<const void*>(reinterpret_cast<std::uintptr_t>(weights) +
                                                              moves[m + movesAhead].at * sizeof(float)));
             for (std::size_t i = 0; i < groupSize; ++i) {
@@ -95,8 +96,8 @@ GroupSums sumUp(const float* weights, const Moves& moves)
 
 using Indices = std::vector<std::uint32_t>;
 
-/// Sorts indices of points, `blockSize` to a block, by halving the points across the longest side of their box until
-/// they are a block or less; and blocks likewise, down to what is computed together.
+/// Sorts indices of points, `blockSize` to a block. It halves the points across the longest side of their box until
+/// they fit a block, and blocks in the same way down to `packetSize`.
 void sortIntoBlocks(const std::vector<Vec3d>& points, Indices::iterator begin, Indices::iterator end,
                     Interrupter* interrupter)
 {
@@ -127,7 +128,7 @@ void sortIntoBlocks(const std::vector<Vec3d>& points, Indices::iterator begin, I
     }
 }
 
-/// Rows, `row(i)` gives the `i`th, in groups of which each has them column by column.
+/// Returns rows, where row(i) returns the i-th, in groups, each column by column.
 template <typename Row>
 void appendGroups(std::size_t count, std::size_t columns, const Row& row, std::vector<float>& groups)
 {

@@ -10,10 +10,10 @@
 
 namespace vdbcage::detail {
 
-/// \throw InputError not as many weights as points times handles
+/// \throw InputError the number of weights is not points times handles
 void requireWeights(std::size_t weights, std::size_t points, std::size_t handles);
 
-/// What a handle moves by.
+/// The move of a handle.
 struct HandleMove {
     std::size_t handle;
     openvdb::Vec3f by;
@@ -21,25 +21,25 @@ struct HandleMove {
 
 /// The weights by which points move, in blocks of points that are close together.
 ///
-/// A block holds the weights of as few of its points as it can. The weights of the others are combinations of these.
+/// A block holds the weights of as few of its points as possible. Those of the others are combinations of these.
 class WeightBlocks {
 public:
-    /// Writes the weights of `points`, which are indices, to `rows`, which has their size. Each `packetSize` of them
-    /// are close together. Several threads call it.
+    /// Writes the weights of `points`, given as indices, to `rows`, which has their size. Each `packetSize` points in
+    /// order are close together. Several threads call it.
     using MakeRows = std::function<void(const std::vector<std::uint32_t>& points, std::vector<float>& rows)>;
 
-    /// What combinations may be off by: four times what rounding to float costs.
+    /// The error that combinations may have: four times that of rounding to float.
     static constexpr float tolerance = 1.0F / (1 << 22);
 
-    /// `maxDistances` has how far each handle may go, about. The size of a row is the sum of its weights' absolute
-    /// values, each times its handle's maxDistance. A row is off by at most `tolerance` of its size, and by four
-    /// times that with what rounding costs, whatever the weights are.
+    /// `maxDistances` has about how far each handle may go. The size of a row is the sum of its weights' absolute
+    /// values, each times its handle's maxDistance. A row is off by at most `tolerance` of its size, and by four times
+    /// that with rounding, for any weights.
     /// \pre `points` are finite
     /// \throw Cancelled
     WeightBlocks(const std::vector<openvdb::Vec3d>& points, const std::vector<float>& maxDistances,
                  const MakeRows& makeRows, Interrupter* interrupter = nullptr);
 
-    /// Adds what `moves` move them by, times `size`, to `points`. The number of threads does not matter.
+    /// Moves `points` by `moves`, times `size`. The result is the same for any number of threads.
     /// Cost: reading the weights of these handles and the combinations once, in parallel.
     void move(const std::vector<HandleMove>& moves, double size, std::vector<openvdb::Vec3d>& points) const;
 
@@ -49,7 +49,7 @@ private:
     struct Block {
         std::vector<std::uint32_t> points; ///< first those whose weights are held
         std::size_t held = 0;
-        std::vector<float> weights; ///< by groups of points, in these by handles; then the combinations likewise
+        std::vector<float> weights; ///< group of points by group, in each by handle; then combinations in the same way
     };
 
     std::size_t handles_;

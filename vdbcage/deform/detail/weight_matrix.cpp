@@ -21,7 +21,7 @@ namespace {
 
 static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "reverse the bytes here");
 
-// Rows that were rounded to floats, or to six decimals in a cage of 2000 points or fewer, stay within it.
+// Rows rounded to floats, or to six decimals in a cage of 2000 points or fewer, stay within this tolerance.
 constexpr double sumTolerance = 1e-3;
 
 [[noreturn]] void fail(const std::string& name, const std::string& problem)
@@ -34,7 +34,7 @@ std::string counted(std::size_t count, const char* what)
     return std::to_string(count) + ' ' + what + (count == 1 ? "" : "s");
 }
 
-/// \throw IoError unless a matrix of this size is one of points x cage points
+/// \throw IoError unless a matrix of this size has points x cage points
 void requireShape(std::size_t rows, std::size_t columns, const std::string& name, std::size_t points,
                   std::size_t cagePoints)
 {
@@ -50,7 +50,7 @@ void requireShape(std::size_t rows, std::size_t columns, const std::string& name
     fail(name, "it has " + counted(columns, "column") + "; columns: the cage has " + counted(cagePoints, "point"));
 }
 
-/// Numbers of a file as floats, row after row; in the file they are column after column if `byColumns`.
+/// Returns numbers of a file as floats, row after row; in the file they are column after column if `byColumns`.
 template <typename Number>
 std::vector<float> takeNumbers(std::string_view data, const std::string& name, std::size_t rows, std::size_t columns,
                                bool byColumns)
@@ -72,14 +72,14 @@ std::vector<float> takeNumbers(std::string_view data, const std::string& name, s
     return weights;
 }
 
-/// What the header of a .npy file says.
+/// The contents of a .npy file's header.
 struct NpyHeader {
     std::string_view type;
     bool fortranOrder = false;
     std::vector<std::size_t> shape;
 };
 
-/// Reads a header, which is the text of a Python dictionary.
+/// A parser of a header, which is the text of a Python dictionary.
 class NpyHeaderParser {
 public:
     NpyHeaderParser(std::string_view text, const std::string& name) : text_(text), left_(text), name_(name) {}
@@ -114,7 +114,7 @@ public:
 private:
     [[noreturn]] void failParsing() const { fail(name_, "it has no header of a NumPy array, but " + quote(text_)); }
 
-    /// The next character that is no blank, 0 at the end.
+    /// Returns the next character that is not blank, 0 at the end.
     char next()
     {
         const std::size_t at = left_.find_first_not_of(" \n");
@@ -161,7 +161,7 @@ private:
             const auto read = std::from_chars(left_.data(), left_.data() + left_.size(), number);
             if (read.ec != std::errc()) failParsing();
             left_.remove_prefix(static_cast<std::size_t>(read.ptr - left_.data()));
-            skip('L'); // of Python 2
+            skip('L'); // in Python 2
             numbers.push_back(number);
             if (!skip(',') && next() != ')') failParsing();
         }
@@ -177,7 +177,7 @@ std::string shapeText(const std::vector<std::size_t>& shape)
     return shape.empty() ? "no" : joined(shape, " x ", [](std::size_t number) { return std::to_string(number); });
 }
 
-/// A number of rows or columns in a .dmat file.
+/// Reads a number of rows or columns in a .dmat file.
 std::size_t dmatCount(TextCursor& cursor, const char* what)
 {
     const char* const at = cursor.position();
@@ -239,7 +239,7 @@ std::vector<float> parseDmat(std::string_view bytes, const std::string& name, st
     if (binary) {
         cursor.nextLine();
         size = dmatSize(cursor);
-        // What follows may be any bytes, so that no other line end is taken for one.
+        // The next bytes may be any, so no other line end is accepted.
         if (!cursor.skipCharacter('\n')) cursor.fail("the second line must be COLUMNS ROWS, and nothing behind it");
     }
     requireShape(size.rows, size.columns, name, points, cagePoints);
@@ -247,7 +247,7 @@ std::vector<float> parseDmat(std::string_view bytes, const std::string& name, st
         const std::string_view data = bytes.substr(bytes.size() - cursor.bytesLeft());
         return takeNumbers<double>(data, name, points, cagePoints, true);
     }
-    // A number has two bytes or more: what the header says is bounded before memory is taken for it.
+    // A number has two bytes or more, so the counts of the header are bounded before memory is taken.
     const auto failTruncated = [&] {
         fail(name, "it is truncated: " + counted(points, "row") + " of " + counted(cagePoints, "column") + " need " +
                        std::to_string(points * cagePoints) + " numbers, and a line end behind the last");

@@ -39,15 +39,14 @@ struct Library {
     decltype(&eglReleaseThread) releaseThread = nullptr;
 };
 
-/// A visit of this thread to EGL, with OpenGL as the API that its calls are about. It leaves the thread as it was:
-/// where no context is current afterwards, even without the data that EGL keeps for each thread. At the end of the
-/// process libEGL frees this data of all threads, and then once more for each thread that ends later, as TBB's workers
-/// do.
+/// A visit of this thread to EGL, with OpenGL as the API of its calls. It leaves the thread as it was: if no context is
+/// current afterwards, even without the data that EGL keeps for each thread. At the end of the process libEGL frees
+/// this data of all threads, and then once more for each thread that ends later, such as TBB's workers.
 class Visit {
 public:
     explicit Visit(const Library& egl) : egl_(egl), before_(egl.queryApi())
     {
-        // No check: what needs it fails next, with an error of its own.
+        // Not checked: the next call that needs it fails with an error of its own.
         egl_.bindApi(EGL_OPENGL_API);
     }
     ~Visit()
@@ -65,7 +64,7 @@ private:
     EGLenum before_;
 };
 
-/// Whether a list of names separated by blanks, which may be null, has this one.
+/// Returns whether a list of names separated by blanks, which may be null, has this one.
 bool hasName(const char* list, const std::string& name)
 {
     return list && (" " + std::string(list) + " ").find(" " + name + " ") != std::string::npos;
@@ -83,7 +82,7 @@ public:
     EglPlatform(const Library& egl, EGLDisplay display, bool debug) : egl_(egl), display_(display)
     {
         const Visit visit(egl_);
-        // The display is the process's, shared by all who ask for it, and so is never terminated here.
+        // The display belongs to the process and is shared by all who ask for it, so it is never terminated here.
         EGLint major = 0, minor = 0;
         if (!egl_.initialize(display_, &major, &minor)) fail(egl_, "cannot initialize the device");
         const char* extensions = egl_.queryString(display_, EGL_EXTENSIONS);
@@ -141,7 +140,7 @@ Function extension(const Library& egl, const char* name)
     return reinterpret_cast<Function>(egl.getProc(name));
 }
 
-/// The devices that are not software.
+/// Returns the devices that are not software.
 std::vector<EGLDeviceEXT> hardware(const Library& egl, const char* extensions)
 {
     if (!hasName(extensions, "EGL_EXT_platform_device") || !hasName(extensions, "EGL_EXT_device_enumeration") ||

@@ -9,8 +9,8 @@ namespace vdbcage::gl::detail {
 
 namespace {
 
-// As OSMesa's binary interface has them. Mesa gave OSMesa up in 2025, and its header with it; where the library is, it
-// works as ever.
+// The types of OSMesa's binary interface. Mesa gave up OSMesa in 2025, and its header with it; where the library is
+// installed, it still works.
 using Context = struct OpaqueOsmesaContext*;
 enum Attribute : int {
     format = 0x22,

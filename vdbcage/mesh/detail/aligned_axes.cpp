@@ -15,7 +15,7 @@ namespace {
 using openvdb::Mat3d;
 using openvdb::Vec3d;
 
-/// The area vectors of the faces, either side counted as the same, those of about one direction added up.
+/// Returns the area vectors of the faces, without regard to sides, those of about one direction added up.
 std::vector<Vec3d> areaVectors(const Mesh& model, Interrupter* interrupter)
 {
     constexpr int cells = 24; // along each side of a cube of directions
@@ -51,19 +51,19 @@ double projectedArea(const Mat3d& axes, const std::vector<Vec3d>& vectors)
     return sum;
 }
 
-/// Turns two axes about the third to where the projected area is least. Between the angles at which some vector is
-/// square to one of them it is concave, so that it is one of these.
+/// Turns two axes about the third to the least projected area. Between the angles at which some vector is square to one
+/// of them the area is concave, so the best angle is one of these.
 void turnAbout(int third, const std::vector<Vec3d>& vectors, Mat3d& axes)
 {
     constexpr double quarter = 1.57079632679489661923;
     const Vec3d u = axes.row((third + 1) % 3), v = axes.row((third + 2) % 3);
     struct Seen {
-        double angle, length; // in the plane of both, within the first quarter
+        double angle, length; // in the plane of both axes, within the first quarter
     };
     std::vector<Seen> seen;
     for (const Vec3d& vector : vectors) {
         const double x = std::abs(vector.dot(u)), y = std::abs(vector.dot(v));
-        // Of a vector (x, -y), turned by a quarter: (y, x).
+        // A vector (x, -y), turned by a quarter, is (y, x).
         const bool isTurned = (vector.dot(u) < 0) != (vector.dot(v) < 0);
         seen.push_back({isTurned ? std::atan2(x, y) : std::atan2(y, x), std::hypot(x, y)});
         if (seen.back().angle >= quarter) seen.back().angle = 0;
@@ -95,7 +95,7 @@ void turnAbout(int third, const std::vector<Vec3d>& vectors, Mat3d& axes)
     axes.setRow((third + 2) % 3, std::cos(bestAngle) * v - std::sin(bestAngle) * u);
 }
 
-/// Right-handed axes, the last one along `direction`, which may be of any length above 0.
+/// Returns right-handed axes, the last one along `direction`, which may have any length above 0.
 Mat3d axesWith(Vec3d direction)
 {
     direction /= openvdb::math::Abs(direction)[openvdb::math::MaxIndex(openvdb::math::Abs(direction))];

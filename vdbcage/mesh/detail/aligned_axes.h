@@ -9,21 +9,21 @@
 
 namespace vdbcage::detail {
 
-/// Axes that a model lies along.
+/// Axes along which a model lies.
 struct AlignedAxes {
     openvdb::Mat3d rows = openvdb::Mat3d::identity(); ///< each an axis: `rows * p` has the coordinates of p along them
-    double share = 1; ///< of the surface that voxels along x, y and z have, that of voxels along these; at most 1
+    double share = 1; ///< the surface of voxels along these axes, over that of voxels along x, y and z; at most 1
 };
 
-/// The right-handed axes along which voxels around the model have the smallest surface: of fine ones, the sum of what
-/// the model's faces are seen from each axis. So the faces of a box, and of boxes that are parallel, are square to
-/// them. With `kept`, 0 to 2, that axis stays.
+/// Returns the right-handed axes along which voxels around the model have the smallest surface. The surface of fine
+/// voxels is the sum of the faces' areas projected along each axis. The faces of a box, and of parallel boxes, are thus
+/// square to the axes. With `kept`, 0 to 2, that axis stays.
 ///
-/// Directions are turned about one axis at a time to the best angle there, from those of the model's larger faces. The
-/// same for a soup. No axes are better along them by less than a millionth: then they are x, y and z.
+/// From the directions of the model's larger faces, axes are turned about one at a time to the best angle there. This
+/// works for a soup, too. Axes that are better by less than a millionth are not taken: x, y and z are returned.
 /// \pre requireUsable
 /// \throw Cancelled
-/// Cost: O(faces); some milliseconds beside.
+/// Cost: O(faces), plus some milliseconds.
 /// Based on: Huang, Jiang, Shi, Tong, Bao, Desbrun, L1-Based Construction of Polycube Maps from Complex Shapes, 2014.
 VDBCAGE_API AlignedAxes alignedAxes(const Mesh& model, std::optional<int> kept = {},
                                     Interrupter* interrupter = nullptr);

@@ -10,9 +10,9 @@ namespace {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 
-/// True if the 2x2 determinant ux vy - uy vx of rounded differences is certainly not zero. Each product carries three
-/// roundings and the difference one more: an error below 5 * 2^-53 times the sum of the products' sizes, plus what
-/// underflow takes (below 1e-320). The bounds below are wider than both, and infinite or NaN after an overflow.
+/// Returns whether the 2x2 determinant ux vy - uy vx of rounded differences is certainly not zero. Each product has
+/// three roundings and the difference one more: an error below 5 * 2^-53 times the sum of the products' sizes, plus the
+/// loss by underflow (below 1e-320). The bounds below are wider than both, and infinite or NaN after an overflow.
 bool certainlyNonzero(double ux, double uy, double vx, double vy)
 {
     const double first = ux * vy;

@@ -6,10 +6,10 @@
 
 namespace vdbcage::detail {
 
-/// Whether the three points are on one line or coincide, decided exactly for any finite coordinates.
+/// Returns whether the three points are on one line or coincide, exactly, for any finite coordinates.
 bool isDegenerate(const openvdb::Vec3d& a, const openvdb::Vec3d& b, const openvdb::Vec3d& c);
 
-/// The same for a triangle of `mesh`.
+/// Returns the same for a triangle of `mesh`.
 /// \pre its indices are in range
 bool isDegenerate(const Mesh& mesh, const openvdb::Vec3I& triangle);
 

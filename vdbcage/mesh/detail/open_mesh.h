@@ -11,7 +11,7 @@
 #include <vdbcage/mesh/detail/half_edges.h>
 #include <vdbcage/mesh/mesh.h>
 
-/// The one place where Mesh becomes OpenMesh's half-edge structure and back.
+/// Conversions between Mesh and OpenMesh's half-edge structure, all in this place.
 namespace vdbcage::detail {
 
 struct OpenMeshTraits : OpenMesh::DefaultTraitsDouble {
@@ -32,8 +32,7 @@ inline OpenMesh::Vec3d fromVec3d(const openvdb::Vec3d& p)
     return {p.x(), p.y(), p.z()};
 }
 
-/// \throw InputError an edge that is not between one or two faces in opposite directions; a triangle that repeats a
-/// corner
+/// \throw InputError an edge is not between one or two faces in opposite directions; a triangle repeats a corner
 inline void requireOriented(const HalfEdges& halfEdges, const EdgeTable& edges)
 {
     for (std::size_t h = 0; h < halfEdges.size(); ++h) {
@@ -48,8 +47,8 @@ inline void requireOriented(const HalfEdges& halfEdges, const EdgeTable& edges)
     }
 }
 
-/// `mesh`, its quads split, as an OpenMesh. Points and, after the split, faces keep their numbers. Boundaries are
-/// allowed.
+/// Converts `mesh` to an OpenMesh, with its quads split. Points and, after the split, faces keep their numbers.
+/// Boundaries are allowed.
 /// \throw InputError not an oriented 2-manifold
 /// Cost: O(faces).
 inline OpenTriMesh toOpenMesh(const Mesh& mesh)
@@ -62,7 +61,7 @@ inline OpenTriMesh toOpenMesh(const Mesh& mesh)
     const EdgeTable table(halfEdges, mesh.points.size());
     requireOriented(halfEdges, table);
 
-    // Built directly: add_face() searches, and prints what it does not like.
+    // Built directly: add_face() searches, and prints its complaints.
     OpenTriMesh result;
     result.resize(mesh.points.size(), table.size(), triangles.size());
     for (std::size_t p = 0; p < mesh.points.size(); ++p) {
@@ -88,7 +87,7 @@ inline OpenTriMesh toOpenMesh(const Mesh& mesh)
             result.set_halfedge_handle(OpenTriMesh::VertexHandle(int(triangles[t][int(i)])), handle);
         }
     }
-    // Boundary half-edges: one leaves each boundary vertex, and it is the one that the vertex must know.
+    // Boundary half-edges: one leaves each boundary vertex, and the vertex must refer to it.
     const auto failAt = [](std::size_t p) {
         throw InputError("the surface is not a 2-manifold: the faces at point " + std::to_string(p) +
                          " form more than one umbrella");
@@ -110,7 +109,7 @@ inline OpenTriMesh toOpenMesh(const Mesh& mesh)
     }
     for (std::size_t p = 0; p < mesh.points.size(); ++p) {
         if (leaving[p].is_valid()) {
-            // The boundary arrives at p on the half-edge before: found by turning around p through its faces.
+            // The boundary arrives at p on the half-edge before, found by turning around p through its faces.
             Handle arriving = result.opposite_halfedge_handle(leaving[p]);
             while (!result.is_boundary(arriving)) {
                 arriving = result.opposite_halfedge_handle(result.next_halfedge_handle(arriving));
@@ -127,7 +126,7 @@ inline OpenTriMesh toOpenMesh(const Mesh& mesh)
     return result;
 }
 
-/// The faces of `mesh` that are not deleted, and the points they use, in order.
+/// Returns the faces of `mesh` that are not deleted, and the points they use, in order.
 inline Mesh fromOpenMesh(const OpenTriMesh& mesh)
 {
     Mesh result;

@@ -13,10 +13,10 @@ namespace vdbcage::detail {
 
 namespace {
 
-/// Rounding to float where it is asked for, of the longest side. With more of it voxels have no room between floats.
+/// The largest rounding to float, over the longest side. With more, voxels have no room between floats.
 constexpr double largestRounding = 1e-3;
 
-/// The shift that brings the middle of `box` near the origin, in a multiple of a power of ten.
+/// Returns the shift that brings the middle of `box` near the origin, in a multiple of a power of ten.
 std::string shiftOf(const openvdb::BBoxd& box, double side)
 {
     const double unit = std::pow(10, std::ceil(std::log10(side)));

@@ -13,7 +13,7 @@ using openvdb::Vec3d;
 
 namespace {
 
-/// Three numbers of the file and where they stand.
+/// Three numbers of the file and their places.
 struct Triple {
     const char *begin, *end;
     Vec3d value;
@@ -66,7 +66,7 @@ Statements read(std::string_view bytes, const std::string& name, Warnings& warni
     return statements;
 }
 
-/// The area vector of a polygon.
+/// Returns the area vector of a polygon.
 template <typename Position>
 Vec3d areaOf(const std::vector<Corner>& face, const Position& position)
 {
@@ -78,7 +78,7 @@ Vec3d areaOf(const std::vector<Corner>& face, const Position& position)
     return area;
 }
 
-/// `v` turned by the smallest rotation that takes `from` to `to`, both unit.
+/// Returns `v` turned by the smallest rotation from `from` to `to`, both of length 1.
 Vec3d turned(const Vec3d& v, const Vec3d& from, const Vec3d& to)
 {
     const Vec3d axis = from.cross(to);
@@ -87,7 +87,8 @@ Vec3d turned(const Vec3d& v, const Vec3d& from, const Vec3d& to)
     return cosine * v + axis.cross(v) + axis.dot(v) / (1 + cosine) * axis;
 }
 
-/// The mean over the faces that use a normal of how they turn it, by their area; zero where none has an area.
+/// Returns each normal turned by the mean rotation of the faces that use it, by their area; zero where none has an
+/// area.
 std::vector<Vec3d> turnedNormals(const Statements& statements, const std::vector<Vec3d>& points)
 {
     std::vector<Vec3d> normals(statements.normals.size(), Vec3d(0));
@@ -109,7 +110,7 @@ std::vector<Vec3d> turnedNormals(const Statements& statements, const std::vector
 
 std::string movedObj(std::string_view original, const std::string& name, const std::vector<Vec3d>& points)
 {
-    Warnings warnings; // again those of reading it as a mesh
+    Warnings warnings; // the same as when it was read as a mesh
     std::string storage;
     const std::string_view bytes = asUtf8(original, name, storage, warnings);
     const Statements statements = read(bytes, name, warnings);

@@ -9,9 +9,9 @@
 
 namespace vdbcage::detail {
 
-/// The text of an OBJ file with its points at `points` and its normals turned as the faces that use them turn.
+/// Returns the text of an OBJ file with its points at `points` and its normals turned with the faces that use them.
 /// Everything else stays byte by byte. `name` is the file's.
-/// \pre the text is one that parseObj takes, with as many points
+/// \pre parseObj takes the text, which has as many points
 std::string movedObj(std::string_view bytes, const std::string& name, const std::vector<openvdb::Vec3d>& points);
 
 } // namespace vdbcage::detail

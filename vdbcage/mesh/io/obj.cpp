@@ -1,7 +1,7 @@
 // Based on: Wavefront, "Object Files (.obj)", the polygonal part of version 3.0.
-// Differs: statements that carry no polygons are skipped unread, also unknown ones, as programs add their own, and
-// remarks without a sign; a face of one or two corners is ignored, except at the end of a file that was cut off within
-// it; the header of an OFF file may come first.
+// Differs: statements without polygons are skipped unread, unknown ones included, since programs add their own, and so
+// are remarks without a sign; a face of one or two corners is ignored, except at the end of a file that was cut off
+// within it; the header of an OFF file may come first.
 
 #include <vdbcage/mesh/io/formats.h>
 
@@ -21,7 +21,7 @@ namespace vdbcage::detail {
 
 namespace {
 
-/// What stands for geometry that is no face.
+/// Returns whether a keyword is that of geometry other than faces.
 bool isOtherElement(std::string_view keyword)
 {
     return keyword == "p" || keyword == "l" || keyword == "curv" || keyword == "curv2" || keyword == "surf";
@@ -49,7 +49,7 @@ public:
     }
 
 private:
-    /// A corner that refers to a point that has not come yet.
+    /// A reference of a corner to a point that has not come yet.
     struct Reference {
         std::uint64_t index;
         const char* where;
@@ -70,13 +70,13 @@ private:
             counts.push_back(0);
             for (const char digit : word) counts.back() = 10 * counts.back() + (digit - '0');
         }
-        if (counts.size() < 2 || counts[0] < 3 || counts[1] < 1) return; // not those of a mesh
+        if (counts.size() < 2 || counts[0] < 3 || counts[1] < 1) return; // not the counts of a mesh
         in_.warn(in_.position(), "the header of an OFF file comes before the OBJ file; it is passed over");
         in_ = ahead;
         offHeader_ = {where, std::size_t(counts[0]), std::size_t(counts[1])};
     }
 
-    /// Counts that are right show that the header was meant so, and that no line is missing.
+    /// Requires that the counts are right: then the header was meant as such, and no line is missing.
     void requireCounts() const
     {
         if (soup_.points.size() == offHeader_->points && faces_ == offHeader_->faces) return;
@@ -112,7 +112,7 @@ private:
         if (!remark_) remark_ = start;
     }
 
-    /// The file is of another format, or damaged.
+    /// Throws that the file is of another format, or damaged.
     [[noreturn]] void failOther(const char* start) const
     {
         const char* remedy = offHeader_ ? "; if this is an OFF file, let its name end in .off"
@@ -146,7 +146,7 @@ private:
             if (face_.size() == 1) firstForm = form;
             sameForm = sameForm && form == firstForm;
         }
-        // The last line may be cut off anywhere if it has no end; what is left of its last corner may still look whole.
+        // The last line may be cut off anywhere if it has no end; the rest of its last corner may still look whole.
         if (in_.atEnd() && (face_.size() < 3 || !sameForm)) {
             in_.fail(start, "the file ends within a face; copy or export it again");
         }
@@ -174,8 +174,8 @@ private:
         return read.form;
     }
 
-    /// A file whose last line has no end may be whole or cut off. Points that nothing uses tell: without them a cut-off
-    /// file would silently become a part of its model.
+    /// Requires that all points are used. A file whose last line has no end may be whole or cut off: unused points show
+    /// that it was cut off. Otherwise a cut-off file would silently become a part of its model.
     void requireAllUsed() const
     {
         if (soup_.ignoredElements > 0 || (soup_.triangles.empty() && soup_.ends.empty())) return;
@@ -209,7 +209,7 @@ private:
     std::optional<OffHeader> offHeader_;
     const char* remark_ = nullptr; // the first
     PolygonSoup soup_;
-    std::size_t faces_ = 0; // also those that are ignored
+    std::size_t faces_ = 0; // including the ignored ones
     std::vector<openvdb::Index32> face_;
     std::vector<Reference> ahead_; // with growing index
 };

@@ -7,12 +7,12 @@
 
 #include <vdbcage/mesh/io/text_cursor.h>
 
-/// The common code of the two readers of OBJ files. One makes a Mesh, the other replaces positions in the text.
+/// Code shared by the two readers of OBJ files. One makes a Mesh, the other replaces positions in the text.
 namespace vdbcage::detail {
 
 constexpr TextSyntax objSyntax{'#', /*continuesLines=*/true};
 
-/// Whether the format has this keyword, also in its older versions.
+/// Returns whether the format has this keyword, in any of its versions.
 inline bool isObjKeyword(std::string_view word)
 {
     constexpr std::array<std::string_view, 45> keywords{
@@ -24,8 +24,9 @@ inline bool isObjKeyword(std::string_view word)
     return std::find(keywords.begin(), keywords.end(), word) != keywords.end();
 }
 
-/// Whether a line that begins so ends its statement, also behind a backslash: statements of names, where the last may
-/// be a path that ends with one, and remarks. Keywords, of the format or of a program's own, are words of letters.
+/// Returns whether a statement that begins with `word` ends with its line, even after a backslash. Statements of names
+/// do, since the last name may be a path that ends with a backslash, and so do remarks. Keywords of the format or of a
+/// program are words of letters.
 inline bool endsWithLine(std::string_view word)
 {
     constexpr std::string_view letters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz_";
@@ -39,13 +40,13 @@ inline bool isObjFace(std::string_view keyword)
     return keyword == "f" || keyword == "fo";
 }
 
-/// One corner of a face: v, v/vt, v//vn or v/vt/vn, as it stands; 0 for what is not given.
+/// One corner of a face: v, v/vt, v//vn or v/vt/vn, as in the file; missing parts are 0.
 struct ObjCorner {
     std::int64_t point = 0, texture = 0, normal = 0;
-    int form = 0; ///< the same for corners that give the same parts
+    int form = 0; ///< equal for corners that have the same parts
 };
 
-/// Reads a corner as far as it is one. False if there is none.
+/// Reads a corner, as far as the text is one. Returns false if there is none.
 inline bool readObjCorner(TextCursor& in, ObjCorner& corner)
 {
     if (!in.integerPrefix(corner.point)) return false;

@@ -1,8 +1,8 @@
 // Based on: the OFF format of Geomview's manual, its ascii form in three dimensions.
-// Differs: the word OFF may be missing or stand right before the counts (as in ModelNet's files), and the letters
-// before it in any order (MeshLab's NCOFF); the count of edges may be missing; what follows the coordinates or corners
-// on a line (normals, colours) is skipped, so that each point and each face begins a line. Data behind the last face is
-// an error: the counts would silently lose a part of the model.
+// Differs: the word OFF may be missing or directly before the counts (as in ModelNet's files), and the letters before
+// it in any order (MeshLab's NCOFF); the count of edges may be missing; the rest of a line after the coordinates or
+// corners (normals, colours) is skipped, so that each point and each face begins a line. Data after the last face is an
+// error: the counts would silently lose a part of the model.
 
 #include <vdbcage/mesh/io/formats.h>
 

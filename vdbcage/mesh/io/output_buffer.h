@@ -9,8 +9,8 @@
 
 namespace vdbcage::detail {
 
-/// Collects what a writer makes and hands it to the stream in large pieces, past the stream's locale. The last piece
-/// leaves with `flush`.
+/// A buffer of a writer's output, which goes to the stream in large pieces and without the stream's locale. flush()
+/// writes the last piece.
 class OutputBuffer {
 public:
     explicit OutputBuffer(std::ostream& out) : out_(out), bytes_(1U << 16U) {}
@@ -23,7 +23,7 @@ public:
         std::memcpy(bytes_.data() + used_, piece.data(), piece.size());
         used_ += piece.size();
     }
-    /// The shortest decimal digits that read back as the same value.
+    /// Writes the shortest decimal digits that read back as the same value.
     template <typename Number>
     void number(Number value)
     {
@@ -31,7 +31,7 @@ public:
         char* first = bytes_.data() + used_;
         used_ += static_cast<std::size_t>(std::to_chars(first, first + 32, value).ptr - first);
     }
-    /// The value's bytes, little endian.
+    /// Writes the value's bytes, little endian.
     template <typename Value>
     void binary(Value value)
     {

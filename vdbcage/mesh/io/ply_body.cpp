@@ -1,6 +1,6 @@
 // Based on: Turk, "The PLY Polygon File Format" (1994).
 // Differs: elements and properties other than the points' coordinates and the faces' (or strips') corners are skipped;
-// 64 bit integers are known. Data behind the last element is an error, as in OFF, but for blanks and zero bytes.
+// 64 bit integers are known. Data after the last element is an error, as in OFF, except for blanks and zero bytes.
 
 #include <vdbcage/mesh/io/formats.h>
 
@@ -37,7 +37,7 @@ std::string ordinal(const PlyElement& element, std::uint64_t i)
     return "element " + quote(element.name) + " " + std::to_string(i + 1) + " of " + std::to_string(element.count);
 }
 
-/// The body of an ascii file: one line an element.
+/// The body of an ascii file: one line for each element.
 class AsciiSource {
 public:
     AsciiSource(std::string_view bytes, std::size_t headerSize, const std::string& name, Warnings& warnings)
@@ -46,9 +46,9 @@ public:
         while (bytes.size() - in_.bytesLeft() < headerSize) in_.nextLine();
     }
 
-    /// The fewest bytes that a value takes: a digit and a blank.
+    /// Returns the fewest bytes of a value: a digit and a blank.
     static std::size_t leastSize(PlyType) { return 2; }
-    /// The last line may lack its end.
+    /// Returns the bytes left, and one more: the last line may lack its end.
     std::uint64_t room() const { return std::uint64_t(in_.bytesLeft()) + 1; }
 
     void beginElement(const PlyElement& element, std::uint64_t i)
@@ -57,7 +57,7 @@ public:
     }
     void endElement(const PlyElement& element, std::uint64_t i)
     {
-        // MeshLab has written texture coordinates of corners that its header does not have.
+        // MeshLab has written texture coordinates of corners that are not in its header.
         bool hasMore = false;
         while (element.name == "face" && !in_.atLineEnd() && in_.skipNumber()) hasMore = true;
         if (!in_.atLineEnd()) {
@@ -222,7 +222,7 @@ private:
     std::uint64_t index_ = 0;
 };
 
-/// What becomes of a property.
+/// The use of a property.
 enum class Use { x, y, z, face, strips, none };
 
 template <typename Source>
@@ -265,7 +265,7 @@ private:
             uses_.push_back(use);
             least += Source::leastSize(property.isList ? property.countType : property.type);
         }
-        // Before anything is stored: a header can announce more than any memory holds.
+        // Checked before anything is stored: a header can announce more than any memory holds.
         if (element.count > in_.room() / least) {
             throw IoError(name_ + ": line " + std::to_string(element.line) + ": the header announces " +
                           std::to_string(element.count) + " elements " + quote(element.name) + " of at least " +
@@ -327,8 +327,8 @@ private:
         }
     }
 
-    /// Each corner from the third on makes a triangle with the two before it, every second one turned around. A
-    /// repeated corner only steers the strip: its triangle is not part of the surface.
+    /// Makes a triangle of each corner from the third on with the two before it, every second one reversed. A repeated
+    /// corner only steers the strip: its triangle is not part of the surface.
     void addStrip()
     {
         for (std::size_t i = 2; i < face_.size(); ++i) {
@@ -352,8 +352,8 @@ private:
     std::vector<openvdb::Index32> face_;
 };
 
-/// Whether these are the points of Gaussian splats (Kerbl et al., "3D Gaussian Splatting for Real-Time Radiance Field
-/// Rendering", 2023), as the training writes them or packed as SuperSplat does.
+/// Returns whether these are the points of Gaussian splats (Kerbl et al., "3D Gaussian Splatting for Real-Time Radiance
+/// Field Rendering", 2023), as the training writes them or as SuperSplat packs them.
 bool areSplats(const PlyElement& points)
 {
     const auto hasAll = [&](std::initializer_list<std::string_view> names) {
@@ -451,7 +451,7 @@ void writePly(const Mesh& mesh, const std::vector<PointColour>* colours, std::os
     if (colours) buffer.text("property uchar red\nproperty uchar green\nproperty uchar blue\n");
     buffer.text("element face ");
     buffer.number(faceCount(mesh));
-    // Signed indices are what most programs write and read; they hold all but the largest meshes.
+    // Most programs write and read signed indices; they suffice for all but the largest meshes.
     const bool isHuge = mesh.points.size() > std::size_t(std::numeric_limits<std::int32_t>::max());
     buffer.text(isHuge ? "\nproperty list uchar uint vertex_indices\nend_header\n"
                        : "\nproperty list uchar int vertex_indices\nend_header\n");

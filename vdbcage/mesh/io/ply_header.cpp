@@ -82,7 +82,7 @@ public:
         }
         if (!hasFormat) in_.fail("the header does not tell the format; it needs a line like \"format ascii 1.0\"");
         requireLineEnd();
-        // The first byte of a binary body may look like the second of a line end: where lines end in CR this one does.
+        // The first byte of a binary body may look like the second of a line end: if lines end in CR, this one does.
         const std::string_view lastEnd = firstEnd == "\r" ? lineEnd().substr(0, 1) : lineEnd();
         header_.size = bytes_.size() - in_.bytesLeft() + lastEnd.size();
         header_.endLine = in_.lineOf(in_.position());
@@ -94,7 +94,7 @@ public:
     }
 
 private:
-    /// What ends the line here: LF, CR LF or CR; nothing at the end of the file.
+    /// Returns the end of the line here: LF, CR LF or CR; nothing at the end of the file.
     std::string_view lineEnd() const
     {
         const std::string_view left = bytes_.substr(bytes_.size() - in_.bytesLeft());
@@ -107,15 +107,15 @@ private:
         in_.fail(in_.quoted(in_.position()) + " is not understood here; the line must end before it");
     }
 
-    /// A line that stands where comments do and says nothing of the data, but lacks the word. Blender 2.47 has written
-    /// such lines.
+    /// Reads a line in the place of comments that lacks the keyword and has nothing about the data. Blender 2.47 has
+    /// written such lines.
     void freeText(const char* start)
     {
         std::vector<std::string_view> words{{start, static_cast<std::size_t>(in_.position() - start)}};
         while (!in_.atLineEnd()) words.push_back(in_.word());
         const std::string_view line(start, static_cast<std::size_t>(in_.position() - start));
         const auto isControl = [](char c) { return (c >= 0 && c < ' ' && c != '\t') || c == '\x7F'; };
-        // Words that were mistyped may be lost: what they say must not be.
+        // A line may have a mistyped keyword. It is not skipped where the rest looks like that of a known line.
         const bool isFormat = words.size() > 1 && (words[1] == "ascii" || words[1].substr(0, 7) == "binary_");
         const bool isElement = words.size() == 3 && words[2].find_first_not_of("0123456789") == std::string_view::npos;
         const bool isProperty = words.size() > 1 && (words[1] == "list" || typeNamed(words[1]));

@@ -14,7 +14,7 @@ enum class PlyFormat { ascii, binaryLittleEndian, binaryBigEndian };
 
 enum class PlyType { int8, uint8, int16, uint16, int32, uint32, int64, uint64, float32, float64 };
 
-/// The size of a value in a binary file, in bytes.
+/// Returns the size of a value in a binary file, in bytes.
 std::size_t sizeOf(PlyType type);
 
 struct PlyProperty {
@@ -34,7 +34,7 @@ struct PlyElement {
 struct PlyHeader {
     PlyFormat format = PlyFormat::ascii;
     std::vector<PlyElement> elements;
-    std::size_t size = 0;    ///< in bytes: where the body begins
+    std::size_t size = 0;    ///< in bytes; the body begins there
     std::size_t endLine = 0; ///< the number of its last line, from 1
 };
 

@@ -22,10 +22,10 @@ bool repeatsCorner(const openvdb::Index32* face, std::size_t count, std::vector<
     return std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end();
 }
 
-/// Polygons, to get the triangles of their alternate splits.
+/// Polygons, for the triangles of their alternate splits.
 class Alternates {
 public:
-    /// `face` must stay where it is. `split` are its triangles in the mesh.
+    /// Adds a polygon. `face` must stay in place. `split` are its triangles in the mesh.
     void add(const openvdb::Index32* face, std::size_t count, const openvdb::Vec3I* split)
     {
         Face added{face, count};
@@ -36,8 +36,8 @@ public:
         faces_.push_back(added);
     }
 
-    /// Appends them, in the order of the polygons, once for those that are equal. Large ones get the other one of two
-    /// splits: the fan around their first corner and the clipping of ears. That is no more than they have in the mesh.
+    /// Appends the triangles in the order of the polygons, once for equal polygons. Large ones get the other one of two
+    /// splits: the fan around their first corner and ear clipping. That is no more than they have in the mesh.
     void appendTo(std::vector<openvdb::Vec3I>& triangles, PolygonSplitter& splitter, ReadSummary& summary)
     {
         dropCopies();
@@ -45,7 +45,7 @@ public:
         for (const Face& face : faces_) {
             if (face.count < needed.size() && face.first) needed[face.count] += alternativesOf(face.count);
         }
-        // Four triangles of a quad are no more than a convex one gets: only larger faces may have to go without.
+        // Four triangles of a quad are no more than a convex one gets: only larger faces may get none.
         std::size_t corners = 4, all = 0;
         while (corners < mostCornersWithAlternates && all + needed[corners + 1] <= mostAlternates) {
             all += needed[++corners];
@@ -74,7 +74,7 @@ private:
         bool first = true; ///< of those that are equal
     };
 
-    /// The same from any start in either direction.
+    /// Returns the same value from any start in either direction.
     static std::uint64_t hashOf(const openvdb::Index32* face, std::size_t count)
     {
         std::uint64_t sum = 0;
@@ -87,7 +87,7 @@ private:
         return sum;
     }
 
-    /// The same cycle of corners, from any start in either direction.
+    /// Returns whether two faces have the same cycle of corners, from any start in either direction.
     static bool areEqual(const Face& a, const Face& b)
     {
         if (a.count != b.count) return false;

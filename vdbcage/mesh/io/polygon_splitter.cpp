@@ -1,5 +1,5 @@
 // Based on: the normal of Newell (Sutherland, Sproull, Schumacker 1974) and the clipping of ears (Meisters 1975).
-// Differs: a fan is tried first; corners that could lie in an ear are in a tree, so that few are looked at; the work is
+// Differs: a fan is tried first; corners that could lie in an ear are in a tree, so that few are examined; the work is
 // bounded.
 
 #include <vdbcage/mesh/io/polygon_splitter.h>
@@ -13,8 +13,8 @@ namespace vdbcage::detail {
 
 namespace {
 
-/// The corners relative to the first one, scaled by a power of two to lie in [-1, 1]: nothing overflows or underflows
-/// below, whatever the units, and the differences of corners are rounded once at most.
+/// Moves and scales the corners relative to the first one, by a power of two, to lie in [-1, 1]: nothing overflows or
+/// underflows below, for any units, and the differences of corners are rounded at most once.
 void scaleToUnit(const std::vector<openvdb::Vec3d>& points, const openvdb::Index32* face, std::size_t count,
                  std::vector<openvdb::Vec3d>& local)
 {
@@ -34,14 +34,14 @@ void scaleToUnit(const std::vector<openvdb::Vec3d>& points, const openvdb::Index
 constexpr std::size_t obstaclesPerLeaf = 8;
 constexpr std::size_t noNode = ~std::size_t(0);
 
-// Fans have triangles as long as the face. Those of so many corners lie over each other in every tree, which takes
-// minutes for a million: larger faces are split into triangles of all sizes. A cylinder's cap has fewer.
+// Triangles of fans are as long as the face. Those of more corners overlap in every tree, which takes minutes for a
+// million: larger faces are split into triangles of all sizes. A cylinder's cap has fewer corners.
 constexpr std::size_t mostCornersOfFan = 4096;
 
-// What ears may cost, in nodes and corners looked at in the tree. Asking for an ear counts as so many: faces that do
-// not cross themselves ask up to 3 times a corner and look at 30 to 130 (a million random spikes: 1000), so the search
-// of what passes 32 and 2048 is futile. A million corners take 0.4 to 7 s. Faces of up to a thousand are never cut
-// short.
+// The bound of the work for ears, in nodes and corners examined in the tree. A test for an ear counts as
+// `workOfAsking`: faces that do not cross themselves test up to 3 times a corner and examine 30 to 130 (a million
+// random spikes: 1000), so a search beyond 32 and 2048 is futile. A million corners take 0.4 to 7 s. Faces of up to a
+// thousand are never cut short.
 constexpr std::size_t workOfAsking = 64, workPerCorner = 2048, leastWork = std::size_t(1) << 25U;
 
 openvdb::Vec3d newellNormal(const std::vector<openvdb::Vec3d>& loop)
@@ -62,7 +62,7 @@ void PolygonSplitter::split(const openvdb::Index32* face, std::size_t count, std
         return;
     }
     project();
-    // Beyond this many corners trying each as the apex would cost more than clipping ears does.
+    // Beyond this many corners, trying each as the apex would cost more than ear clipping.
     constexpr std::size_t fewCorners = 64;
     const std::size_t apexes = count <= fewCorners ? count : count <= mostCornersOfFan ? 1 : 0;
     for (std::size_t apex = 0; apex < apexes; ++apex) {
@@ -107,8 +107,8 @@ void PolygonSplitter::splitQuad(const openvdb::Index32* face, std::vector<openvd
     }
 }
 
-/// Drops the coordinate in which the normal is longest: the face keeps its shape up to a linear map, and each
-/// coordinate that is left keeps its exact value.
+/// Drops the coordinate in which the normal is longest: the face keeps its shape up to a linear map, and the other
+/// coordinates keep their exact values.
 void PolygonSplitter::project()
 {
     const openvdb::Vec3d normal = newellNormal(local_);
@@ -126,7 +126,7 @@ void PolygonSplitter::project()
     }
 }
 
-/// Twice the signed area of a triangle of projected corners.
+/// Returns twice the signed area of a triangle of projected corners.
 double PolygonSplitter::area(std::size_t a, std::size_t b, std::size_t c) const
 {
     const Corner& p = loop_[a];
@@ -144,7 +144,7 @@ bool PolygonSplitter::isFanApex(std::size_t apex) const
     return true;
 }
 
-/// All that is not clipped yet, as a fan.
+/// Splits all that is not clipped yet as a fan.
 void PolygonSplitter::fan(const openvdb::Index32* face, std::size_t apex, std::vector<openvdb::Vec3I>& triangles) const
 {
     std::size_t corner = loop_[apex].next;
@@ -153,7 +153,7 @@ void PolygonSplitter::fan(const openvdb::Index32* face, std::size_t apex, std::v
     }
 }
 
-/// The `left` corners that are not clipped yet: every second one is cut off, time and again.
+/// Splits the `left` corners that are not clipped yet: cuts off every second one, again and again.
 void PolygonSplitter::fold(const openvdb::Index32* face, std::size_t corner, std::size_t left,
                            std::vector<openvdb::Vec3I>& triangles)
 {
@@ -177,7 +177,7 @@ bool PolygonSplitter::isEar(std::size_t corner)
     return !isBlocked(corner, box, 0, 0, obstacles_.size());
 }
 
-/// Whether one of a node's obstacles lies in the triangle of `corner` and its neighbours, whose box is `box`.
+/// Returns whether one of a node's obstacles lies in the triangle of `corner` and its neighbours, whose box is `box`.
 bool PolygonSplitter::isBlocked(std::size_t corner, const Box& box, std::size_t node, std::size_t begin,
                                 std::size_t end)
 {
@@ -201,8 +201,8 @@ bool PolygonSplitter::isBlocked(std::size_t corner, const Box& box, std::size_t 
                        obstacles_.begin() + static_cast<std::ptrdiff_t>(end), blocks);
 }
 
-/// Never wrongly denied: coordinates are up to 1 (see scaleToUnit), areas of the corners of `other` are rounded by less
-/// than 1e-14.
+/// Returns whether the triangle may overlap a box; never false if it does: coordinates are up to 1 (see scaleToUnit),
+/// areas of the corners of `other` are rounded by less than 1e-14.
 bool PolygonSplitter::mayOverlap(std::size_t corner, const Box& box, const Box& other) const
 {
     if (other.left > box.right || other.right < box.left || other.bottom > box.top || other.top < box.bottom) {
@@ -240,7 +240,7 @@ void PolygonSplitter::growTree(std::size_t node, std::size_t begin, std::size_t 
     growTree(2 * node + 2, middle, end);
 }
 
-/// \param corner was clipped
+/// Removes an obstacle. \param corner was clipped
 void PolygonSplitter::dropObstacle(std::size_t corner)
 {
     if (loop_[corner].node == noNode) return;
@@ -261,7 +261,7 @@ void PolygonSplitter::clip(std::size_t corner, const openvdb::Index32* face, std
     loop_[after].previous = before;
     for (const std::size_t i : {before, after}) {
         loop_[i].pointed = area(loop_[i].previous, i, loop_[i].next) > 0;
-        // Their turn comes in the next round, also if it were due in this one: clipping every second corner of a chain
+        // Their turn comes in the next round, even if it were due in this one: clipping every second corner of a chain
         // makes fewer slivers than clipping one after another.
         if (loop_[i].round > round_) continue;
         loop_[i].round = round_ + 1;
@@ -269,7 +269,7 @@ void PolygonSplitter::clip(std::size_t corner, const openvdb::Index32* face, std
     }
 }
 
-/// In rounds over the corners whose neighbours changed in the last one; when they are used up, over all.
+/// Clips in rounds over the corners whose neighbours changed in the last one; when none is left, over all.
 void PolygonSplitter::clipEars(const openvdb::Index32* face, std::vector<openvdb::Vec3I>& triangles)
 {
     const std::size_t count = loop_.size();
@@ -291,7 +291,7 @@ void PolygonSplitter::clipEars(const openvdb::Index32* face, std::vector<openvdb
     while (left > 3 && work_ < mostWork) {
         const bool none = nextCandidates_.empty();
         if (none && all) {
-            // No ear is left. A corner without area may go, as it changes nothing of the outline.
+            // No ear is left. A corner without area may be clipped, since the outline stays the same.
             std::size_t flat = start;
             do {
                 flat = loop_[flat].next;

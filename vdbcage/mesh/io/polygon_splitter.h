@@ -7,27 +7,28 @@
 
 namespace vdbcage::detail {
 
-/// Splits faces of four and more corners into triangles that keep the face's orientation. Corners are never added,
-/// moved or dropped.
+/// A splitter of faces of four and more corners into triangles that keep the face's orientation. It never adds, moves
+/// or drops corners.
 ///
-/// It decides in rounded arithmetic. Every choice of diagonals fills the same loop of edges. So an error of rounding
-/// can at worst choose a worse diagonal in a face that is nearly degenerate.
+/// It decides in rounded arithmetic. Every choice of diagonals fills the same loop of edges, so a rounding error can at
+/// most choose a worse diagonal in a face that is nearly degenerate.
 class PolygonSplitter {
 public:
     /// `points` must outlive the splitter and not change.
     explicit PolygonSplitter(const std::vector<openvdb::Vec3d>& points) : points_(points) {}
 
-    /// Appends `count` - 2 triangles, or the face itself to `quads`. To `quads` goes a face of four corners that is
-    /// convex, or that no diagonal divides well (it crosses itself or has no area).
-    /// Cost: O(count log count) for most faces. The work is bounded by a multiple of `count`, where that is large. What
-    /// is left of the face then is split as if it had no right division.
+    /// Appends `count` - 2 triangles, or the face itself to `quads`. A face of four corners goes to `quads` if it is
+    /// convex, or if no diagonal divides it well (it crosses itself or has no area).
+    /// Cost: O(count log count) for most faces. For large `count` the work is bounded by a multiple of `count`; the
+    /// rest of the face is then split as if it had no right division.
     void split(const openvdb::Index32* face, std::size_t count, std::vector<openvdb::Vec3I>& triangles,
                std::vector<openvdb::Vec4I>& quads);
 
-    /// Appends the triangles of clipping ears, also where split() takes a fan.
+    /// Appends the triangles of ear clipping, even where split() takes a fan.
     void splitByEars(const openvdb::Index32* face, std::size_t count, std::vector<openvdb::Vec3I>& triangles);
 
-    /// The cost of the search for ears in the faces split so far: about the number of corners looked at. 0 for fans.
+    /// Returns the cost of the search for ears in the faces split so far: about the number of corners examined, and 0
+    /// for fans.
     std::size_t work() const { return allWork_; }
 
 private:
@@ -41,7 +42,7 @@ private:
     struct Corner {
         double x, y;
         std::size_t previous, next;
-        std::size_t round;     ///< of clipping, in which its turn comes
+        std::size_t round;     ///< the round of clipping in which its turn comes
         std::size_t node;      ///< the leaf of the tree of obstacles that has it
         bool clipped, pointed; ///< pointed: its angle is below 180 degrees
     };
@@ -66,27 +67,27 @@ private:
     std::vector<openvdb::Vec3d> local_; // the face's corners, scaled to about 1
     std::vector<Corner> loop_;          // the same, projected
 
-    // The corners that may lie in an ear, as a tree: each node has a range of them; the first half of it is that of
-    // node 2 i + 1, the second that of node 2 i + 2.
+    // The corners that may lie in an ear, as a tree: node i has a range of them, node 2 i + 1 the first half of that
+    // range, node 2 i + 2 the second.
     std::vector<std::size_t> obstacles_;
     std::vector<Node> nodes_;
-    std::vector<std::size_t> candidates_, nextCandidates_; // the corners to look at in this round and the next
+    std::vector<std::size_t> candidates_, nextCandidates_; // the corners to examine in this round and the next
     std::size_t round_ = 0;
     std::size_t allWork_ = 0;
-    std::size_t work_ = 0; // what ears have cost
+    std::size_t work_ = 0; // the cost of ears in this face
 };
 
-/// Appends the fan around the first corner of a face: the way in which most programs split one.
+/// Appends the fan around the first corner of a face, as most programs split it.
 void addFirstFan(const openvdb::Index32* face, std::size_t count, std::vector<openvdb::Vec3I>& triangles);
 
-/// Faces of more corners have no alternate splits.
+/// The largest number of corners of a face with alternate splits.
 constexpr std::size_t mostCornersWithAlternates = 64;
 
-/// Appends the triangles of other ways to split a face of four or more corners than the one that a PolygonSplitter
-/// chooses. Up to eight corners these are any three corners; up to 64, the fans around each. Larger faces have none.
+/// Appends the triangles of other splits of a face of four or more corners than that of PolygonSplitter. Up to eight
+/// corners these are any three corners; up to 64, the fans around each. Larger faces have none.
 void addAlternatives(const openvdb::Index32* face, std::size_t count, std::vector<openvdb::Vec3I>& triangles);
 
-/// How many triangles addAlternatives() appends for a face of `count` corners.
+/// Returns the number of triangles that addAlternatives() appends for a face of `count` corners.
 std::size_t alternativesOf(std::size_t count);
 
 } // namespace vdbcage::detail

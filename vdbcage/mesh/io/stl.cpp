@@ -1,6 +1,7 @@
 // Based on: 3D Systems, "StereoLithography Interface Specification" (1989).
-// Differs: normals and attributes are not read, and coordinates may be negative; the two forms are told apart by what
-// is in the file, as many binary files begin with the word "solid"; lines of other words may stand between facets.
+// Differs: normals and attributes are not read, and coordinates may be negative; the content of the file decides
+// between the two forms, since many binary files begin with the word "solid"; lines of other words may stand between
+// facets.
 
 #include <vdbcage/mesh/io/formats.h>
 
@@ -29,7 +30,7 @@ constexpr std::size_t facetSize = 50;  // a normal, three corners, two bytes of 
 
 constexpr const char* coordinateNames[3] = {"the x coordinate", "the y coordinate", "the z coordinate"};
 
-/// Gives corners with the same coordinates (-0 being 0) the same index: a hash table with open addressing.
+/// A map of corners with the same coordinates (-0 being 0) to the same index: a hash table with open addressing.
 class PointMerger {
 public:
     explicit PointMerger(std::vector<openvdb::Vec3d>& points) : points_(points), buckets_(1024, empty) {}
@@ -60,7 +61,7 @@ private:
         }
         return h;
     }
-    /// The bucket of `p`, or the empty one where it belongs.
+    /// Returns the bucket of `p`, or the empty one where it belongs.
     std::size_t find(const openvdb::Vec3d& p) const
     {
         std::size_t bucket = hash(p) & (buckets_.size() - 1);
@@ -75,7 +76,7 @@ private:
     }
 
     std::vector<openvdb::Vec3d>& points_;
-    std::vector<openvdb::Index32> buckets_; // a power of two of them, at most half full
+    std::vector<openvdb::Index32> buckets_; // a power of two of buckets, at most half full
 };
 
 template <typename Value>
@@ -122,7 +123,7 @@ private:
     {
         expect("facet");
         expect("normal");
-        // The normal follows from the corners; that of a face without area is often written as "nan".
+        // The corners determine the normal; that of a face without area is often written as "nan".
         for (int axis = 0; axis < 3; ++axis) {
             if (in_.word().empty()) in_.fail("the facet's normal is missing; it has three numbers");
         }
@@ -140,8 +141,8 @@ private:
         soup_.triangles.push_back(triangle);
     }
 
-    /// Passes over whole lines: remarks, or what programs add, as colours. A line with a word of the format may be a
-    /// mistyped part of a facet, and stays; not where its first word is a sign that it is a remark.
+    /// Skips whole lines: remarks, or additions of programs such as colours. A line with a word of the format may be a
+    /// mistyped part of a facet and is not skipped, unless its first word marks a remark.
     void passRemarks()
     {
         constexpr std::array<std::string_view, 9> keywords{"facet",  "endsolid", "normal",   "outer", "loop",
@@ -224,15 +225,15 @@ PolygonSoup parseBinary(std::string_view bytes, const std::string& name)
     return soup;
 }
 
-/// Whether the size is the one that the header of a binary file announces.
+/// Returns whether the size is the one that the header of a binary file announces.
 bool hasBinarySize(std::string_view bytes)
 {
     if (bytes.size() < headerSize) return false;
     return bytes.size() == headerSize + facetSize * loadLittleEndian<std::uint32_t>(bytes.data() + 80);
 }
 
-/// Of files without the size of a binary one (a cut-off binary file may be among them) one that begins with "solid" and
-/// has no zero byte near its start is ascii: in a binary file the number of triangles, if below 2^24, and the
+/// Returns whether a file without the size of a binary one (it may be a cut-off binary file) is ascii: it begins with
+/// "solid" and has no zero byte near its start. In a binary file the number of triangles, if below 2^24, and the
 /// attributes have zero bytes.
 bool looksAscii(std::string_view bytes)
 {

@@ -17,7 +17,7 @@ bool isDigit(char c)
     return c >= '0' && c <= '9';
 }
 
-/// std::from_chars with the leading plus sign that it does not take.
+/// Does the same as std::from_chars, but accepts a leading plus sign.
 template <typename Number>
 std::from_chars_result parse(const char* first, const char* last, Number& value)
 {
@@ -32,8 +32,9 @@ struct UnusualNumber {
     const char* warning = nullptr;
 };
 
-/// Two forms have one meaning only. Fortran marks the exponent of a double by d: 1.5d3. Some programs write the sign of
-/// the exponent before its mark: 3.1+e2. Not taken is Fortran's 1.5-300, which may also be two numbers that touch.
+/// Converts two forms that have only one meaning. Fortran marks the exponent of a double by d: 1.5d3. Some programs
+/// write the sign of the exponent before its mark: 3.1+e2. Fortran's 1.5-300 is not accepted, since it may also be two
+/// numbers that touch.
 UnusualNumber usualForm(std::string_view word)
 {
     const auto digitsFrom = [&](std::size_t at) {
@@ -66,9 +67,9 @@ UnusualNumber usualForm(std::string_view word)
                           : "a number has an exponent of Fortran, like 1.5d3, which is read as 1.5e3"};
 }
 
-/// For a decimal number outside the range of double: is it too small (and not too large)? std::from_chars does not
-/// say which. The position of the first digit that is not zero, with the exponent, tells them apart: the two ranges are
-/// six hundred powers of ten away from each other.
+/// Returns whether a decimal number outside the range of double is too small, not too large. std::from_chars does not
+/// distinguish them. The position of the first digit that is not zero, with the exponent, does: the two ranges are six
+/// hundred powers of ten apart.
 bool isTooSmall(const char* first, const char* last)
 {
     const char* exponentMark = std::find_if(first, last, [](char c) { return c == 'e' || c == 'E'; });
@@ -79,7 +80,7 @@ bool isTooSmall(const char* first, const char* last)
     long long exponent = 0;
     const bool negative = exponentMark + 1 != last && exponentMark[1] == '-';
     for (const char* c = exponentMark + 1; c != last; ++c) {
-        // 1e17 is beyond the length of any file, so that saturating there cannot change the answer.
+        // 1e17 is beyond the length of any file, so saturating there cannot change the result.
         if (isDigit(*c)) exponent = std::min(exponent * 10 + (*c - '0'), 100'000'000'000'000'000LL);
     }
     return magnitude + (negative ? -exponent : exponent) < 0;
@@ -105,7 +106,7 @@ std::string quote(std::string_view piece)
 
 bool mayBeginRemark(std::string_view word)
 {
-    constexpr std::string_view replacement = "\xEF\xBF\xBD"; // stands for what was no character
+    constexpr std::string_view replacement = "\xEF\xBF\xBD"; // for bytes that are no character
     const std::size_t first = word.find_first_not_of("+-.");
     const bool isNumber = first != std::string_view::npos && isDigit(word[first]);
     return !isNumber && word.find(replacement) == std::string_view::npos && printable(word) == word;

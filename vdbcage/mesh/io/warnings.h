@@ -7,10 +7,10 @@
 
 namespace vdbcage::detail {
 
-/// Collects deviations of a file from its format: one text a kind, however often a file does it.
+/// The deviations of a file from its format: one text for each kind, with a count.
 class Warnings {
 public:
-    /// Counts a case of a kind that was added. False if it was not.
+    /// Counts another case of the kind `what`. Returns false if that kind was not added.
     bool count(std::string_view what)
     {
         for (Warning& warning : list_) {
@@ -20,10 +20,10 @@ public:
         }
         return false;
     }
-    /// Adds a kind, first met on `line`. `what` is a literal: nothing of a file gets into warnings.
+    /// Adds a kind, first met on `line`. `what` is a literal: no text of a file gets into warnings.
     void add(const char* what, std::size_t line) { list_.push_back({what, line, 1}); }
 
-    /// "line 7: WHAT (3 times)"
+    /// Returns texts such as "line 7: WHAT (3 times)".
     std::vector<std::string> texts() const
     {
         std::vector<std::string> all;

@@ -21,7 +21,7 @@ namespace vdbcage::detail {
 
 namespace {
 
-/// "4.2 % of its longest side"
+/// Returns a text such as "4.2 % of its longest side".
 std::string percentOfSide(double fraction)
 {
     std::ostringstream text;
@@ -34,7 +34,7 @@ std::string nameOf(const SymmetryPlane& plane)
     return std::string(1, "xyz"[plane.axis]);
 }
 
-/// Fractions of the longest side so that a user may give them back: rounded up.
+/// Returns a fraction of the longest side for a user to pass as a tolerance: rounded up.
 std::string tolerance(double deviation)
 {
     std::ostringstream text;
@@ -61,7 +61,7 @@ Candidate BoundingSearch::run(const Request& request)
         cache_->endRun();
         return best;
     } catch (const Cancelled&) {
-        throw; // asked for between two steps: what was recorded of the decimations is right
+        throw; // thrown between two steps, so the records of decimations are right
     } catch (...) {
         cache_->forgetStarts();
         tilted_.reset();
@@ -69,7 +69,7 @@ Candidate BoundingSearch::run(const Request& request)
     }
 }
 
-/// A symmetric cage where there is a plane, or else one that is not.
+/// Returns a symmetric cage where there is a plane, or else one that is not.
 Candidate BoundingSearch::find(const Request& request, bool ofSheet)
 {
     std::string noSymmetry;
@@ -83,7 +83,8 @@ Candidate BoundingSearch::find(const Request& request, bool ofSheet)
     return candidate;
 }
 
-/// In a plane across an axis, or where any may be taken in another; else `objection` says why there is none.
+/// Returns a cage that is symmetric in a plane across an axis or, where any plane may be taken, in another one. If
+/// there is none, sets `objection` to the reason.
 /// \throw InputError the plane that is asked for is absurd
 std::optional<Candidate> BoundingSearch::findSymmetric(const Request& request, bool ofSheet, std::string& objection)
 {
@@ -115,8 +116,9 @@ std::optional<Candidate> BoundingSearch::findSymmetric(const Request& request, b
     return std::nullopt;
 }
 
-/// In a plane of any direction that is not missed by more than the tolerance. `objection` is set if there is such a
-/// plane but no such cage, or if a greater tolerance would do and no axis is as good.
+/// Returns a cage that is symmetric in a plane of any direction, from which the model deviates by at most the
+/// tolerance. Sets `objection` if there is such a plane but no such cage, or if a greater tolerance would be enough and
+/// no axis is as good.
 std::optional<Candidate> BoundingSearch::findTilted(const Request& request, std::string& objection)
 {
     const auto varies = [](const FactorField& field) { return field.grid || !field.regions.empty(); };

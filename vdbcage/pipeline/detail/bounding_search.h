@@ -14,13 +14,13 @@ namespace vdbcage::detail {
 class StageCache;
 class TiltedSearch;
 
-/// Looks for the bounding cage: shrinks surfaces under the guard, in the order of a SearchPlan, until one is certified.
-/// Several runs share a StageCache.
+/// The search for a bounding cage: it shrinks surfaces under the guard, in the order of a SearchPlan, until one is
+/// certified. Several runs share a StageCache.
 class BoundingSearch {
 public:
     /// The first three must outlive this. `acrossX` is the best plane across x, where it is known. Surfaces of more
-    /// than `largeSurface` faces are decimated one after the other, and nothing is recorded of it: that takes a third
-    /// of the memory, and as much time again in each run. The cages are the same.
+    /// than `largeSurface` faces are decimated one after the other, without a record: that takes a third of the memory,
+    /// and each run takes the full time again. The cages are the same.
     BoundingSearch(const Mesh& model, Volumes& volumes, Certifier& certifier,
                    const std::optional<Symmetry>& acrossX = {}, std::size_t largeSurface = policy::largeSurface);
     ~BoundingSearch();
@@ -48,7 +48,7 @@ private:
     const std::unique_ptr<StageCache> cache_;
     Certifier& certifier_;
     const std::size_t largeSurface_;       // faces
-    std::unique_ptr<TiltedSearch> tilted_; // once a plane in another direction was looked for
+    std::unique_ptr<TiltedSearch> tilted_; // after a plane in another direction was sought
 };
 
 } // namespace vdbcage::detail

@@ -13,20 +13,20 @@
 
 namespace vdbcage::detail {
 
-/// The surface that bounding cages of any face count begin with: one around a closing or its convex hull, or a simple
-/// solid.
+/// The surface from which bounding cages of any face count are made: one around a closing or its convex hull, or a
+/// simple solid.
 struct StartingSurface {
     CageStart kind = CageStart::closing;
-    /// Of a simple solid that which it competes with; of a turned start as if it were not.
+    /// For a simple solid the closing that it competes with; for a turned start the closing without the turn.
     std::shared_ptr<const Closing> closing;
-    double offsetVoxels = 0; ///< by how much all of it was grown to keep the clearance
+    double offsetVoxels = 0; ///< by which all of it was grown to keep the clearance
     std::shared_ptr<const Mesh> surface;
     MeshTopology topology;
 };
 
 struct KeptStart;
 
-/// A cage and what it was made from.
+/// A cage and its origin.
 struct Candidate {
     Voxels voxels;
     CageStart start = CageStart::closing;
@@ -37,7 +37,7 @@ struct Candidate {
     MeshTopology topology; ///< of the surface
     Mesh decimated, smoothed, cage;
     CageCheck check;
-    double looseness = 0; ///< its mean distance, as the density counts it
+    double looseness = 0; ///< the cage's mean distance, weighted by the density
     double sideShare = 1; ///< shareOfSide()
     bool boundsAsFloats = false;
     bool repaired = false;

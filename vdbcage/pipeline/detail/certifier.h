@@ -11,28 +11,28 @@
 
 namespace vdbcage::detail {
 
-/// Examines cages of one model by CageChecker, which is other code than the guard's.
+/// The examination of cages of one model by CageChecker, whose code is not the guard's.
 class Certifier {
 public:
     /// `model` must outlive this.
     explicit Certifier(const Mesh& model);
 
     const Mesh& model() const { return model_; }
-    /// Verdict and measures of a cage, against the model as given.
+    /// Returns the verdict and measures of a cage, against the model as given.
     /// \throw Cancelled
     CageCheck check(const Mesh& cage, Interrupter* interrupter);
-    /// Whether a cage also bounds the model as a host that stores floats would hold it. True if its coordinates are
-    /// not rounded to float.
+    /// Returns whether a cage also bounds the model in a host that stores floats; true if coordinates are not rounded
+    /// to float.
     /// \throw Cancelled
     bool boundsAsFloats(const Mesh& cage, Precision precision, Interrupter* interrupter);
 
-    /// How many hollows the model has.
+    /// Returns the number of hollows of the model.
     /// \throw Cancelled
     std::size_t hollows(Interrupter* interrupter) { return checker(interrupter).hollows(); }
 
-    /// Whether coordinates of cages are rounded to float.
+    /// Returns whether coordinates of cages are rounded to float.
     bool areFloats(Precision precision) const { return detail::areFloats(precision, box_); }
-    /// `mesh` with its points rounded like this.
+    /// Returns `mesh` with its points rounded in this way.
     Mesh rounded(Mesh mesh, Precision precision) const;
 
 private:
@@ -40,7 +40,7 @@ private:
 
     const Mesh& model_;
     openvdb::BBoxd box_;                         // of the model
-    std::unique_ptr<const CageChecker> checker_; // once it was asked for
+    std::unique_ptr<const CageChecker> checker_; // made when first needed
 };
 
 } // namespace vdbcage::detail

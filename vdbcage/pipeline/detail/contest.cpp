@@ -22,7 +22,7 @@ namespace vdbcage::detail {
 
 namespace {
 
-/// Side by side. \throw Cancelled
+/// Changes candidates side by side. \throw Cancelled
 template <typename Change>
 void forEach(std::vector<Candidate>& candidates, Interrupter* interrupter, StageName name, const Change& change)
 {
@@ -49,7 +49,7 @@ std::optional<Candidate> Contest::tightest()
     const CageOptions& options = request_.options;
     std::optional<Candidate> best = tightestFor(options);
     if (!best || !mayFewerBeTighter(options, best->check, faceCount(cache_.model()))) return best;
-    // Where flat surroundings have no use for more faces, their points only stand out.
+    // In flat surroundings that do not need more faces, their points only stand out.
     std::optional<Candidate> worthIt;
     const auto offer = [&](std::optional<Candidate> candidate) {
         if (!candidate) return;
@@ -61,7 +61,7 @@ std::optional<Candidate> Contest::tightest()
     return worthIt;
 }
 
-/// The tightest of the cages that compete; nothing if there is none.
+/// Returns the tightest of the competing cages; nothing if there is none.
 std::optional<Candidate> Contest::tightestFor(const CageOptions& options)
 {
     const Rules rules = rulesFor(options);
@@ -78,20 +78,20 @@ std::optional<Candidate> Contest::tightestFor(const CageOptions& options)
     for (const SearchPlan::Competitor& competitor : plan.competitors) {
         const Entry entry{competitor, plan.share, rules};
         take(climb(entry), 0);
-        // That a cage of more faces lies on the model more closely than a box is not worth them.
+        // A box wins even if a cage of more faces is nearer to the model, by less than the clearance.
         if (competitor.hasSimpleSolids) take(shrinkOnto(entry, simpleSolids(entry)), options.clearance);
     }
     if (best) best->plan = describe(plan);
     return best;
 }
 
-/// The tightest cage from the first rungs of the ladders that lead to few enough faces, or else from the convex hull;
-/// nothing if that has too many too.
+/// Returns the tightest cage from the first rungs of the ladders that lead to few enough faces, or else from the convex
+/// hull; nothing if that has too many, too.
 std::optional<Candidate> Contest::climb(const Entry& entry)
 {
     const std::vector<std::vector<Voxels>>& all = entry.competitor.ladders;
-    std::vector<std::size_t> next(all.size(), 0); // rung of each
-    std::size_t climbed = 1;                      // the first alone, until others may be tighter
+    std::vector<std::size_t> next(all.size(), 0); // by ladder: its next rung
+    std::size_t climbed = 1;                      // only the first, until others may be tighter
     for (;;) {
         Candidates starts;
         for (std::size_t i = 0; i < climbed; ++i) {
@@ -116,7 +116,7 @@ std::optional<Candidate> Contest::climb(const Entry& entry)
     return shrinkOnto(entry, {begin(entry, voxels, CageStart::hull)});
 }
 
-/// What cages may be shrunk from with voxels like these: nothing if there are too many handles.
+/// Makes the surfaces from which cages may be shrunk, with voxels like these: none if there are too many handles.
 Contest::Candidates Contest::startsFrom(const Entry& entry, const Voxels& voxels)
 {
     const CageOptions& options = entry.options();
@@ -139,7 +139,7 @@ Contest::Candidates Contest::startsFrom(const Entry& entry, const Voxels& voxels
     if (entry.competitor.mayBeTurned) {
         const auto plane = entry.guard().symmetry();
         const double share = cache_.axes(plane, request_.interrupter).share;
-        // About as many quads as along x, y and z.
+        // Makes about as many quads as along x, y and z.
         if (share <= policy::worthTurning) {
             beginWith(cache_.turnedSide(plane, request_.interrupter) / std::sqrt(share), true);
         }
@@ -147,7 +147,7 @@ Contest::Candidates Contest::startsFrom(const Entry& entry, const Voxels& voxels
     return starts;
 }
 
-/// What cages of few faces may be shrunk from beside closings.
+/// Makes the surfaces other than closings from which cages of few faces may be shrunk.
 Contest::Candidates Contest::simpleSolids(const Entry& entry)
 {
     const CageOptions& options = entry.options();
@@ -159,14 +159,14 @@ Contest::Candidates Contest::simpleSolids(const Entry& entry)
     return starts;
 }
 
-/// How many quads the surface of a closing has.
+/// Returns the number of quads of a closing's surface.
 std::size_t Contest::quadsOf(const CageOptions& options, const Rules& rules, Voxels voxels)
 {
     voxels.plane = rules.guard->symmetry();
     return cache_.quadsOf(options, request_.scale, voxels, request_.interrupter);
 }
 
-/// A candidate with what it is made from.
+/// Makes a candidate with its starting surface.
 Candidate Contest::begin(const Entry& entry, const Voxels& voxels, CageStart kind)
 {
     Candidate candidate;
@@ -183,7 +183,8 @@ Candidate Contest::begin(const Entry& entry, const Voxels& voxels, CageStart kin
     return candidate;
 }
 
-/// Makes cages of the candidates' surfaces, side by side; the tightest that has few enough faces and is certified.
+/// Makes cages of the candidates' surfaces, side by side. Returns the tightest that has few enough faces and is
+/// certified.
 std::optional<Candidate> Contest::shrinkOnto(const Entry& entry, Candidates starts)
 {
     const CageOptions& options = entry.options();
@@ -208,7 +209,7 @@ std::optional<Candidate> Contest::shrinkOnto(const Entry& entry, Candidates star
     return tightestCertified(entry, std::move(starts));
 }
 
-/// Those whose surfaces are large one after the other, then the others side by side. \throw Cancelled
+/// Changes candidates with large surfaces one after the other, then the others side by side. \throw Cancelled
 template <typename Change>
 void Contest::forEachSurface(Candidates& candidates, StageName name, const Change& change) const
 {
@@ -225,7 +226,7 @@ void Contest::forEachSurface(Candidates& candidates, StageName name, const Chang
     });
 }
 
-/// Cages of quads in loops; what is not of quads only is left out.
+/// Makes cages of quads in loops; removes candidates that do not consist of quads.
 void Contest::collapseLoops(const Entry& entry, Candidates& starts) const
 {
     QuadLoopsOptions options;
@@ -240,7 +241,7 @@ void Contest::collapseLoops(const Entry& entry, Candidates& starts) const
     starts.erase(std::remove_if(starts.begin(), starts.end(), hasTriangles), starts.end());
 }
 
-/// Cages of triangles, or of triangles and quads.
+/// Makes cages of triangles, or of triangles and quads.
 void Contest::decimateAndTighten(const Entry& entry, Candidates& starts) const
 {
     const CageOptions& options = entry.options();
@@ -252,7 +253,7 @@ void Contest::decimateAndTighten(const Entry& entry, Candidates& starts) const
     BoundingDecimateOptions decimation;
     decimation.faces = onlyTriangles ? faces : policy::trianglesPerQuad * faces;
     decimation.effort = options.effort;
-    // Simple solids are cages as they are.
+    // Simple solids are cages already.
     const auto isCage = [&](const Candidate& candidate) {
         const Mesh& surface = *candidate.surface;
         const bool isSimple = candidate.start == CageStart::orientedBox || candidate.start == CageStart::tetrahedron;

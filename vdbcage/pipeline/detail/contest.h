@@ -10,7 +10,7 @@
 
 namespace vdbcage::detail {
 
-/// Makes the cages that compete under one plane of symmetry, or none, and takes the tightest.
+/// The contest of the cages under one plane of symmetry, or none, which the tightest wins.
 class Contest {
 public:
     /// All but `plane` must outlive this. `largeSurface` is as for BoundingSearch.
@@ -27,12 +27,12 @@ public:
     std::optional<Candidate> tightest();
     /// Returns the model's bounding box, the last resort, with its verdict.
     Candidate box();
-    /// Returns what the cages are made under.
+    /// Returns the rules under which the cages are made.
     Rules rules() { return rulesFor(request_.options); }
 
 private:
     using Candidates = std::vector<Candidate>;
-    /// A competitor of a plan, with what all of them share.
+    /// A competitor of a plan, with the data that all share.
     struct Entry {
         const SearchPlan::Competitor& competitor;
         double share;

@@ -15,15 +15,15 @@ namespace {
 
 // Bytes, fitted to the peaks of runs with two threads, so that nearly all took less; docs/user/OPTIONS.md has figures.
 constexpr double perProcess = 60e6;      ///< the program and its libraries
-constexpr double perOpenGl = 80e6;       ///< and the driver's
+constexpr double perOpenGl = 80e6;       ///< with the driver's
 constexpr double perModelTriangle = 400; ///< of the mesh, the guard and the certifier
 constexpr double perPlainTriangle = 250; ///< where there is no guard
-constexpr double perQuad = 2200;         ///< of the surface, under the guard, with how it was decimated
-constexpr double perLargeQuad = 800;     ///< where that is not recorded (largeSurface)
+constexpr double perQuad = 2200;         ///< of the surface, under the guard, with the record of its decimation
+constexpr double perLargeQuad = 800;     ///< without that record (largeSurface)
 constexpr double perPlainQuad = 600;     ///< of the surface, where there is no guard
-constexpr double perCageFace = 1500;     ///< of the cage, with what it is tightened by
+constexpr double perCageFace = 1500;     ///< of the cage, with the data for its tightening
 constexpr double perVoxel = 0.2;         ///< of the bounding box
-constexpr int countedResolution = 64; ///< what finer voxels show adds less than a third to the surface, mostly nothing
+constexpr int countedResolution = 64;    ///< finer voxels add less than a third to the surface, mostly nothing
 
 std::string sizeText(double bytes)
 {
@@ -57,7 +57,7 @@ double MemoryDemand::bytes(int resolution) const
 {
     CageOptions options = options_;
     if (resolution > 0) options.resolution = resolution;
-    double together = 0, alone = 0; // bytes of surfaces: side by side, and of that which takes most by itself
+    double together = 0, alone = 0; // bytes of surfaces: side by side, and of the one that alone takes most
     double finest = 0;              // resolution
     const auto add = [&](double quads, const CageOptions& competitor) {
         const double recorded = quads * (competitor.bounding ? perQuad : perPlainQuad);
@@ -87,7 +87,7 @@ double MemoryDemand::bytes(int resolution) const
            std::max({together, alone, voxels});
 }
 
-/// The finest resolution, below that of the options, with which it takes `limit` bytes at most; 0: there is none.
+/// Returns the finest resolution, below that of the options, with at most `limit` bytes; 0 if there is none.
 int MemoryDemand::finestWithin(double limit) const
 {
     constexpr int least = 8; // resolution that can be asked for

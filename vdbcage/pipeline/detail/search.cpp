@@ -24,7 +24,7 @@ double growth(const CageOptions& options)
     return std::max(1.0, options.faces / usualFaces);
 }
 
-/// One resolution, with all radii.
+/// Returns the rungs of one resolution, with all radii.
 std::vector<Voxels> rungs(int resolution, const std::optional<double>& closeRadius, double share)
 {
     std::vector<Voxels> list{{resolution, closeRadius.value_or(leastRadius * share)}};
@@ -99,9 +99,9 @@ double shareOfSide(const CageOptions& options, const Mesh& model,
     const double side = longestSide(boundingBox(model));
     const openvdb::Vec3d extents = boundingBox(model).extents() / side;
     const double box = extents[0] * extents[1] * extents[2];
-    std::optional<double> largest; // part, once it was asked for
+    std::optional<double> largest; // the largest part, once it is needed
     CageOptions counted = options;
-    if (options.mesh == CageFaces::loops) counted.mesh = CageFaces::quads; // of loops the voxels follow the surface
+    if (options.mesh == CageFaces::loops) counted.mesh = CageFaces::quads; // voxels of loops follow the surface
     for (double share = 1;; share /= 2) {
         Voxels voxels = finestVoxels(counted, share);
         const double finer = 2.0 * voxels.resolution;

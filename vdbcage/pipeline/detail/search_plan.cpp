@@ -8,7 +8,7 @@ namespace vdbcage::detail {
 
 namespace {
 
-/// The value of an option as text.
+/// Returns the value of an option as text.
 std::string valueOf(const CageOptions& options, const std::string& name)
 {
     for (auto& [option, value] : optionValues(options)) {

@@ -7,7 +7,7 @@
 
 namespace vdbcage::detail {
 
-/// The attempts of a search for a cage, in order. The time and the memory of a run follow from it.
+/// The attempts of a search for a cage, in order. They determine the time and the memory of a run.
 struct SearchPlan {
     /// Options whose cages compete with those of the others for the tightest.
     struct Competitor {
@@ -22,10 +22,10 @@ struct SearchPlan {
     std::vector<Competitor> competitors;
 };
 
-/// The plan for some options. \pre `share` is shareOfSide() of these
+/// Returns the plan for some options. \pre `share` is shareOfSide() of these
 SearchPlan searchPlan(const CageOptions& options, double share);
 
-/// A line for each competitor, for people.
+/// Returns a line for each competitor, for people.
 std::vector<std::string> describe(const SearchPlan& plan);
 
 } // namespace vdbcage::detail

@@ -37,7 +37,7 @@ const Symmetry& StageCache::symmetry(CageSymmetry wanted, Interrupter* interrupt
     return symmetry_.of(wanted, [&] {
         const Stage stage(interrupter, StageName::symmetry);
         if (wanted == CageSymmetry::automatic) {
-            // Of a model too large for doubles there is none.
+            // A model too large for doubles has none.
             constexpr double any = std::numeric_limits<double>::infinity();
             return findSymmetry(model_, any, interrupter).value_or(Symmetry{{}, any});
         }
@@ -132,7 +132,7 @@ StartingSurface StageCache::made(const CageOptions& options, const FieldVersion&
         Turned& turned = turnedModel(guard.symmetry(), interrupter);
         StartingSurface start = startingSurface(closingOf(turned.volumes), kind,
                                                 axes(guard.symmetry(), interrupter).rows, nullptr, guard, interrupter);
-        start.closing = std::move(closing); // which is where the model is
+        start.closing = std::move(closing); // in the model's own place
         return start;
     }
     const auto* const found = closingSurface_.find(closing->key);

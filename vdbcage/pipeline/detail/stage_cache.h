@@ -25,7 +25,7 @@ struct WishesKey {
     bool operator==(const WishesKey& other) const;
 };
 
-/// The rules that surfaces are changed under: constraints, and wishes for what these leave open.
+/// The rules for changes of surfaces: constraints, and wishes where these leave a choice.
 struct Rules {
     WishesKey key;
     std::shared_ptr<const BoundingGuard> guard;
@@ -34,7 +34,7 @@ struct Rules {
 
 /// A starting surface, kept from run to run with its decimations.
 struct KeptStart {
-    GuardOptions guardOptions; ///< with kind, closing and `turned` its key
+    GuardOptions guardOptions; ///< the key, together with kind, closing and `turned`
     bool turned = false;       ///< its voxels lie along the model's own axes
     std::shared_ptr<const BoundingGuard> guard;
     StartingSurface start;
@@ -42,7 +42,7 @@ struct KeptStart {
     bool isUsed = true; ///< in this run
 };
 
-/// Keeps what the stages of a search made of a model, from run to run, under keys: equal keys, equal values.
+/// The results of the stages of a search for one model, kept from run to run under keys: equal keys, equal values.
 class StageCache {
 public:
     /// The arguments must outlive this. `acrossX` is the best plane across x, where it is known.
@@ -51,11 +51,11 @@ public:
     const Mesh& model() const { return model_; }
     Volumes& volumes() { return volumes_; }
 
-    /// Returns whether the model is a sheet, in voxels that depend on no option but the interior.
+    /// Returns whether the model is a sheet, in voxels that depend on no option except the interior.
     bool isSheet(const CageOptions& options, Interrupter* interrupter);
-    /// Returns the best plane of those that the options ask for. \pre they ask for one
+    /// Returns the best plane of those that `wanted` allows. \pre it asks for one
     const Symmetry& symmetry(CageSymmetry wanted, Interrupter* interrupter);
-    /// Returns constraints and wishes. Starts under other constraints are forgotten, for memory.
+    /// Returns constraints and wishes. Forgets starts under other constraints, for memory.
     Rules rules(const CageOptions& options, const FieldVersion& density, bool ofSheet,
                 const std::optional<SymmetryPlane>& plane, Interrupter* interrupter);
     /// Returns the model's own axes; where there is a plane, one is across it.
@@ -65,11 +65,11 @@ public:
     /// Returns the number of quads of the surface of a closing.
     std::size_t quadsOf(const CageOptions& options, const FieldVersion& scale, const Voxels& voxels,
                         Interrupter* interrupter);
-    /// Returns what a cage may be shrunk from.
+    /// Returns a surface from which a cage may be shrunk.
     std::shared_ptr<KeptStart> start(const CageOptions& options, const FieldVersion& scale, const Voxels& voxels,
                                      CageStart kind, const Rules& rules, Interrupter* interrupter);
 
-    /// From here on starts count as unused.
+    /// Marks all starts as unused.
     void beginRun();
     /// Forgets the starts that were not used since beginRun().
     void endRun();
@@ -97,7 +97,7 @@ private:
     Memo<WishesKey, FaceWishes> wishes_;
     Memo<Axis, AlignedAxes> axes_;
     Memo<Axis, std::unique_ptr<Turned>> turned_;
-    Memo<ClosingKey, std::shared_ptr<const Mesh>> closingSurface_; // until a start is made of it
+    Memo<ClosingKey, std::shared_ptr<const Mesh>> closingSurface_; // until a start is made from it
     std::vector<std::pair<ClosingKey, std::size_t>> quads_;        // of surfaces, of many runs
     std::vector<std::shared_ptr<KeptStart>> starts_;
 };

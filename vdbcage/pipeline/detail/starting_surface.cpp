@@ -16,7 +16,7 @@ namespace vdbcage::detail {
 
 namespace {
 
-/// Adds the voxels on the outer side of faces between voxels; returns how many there were not.
+/// Adds the voxels on the outer side of faces between voxels. Returns the number of new ones.
 std::size_t addVoxelsOutside(const Mesh& surface, const std::vector<std::size_t>& faces,
                              const std::optional<openvdb::Mat3d>& axes, openvdb::MaskGrid& mask)
 {
@@ -38,7 +38,7 @@ std::size_t addVoxelsOutside(const Mesh& surface, const std::vector<std::size_t>
     return added;
 }
 
-/// The surface of a mask that is symmetric: so is what is added to make it well-composed.
+/// Returns the surface of a symmetric mask; the voxels added to make it well-composed are symmetric, too.
 Mesh symmetricSurface(const openvdb::MaskGrid& mask, const SolidKey& voxels, Interrupter* interrupter)
 {
     for (auto both = withMirrorImage(mask, voxels.plane->axis, voxels.resolution, interrupter);;) {
@@ -76,7 +76,7 @@ StartingSurface startingSurface(std::shared_ptr<const Closing> closing, CageStar
             const Mesh whole = turnedBack(symmetricSurface(now, voxels, interrupter));
             start.surface = std::make_shared<const Mesh>(guard.symmetrized(whole, now.voxelSize()[0] / 4));
         } else if (extracted) {
-            start.surface = std::exchange(extracted, nullptr); // it is of the solid as it is
+            start.surface = std::exchange(extracted, nullptr); // of the solid as it is
         } else {
             start.surface = std::make_shared<const Mesh>(turnedBack(extractSurface(now, interrupter)));
         }

@@ -5,14 +5,15 @@
 
 namespace vdbcage::detail {
 
-/// A cage by the operators of the textbook, one after the other. It is as they leave it, valid or not, bounding or not.
+/// Makes a cage by the operators of the textbook, one after the other. Their result is returned even if it is not valid
+/// or not bounding.
 /// \throw InputError as Pipeline::run
 /// \throw DeviceError
 /// \throw Cancelled
 Candidate textbookCage(const CageOptions& options, const FieldVersion& scale, Volumes& volumes, Certifier& certifier,
                        std::size_t memoryLimit, Interrupter* interrupter);
 
-/// Quads by merging alone, as the options ask.
+/// Makes quads by merging alone, as the options ask.
 Mesh merged(const Mesh& triangles, const CageOptions& options);
 
 } // namespace vdbcage::detail

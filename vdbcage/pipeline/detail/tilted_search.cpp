@@ -14,7 +14,7 @@ namespace {
 using openvdb::Mat3d;
 using openvdb::Vec3d;
 
-/// Turns `normal`, of length 1, to x.
+/// Returns the rotation that turns `normal`, of length 1, to x.
 Mat3d rotationToX(const Vec3d& normal)
 {
     Vec3d least(0.0);
@@ -66,7 +66,7 @@ Mesh TiltedSearch::turnedBack(Mesh mesh) const
     return turned(std::move(mesh), rotation_.transpose());
 }
 
-/// With the voxels that it has, and another transform.
+/// Returns the same voxels with another transform.
 openvdb::MaskGrid::ConstPtr TiltedSearch::turnedBack(const openvdb::MaskGrid& mask) const
 {
     const openvdb::math::Transform& now = mask.transform();

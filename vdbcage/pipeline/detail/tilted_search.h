@@ -7,16 +7,16 @@
 
 namespace vdbcage::detail {
 
-/// Looks for a cage that is symmetric in a plane of any direction: that of the model, turned so that the plane lies
-/// across x, turned back.
+/// The search for a cage that is symmetric in a plane of any direction. It turns the model so that the plane lies
+/// across x, and turns the cage back.
 ///
-/// Turning rounds, so that the cage is symmetric but for the rounding of its coordinates.
+/// Turning rounds, so the cage is symmetric except for the rounding of its coordinates.
 class TiltedSearch {
 public:
-    /// `certifier` is of `model` as it is, and must outlive this.
+    /// `certifier` is of `model`, which is not turned, and must outlive this.
     TiltedSearch(const Mesh& model, const TiltedSymmetry& plane, Certifier& certifier);
 
-    /// A symmetric cage that is certified where it is; nothing if there is none with so few faces.
+    /// Returns a symmetric cage, certified after it was turned back; nothing if there is none with so few faces.
     /// \pre the options have no field that varies in space
     /// \throw InputError as Pipeline::run
     /// \throw MemoryError

@@ -39,7 +39,7 @@ private:
     std::uint64_t value_ = 0x9e3779b97f4a7c15U;
 };
 
-/// Active states do not count: values are interpolated whether active or not.
+/// Returns the digest of a grid. Active states do not count: interpolation uses all values.
 std::uint64_t digestOf(const openvdb::FloatGrid& grid)
 {
     Digest digest;
@@ -110,7 +110,7 @@ std::size_t countOf(const openvdb::MaskGrid& mask)
 std::shared_ptr<const Solid> Volumes::solid(const SolidKey& key, Interrupter* interrupter)
 {
     if (solid_ && solid_->key == key) return solid_;
-    closing_.reset(); // before more memory is taken
+    closing_.reset(); // before the new one takes memory
     solid_.reset();
     const Stage stage(interrupter, StageName::voxelize);
     VoxelizeOptions voxelization;
@@ -145,7 +145,7 @@ std::shared_ptr<const Closing> Volumes::closing(const CageOptions& options, cons
     closing.erodeRadiusVoxels = key.erodeRadius * voxels.resolution;
     closing.element = key.element;
     auto closed = closeMask(*made->solid->mask, closing, options.scale, interrupter);
-    // The scale may be anything.
+    // The scale need not be symmetric.
     if (voxels.plane) closed = withMirrorImage(*closed, voxels.plane->axis, voxels.resolution, interrupter);
     FilledMask filled = fillCavities(*closed, interrupter);
     made->cavitiesFilled = filled.cavities;

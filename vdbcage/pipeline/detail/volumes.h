@@ -13,11 +13,10 @@
 #include <vdbcage/pipeline/options.h>
 #include <vdbcage/volume/detail/boundary_topology.h>
 
-/// The volumes that cages are made from. They are kept from run to run under typed keys: equal keys, equal volumes.
+/// The volumes from which cages are made. They are kept from run to run under typed keys: equal keys, equal volumes.
 namespace vdbcage::detail {
 
-/// Stands for the contents of a field. The grid counts by its content, as whoever holds it may write to it between two
-/// runs.
+/// A key for the contents of a field. The grid counts by its content, since its owner may write to it between two runs.
 struct FieldVersion {
     std::vector<FactorRegion> regions;
     std::uint64_t grid = 0; ///< digest of transform, background, tiles and leaves; 0 without a grid
@@ -55,7 +54,7 @@ struct Solid {
     BoundaryTopology boundary;
 };
 
-/// Its closing, cavities filled.
+/// The closing of a solid, with cavities filled.
 struct Closing {
     ClosingKey key;
     std::shared_ptr<const Solid> solid;
@@ -64,20 +63,21 @@ struct Closing {
     std::size_t voxels = 0; ///< active ones
 };
 
-/// Makes volumes of one model. The last of each kind is kept. What was given out stays as it is.
+/// The volumes of one model. It keeps the last of each kind. Volumes already returned stay unchanged.
 class Volumes {
 public:
     /// `model` must outlive this.
     explicit Volumes(const Mesh& model) : model_(model) {}
 
-    /// The closing of the model by the radii of `voxels` and the options. `scale` is the version of their scale field.
+    /// Returns the closing of the model by the radii of `voxels` and the options. `scale` is the version of their scale
+    /// field.
     /// \throw InputError as voxelize, closeMask
     /// \throw DeviceError
     /// \throw Cancelled
     std::shared_ptr<const Closing> closing(const CageOptions& options, const FieldVersion& scale, const Voxels& voxels,
                                            Interrupter* interrupter);
 
-    /// The model's voxels.
+    /// Returns the model's voxels.
     /// \throw InputError as voxelize
     /// \throw DeviceError
     /// \throw Cancelled
@@ -89,10 +89,10 @@ private:
     std::shared_ptr<const Closing> closing_;
 };
 
-/// The key of the closing that Volumes::closing gives.
+/// Returns the key of the closing that Volumes::closing returns.
 ClosingKey closingKey(const CageOptions& options, const FieldVersion& scale, const Voxels& voxels);
 
-/// How many active voxels `mask` has.
+/// Returns the number of active voxels of `mask`.
 std::size_t countOf(const openvdb::MaskGrid& mask);
 
 } // namespace vdbcage::detail

@@ -67,7 +67,7 @@ Box Meetings::boxOf(std::uint32_t triangle) const
 
 bool Meetings::isEdge(std::uint32_t face, std::uint32_t a, std::uint32_t b) const
 {
-    if (face < mesh_.triangles.size()) return true; // of any two of its corners
+    if (face < mesh_.triangles.size()) return true; // any two of its corners are an edge
     const openvdb::Vec4I& q = mesh_.quads[face - mesh_.triangles.size()];
     for (int i = 0; i < 4; ++i) {
         if ((q[i] == a && q[(i + 1) % 4] == b) || (q[i] == b && q[(i + 1) % 4] == a)) return true;

@@ -12,7 +12,7 @@
 
 namespace vdbcage::detail {
 
-/// A triangle that a face stands for: a quad has two of each diagonal. Faces are numbered triangles first, then quads.
+/// A triangle of a face: a quad has two for each diagonal. Faces are numbered triangles first, then quads.
 struct SplitTriangle {
     Vec3I corners;
     std::uint32_t face;
@@ -21,16 +21,16 @@ struct SplitTriangle {
     bool has(std::uint32_t point) const { return corners[0] == point || corners[1] == point || corners[2] == point; }
 };
 
-/// Which triangles of a surface meet in more than the corners and edges that they share, by exact predicates. Its
-/// points may be moved.
+/// The pairs of triangles of a surface that meet in more than the corners and edges that they share, by exact
+/// predicates. Points of the surface may be moved.
 ///
-/// Points are the same only if their index is. Degenerate triangles meet nothing. The triangles of a quad meet only
+/// Points are the same only if their indices are. Degenerate triangles meet nothing. The triangles of a quad meet only
 /// where it is folded over their diagonal.
 class Meetings {
 public:
-    /// Two places in triangles(), the smaller one first.
+    /// Two indices in triangles(), the smaller one first.
     using Pair = std::array<std::uint32_t, 2>;
-    /// More pairs are not looked for: n triangles have up to n^2 / 2.
+    /// The largest number of pairs that are sought: n triangles have up to n^2 / 2.
     static constexpr std::size_t most = 1'000'000;
 
     /// `mesh` must outlive this.
@@ -38,9 +38,9 @@ public:
     explicit Meetings(Mesh& mesh);
 
     const std::vector<SplitTriangle>& triangles() const { return triangles_; }
-    /// The triangles with a corner at `point`.
+    /// Returns the triangles with a corner at `point`.
     const std::vector<std::uint32_t>& around(std::uint32_t point) const { return around_[point]; }
-    /// All pairs, sorted; or the first `most` that were found. \throw Cancelled
+    /// Returns all pairs, sorted; or the first `most` that were found. \throw Cancelled
     std::vector<Pair> pairs(Interrupter* interrupter) const;
     /// Calls visit(other) for each triangle that `triangle` meets.
     template <typename Visit>
@@ -53,9 +53,8 @@ public:
             return true;
         });
     }
-    /// Whether it has no area, exactly.
+    /// Returns whether a triangle has no area, exactly.
     bool isDegenerate(std::uint32_t triangle) const { return degenerate_[triangle]; }
-    /// Moves a point of the mesh.
     void move(std::uint32_t point, const Vec3d& place);
 
 private:
@@ -64,7 +63,7 @@ private:
         const Vec3I& t = triangles_[triangle].corners;
         return {mesh_.points[t[0]], mesh_.points[t[1]], mesh_.points[t[2]]};
     }
-    /// Whether it lies on one side of the plane for certain: most of what is in the box of a long triangle does.
+    /// Returns whether a triangle certainly lies on one side of the plane, as most in the box of a long triangle do.
     bool isBeside(const Plane& plane, std::uint32_t triangle) const
     {
         const Corners t = cornersOf(triangle);

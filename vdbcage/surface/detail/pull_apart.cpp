@@ -17,11 +17,11 @@ namespace {
 
 using Index = std::uint32_t;
 
-/// How far a point goes towards the mean of its neighbours: first hardly at all, for what only touches; then all the
-/// way, for what was pulled through. Steps between would leave dents.
+/// The steps of a point towards the mean of its neighbours: first a tiny one, for points that only touch; then all the
+/// way, for points that were pulled through. Steps between would leave dents.
 constexpr double steps[] = {0x1p-10, 1.0};
 constexpr int sweeps = 8;
-/// How often points that went all the way are set to the mean again: their neighbours moved too.
+/// The number of times that points that went all the way are set to the mean again, since their neighbours moved too.
 constexpr int rounds = 10;
 
 class PullingApart {
@@ -51,7 +51,7 @@ public:
         });
 
         std::vector<Index> moved = sweep();
-        // Back, the last one first, where that does no harm.
+        // Moves points back, the last one first, where that does no harm.
         std::set<Index> away;
         for (auto point = moved.rbegin(); point != moved.rend(); ++point) {
             if (mesh_.points[*point] != given[*point] && !goes(*point, given[*point])) away.insert(*point);
@@ -101,7 +101,7 @@ private:
         }
     }
 
-    /// Moves points until no sweep helps any more; those that moved, in that order.
+    /// Moves points until no sweep helps any more. Returns those that moved, in that order.
     std::vector<Index> sweep()
     {
         std::vector<Index> moved;
@@ -124,7 +124,7 @@ private:
         return moved;
     }
 
-    /// Takes the step that leaves the fewest meetings, if that is fewer than now.
+    /// Takes the step that leaves the fewest meetings, if these are fewer than now. Returns whether.
     bool improve(Index point)
     {
         throwIfInterrupted(interrupter_);
@@ -144,7 +144,7 @@ private:
         return best != from;
     }
 
-    /// Moves a point unless there are more meetings then.
+    /// Moves a point unless there are more meetings then. Returns whether.
     bool goes(Index point, const Vec3d& to)
     {
         throwIfInterrupted(interrupter_);
@@ -156,7 +156,8 @@ private:
         return false;
     }
 
-    /// How many pairs of triangles meet of which one has a corner there; beyond all numbers if one has no area.
+    /// Returns the number of pairs of triangles that meet and of which one has a corner there; the largest number if
+    /// one has no area.
     std::size_t meetingsAround(Index point) const
     {
         std::size_t result = 0;
@@ -181,7 +182,7 @@ private:
     Interrupter* interrupter_;
     Meetings meetings_;
     std::vector<std::set<Index>> neighbours_;
-    std::vector<Index> part_; ///< of each face; of all faces 0 if every meeting counts
+    std::vector<Index> part_; ///< by face; all 0 if every meeting counts
 };
 
 } // namespace

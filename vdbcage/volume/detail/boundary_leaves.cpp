@@ -9,7 +9,7 @@ namespace vdbcage::detail {
 
 namespace {
 
-// The entries of one block with a border of one entry of its six neighbours.
+// The entries of one block, with a border of one entry from its six neighbours.
 class PaddedEntries {
 public:
     PaddedEntries(const MaskTree& tree, const Coord& origin) : own_(blockAt(tree, origin))
@@ -26,8 +26,8 @@ public:
         }
     }
 
-    // Of each 4^3 entries of the block the bits 16 x + 4 y + z of those that may hold contour: all but the ones that
-    // are uniform, and either empty of the set or equal to their six neighbours.
+    // Returns for each 4^3 entries of the block the bits 16 x + 4 y + z of those that may have contour: all except
+    // uniform ones that are either empty of the set or equal to their six neighbours.
     std::array<std::uint64_t, 64> candidates(bool ofComplement) const
     {
         const std::uint8_t none = ofComplement ? full : empty;
@@ -54,7 +54,7 @@ public:
         return groups;
     }
 
-    // The words of an entry, -1 to 16 along one axis, else 0 to 15.
+    // Returns the words of an entry, -1 to 16 along one axis, else 0 to 15.
     const std::uint64_t* words(Coord entry) const
     {
         for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -99,7 +99,7 @@ private:
     std::array<Kind, size * size * size> kinds_{};
 };
 
-// The contour within an entry; false if there is none. `flip` is ~0 for the complement.
+// Finds the contour within an entry; returns false if there is none. `flip` is ~0 for the complement.
 bool contourWords(const PaddedEntries& entries, const Coord& entry, std::uint64_t flip, Words& contour)
 {
     const auto wordsAt = [&](int x, int y, int z) { return entries.words(entry.offsetBy(x, y, z)); };
@@ -126,7 +126,7 @@ bool contourWords(const PaddedEntries& entries, const Coord& entry, std::uint64_
 ContourLeaf contourLeaf(int entry, const Words& words)
 {
     ContourLeaf leaf{static_cast<std::uint16_t>(entry), bitBox(words.data()), {}};
-    // The middle one of the non-empty words, and of its bits one next to the middle.
+    // The middle one of the non-empty words, and a bit of it next to the middle.
     std::array<int, 8> used{};
     std::size_t count = 0;
     for (int x = 0; x < leafSize; ++x) {

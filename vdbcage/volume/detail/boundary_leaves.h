@@ -9,7 +9,7 @@
 
 namespace vdbcage::detail {
 
-/// Where the contour voxels of one entry are, roughly.
+/// The rough place of the contour voxels of one entry.
 struct ContourLeaf {
     std::uint16_t entry;               ///< of the block
     BitBox box;                        ///< of the voxels, in the entry
@@ -35,7 +35,7 @@ enum class ContourOf {
     complement ///< inactive voxels with an active face neighbour
 };
 
-/// The blocks with contour voxels of the mask or of its complement, sorted by origin.
+/// Returns the blocks with contour voxels of the mask or of its complement, sorted by origin.
 /// \throw Cancelled
 std::vector<ContourBlock> contourBlocks(const MaskTree& tree, ContourOf side, const Progress& progress);
 

@@ -13,7 +13,8 @@ struct BoundaryTopology {
     std::int64_t genus = 0;     ///< handles of all of them
 };
 
-/// The findings of analyzeTopology in extractSurface(solid), without the mesh: by Euler's formula.
+/// Returns the same components and genus as analyzeTopology of extractSurface(solid), by Euler's formula, without
+/// making the mesh.
 /// \throw InputError as makeWellComposed; more than 10^8 quads
 /// \throw Cancelled
 /// Cost: O(voxels at the surface), and 4 bytes a point.

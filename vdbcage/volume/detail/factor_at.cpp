@@ -16,7 +16,7 @@ void requireValid(const FactorRegion& region)
         (text << ... << allowed);
         throw InputError(text.str());
     };
-    // NaN is refused by every comparison.
+    // Every comparison refuses NaN.
     require(region.factor >= 0 && region.factor <= largestFactor, "the factor", region.factor, "between 0 and ",
             largestFactor);
     require(region.radius >= 0 && std::isfinite(region.radius), "the radius", region.radius, "at least 0");

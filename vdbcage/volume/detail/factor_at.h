@@ -16,15 +16,16 @@ constexpr double largestFactor = 8;
 /// \throw InputError a factor or a radius out of range; a coordinate that is not finite
 void requireValid(const FactorRegion& region);
 
-/// \throw InputError the same of a region; a value of the grid that is not finite; a transform that is not linear
+/// \throw InputError as requireValid for a region; a value of the grid that is not finite; a transform that is not
+/// linear
 /// \throw Cancelled
 /// Cost: O(values of the grid).
 void requireValidDensity(const FactorField& field, Interrupter* interrupter);
 
 bool contains(const FactorRegion& region, const openvdb::Vec3d& point);
 
-/// The field at a point of world space, cut to 0 to 8. `values` is the tree of the grid or an accessor of it; without a
-/// grid it does not count.
+/// Returns the field at a point of world space, clamped to 0 to 8. `values` is the tree of the grid or an accessor of
+/// it; it is not used if there is no grid.
 template <typename Values>
 double factorAt(const FactorField& field, const Values* values, const openvdb::Vec3d& world)
 {

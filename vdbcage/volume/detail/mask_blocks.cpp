@@ -42,7 +42,7 @@ bool isUniformlyFull(const LowerNode& node)
     return true;
 }
 
-// The blocks along the face of an upper node on one side of one axis.
+// Visits the blocks along the face of an upper node on one side of one axis.
 template <class Visit>
 void forEachFaceBlock(const Coord& upperNode, std::size_t axis, bool upper, const Visit& visit)
 {
@@ -170,7 +170,7 @@ MaskTree::Ptr assemble(const FullParts& full, std::vector<BuiltBlock> built)
     for (auto& [origin, upperNode] : upperNodes) {
         if (!upperNode || (upperNode->isChildMaskOff() && upperNode->isValueMaskOn())) {
             tree->root().addTile(origin, true, true);
-        } else if (!upperNode->isChildMaskOff() || !upperNode->isValueMaskOff()) { // isEmpty() knows of children only
+        } else if (!upperNode->isChildMaskOff() || !upperNode->isValueMaskOff()) { // isEmpty() considers only children
             tree->root().addChild(upperNode.get());
             static_cast<void>(upperNode.release()); // not before the root has it
         }
@@ -186,7 +186,7 @@ void release(MaskTree& tree, const Progress& progress)
     }
     std::vector<LowerNode*> stolen;
     std::vector<std::unique_ptr<LowerNode>> blocks;
-    stolen.reserve(count); // nothing is lost where memory lacks
+    stolen.reserve(count); // so that nothing is lost where memory is lacking
     blocks.reserve(count);
     tree.stealNodes(stolen);
     for (LowerNode* const block : stolen) blocks.emplace_back(block);
@@ -210,7 +210,7 @@ void requireSupportedCoordinates(const MaskTree& tree)
         text << "the mask has active voxels near " << origin << "; coordinates must be in [-2^30, 2^30)";
         throw InputError(text.str());
     };
-    // The limit is at a border of upper nodes, so the origins tell.
+    // The limit is at a border of upper nodes, so the origins are enough.
     for (auto tile = tree.root().cbeginValueOn(); tile; ++tile) require(!outside(tile.getCoord()), tile.getCoord());
     for (auto upperNode = tree.root().cbeginChildOn(); upperNode; ++upperNode) {
         require(!outside(upperNode->origin()) || upperNode->onVoxelCount() == 0, upperNode->origin());

@@ -9,14 +9,14 @@
 #include <vdbcage/core/detail/grids.h>
 #include <vdbcage/volume/detail/progress.h>
 
-/// A sparse mask seen as the nodes of its tree, the view that every algorithm of this room works on.
+/// A sparse mask seen as the nodes of its tree, as all algorithms of this room see it.
 ///
 /// - An *upper node* is 4096^3 voxels, a child of the root.
 /// - A *block* is 128^3 voxels, a lower node.
 /// - An *entry* is one of the 4096 places of 8^3 voxels in a block: empty, full or a leaf.
 ///
-/// The bits of an entry are 8 words. Word x holds voxel (x, y, z) in bit 8 y + z, as OpenVDB stores them. Upper nodes
-/// and blocks are named by their origin. Only active states count, not the values of a mask tree's tiles.
+/// The bits of an entry are 8 words. Word x has voxel (x, y, z) in bit 8 y + z, as OpenVDB stores them. The origins of
+/// upper nodes and blocks identify them. Only active states count, not the values of a mask tree's tiles.
 namespace vdbcage::detail {
 
 using openvdb::Coord;
@@ -36,7 +36,7 @@ inline constexpr int entryIndex(int x, int y, int z)
 {
     return (x << 8) | (y << 4) | z;
 }
-/// The corner of entry n, relative to its block.
+/// Returns the corner of entry n, relative to its block.
 inline Coord entryOffset(int n)
 {
     return {(n >> 8) * leafSize, ((n >> 4) & 15) * leafSize, (n & 15) * leafSize};
@@ -49,11 +49,11 @@ public:
     explicit Block(const LowerNode* node) : node_(node) {}
     explicit Block(bool full) : full_(full) {}
 
-    /// Uniform, and so without a node. A node can be full too, where nobody pruned it, or empty.
+    /// Returns whether it is uniformly full, without a node. A node can be full, if it was not pruned, or empty, too.
     bool isFull() const { return full_; }
     bool isEmpty() const { return !node_ && !full_; }
 
-    /// The 8 words of entry n: those of the leaf, or exactly emptyWords or fullWords.
+    /// Returns the 8 words of entry n: those of the leaf, or exactly emptyWords or fullWords.
     const std::uint64_t* entry(int n) const
     {
         const auto i = static_cast<openvdb::Index>(n);
@@ -81,16 +81,17 @@ private:
     bool full_ = false;
 };
 
-/// The block of `tree` with this origin.
+/// Returns the block of `tree` with this origin.
 /// Cost: O(log upper nodes).
 Block blockAt(const MaskTree& tree, const Coord& origin);
 
-/// The blocks that can hold a boundary voxel of the mask, sorted.
+/// Returns the blocks that can have a boundary voxel of the mask, sorted.
 ///
-/// These are the nodes and the full blocks. Of a full upper node they are those that facesOfUpperNodes() gives.
+/// These are the nodes and the full blocks; of a full upper node, those of facesOfUpperNodes().
 std::vector<Coord> shellBlocks(const MaskTree& tree);
 
-/// The blocks along those faces of the upper nodes where the neighbour is not one of them. Some may be there twice.
+/// Returns the blocks along those faces of the upper nodes where the neighbour is not one of them. Some may occur
+/// twice.
 std::vector<Coord> facesOfUpperNodes(const std::vector<Coord>& upperNodes);
 
 /// Calls visit(origin) for each block of an upper node.
@@ -104,26 +105,26 @@ void forEachBlock(const Coord& upperNode, const Visit& visit)
     }
 }
 
-/// Where a tree is full without a leaf or entry tile saying so.
+/// The parts of a tree that are full without a leaf or entry tile.
 struct FullParts {
     std::vector<Coord> upperNodes;
     std::vector<Coord> blocks; ///< outside the upper nodes
 };
 FullParts fullParts(const MaskTree& tree);
 
-/// A finished block, on its way into a tree.
+/// A finished block for a tree.
 struct BuiltBlock {
     Coord origin;
     std::unique_ptr<LowerNode> node; ///< null: uniform
     bool full = false;
 };
 
-/// Collects the entries of one block. Different entries may be set by different threads.
+/// A builder of one block from its entries. Several threads may set different entries.
 class BlockBuilder {
 public:
     explicit BlockBuilder(const Coord& origin) : origin_(origin), leaves_(entriesPerBlock), full_(entriesPerBlock, 0) {}
 
-    /// Entry n becomes `words`. Entries that are never set are empty.
+    /// Sets entry n to `words`. Entries that are never set are empty.
     /// \pre n was not set before
     void set(int n, const std::uint64_t* words);
     BuiltBlock finish();
@@ -134,17 +135,17 @@ private:
     std::vector<char> full_;
 };
 
-/// The tree of the full parts with the built blocks put in their place. It is the smallest tree of its set, with no
-/// empty node and no full one. So equal sets give equal trees.
+/// Makes the tree of the full parts, with the built blocks in their places. It is the smallest tree of its set, without
+/// empty or full nodes, so equal sets make equal trees.
 /// \pre no two blocks have the same origin
 MaskTree::Ptr assemble(const FullParts& full, std::vector<BuiltBlock> built);
 
-/// Frees a tree block by block. All at once would be long without a question to the interrupter.
+/// Frees a tree block by block. Freeing it at once would take long without asking the interrupter.
 /// \pre nobody else has the tree
 /// \throw Cancelled
 void release(MaskTree& tree, const Progress& progress);
 
-/// Requires room around the active voxels for the arithmetic on coordinates.
+/// Checks that there is room around the active voxels for the arithmetic on coordinates.
 /// \throw InputError active voxels outside [-2^30, 2^30)
 void requireSupportedCoordinates(const MaskTree& tree);
 

@@ -6,17 +6,17 @@
 
 namespace vdbcage::detail {
 
-/// The stretch of a stage's progress bar that one pass of several fills.
+/// The part of a stage's progress that one of several passes covers.
 struct Progress {
     Interrupter* interrupter = nullptr;
     int from = 0, to = 100; ///< percent
 
-    /// The `index`-th of `count` equal parts of this stretch.
+    /// Returns the `index`-th of `count` equal parts of this part.
     Progress part(int index, int count) const
     {
         return {interrupter, from + (to - from) * index / count, from + (to - from) * (index + 1) / count};
     }
-    /// The rest when the bar is full.
+    /// Returns the empty part at the end.
     Progress end() const { return {interrupter, to, to}; }
     /// \throw Cancelled
     void check(std::size_t done, std::size_t total) const

@@ -19,7 +19,7 @@ namespace {
 
 constexpr int blockSide = surfaceBlockSide;
 
-// What a small file can ask for with tiles: more would take tens of gigabytes.
+// The largest numbers that a small file can ask for with tiles: more would take tens of gigabytes.
 constexpr std::size_t mostCandidates = std::size_t(1) << 26, mostBlocks = std::size_t(1) << 22, mostQuads = 100000000;
 
 void requireAtMost(std::size_t most, std::size_t count, const char* things)
@@ -29,7 +29,7 @@ void requireAtMost(std::size_t most, std::size_t count, const char* things)
                      "; there may be " + std::to_string(most));
 }
 
-/// Steps from one voxel to another must not leave the range of coordinates.
+/// Checks that steps from one voxel to another do not leave the range of coordinates.
 void requireSupported(const openvdb::CoordBBox& box)
 {
     constexpr int limit = 1 << 30;
@@ -149,7 +149,7 @@ void SurfaceBlocks::findCorners(Block& block)
 }
 
 SurfaceBlocks::SurfaceBlocks(const Tree& tree, Interrupter* interrupter)
-    // A corner of voxels belongs to the block whose voxel has it as its low end, which need not hold active voxels.
+    // A corner of voxels belongs to the block whose voxel has it as its low end; the block need not have active voxels.
     : origins_(surfaceBlocks(tree, interrupter))
 {
     for (const Coord& step : {Coord(blockSide, 0, 0), Coord(0, blockSide, 0), Coord(0, 0, blockSide)}) {
@@ -179,7 +179,7 @@ void SurfaceBlocks::number()
         points_ += block.pointCount;
         quads_ += block.quadCount;
     }
-    requireAtMost(mostQuads, quads_, "quads"); // so that 32 bits number the points too
+    requireAtMost(mostQuads, quads_, "quads"); // so that 32 bits number the points, too
 }
 
 SurfaceBlocks::Around SurfaceBlocks::blocksAround(std::size_t i) const

@@ -25,7 +25,7 @@ struct Window {
     static constexpr unsigned full = (1U << side) - 1;
     std::array<std::array<std::uint16_t, side>, side> rows;
 
-    /// Whether every voxel has the same state. Then there is no surface here.
+    /// Returns whether all voxels have the same state, so that there is no surface here.
     bool uniform() const
     {
         unsigned any = 0, all = full;
@@ -41,7 +41,7 @@ struct Window {
 
 Window readWindow(const MaskAccessor& tree, const openvdb::Coord& block);
 
-/// Calls visit(i, accessor) for every i below `count`, in parallel, each task with an accessor of its own.
+/// Calls visit(i, accessor) for every i below `count`, in parallel; each task has its own accessor.
 /// \throw Cancelled
 template <typename Visit>
 void forEachBlock(std::size_t count, const openvdb::MaskTree& tree, Interrupter* interrupter, const Visit& visit)
@@ -55,14 +55,14 @@ void forEachBlock(std::size_t count, const openvdb::MaskTree& tree, Interrupter*
 
 void sortUnique(std::vector<openvdb::Coord>& coords);
 
-/// The origins of the 8^3 blocks that hold active voxels and touch a surface, sorted. Of an active tile only the
-/// blocks of its outer layer can.
-/// \throw InputError active voxels outside [-2^30, 2^30); more than 2^22 blocks; more than 2^26 to look at, which are
+/// Returns the origins of the 8^3 blocks that have active voxels and touch a surface, sorted. Only the blocks of the
+/// outer layer of an active tile can.
+/// \throw InputError active voxels outside [-2^30, 2^30); more than 2^22 blocks; more than 2^26 to examine, which are
 /// the leaves and the outer layers of tiles
 /// \throw Cancelled
 std::vector<openvdb::Coord> surfaceBlocks(const openvdb::MaskTree& tree, Interrupter* interrupter);
 
-/// The quads and points of the boundary of a well-composed mask. They are numbered in the order of their blocks.
+/// The quads and points of the boundary of a well-composed mask, numbered in the order of their blocks.
 class SurfaceBlocks {
 public:
     /// \throw InputError as surfaceBlocks; more than 10^8 quads, so that 32 bits number the points
@@ -112,14 +112,14 @@ private:
     /// The part of the surface in one block: its corners of voxels and its faces.
     struct Block {
         Window window;
-        /// Bit 8 y + z of [x] is the corner at the low end of voxel (x, y, z). It is set if that is on the surface: the
-        /// eight voxels around it do not all have the same state.
+        /// Bit 8 y + z of [x] is the corner at the low end of voxel (x, y, z). It is set if the corner is on the
+        /// surface: the eight voxels around it do not all have the same state.
         std::array<std::uint64_t, surfaceBlockSide> corners;
         std::array<openvdb::Index32, surfaceBlockSide> firstPoint; ///< number of the first point of each x
         std::size_t pointCount = 0;
         std::size_t firstQuad = 0, quadCount = 0;
     };
-    /// A block and the seven that follow it along the axes. They hold the points of its faces.
+    /// A block and the seven that follow it along the axes, which have the points of its faces.
     using Around = std::array<const Block*, 8>;
 
     /// Calls visit(x, y, z, face) for every face between an active voxel of the block and an inactive one.

@@ -10,7 +10,7 @@
 
 namespace vdbcage::detail {
 
-/// The form of every voxelizer: it makes the solid voxels of `model`, as voxelize() defines them, in a grid over
+/// The type of every voxelizer, which makes the solid voxels of `model`, as voxelize() defines them, in a grid over
 /// `frame.voxels`.
 /// \pre `model` has passed requireUsable, and `frame` is makeFrame's
 /// \throw DeviceError
@@ -19,22 +19,23 @@ using Backend = BitGrid(const Mesh& model, const Frame& frame, Interrupter* inte
 
 Backend voxelizeCpu;
 
-/// Through an OpenGL context of its own that lives as long as the call.
+/// Uses an OpenGL context of its own that lives as long as the call.
 Backend voxelizeGl;
 
-/// The same, but only through a context that is hardware.
+/// Does the same, but only with a hardware context.
 /// \throw DeviceError also if there is none
 Backend voxelizeGlHardware;
 
-/// By CGAL's predicates and AABB tree: slow, and independent of the others.
+/// Uses CGAL's predicates and AABB tree: slow, and independent of the others.
 /// \throw DeviceError in builds without VDBCAGE_WITH_CGAL_GPL
 Backend voxelizeCgal;
 
-/// From this resolution on, setting up a device may pay. Below, the CPU is done before a context and its shaders are
-/// made (VOXELIZERS.md).
+/// The least resolution for which setting up a device may pay. Below, the CPU is done before a context and its shaders
+/// are made (VOXELIZERS.md).
 constexpr int leastResolutionForDevice = 1024;
 
-/// By the device from leastResolutionForDevice on, unless it fails; else by the CPU. The report says which and why.
+/// Voxelizes with the device from leastResolutionForDevice on, unless it fails; else with the CPU. The report has the
+/// choice and the reason.
 std::pair<BitGrid, VoxelizeReport> voxelizeAutomatically(const Mesh& model, const Frame& frame, Backend& device,
                                                          Interrupter* interrupter);
 

@@ -20,7 +20,7 @@ using Leaf = LowerNode::ChildNodeType;                            // 8^3
 constexpr int leafSize = Leaf::DIM;
 constexpr int nodeSize = LowerNode::DIM;
 
-/// 64 bits of a row, the lowest at position `start` of the row; zero beyond both ends.
+/// Returns 64 bits of a row, the lowest at position `start` of the row; zero beyond both ends.
 Word window(const Word* row, int wordsPerRow, int start)
 {
     const int word = start >> 6, shift = start & 63;
@@ -28,7 +28,7 @@ Word window(const Word* row, int wordsPerRow, int start)
     return shift == 0 ? at(word) : at(word) >> shift | at(word + 1) << (64 - shift);
 }
 
-/// A node of 128^3 voxels, or what it comes down to.
+/// A node of 128^3 voxels, or its uniform state.
 struct Block {
     std::unique_ptr<LowerNode> node; ///< null if every voxel of the block is off, or every one on
     bool full = false;
@@ -52,7 +52,7 @@ public:
     }
 
 private:
-    /// Eight leaves in a row along z, the first at `origin`.
+    /// Adds eight leaves in a row along z, the first at `origin`.
     void addLeaves(const openvdb::Coord& origin)
     {
         const openvdb::Coord& base = bits_.box().min();
@@ -110,7 +110,7 @@ std::size_t BitGrid::wordCount() const
 openvdb::MaskGrid::Ptr toMask(const BitGrid& bits, const openvdb::math::Transform::Ptr& transform,
                               Interrupter* interrupter)
 {
-    // Blocks are numbered from `first`, the node that holds the lowest voxel, z fastest.
+    // Blocks are numbered from `first`, the node with the lowest voxel, z fastest.
     const openvdb::Coord first = bits.box().min() & ~(nodeSize - 1);
     const openvdb::Coord last = bits.box().max() & ~(nodeSize - 1);
     const openvdb::Coord count((last.x() - first.x()) / nodeSize + 1, (last.y() - first.y()) / nodeSize + 1,

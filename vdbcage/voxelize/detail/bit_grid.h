@@ -21,7 +21,7 @@ public:
     using Word = std::uint64_t;
     static constexpr int wordBits = 64;
 
-    /// All bits are zero. Pages of memory that are never written take none. `box` is inclusive and not empty.
+    /// Sets all bits to zero. Pages that are never written take no memory. `box` is inclusive and not empty.
     /// \throw std::bad_alloc
     explicit BitGrid(const openvdb::CoordBBox& box);
 
@@ -49,8 +49,8 @@ private:
     std::unique_ptr<Word[], Free> words_;
 };
 
-/// The set bits of `bits` as a mask with this transform. It has leaves where a voxel of 8^3 is on, tiles where all are.
-/// There is nothing left to prune.
+/// Returns the set bits of `bits` as a mask with this transform. It has leaves where some voxels of 8^3 are on, tiles
+/// where all are. Nothing is left to prune.
 /// \throw Cancelled
 /// Cost: O(words of bits), in parallel.
 std::shared_ptr<openvdb::MaskGrid> toMask(const BitGrid& bits, const openvdb::math::Transform::Ptr& transform,

@@ -1,6 +1,6 @@
 // Voxels by CGAL's AABB tree, which is GPL: this file is compiled only with VDBCAGE_WITH_CGAL_GPL.
 // Based on: Nooruddin and Turk, Simplification and Repair of Polygonal Models Using Volumetric Techniques, 2003.
-// Differs: works on the lattice of the other back ends and gives their bits, by predicates of other make.
+// Differs: works on the lattice of the other back ends and returns their bits, by independent predicates.
 #include <algorithm>
 #include <cstddef>
 #include <iterator>
@@ -53,8 +53,8 @@ void flip(BitGrid& bits, const Coord& ijk)
     bits.row(ijk.x(), ijk.y())[ijk.z() >> 6] ^= BitGrid::Word(1) << (ijk.z() & 63);
 }
 
-/// Whether a ray along an axis through `centre` crosses the projection of a triangle: as Projection::centred, a centre
-/// on an edge counts as if it lay off by (e, e^2).
+/// Returns whether a ray along an axis through `centre` crosses the projection of a triangle. As in
+/// Projection::centred, a centre on an edge counts as if it were moved by (e, e^2).
 bool crosses(Point2 a, Point2 b, const Point2& c, const Point2& centre)
 {
     const CGAL::Orientation turn = CGAL::orientation(a, b, c);
@@ -108,7 +108,7 @@ public:
     }
 
 private:
-    /// CGAL's predicates want triangles and segments that are not degenerate.
+    /// Adds a triangle. CGAL's predicates need triangles and segments that are not degenerate.
     void add(const LatticeTriangle& triangle)
     {
         Point p[3];
@@ -128,7 +128,7 @@ private:
         }
     }
 
-    /// Sets the voxels that are touched, block by block: no two blocks have words in common.
+    /// Sets the touched voxels, block by block: no two blocks have words in common.
     void touch()
     {
         constexpr int size = 16;
@@ -191,7 +191,7 @@ private:
     void crossAlong(std::size_t axis, Coord ijk)
     {
         const int u = axis == 0 ? 1 : 0, v = axis == 2 ? 1 : 2;
-        // The ray at a distance of so many half voxels from the first centre.
+        // Returns the ray at a distance of this many half voxels from the first centre.
         const auto at = [&](int halves) {
             double p[3] = {double(ijk.x()) * latticeStep, double(ijk.y()) * latticeStep, double(ijk.z()) * latticeStep};
             p[axis] = halves * (latticeStep / 2.0);
@@ -229,7 +229,7 @@ private:
     std::vector<Triangle> triangles_; ///< lattice units, counted from the centre of the grid's first voxel
     std::vector<Segment> segments_;   ///< of degenerate triangles
     std::vector<Point> points_;
-    std::size_t counted_ = 0; ///< the crossings of so many triangles count
+    std::size_t counted_ = 0; ///< the crossings of this many triangles, the first ones, count
     TriangleBvh triangleTree_;
     SegmentTree segmentTree_;
 };

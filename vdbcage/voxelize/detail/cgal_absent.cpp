@@ -1,4 +1,4 @@
-// What stands in for cgal.cpp in builds without CGAL's GPL packages.
+// Replaces cgal.cpp in builds without CGAL's GPL packages.
 #include <vdbcage/core/error.h>
 #include <vdbcage/voxelize/detail/backend.h>
 

@@ -1,6 +1,6 @@
 // Based on: Schwarz and Seidel, Fast Parallel Surface and Solid Voxelization on GPUs, 2010; Nooruddin and Turk,
 // Simplification and Repair of Polygonal Models Using Volumetric Techniques, 2003.
-// Differs: the grid is worked on in slabs of a few planes along x. Each slab has one thread, which holds the crossings
+// Differs: the grid is processed in slabs of a few planes along x. Each slab has one thread, which keeps the crossings
 // of its rays in cache and leaves only the vote in the grid; so nothing needs atomics or a second grid.
 #include <algorithm>
 #include <array>
@@ -24,7 +24,7 @@ namespace {
 
 using Word = BitGrid::Word;
 
-/// Asks the interrupter whenever about a millisecond of work has been done.
+/// A meter that asks the interrupter after about each millisecond of work.
 class WorkMeter {
 public:
     explicit WorkMeter(Interrupter* interrupter, int percent) : interrupter_(interrupter), percent_(percent) {}
@@ -71,7 +71,7 @@ public:
     }
 
 private:
-    /// What a thread needs for a slab; all zero between slabs.
+    /// The data of a thread for a slab; all zero between slabs.
     struct Workspace {
         std::array<std::vector<Word>, 3> crossings;
         std::vector<std::uint8_t> crossed;

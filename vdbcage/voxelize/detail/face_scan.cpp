@@ -1,7 +1,7 @@
 // Based on: Akenine-Moller, Fast 3D Triangle-Box Overlap Testing, 2001; Schwarz and Seidel, Fast Parallel Surface and
 // Solid Voxelization on GPUs, 2010.
-// Differs: all tests are on integers and exact; each of the 13 separating axes bounds z in a column of voxels, so what
-// a triangle touches there is one run of bits, found without visiting the voxels.
+// Differs: all tests are on integers and exact; each of the 13 separating axes bounds z in a column of voxels, so the
+// touched voxels are one run of bits, found without visiting the voxels.
 //
 // A triangle and a cube meet unless one of 13 axes separates them: the cube's three, the triangle's normal, and the
 // nine products of an edge and an axis of the cube. The nine are the edges of the triangle's projections along x, y
@@ -29,12 +29,12 @@ Span intersection(const Span& a, const Span& b)
     return {std::max(a.first, b.first), std::min(a.last, b.last)};
 }
 
-/// Quotients beyond this are cut to it; no voxel has such an index.
+/// The bound to which quotients are clamped; no voxel has such an index.
 constexpr int largestQuotient = 1 << 20;
 
-/// floor(value / divisor), cut to +-largestQuotient; divisor > 0, and `inverse` is 1.0 / divisor.
+/// Returns floor(value / divisor), clamped to +-largestQuotient; divisor > 0, and `inverse` is 1.0 / divisor.
 ///
-/// value * inverse is rounded four times, so it is off by less than 2^-51 of itself, 2^-31 at most. Only where it comes
+/// value * inverse is rounded four times, so it is off by less than 2^-51 of itself, 2^-31 at most. Only where it is
 /// nearer than 2^-30 to an integer is the division done on integers.
 template <typename Integer>
 int floorQuotient(Integer value, Integer divisor, double inverse)
@@ -51,14 +51,14 @@ int floorQuotient(Integer value, Integer divisor, double inverse)
     return static_cast<int>(value % divisor < 0 ? exact - 1 : exact);
 }
 
-/// Where `atOrigin` + perFirst * u + perSecond * v >= 0, for voxel indices (u, v) of a projection.
+/// The half plane atOrigin + perFirst * u + perSecond * v >= 0, for voxel indices (u, v) of a projection.
 struct HalfPlane {
     std::int64_t perFirst, perSecond;
-    std::int64_t touched; ///< `atOrigin` if the voxel's square is to touch the half plane
-    std::int64_t centred; ///< `atOrigin` if the voxel's centre is to lie in it
+    std::int64_t touched; ///< `atOrigin` for the voxel's square to touch the half plane
+    std::int64_t centred; ///< `atOrigin` for the voxel's centre to lie in it
     double inverse;       ///< 1 / |perSecond| unless that is 0
 
-    /// Takes from `span` the v that are not in the half plane; `value` is its left side at v = 0.
+    /// Removes from `span` the v that are not in the half plane; `value` is its left side at v = 0.
     void clip(Span& span, std::int64_t value) const
     {
         if (perSecond > 0) {
@@ -74,7 +74,7 @@ struct HalfPlane {
 /// The projection of a triangle on two axes, the first before the second in the order x, y, z.
 class Projection {
 public:
-    /// `area` is twice the signed area of the projection.
+    /// Sets the projection. `area` is twice its signed area.
     void assign(const LatticeTriangle& triangle, int first, int second, std::int64_t area)
     {
         count_ = 0;
@@ -89,16 +89,16 @@ public:
             break; // a line: the other edges lie on it
         }
     }
-    /// The v of `within` where the square of voxel (u, v) touches the projection or, where the projection has no area,
-    /// the line that it lies on.
+    /// Returns the v of `within` where the square of voxel (u, v) touches the projection or, where the projection has
+    /// no area, its line.
     Span touched(int u, Span within) const
     {
         for (int i = 0; i < count_; ++i) lines_[i].clip(within, lines_[i].touched + u * lines_[i].perFirst);
         return within;
     }
-    /// The v of `within` where the centre of voxel (u, v) lies in the projection, which must have an area. A centre on
-    /// an edge counts as if it lay off by (e, e^2) for an infinitely small e > 0: of two triangles that share the edge
-    /// and lie to its two sides just one has it.
+    /// Returns the v of `within` where the centre of voxel (u, v) lies in the projection, which must have an area. A
+    /// centre on an edge counts as if it were moved by (e, e^2) for an infinitely small e > 0: of two triangles that
+    /// share the edge and lie on its two sides, exactly one has it.
     Span centred(int u, Span within) const
     {
         for (int i = 0; i < count_; ++i) lines_[i].clip(within, lines_[i].centred + u * lines_[i].perFirst);
@@ -106,7 +106,7 @@ public:
     }
 
 private:
-    /// The half plane to the left of the direction (du, dv) through (u, v).
+    /// Adds the half plane to the left of the direction (du, dv) through (u, v).
     void add(std::int64_t du, std::int64_t dv, std::int64_t u, std::int64_t v)
     {
         HalfPlane& line = lines_[count_++];
@@ -155,20 +155,20 @@ struct Face {
 
     void project(int axis, Projection& projection) const
     {
-        // Along y the order (x, z) of the axes turns the sense of rotation round.
+        // Along y the order (x, z) of the axes reverses the sense of rotation.
         projection.assign(triangle, axis == 0 ? 1 : 0, axis == 2 ? 1 : 2, axis == 1 ? -normal[axis] : normal[axis]);
     }
-    /// Whether a ray through voxel centres along `axis` can cross it.
+    /// Returns whether a ray through voxel centres along `axis` can cross it.
     bool canCross(int axis) const
     {
         return normal[axis] != 0 && hasCentres[(axis + 1) % 3] && hasCentres[(axis + 2) % 3];
     }
-    /// Whether the edges of the projection along `axis` have a say in what is touched. Where the triangle is within one
-    /// voxel along some axis, the projection along that axis decides alone; where it is so along two, its box does.
+    /// Returns whether the edges of the projection along `axis` affect the touched voxels. Where the triangle is within
+    /// one voxel along some axis, the projection along that axis decides alone; where it is so along two, its box does.
     bool edgesMatter(int axis) const { return size[(axis + 1) % 3] > 1 && size[(axis + 2) % 3] > 1; }
     bool anyEdgesMatter() const { return edgesMatter(0) || edgesMatter(1) || edgesMatter(2); }
     bool planeMatters() const { return size[0] > 1 && size[1] > 1 && size[2] > 1; }
-    /// Half the distance between two crossings' planes.
+    /// Returns half the distance between two crossings' planes.
     template <typename Wide>
     Wide halfCell(int axis) const
     {
@@ -176,7 +176,7 @@ struct Face {
     }
 };
 
-/// normal . (centre of voxel - corner), for the voxels of a face's box.
+/// The linear function normal . (centre of voxel - corner), for the voxels of a face's box.
 template <typename Wide>
 class Plane {
 public:
@@ -188,9 +188,9 @@ public:
         }
         if (perVoxel_[2] > 0) inverse_ = 1 / static_cast<double>(perVoxel_[2]);
     }
-    /// At voxel (x, y, 0).
+    /// Returns the value at voxel (x, y, 0).
     Wide value(int x, int y) const { return atOrigin_ + x * perVoxel_[0] + y * perVoxel_[1]; }
-    /// The z where a plane of value a at z = 0 is at least `lower` and one of value b at most `upper`.
+    /// Returns the z where a plane of value a at z = 0 is at least `lower` and one of value b at most `upper`.
     Span between(Wide lower, Wide a, Wide upper, Wide b) const
     {
         if (perVoxel_[2] == 0) return a >= lower && b <= upper ? Span{-largestQuotient, largestQuotient} : Span{};
@@ -203,7 +203,7 @@ private:
     double inverse_ = 0;
 };
 
-/// Calls write(word, mask) for the words of a row that hold the bits of `span`.
+/// Calls write(word, mask) for the words of a row with the bits of `span`.
 template <typename Write>
 void forEachWord(std::uint64_t* row, const Span& span, const Write& write)
 {
@@ -223,7 +223,7 @@ void flipBits(std::uint64_t* row, const Span& span)
     forEachWord(row, span, [](std::uint64_t& word, std::uint64_t mask) { word ^= mask; });
 }
 
-/// The planes of the face's box that lie in the slab.
+/// Returns the planes of the face's box that lie in the slab.
 Span planesIn(const Face& face, const Span& planes)
 {
     return intersection({0, face.size[0] - 1}, {planes.first - face.lowest[0], planes.last - face.lowest[0]});
@@ -269,7 +269,7 @@ std::size_t scan(const Face& face, bool counted, const Slab& slab, ScanBuffer& b
         cell[axis] = face.halfCell<Wide>(axis);
     }
 
-    // What the projection along x says of z depends on y only.
+    // The bounds of z from the projection along x depend only on y.
     buffer.resize(2 * static_cast<std::size_t>(face.size[1]));
     Span *const touchedByY = buffer.data(), *const centredByY = touchedByY + face.size[1];
     for (int y = 0; y <= ys.last; ++y) {
@@ -293,7 +293,7 @@ std::size_t scan(const Face& face, bool counted, const Slab& slab, ScanBuffer& b
             const std::size_t offset = row * static_cast<std::size_t>(slab.wordsPerRow);
             setBits(slab.surface + offset, {z.first + face.lowest[2], z.last + face.lowest[2]});
 
-            // A voxel holds a crossing if the plane's value at its centre is within half a cell of zero.
+            // A voxel has a crossing if the plane's value at its centre is within half a cell of zero.
             const auto flip = [&](int axis, const Span& centred) {
                 const Span at = intersection(centred, plane.between(-cell[axis], cell[axis] - 1, value));
                 if (at.empty()) return;
@@ -317,8 +317,8 @@ void scanAlongX(const Face& face, const Span& planes, std::uint64_t* bits, int w
     face.project(0, projection);
     const Plane<Wide> plane(face);
     const Wide cell = face.halfCell<Wide>(0);
-    // The plane's value grows with x if the normal does; a crossing is in the planes if it is not before the first
-    // and not beyond the last.
+    // The plane's value grows with x if the normal does; a crossing is in the planes if it is not before the first and
+    // not beyond the last.
     const bool grows = face.normal[0] > 0;
     for (int y = 0; y < face.size[1]; ++y) {
         const Span centred = projection.centred(y, {0, face.size[2] - 1});
@@ -331,7 +331,7 @@ void scanAlongX(const Face& face, const Span& planes, std::uint64_t* bits, int w
     }
 }
 
-/// Whether the plane's value fits int64: a box of 63 voxels is at most 64 wide.
+/// Returns whether the plane's value fits int64: a box of 63 voxels is at most 64 wide.
 bool isSmall(const Face& face)
 {
     return face.size[0] < 64 && face.size[1] < 64 && face.size[2] < 64;

@@ -13,7 +13,7 @@ namespace {
 
 using Word = BitGrid::Word;
 
-/// Those of `open` that a run of ones in `open` joins to one of `seeds`, a subset of it.
+/// Returns the bits of `open` that a run of ones in `open` joins to one of `seeds`, a subset of it.
 Word spread(Word seeds, Word open)
 {
     Word up = seeds, down = seeds, upOpen = open, downOpen = open;
@@ -26,7 +26,7 @@ Word spread(Word seeds, Word open)
     return up | down;
 }
 
-/// The zero bits of `row` between its first and its last set bit, word by word: visit(word index, bits).
+/// Visits the zero bits of `row` between its first and its last set bit, word by word: visit(word index, bits).
 template <typename Visit>
 void forEachGap(const Word* row, int words, const Visit& visit)
 {
@@ -65,13 +65,13 @@ public:
     }
 
 private:
-    /// Collects, as unknown, the zero voxels of plane x that have a set voxel on all four sides along y and z; the
-    /// others are joined to the outside by a straight line.
+    /// Collects, as unknown, the zero voxels of plane x that have a set voxel on all four sides along y and z; a
+    /// straight line joins the others to the outside.
     void hide(int x, std::vector<Word>& above)
     {
         const int rows = bits_.size().y(), words = bits_.wordsPerRow();
         const auto wordCount = static_cast<std::size_t>(words);
-        // above: for each row, what is set in the rows after it.
+        // above: for each row, the set bits of the rows after it.
         above.assign(wordCount * static_cast<std::size_t>(rows), 0);
         for (int y = rows - 1; y > 0; --y) {
             const Word* row = bits_.row(x, y);
@@ -92,7 +92,7 @@ private:
         }
     }
 
-    /// Takes from the unknown voxels those that are joined to a zero voxel that is known to be outside.
+    /// Removes from the unknown voxels those that are joined to a zero voxel that is known to be outside.
     void drain(int rowWords)
     {
         const auto rowStep = static_cast<std::size_t>(rowWords);
@@ -110,8 +110,8 @@ private:
                 if (++visits % 65536 == 0) throwIfInterrupted(interrupter_);
                 const Word open = unknown[i];
                 if (open == 0) continue;
-                // Unknown voxels are never in the first or last row or plane that has a set voxel, so along y they
-                // have neighbours in the grid; along x they need not.
+                // Unknown voxels are never in the first or last row or plane that has a set voxel. So along y they have
+                // neighbours in the grid; along x they need not.
                 const std::size_t inRow = i % rowStep;
                 const Word here = outside(i);
                 Word seeds = here << 1 | here >> 1 | outside(i - rowStep) | outside(i + rowStep);

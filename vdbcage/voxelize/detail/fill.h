@@ -5,7 +5,7 @@
 
 namespace vdbcage::detail {
 
-/// Sets every voxel of `bits` that no path of zero voxels, from face to face, joins to the outside of the box.
+/// Sets every voxel of `bits` that no path of zero voxels, across faces, joins to the outside of the box.
 /// \throw Cancelled
 /// Cost: O(words of bits + enclosed and hidden voxels). It takes memory only where a voxel lies between set ones both
 /// along y and along z.

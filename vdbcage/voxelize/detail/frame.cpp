@@ -13,7 +13,7 @@ namespace vdbcage::detail {
 namespace {
 
 constexpr double smallestSide = 1e-100, largestSide = 1e100;
-// A voxel this much smaller than a coordinate: the transform's translation is then rounded by at most 2^-53 * 2 * 2^37
+// The least ratio of a voxel to a coordinate: the transform's translation is then rounded by at most 2^-53 * 2 * 2^37
 // voxels, a quarter of a lattice unit (2^-16 voxel).
 constexpr double smallestVoxel = 0x1p-37;
 
@@ -60,7 +60,7 @@ Frame makeFrame(const Mesh& model, int resolution, const std::optional<openvdb::
     };
     openvdb::Coord low, high;
     for (int axis = 0; axis < 3; ++axis) {
-        const auto i = static_cast<std::size_t>(axis); // as OpenVDB's Coord has it, other than its vectors
+        const auto i = static_cast<std::size_t>(axis); // the index in OpenVDB's Coord, unlike its vectors
         low[i] = (lattice(box.min(), axis) - latticeBound + latticeStep - 1) >> latticeBits;
         high[i] = (lattice(box.max(), axis) + latticeBound) >> latticeBits;
     }

@@ -11,16 +11,16 @@
 
 namespace vdbcage::detail {
 
-/// Lattice units in a voxel. Models are voxelized on integers: the index-space coordinates in these units.
+/// The lattice units in a voxel. Models are voxelized on integers: the index-space coordinates in these units.
 constexpr int latticeBits = 14;
 constexpr int latticeStep = 1 << latticeBits;
 /// Half the width of the cube that stands for a voxel: half a voxel and one unit. A point lies at most half a unit off
-/// by its own rounding, and a quarter of a unit by that of the transform. This is less than the unit that is added.
+/// by its own rounding, and a quarter of a unit by that of the transform, together less than the added unit.
 constexpr int latticeBound = latticeStep / 2 + 1;
 
 /// The place of a model's voxels in the world. The centre of the model's bounding box is at the index resolution / 2 on
-/// each axis. The longest side is `resolution` voxels long: its two ends are at the indices 0 and `resolution`, in the
-/// middle of a voxel. Both halves of a symmetric model get mirrored voxels.
+/// each axis. The longest side is `resolution` voxels long: its ends are at the indices 0 and `resolution`, each in the
+/// middle of a voxel. The halves of a symmetric model get mirrored voxels.
 struct Frame {
     openvdb::Vec3d center;     ///< of the model's bounding box, world space
     double voxelSize = 1;      ///< world units
@@ -28,19 +28,19 @@ struct Frame {
     openvdb::CoordBBox voxels; ///< every voxel that a face can touch, index space, inclusive
 };
 
-/// The frame of `model`, or of a model with the bounding box `box`.
+/// Returns the frame of `model`, or of a model with the bounding box `box`.
 /// \pre `model` has passed requireUsable
 /// \throw InputError `box` does not hold the model; the longest side is not in [1e-100, 1e100]; a voxel is smaller than
 /// 2^-37 of the largest absolute coordinate
 /// Cost: O(faces).
 Frame makeFrame(const Mesh& model, int resolution, const std::optional<openvdb::BBoxd>& box = {});
 
-/// Index space to world space: a uniform scale and a translation. It takes any voxel size, also those below 1.44e-5,
-/// which OpenVDB's own constructors refuse.
+/// Makes the transform from index space to world space: a uniform scale and a translation. It takes any voxel size,
+/// including those below 1.44e-5, which OpenVDB's own constructors refuse.
 openvdb::math::Transform::Ptr makeTransform(const Frame& frame);
 
-/// The points of `model` on the lattice, with coordinates in [0, resolution * latticeStep]. Points that no face uses
-/// and that lie elsewhere come out as anything in that range.
+/// Returns the points of `model` on the lattice, with coordinates in [0, resolution * latticeStep]. Points that no face
+/// uses and that lie outside become any place in that range.
 /// Cost: O(points).
 std::vector<openvdb::Vec3i> latticePoints(const Mesh& model, const Frame& frame);
 

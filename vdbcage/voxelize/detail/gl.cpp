@@ -1,9 +1,9 @@
 // Based on: Schwarz and Seidel, Fast Parallel Surface and Solid Voxelization on GPUs, 2010; Akenine-Moller, Fast 3D
 // Triangle-Box Overlap Testing, 2001.
-// Differs: exact (shaders/voxelize/face.glsl). A triangle is worked on by columns along z, whatever its direction: all
-// 13 axes together bound one run of bits there, and the same column holds its crossings of the rays along all three
-// axes. The rasterizer only deals out columns; no yes or no depends on how it rounds. The device finds surface and
-// crossings; parities, vote and filling are the host's, shared with the other backends.
+// Differs: exact (shaders/voxelize/face.glsl). A triangle is processed by columns along z, whatever its direction: all
+// 13 axes together bound one run of bits there, and the same column has its crossings of the rays along all three axes.
+// The rasterizer only distributes columns; no decision depends on its rounding. The device finds surface and crossings;
+// parities, vote and filling are the host's, shared with the other backends.
 #include <vdbcage/voxelize/detail/gl.h>
 
 #include <algorithm>
@@ -30,7 +30,7 @@ static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "two words of the shade
 
 constexpr int grids = 4; // surface, crossings along x, y, z
 
-/// What an invocation or six vertices work on, as shaders/voxelize/item.glsl has it.
+/// The work of an invocation or of six vertices, as in shaders/voxelize/item.glsl.
 struct Item {
     std::int32_t corners[9];
     std::int32_t columnsX, columnsY; ///< first + 65536 * last
@@ -38,16 +38,16 @@ struct Item {
 };
 static_assert(sizeof(Item) == 48);
 
-/// Items are sent to the device so many at a time.
+/// The number of items that are sent to the device at a time.
 constexpr std::size_t batchSize = std::size_t(1) << 18;
 
-/// The voxels that something may touch that goes from `low` to `high`.
+/// Returns the voxels that a part from `low` to `high` may touch.
 Span voxelsOf(int low, int high)
 {
     return {(low - latticeBound + latticeStep - 1) >> latticeBits, (high + latticeBound) >> latticeBits};
 }
 
-/// The y of the voxels that the part of the triangle between two x may touch; one voxel more at times.
+/// Returns the y of the voxels that the part of the triangle between two x may touch; at times one voxel more.
 Span rowsBetween(const LatticeTriangle& triangle, int fromX, int toX)
 {
     double low = std::numeric_limits<double>::max(), high = std::numeric_limits<double>::lowest();
@@ -66,8 +66,8 @@ Span rowsBetween(const LatticeTriangle& triangle, int fromX, int toX)
     return voxelsOf(static_cast<int>(std::floor(low)) - 1, static_cast<int>(std::ceil(high)) + 1);
 }
 
-/// Cuts the columns that a triangle may touch in the slab's planes into items: visit(item). A driver may end an
-/// invocation that takes too many steps without a word (llvmpipe: 65,535), and triangles of all sizes run side by side.
+/// Cuts the columns that a triangle may touch in the slab's planes into items: visit(item). A driver may silently end
+/// an invocation that takes too many steps (llvmpipe: 65,535), and triangles of all sizes run side by side.
 template <typename Visit>
 void cut(const LatticeTriangle& triangle, bool counted, const Span& planes, const Visit& visit)
 {
@@ -224,7 +224,7 @@ private:
     const std::size_t planeWords_, slabWords_;
     const gl::Buffer items_, bits_;
     gl::Texture image_;       ///< bits_ for the raster path
-    gl::Framebuffer picture_; ///< a pixel a column
+    gl::Framebuffer picture_; ///< a pixel for each column
     gl::VertexArray noVertices_;
     std::vector<Word> crossings_; ///< of the slab that was read last
     std::vector<Word> parities_;  ///< along x, with which rays enter each slab, and leave the last

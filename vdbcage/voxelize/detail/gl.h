@@ -8,23 +8,23 @@
 
 namespace vdbcage::detail {
 
-/// Voxelizes with the shaders of one OpenGL context. The context must be current whenever a function of this is called,
-/// and when it is destroyed. The bits are those of voxelizeCpu.
+/// A voxelizer with the shaders of one OpenGL context. The context must be current whenever a function of this is
+/// called, and when it is destroyed. The bits are those of voxelizeCpu.
 class GlVoxelizer {
 public:
-    /// How triangles become columns of voxels.
+    /// The way from triangles to columns of voxels.
     enum class Path {
         compute, ///< a loop over the columns of each triangle
         raster   ///< a fragment for each column of each triangle
     };
-    /// Memory of the device for the voxels that are worked on at a time. More of them are done slab by slab.
+    /// The memory of the device for the voxels processed at a time. More voxels are processed slab by slab.
     static constexpr std::size_t usualGridBytes = std::size_t(128) << 20;
 
     /// Compiles the shaders. `api` must outlive this.
     /// \throw DeviceError
     GlVoxelizer(const gl::Api& api, Path path, std::size_t gridBytes = usualGridBytes);
 
-    /// As Backend. It uses TBB: a thread that waits must not take up work of others that need a context (see
+    /// Voxelizes as a Backend. It uses TBB: a thread that waits must not take work of others that need a context (see
     /// voxelizeGl).
     BitGrid run(const Mesh& model, const Frame& frame, Interrupter* interrupter) const;
 

@@ -1,6 +1,6 @@
 // Based on: Nooruddin and Turk, Simplification and Repair of Polygonal Models Using Volumetric Techniques, 2003.
-// Differs: a ray that crosses the model an odd number of times in all has no vote, since its parity from one end is not
-// that from the other.
+// Differs: a ray that crosses the model an odd number of times in all has no vote, since its parity from one end
+// differs from that from the other.
 #include <vdbcage/voxelize/detail/parity_vote.h>
 
 #include <algorithm>
@@ -123,7 +123,7 @@ void voteInside(const Slab& slab, int x, Word* alongX, const Word* leakingX, Wor
 
 void voteInside(const Slab& slab, Word* alongX, const Word* leakingX, Interrupter* interrupter)
 {
-    constexpr int thickness = 8; // of the slabs that are worked on in parallel
+    constexpr int thickness = 8; // of the slabs that are processed in parallel
     const int count = (slab.planes.last - slab.planes.first) / thickness + 1;
     const std::size_t planeWords =
         static_cast<std::size_t>(slab.rowsPerPlane) * static_cast<std::size_t>(slab.wordsPerRow);
@@ -136,7 +136,7 @@ void voteInside(const Slab& slab, Word* alongX, const Word* leakingX, Interrupte
         for (Word*& crossings : thin.crossings) crossings += offset;
         return thin;
     };
-    // The parities along x with which each part is entered: first how the part before changes them.
+    // The parities along x with which each part is entered: first the changes by the part before.
     std::vector<Word> entering(static_cast<std::size_t>(count + 1) * planeWords);
     const auto enteringAt = [&](int i) { return entering.data() + static_cast<std::size_t>(i) * planeWords; };
     std::copy_n(alongX, planeWords, enteringAt(0));

@@ -10,23 +10,23 @@
 
 namespace vdbcage::detail {
 
-/// The parities along x with which the rays enter each slab, a plane of `planeWords` words each, and then those with
-/// which they leave the last. The last are odd where rays leak, which they do where the model is open.
+/// Returns the parities along x with which the rays enter each slab, a plane of `planeWords` words each, and then those
+/// with which they leave the last slab. The latter are odd where rays leak because the model is open.
 /// \throw Cancelled
 /// Cost: O(triangles in slabs + their rows + words), in parallel.
 std::vector<BitGrid::Word> paritiesAlongX(const SlabbedTriangles& triangles, int wordsPerRow, std::size_t planeWords,
                                           Interrupter* interrupter);
 
-/// Finds the inside of a model in plane x of a slab from the crossings that were found there.
+/// Finds the inside of a model in plane x of a slab from the crossings there.
 ///
-/// It adds to `surface` what at least two of the three parities hold to be inside, those of rays that leak left out,
-/// and clears the crossings. `alongX` holds the parities along x of the plane before, and then of this one. `leakingX`
-/// has the rays along x that leak. `rows` is room for two rows.
+/// It adds to `surface` the voxels where at least two of the three parities are odd and of rays that do not leak, and
+/// clears the crossings. `alongX` has the parities along x of the plane before, and afterwards of this one. `leakingX`
+/// has the leaking rays along x. `rows` has room for two rows.
 /// Cost: O(words of the plane).
 void voteInside(const Slab& slab, int x, BitGrid::Word* alongX, const BitGrid::Word* leakingX, BitGrid::Word* rows);
 
-/// The same for all planes of a slab, of which `crossed` is not needed. In parallel. `alongX` holds the parities along
-/// x of the plane before the first, and then of the last.
+/// Does the same for all planes of a slab, in parallel; `crossed` need not be set. `alongX` has the parities along x of
+/// the plane before the first, and afterwards of the last.
 /// \throw Cancelled
 void voteInside(const Slab& slab, BitGrid::Word* alongX, const BitGrid::Word* leakingX, Interrupter* interrupter);
 

@@ -33,13 +33,13 @@ Span SlabbedTriangles::slabsOf(const Vec3I& face) const
     return {first / slabThickness_, last / slabThickness_};
 }
 
-/// A counting sort, in parallel over blocks of faces, that keeps the order of the faces.
+/// Sorts by counting, in parallel over blocks of faces; keeps the order of the faces.
 void SlabbedTriangles::sortIntoSlabs(Interrupter* interrupter)
 {
     const auto slabs = static_cast<std::size_t>(slabCount_);
     const std::size_t blockSize = std::max<std::size_t>(4096, faces_.size() / 64 + 1);
     const std::size_t blocks = (faces_.size() + blockSize - 1) / blockSize;
-    std::vector<std::size_t> next(blocks * slabs); // by block and slab: first the counts, then where to write
+    std::vector<std::size_t> next(blocks * slabs); // by block and slab: first the counts, then the places to write to
     const auto forEachFace = [&](const auto& visit) {
         parallelFor(std::size_t(0), blocks, [&](std::size_t block) {
             throwIfInterrupted(interrupter);

@@ -51,7 +51,7 @@ bool wellShaped(const GuardedMesh& mesh, const StarChange& star, const Vec3d& p)
     return true;
 }
 
-/// The triangles of a star with its centre at some place, each with the box that other triangles keep out of.
+/// A star with its centre at some place: its triangles, each with the box that other triangles must keep out of.
 struct PlacedStar {
     PlacedStar(const GuardedMesh& surface, const StarChange& placed, const Vec3d& p) : star(placed), all(Box::of(p))
     {
@@ -110,7 +110,7 @@ bool isTooNearPlane(const GuardedMesh& mesh, const StarChange& star, const Vec3d
 {
     const auto& plane = mesh.guard().symmetry();
     if (!plane) return false;
-    // Half of what is to be between a face and its mirror image.
+    // Half of the spacing between a face and its mirror image.
     const double distance = 0.5 * spacingAround(mesh, star, p), sine = 0.5 * mesh.guard().spacing().sine;
     const auto height = [&](const Vec3d& q) { return q[plane->axis] - plane->offset; };
     if (star.onPlane ? height(p) != 0 : !(height(p) >= distance && height(p) > 0)) return true;
@@ -140,7 +140,7 @@ bool sweepsOverNothing(const GuardedMesh& mesh, const StarChange& star, const Ve
     }
     if (!mesh.guard().mayHoldPart(box)) return true;
     // The surface with every quad split by its diagonal, then by the alternate one. Parts of the model touch neither,
-    // so that one inside both is inside for every choice of diagonals.
+    // so one inside both is inside for every choice of diagonals.
     for (const bool hidesAlternates : {true, false}) {
         std::vector<Corners> surface;
         const auto shows = [&](std::uint32_t f) { return !mesh.isInQuad(f) || mesh.isFace(f) == hidesAlternates; };
@@ -180,7 +180,7 @@ bool allows(const GuardedMesh& mesh, const StarChange& star, const Vec3d& p, Obs
 void contacts(const GuardedMesh& mesh, const StarChange& star, const Vec3d& from, const Vec3d& to, Obstacle obstacle,
               std::vector<HalfSpace>& halfSpaces)
 {
-    constexpr int mostGaps = 6; // of each triangle; the rest shows up in the next try if it matters
+    constexpr int mostGaps = 6; // of each triangle; others show up in the next try if they matter
     // A little more than the clearance, so that rounding leaves the next try on the right side.
     const double clearance = 1.01 * mesh.guard().clearance();
     const Spacing& spacing = mesh.guard().spacing();
@@ -218,7 +218,7 @@ void contacts(const GuardedMesh& mesh, const StarChange& star, const Vec3d& from
         }
         return;
     }
-    // The centre moves in the plane: so do the half-spaces.
+    // The centre moves in the plane, so the half-spaces become half-spaces of the plane.
     constexpr double leastSine = 1e-6;
     std::size_t kept = 0;
     for (HalfSpace& h : halfSpaces) {
@@ -235,7 +235,7 @@ bool makeQuad(GuardedMesh& mesh, std::uint32_t f, std::uint32_t g)
 {
     const Vec4I ids = mesh.quadOf(f, g);
     if (ids[1] == ids[3] || (mesh.isOnPlane(ids[1]) && mesh.isOnPlane(ids[3]))) return false;
-    // Two corners joined by an edge elsewhere would share two once the quad is split between them.
+    // Two corners joined by an edge elsewhere would share two edges once the quad is split between them.
     const auto joined = mesh.neighbours(ids[1]);
     if (std::binary_search(joined.begin(), joined.end(), ids[3])) return false;
     const std::array<Vec3d, 4> places = pointsOf(mesh, ids);

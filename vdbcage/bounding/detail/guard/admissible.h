@@ -7,42 +7,42 @@
 #include <vdbcage/bounding/detail/guard/contact_planes.h>
 #include <vdbcage/bounding/detail/guard/star_change.h>
 
-/// Decides the changes of a surface under a guard.
+/// Tests and makes changes of a surface under a guard.
 ///
-/// A change is allowed if the new star
+/// The guard allows a change if the new star
 /// - keeps clear of the model,
 /// - is well shaped,
 /// - keeps off the rest of the surface,
 /// - sweeps over no part of the model.
 namespace vdbcage::detail {
 
-/// The findings of allows() about the model.
+/// The part of the model that was in a star's way.
 struct Obstacle {
-    std::uint32_t item = TriangleBvh::none; ///< of the model: the last that was in the way, the first to try
-    std::size_t clear = 0;                  ///< how many of the star's first triangles keep clear at the last place
+    std::uint32_t item = TriangleBvh::none; ///< of the model: the last in the way, the first to try next time
+    std::size_t clear = 0;                  ///< the number of the star's first triangles that kept clear
 };
 
-/// Whether the star may have its centre at `p`.
+/// Returns whether the star may have its centre at `p`.
 /// \pre `p` is rounded as the guard asks
 bool allows(const GuardedMesh& mesh, const StarChange& star, const Vec3d& p, Obstacle* obstacle = nullptr);
 
-/// Makes the change at the first place that is allowed: `place`, raised by each of these heights, in parts of `length`.
+/// Makes the change at the first allowed place: `place`, raised by each of `heights` times `length`. Returns whether.
 bool applyNear(GuardedMesh& mesh, const StarChange& star, const Vec3d& place, double length,
                const std::array<double, 4>& heights);
 
-/// The half-spaces that keep the star's centre, allowed at `from`, off what forbids it at `to`.
-/// \pre `obstacle` is what allows() gave at `to`
+/// Adds the half-spaces that keep the star's centre, allowed at `from`, off the obstacles at `to`.
+/// \pre allows() set `obstacle` at `to`
 void contacts(const GuardedMesh& mesh, const StarChange& star, const Vec3d& from, const Vec3d& to, Obstacle obstacle,
               std::vector<HalfSpace>& halfSpaces);
 
 /// Makes a quad of two triangles that share an edge, if that is allowed. Returns whether.
 ///
-/// The quad has to be convex. Its alternate diagonal joins no two vertices that are joined already. The guard allows
-/// its alternates.
+/// The quad must be convex, its alternate diagonal must not join two vertices that an edge joins already, and the guard
+/// must allow its alternates.
 bool makeQuad(GuardedMesh& mesh, std::uint32_t f, std::uint32_t g);
 
-/// Changes that were each allowed on the surface as it was when the batch began, made one after the other.
-/// \pre allows() is not asked before the batch ends
+/// Changes made one after the other, each of them allowed on the surface as it was when the batch began.
+/// \pre allows() is not called before the batch ends
 class Batch {
 public:
     explicit Batch(GuardedMesh& mesh) : mesh_(mesh) {}
@@ -50,7 +50,8 @@ public:
     Batch& operator=(const Batch&) = delete;
     ~Batch();
 
-    /// Makes the change, unless one made before it in the batch moved a vertex of its star or came into its way.
+    /// Makes the change, unless an earlier one of the batch moved a vertex of its star or is in its way. Returns
+    /// whether.
     bool apply(const StarChange& star, const Vec3d& p);
 
 private:

@@ -9,7 +9,7 @@ namespace vdbcage::detail {
 
 namespace {
 
-/// The weights of t's corners that give p's foot in its plane; zeros for a degenerate t.
+/// Returns the weights of t's corners for p's foot in its plane; zeros for a degenerate t.
 Vec3d barycentric(const Vec3d& p, const Corners& t)
 {
     const Vec3d u = t[1] - t[0], v = t[2] - t[0], w = p - t[0];
@@ -20,7 +20,7 @@ Vec3d barycentric(const Vec3d& p, const Corners& t)
     return {1 - b - c, b, c};
 }
 
-/// What a triangle hits first when its corner 0 moves in a straight line.
+/// The first contact of a triangle whose corner 0 moves in a straight line.
 struct Impact {
     double time = 1;   ///< 0 to 1
     Vec3d normal{0.0}; ///< of the plane through the contact that the corner must stay above, any length
@@ -47,7 +47,7 @@ bool addImpacts(const GuardModel& guard, const Corners& now, const Vec3d& to, bo
             face = {time, normal, weight};
         }
     };
-    const auto meetEdge = [&](const Vec3d& first, const Vec3d& second) { // the one from a to the corner
+    const auto meetEdge = [&](const Vec3d& first, const Vec3d& second) { // the edge from a to the corner
         const Vec3d p = first - a, q = second - a, normal = p.cross(q);
         const double time = -normal.dot(c - a) / normal.dot(step);
         if (!(time > 0 && time < edge.time)) return;
@@ -73,7 +73,7 @@ bool addImpacts(const GuardModel& guard, const Corners& now, const Vec3d& to, bo
         if (corner) meetCorner(m);
         return true;
     });
-    // The face of a long way meets much of the model: what is left of the way counts, once something stops it.
+    // The face of a long way meets much of the model: once something stops it, only the way up to there counts.
     double way = 1;
     TriangleBvh::Query query = tree.inTetrahedron({c, to, a, b});
     tree.traverse(query, [&](const TriangleBvh::Item& item) {

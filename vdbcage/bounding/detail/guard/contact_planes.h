@@ -4,8 +4,7 @@
 
 #include <vdbcage/bounding/detail/guard/guard_model.h>
 
-/// Half-spaces that a vertex must stay in so that its triangles keep clear of what they meet on its way; to first
-/// order.
+/// Half-spaces that a vertex must stay in so that its triangles keep clear of obstacles on its way, to first order.
 namespace vdbcage::detail {
 
 /// The points with normal . point >= offset.
@@ -17,12 +16,12 @@ struct HalfSpace {
 /// Adds the half-spaces of the first contacts with the model when corner 0 of `now` moves straight to `to`. Returns
 /// whether there are any.
 ///
-/// There is one of each kind: vertex with face, edge with edge and, if `corner`, face with vertex.
+/// It adds at most one of each kind: vertex with face, edge with edge and, if `corner`, face with vertex.
 bool addImpacts(const GuardModel& guard, const Corners& now, const Vec3d& to, bool corner, double clearance,
                 std::vector<HalfSpace>& halfSpaces);
 
-/// Adds the half-space that keeps corner 0 of `star`, now at `at`, where `star` is at least `clearance` from `other`.
-/// It adds none if they cross.
+/// Adds the half-space of the places of corner 0 of `star`, now at `at`, that keep `star` at least `clearance` from
+/// `other`. Adds none if they cross.
 void addApproach(const Corners& star, const Corners& other, const Vec3d& at, double clearance,
                  std::vector<HalfSpace>& halfSpaces);
 

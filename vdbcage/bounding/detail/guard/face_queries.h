@@ -7,17 +7,17 @@
 
 #include <vdbcage/bounding/detail/guard/guarded_mesh.h>
 
-/// Which faces, sides and corners of a surface are next to each other, and where they are. Side i of a face goes from
-/// its corner i to the next one.
+/// Adjacency of the faces, sides and corners of a surface, and their places. Side i of a face goes from its corner i to
+/// the next one.
 namespace vdbcage::detail {
 
-/// Whether a number is a face's, and that face is in no quad.
+/// Returns whether a number is that of a face in no quad.
 inline bool isTriangle(const GuardedMesh& surface, std::uint32_t f)
 {
     return surface.isFace(f) && !surface.isInQuad(f);
 }
 
-/// The faces that are in no quad, ascending.
+/// Returns the faces that are in no quad, ascending.
 inline std::vector<std::uint32_t> trianglesOf(const GuardedMesh& surface)
 {
     std::vector<std::uint32_t> list;
@@ -27,7 +27,7 @@ inline std::vector<std::uint32_t> trianglesOf(const GuardedMesh& surface)
     return list;
 }
 
-/// The side of a face that goes from a to b, or -1.
+/// Returns the side of a face that goes from a to b, or -1.
 inline int sideOf(const GuardedMesh& surface, std::uint32_t f, std::uint32_t a, std::uint32_t b)
 {
     const Vec3I& t = surface.face(f);
@@ -37,7 +37,7 @@ inline int sideOf(const GuardedMesh& surface, std::uint32_t f, std::uint32_t a, 
     return -1;
 }
 
-/// The face with a side from a to b, or GuardedMesh::none.
+/// Returns the face with a side from a to b, or GuardedMesh::none.
 inline std::uint32_t faceAt(const GuardedMesh& surface, std::uint32_t a, std::uint32_t b)
 {
     for (const std::uint32_t f : surface.facesOf(a)) {
@@ -46,22 +46,22 @@ inline std::uint32_t faceAt(const GuardedMesh& surface, std::uint32_t a, std::ui
     return GuardedMesh::none;
 }
 
-/// The face across side i of a face or an alternate. It is `f` where there is none: on the plane of symmetry, and at
-/// the diagonal between two alternates.
+/// Returns the face across side i of a face or an alternate, or `f` where there is none: on the plane of symmetry, and
+/// at the diagonal between two alternates.
 inline std::uint32_t faceAcross(const GuardedMesh& surface, std::uint32_t f, int i)
 {
     const std::uint32_t next = faceAt(surface, surface.face(f)[(i + 1) % 3], surface.face(f)[i]);
     return next == GuardedMesh::none ? f : next;
 }
 
-/// The corner of a face opposite to its side from a to b.
+/// Returns the corner of a face opposite to its side from a to b.
 /// \pre it has that side
 inline std::uint32_t cornerOpposite(const GuardedMesh& surface, std::uint32_t f, std::uint32_t a, std::uint32_t b)
 {
     return surface.face(f)[(sideOf(surface, f, a, b) + 2) % 3];
 }
 
-/// The number of a triangle or a quad: both faces of a quad have the same.
+/// Returns the number of a triangle or a quad: both faces of a quad have the same.
 inline std::uint32_t polygonOf(const GuardedMesh& surface, std::uint32_t f)
 {
     return std::min(f, surface.partnerOf(f)); // `none` is the largest number
@@ -72,7 +72,7 @@ inline std::array<Vec3d, 4> pointsOf(const GuardedMesh& surface, const Vec4I& qu
     return {surface.point(quad[0]), surface.point(quad[1]), surface.point(quad[2]), surface.point(quad[3])};
 }
 
-/// The normal of a face or an alternate, of twice its area.
+/// Returns the normal of a face or an alternate; its length is twice the area.
 inline Vec3d areaNormal(const GuardedMesh& surface, std::uint32_t f)
 {
     const Corners t = surface.corners(f);

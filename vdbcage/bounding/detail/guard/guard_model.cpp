@@ -17,7 +17,7 @@ namespace {
 
 constexpr double pi = 3.14159265358979323846;
 
-/// The signed solid angle of a triangle seen from p (van Oosterom and Strackee 1983).
+/// Returns the signed solid angle of a triangle seen from p (van Oosterom and Strackee 1983).
 double solidAngle(const Corners& t, const Vec3d& p)
 {
     const Vec3d a = t[0] - p, b = t[1] - p, c = t[2] - p;
@@ -31,7 +31,7 @@ bool comesTooNear(const Corners& triangle, const Separator& separator, const Cor
            comeWithin(triangle, other, clearance);
 }
 
-/// Adds the mirror image in a plane, and leaves out the triangles behind it, where coordinates are less.
+/// Adds the mirror image in a plane, and leaves out the triangles behind the plane, where coordinates are less.
 void addMirrorImage(const SymmetryPlane& plane, std::vector<Vec3d>& points, std::vector<Vec3I>& triangles)
 {
     const auto count = static_cast<openvdb::Index32>(points.size());
@@ -51,19 +51,19 @@ void addMirrorImage(const SymmetryPlane& plane, std::vector<Vec3d>& points, std:
     triangles = std::move(kept);
 }
 
-/// The faces of a model as triangles, and how far beyond them the model lies at most.
+/// The faces of a model as triangles, and the largest distance of the model beyond them.
 struct Faces {
     std::vector<Vec3I> triangles;
     double beyond = 0;
 };
 
-/// Both splits of each quad count, but of many quads the second is left out where it is within `maxDistance` of the
-/// first. It is as near as the points p and q of the diagonals that are nearest to each other: the four triangles from
-/// q to the quad's edges are the second split, those from p are the first, and what maps one onto the other moves no
+/// Takes both splits of each quad. In a model of many quads it leaves out the second where it is within `maxDistance`
+/// of the first. Their distance is that of the nearest points p and q of the diagonals: the four triangles from q to
+/// the quad's edges are the second split, those from p are the first, and the map from one onto the other moves no
 /// point by more than |p - q|.
 Faces facesOf(const Mesh& model, const std::vector<Vec3d>& points, double maxDistance)
 {
-    constexpr std::size_t many = std::size_t(1) << 18; // fewer cost too little to give away any clearance for
+    constexpr std::size_t many = std::size_t(1) << 18; // for fewer, the gain is not worth any clearance
     if (model.quads.size() < many) return {everySplit(model), 0};
     Faces faces;
     faces.triangles = triangulate(model);
@@ -105,12 +105,12 @@ GuardModel::GuardModel(const Mesh& model, const GuardOptions& options, Interrupt
     const double side = box_.extents()[static_cast<int>(box_.maxExtent())];
     scale_ = std::ldexp(1.0, -std::ilogb(side));
     clearance_ = options.clearance * side * scale_;
-    // Below the least sine the orientation tests have no room.
+    // With a lesser sine the orientation tests have no room.
     minSine_ = std::max(1e-6, std::sin(options.minAngleDegrees * pi / 180));
     requireHeld(options.precision, box_);
     roundsToFloat_ = areFloats(options.precision, box_);
     if (roundsToFloat_) clearance_ = std::max(clearance_, 4 * floatRounding(box_) * scale_);
-    const double narrowness = options.spacing / GuardOptions{}.spacing; // of triangles to each other
+    const double narrowness = options.spacing / GuardOptions{}.spacing; // of triangles to each other, over the usual
     spacing_ = {options.spacing * side * scale_, 0.05 * narrowness, std::sin(narrowness * pi / 180)};
     std::vector<Vec3d> points;
     points.reserve(model.points.size());
@@ -120,7 +120,7 @@ GuardModel::GuardModel(const Mesh& model, const GuardOptions& options, Interrupt
     throwIfInterrupted(interrupter);
     if (options.symmetry) {
         // Surfaces are little larger than the model: multiples of the step up to four times as far are floats, or
-        // doubles with some bits to spare for the rounding of points that are to be symmetric.
+        // doubles with some bits to spare for the rounding of symmetric points.
         step_ = std::ldexp(scale_, std::ilogb(farthest(box_)) + (roundsToFloat_ ? 2 - 23 : 2 - 50));
         const double offset = step_ * std::round(options.symmetry->offset * scale_ / step_);
         symmetry_ = SymmetryPlane{options.symmetry->axis, offset};

@@ -14,7 +14,7 @@ namespace vdbcage::detail {
 
 namespace {
 
-/// A triangle beginning with its least corner.
+/// Returns a triangle that begins with its least corner.
 Vec3I fromLeast(const Vec3I& t)
 {
     if (t[0] < t[1] && t[0] < t[2]) return t;
@@ -102,8 +102,8 @@ std::uint32_t GuardedMesh::takeHalf(std::uint32_t firstOfQuads)
 
 bool GuardedMesh::isManifoldAt(std::uint32_t v) const
 {
-    // Around each vertex of a closed oriented 2-manifold the link is one cycle; on the plane of symmetry, a path from
-    // plane to plane, off it on the way.
+    // Around each vertex of a closed oriented 2-manifold the link is one cycle. On the plane of symmetry it is a path
+    // from plane to plane that leaves the plane in between.
     std::map<std::uint32_t, std::uint32_t> next;
     for (const std::uint32_t f : facesOf_[v]) {
         const Vec3I& t = faces_[f];
@@ -140,7 +140,7 @@ Vec3d GuardedMesh::ontoPlane(Vec3d p) const
 
 GuardedMesh::Vertices GuardedMesh::neighbours(std::uint32_t v) const
 {
-    const bool halved = isOnPlane(v); // one of them is the last corner of a face only
+    const bool halved = isOnPlane(v); // if so, one of the neighbours is only the last corner of a face
     Vertices list;
     for (const std::uint32_t f : facesOf_[v]) {
         const Vec3I& t = faces_[f];

@@ -18,16 +18,16 @@ using openvdb::Vec4I;
 
 struct StarChange;
 
-/// A closed surface that bounds a model and is only changed in ways that keep it so. A value; copies share the guard.
+/// A closed surface that bounds a model, changed only in ways that keep it so. A value; copies share the guard.
 ///
-/// It is made of triangles, called faces below. Two that share an edge can be a quad, which bounds under both
-/// diagonals. The two triangles of its alternate diagonal are its alternates. They go through the same tests as live
-/// faces, against all but its own two. Alternates have numbers among the faces, but are in no list unless it says so.
+/// Its triangles are called faces. Two that share an edge can be a quad, which bounds under both diagonals. The two
+/// triangles of its alternate diagonal are its alternates. They pass the same tests as live faces, against all faces
+/// except the quad's own two. Alternates have numbers among the faces, but are in no list unless its comment says so.
 ///
 /// Where the guard has a plane of symmetry, this is the half of the surface beyond it, and all counts are of the half.
-/// The other half is its mirror image and not stored. Vertices on the plane stay on it, and all other ones beyond it.
-/// Only edges where the half ends have both ends on the plane. So the halves meet in nothing but vertices and edges on
-/// the plane, and what is allowed here is allowed there.
+/// The other half is its mirror image and not stored. Vertices on the plane stay on it, and all others beyond it. Only
+/// edges where the half ends have both ends on the plane. The halves thus meet only in vertices and edges on the plane,
+/// and a change allowed in one is allowed in the other.
 class GuardedMesh {
 public:
     static constexpr std::uint32_t none = ~std::uint32_t(0);
@@ -35,15 +35,15 @@ public:
         split,
         keep ///< where both diagonals are allowed; else they are split
     };
-    /// Points are rounded as the guard asks.
+    /// Rounds the points as the guard asks.
     /// \throw InputError not a closed 2-manifold, or not symmetric where the guard has a plane
     GuardedMesh(const Mesh& surface, const GuardModel& guard, Quads quads = Quads::split,
                 const FaceWishes& wishes = {});
 
-    /// 2 where the guard has a plane of symmetry, so that the surface is twice this, else 1.
+    /// Returns 2 where the guard has a plane of symmetry, since the surface is twice this; else 1.
     std::size_t copies() const { return guard().symmetry() ? 2 : 1; }
     std::size_t liveFaces() const { return liveFaces_; }
-    std::uint32_t faces() const { return static_cast<std::uint32_t>(faces_.size()); } ///< ever, numbers below
+    std::uint32_t faces() const { return static_cast<std::uint32_t>(faces_.size()); } ///< ever; numbers are less
     std::uint32_t vertices() const { return static_cast<std::uint32_t>(points_.size()); }
     bool isVertex(std::uint32_t v) const { return !facesOf_[v].empty(); }
     const Vec3d& point(std::uint32_t v) const { return points_[v]; }
@@ -52,7 +52,7 @@ public:
         const auto& plane = guard().symmetry();
         return plane && points_[v][plane->axis] == plane->offset;
     }
-    /// The nearest point on the plane of symmetry.
+    /// Returns the nearest point on the plane of symmetry.
     /// \pre there is one
     Vec3d ontoPlane(Vec3d p) const;
     using FaceList = boost::container::small_vector<std::uint32_t, 8>;
@@ -64,72 +64,73 @@ public:
         return {points_[t[0]], points_[t[1]], points_[t[2]]};
     }
     using Vertices = boost::container::small_vector<std::uint32_t, 16>;
-    /// The vertices joined to v by an edge or by an alternate diagonal, ascending.
+    /// Returns the vertices joined to v by an edge or by an alternate diagonal, ascending.
     Vertices neighbours(std::uint32_t v) const;
 
-    /// \pre allows() this change
+    /// Makes a change.
+    /// \pre allows() returned true for it
     void apply(const StarChange& star, const Vec3d& p);
-    /// apply() for one of several changes: tree() does not see it before refit().
+    /// Makes one of several changes: tree() does not have it before refit().
     void change(const StarChange& star, const Vec3d& p);
     void refit() { tree_.refit(); }
-    /// The faces and points that a change takes away, and the counts before it.
+    /// The faces and points that a change replaces, and the counts before it.
     struct Saved {
         std::uint32_t faceCount, vertexCount;
         std::vector<std::pair<std::uint32_t, Vec3I>> faces;
         std::vector<std::pair<std::uint32_t, Vec3d>> points;
         std::vector<std::pair<std::uint32_t, FaceList>> facesOf;
     };
-    /// Returns what `star` would take away.
+    /// Returns the faces and points that `star` would replace.
     /// \pre it touches no quad
     Saved saved(const StarChange& star) const;
-    /// Takes a change back: all is as before, to the bit, but that numbers of new vertices and faces are used up.
-    /// \pre `saved` is of the last change that was not taken back
+    /// Undoes a change, to the bit, except that the numbers of new vertices and faces stay used up.
+    /// \pre `saved` is of the last change that is not undone
     void restore(const Saved& saved);
-    /// The boxes of all faces and alternates, by number.
+    /// Returns the boxes of all faces and alternates, by number.
     const DynamicBvh& tree() const { return tree_; }
 
     std::size_t quads() const { return quads_.size() - freeQuads_.size(); }
-    /// The other triangle of the quad that a face belongs to, or `none`; of an alternate the other alternate.
+    /// Returns the other triangle of a face's quad, or `none`; for an alternate, the other alternate.
     std::uint32_t partnerOf(std::uint32_t f) const;
-    /// The corners of a quad of two faces that share an edge. The edge goes from corner 0 to corner 2.
+    /// Returns the corners of a quad of two faces that share an edge. The edge goes from corner 0 to corner 2.
     Vec4I quadOf(std::uint32_t f, std::uint32_t g) const;
-    /// The corners of the quad that a face or an alternate belongs to; corners 0 and 2 are on its diagonal.
+    /// Returns the corners of the quad that a face or an alternate belongs to; corners 0 and 2 are on its diagonal.
     Vec4I quadOf(std::uint32_t f) const;
-    /// Sets the largest angle at which the triangles of a quad may meet, under either diagonal. It is 90 degrees unless
-    /// set, and at most.
+    /// Sets the largest angle at which the triangles of a quad may meet, under either diagonal: 90 degrees unless set,
+    /// and at most.
     void limitQuadFold(double degrees);
     double leastQuadCosine() const { return leastQuadCosine_; }
     /// Makes a quad of two faces that share an edge. `alternates` are the corners of its alternates.
     /// \pre it is allowed (see makeQuad)
     void pair(std::uint32_t f, std::uint32_t g, const std::array<Vec3I, 2>& alternates);
-    /// The two faces of a quad are triangles again.
+    /// Makes the two faces of a quad triangles again.
     void splitQuad(std::uint32_t face);
-    /// The alternates of a quad become its faces, and its faces its alternates.
+    /// Makes the alternates of a quad its faces, and its faces its alternates.
     void flipQuad(std::uint32_t face);
-    /// Whether a number is a live face's: not an alternate's, and not of one that is gone.
+    /// Returns whether a number is that of a live face: not of an alternate or of a removed face.
     bool isFace(std::uint32_t f) const { return life_[f] == live; }
     bool isInQuad(std::uint32_t f) const { return f != none && quadAt_[f] != none; }
-    /// Whether one is a face and the other an alternate of the same quad.
+    /// Returns whether one is a face and the other an alternate of the same quad.
     bool areAlternatives(std::uint32_t f, std::uint32_t g) const
     {
         return isInQuad(f) && quadAt_[f] == quadAt_[g] && life_[f] != life_[g];
     }
-    /// The alternates of the quad that a face belongs to.
+    /// Returns the alternates of the quad that a face belongs to.
     const std::array<std::uint32_t, 2>& alternatesIn(std::uint32_t face) const
     {
         return quads_[quadAt_[face]].alternates;
     }
-    /// The weight of a face or an alternate in a sum over the surface: a half if it shows under one diagonal only.
+    /// Returns the weight of a face or an alternate in a sum over the surface: 0.5 if it belongs to a quad.
     double weight(std::uint32_t f) const { return isInQuad(f) ? 0.5 : 1; }
     const FaceList& alternatesOf(std::uint32_t v) const
     {
         return alternatesOf_.empty() ? noAlternates_ : alternatesOf_[v];
     }
 
-    /// The live triangles and quads, in order, without points that no face uses. Then the mirror image of them all.
+    /// Returns the live triangles and quads, in order, without unused points, then the mirror image of them all.
     Mesh mesh() const;
     const GuardModel& guard() const { return guard_; }
-    /// Where its faces should go.
+    /// Returns where the faces should go.
     const Wishes& wishes() const { return wishesOf(wishes_); }
 
 private:

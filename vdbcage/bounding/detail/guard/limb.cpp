@@ -12,7 +12,7 @@ namespace {
 
 constexpr double pi = 3.14159265358979323846;
 
-/// Where along `ray`, as a share of it, a triangle is met; nothing if it is not.
+/// Returns where `ray` meets a triangle, as a share of the ray; nothing if it does not.
 /// Based on: Moller, Trumbore, Fast, Minimum Storage Ray/Triangle Intersection, 1997.
 std::optional<double> hit(const Corners& t, const Vec3d& from, const Vec3d& ray)
 {
@@ -25,7 +25,7 @@ std::optional<double> hit(const Corners& t, const Vec3d& from, const Vec3d& ray)
     return along;
 }
 
-/// From `from` to the model, infinite where there is nothing of it.
+/// Returns the distance from `from` to the model along `direction`; infinite if the model is not there.
 double distanceAlong(const TriangleBvh& model, const Vec3d& from, const Vec3d& direction)
 {
     const Vec3d ray = 2 * (model.box().hi - model.box().lo).length() * direction, end = from + ray;
@@ -60,7 +60,7 @@ double radiusAcross(const TriangleBvh& model, const Vec3d& place, const Vec3d& a
 Limb limbAt(const TriangleBvh& model, const Joint& joint)
 {
     if (joint.axis) return {joint.place, *joint.axis, radiusAcross(model, joint.place, *joint.axis)};
-    constexpr int directions = 200; // about 10 degrees apart: those of a spiral over half a sphere
+    constexpr int directions = 200; // about 10 degrees apart, on a spiral over half a sphere
     const double turn = pi * (3 - std::sqrt(5.0));
     Limb best{joint.place, Vec3d(0, 0, 1), std::numeric_limits<double>::infinity()};
     for (int i = 0; i < directions; ++i) {

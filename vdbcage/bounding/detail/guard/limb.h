@@ -12,7 +12,7 @@ struct Limb {
     double radius; ///< of the model across the axis: the median of the distances from the joint to it
 };
 
-/// The limb of a model at a joint. Where the joint has no axis, it is along the one that the radius is least across.
+/// Returns the limb of a model at a joint. Where the joint has no axis, the limb's is the one with the least radius.
 /// Cost: O(log n) for n triangles, some thousand times.
 Limb limbAt(const TriangleBvh& model, const Joint& joint);
 

@@ -25,8 +25,8 @@ StarChange starOf(const GuardedMesh& mesh, std::uint32_t v)
 
 bool starOfCollapse(const GuardedMesh& mesh, std::uint32_t keep, std::uint32_t remove, StarChange& star)
 {
-    // Link condition: the ends have two common neighbours, no more (on the plane of symmetry, where the half ends,
-    // one), and something is left.
+    // Link condition: the ends have exactly two common neighbours (one on the plane of symmetry, where the half ends),
+    // and something is left.
     const bool keepOnPlane = mesh.isOnPlane(keep), removeOnPlane = mesh.isOnPlane(remove);
     const auto a = mesh.neighbours(keep), b = mesh.neighbours(remove);
     std::size_t common = 0;
@@ -58,7 +58,7 @@ bool starOfCollapse(const GuardedMesh& mesh, std::uint32_t keep, std::uint32_t r
         }
     }
     if (!star.onPlane) return star.link.size() >= 3;
-    // From the plane to the plane, off it on the way.
+    // The link goes from the plane to the plane and leaves it in between.
     std::size_t onPlane = 0;
     for (const auto& edge : star.link)
         onPlane += std::size_t(mesh.isOnPlane(edge[0])) + std::size_t(mesh.isOnPlane(edge[1]));
@@ -104,8 +104,8 @@ bool starOfFlip(const GuardedMesh& mesh, std::uint32_t c, std::uint32_t a, std::
 
 namespace {
 
-/// Makes the rim of the star's old faces its link. Returns false unless it goes through each corner once, and through
-/// two on the plane if the centre is there, and has so many more sides than there are faces.
+/// Makes the rim of the star's old faces its link. Returns false unless the rim passes each corner once, has two
+/// corners on the plane if the centre is there, and has `more` more sides than there are faces.
 bool takeRim(const GuardedMesh& mesh, int more, StarChange& star)
 {
     const auto& faces = star.oldFaces;
@@ -140,7 +140,7 @@ bool starOfFaces(const GuardedMesh& mesh, const StarChange::Faces& faces, bool o
     star.centre = mesh.vertices();
     star.onPlane = onPlane;
     star.oldFaces = faces;
-    // A disk without a vertex inside has two sides more than faces; where it ends on the plane one of them is left out.
+    // A disk without a vertex inside has two more sides than faces; where it ends on the plane one of them is left out.
     return takeRim(mesh, onPlane ? 1 : 2, star);
 }
 
@@ -152,7 +152,7 @@ bool starOfPatch(const GuardedMesh& mesh, std::uint32_t centre, std::uint32_t re
     star.removed = removed;
     star.onPlane = mesh.isOnPlane(centre);
     star.oldFaces = faces;
-    // Every vertex inside, and a centre on the plane, makes two sides less.
+    // Every vertex inside, and a centre on the plane, takes two sides away.
     return takeRim(mesh, removed == StarChange::none ? 0 : -2, star);
 }
 

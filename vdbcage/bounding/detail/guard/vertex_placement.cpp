@@ -18,9 +18,9 @@ namespace vdbcage::detail {
 
 namespace {
 
-/// The point nearest to `wish` with normal . x >= offset for every half-space (of unit normals). One half-space after
-/// the other is put in; where the answer so far violates it, the new one lies on its plane, and so on down to lines.
-/// Expected O(n), since violations are rare. Nothing if rounding leaves no such point.
+/// Returns the point nearest to `wish` with normal . x >= offset for every half-space (of unit normals); nothing if
+/// rounding leaves no such point. Half-spaces are added one after the other. Where the result so far violates a new
+/// one, the next result lies on its plane, and so on down to lines. Expected O(n), since violations are rare.
 std::optional<Vec3d> nearestInside(const Vec3d& wish, const std::vector<HalfSpace>& halfSpaces)
 {
     const auto lacks = [&](std::size_t i, const Vec3d& x) {
@@ -54,7 +54,7 @@ std::optional<Vec3d> nearestInside(const Vec3d& wish, const std::vector<HalfSpac
     return x;
 }
 
-/// The delta of least delta A delta / 2 + g delta with normal . (from + delta) >= offset for every half-space;
+/// Returns the delta of least delta A delta / 2 + g delta with normal . (from + delta) >= offset for every half-space;
 /// A = R^T R.
 std::optional<Vec3d> solve(const openvdb::Mat3d& inverseR, const Vec3d& g, const std::vector<HalfSpace>& halfSpaces,
                            const Vec3d& from)
@@ -73,7 +73,7 @@ std::optional<Vec3d> solve(const openvdb::Mat3d& inverseR, const Vec3d& g, const
     return inverseR * *y;
 }
 
-/// The inverse of the upper triangular R with A = R^T R; nothing if A is not positive definite.
+/// Returns the inverse of the upper triangular R with A = R^T R; nothing if A is not positive definite.
 std::optional<openvdb::Mat3d> inverseCholesky(const openvdb::Mat3d& a)
 {
     openvdb::Mat3d r = openvdb::Mat3d::zero();
@@ -131,7 +131,7 @@ template <typename Visit>
 void DistanceMeasure::forEachSample(const Corners& t, std::uint32_t& seed, const Visit& visit) const
 {
     constexpr int most = 12;
-    constexpr double slack = 0.03; // exact distances give no tighter cages
+    constexpr double slack = 0.03; // exact distances make no tighter cages
     const double area = 0.5 * (t[1] - t[0]).cross(t[2] - t[0]).length();
     const double wanted = std::ceil(std::sqrt(area / areaPerSample_));
     const int k = wanted >= most ? most : std::max(1, static_cast<int>(wanted));
@@ -162,7 +162,7 @@ double DistanceMeasure::integral(const Corners& t, std::uint32_t& seed) const
 DistanceMeasure::Fit DistanceMeasure::fit(const GuardedMesh& surface, const StarChange& star, const Vec3d& centre,
                                           std::uint32_t& seed) const
 {
-    const double least = 0.1 * guard_.clearance(); // distances below are not told apart
+    const double least = 0.1 * guard_.clearance(); // smaller distances count as this
     Fit fit;
     double weights = 0;
     for (std::size_t k = 0; k < star.link.size(); ++k) {
@@ -174,7 +174,7 @@ DistanceMeasure::Fit DistanceMeasure::fit(const GuardedMesh& surface, const Star
             const double weight = share * sampleWeight;
             fit.integral += weight * d;
             if (!(d > 0)) return;
-            // The sample asks d + b0 n delta to vanish.
+            // The sample's condition is d + b0 n delta = 0.
             const Vec3d n = away / d;
             const double w = weight / std::max(d, least);
             const double wb = w * b0, wbb = wb * b0;
@@ -186,7 +186,7 @@ DistanceMeasure::Fit DistanceMeasure::fit(const GuardedMesh& surface, const Star
         });
     }
     if (star.onPlane) {
-        // With the other half what pulls across the plane cancels.
+        // With the other half, forces across the plane cancel.
         const int across = guard_.symmetry()->axis;
         for (int i = 0; i < 3; ++i) {
             if (i != across) fit.change.curvature[i][across] = fit.change.curvature[across][i] = 0;
@@ -198,7 +198,7 @@ DistanceMeasure::Fit DistanceMeasure::fit(const GuardedMesh& surface, const Star
         fit.integral += shape_->add(surface, star, centre, fit.change);
         weights += std::max(0.0, fit.change.curvature.trace() - before);
     }
-    // Flat stars say nothing of moves along themselves: a little stiffness keeps these small.
+    // Flat stars do not resist moves along themselves: a little stiffness keeps these small.
     for (int i = 0; i < 3; ++i) fit.change.curvature[i][i] += 0.01 * weights;
     return fit;
 }

@@ -9,28 +9,28 @@
 
 namespace vdbcage::detail {
 
-/// Where faces should go, in the units of a guard's model.
+/// The wishes for the places of faces, in the units of a guard's model.
 class Wishes {
 public:
-    /// None.
+    /// Wishes nothing.
     Wishes() = default;
     /// \throw InputError as FaceWishes
     /// \throw Cancelled
     Wishes(const GuardModel& guard, const FaceWishOptions& options, Interrupter* interrupter);
 
-    /// Whether distance counts more in some places than in others.
+    /// Returns whether distance counts more in some places than in others.
     bool hasDensity() const { return density_.grid || !density_.regions.empty() || !aroundJoints_.empty(); }
-    /// Returns what distance counts for at a point of the model: the third power of the density.
+    /// Returns the weight of distance at a point of the model: the third power of the density.
     ///
-    /// Of faces of the size h the distance is about h^2. Its integral is least where h^4 times the weight is the same
-    /// everywhere, which asks for the second power, and that of its square for the third. But faces do not come all
-    /// the way, and the others have to give them: with one and two more, a sphere with a quarter of the faces gets 1.8
-    /// times as many for a density of 2.
+    /// Faces of size h are about h^2 from the model. The integral of the distance is least where h^4 times the weight
+    /// is the same everywhere: with the second power of the density. For the squared distance it is the third. But
+    /// faces follow only in part, since other places have to give them up. With powers higher by one and two, a sphere
+    /// with a quarter of the faces gets 1.8 times as many for a density of 2.
     double distanceWeight(const Vec3d& onModel) const;
-    /// Returns the same for squared distance: the fifth power.
+    /// Returns the weight of squared distance: the fifth power.
     double quadricWeight(const Vec3d& onModel) const;
 
-    /// At the joints, beyond the plane of symmetry.
+    /// Returns the limbs at the joints, beyond the plane of symmetry.
     const std::vector<Limb>& limbs() const { return limbs_; }
 
 private:

@@ -11,7 +11,8 @@ namespace vdbcage::detail {
 
 namespace {
 
-/// Splits the first of some loops that the guard allows to. Returns the new vertices; none if there is no such loop.
+/// Splits the first of some loops whose split the guard allows. Returns the new vertices; none if there is no such
+/// loop.
 std::vector<std::uint32_t> splitOneOf(const std::vector<QuadLoop>& loops, GuardedMesh& surface, QuadTable& table)
 {
     for (const QuadLoop& loop : loops) {

@@ -11,8 +11,8 @@ namespace vdbcage::detail {
 
 namespace {
 
-/// Where a rung's vertex may go: as for any edge, or farther out. A rung of a limb is short beside what it has to
-/// clear.
+/// Returns a place for a rung's vertex: as for any edge, or farther out. A rung of a limb is short compared with the
+/// limb that its vertex must clear.
 std::optional<Vec3d> placeFor(const GuardedMesh& surface, const StarChange& star, const VertexQuadrics& quadrics)
 {
     std::optional<Vec3d> place = quadrics.findPlace(star, quadrics.sum(star.centre, star.removed), true);
@@ -44,7 +44,7 @@ bool collapseLoop(GuardedMesh& surface, QuadTable& table, VertexQuadrics& quadri
     std::vector<GuardedMesh::Saved> changes;
     std::vector<std::pair<std::uint32_t, Quadric>> sums; // before the changes
     std::vector<Rung> merges;
-    std::map<std::uint32_t, std::uint32_t> into; // where a loop turns a vertex is on two rungs
+    std::map<std::uint32_t, std::uint32_t> into; // where a loop turns, a vertex is on two rungs
     const auto placeOf = [&](std::uint32_t v) {
         for (auto found = into.find(v); found != into.end(); found = into.find(v)) v = found->second;
         return v;

@@ -11,9 +11,10 @@ namespace vdbcage::detail {
 
 /// Collapses the rungs of a loop one after the other, each under the guard, all or none. Returns whether.
 ///
-/// Where all are collapsed, `settle` may move the vertices that they became, and says whether they may stay. If not, or
-/// if the guard does not allow one, surface, table and quadrics are as before, to the bit. \pre leavesQuads() Cost:
-/// O(rungs), with a question to the guard for each place that is tried.
+/// When all are collapsed, settle(kept) may move the vertices that they became, and returns whether the collapse may
+/// stay. If not, or if the guard does not allow a rung, surface, table and quadrics are as before, to the bit.
+/// \pre leavesQuads()
+/// Cost: O(rungs), with a test by the guard for each place that is tried.
 bool collapseLoop(GuardedMesh& surface, QuadTable& table, VertexQuadrics& quadrics, const QuadLoop& loop,
                   const std::function<bool(const std::vector<std::uint32_t>& kept)>& settle);
 

@@ -21,14 +21,14 @@ namespace vdbcage::detail {
 
 namespace {
 
-constexpr double irregularWeight = 0.4; // 0 makes slanted limbs more irregular, 0.8 puts off loops that should go
+constexpr double irregularWeight = 0.4; // 0 makes slanted limbs more irregular, 0.8 puts off loops that should collapse
 
 struct Ranked {
-    double cost; // by quadrics, for each quad that goes
+    double cost; // by quadrics, for each removed quad
     std::size_t loop;
 };
 
-/// How much more irregular the vertices become for each rung that goes, by |valence - 4|: -2 to 0.
+/// Returns the growth of the vertices' irregularity |valence - 4| for each removed rung: -2 to 0.
 double irregularityGrowth(const GuardedMesh& surface, const QuadTable& table, const QuadLoop& loop)
 {
     const auto irregularity = [](std::size_t edges) { return std::abs(static_cast<double>(edges) - 4); };
@@ -40,7 +40,7 @@ double irregularityGrowth(const GuardedMesh& surface, const QuadTable& table, co
     return growth / static_cast<double>(loop.rungs.size());
 }
 
-/// Best first. No more quads than `tooMany` count.
+/// Ranks loops, best first. At most `tooMany` quads of a loop count.
 std::vector<Ranked> ranked(const GuardedMesh& surface, const QuadTable& table, const VertexQuadrics& quadrics,
                            const std::vector<QuadLoop>& loops, std::size_t tooMany, Interrupter* interrupter)
 {
@@ -101,12 +101,12 @@ public:
     }
 
 private:
-    static constexpr double firstLoss = 2, lastLoss = 100; // of distance for a quad less, in a mean quad's
-    static constexpr std::size_t mostRefused = 24;         // in one round: those after cost more still
+    static constexpr double firstLoss = 2, lastLoss = 100; // loss of distance for each removed quad, in a mean quad's
+    static constexpr std::size_t mostRefused = 24;         // in one round; later ones cost more still
     static constexpr int settleSweeps = 2;
 
-    /// Collapses loops that do not touch, until `quads` are left or a twentieth are gone, but one at least. Returns
-    /// whether any went.
+    /// Collapses loops that do not touch each other, until `quads` are left or a twentieth are gone, but at least one.
+    /// Returns whether any collapsed.
     bool collapseRound(VertexQuadrics& quadrics, const std::vector<QuadLoop>& loops, std::size_t quads,
                        std::size_t target, double maxLoss, Interrupter* interrupter)
     {
@@ -143,7 +143,7 @@ private:
         return keepsRings_ ? JointRings(surface_, table_).count() : std::vector<std::size_t>();
     }
 
-    /// Whether the rings are kept; they are then counted anew.
+    /// Returns whether the rings are kept; if so, counts them again.
     bool keep(std::vector<std::size_t>& before) const
     {
         std::vector<std::size_t> now = ringsToKeep();
@@ -170,7 +170,7 @@ private:
         }
     }
 
-    /// The faces or quads that `around` has for the ends of the rungs, each once.
+    /// Returns the faces or quads that `around` has for the ends of the rungs, each once.
     template <typename Around>
     static std::vector<std::uint32_t> gathered(const QuadLoop& loop, const Around& around)
     {
@@ -183,7 +183,8 @@ private:
         return list;
     }
 
-    /// The integral of the distance over the faces around the rungs, and what quads that are not fit count for.
+    /// Returns the integral of the distance over the faces around the rungs, plus the weights of quads that are not
+    /// fit.
     double lossAround(const DistanceMeasure& measure, const QuadLoop& loop, double perQuad) const
     {
         double sum = 0;

@@ -14,16 +14,16 @@ namespace vdbcage::detail {
 bool collapseLoopThrough(GuardedMesh& surface, QuadTable& table, const std::vector<std::uint32_t>& quads,
                          Interrupter* interrupter);
 
-/// Whether collapses keep the rings of joints.
+/// The rule of collapses for the rings of joints.
 enum class AtJoints { anything, keepRings };
 
 /// Collapses loops until at most `quads` are left, or none may go.
 ///
-/// Those that cost least by quadrics for each quad that goes are first. A collapse that brings the surface much farther
-/// from the model than a quad less does on average is put off. In between all vertices are moved to where the distance
-/// is less and corners are near square. Where no whole polychord may go, loops of parts of two do. Where rings are to
-/// be kept, no collapse takes one away that a joint needs. What is measured and moved is so in parallel. It reports 0
-/// to `mostPercent` of a stage, or nothing if that is 0.
+/// Loops that cost least by quadrics for each removed quad come first. A collapse that brings the surface much farther
+/// from the model than one quad less does on average is put off. In between, all vertices move to where the distance is
+/// less and corners are near square. Where no whole polychord may collapse, loops of parts of two do. With keepRings no
+/// collapse removes a ring that a joint needs. Vertices are measured and moved in parallel. Progress goes from 0 to
+/// `mostPercent` of a stage; none is reported if that is 0.
 /// \pre `table` is that of `surface`
 /// \throw Cancelled
 /// Cost: O(n sqrt(n) log m) for n quads and m faces of the model.

@@ -22,10 +22,10 @@ namespace {
 struct Quads {
     GuardedMesh surface;
     QuadTable table;
-    double distance; // the integral, and what quads that are not fit count for
+    double distance; // the integral, plus the weights of quads that are not fit
 };
 
-/// `areaPerSample` is the same for all that are compared.
+/// Returns the distance of a surface. `areaPerSample` is the same for all that are compared.
 double distanceOf(const GuardedMesh& surface, const QuadTable& table, double areaPerSample, Interrupter* interrupter)
 {
     const double sum = integratedDistance(surface, areaPerSample, interrupter);
@@ -33,7 +33,7 @@ double distanceOf(const GuardedMesh& surface, const QuadTable& table, double are
            sum / static_cast<double>(table.count()) * unfitWeight * static_cast<double>(countUnfit(surface, table));
 }
 
-/// The loops with the most distance for each of their quads, of those with at most `most` quads.
+/// Returns the loops with the most distance for each of their quads, of those with at most `most` quads.
 std::vector<QuadLoop> candidates(const Quads& now, std::size_t most, std::size_t count, double areaPerSample,
                                  Interrupter* interrupter)
 {
@@ -58,7 +58,7 @@ std::vector<QuadLoop> candidates(const Quads& now, std::size_t most, std::size_t
     return best;
 }
 
-/// Splits loops, best first, until none fits that brings the surface nearer.
+/// Splits loops, best first, until none that brings the surface nearer fits.
 void refill(Quads& now, std::size_t quads, double areaPerSample, Interrupter* interrupter)
 {
     constexpr std::size_t tries = 4;

@@ -7,11 +7,11 @@
 
 namespace vdbcage::detail {
 
-/// Takes loops from where they bring little to where they bring more, in rounds. At most `quads` are left, or as many
-/// as there were if these were more.
+/// Moves loops from where they gain little to where they gain more, in rounds. At most `quads` are left, or as many as
+/// there were if these were more.
 ///
 /// Some loops are collapsed, cheapest first. Then loops are split, as many as fit: those whose split brings the surface
-/// nearest to the model. A round that did not bring it nearer is undone, and fewer loops go in the next. Joints
+/// nearest to the model. A round that does not bring it nearer is undone, and the next collapses fewer loops. Joints
 /// keep their rings.
 /// \pre no quad is paired in the surface
 /// \throw Cancelled

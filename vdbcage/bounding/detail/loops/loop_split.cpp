@@ -9,9 +9,9 @@ namespace vdbcage::detail {
 
 namespace {
 
-constexpr std::array heights{0.0, 0.01, 0.05, 0.15}; // where rounding brought a place too near
+constexpr std::array heights{0.0, 0.01, 0.05, 0.15}; // for places that rounding brought too near
 
-/// Joins the new vertices of two rungs across what was the diagonal of their quad, from corner to corner.
+/// Joins the new vertices of two rungs across the former diagonal of their quad, from corner to corner.
 bool join(GuardedMesh& surface, std::uint32_t v, std::uint32_t from, std::uint32_t to)
 {
     StarChange star;

@@ -13,10 +13,10 @@ constexpr double pi = 3.14159265358979323846;
 constexpr double leastCosine = 0.5; // of a ring's normal and the limb
 // In radii of the limb:
 constexpr double widest = 2;         // of a ring
-constexpr double reach = 1, far = 3; // of a ring's plane from the joint; of what may become a ring
-constexpr double ringWidth = 0.6;    // three are near the joint
+constexpr double reach = 1, far = 3; // of a ring's plane from the joint; of the loops that may become a ring
+constexpr double ringWidth = 0.6;    // three rings are near the joint
 
-/// A loop as a polygon: the middles of its rungs.
+/// Returns a loop as a polygon: the middles of its rungs.
 std::vector<Vec3d> polygonOf(const GuardedMesh& surface, const QuadLoop& loop)
 {
     std::vector<Vec3d> polygon;
@@ -27,7 +27,7 @@ std::vector<Vec3d> polygonOf(const GuardedMesh& surface, const QuadLoop& loop)
     return polygon;
 }
 
-/// How a loop lies to a point that it goes around once, seen along its normal.
+/// The position of a loop relative to a point that it goes around once, seen along its normal.
 struct Winding {
     Vec3d normal;
     double height, radius;
@@ -119,7 +119,7 @@ std::vector<PlaneHold> JointRings::holds() const
                     const double offset = (end == 0) == isUp ? middle + 0.5 * width : middle - 0.5 * width;
                     const Sum first{PlaneHold{rung[end], axis, 0, limb.radius}, &limb, 0};
                     Sum& sum = sums.try_emplace(rung[end], first).first->second;
-                    if (sum.of != &limb) continue; // another one holds it
+                    if (sum.of != &limb) continue; // another limb holds it
                     sum.hold.offset += offset;
                     ++sum.count;
                 }

@@ -11,35 +11,35 @@
 
 namespace vdbcage::detail {
 
-/// Which loops of quads are rings around a limb at its joints.
+/// The loops of quads that are rings around a limb at its joints.
 ///
-/// A ring is a loop that closes, is short, and goes around the limb: once around the joint, seen along its normal,
-/// which is within 60 degrees of the limb's axis; it is at most twice as wide as the limb, and its plane at most the
-/// limb's radius away from the joint. Widths are of circles of the same area. On the plane of symmetry half a ring
-/// counts with its mirror image. A surface that is not of quads only has no rings.
+/// A ring is a closed loop that goes around the joint once, seen along the loop's normal. The normal is within 60
+/// degrees of the limb's axis, the ring at most twice as wide as the limb, and its plane at most the limb's radius away
+/// from the joint. Widths are of circles of the same area. On the plane of symmetry half a ring counts with its mirror
+/// image. A surface has rings only if all its faces are quads.
 class JointRings {
 public:
     static constexpr std::size_t wanted = 3; ///< across each joint
 
-    /// At the joints of its wishes. The arguments must outlive this.
+    /// Uses the joints of the surface's wishes. The arguments must outlive this.
     JointRings(const GuardedMesh& surface, const QuadTable& table) : surface_(surface), table_(table) {}
 
-    /// How many rings each joint has now.
+    /// Returns the number of rings that each joint has.
     /// Cost: O(quads + joints rungs).
     std::vector<std::size_t> count() const;
 
-    /// Whether each joint has as many rings as before, or as are wanted.
+    /// Returns whether each joint has as many rings as before, or as are wanted.
     static bool areKept(const std::vector<std::size_t>& before, const std::vector<std::size_t>& after);
 
-    /// Returns holds of the nearest three rings of each joint, which bring them there, by vertex, ascending: without
-    /// them relaxation would make all rings of a limb alike.
+    /// Returns holds that bring the nearest three rings of each joint to it, by vertex, ascending. Otherwise relaxation
+    /// would make all rings of a limb alike.
     std::vector<PlaneHold> holds() const;
 
-    /// Loops that may be split for another ring at a joint, nearest first; none if it has enough.
+    /// Returns loops that may be split for another ring at a joint, nearest first; none if it has enough.
     std::vector<QuadLoop> toSplit(const Limb& limb) const;
 
 private:
-    /// There are joints, and nothing but quads: the ends of other loops are at the plane of symmetry.
+    /// Returns whether there are joints, and only quads: loops then end nowhere but at the plane of symmetry.
     bool mayHaveRings() const
     {
         return !surface_.wishes().limbs().empty() && surface_.liveFaces() == 2 * table_.count();

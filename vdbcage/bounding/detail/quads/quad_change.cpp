@@ -19,7 +19,7 @@ namespace {
 
 using Ring = std::vector<std::uint32_t>;
 
-/// The corners of the quad or triangle with a side from a to b, from a on; empty beyond the plane of symmetry.
+/// Returns the corners of the quad or triangle with a side from a to b, from a on; empty beyond the plane of symmetry.
 Ring polygonAt(const GuardedMesh& surface, const QuadTable& table, std::uint32_t a, std::uint32_t b)
 {
     const std::uint32_t q = table.quadAt(a, b);
@@ -39,8 +39,8 @@ bool hasDiagonalAt(const GuardedMesh& surface, const Vec4I& ids, int i)
     return cornerOpposite(surface, faceAt(surface, a, b), a, b) == ids[(i + 2) % 4];
 }
 
-/// The neighbours of v along edges of polygons, each with the polygon after it around v; they go round, or from plane
-/// to plane.
+/// Returns the neighbours of v along edges of polygons, each with the polygon after it around v, all around v or from
+/// plane to plane.
 std::vector<Ring> polygonsAround(const GuardedMesh& surface, const QuadTable& table, std::uint32_t v)
 {
     std::vector<Ring> polygons;
@@ -63,7 +63,7 @@ std::vector<Ring> polygonsAround(const GuardedMesh& surface, const QuadTable& ta
     }
 }
 
-/// Valences that change, and what that gains.
+/// The valences of all vertices, and the gain of changing them.
 class Valences {
 public:
     Valences(const GuardedMesh& surface, const QuadTable& table) : surface_(surface), of_(surface.vertices(), 0)
@@ -74,13 +74,13 @@ public:
     }
 
     int operator[](std::uint32_t v) const { return of_[v]; }
-    /// What `edges` more off the plane, or polygons on it, gain at v.
+    /// Returns the gain of `edges` more edges off the plane, or polygons on it, at v.
     double gain(std::uint32_t v, int edges) const
     {
         return gainTo(v, of_[v] + (surface_.isOnPlane(v) ? 2 : 1) * edges);
     }
     double gainTo(std::uint32_t v, int valence) const { return weigh(v, of_[v]) - weigh(v, valence); }
-    /// That of a vertex like v.
+    /// Returns the irregularity of a valence at a vertex like v: half where v is on the plane.
     double weigh(std::uint32_t v, int valence) const
     {
         return (surface_.isOnPlane(v) ? 0.5 : 1) * irregularity(static_cast<std::size_t>(std::max(valence, 0)));
@@ -91,7 +91,8 @@ private:
     std::vector<int> of_;
 };
 
-/// The outline of the two polygons at an edge: b, ..., a, ...; empty if there are not two, or they meet elsewhere.
+/// Returns the outline of the two polygons at an edge: b, ..., a, ...; empty if there are not two, or they meet
+/// elsewhere.
 Ring ringAround(const GuardedMesh& surface, const QuadTable& table, std::uint32_t a, std::uint32_t b)
 {
     const Ring p = polygonAt(surface, table, a, b), q = polygonAt(surface, table, b, a);
@@ -296,7 +297,7 @@ std::optional<PlannedChange> plannedCollapse(const GuardedMesh& surface, const Q
 std::optional<PlannedChange> plannedSplit(const GuardedMesh& surface, const QuadTable& table, std::uint32_t v,
                                           std::uint32_t x, std::uint32_t y)
 {
-    constexpr double share = 0.4; // of the way from the old vertex to the middle of the polygons that the new one gets
+    constexpr double share = 0.4; // of the way from the old vertex to the middle of the new one's polygons
     if (!surface.isVertex(v) || surface.isOnPlane(v)) return std::nullopt;
     const std::vector<Ring> polygons = polygonsAround(surface, table, v);
     const auto at = [&](std::uint32_t w) {

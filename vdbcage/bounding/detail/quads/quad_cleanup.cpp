@@ -49,7 +49,7 @@ public:
     void run()
     {
         constexpr int passes = 8;
-        constexpr double forAFace = -1.5; // what may be lost with a face too many
+        constexpr double forAFace = -1.5; // the loss that is allowed while there are too many faces
         for (int pass = 0; pass < passes; ++pass) {
             touched_.assign(surface_.vertices(), 0);
             tries_.assign(surface_.vertices(), 0);
@@ -63,11 +63,11 @@ public:
     }
 
 private:
-    static constexpr double alike = -0.1; // what a change gains that leaves valences as good as they are is above this
+    static constexpr double alike = -0.1; // changes with a gain above this leave valences about as good
 
     std::size_t faceCount() const { return surface_.liveFaces() - table_.count(); }
     bool hasTooMany() const { return faceCount() > most_; }
-    /// Vertices made since the pass began are touched.
+    /// Returns whether a vertex is touched; those made since the pass began are.
     bool isTouched(std::uint32_t v) const { return v >= touched_.size() || touched_[v] != 0; }
     std::size_t lastChange(std::uint32_t v) const { return v < changedAt_.size() ? changedAt_[v] : 0; }
 
@@ -95,7 +95,7 @@ private:
         if (triesLeft_ > 0) --triesLeft_;
         if (make(*plan, more)) return true;
         if (change.kind == QuadChange::Kind::rotation) {
-            // The same with the other end of the new edge as the centre.
+            // The same change, with the other end of the new edge as the centre.
             const auto [a, b, c, d] = change.vertices;
             plan = planned(surface_, table_, {change.kind, {a, b, d, c}, change.gain});
             if (plan && make(*plan, more)) return true;
@@ -104,7 +104,7 @@ private:
         return false;
     }
 
-    /// Makes a change and relaxes what is around it, or leaves all as it was. Returns whether it was made.
+    /// Makes a change and relaxes the vertices around it, or leaves all as it was. Returns whether it was made.
     bool make(const PlannedChange& plan, int more)
     {
         constexpr std::array heights{0.0, 0.03, 0.1, 0.25};
@@ -137,8 +137,8 @@ private:
         return false;
     }
 
-    /// What faces that come cost, or the gain of those that go is less. A face is worth its distance where there may be
-    /// no more; while there may, one less is a loss.
+    /// Returns the cost of `more` faces. A face is worth its distance where there may be no more; below that number,
+    /// one less is a loss.
     double price(int more) const
     {
         constexpr double ofFree = -0.3;
@@ -150,7 +150,7 @@ private:
     {
         constexpr double push = 0.3; // of the mean distance: room for turning
         constexpr int straightenings = 3, sweeps = 3;
-        constexpr double hopeless = 4; // the distance of so many faces is more than the last sweeps gain
+        constexpr double hopeless = 4; // faces' distance; more than the last sweeps gain
         inflate(surface_, vertices, push * meanDistance_, interrupter_);
         for (int i = 0; i < straightenings; ++i) straighten(surface_, table_, vertices, interrupter_);
         tighten(surface_, vertices, 1, sample_, interrupter_, &rough_);
@@ -159,8 +159,8 @@ private:
         return energy(vertices) < limit;
     }
 
-    /// What is to be less, of all that changes when these vertices do. Infinite where two polygons share two edges:
-    /// then a vertex has no third.
+    /// Returns the energy to be reduced, as far as it depends on these vertices. Infinite where two polygons share two
+    /// edges: then a vertex has no third edge.
     double energy(const Vertices& vertices) const
     {
         constexpr double ofValences = 1.5;
@@ -191,7 +191,7 @@ private:
     std::size_t triesLeft_, time_ = 0;
     std::vector<char> touched_; // by vertex: changed in this pass
     std::vector<int> tries_;    // by vertex: in this pass
-    // When a vertex changed, and when a change failed: it is not tried again before its vertices change.
+    // The times when a vertex changed, and when a change failed: it is not tried again before its vertices change.
     std::vector<std::size_t> changedAt_;
     std::map<std::pair<QuadChange::Kind, std::array<std::uint32_t, 4>>, std::size_t> failedAt_;
 };

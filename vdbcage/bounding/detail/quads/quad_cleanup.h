@@ -10,10 +10,10 @@ namespace vdbcage::detail {
 /// Brings the vertices of quads and triangles nearer to four edges, by local changes under the guard.
 ///
 /// Edges next to quads are turned, quads collapse along a diagonal, vertices are split into quads, triangles become
-/// quads. What is around a change is relaxed. It stays if distance, corners and valences together are then better,
-/// otherwise all is as before. Changes that leave the valences alike are tried as well, since they bring irregular
-/// vertices together. Faces become more than `faces` nowhere; where they are more, some are collapsed, if that can be.
-/// The same for any number of threads.
+/// quads. The vertices around a change are relaxed. The change stays if distance, corners and valences together are
+/// then better; otherwise it is undone. Changes that leave the valences alike are tried as well, since they bring
+/// irregular vertices together. The number of faces does not grow beyond `faces`; if it is larger, quads are collapsed
+/// where possible. The result is the same for any number of threads.
 /// \pre no quad is paired in the surface, which `table` is of
 /// \throw Cancelled
 /// Cost: O(n log n) for n faces, and O(n) trials of a patch each.

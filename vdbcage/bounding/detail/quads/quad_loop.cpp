@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::uint32_t none = QuadTable::none;
 
-/// A quad and the side that it is entered across.
+/// A quad and the side across which it is entered.
 struct Entry {
     std::uint32_t quad;
     int side;
@@ -25,7 +25,7 @@ Rung sideOf(const QuadTable& table, const Entry& at)
     return {ids[at.side], ids[(at.side + 1) % 4]};
 }
 
-/// Whether it passes no quad twice.
+/// Returns whether a loop passes no quad twice.
 bool isSimple(const QuadLoop& loop)
 {
     std::vector<std::uint32_t> sorted = loop.quads;
@@ -33,7 +33,7 @@ bool isSimple(const QuadLoop& loop)
     return std::adjacent_find(sorted.begin(), sorted.end()) == sorted.end();
 }
 
-/// Straight on.
+/// Goes straight on.
 Entry next(const QuadTable& table, const Entry& at)
 {
     const auto [a, b] = sideOf(table, {at.quad, (at.side + 2) % 4});
@@ -53,7 +53,7 @@ std::vector<QuadLoop> straightLoops(const QuadTable& table)
         for (const int side : {0, 1}) {
             Entry at{q, side};
             if (seen(at)) continue;
-            // Back to the plane, if there is one on the way.
+            // Goes back to the plane, if there is one on the way.
             Entry first = at;
             for (Entry back{q, (side + 2) % 4};;) {
                 first = {back.quad, (back.side + 2) % 4};
@@ -84,25 +84,25 @@ std::vector<QuadLoop> straightLoops(const QuadTable& table)
 
 namespace {
 
-/// Part of a closed loop: from quad `first` to quad `last`, forward.
+/// A part of a closed loop: from quad `first` to quad `last`, forward.
 struct Arc {
     const QuadLoop* loop;
     std::size_t first, last;
 
     std::size_t length() const { return (last + loop->quads.size() - first) % loop->quads.size(); }
     std::size_t at(std::size_t i) const { return (first + i) % loop->quads.size(); }
-    /// The rungs at its ends.
+    /// Return the rungs at its ends.
     const Rung& firstRung() const { return loop->rungs[at(1)]; }
     const Rung& lastRung() const { return loop->rungs[last]; }
 };
 
-/// How much more irregular the corners of a quad become where a loop turns in it, by |valence - 4|: `one` and `other`
+/// Returns the growth of the irregularity |valence - 4| of a quad's corners where a loop turns in it; `one` and `other`
 /// are its rungs.
 int turnGrowth(const GuardedMesh& surface, const QuadTable& table, std::uint32_t q, const Rung& one, const Rung& other)
 {
     const auto irregularity = [](int edges) { return std::abs(edges - 4); };
     const std::uint32_t inner = one[0] == other[0] || one[0] == other[1] ? one[0] : one[1];
-    int merged = -7, growth = 0; // of three vertices, whose edges fall together
+    int merged = -7, growth = 0; // of three vertices whose edges fall together
     for (int i = 0; i < 4; ++i) {
         const std::uint32_t v = table.corners(q)[i];
         const auto edges = static_cast<int>(valence(surface, table, v));
@@ -116,7 +116,7 @@ int turnGrowth(const GuardedMesh& surface, const QuadTable& table, std::uint32_t
     return growth + irregularity(merged);
 }
 
-/// The loop along one arc and back along another, from its beginning or, if `isBackward`, from its end.
+/// Returns the loop along one arc and back along another, from its beginning or, if `isBackward`, from its end.
 QuadLoop joined(const Arc& a, const Arc& b, bool isBackward)
 {
     QuadLoop loop;
@@ -159,7 +159,7 @@ std::vector<QuadLoop> turningLoops(const GuardedMesh& surface, const QuadTable& 
     };
     for (std::size_t l = 0; l < straight.size(); ++l) {
         if (!straight[l].isClosed()) continue;
-        std::map<std::size_t, std::vector<std::array<std::size_t, 2>>> crossings; // by the other loop: where on both
+        std::map<std::size_t, std::vector<std::array<std::size_t, 2>>> crossings; // by the other loop: places on both
         for (std::size_t i = 0; i < straight[l].quads.size(); ++i) {
             for (const Place& place : placesOf[straight[l].quads[i]]) {
                 if (place.loop > l) crossings[place.loop].push_back({i, place.at});
@@ -183,7 +183,7 @@ std::vector<QuadLoop> turningLoops(const GuardedMesh& surface, const QuadTable& 
 bool leavesQuads(const GuardedMesh& surface, const QuadTable& table, const QuadLoop& loop)
 {
     constexpr std::size_t mostValence = 8, mostMerged = 3;
-    // Which vertices become one: few, in lists by the first of them.
+    // The vertices that become one: few, in lists by the first of them.
     std::map<std::uint32_t, std::uint32_t> into;
     std::map<std::uint32_t, std::vector<std::uint32_t>> merged;
     const auto placeOf = [&](std::uint32_t v) {

@@ -18,8 +18,8 @@ std::vector<std::uint32_t> allQuads(const QuadTable& table)
     return quads;
 }
 
-/// Makes quads of the pairs of triangles that are one in the table, `first` before others. Returns those that it could
-/// not make.
+/// Makes quads of the pairs of triangles that are one in the table, `first` before others. Returns those that it cannot
+/// make.
 std::vector<std::uint32_t> pairAll(GuardedMesh& surface, const QuadTable& table,
                                    const std::vector<std::uint32_t>& first, Interrupter* interrupter)
 {
@@ -37,7 +37,7 @@ std::vector<std::uint32_t> pairAll(GuardedMesh& surface, const QuadTable& table,
     return left;
 }
 
-/// The quads around some vertices are triangles again: so these can move more freely.
+/// Splits the quads around some vertices, so that these can move more freely.
 void splitAround(GuardedMesh& surface, const std::vector<std::uint32_t>& vertices)
 {
     for (const std::uint32_t v : vertices) {
@@ -47,8 +47,8 @@ void splitAround(GuardedMesh& surface, const std::vector<std::uint32_t>& vertice
     }
 }
 
-/// Makes all quads. Where some do not go they get ever more room than `room`, and flatten(corners) makes them flatter.
-/// Returns those that do not go either.
+/// Makes all quads. Those that fail get room of `room`, more in each round, and flatten(corners) makes them flatter.
+/// Returns those that still fail.
 template <typename Flatten>
 std::vector<std::uint32_t> pairInRounds(GuardedMesh& surface, const QuadTable& table, double room,
                                         Interrupter* interrupter, const Flatten& flatten)

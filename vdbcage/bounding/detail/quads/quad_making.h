@@ -8,16 +8,16 @@
 
 namespace vdbcage::detail {
 
-/// Makes quads of all pairs of triangles that are one in the table, under the guard. Returns those that do not go.
+/// Makes quads of all pairs of triangles that are one in the table, under the guard. Returns those that it cannot make.
 ///
-/// First all are given the room that the other diagonals need. Where some do not go they get more, and all are made
-/// flatter, in rounds.
+/// First all vertices move outward to make room for the other diagonals. In rounds, the quads that still fail get more
+/// room and all become flatter.
 /// \pre no quad is paired in the surface, which `table` is of
 /// \throw Cancelled
 std::vector<std::uint32_t> makeQuads(GuardedMesh& surface, const QuadTable& table, Interrupter* interrupter);
 
-/// The same, but vertices are only moved where a quad does not go. The surface stays nearer to the model, but more
-/// quads may be left.
+/// Does the same, but moves vertices only where a quad fails. The surface stays nearer to the model, but more quads may
+/// be left.
 std::vector<std::uint32_t> makeQuadsInPlace(GuardedMesh& surface, const QuadTable& table, Interrupter* interrupter);
 
 } // namespace vdbcage::detail

@@ -13,7 +13,7 @@ namespace vdbcage::detail {
 
 namespace {
 
-/// A sum of squares of what is linear in a place, to first order.
+/// A sum of squares of functions that are linear in a place, to first order.
 struct SquareSum {
     void add(double weight, double value, const Vec3d& slope)
     {
@@ -28,7 +28,7 @@ struct SquareSum {
     double sum = 0;
 };
 
-/// The corner at p between the ways to `one` and `other`; `moving` is which of the three moves.
+/// Adds the corner at p with the sides `one` and `other`; `moving` is the index of the point that moves.
 void addCorner(const ShapeWeights& weights, const std::array<Vec3d, 3>& corner, std::size_t moving, SquareSum& sum)
 {
     Vec3d u = corner[1] - corner[0], w = corner[2] - corner[0];
@@ -45,7 +45,7 @@ void addCorner(const ShapeWeights& weights, const std::array<Vec3d, 3>& corner, 
     if (size > bad) sum.add(weights.bad, size - bad, cosine > 0 ? slope : -slope);
 }
 
-/// The height of the diagonals above each other, in parts of half a mean side; corner 0 moves.
+/// Adds the height of the diagonals above each other, in parts of half a mean side; corner 0 moves.
 void addFold(const ShapeWeights& weights, const std::array<Vec3d, 4>& p, SquareSum& sum)
 {
     const Vec3d first = p[2] - p[0], second = p[3] - p[1];
@@ -54,8 +54,8 @@ void addFold(const ShapeWeights& weights, const std::array<Vec3d, 4>& p, SquareS
     if (!(length > 0)) return;
     normal /= length;
     const double half = 0.25 * (first.length() + second.length()) / std::sqrt(2.0);
-    // The normal turns as well, but across the height.
-    const double opposite = second.cross(p[1] - p[2]).dot(normal) / length; // where along its diagonal they pass
+    // The normal turns as well, but perpendicular to the height.
+    const double opposite = second.cross(p[1] - p[2]).dot(normal) / length; // along its diagonal, where they pass
     sum.add(weights.flat, normal.dot(p[0] - p[1]) / half, std::clamp(opposite, -1.0, 1.0) / half * normal);
 }
 

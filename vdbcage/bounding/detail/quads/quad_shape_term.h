@@ -9,11 +9,11 @@
 
 namespace vdbcage::detail {
 
-/// Weights of a quad's shape beside the integral of the distance.
+/// Weights of a quad's shape, added to the integral of the distance.
 struct ShapeWeights {
     double corners;   ///< of a corner with a cosine of 1, squared
     double free;      ///< up to this |cos| a corner costs nothing, so that distance is spent on bad corners only
-    double bad;       ///< the same again of corners beyond a |cos| of 0.6
+    double bad;       ///< an added weight of corners beyond a |cos| of 0.6
     double flat;      ///< of diagonals that pass each other at half a side's length, squared
     double unfit;     ///< of a quad that cannot bound under both diagonals, wherever the model is
     double hold = 10; ///< of a vertex of a joint's ring that is a limb's radius away from its plane, squared
@@ -23,14 +23,14 @@ struct ShapeWeights {
 struct PlaneHold {
     std::uint32_t vertex;
     Vec3d normal;
-    double offset, width; ///< normal . place is to be `offset`; a deviation is measured in widths
+    double offset, width; ///< normal . place should be `offset`; a deviation is measured in widths
 };
 
-/// Whether a quad is convex, folded no more than the surface allows, and both its splits have only angles that the
-/// guard allows, of at least 5 degrees.
+/// Returns whether a quad is convex, folded no more than the surface allows, and split either way has only angles that
+/// the guard allows, of at least 5 degrees.
 bool isFit(const GuardedMesh& surface, const std::array<Vec3d, 4>& corners);
 
-/// How far quads are from flat ones with square corners, as a term beside the integral of the distance.
+/// The deviation of quads from flat ones with square corners, as a term added to the integral of the distance.
 class QuadShapeTerm final : public ShapeTerm {
 public:
     /// `table` must outlive this.
@@ -51,7 +51,7 @@ private:
     std::vector<PlaneHold> holds_;
 };
 
-/// How far the corners of all quads are from square, in degrees.
+/// The deviation of the corners of all quads from square, in degrees.
 struct CornerAngles {
     double mean = 0, mostOf95 = 0; ///< the mean, and the 95th percentile
 };

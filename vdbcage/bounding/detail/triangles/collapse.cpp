@@ -1,8 +1,8 @@
 // Based on: Garland, Heckbert, "Surface Simplification Using Quadric Error Metrics", 1997.
 //           Sander, Gu, Gortler, Hoppe, Snyder, "Silhouette Clipping", 2000 (decimation that stays outside).
 //           Hoppe, "Progressive Meshes", 1996 (a recorded sequence of collapses answers every number of faces).
-// Differs: every collapse has to pass the guard, its vertex pushed outward until it does and then drawn along what it
-// touches to where its quadric is least.
+// Differs: every collapse must pass the guard; its vertex is pushed outward until it does, and then moved along the
+// planes of its contacts to where its quadric is least.
 
 #include <vdbcage/bounding/detail/triangles/collapse.h>
 
@@ -22,7 +22,7 @@ namespace vdbcage::detail {
 
 namespace {
 
-/// The edge u < v at the front of a queue costs least; equal costs are told apart by number.
+/// An edge u < v in a queue that has the cheapest in front; edge numbers break ties.
 struct QueuedEdge {
     static constexpr std::uint32_t none = ~std::uint32_t(0);
 
@@ -69,8 +69,8 @@ public:
         }
     }
 
-    /// Collapses batches until at most `faces` are left, of `first` that there were. It calls made(star, place) for
-    /// each collapse and ended() after each batch. A batch has the same edges whatever comes after.
+    /// Collapses batches until at most `faces` of the `first` faces are left. Calls made(star, place) for each collapse
+    /// and ended() after each batch. A batch has the same edges, whatever comes after.
     template <typename Made, typename Ended>
     void runBatches(std::size_t first, std::size_t faces, Interrupter* interrupter, const Made& made,
                     const Ended& ended)
@@ -90,7 +90,8 @@ private:
         StarChange star;
     };
 
-    /// What was blocked may be free since its surroundings changed. False if they did not.
+    /// Refills the queue: blocked collapses may be allowed since their surroundings changed. Returns false if nothing
+    /// changed.
     bool refillIfEmpty()
     {
         if (!queue_.empty()) return true;
@@ -100,7 +101,7 @@ private:
         return !queue_.empty();
     }
 
-    /// Few at a time where few are left, so that their order matters more.
+    /// Returns the size of a batch: few edges where few are left, so that their order matters more.
     std::size_t batchSize() const { return std::clamp<std::size_t>(surface_.liveFaces() / 200, 4, 64); }
 
     template <typename Made>
@@ -145,7 +146,7 @@ private:
         push(edges);
     }
 
-    /// The same only as long as no edge at either end changes: both stamps only ever grow.
+    /// Returns a number that stays the same only as long as no edge at either end changes: both stamps only grow.
     std::uint32_t stamp(std::uint32_t u, std::uint32_t v) const { return stamp_[u] + stamp_[v]; }
 
     bool isCurrent(const QueuedEdge& edge) const
@@ -177,7 +178,7 @@ private:
         }
     }
 
-    /// Gives a proposal its star and an allowed place with its cost, or takes its place away.
+    /// Finds a proposal's star and an allowed place with its cost, or removes its place.
     void find(Proposal& proposal, bool slides) const
     {
         QueuedEdge& edge = proposal.edge;
@@ -194,7 +195,7 @@ private:
 
     GuardedMesh& surface_;
     VertexQuadrics quadrics_;
-    std::vector<std::uint32_t> stamp_; // grows when an edge at the vertex changes: older entries of the queue are void
+    std::vector<std::uint32_t> stamp_; // grows when an edge at the vertex changes: older queue entries become void
     std::priority_queue<QueuedEdge> queue_;
     std::vector<Vec3d> places_; // allowed when they were found, of edges that went back into the queue
     std::size_t facesAtLastFill_ = 0;

@@ -22,7 +22,7 @@ double distanceAt(const GuardedMesh& surface, const Vec3d& p)
     return std::sqrt(surface.guard().tree().closest(p).squaredDistance);
 }
 
-/// The greatest distance from the model of the star with its centre at `p`: of its corners, edges and middles.
+/// Returns the greatest distance from the model of the star with its centre at `p`: of its corners, edges and middles.
 double greatestDistance(const GuardedMesh& surface, const StarChange& star, const Vec3d& p)
 {
     double most = distanceAt(surface, p);
@@ -35,7 +35,7 @@ double greatestDistance(const GuardedMesh& surface, const StarChange& star, cons
     return most;
 }
 
-/// The vertices that stick out, the farthest first.
+/// Returns the vertices that stick out, the farthest first.
 std::vector<std::uint32_t> peaksOf(const GuardedMesh& surface, double mean)
 {
     std::vector<std::pair<double, std::uint32_t>> found;
@@ -55,7 +55,7 @@ std::vector<std::uint32_t> peaksOf(const GuardedMesh& surface, double mean)
     return peaks;
 }
 
-/// Places for a vertex on the way to the model, the nearest to it first.
+/// Returns places for a vertex on the way to the model, the nearest to it first.
 std::vector<Vec3d> placesBelow(const GuardedMesh& surface, const Vec3d& p)
 {
     const Vec3d onModel = surface.guard().tree().closest(p).point;
@@ -67,8 +67,8 @@ std::vector<Vec3d> placesBelow(const GuardedMesh& surface, const Vec3d& p)
     return places;
 }
 
-/// Changes what is around a vertex so that less of it sticks out: it goes, or an edge near it goes or is flipped, which
-/// lets it sink. Returns false where nothing halves its distance.
+/// Reduces a peak by a change around its vertex. The vertex is removed, or an edge near it is collapsed or flipped,
+/// which lets it sink. Returns false where nothing halves its distance.
 bool flatten(GuardedMesh& surface, std::uint32_t peak)
 {
     const Vec3d at = surface.point(peak);

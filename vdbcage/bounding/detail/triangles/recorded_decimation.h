@@ -9,8 +9,8 @@ namespace vdbcage::detail {
 
 /// Decimations of one surface under a guard, to any number of face counts.
 ///
-/// They share the way from the surface to a few times the faces, which is done once. That is a third of the time (fair)
-/// to a half (fast).
+/// They share the way from the surface to a few times the faces, made once. That saves a third (fair) to a half (fast)
+/// of the time of each later one.
 class RecordedDecimation {
 public:
     /// \pre `guard` outlives this
@@ -19,9 +19,9 @@ public:
     RecordedDecimation(const Mesh& surface, const BoundingGuard& guard, const FaceWishes& wishes,
                        Interrupter* interrupter);
 
-    /// The same as decimate(), whatever was asked for before.
+    /// Returns the same as decimate(), whatever the earlier calls.
     /// \throw InputError fewer than 4 faces asked for
-    /// \throw Cancelled; it can be asked again then
+    /// \throw Cancelled; it can be called again then
     Mesh to(const BoundingDecimateOptions& options, Interrupter* interrupter);
 
 private:

@@ -1,5 +1,5 @@
 // Based on: Hoppe, DeRose, Duchamp, McDonald, Stuetzle, "Mesh Optimization", 1993 (edges split, collapsed and
-// swapped, each with its vertices placed anew, kept where the distance to the data drops).
+// swapped, each with its vertices placed again, kept where the distance to the data drops).
 // Differs: greedy in rounds of many under the guard, not one random move at a time.
 
 #include <vdbcage/bounding/detail/triangles/redistribute.h>
@@ -30,7 +30,7 @@ struct EdgeChange {
     Vec3d place{0.0};
 };
 
-/// False where there is none.
+/// Makes the star of a change. Returns false where there is none.
 bool starOf(const GuardedMesh& surface, const EdgeChange& change, StarChange& star)
 {
     if (change.centre != StarChange::none) return starOfFlip(surface, change.centre, change.a, change.b, star);
@@ -38,7 +38,7 @@ bool starOf(const GuardedMesh& surface, const EdgeChange& change, StarChange& st
     return !star.oldFaces.empty();
 }
 
-/// Gives a change its best place and what it gains there, 0 or less where it brings the surface no nearer to the model.
+/// Finds a change's best place and its gain there, 0 or less where it brings the surface no nearer to the model.
 void findPlace(const GuardedMesh& surface, const DistanceMeasure& measure, EdgeChange& change)
 {
     StarChange star;
@@ -50,7 +50,7 @@ void findPlace(const GuardedMesh& surface, const DistanceMeasure& measure, EdgeC
     double before = 0;
     std::uint32_t seed = TriangleBvh::none;
     for (const std::uint32_t f : star.oldFaces) before += measure.integral(surface.corners(f), seed);
-    // There, or a little off: the middle of an edge is rounded, and where a ridge is flipped there must be room for it.
+    // At the place, or a little off: the middle of an edge is rounded, and a flip of a ridge needs room.
     constexpr std::array<double, 4> offEdge{0.0, 1e-5, 1e-3, 0.03}, offVertex{0.0, 1e-3, 0.03, 0.1};
     for (const double off : isSplit ? offEdge : offVertex) {
         change.place = rounded(surface, star, start + off * up);
@@ -63,8 +63,7 @@ void findPlace(const GuardedMesh& surface, const DistanceMeasure& measure, EdgeC
     }
 }
 
-/// Makes those of the changes that gain, those that gain most first, until there are `faces`; no two touch the same
-/// face.
+/// Makes the changes that gain, those that gain most first, until there are `faces`; no two touch the same face.
 void makeBest(GuardedMesh& surface, std::vector<EdgeChange> changes, std::size_t faces, double areaPerSample,
               Interrupter* interrupter)
 {
@@ -110,7 +109,7 @@ void redistribute(GuardedMesh& surface, int rounds, int sweeps, Interrupter* int
     const std::size_t faces = surface.liveFaces();
     if (faces == 0) return;
     const double perSample = areaPerSample(surface, faces, samplesPerFace);
-    double share = 1; // of the faces that are added, as far as that goes, and taken away again
+    double share = 1; // of the faces that are added, if possible, and removed again
     double distance = integratedDistance(surface, perSample, interrupter);
     for (int i = 0; i < rounds; ++i) {
         const auto say = [&](int percent) { throwIfInterrupted(interrupter, (100 * i + percent) / rounds); };

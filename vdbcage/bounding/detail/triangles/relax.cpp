@@ -23,8 +23,8 @@ namespace vdbcage::detail {
 
 namespace {
 
-/// The mean of a value, added to a zero `sum`, of the vertices around the star's centre; on the plane of symmetry of
-/// both halves' together, as far as it is not turned over by the mirror image.
+/// Returns the mean of a value, added to a zero `sum`, over the vertices around the star's centre. On the plane of
+/// symmetry it is over both halves, as far as the mirror image does not reverse it.
 template <typename Sum, typename Value>
 Sum ringMean(const StarChange& star, Sum sum, const Value& value)
 {
@@ -62,7 +62,7 @@ void inflate(GuardedMesh& surface, const std::vector<std::uint32_t>& vertices, d
 
 namespace {
 
-/// The integral of the distance to the model over each face and each quad's other, by number.
+/// Returns the integral of the distance to the model over each face and each alternate, by number.
 std::vector<double> distances(const GuardedMesh& surface, double areaPerSample, Interrupter* interrupter)
 {
     const DistanceMeasure measure(surface, areaPerSample);
@@ -85,7 +85,7 @@ double sum(const std::vector<double>& values)
     return std::accumulate(values.begin(), values.end(), 0.0);
 }
 
-/// For each vertex what a value of the faces is around it, those near it counted most.
+/// Returns for each vertex the sum of a value over the faces around it, weighted most near it.
 std::vector<double> gathered(const GuardedMesh& surface, const std::vector<double>& ofFaces)
 {
     constexpr int rings = 2; // beyond the vertex's own
@@ -106,11 +106,11 @@ std::vector<double> gathered(const GuardedMesh& surface, const std::vector<doubl
     return around;
 }
 
-/// Moves the vertices around which `growth`, by face, is above 0 back to where they were `before`, if they may.
+/// Moves the vertices around which `growth`, by face, is above 0 back to their places in `before`, where allowed.
 void undoWhereGrown(GuardedMesh& surface, const GuardedMesh& before, const std::vector<double>& growth,
                     Interrupter* interrupter)
 {
-    constexpr int passes = 3; // one that its neighbours are in the way of may go when these are back
+    constexpr int passes = 3; // a vertex that neighbours block may move when these are back
     const std::vector<double> around = gathered(surface, growth);
     std::vector<std::uint32_t> vertices = allVertices(surface);
     const auto isBetter = [&](std::uint32_t v) { return !(around[v] > 0); };
@@ -175,7 +175,7 @@ void inflateTriangles(GuardedMesh& surface, double by, Interrupter* interrupter)
 
 void roundOff(GuardedMesh& surface, int sweeps, Interrupter* interrupter)
 {
-    constexpr double outwardShare = 0.02; // of the edges' length: a tight surface has no room to move in
+    constexpr double outwardShare = 0.02; // of the edges' length: a tight surface has no room to move
     const std::vector<std::uint32_t> vertices = allVertices(surface);
     std::vector<Vec3d> toAverage(surface.vertices(), Vec3d(0.0));
     for (int i = 0; i < sweeps; ++i) {

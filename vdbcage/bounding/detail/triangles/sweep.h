@@ -14,17 +14,19 @@
 /// Sweeps over the vertices of a surface, the same for any number of threads.
 namespace vdbcage::detail {
 
-/// Vertices in groups without neighbours among each other: greedy colouring in index order.
+/// Returns the vertices in groups without neighbours among each other, by greedy colouring in index order.
 std::vector<std::vector<std::uint32_t>> independentGroups(const GuardedMesh& surface,
                                                           const std::vector<std::uint32_t>& vertices);
 
 std::vector<std::uint32_t> allVertices(const GuardedMesh& surface);
 
-/// The first of the places on the way to `goal` that is allowed, and at which `shape`, if given, keeps quads fit.
+/// Returns the first allowed place on the way to `goal`, by `steps` in parts of it, at which `shape`, if given, keeps
+/// quads fit.
 std::optional<Vec3d> towards(const GuardedMesh& surface, const StarChange& star, const Vec3d& goal,
                              std::initializer_list<double> steps, const ShapeTerm* shape = nullptr);
 
-/// Asks propose(v, star), which may run on any thread, for the allowed new place of each vertex, and moves it there.
+/// Moves each vertex to the allowed place that propose(v, star) returns, if any; then calls moved(v, star, done).
+/// propose() may run on any thread.
 template <typename Propose, typename Moved>
 void sweep(GuardedMesh& surface, const std::vector<std::uint32_t>& vertices, Interrupter* interrupter,
            const Propose& propose, const Moved& moved)
@@ -36,8 +38,7 @@ void sweep(GuardedMesh& surface, const std::vector<std::uint32_t>& vertices, Int
     };
     std::vector<Proposal> proposals;
     for (const auto& group : independentGroups(surface, vertices)) {
-        // Numbers mostly follow the place: vertices spread over the group, so that the changes of a batch are far
-        // apart.
+        // Numbers mostly follow the place, so a batch takes vertices spread over the group: its changes are far apart.
         const std::size_t batches = (group.size() + batch - 1) / batch;
         for (std::size_t first = 0; first < batches; ++first) {
             const std::size_t count = (group.size() - first + batches - 1) / batches;

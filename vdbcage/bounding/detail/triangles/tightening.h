@@ -5,7 +5,7 @@
 #include <vdbcage/bounding/detail/guard/guarded_mesh.h>
 #include <vdbcage/bounding/tighten.h>
 
-/// The common code of operators under the guard.
+/// Code shared by operators under the guard.
 namespace vdbcage::detail {
 
 class ShapeTerm;
@@ -15,12 +15,13 @@ void requireFaces(std::size_t faces);
 /// \throw InputError an option out of range
 void requireValid(const TightenOptions& options);
 
-/// The mean distance of a cage from the model, as the density of the wishes counts it.
+/// Returns the mean distance of a cage from the model, weighted by the density of the wishes.
 /// \throw Cancelled
 double meanDistance(const Mesh& cage, const BoundingGuard& guard, const FaceWishes& wishes, Interrupter* interrupter);
 
-/// Does what vdbcage::tighten() does; it reports 0 to 100 % of a stage. If `shape` is given, it is part of what is to
-/// be less. \throw Cancelled
+/// Does the work of vdbcage::tighten(). If `shape` is given, it is added to the integral of the distance. Progress goes
+/// from 0 to 100 % of a stage.
+/// \throw Cancelled
 void tightenAndPerturb(GuardedMesh& surface, const TightenOptions& options, Interrupter* interrupter,
                        const ShapeTerm* shape = nullptr);
 

@@ -34,7 +34,7 @@ Quadric VertexQuadrics::sum(std::uint32_t u, std::uint32_t v) const
     q += quadrics_[v];
     const bool uOnPlane = surface_.isOnPlane(u), vOnPlane = surface_.isOnPlane(v);
     if (uOnPlane || vOnPlane) q.symmetrize(surface_.guard().symmetry()->axis);
-    if (uOnPlane && vOnPlane) q += Quadric(q); // both halves, for as many faces as others save in one
+    if (uOnPlane && vOnPlane) q += Quadric(q); // both halves, since it saves as many faces as others do in one half
     return q;
 }
 
@@ -77,7 +77,7 @@ std::optional<Vec3d> VertexQuadrics::findPlace(const StarChange& star, const Qua
     return std::nullopt;
 }
 
-/// Moves an allowed place towards the best one along what it touches.
+/// Moves an allowed place towards the best one along the planes of its contacts.
 void VertexQuadrics::slide(const StarChange& star, const Quadric& q, const Vec3d& best, Vec3d& place) const
 {
     Quadratic change;

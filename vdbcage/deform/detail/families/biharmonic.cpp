@@ -1,8 +1,8 @@
 // Based on: Thiery, Michel, Chen, "Biharmonic Coordinates and their Derivatives for Triangular 3D Cages", 2024; Weber,
 // Poranne, Gotsman, "Biharmonic Coordinates", 2012.
 // Differs: the Laplacian's data are found from both of its equations at all points of the cage and at the middles of
-// all faces, by regularised least squares, see `laplaciansOf`. Points on the cage are the limit from inside: what the
-// solid angles lack of the whole sphere belongs to the nearest place of the cage, as in green.cpp.
+// all faces, by regularised least squares, see `laplaciansOf`. Points on the cage are the limit from inside: the
+// difference of the solid angles from the whole sphere belongs to the nearest place of the cage, as in green.cpp.
 
 #include <vdbcage/deform/detail/families/biharmonic.h>
 
@@ -44,14 +44,15 @@ BiharmonicPart integrated(const std::array<Vec3d, 3>& c)
     return part;
 }
 
-/// In the plane, from the origin's foot on it, the gradient of the distance r is what the foot's offset is over r. So
-/// the divergence theorem makes integrals along the edges of what r and its powers are on the triangle.
+/// Computes the closed form. In the plane, from the origin's foot on it, the gradient of the distance r is the foot's
+/// offset over r. By the divergence theorem, integrals of r and its powers over the triangle thus become integrals
+/// along the edges.
 BiharmonicPart closedForm(const std::array<Vec3d, 3>& c, bool onFace)
 {
     const TrianglePotentials t = trianglePotentials(c, onFace);
     BiharmonicPart part;
     Vec3d offset(0);     // the integral of the offset over r
-    double distance = 0; // that of r
+    double distance = 0; // the integral of r
     for (std::size_t i = 0; i < 3; ++i) {
         const Vec3d &from = c[i], &to = c[(i + 1) % 3];
         const double square = t.foot[i] * t.foot[i] + t.height * t.height; // of the distance to the edge's line
@@ -64,7 +65,7 @@ BiharmonicPart closedForm(const std::array<Vec3d, 3>& c, bool onFace)
     for (std::size_t i = 0; i < 3; ++i) {
         const Vec3d &from = c[(i + 1) % 3], &to = c[(i + 2) % 3];
         const double atFoot = t.normal.dot(from.cross(to)) / t.area; // the corner's hat function
-        const Vec3d gradient = t.normal.cross(to - from) / t.area;   // of it
+        const Vec3d gradient = t.normal.cross(to - from) / t.area;   // the gradient of the hat function
         part.values[i] = t.hatSolid[i] / fourPi;
         part.laplacians[i] = -t.height * (atFoot * t.single + gradient.dot(offset)) / (2 * fourPi);
     }
@@ -73,14 +74,14 @@ BiharmonicPart closedForm(const std::array<Vec3d, 3>& c, bool onFace)
     return part;
 }
 
-/// What the data of the whole cage add at a point, before the solid angles are completed.
+/// The factors of the whole cage's data at a point, before the solid angles are completed.
 struct Potentials {
     double* data;       ///< of values, then of derivatives
     double* laplacians; ///< both of the Laplacian
-    std::size_t stride; ///< from number to number of both
+    std::size_t stride; ///< from number to number, of both
 };
 
-/// Returns what the solid angles lack of the whole sphere.
+/// Returns the difference of the solid angles from the whole sphere.
 double addPotentials(const UnitCage& cage, const Vec3d& x, bool touches, const Potentials& to)
 {
     const std::size_t points = cage.points().size();
@@ -126,7 +127,7 @@ struct View {
     Number* row(std::size_t i) const { return at + i * stride; }
 };
 
-/// Numbers of a view side by side, for the cache: `depth` rows of a tile's width, filled up with zeros.
+/// Packs numbers of a view side by side, for the cache: `depth` rows of a tile's width, filled up with zeros.
 void pack(View<const double> from, std::size_t depth, std::size_t columns, double* to)
 {
     for (std::size_t k = 0; k < depth; ++k, to += tile) {
@@ -134,13 +135,13 @@ void pack(View<const double> from, std::size_t depth, std::size_t columns, doubl
     }
 }
 
-/// Adds `factor` times the product of the transpose of `a`, which has `depth` rows of `rows` numbers, and `b`, of as
-/// many rows of `columns` numbers. Neither is wider than a tile.
+/// Adds `factor` times the product of the transpose of `a`, which has `depth` rows of `rows` numbers, and `b`, which
+/// has as many rows of `columns` numbers. Neither is wider than a tile.
 void addProduct(double factor, View<const double> a, View<const double> b, std::size_t depth, View<double> to,
                 std::size_t rows, std::size_t columns)
 {
     typedef double Pair __attribute__((vector_size(16)));
-    constexpr std::size_t side = 4; // what registers hold the sums of
+    constexpr std::size_t side = 4; // registers hold the sums of a square of this side
     constexpr std::size_t most = 128;
     std::vector<double> packed(2 * most * tile);
     for (std::size_t begin = 0; begin < depth; begin += most) {
@@ -190,12 +191,12 @@ void forEachTile(std::size_t first, std::size_t size, const Function& function)
     });
 }
 
-/// Puts the solution x of `matrix` x = `right` into `right`. Of `matrix`, which is positive definite, only the numbers
-/// from the diagonal on are read; they become its Cholesky factor.
+/// Replaces `right` by the solution x of `matrix` x = `right`. Only the numbers from the diagonal on are read of
+/// `matrix`, which is positive definite; they become its Cholesky factor.
 void solve(Matrix& matrix, Matrix& right, Interrupter* interrupter)
 {
     const std::size_t size = matrix.size();
-    // Rows `i` to i + `rows`: takes off what the rows above them give.
+    // Subtracts from rows `i` to i + `rows` the part of the rows above them.
     const auto reduce = [&](std::size_t i, std::size_t rows, Matrix& of, std::size_t j, std::size_t columns) {
         addProduct(-1, part(std::as_const(matrix), 0, i), part(std::as_const(of), 0, j), i, part(of, i, j), rows,
                    columns);
@@ -258,12 +259,12 @@ void solve(Matrix& matrix, Matrix& right, Interrupter* interrupter)
     }
 }
 
-/// A cage's equations. With the data of a function, `data` and `laplacians` are the rows of the equations
+/// The equations of a cage. With the data of a function, `data` and `laplacians` are the rows of the equations
 ///   data (values, derivatives) + laplacians (both of the Laplacian) = 0
 ///   data (both of the Laplacian) = 0
 /// at the points of the cage and at the middles of its faces, in this order. The first is the function's value from
-/// inside, less itself; the second is the same for its Laplacian, which is harmonic. Each is times the square root of
-/// the area it stands for.
+/// inside, minus itself; the second is the same for its Laplacian, which is harmonic. Each is multiplied by the square
+/// root of the area for which it stands.
 struct Equations {
     Matrix data, laplacians;
 };
@@ -283,7 +284,7 @@ Equations equations(const UnitCage& cage, const std::vector<double>& areas, Inte
                 for (std::size_t k = 0; k < 3; ++k) x += cage.points()[cage.faces()[i - points].at[k]] / 3;
             }
             double *data = of.data.row(i), *laplacians = of.laplacians.row(i);
-            // What is lacking goes to the place itself, and one is taken off there.
+            // The difference from the whole sphere goes to the place itself, and 1 is subtracted there.
             const double self = addPotentials(cage, x, true, {data, laplacians, 1}) - 1;
             if (i < points) {
                 data[i] += self;
@@ -300,7 +301,7 @@ Equations equations(const UnitCage& cage, const std::vector<double>& areas, Inte
     return of;
 }
 
-/// By datum of the cage: the area it stands for. Points have a third of their faces' areas.
+/// Returns for each datum of the cage the area for which it stands. Points have a third of their faces' areas.
 std::vector<double> areasOf(const UnitCage& cage, const std::vector<Vec3d>& normals)
 {
     std::vector<double> areas(cage.points().size(), 0.0);
@@ -312,16 +313,16 @@ std::vector<double> areasOf(const UnitCage& cage, const std::vector<Vec3d>& norm
     return areas;
 }
 
-/// What the values and derivatives make of the Laplacian's: see Equations. The sum of the squares of all equations is
-/// the least, plus that of the Laplacian's data over the cage, times a little.
+/// Returns the matrix from values and derivatives to the Laplacian's, see Equations. It makes least the sum of the
+/// squares of all equations, plus a little of that of the Laplacian's data over the cage.
 ///
-/// Why all equations: as many as there are data would do, say the first at the cage's points and the second at the
-/// faces. But their condition grows as the third power of the fineness, and is 1e10 in a cage of 400 faces, whose
-/// weights are in the thousands then. That of all equations grows little faster than the fineness, and is 1e4 there.
-/// Errors fall with the square of the triangles' size in both. How the two kinds weigh, from 0.1 to 10, matters little.
+/// As many equations as data would be enough, for example the first at the cage's points and the second at the faces.
+/// But their condition grows as the third power of the fineness: it is 1e10 in a cage of 400 faces, with weights in the
+/// thousands. That of all equations grows little faster than the fineness, and is 1e4 there. Errors fall with the
+/// square of the triangles' size in both. The weight between the two kinds, from 0.1 to 10, matters little.
 Matrix laplaciansOf(const UnitCage& cage, const std::vector<Vec3d>& normals, Interrupter* interrupter)
 {
-    constexpr double little = 0.03; // so that smooth functions lose nothing, and what is as fine as the triangles does
+    constexpr double little = 0.03; // damps functions as fine as the triangles, not smooth ones
     const std::vector<double> areas = areasOf(cage, normals);
     const std::size_t points = cage.points().size(), size = areas.size();
     double total = 0;
@@ -438,7 +439,7 @@ unsigned BiharmonicCage::rows(const Vec3d* points, std::size_t count, Packet* ro
     }
     for (std::size_t lane = 0; lane < count; ++lane) {
         if (outside >> lane & 1) continue;
-        // What is lacking of the whole sphere, and of what rounding left of the sum.
+        // The difference from the whole sphere, and the rounding error of the sum.
         double sum = 0;
         for (std::size_t k = 0; k < pointCount; ++k) sum += rows[k][lane];
         for (std::size_t k = 0; k < 4; ++k) {

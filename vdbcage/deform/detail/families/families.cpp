@@ -17,10 +17,10 @@ constexpr FamilyInfo givenInfo{Coordinates::given,      "given", "given", "Weigh
                                /*hasResolution*/ false,
                                /*hasElasticity*/ false};
 
-/// Weights that were made elsewhere: they have handles, but no rows.
+/// Weights made elsewhere: they have handles, but no rows.
 constexpr CoordinateFamily given{givenInfo, nullptr};
 
-/// In the order of Coordinates.
+/// The families in the order of Coordinates.
 constexpr const CoordinateFamily* families[]{&meanValue,  &green, &maximumLikelihood, &harmonic, &biharmonic,
                                              &somigliana, &given};
 static_assert(std::size(families) == static_cast<std::size_t>(Coordinates::given) + 1);

@@ -1,9 +1,9 @@
 // Based on: Lipman, Levin, Cohen-Or, "Green Coordinates", 2008; Thiery, Boubekeur, "Green Coordinates for Triquad Cages
 // in 3D", 2022.
-// Differs: the integrals over bilinear patches are integrated adaptively to a tolerance. All faces around an inner
-// point cover the whole sphere; what the computed solid angles lack of that (near edges rounding leaves 1e-16 over the
-// distance) belongs to the faces next to the point, so to the nearest place of the cage. This also defines points on
-// the cage, as the limit from inside. What is still missing of affine precision is restored at the end.
+// Differs: the integrals over bilinear patches are integrated adaptively to a tolerance. All faces around a point
+// inside cover the whole sphere; the difference of the computed solid angles from it (near edges rounding leaves 1e-16
+// over the distance) belongs to the faces next to the point, so to the nearest place of the cage. This also defines
+// points on the cage, as the limit from inside. Affine precision is restored at the end.
 
 #include <algorithm>
 #include <cmath>
@@ -19,7 +19,7 @@ using openvdb::Vec3d;
 
 namespace {
 
-/// Of a face: what its corners' positions and its normals (a triangle has one) weigh.
+/// The weights of a face's corners and normals (a triangle has one).
 struct FacePart {
     std::array<double, 4> positions{}, normals{};
 };
@@ -27,7 +27,7 @@ struct FacePart {
 FacePart integrated(const PatchCorners& corners)
 {
     FacePart part;
-    // What is left out next to the point counts for the solid angle only, which is completed at the nearest place.
+    // The part left out next to the point counts only for the solid angle, which is completed at the nearest place.
     samplePatch(corners, 1e-10, [&](const PatchSample& sample) {
         const double square = sample.point.lengthSqr();
         const double inverse = 1 / (fourPi * std::sqrt(square));
@@ -73,7 +73,8 @@ bool exactGreen(const UnitCage& cage, std::size_t face, const double (&x)[3], do
 
 namespace {
 
-/// The points' weights, then one a triangle, then four a quad. False if `x` is outside of the cage.
+/// Writes the points' weights, then one for each triangle, then four for each quad. Returns false if `x` is outside of
+/// the cage.
 bool greenRow(const UnitCage& cage, const Vec3d& x, double* row)
 {
     const std::size_t count = cage.points().size();

@@ -1,7 +1,7 @@
 // Based on: Joshi, Meyer, DeRose, Green, Sanocki, "Harmonic Coordinates for Character Articulation", 2007; Gibou,
 // Fedkiw, Cheng, Kang, "A Second-Order-Accurate Symmetric Discretization of the Poisson Equation on Irregular Domains",
 // 2002; for the preconditioner Bridson, "Fluid Simulation for Computer Graphics", 2008.
-// Differs: Joshi et al. give boundary values to the voxels that the cage meets. Here they are given where edges of the
+// Differs: Joshi et al. set boundary values in the voxels that the cage meets. Here they are set where edges of the
 // grid cross the cage, so that points are reproduced. Values near the cage are interpolated up to it.
 
 #include <vdbcage/deform/detail/families/harmonic.h>
@@ -24,11 +24,11 @@ using openvdb::Vec3d;
 namespace {
 
 constexpr double pi = 3.14159265358979323846;
-/// In voxels. What is that near is met, and no distance is taken for less.
+/// The distance, in voxels, below which something is met; no distance is taken as less.
 constexpr double nearest = 1e-10;
 
 constexpr std::size_t laneCount = 8; // a cache line
-/// Of as many cage points as are solved for together.
+/// The values of as many cage points as are solved together.
 using Lanes = std::array<double, laneCount>;
 
 template <typename Function>
@@ -40,7 +40,7 @@ void forEachLane(const Function& function)
 /// Laplace's equation on a grid, times minus one.
 class GridLaplacian {
 public:
-    /// A node's equation: `diagonal` times its value, less the values at its neighbours, is given. Neighbours are
+    /// A node's equation: `diagonal` times its value, minus the values at its neighbours, is given. Neighbours are
     /// nodes inside, below and above along each axis, or the number of nodes.
     struct Row {
         std::array<std::uint32_t, 3> below, above;
@@ -50,8 +50,8 @@ public:
     explicit GridLaplacian(std::vector<Row> rows) : rows_(std::move(rows)), pivots_(rows_.size() + 1, 0.0)
     {
         // Both as Bridson chose them.
-        constexpr double modified = 0.97; // how much of what the factors lack goes to the pivots
-        constexpr double safe = 0.25;     // a pivot that is a smaller part of its diagonal is the diagonal instead
+        constexpr double modified = 0.97; // the share of the factors' error that goes to the pivots
+        constexpr double safe = 0.25;     // a pivot below this part of its diagonal is replaced by the diagonal
         for (std::size_t i = 0; i < rows_.size(); ++i) {
             double pivot = rows_[i].diagonal;
             for (const std::uint32_t j : rows_[i].below) {
@@ -65,7 +65,7 @@ public:
     }
 
     /// Replaces the given sides by the solutions, by conjugate gradients.
-    /// \pre there is one more of `sides` than rows, and it is zero
+    /// \pre `sides` has one more element than there are rows, and it is zero
     /// \throw Cancelled
     void solve(std::vector<Lanes>& sides, Interrupter* interrupter) const
     {
@@ -74,8 +74,8 @@ public:
         const std::size_t count = rows_.size();
         std::vector<Lanes> solution(count + 1), image(count + 1), direction(count + 1);
         std::vector<Lanes>& residual = sides;
-        Lanes energy{}; // of each lane's error, about
-        // It takes no more steps than there are rows, but for rounding.
+        Lanes energy{}; // of each lane's error, roughly
+        // Except for rounding it takes no more steps than there are rows.
         for (std::size_t step = 0; step < count + 100; ++step) {
             throwIfInterrupted(interrupter);
             const Lanes before = std::exchange(energy, precondition(residual, image));
@@ -88,7 +88,7 @@ public:
                 forEachLane([&](std::size_t l) { direction[i][l] = image[i][l] + growth[l] * direction[i][l]; });
             }
             const Lanes square = apply(direction, image);
-            Lanes length{}; // a lane whose solution is found stays
+            Lanes length{}; // a lane stays when its solution is found
             forEachLane([&](std::size_t l) { length[l] = energy[l] > enough ? energy[l] / square[l] : 0; });
             for (std::size_t i = 0; i < count; ++i) {
                 forEachLane([&](std::size_t l) { solution[i][l] += length[l] * direction[i][l]; });
@@ -151,7 +151,7 @@ double determinant(const Vec3d& a, const Vec3d& b, const Vec3d& c)
     return a.dot(b.cross(c));
 }
 
-/// A face's part of the winding number around the origin.
+/// Returns a face's part of the winding number around the origin.
 double windingOf(const PatchCorners& c, bool quad)
 {
     const double m3 = determinant(c[0], c[1], c[2]);
@@ -159,8 +159,8 @@ double windingOf(const PatchCorners& c, bool quad)
     if (!quad) return winding;
     const double m1 = determinant(c[0], c[2], c[3]);
     winding += halfSolidAngle(c[0], c[2], c[3], m1) / (2 * pi);
-    // The patch is where products of opposite corners' barycentric coordinates in the tetrahedron of its corners are
-    // equal. From the two triangles to the patch that of corners 0 and 2 is the greater one.
+    // On the patch, products of opposite corners' barycentric coordinates in the tetrahedron of its corners are equal.
+    // Between the patch and its two triangles the product of corners 0 and 2 is the greater one.
     const double m0 = determinant(c[1], c[2], c[3]), m2 = determinant(c[0], c[1], c[3]);
     if (m0 * m2 > m1 * m3) {
         if (m0 > 0 && m1 < 0 && m2 > 0 && m3 < 0) winding += 1;

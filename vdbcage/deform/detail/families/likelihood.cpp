@@ -3,7 +3,7 @@
 // Differs: a face's non-negative weights of its corners are its mean value integrals, which grow without bound towards
 // it, so that also bilinear faces are interpolated. The face's vector, its corners so weighted, keeps its length
 // instead of being made a unit vector, so that many small faces far away count no more than one large one; and it is
-// divided by the square of the face's distance, so that near faces count most. Equal lengths would give back mean value
+// divided by the square of the face's distance, so that near faces count most. Equal lengths would make mean value
 // coordinates wherever these are not negative.
 
 #include <algorithm>
@@ -21,12 +21,12 @@ using openvdb::Vec3d;
 
 namespace {
 
-/// Faces nearer than about this count alike, in units of the cage's longest side.
+/// The distance, in units of the cage's longest side, below about which faces count alike.
 constexpr double nearby = 0.02;
 
-/// The s for which the sum of z / (1 + s . z) over `vectors` is zero and all 1 + s . z are positive: there the sum of
-/// their logarithms, which is concave, is greatest. Newton's method, halving steps that go too far. False if there is
-/// none: all vectors are on one side of a plane.
+/// Finds the s for which the sum of z / (1 + s . z) over `vectors` is zero and all 1 + s . z are positive. There the
+/// sum of their logarithms, which is concave, is greatest. Uses Newton's method and halves steps that go too far.
+/// Returns false if there is none: all vectors are on one side of a plane.
 bool balance(const std::vector<Vec3d>& vectors, Vec3d& s)
 {
     const auto likelihood = [&](const Vec3d& at) {
@@ -57,7 +57,7 @@ bool balance(const std::vector<Vec3d>& vectors, Vec3d& s)
         if (!(determinant > 0)) return false;
         const Vec3d direction = curvature.inverse(0.0) * gradient;
         const double decrement = direction.dot(gradient);
-        if (decrement < 1e-9) { // so close that the full step only adds digits
+        if (decrement < 1e-9) { // so near that the full step only adds digits
             if (!(likelihood(s + direction) > -std::numeric_limits<double>::infinity())) return true;
             s += direction;
             if (decrement < 1e-28) return true;
@@ -75,8 +75,8 @@ bool balance(const std::vector<Vec3d>& vectors, Vec3d& s)
     return false;
 }
 
-/// None is negative. False if `x` is outside of the cage, or if no non-negative combination of the faces is balanced
-/// around it.
+/// Writes the weights, none of them negative. Returns false if `x` is outside of the cage, or if no non-negative
+/// combination of the faces is balanced around it.
 bool likelihoodRow(const UnitCage& cage, const Vec3d& x, double* row)
 {
     const std::size_t count = cage.points().size();
@@ -89,7 +89,7 @@ bool likelihoodRow(const UnitCage& cage, const Vec3d& x, double* row)
     }
     std::vector<std::array<double, 4>> weights;
     std::vector<Vec3d> vectors;
-    double winding = 0; // along every line through the point the nearest face weighs most: positive if inside
+    double winding = 0; // along every line through the point the nearest face counts most: positive if inside
     for (const UnitCage::Face& face : cage.faces()) {
         const PatchCorners c = cage.cornersFrom(face, x);
         std::array<double, 4> w = meanValueWeights(c, face.quad);

@@ -1,8 +1,8 @@
 // Based on: Ju, Schaefer, Warren, "Mean Value Coordinates for Closed Triangular Meshes", 2005; Thiery, Memari,
 // Boubekeur, "Mean Value Coordinates for Quad Cages in 3D", 2018.
 // Differs: the integrals over bilinear patches, which have no closed form, are integrated adaptively instead of
-// approximated; so are those of triangles that are seen nearly edge-on, where the closed form cancels. What rounding
-// and integration lack of affine precision is restored at the end.
+// approximated; so are those of triangles seen nearly edge-on, where the closed form cancels. Affine precision lost by
+// rounding and integration is restored at the end.
 
 #include <vdbcage/deform/detail/families/mean_value.h>
 
@@ -30,7 +30,7 @@ std::array<double, 4> integrated(const PatchCorners& corners)
     return weights;
 }
 
-/// False if the closed form would cancel.
+/// Computes the weights. Returns false if the closed form would cancel.
 bool closedForm(const PatchCorners& c, std::array<double, 4>& weights)
 {
     std::array<Vec3d, 3> crosses; // of the edge opposite the corner
@@ -80,7 +80,7 @@ bool exactMeanValue(const UnitCage& cage, std::size_t face, const double (&x)[3]
 
 namespace {
 
-/// They exist everywhere.
+/// Writes the weights; they exist everywhere.
 bool meanValueRow(const UnitCage& cage, const Vec3d& x, double* row)
 {
     const std::size_t count = cage.points().size();

@@ -7,8 +7,8 @@
 
 namespace vdbcage::detail {
 
-/// For each corner the integral of its basis function over the distance. The integral is over the part of the unit
-/// sphere that the face covers, seen from the origin. It is negative where the face is seen from behind.
+/// Returns for each corner the integral of its basis function divided by the distance, over the part of the unit sphere
+/// that the face covers, seen from the origin. It is negative where the face is seen from behind.
 /// \pre the origin is not on the face
 std::array<double, 4> meanValueWeights(const PatchCorners& corners, bool quad);
 

@@ -22,13 +22,13 @@ struct PatchSample {
 /// Integrates functions over a bilinear patch: calls `visit` with samples to be summed up. The relative error is about
 /// 1e-9.
 ///
-/// The functions are smooth in u and v but where the patch comes close to the origin. Powers of the distance times
-/// polynomials are such.
+/// The functions must be smooth in u and v except where the patch comes close to the origin, such as powers of the
+/// distance times polynomials.
 ///
-/// The patch is halved until each piece can be integrated by a Gauss rule of known accuracy. Take a function of u that
-/// is analytic within the ellipse around [-1, 1] with half axes of sum r. Then n Gauss points err by r^(-2n). Take a
-/// line of half length s at the distance d from the origin. The distance is zero at complex u no nearer to the line
-/// than d / s. The ellipse through there has r = d / s + sqrt(1 + (d / s)^2), or more.
+/// The patch is halved until each piece can be integrated by a Gauss rule of known accuracy. For a function of u that
+/// is analytic within the ellipse around [-1, 1] whose half axes have the sum r, the error of n Gauss points is
+/// r^(-2n). On a line of half length s at the distance d from the origin, the distance to the origin has its zeros at
+/// complex u no nearer to the line than d / s. The ellipse through them has r = d / s + sqrt(1 + (d / s)^2), or more.
 ///
 /// Pieces smaller than `least`, in the units of the corners, are left out.
 template <typename Visit>
@@ -41,9 +41,9 @@ void samplePatch(const PatchCorners& corners, double least, const Visit& visit)
     };
     constexpr double digits = 9 * 2.302585092994046; // of the tolerance
     constexpr double caution = 0.8;                  // the function grows towards the ellipse
-    constexpr int leastPoints = 4;                   // exact for what is polynomial in it
-    // Ten times what the nearest points of regular patches need. Where the corners are in line and so is the origin, a
-    // whole curve of u and v is at it; such a patch has no area, and weights next to none.
+    constexpr int leastPoints = 4;                   // exact for polynomial functions
+    // Ten times as many as the nearest points of regular patches need. Where the corners and the origin are in line, a
+    // whole curve of u and v is at the origin; such a patch has no area, and its weights are almost zero.
     constexpr int mostSplits = 10000;
 
     std::array<Piece, 256> stack;

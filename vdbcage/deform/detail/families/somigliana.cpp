@@ -1,11 +1,10 @@
 // Based on: Chen, de Goes, Desbrun, "Somigliana Coordinates: an elasticity-derived approach for cage deformation",
 // 2023; for the integration by parts Kupradze and others, "Three-Dimensional Problems of the Mathematical Theory of
 // Elasticity and Thermoelasticity", 1979; for the closed forms see triangle_potentials.h.
-// Differs: the integral of the displacements is taken by parts, so that what is left of it are Green's coordinates of
-// the points, and the triangles' integrals of Kelvin's solution. These need six numbers a triangle, whatever the
-// material is, in place of nine a point and nine a triangle for one material. Matrices are turned by triangle, not by
-// point: then they need no division by their sum to move along with the cage. The scale of the cage is that of its
-// volume.
+// Differs: the integral of the displacements is taken by parts, which leaves Green's coordinates of the points and the
+// triangles' integrals of Kelvin's solution. These need six numbers a triangle for any material, in place of nine a
+// point and nine a triangle for one material. Matrices are turned by triangle, not by point: then they move along with
+// the cage without a division by their sum. The scale of the cage is that of its volume.
 //
 // Somigliana's identity: u(x) is the integral of K t - T u over the cage, for Kelvin's solution K = (3 - 4 nu) / r +
 // r r^T / r^3, over 16 pi mu (1 - nu), its traction T, and the traction t that belongs to u. By parts, -T u becomes
@@ -38,7 +37,7 @@ Vec3d unit(const Vec3d& v)
     return length > 0 ? v / length : Vec3d(0);
 }
 
-/// Of edges `a` and `b` from the first corner. All zero if the triangle has no area.
+/// Returns the frame of edges `a` and `b` from the first corner; all zero if the triangle has no area.
 FaceFrame faceFrame(const Vec3d& a, const Vec3d& b)
 {
     const Vec3d normal = unit(a.cross(b));
@@ -47,7 +46,7 @@ FaceFrame faceFrame(const Vec3d& a, const Vec3d& b)
     return {normal, first, normal.cross(first)};
 }
 
-/// Of a triangle: what its corners weigh, and its matrix.
+/// The weights of a triangle's corners, and its matrix.
 struct FacePart {
     std::array<double, 3> positions{};
     std::array<double, somiglianaWeights> matrix{};
@@ -100,13 +99,13 @@ FacePart facePart(const PatchCorners& corners, const FaceFrame& frame, bool onFa
                                                                       : closedForm(corners, frame, onFace);
 }
 
-/// A rotation around `from`, which goes to `to`.
+/// A rotation around `from`, which moves to `to`.
 struct Motion {
     Vec3d from{0}, to{0};
     Mat3d rotation = Mat3d::identity();
 };
 
-/// What takes the points `from` nearest to `to`, by `weights`: Kabsch 1976.
+/// Returns the motion that brings the points `from` nearest to `to`, by `weights`: Kabsch 1976.
 Motion bestMotion(const std::vector<Vec3d>& from, const std::vector<Vec3d>& to, const std::vector<double>& weights)
 {
     double total = 0;
@@ -137,7 +136,7 @@ Motion bestMotion(const std::vector<Vec3d>& from, const std::vector<Vec3d>& to, 
     return motion;
 }
 
-/// The normals of the points, by area.
+/// Returns the normals of the points, by area.
 std::vector<Vec3d> pointNormals(const std::vector<Vec3d>& points, const std::vector<openvdb::Vec3I>& triangles)
 {
     std::vector<Vec3d> normals(points.size(), Vec3d(0));
@@ -176,10 +175,10 @@ public:
         const double nu = elasticity_.nu, share = 1 / (4 * (1 - nu));
         for (const Face& face : faces_) {
             const FaceFrame& f = face.turned;
-            // In the frame: M u, and the traction without the 2 mu M u that Kelvin's solution has with it.
+            // In the frame: M u, and the traction without the 2 mu M u that accompanies it in Kelvin's solution.
             const Vec3d turning(-face.gradient[0][1] - face.gradient[1][2], face.gradient[0][0], face.gradient[1][0]);
             const Vec3d pull = share * (Vec3d(face.traction, 0, 0) - 2 * turning);
-            const Vec3d single = (3 - 4 * nu) * pull + turning; // belongs to 1 / r, the trace of the matrix
+            const Vec3d single = (3 - 4 * nu) * pull + turning; // for 1 / r, the trace of the matrix
             const Vec3d onTrace = single[0] * f[0] + single[1] * f[1] + single[2] * f[2];
             for (std::size_t i = 0; i < 3; ++i) {
                 for (std::size_t j = i; j < 3; ++j) {
@@ -192,11 +191,11 @@ public:
 
 private:
     struct Face {
-        FaceFrame turned; ///< its frame at rest, as the pose turns it
+        FaceFrame turned; ///< its frame at rest, turned by the pose
         double area;      ///< twice that at rest
         double stretch;
         double traction;
-        /// Derivatives of the place along the frame's second and third vector, by `turned`.
+        /// Derivatives of the place along the frame's second and third vector, in the axes of `turned`.
         std::array<Vec3d, 2> gradient;
     };
 
@@ -234,7 +233,7 @@ private:
         return face;
     }
 
-    /// Of each triangle, what its stretch along the normal is more than that in the plane, as a factor's logarithm.
+    /// Returns for each triangle the stretch along the normal over that in the plane, as a factor's logarithm.
     std::vector<double> bulging(double volume) const
     {
         std::vector<double> bulges(triangles_.size(), 0.0);
@@ -257,12 +256,12 @@ private:
                 bulges[i] += elasticity_.globalBulging * swept(fitted, triangles_[i]) / scaled;
             }
         }
-        constexpr double most = 3; // a triangle that went far does not explode
+        constexpr double most = 3; // keeps a triangle that moved far from exploding
         for (double& bulge : bulges) bulge = std::clamp(bulge, -most, most);
         return bulges;
     }
 
-    /// The points at rest, scaled, turned and moved as near to the pose as that brings them.
+    /// Returns the points at rest, scaled, turned and moved as near to the pose as possible.
     std::vector<Vec3d> bestFit() const
     {
         std::vector<Vec3d> fitted;
@@ -270,7 +269,7 @@ private:
         return fitted;
     }
 
-    /// Six times the volume that a triangle goes through from `from` to the pose, outward.
+    /// Returns six times the volume that a triangle sweeps from `from` to the pose, outward.
     double swept(const std::vector<Vec3d>& from, const openvdb::Vec3I& t) const
     {
         // The flux is a polynomial of degree 2 in time: Simpson's rule is exact.
@@ -282,14 +281,14 @@ private:
         return (flux(0) + 4 * flux(0.5) + flux(1)) / 6;
     }
 
-    /// That of a linear material, over mu, for a stretch in the plane and one along the normal.
+    /// Returns the traction of a linear material, over mu, for a stretch in the plane and one along the normal.
     double traction(double stretch, double bulge) const
     {
         const double along = stretch * std::exp(bulge);
         return 2 * (along + elasticity_.nu / (1 - 2 * elasticity_.nu) * (2 * stretch + along));
     }
 
-    /// Takes off the least, in the sum of squares by area, for which all tractions together are no force.
+    /// Changes the tractions by the least, in the sum of squares by area, so that together they are no force.
     void balance()
     {
         Mat3d normals = Mat3d::zero();
@@ -330,9 +329,9 @@ bool exactSomigliana(const UnitCage& cage, std::size_t face, const double (&x)[3
 
 namespace {
 
-/// Those of the points, which are Green's, then for each triangle the integral of r r^T / |r|^3 over it, over 4 pi,
-/// where r is the way from `x`: the symmetric matrix in the triangle's frame, as nn, n1, n2, 11, 12, 22. False if `x`
-/// is outside of the cage. \pre the cage has triangles only
+/// Writes the weights of the points, which are Green's, then for each triangle the integral of r r^T / |r|^3 over it,
+/// over 4 pi, where r is the vector from `x`: the symmetric matrix in the triangle's frame, as nn, n1, n2, 11, 12, 22.
+/// Returns false if `x` is outside of the cage. \pre the cage has triangles only
 bool somiglianaRow(const UnitCage& cage, const Vec3d& x, double* row)
 {
     const std::size_t count = cage.points().size();
@@ -362,7 +361,7 @@ void addHandles(const Mesh& cage, const std::vector<Vec3d>& posed, const Coordin
     CagePose(cage, posed, options.elasticity).addHandles(handles);
 }
 
-/// They are about as long at rest.
+/// Appends their distances: they are about as long at rest.
 void addMaxDistances(const Mesh& cage, std::vector<float>& maxDistances)
 {
     maxDistances.insert(maxDistances.end(), somiglianaWeights * (cage.triangles.size() + 2 * cage.quads.size()), 4.0F);

@@ -3,8 +3,8 @@
 #include <cstddef>
 #include <cstdint>
 
-// Plain data only: sources that are compiled for one instruction set each read this, and must not leave a function of
-// theirs to the linker's choice.
+// Plain data only: sources compiled for one instruction set each read this. Inline functions here would be compiled for
+// each set, and the linker would keep any one of them.
 
 namespace vdbcage::detail {
 
@@ -27,10 +27,10 @@ struct KernelTriangle {
     double outward[3][3];  ///< in the plane, square to the edge, of length 1
     double flat[3][2];     ///< the same by the last two vectors of faceFrame()
     double along[3][3];    ///< of two edges, as the triangle runs: the one's direction dot the other, over `area`
-    bool sliver;           ///< normal and lengths have no digits
+    bool sliver;           ///< too narrow: normal and lengths have no valid digits
 };
 
-/// How large a part of a bilinear patch is.
+/// The extent of a part of a bilinear patch.
 struct PatchExtent {
     double middle[3]; ///< mean of the corners
     double radius;    ///< of the corners, around it
@@ -42,7 +42,7 @@ struct KernelQuad {
     PatchExtent extent;
 };
 
-/// Gauss rules on [0, 1], and how far from a line of half length 1 each suffices.
+/// Gauss rules on [0, 1], and the least distance from a line of half length 1 at which each suffices.
 struct KernelRules {
     static constexpr int fewest = 3, most = 12;
     double at[most + 1][most], weight[most + 1][most];

@@ -1,8 +1,8 @@
 #pragma once
 
-// Arithmetic on several doubles at a time. For sources that are compiled for one instruction set each: all is local to
-// the source, so that no other runs what its processor does not know. Every operation is one of IEEE 754 on each lane
-// by itself: all instruction sets, of any width, give the same bits.
+// Arithmetic on several doubles at a time, for sources compiled for one instruction set each. All is local to the
+// source, so that no other source runs instructions that its processor lacks. Every operation is one of IEEE 754 on
+// each lane alone: all instruction sets, of any width, return the same bits.
 
 #include <cstddef>
 #include <cstdint>
@@ -57,7 +57,7 @@ inline Lanes abs(Lanes lanes)
     return (Lanes)((Mask)lanes & INT64_MAX);
 }
 
-/// The number with the sign of `sign` added to its own.
+/// Returns `lanes`, with the sign flipped where `sign` is negative.
 inline Lanes signedBy(Lanes lanes, Lanes sign)
 {
     return (Lanes)((Mask)lanes ^ ((Mask)sign & INT64_MIN));
@@ -87,7 +87,7 @@ inline Lanes squareRoot(Lanes lanes)
 #endif
 }
 
-/// A bit a lane.
+/// Returns a bit for each lane.
 inline unsigned bits(Mask mask)
 {
 #if defined(__AVX512F__)
@@ -122,7 +122,7 @@ inline Vector operator*(Lanes s, Vector a)
     return {s * a.x, s * a.y, s * a.z};
 }
 
-/// From lanes to one place.
+/// Returns the vectors from each lane's point to one place.
 inline Vector towards(const double (&place)[3], Vector from)
 {
     return {place[0] - from.x, place[1] - from.y, place[2] - from.z};
@@ -143,10 +143,10 @@ inline Vector cross(Vector a, Vector b)
     return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
-/// The angle, 0 to pi, whose tangent is y / x; y is not negative. Off by about 1e-16.
+/// Returns the angle, 0 to pi, whose tangent is y / x; y is not negative. It is off by about 1e-16.
 ///
-/// An eighth of a turn or a quarter is taken off first, so that the rest has a tangent of at most tan(pi / 8). The
-/// polynomial interpolates atan(t) / t at Chebyshev's points of t^2: it is off by 4e-17.
+/// It first subtracts pi / 4 or pi / 2, so that the rest has a tangent of at most tan(pi / 8). The polynomial
+/// interpolates atan(t) / t at the Chebyshev points of t^2 and is off by 4e-17.
 inline Lanes angleOf(Lanes y, Lanes x)
 {
     constexpr double pi = 3.14159265358979323846, tangent = 0.41421356237309504880; // of pi / 8
@@ -170,10 +170,11 @@ inline Lanes angleOf(Lanes y, Lanes x)
 /// The largest quotient that areaTangent() takes.
 constexpr double mostQuotient = 0.99927;
 
-/// atanh(n / d), 0 <= n <= mostQuotient d. Off by a few units of the last place of the quotient's distance from 1.
+/// Returns atanh(n / d), for 0 <= n <= mostQuotient d. It is off by a few units in the last place of the quotient's
+/// distance from 1.
 ///
-/// A multiple of 0.88 is taken off first, so that the rest has a tanh of at most tanh(0.44). The polynomial
-/// interpolates as in angleOf(): it is off by 1e-17.
+/// It first subtracts a multiple of 0.88, so that the rest has a tanh of at most tanh(0.44). The polynomial
+/// interpolates as in angleOf() and is off by 1e-17.
 inline Lanes areaTangent(Lanes n, Lanes d)
 {
     struct Part {

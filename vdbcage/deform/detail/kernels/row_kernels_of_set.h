@@ -1,11 +1,11 @@
 // Based on: the papers of the families mean_value, green, likelihood and somigliana, of which these are the formulas in
-// vectors. Differs: what belongs to an edge, its angle or potential, is computed once for both triangles. Determinants
-// and feet of perpendiculars come from the faces' planes. The damping of Newton's method is that of self-concordant
-// functions (Nesterov and Nemirovskii, "Interior-Point Polynomial Algorithms in Convex Programming", 1994): it needs no
-// trials. Where rounding or a singularity is near, the scalar formulas take over.
+// vectors. Differs: the angle or potential of an edge is computed once for both of its triangles. Determinants and feet
+// of perpendiculars come from the faces' planes. The damping of Newton's method is that of self-concordant functions
+// (Nesterov and Nemirovskii, "Interior-Point Polynomial Algorithms in Convex Programming", 1994): it needs no trials.
+// Where rounding or a singularity is near, the scalar formulas take over.
 
-// Included once for each instruction set; see lanes.h. VDBCAGE_KERNELS is the name of the table, with
-// VDBCAGE_INSTRUCTIONS.
+// Included once for each instruction set; see lanes.h. VDBCAGE_KERNELS is the name of the table, VDBCAGE_INSTRUCTIONS
+// that of its instruction set.
 
 #include <vdbcage/deform/detail/kernels/lanes.h>
 #include <vdbcage/deform/detail/kernels/row_kernels.h>
@@ -36,8 +36,8 @@ void seeCorners(const KernelCage& cage, Vector x, Corner* corners)
     }
 }
 
-/// Divides the points' weights by `sum`, and makes them reproduce affine maps. `normals` is what other columns add to
-/// the place at rest.
+/// Divides the points' weights by `sum`, and makes them reproduce affine maps. `normals` is the part of the place at
+/// rest that other columns add.
 void restorePrecision(const KernelCage& cage, Vector x, double (*rows)[packetSize], int first, Lanes sum,
                       Vector normals)
 {
@@ -53,7 +53,7 @@ void restorePrecision(const KernelCage& cage, Vector x, double (*rows)[packetSiz
 
 // --- Bilinear patches
 
-/// A part of a patch: its corners, and where it is in the patch.
+/// A part of a patch: its corners, and its place in the patch.
 struct Piece {
     double c[4][3];
     PatchExtent extent;
@@ -83,7 +83,7 @@ PatchExtent extentOf(const double (&c)[4][3])
     return extent;
 }
 
-/// The halves of `piece` across its longer side.
+/// Halves `piece` across its longer side.
 void halve(const Piece& piece, Piece& a, Piece& b)
 {
     const bool inU = piece.extent.halfU > piece.extent.halfV;
@@ -109,8 +109,8 @@ void halve(const Piece& piece, Piece& a, Piece& b)
     b.extent = extentOf(b.c);
 }
 
-/// What is the same for all samples of a patch along u: there the normal, dp/du x dp/dv, is linear, and so is its
-/// product with the place; the square of the distance is quadratic.
+/// The polynomials shared by all samples of a patch along u: the normal, dp/du x dp/dv, is linear there, and so is its
+/// dot product with the place; the square of the distance is quadratic.
 struct PatchRow {
     Lanes product[2], square[3]; // by power of s, which is 0 to 1
 };
@@ -138,7 +138,7 @@ PatchRow patchRow(const Piece& piece, double t, Vector x)
     return {{dot(normal, place), dot(normalTurn, place)}, {dot(place, place), 2 * dot(along, place), all(square)}};
 }
 
-/// Integrates over a piece by a Gauss rule of so many points, see integratePatch().
+/// Integrates over a piece by Gauss rules of `pointsU` and `pointsV` points, see integratePatch().
 template <int functions, typename Value>
 void integratePiece(const Piece& piece, const KernelRules& rules, int pointsU, int pointsV, Vector x,
                     Lanes (&sums)[functions][4], const Value& value)
@@ -173,16 +173,17 @@ void integratePiece(const Piece& piece, const KernelRules& rules, int pointsU, i
     }
 }
 
-/// Integrates functions of a bilinear patch over u and v, each times the basis functions of the corners. See
-/// samplePatch(), of which this is the same subdivision, by lane.
+/// Integrates functions of a bilinear patch over u and v, each times the basis functions of the corners. It subdivides
+/// as samplePatch() does, by lane.
 ///
-/// `value(product, square, values)` has the place's product with dp/du x dp/dv and its square; values[1] is for
-/// functions that lack the former, and so are by u and v of the piece. Returns the lanes that are too near.
+/// value(product, square, values) gets the place's dot product with dp/du x dp/dv and its square. values[1] is for
+/// functions without the product; it is scaled by the area of the piece in u and v. Returns the lanes that are too
+/// near.
 template <int functions, typename Value>
 Mask integratePatch(const KernelCage& cage, const KernelQuad& quad, Vector x, Lanes (&sums)[functions][4],
                     const Value& value)
 {
-    constexpr double caution = 0.8, smallest = 1e-5; // pieces so small are for the scalar formulas
+    constexpr double caution = 0.8, smallest = 1e-5; // the scalar formulas compute smaller pieces
     constexpr int room = 128;
     const KernelRules& rules = *cage.rules;
     for (auto& sum : sums) {
@@ -250,7 +251,7 @@ struct SeenEdge {
     Lanes angle, factor; // half the angle over the normal's length
 };
 
-/// Calls `take(face, corners, count, weights)` for each face; the weights are those of meanValueWeights(). Returns the
+/// Calls take(face, corners, count, weights) for each face; the weights are those of meanValueWeights(). Returns the
 /// lanes that are too near the cage.
 template <typename Take>
 Mask forEachMeanValue(const KernelCage& cage, Vector x, void* scratch, const Take& take)
@@ -321,7 +322,7 @@ unsigned meanValueRows(const KernelCage& cage, const double (*x)[packetSize], vo
             sum += load(at(i));
             size += abs(load(at(i)));
         }
-        near |= ~(abs(sum) > 0.5 * size); // far outside they cancel, digits and all
+        near |= ~(abs(sum) > 0.5 * size); // far outside they cancel, and digits are lost
         leftOut |= bits(near) << first;
         restorePrecision(cage, place, rows, first, sum, Vector{});
     }
@@ -331,8 +332,8 @@ unsigned meanValueRows(const KernelCage& cage, const double (*x)[packetSize], vo
 // --- Green and Somigliana coordinates
 
 struct SeenPotential {
-    Lanes potential; // -1 where it is for the scalar formula
-    Lanes product;   // its ends' places, multiplied
+    Lanes potential; // -1 where the scalar formula computes it
+    Lanes product;   // the dot product of its ends' places
 };
 
 void seePotentials(const KernelCage& cage, const Corner* corners, SeenPotential* edges)
@@ -347,7 +348,7 @@ void seePotentials(const KernelCage& cage, const Corner* corners, SeenPotential*
     }
 }
 
-/// See TrianglePotentials; edge i is opposite corner i.
+/// The potentials of a triangle, see TrianglePotentials; edge i is opposite corner i.
 struct SeenTriangle {
     Lanes height, solid, single, potentials[3], feet[3], hatSolid[3];
     Mask bad; // for the scalar formula
@@ -379,7 +380,7 @@ SeenTriangle seeTriangle(const KernelCage& cage, const KernelTriangle& t, const 
     return seen;
 }
 
-/// Calls `replace(lane, place)` for each lane that is for the scalar formula.
+/// Calls replace(lane, place) for each lane that the scalar formula computes.
 template <typename Replace>
 void forEachBad(Mask bad, Vector x, const Replace& replace)
 {
@@ -390,9 +391,9 @@ void forEachBad(Mask bad, Vector x, const Replace& replace)
     }
 }
 
-/// Rows that begin with the solid angles of the points' hat functions. `faces(x, first, corners, edges, near)` adds
-/// them and stores the other columns; it marks lanes that are too near, and returns what the normals add to the place
-/// at rest.
+/// Computes rows that begin with the solid angles of the points' hat functions. faces(x, first, corners, edges, near)
+/// adds them, stores the other columns and marks lanes that are too near. It returns the part of the place at rest that
+/// the normals add.
 template <typename Faces>
 unsigned solidAngleRows(const KernelCage& cage, const double (*x)[packetSize], void* scratch,
                         double (*rows)[packetSize], const Faces& faces)
@@ -409,7 +410,7 @@ unsigned solidAngleRows(const KernelCage& cage, const double (*x)[packetSize], v
         const Vector normals = faces(place, first, corners, edges, near);
         Lanes sum = all(0);
         for (std::size_t i = 0; i < cage.pointCount; ++i) sum += load(&rows[i][first]);
-        near |= ~(abs(1 - sum) < 1e-8); // digits are lacking, or the point is on the cage or outside
+        near |= ~(abs(1 - sum) < 1e-8); // digits are lost, or the point is on the cage or outside
         restorePrecision(cage, place, rows, first, sum, normals);
         leftOut |= bits(near) << first;
     }
@@ -512,7 +513,7 @@ struct SeenFace {
     Lanes weights[4];
 };
 
-/// See balance() of likelihood.cpp. Returns the lanes for which it did not end.
+/// Does the same as balance() of likelihood.cpp. Returns the lanes where it did not converge.
 Mask balance(const SeenFace* faces, std::size_t count, Vector& s)
 {
     constexpr int mostSteps = 100;
@@ -610,7 +611,7 @@ Floats loadFloats(const float* from)
     return lanes;
 }
 
-/// The sum of `floatLanes` numbers, in order.
+/// Returns the sum of `floatLanes` numbers, in order.
 float sumOf(const Floats* parts)
 {
     float sum = 0;
@@ -620,7 +621,7 @@ float sumOf(const Floats* parts)
     return sum;
 }
 
-/// projectRows() of `count` rows: their sums are independent, so that none waits for another.
+/// Projects `count` rows. Their sums are independent, so none waits for another.
 template <std::size_t count>
 void projectTogether(float* const* rows, const float* pivot, float inverseSquare, std::size_t columns, float* factors,
                      float* sizes)

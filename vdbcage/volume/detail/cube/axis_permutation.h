@@ -8,7 +8,7 @@
 #include <vdbcage/core/detail/word_bits.h>
 #include <vdbcage/volume/detail/mask_blocks.h>
 
-/// The cyclic permutation of the axes that makes (y, z, x) of (x, y, z). Three of them are none.
+/// The cyclic permutation of the axes that makes (y, z, x) of (x, y, z). Three of them are the identity.
 namespace vdbcage::detail {
 
 inline Coord permuted(const Coord& c)
@@ -16,7 +16,7 @@ inline Coord permuted(const Coord& c)
     return {c.y(), c.z(), c.x()};
 }
 
-/// Two words side by side: vectors of that size every machine has.
+/// Two words side by side: a vector size that every machine has.
 typedef std::uint64_t WordPair __attribute__((vector_size(16)));
 /// The words of an entry.
 using WordPairs = std::array<WordPair, 4>;
@@ -32,12 +32,12 @@ inline void interleaveBytes(WordPair& a, WordPair& b)
         __builtin_shufflevector(x, y, 8, 24, 9, 25, 10, 26, 11, 27, 12, 28, 13, 29, 14, 30, 15, 31));
 }
 
-/// The bits of an entry, permuted: bit 8 y + z of word x moves to bit 8 z + x of word y.
+/// Returns the bits of an entry, permuted: bit 8 y + z of word x moves to bit 8 z + x of word y.
 inline Words permuted(WordPairs w)
 {
-    // The three bits of x and of z in a voxel's place are exchanged one by one, in words two by two, which takes half
-    // of what it takes within a word. Interleaving permutes the bytes; the first of it comes early, as it parts the
-    // words of odd and even x.
+    // The three bits of x and of z in a voxel's place are exchanged one by one, in pairs of words, which takes half the
+    // time of an exchange within a word. Interleaving permutes the bytes; the first of it comes early, since it
+    // separates the words of odd and even x.
     swapBits(w[0], w[2], 0x0F0F0F0F0F0F0F0FULL, 4);
     swapBits(w[1], w[3], 0x0F0F0F0F0F0F0F0FULL, 4);
     swapBits(w[0], w[1], 0x3333333333333333ULL, 2);

@@ -9,14 +9,14 @@ namespace vdbcage::detail {
 
 namespace {
 
-constexpr std::size_t longestRow = 4; // longer ones share more, but leave the last thread alone with one
+constexpr std::size_t longestRow = 4; // longer ones share more, but leave the last thread with one alone
 
 bool isBefore(const Coord& a, const Coord& b)
 {
     return permuted(a) < permuted(b); // x last
 }
 
-// Those within the segment of a block on the shell, sorted.
+// Returns the blocks within the segment of a block on the shell, sorted.
 std::vector<Coord> candidates(const Foreground& foreground, const Segment& segment, const Progress& progress)
 {
     std::vector<Coord> shell = foreground.mask.shell();
@@ -32,7 +32,7 @@ std::vector<Coord> candidates(const Foreground& foreground, const Segment& segme
     return result;
 }
 
-// Whether the block `steps` blocks along x from another, behind it or, below 0, before it, has foreground within the
+// Returns whether the block `steps` blocks along x after another (before it, if below 0) has foreground within the
 // segment of that one.
 bool isWithin(const Foreground& foreground, const Segment& segment, const Coord& origin, int steps)
 {

@@ -9,14 +9,14 @@
 
 namespace vdbcage::detail {
 
-/// Blocks side by side along x, which share most of what they look at.
+/// Blocks side by side along x, which share most of their neighbours.
 struct BlockRow {
     Coord first;
     std::size_t blocks;
     std::size_t start; ///< of its blocks among those of all rows
 };
 
-/// The blocks that a dilation along x changes or may change. They are not full, but have foreground within the segment.
+/// Returns the blocks that a dilation along x may change: they are not full, but have foreground within the segment.
 /// \throw Cancelled
 std::vector<BlockRow> rowsToDilate(const Foreground& foreground, const Segment& segment, const Progress& progress);
 

@@ -1,6 +1,6 @@
 // A cube is the sum of three segments, so a dilation by it is three passes along one axis each. All three are the same
-// code: a pass works along x, where the 64 voxels of a word are 64 lanes, and permutes the axes as it writes, (x, y, z)
-// becoming (y, z, x); after three passes they are as before. An erosion is the dilation of the complement.
+// code: a pass works along x, where the 64 voxels of a word are 64 lanes, and permutes the axes as it writes: (x, y, z)
+// becomes (y, z, x). After three passes they are as before. An erosion is the dilation of the complement.
 #include <vdbcage/volume/detail/cube/cube_pass.h>
 
 #include <atomic>
@@ -15,7 +15,7 @@ namespace vdbcage::detail {
 
 namespace {
 
-// Makes a block of what was found of the foreground, which `flip` turns into the mask.
+// Finishes a block from the foreground found in it, which `flip` turns into the mask.
 void finish(FlatBlock& block, std::uint64_t flip)
 {
     for (std::size_t n = 0; n < FlatBlock::wordCount && flip != 0; ++n) {
@@ -23,7 +23,7 @@ void finish(FlatBlock& block, std::uint64_t flip)
         block.some[n] = ~block.full[n];
         block.full[n] = ~some;
     }
-    block.words = std::vector<Words>(block.words); // no longer than it must be: it is read from cache
+    block.words = std::vector<Words>(block.words); // no longer than needed: it is read from cache
     block.finish();
 }
 
@@ -52,7 +52,7 @@ void dilateRow(const Foreground& foreground, const Segment& segment, const Block
     for (std::size_t i = 0; i < row.blocks; ++i) finish(*result[i], foreground.flip);
 }
 
-// The mask with its foreground dilated along x, its axes permuted.
+// Returns the mask with its foreground dilated along x and its axes permuted.
 EntrySet dilatedAlongX(const Foreground& foreground, const Segment& segment, const Progress& progress)
 {
     progress.check(0, 1);

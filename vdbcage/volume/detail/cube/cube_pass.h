@@ -13,9 +13,9 @@ struct CubeStep {
     int radius; ///< in voxels
 };
 
-/// The mask after the steps, one after the other. Only the last result becomes a tree.
+/// Returns the mask after the steps, one after the other. Only the last result becomes a tree.
 /// \throw Cancelled
-/// Cost: O(blocks on the mask's surface) for each step, whatever the radius.
+/// Cost: O(blocks on the mask's surface) for each step, for any radius.
 MaskTree::Ptr applyCube(const MaskTree& mask, std::initializer_list<CubeStep> steps, const Progress& progress);
 
 } // namespace vdbcage::detail

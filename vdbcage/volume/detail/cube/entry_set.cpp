@@ -40,7 +40,7 @@ BuiltBlock treeBlock(const FlatBlock& flat)
 {
     BuiltBlock built{flat.origin, nullptr, flat.isFull()};
     if (flat.isUniform) return built;
-    // Tiles are set one by one: fewer where the node begins as what most of it is.
+    // Tiles are set one by one: there are fewer if the node begins with the state of most of its entries.
     const bool full =
         std::count(flat.full.begin(), flat.full.end(), ~0ULL) > std::count(flat.some.begin(), flat.some.end(), 0ULL);
     built.node = std::make_unique<LowerNode>(flat.origin, full, full);
@@ -130,7 +130,7 @@ MaskTree::Ptr EntrySet::tree(const Progress& progress) &&
     parallelFor(std::size_t{0}, flat_.size(), [&](std::size_t i) {
         progress.check(done++, flat_.size());
         built[i] = treeBlock(*flat_[i]);
-        flat_[i].reset(); // for the nodes that follow: to use its memory again is faster than to touch new pages
+        flat_[i].reset(); // for the next nodes: reusing its memory is faster than touching new pages
     });
     return assemble(full_, std::move(built));
 }

@@ -6,7 +6,7 @@ namespace vdbcage::detail {
 
 namespace {
 
-// Adds 8 words from one on, of 8 that are `before`, 8 of an entry and 8 that are `behind`.
+// Adds 8 consecutive words, from word `from` on, of 8 words `before`, 8 of an entry and 8 words `behind`.
 VDBCAGE_INLINE void add(const WordPair& before, const WordPairs& sums, const WordPair& behind, int from,
                         WordPairs& result)
 {
@@ -30,7 +30,7 @@ VDBCAGE_INLINE void addBefore(const LineEntries& line, std::size_t x, int beyond
     add(sum, sums, WordPair{}, leafSize - line.segment().rest + beyond, result);
 }
 
-// The same behind it: the words up to to + rest - beyond go to word `to`.
+// Adds an entry at the end of the segment, behind this one: its words up to to + rest - beyond go to word `to`.
 VDBCAGE_INLINE void addBehind(const LineEntries& line, std::size_t x, int beyond, WordPairs& result)
 {
     if (line.isEmpty(x)) return;
@@ -43,7 +43,7 @@ VDBCAGE_INLINE void addBehind(const LineEntries& line, std::size_t x, int beyond
     add(WordPair{}, sums, sum, leafSize + line.segment().rest - beyond, result);
 }
 
-// An entry dilated within itself, by a radius below its size.
+// Returns an entry dilated within itself, by a radius below its size.
 WordPairs dilatedWithin(const LineEntries& line, std::size_t x)
 {
     WordPairs result{};

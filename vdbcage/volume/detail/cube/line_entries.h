@@ -12,29 +12,29 @@
 
 namespace vdbcage::detail {
 
-/// The voxels of the entries of one line after the other. Entries are counted along x from the view's first block.
+/// The voxels of the entries of one line at a time. Entries are counted along x from the view's first block.
 ///
-/// Functions that are called for each line or entry are inlined by force: calls cost several percent of a dilation.
+/// Functions called for each line or entry are inlined by force: calls cost several percent of a dilation.
 class LineEntries {
 public:
-    /// Reads lines of the stretch that `lines` has at the time. The arguments must outlive it.
+    /// Reads lines of the stretch that `lines` has at that time. The arguments must outlive this.
     LineEntries(const RowView& view, const StretchLines& lines)
         : view_(view), lines_(lines), segment_(view.segment), flip_(view.foreground.flip),
           words_(entriesPerAxis * view.blocks.size()), any_(words_.size()), united_(words_.size())
     {
     }
 
-    /// Brings the first words of the stretch to the cache.
+    /// Prefetches the first words of the stretch.
     void prefetchStretch(std::size_t stretch) const;
 
-    /// Reads what the line's open entries have within the segment. Entries elsewhere must not be asked for.
+    /// Reads the entries within the segment of the line's open entries. Others must not be used.
     void read(const Line& line);
 
     bool isEmpty(std::size_t x) const { return any_[x] == 0; }
-    /// Word i of an entry.
+    /// Returns word i of an entry.
     /// \pre it is not empty
     std::uint64_t word(std::size_t x, int i) const { return words_[x][i] ^ flip_; }
-    /// All words of an entry.
+    /// Returns all words of an entry.
     /// \pre it is not empty
     WordPairs words(std::size_t x) const
     {
@@ -43,7 +43,7 @@ public:
         for (WordPair& pair : words) pair ^= flip_;
         return words;
     }
-    /// The union of all words of the entries less than the segment's whole entries away from an open one.
+    /// Returns the union of all words of the entries less than the segment's whole entries away from an open one.
     /// \pre the segment has a whole entry
     std::uint64_t unionAround(std::size_t x) const
     {
@@ -56,8 +56,8 @@ public:
     const Segment& segment() const { return segment_; }
 
 private:
-    // Lines are read side by side, each plane's words one after the other: too many streams for a processor to foresee.
-    static constexpr int prefetched = 4; // words of a plane, on their way to the cache
+    // Lines are read side by side, each plane's words one after the other: too many streams for a processor to predict.
+    static constexpr int prefetched = 4; // words of a plane that are prefetched
 
     static void prefetch(const Words* words, int first, int count);
     static const Words& mixedWords(const FlatBlock& block, std::size_t x, const Line& line);
@@ -71,11 +71,11 @@ private:
     // By x:
     std::vector<const std::uint64_t*> words_; // of the mask
     std::vector<std::uint64_t> any_;          // the union of the entry's words
-    std::vector<std::uint64_t> united_;       // the union of `any_` of `unitedCount_` entries from here on
+    std::vector<std::uint64_t> united_;       // the union of `any_` of `unitedCount_` entries from this one on
     std::size_t unitedCount_ = 1;
 };
 
-// GCC takes a function that does nothing but prefetch for one without effect, and drops calls of it.
+// Inlined, since GCC takes a function that only prefetches for one without effect, and drops its calls.
 VDBCAGE_INLINE void LineEntries::prefetch(const Words* words, int first, int count)
 {
     for (int i = first; i < first + count; ++i) __builtin_prefetch(words + i);

@@ -26,7 +26,7 @@ RowView::RowView(const Foreground& foregroundSeen, const Segment& segmentAround,
 void StretchLines::find(const RowView& view, std::size_t stretch)
 {
     const auto &viewSome = view.some[stretch], &viewFull = view.full[stretch];
-    // A full entry fills all that are as many entries away as the radius has whole ones.
+    // A full entry fills all entries that are at most as many entries away as the radius has whole ones.
     dilate(view, viewFull, view.segment.wholeEntries, full);
     dilate(view, viewSome, view.segment.entryRadius, open);
     isDecided = true;
@@ -52,7 +52,7 @@ void StretchLines::find(const RowView& view, std::size_t stretch)
     }
 }
 
-// The entries of the row's own blocks, each united with `radius` on both sides.
+// Returns the entries of the row's own blocks, each united with `radius` entries on both sides.
 void StretchLines::dilate(const RowView& view, const std::vector<std::uint64_t>& entries, std::size_t radius,
                           std::vector<BlockLines>& result)
 {

@@ -7,15 +7,15 @@
 
 #include <vdbcage/volume/detail/cube/block_row.h>
 
-/// Tells a dilation along x of a row of blocks, before it looks at voxels, which entries are full, or not empty.
+/// The entries that are full, or not empty, in a row of blocks that is dilated along x, found before any voxel is read.
 namespace vdbcage::detail {
 
 /// A row with the blocks on both sides that are within the segment, entry by entry along x.
 struct RowView {
-    /// The mask must outlive it.
+    /// The mask must outlive this.
     RowView(const Foreground& foreground, const Segment& segment, const BlockRow& row);
 
-    /// Where the i-th block of the row itself is in `blocks`.
+    /// Returns the index in `blocks` of the i-th block of the row itself.
     std::size_t ownBlock(std::size_t i) const { return i + static_cast<std::size_t>(segment.blockRadius); }
 
     Foreground foreground;
@@ -28,16 +28,16 @@ struct RowView {
 /// One stretch of a block by lines of entries along x: bit 16 y + x of word z is entry (x, y, z) of the stretch.
 using BlockLines = std::array<std::uint64_t, entriesPerAxis>;
 
-/// One stretch of a row by lines. It is kept from stretch to stretch for its memory.
+/// One stretch of a row by lines. It is reused from stretch to stretch, to keep its memory.
 struct StretchLines {
     /// Finds the lines of a stretch.
     void find(const RowView& view, std::size_t stretch);
 
     // By block of the row:
     std::vector<BlockLines> full; ///< entries that full ones nearby make full
-    std::vector<BlockLines> open; ///< entries that only their voxels tell of
+    std::vector<BlockLines> open; ///< entries that only voxels decide
     bool isDecided = true;        ///< nothing is open
-    // By block of the view, unless it is decided:
+    // By block of the view, unless isDecided:
     std::vector<BlockLines> fullAround, mixedAround;
 
 private:
@@ -52,7 +52,7 @@ struct Line {
     std::size_t stretch, i, z;
 
     std::size_t y() const { return 4 * stretch + i; }
-    /// Its bits among those of its stretch, by x.
+    /// Returns its bits among those of its stretch, by x.
     std::uint16_t of(const BlockLines& lines) const { return static_cast<std::uint16_t>(lines[z] >> (16 * i)); }
 };
 

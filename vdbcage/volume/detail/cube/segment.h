@@ -16,14 +16,14 @@ struct Segment {
     }
 
     int radius;               ///< in voxels
-    std::size_t wholeEntries; ///< the radius is so many entries ...
-    int rest;                 ///< ... and so many voxels
+    std::size_t wholeEntries; ///< the radius is this many entries ...
+    int rest;                 ///< ... and this many voxels
     std::size_t entryRadius;  ///< in entries, rounded up
     int blockRadius;          ///< in blocks, rounded up
 };
 
-/// Replaces every value by the union of as many as it returns from there on (fewer at the end). These are the largest
-/// power of two that is at most `count`, so that two such unions, overlapping, are the union of `count` values.
+/// Replaces every value by the union of itself and the next ones, n values together (fewer at the end). Returns n, the
+/// largest power of two that is at most `count`, so that two such unions, overlapping, cover `count` values.
 inline std::size_t uniteAhead(std::uint64_t* values, std::size_t size, std::size_t count)
 {
     std::size_t united = 1;

@@ -18,7 +18,7 @@ using openvdb::CoordBBox;
 using openvdb::Vec3d;
 
 constexpr double largestRadius = 512;
-// Less than the half voxel a step that leastRadii() counts on, by more than the rounding of floats.
+// Less than the half voxel a step that leastRadii() assumes, by more than the rounding of floats.
 constexpr double steepest = 0.499;
 
 int spacingShift(double radius)
@@ -26,15 +26,15 @@ int spacingShift(double radius)
     return radius < 8 ? 0 : radius < 16 ? 1 : radius < 32 ? 2 : 3;
 }
 
-// By square, the least radius such that from a voxel q with it, of the g at that squared distance, one of q's
-// neighbours with half a voxel less still has each within its radius, if its own square obeys the same rule.
+// Returns by square the least radius with this property: for a voxel q with it, each g at that squared distance is
+// within the radius of one of q's neighbours with half a voxel less, if that neighbour's square obeys the same rule.
 std::vector<double> leastRadii(int largest)
 {
     const auto size = static_cast<std::size_t>(largest * largest) + 1;
     std::vector<double> least(size);
-    constexpr int far = 144; // from here on a step gains more than half a voxel whatever the direction
+    constexpr int far = 144; // from here on a step gains more than half a voxel in any direction
     for (int square = 1; square < static_cast<int>(size); ++square) {
-        // A square stands for all smaller ones too.
+        // A square stands for all smaller ones, too.
         double radius = std::max(std::sqrt(static_cast<double>(square)), least[static_cast<std::size_t>(square - 1)]);
         for (int x = 1; square <= far && x * x <= square; ++x) {
             for (int y = 0; y <= x && x * x + y * y <= square; ++y) {
@@ -48,7 +48,7 @@ std::vector<double> leastRadii(int largest)
     return least;
 }
 
-// The largest value of a grid, cut to what is allowed. Checks that all are finite.
+// Returns the largest value of a grid, clamped to the allowed ones. Checks that all are finite.
 double largestValue(const openvdb::FloatGrid& grid, const Progress& progress)
 {
     float largest = grid.background();
@@ -70,7 +70,7 @@ void expand(BBoxd& box, const openvdb::math::Transform& voxels, const Vec3d& low
     }
 }
 
-// Where the field may differ from its outside, in the index space of `voxels`.
+// Returns the box where the field may differ from its outside, in the index space of `voxels`.
 BBoxd extentOf(const FactorField& scale, const openvdb::math::Transform& voxels)
 {
     BBoxd box;
@@ -91,7 +91,7 @@ BBoxd extentOf(const FactorField& scale, const openvdb::math::Transform& voxels)
         scale.grid->tree().evalLeafBoundingBox(leaves);
         active.expand(leaves);
         if (!active.empty()) {
-            // Not with coordinates: the field may extend to their ends.
+            // Not with coordinates: the field may extend to their limits.
             const Vec3d lower = active.min().asVec3d() - Vec3d(1), upper = active.max().asVec3d() + Vec3d(1);
             for (int corner = 0; corner < 8; ++corner) {
                 const Vec3d index((corner & 1 ? upper : lower).x(), (corner & 2 ? upper : lower).y(),
@@ -115,7 +115,7 @@ RadiusField::RadiusField(const FactorField& scale, const openvdb::math::Transfor
     largest_ = radius * std::clamp(background, 0.0, largestFactor);
     BBoxd extent = extentOf(scale, voxels);
     if (!box.empty() && !extent.empty()) {
-        // A small radius spreads until it has grown to the largest one, from beyond the box too.
+        // A small radius spreads until it has grown to the largest one, from beyond the box, too.
         double scales = scale.grid ? largestValue(*scale.grid, progress) : 1.0;
         for (const FactorRegion& region : scale.regions) scales *= std::max(1.0, region.factor);
         const double most = radius * std::min(scales, largestFactor);
@@ -127,11 +127,11 @@ RadiusField::RadiusField(const FactorField& scale, const openvdb::math::Transfor
         }
         const double spread = most / steepest + 2 * (1 << shift_);
         BBoxd around(box.min().asVec3d(), box.max().asVec3d());
-        around.expand(spread + most + 2); // radii are asked for as far from the box as they are long
+        around.expand(spread + most + 2); // radii are needed as far from the box as they are long
         extent.expand(spread);
         double count = 1;
         for (std::size_t axis = 0; axis < 3; ++axis) {
-            const int i = static_cast<int>(axis); // as OpenVDB's vectors have it, other than its Coord
+            const int i = static_cast<int>(axis); // the index in OpenVDB's vectors, unlike its Coord
             const double lower = std::max(around.min()[i], extent.min()[i]),
                          upper = std::min(around.max()[i], extent.max()[i]);
             if (lower > upper) return;
@@ -178,7 +178,7 @@ void RadiusField::sample(const FactorField& scale, const openvdb::math::Transfor
     });
 }
 
-// Each node becomes the least of all nodes' radii, each plus the steepest growth along the axes on the way from there.
+// Sets each node to the least of all nodes' radii, each plus the steepest growth along the axes on the way from there.
 void RadiusField::clamp(const Progress& progress)
 {
     const auto growth = static_cast<float>(steepest * (1 << shift_));
@@ -190,7 +190,7 @@ void RadiusField::clamp(const Progress& progress)
                 Coord c;
                 c[u] = i;
                 c[v] = j;
-                float least = outside_; // what is beyond the nodes grows like them
+                float least = outside_; // the radius beyond the nodes grows in the same way
                 const auto pass = [&](int k) {
                     c[axis] = k;
                     float& value = nodes_[node(c)];

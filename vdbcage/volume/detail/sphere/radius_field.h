@@ -12,31 +12,31 @@ namespace vdbcage::detail {
 /// A radius for each voxel, as its square, a whole number.
 ///
 /// A scatter erosion removes all g with a voxel q outside such that |g - q|^2 <= square(q). The squares are chosen so
-/// that the q with a face neighbour inside alone remove all of it.
+/// that the q with a face neighbour inside are enough to remove all of it.
 ///
-/// For this, let g be within the radius of q, more than one step along an axis away. Then g must be within the radius
-/// of a face neighbour of q that is nearer to g. A step towards g gains at least half a voxel, unless g is very near.
-/// So it is enough that radii change by less than half a voxel a step. Where radii are small, their squares are a
-/// little below the radius' own (see leastRadius_).
+/// For this, each g within the radius of q that is more than one step along an axis away must be within the radius of a
+/// face neighbour of q that is nearer to g. A step towards g gains at least half a voxel, unless g is very near. It is
+/// thus enough that radii change by less than half a voxel a step. Small radii have a slightly smaller square than
+/// their own (see leastRadius_).
 class RadiusField {
 public:
-    /// For the voxels of `box`, in the index space of `voxels`.
+    /// Makes the radii of the voxels of `box`, in the index space of `voxels`.
     /// \throw InputError as closeMask with a scale field
     /// \throw Cancelled
     RadiusField(const FactorField& scale, const openvdb::math::Transform& voxels, double radius,
                 const openvdb::CoordBBox& box, const Progress& progress);
 
-    /// Whether the radius is `largest()` everywhere.
+    /// Returns whether the radius is `largest()` everywhere.
     bool isUniform() const { return nodes_.empty(); }
     double largest() const { return largest_; }
-    /// The square at a voxel of the radius times `factor`, which is 0 to 1.
+    /// Returns the square at a voxel of the radius times `factor`, which is 0 to 1.
     std::int32_t square(const openvdb::Coord& voxel, double factor) const;
     /// Bounds of the radius among the voxels of an entry.
     struct Range {
         float least, most;
     };
     Range rangeOfEntry(const openvdb::Coord& origin) const;
-    /// The largest square that a radius may stand for.
+    /// Returns the largest square that a radius may stand for.
     std::int32_t squareOf(double radius) const;
 
 private:

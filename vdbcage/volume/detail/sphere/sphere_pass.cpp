@@ -1,7 +1,7 @@
 // Based on: the node-wise overlap tests of Calderon and Boubekeur, Bounding Proxies for Shape Approximation, 2017.
 // Differs: exact integer distances to the contour voxels alone (for a point outside a set some nearest voxel of it has
-// a face neighbour outside); the tree's nodes are asked as wholes (128^3, 32^3, 8^3), each with the contour leaves
-// within the radius, and only entries that are neither all in nor all out look at voxels (see sphere_query.h).
+// a face neighbour outside); the tree's nodes are tested as wholes (128^3, 32^3, 8^3), each with the contour leaves
+// within the radius, and voxels are read only in entries that are neither all in nor all out (see sphere_query.h).
 #include <vdbcage/volume/detail/sphere/sphere_pass.h>
 
 #include <algorithm>
@@ -34,17 +34,17 @@ std::int64_t squaredGap(const CoordBBox& a, const CoordBBox& b)
     return sum;
 }
 
-// What one thread needs while it works on a part of a block.
+// The data of one thread for a part of a block.
 template <class Query>
 struct WorkSpace {
     std::vector<std::size_t> groups; // within the radius of the part
     std::vector<NearLeaf> near;      // their leaves, or samples of them
-    // Those within the radius of open entries, maybe, by where they are along z: see SphereQuery::Leaves.
+    // Those that may be within the radius of open entries, by their place along z: see SphereQuery::Leaves.
     std::vector<std::uint16_t> order;
-    // For each pile of entries of the part the same for its open ones.
+    // The same for the open entries of each pile of the part.
     std::vector<std::uint16_t> lists;
     std::array<std::array<std::size_t, 6>, 16> ends;
-    std::optional<Coord> block; // that `queryWork` knows about
+    std::optional<Coord> block; // the block of `queryWork`
     typename Query::Work queryWork;
     // By entry of the part: its voxels, and those that the pass may change.
     std::array<const std::uint64_t*, 64> base;
@@ -52,7 +52,7 @@ struct WorkSpace {
     std::array<Words, 64> partlyOpen;
 };
 
-// Query tells what is within the radius: SphereQuery or VaryingQuery.
+// `Query` finds the voxels within the radius: SphereQuery or VaryingQuery.
 template <class Query>
 class SpherePass {
 public:
@@ -87,7 +87,7 @@ private:
         std::size_t leaves = 0;    // of all groups
     };
 
-    // The blocks within the radius of the contour that the pass may change.
+    // Returns the blocks within the radius of the contour that the pass may change.
     std::vector<Coord> targetBlocks() const
     {
         std::vector<Coord> targets;
@@ -201,7 +201,7 @@ private:
         builder.set(n, words.data());
     }
 
-    // Tells which entries of the part have open voxels.
+    // Finds the entries of the part that have open voxels.
     std::uint64_t findOpenVoxels(const Target& target, int firstEntry, Work& work) const
     {
         std::uint64_t found = 0;
@@ -229,7 +229,7 @@ private:
         return found;
     }
 
-    // A nearest one first. Returns how many leaves they have.
+    // Selects the groups, a nearest one first. Returns the number of their leaves.
     std::size_t selectGroups(const Target& target, const Coord& corner, Work& work) const
     {
         const CoordBBox box = CoordBBox::createCube(corner, partEntries * leafSize);
@@ -248,7 +248,7 @@ private:
         return leaves;
     }
 
-    // One of `stride` leaves of the selected groups.
+    // Gathers one of `stride` leaves of the selected groups.
     static void gatherLeaves(const Target& target, const Coord& corner, std::size_t stride, Work& work)
     {
         work.near.clear();
@@ -273,7 +273,7 @@ private:
         }
     }
 
-    // Tells which of the open entries may be within the radius of a leaf.
+    // Finds the open entries that may be within the radius of a leaf.
     std::uint64_t listLeaves(std::uint64_t open, Work& work) const
     {
         constexpr std::uint64_t bottoms = 0x1111111111111111ULL; // the first entry of each pile
@@ -320,11 +320,11 @@ private:
         return {work.lists.data() + i * work.near.size(), work.ends[i]};
     }
 
-    // The entry of the block that is bit i of the part.
+    // Returns the entry of the block that is bit i of the part.
     static int entryOfBlock(int firstEntry, int i) { return firstEntry + entryIndex(i / 16, i / 4 % 4, i % 4); }
 
     static constexpr int partEntries = 4;      // along an axis
-    static constexpr std::size_t samples = 48; // leaves that may cover entries alone: more hardly decide more
+    static constexpr std::size_t samples = 48; // leaves that may cover entries alone: more leaves hardly decide more
 
     const MaskTree& base_;
     const MaskTree* keep_;

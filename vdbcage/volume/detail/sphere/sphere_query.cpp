@@ -44,7 +44,7 @@ struct Columns { // one T for each column of an entry
     }
 };
 
-// Vectors are handed on by reference: by value they would make an ABI of their own.
+// Vectors are passed by reference: by value they would change the ABI.
 template <class Vector>
 VDBCAGE_INLINE void raiseTo(Vector& a, const Vector& b)
 {
@@ -65,9 +65,9 @@ VDBCAGE_INLINE bool isAny(const Vector& v)
     return (pairs[0][0] | pairs[0][1]) != 0;
 }
 
-// The voxels of a leaf that no other one hides from an entry (all but a few that one further along x hides): hidden is
-// what has another voxel ahead of it. Ahead is towards the entry along the axes where `side` is not 0, and the same
-// place along the others.
+// Finds the voxels of a leaf that no other one hides from an entry (all except a few that one further along x hides). A
+// voxel is hidden if another voxel is ahead of it. Ahead is towards the entry along the axes where `side` is not 0, and
+// the same place along the others.
 template <int bytes>
 VDBCAGE_INLINE void frontVoxels(const Words& words, int sideX, int sideY, int sideZ, std::uint64_t* front)
 {
@@ -81,7 +81,7 @@ VDBCAGE_INLINE void frontVoxels(const Words& words, int sideX, int sideY, int si
         return sideZ > 0 ? down * firstZ : sideZ < 0 ? up * firstZ : 0;
     };
     const std::uint64_t z1 = maskZ(0x7F, 0xFE), z2 = maskZ(0x3F, 0xFC), z4 = maskZ(0x0F, 0xF0);
-    std::uint64_t cones[8 + 2]; // each voxel spread over all that it hides, and itself; without x
+    std::uint64_t cones[8 + 2]; // each voxel spread over itself and all voxels that it hides; without x
     cones[0] = cones[9] = 0;
     Quads own[count], hidden[count];
     for (int i = 0; i < count; ++i) {
@@ -104,7 +104,7 @@ VDBCAGE_INLINE void frontVoxels(const Words& words, int sideX, int sideY, int si
     }
 }
 
-// Adds the front to `fronts` and tells where.
+// Adds the front to `fronts` and returns its place.
 template <int bytes>
 VDBCAGE_INLINE std::uint32_t findFront(int stride, const Words& words, int sideX, int sideY, int sideZ,
                                        SphereQuery::Work& fronts)
@@ -153,7 +153,7 @@ class Kernel {
 public:
     static VDBCAGE_INLINE void within(const Tables& tables, const PileQuery& query, Words* result)
     {
-        C open[levels]; // and left so
+        C open[levels]; // the voxels still open
         for (std::size_t z = 0; z < levels; ++z) {
             query.open[z] ? load(*query.open[z], open[z]) : open[z].fill(0);
         }
@@ -174,7 +174,7 @@ private:
     using Vector = typename C::Vector;
     static constexpr std::size_t levels = 4; // of a pile
 
-    // From and to one number for each column, bit z of it its voxel z.
+    // Convert from and to one number for each column; bit z of it is voxel z.
     static VDBCAGE_INLINE void load(const Words& words, C& columns)
     {
         Words byColumn = words;
@@ -202,7 +202,7 @@ private:
         return detail::isAny<Vector>(all);
     }
 
-    // The front of a leaf towards the pile.
+    // Returns the front of a leaf towards the pile.
     static VDBCAGE_INLINE const Fronts::Voxel* frontOf(const Tables& tables, const PileQuery& query, std::size_t leaf,
                                                        int sideZ)
     {
@@ -215,7 +215,7 @@ private:
         return &query.fronts.voxels[start];
     }
 
-    // A leaf near an entry, by their entries: the nearest of a few. After it others have less to add.
+    // Returns a leaf near an entry, by their entries: the nearest of a few. After it others have less to add.
     static VDBCAGE_INLINE std::size_t nearest(const PileQuery& query, int z, std::size_t begin, std::size_t end)
     {
         constexpr std::size_t few = 8;
@@ -232,13 +232,12 @@ private:
         return found;
     }
 
-    // How high in each column the voxels are up to the first open one, and up to the last one, of an entry and all
-    // behind it.
+    // By column, the heights up to the first open voxel and up to the last one, of an entry and all entries behind it.
     struct Heights {
         C first, last;
     };
     static constexpr T never = static_cast<T>(std::numeric_limits<T>::max() - 8 * static_cast<int>(levels));
-    // From those of the entry behind.
+    // Computes them from those of the entry behind.
     static VDBCAGE_INLINE void stepBack(Heights& heights)
     {
         for (int i = 0; i < C::count; ++i) {
@@ -259,7 +258,8 @@ private:
         }
     }
 
-    // Entry by entry from the leaves below (side 1) or above (-1). Returns whether any voxels are left open.
+    // Covers voxels entry by entry from the leaves below (side 1) or above (-1). Returns whether any voxels are left
+    // open.
     static VDBCAGE_INLINE bool vertical(const Tables& tables, const PileQuery& query, int side, C* open)
     {
         const auto levelAt = [&](std::size_t step) { return side > 0 ? step : levels - 1 - step; };
@@ -285,7 +285,7 @@ private:
         const auto& ends = query.leaves.ends;
         for (std::size_t step = firstStep; step <= lastStep; ++step) {
             const std::size_t level = levelAt(step);
-            // Those before the first entry, then those beside the one before.
+            // The leaves before the first entry, then those beside the entry before.
             const std::size_t begin = side < 0 ? ends[level + 1] : step == firstStep ? 0 : ends[level - 1];
             const std::size_t end = side > 0 ? ends[level] : step == firstStep ? ends[levels + 1] : ends[level + 2];
             if (step > firstStep) {
@@ -322,8 +322,8 @@ private:
         for (std::size_t n = begin; n <= end; ++n) {
             const std::size_t index = query.leaves.indices[n == begin ? first : n - 1];
             const NearLeaf& near = query.near[index];
-            if ((near.entriesInRadius & entry) == 0) continue; // and so not those behind it
-            // Distance below the entry's first voxel (above the last) of the leaf's z = 0.
+            if ((near.entriesInRadius & entry) == 0) continue; // so it is not in those behind it either
+            // The distance below the entry's first voxel (above the last) of the leaf's z = 0.
             const int base = side > 0 ? 8 * (z - near.z) : 8 * (near.z - z) - 7;
             const T least = static_cast<T>(side > 0 ? base - near.box.upper[2] : base + near.box.lower[2]);
             const T* const best = entries + near.entryPlace;
@@ -352,7 +352,7 @@ private:
         }
     }
 
-    // From the leaves beside the entry.
+    // Covers voxels from the leaves beside the entry.
     static VDBCAGE_INLINE void lateral(const Tables& tables, const PileQuery& query, std::size_t z, C& open)
     {
         using S = std::make_signed_t<T>;
@@ -376,7 +376,7 @@ private:
             for (++front; front != end; ++front) {
                 Signed heights[C::count];
                 std::memcpy(&heights, corner + front->place, sizeof heights);
-                // Most columns are covered whole or not at all.
+                // Most columns are covered completely or not at all.
                 Vector some{};
                 for (int i = 0; i < C::count; ++i) {
                     const Vector isWhole = reinterpret_cast<Vector>(heights[i] > static_cast<S>(none<T> + 7));
@@ -384,7 +384,7 @@ private:
                     some |= reinterpret_cast<Vector>(heights[i] > static_cast<S>(none<T>)) & open.v[i];
                 }
                 if (!detail::isAny<Vector>(some)) continue;
-                // A voxel more up and down with each voxel more of height.
+                // Each more voxel of height covers one more voxel up and down.
                 auto byte = static_cast<unsigned>(front->z);
                 for (int height = 0;; ++height) {
                     const S least = static_cast<S>(none<T> + height);
@@ -399,7 +399,7 @@ private:
     }
 };
 
-// Bit i of the result is the sign of lane i.
+// Returns the sign of lane i as bit i.
 VDBCAGE_INLINE unsigned signBits(const std::int16_t* lanes16)
 {
 #if defined(__x86_64__)
@@ -418,8 +418,8 @@ struct MaskKernel {
     using Vector = typename VectorOf<std::int16_t, bytes>::type;
     static constexpr int count = 32 / bytes;
 
-    // The entries where the squares along the three axes add up to the limit or less. `y` has each of its four values
-    // four times.
+    // Returns the entries where the squares along the three axes add up to the limit or less. `y` has each of its four
+    // values four times.
     static VDBCAGE_INLINE std::uint64_t within(const std::int16_t* x, const Vector* y, std::uint64_t z,
                                                std::int16_t limit)
     {

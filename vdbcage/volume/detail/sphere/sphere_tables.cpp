@@ -14,8 +14,8 @@ std::int64_t square(std::int64_t v)
     return v * v;
 }
 
-// Of a column at an offset (dx, dy): how many voxels at z = 0, 1, ... are within the radius of a contour voxel at z =
-// 0.
+// Returns for a column at an offset (dx, dy) the number of voxels at z = 0, 1, ... within the radius of a contour voxel
+// at z = 0.
 int heightAt(int dx, int dy, std::int64_t squaredRadius)
 {
     const std::int64_t rest = squaredRadius - square(dx) - square(dy);

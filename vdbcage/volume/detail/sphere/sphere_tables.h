@@ -12,7 +12,7 @@ namespace vdbcage::detail {
 constexpr int lanes = 64;        ///< the columns of an entry: column (x, y) is lane 8 y + x
 constexpr int smallRadius = 120; ///< largest radius, rounded up, for which heights fit bytes
 
-/// Heights count from `none`, which stands for no voxel at all. So differences of bytes stay above 0.
+/// The height of no voxel. Heights count from it, so differences of bytes stay above 0.
 template <class T>
 constexpr T none = 0;
 template <>
@@ -23,7 +23,8 @@ struct SphereTables {
     /// \throw Cancelled
     SphereTables(std::int64_t squared, const Progress& progress);
 
-    /// Height above a contour voxel at (-dx, -dy) seen from column (x, y) of an entry: [rowPlace(dx, dy) + lane].
+    /// Returns heights above a contour voxel at (-dx, -dy), seen from column (x, y) of an entry: [rowPlace(dx, dy) +
+    /// lane].
     template <class T>
     const T* rows() const
     {
@@ -32,10 +33,10 @@ struct SphereTables {
         else
             return largeRows.data();
     }
-    /// To the next dx. The next dy is 8 away.
+    /// Returns the distance in rows() to the next dx. The next dy is 8 away.
     int rowStride() const { return (2 * rowRadius + 8) * 8; }
     int rowPlace(int dx, int dy) const { return (dx + rowRadius) * rowStride() + (dy + rowRadius) * 8; }
-    /// The same for contour voxels anywhere in the columns of an entry at the offset (-dx, -dy), in entries.
+    /// Returns the same for contour voxels anywhere in the columns of an entry at the offset (-dx, -dy), in entries.
     template <class T>
     const T* entries() const
     {
@@ -44,24 +45,24 @@ struct SphereTables {
         else
             return largeEntries.data();
     }
-    /// To the next dx. The next dy is 64 away.
+    /// Returns the distance in entries() to the next dx. The next dy is 64 away.
     int entryStride() const { return (2 * entryRadius + 1) * lanes; }
     int entryPlace(int dx, int dy) const { return (dx + entryRadius) * entryStride() + (dy + entryRadius) * lanes; }
 
     std::int64_t squaredRadius;
     int radius; ///< rounded up
     bool isSmall;
-    int entryRadius, rowRadius; ///< largest offsets that are asked for, in entries and voxels
+    int entryRadius, rowRadius; ///< largest offsets that are needed, in entries and voxels
     int coordinates;
 
     /// Squared distances along one axis, from a coordinate in the part to its four entries. They are divided by
     /// 2^shift, rounded down (near) or up (far), and cut just above the limit.
     struct Squares {
-        std::array<std::int16_t, 4> below, above; ///< to the near end, of an entry that is below or above it, else 0
+        std::array<std::int16_t, 4> below, above; ///< to the near end of an entry below or above the coordinate, else 0
         std::array<std::int16_t, 4> far;          ///< to the far end
     };
     const Squares& squares(int coordinate) const { return squares_[static_cast<std::size_t>(coordinate + margin())]; }
-    /// Each four times.
+    /// The same, each four times.
     struct WideSquares {
         std::array<std::int16_t, 16> below, above, far;
     };

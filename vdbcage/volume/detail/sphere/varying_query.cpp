@@ -15,7 +15,7 @@ int gap(int position, int lower, int upper)
     return std::max({lower - position, position - upper, 0});
 }
 
-// Squared distances along one axis, from a voxel or an interval of them to each of the four entries of a part.
+// Returns squared distances along one axis, from a voxel or an interval of them to each of the four entries of a part.
 std::array<std::int32_t, 4> nearSquares(int lower, int upper)
 {
     std::array<std::int32_t, 4> squares;
@@ -37,7 +37,7 @@ std::array<std::int32_t, 4> farSquares(int position)
 
 using Squares = std::array<std::int32_t, 4>;
 
-// The entries where the squares along the axes add up to their limit or less.
+// Returns the entries where the squares along the axes add up to their limit or less.
 std::uint64_t entriesWithin(const Squares& x, const Squares& y, const Squares& z,
                             const std::array<std::int32_t, 64>& limits)
 {
@@ -48,7 +48,7 @@ std::uint64_t entriesWithin(const Squares& x, const Squares& y, const Squares& z
     return mask;
 }
 
-// plane = min(plane, squared distance in the plane to (y, z), less the square of that voxel's radius)
+// plane = min(plane, squared distance in the plane to (y, z), minus the square of that voxel's radius)
 VDBCAGE_INLINE void lower(std::int32_t* plane, int siteY, int siteZ, std::int32_t square)
 {
     std::int32_t alongZ[8];
@@ -71,7 +71,7 @@ struct Leaf {
     const VaryingQuery::Work::Site *first, *last;
 };
 
-// `most` is the largest limit.
+// Adds a leaf. `most` is the largest limit.
 VDBCAGE_INLINE void addLeaf(const Leaf& leaf, std::int32_t most, int span, VaryingQuery::Work& work)
 {
     for (const auto* site = leaf.first; site != leaf.last; ++site) {
@@ -106,7 +106,7 @@ VDBCAGE_INLINE void findWithin(const Words& open, const std::int32_t* limits, in
     }
 }
 
-// The two by instruction set.
+// The same for each instruction set.
 void addLeafPlain(const Leaf& leaf, std::int32_t most, int span, VaryingQuery::Work& work)
 {
     addLeaf(leaf, most, span, work);

@@ -5,17 +5,16 @@
 
 namespace vdbcage::detail {
 
-/// SphereQuery where each voxel has a radius of its own.
+/// A query as SphereQuery, with a radius for each voxel.
 ///
-/// Squared distances to the contour voxels, less the squares of their radii (scatter), are minimised axis by axis. The
-/// least are compared with the squared radii of the entry's voxels (gather). Where one of the two is not wanted, its
-/// squares are 0.
+/// Squared distances to the contour voxels, minus the squares of their radii (scatter), are minimised axis by axis. The
+/// least are compared with the squared radii of the entry's voxels (gather). The squares of the unused one are 0.
 /// Based on: Saito and Toriwaki, New Algorithms for Euclidean Distance Transformation, 1994.
 class VaryingQuery {
 public:
     enum class By {
-        target, ///< the radius counts of the voxel that looks for contour voxels (gather)
-        source  ///< the radius counts of the contour voxel (scatter)
+        target, ///< the radius is that of the voxel that looks for contour voxels (gather)
+        source  ///< the radius is that of the contour voxel (scatter)
     };
     /// All radii are `factor` (0 to 1) times those of the field, which must outlive this.
     VaryingQuery(const RadiusField& field, double factor, By by, Simd simd)

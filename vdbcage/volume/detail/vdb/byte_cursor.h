@@ -12,23 +12,23 @@
 
 namespace vdbcage::detail {
 
-/// Where a value of a file lies. A fuzzer changes values to get past the checks.
+/// The place of a value in a file. A fuzzer changes values to get past the checks.
 struct ByteField {
     std::size_t position, size;
 };
 
-/// Reads values from the bytes of a file, one after the other. It never reads beyond their end. Values are
-/// little-endian, as they are on this machine.
+/// A reader of values from the bytes of a file, one after the other. It never reads beyond their end. Values are
+/// little-endian, as on this machine.
 class ByteCursor {
 public:
     /// \param name  of the file, for messages
-    /// \param fields  if not null gets every value that is read
+    /// \param fields  if not null, gets the place of every value that is read
     ByteCursor(std::string_view bytes, const std::string& name, std::vector<ByteField>* fields = nullptr)
         : bytes_(bytes), name_(&name), fields_(fields), fileSize_(bytes.size())
     {
     }
 
-    /// The part of the file from `begin` to `end`.
+    /// Returns a cursor in the part of the file from `begin` to `end`.
     ByteCursor part(std::size_t begin, std::size_t end) const
     {
         ByteCursor result = *this;
@@ -40,7 +40,7 @@ public:
     std::size_t position() const { return position_; }
     std::size_t left() const { return bytes_.size() - position_; }
 
-    /// The next `count` bytes.
+    /// Reads the next `count` bytes.
     /// \throw IoError there are fewer; so do all functions below that read
     std::string_view take(std::size_t count)
     {
@@ -57,7 +57,7 @@ public:
     /// Returns the bytes that were read from `begin` on.
     std::string_view since(std::size_t begin) const { return bytes_.substr(begin, position_ - begin); }
 
-    /// The next value, which may be of any bits.
+    /// Reads the next value, which may have any bits.
     template <class Value>
     Value value()
     {
@@ -74,10 +74,10 @@ public:
         return byte == 1;
     }
 
-    /// A string: its length in 32 bits, then its characters.
+    /// Reads a string: its length in 32 bits, then its characters.
     std::string_view string() { return take(value<std::uint32_t>()); }
 
-    /// \throw IoError always, with the position behind what was read last
+    /// \throw IoError always, with the position after the last value read
     [[noreturn]] void damaged(const std::string& what) const
     {
         refuse("is damaged: " + what + " (at byte " + std::to_string(position_) + ")");

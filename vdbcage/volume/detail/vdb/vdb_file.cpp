@@ -27,14 +27,14 @@ constexpr std::uint32_t firstVersion = 222, lastVersion = 225;
 constexpr char suffixSeparator = '\x1E'; // makes names of one file unique
 constexpr std::string_view halfSuffix = "_HalfFloat", halfTree = "Tree_half_5_4_3";
 
-/// How the values of a tree are stored.
+/// The storage of a tree's values.
 enum class Stored {
     asTheyAre,
-    halfArrays, ///< those of nodes as half floats, single values as they are
+    halfArrays, ///< arrays of nodes as half floats, single values unchanged
     halves,     ///< all as half floats: the half grids of OpenVDB 13, read as grids of floats
 };
 
-/// What the file tells about a grid before the grid itself.
+/// The data of a grid that the file has before the grid itself.
 struct Descriptor {
     std::string uniqueName, type, parent; // parent: the unique name of the grid whose tree it shares, else empty
     Stored stored = Stored::asTheyAre;
@@ -60,11 +60,11 @@ Descriptor readDescriptor(ByteCursor& in)
     return result;
 }
 
-/// The positions in the file that follow a descriptor, 0 where there are none.
+/// Reads the positions in the file after a descriptor, 0 where there are none.
 void readOffsets(ByteCursor& in, Descriptor& descriptor, bool hasOffsets)
 {
     const auto begin = in.value<std::int64_t>();
-    in.value<std::int64_t>(); // where the leaf nodes' values begin
+    in.value<std::int64_t>(); // the beginning of the leaf nodes' values
     const auto end = in.value<std::int64_t>();
     if (!hasOffsets) return;
     if (begin < static_cast<std::int64_t>(in.position()) || end < begin) {
@@ -103,7 +103,7 @@ bool insertIfOneOf(openvdb::MetaMap& map, const std::string& name, std::string_v
     return (insertIfOf<Values>(map, name, type, bytes) || ...);
 }
 
-/// Metadata of types that OpenVDB does not have are left out, as are its tables for delayed loading.
+/// Reads metadata, without those of types that OpenVDB does not have and its tables for delayed loading.
 openvdb::MetaMap readMetadata(ByteCursor& in)
 {
     openvdb::MetaMap map;
@@ -120,7 +120,7 @@ openvdb::MetaMap readMetadata(ByteCursor& in)
 
 // ---- Transform
 
-/// The numbers of a linear map: a matrix, or a translation followed by numbers that all follow from the scale.
+/// The numbers of a linear map: a matrix, or a translation followed by numbers that all depend on the scale.
 struct MapLayout {
     const char* type;
     std::size_t translations, scales; // of three numbers each
@@ -139,8 +139,8 @@ bool isNear(double a, double b)
     return std::abs(a - b) <= 1e-6 * std::abs(b);
 }
 
-/// The numbers of a linear map of this type. OpenVDB reads what follows from the scale (voxel size, inverse, its square
-/// and its half) instead of working it out, so it is checked.
+/// Checks the numbers of a linear map of this type. OpenVDB reads the numbers that depend on the scale (voxel size,
+/// inverse, its square and its half) instead of computing them, so they are checked.
 void checkLinearMap(ByteCursor& in, std::string_view type)
 {
     const auto* const layout = std::find_if(mapLayouts.begin(), mapLayouts.end(),
@@ -164,7 +164,7 @@ void checkLinearMap(ByteCursor& in, std::string_view type)
     if (!isRight) in.damaged("the numbers of its transform do not fit each other");
 }
 
-/// Read by OpenVDB, from bytes that are known to be right.
+/// Reads a transform with OpenVDB, from bytes that are known to be right.
 openvdb::math::Transform::Ptr readTransform(ByteCursor& in)
 {
     const std::size_t begin = in.position();
@@ -204,8 +204,8 @@ openvdb::math::Transform::Ptr readTransform(ByteCursor& in)
 
 // ---- Trees
 
-/// The values of a node, which take `size` bytes. Compressed ones are preceded by their length in the file; one that is
-/// not positive is that of values which did not get smaller and are as they are.
+/// Reads the values of a node, which take `size` bytes. Compressed ones follow their length in the file; a length that
+/// is not positive means that compression did not make the values smaller and they are stored unchanged.
 void readChunk(ByteCursor& in, std::uint32_t compression, char* out, std::size_t size)
 {
     const auto copy = [&] {
@@ -254,7 +254,7 @@ public:
     {
     }
 
-    /// The nodes first, each before those below it; then the values of all leaf nodes.
+    /// Reads a tree: the nodes first, each before those below it; then the values of all leaf nodes.
     typename Tree::Ptr read()
     {
         if (const auto count = in_.value<std::int32_t>(); count != 1) {
@@ -288,7 +288,7 @@ private:
         return {x, y, z};
     }
 
-    /// Of an entry of the root node.
+    /// Reads the origin of an entry of the root node.
     Coord readOrigin()
     {
         const Coord origin = readCoord();
@@ -353,7 +353,7 @@ private:
         }
     }
 
-    /// All values of a node. Active values and one or two that all inactive ones have can stand for them.
+    /// Reads all values of a node. Active values and one or two values of all inactive ones can stand for them.
     template <class Mask>
     void readValues(Value* out, const Mask& active)
     {
@@ -386,7 +386,7 @@ private:
                 in_.damaged("a value is neither 0 nor 1");
             }
         } else if (stored_ != Stored::asTheyAre) {
-            if (count == 0 && stored_ == Stored::halfArrays) return; // not even a chunk's length
+            if (count == 0 && stored_ == Stored::halfArrays) return; // not even the length of a chunk is there
             halves_.resize(count);
             read(halves_.data());
             std::transform(halves_.begin(), halves_.end(), out,
@@ -407,7 +407,7 @@ private:
 
 // ---- Grids
 
-/// Calls make(static_cast<Grid*>(nullptr)) for the type of grid that is named so. \return whether there is one
+/// Calls make(static_cast<Grid*>(nullptr)) for the type of grid with this name. \return whether there is one
 template <class Make>
 bool forType(const std::string& type, const Make& make)
 {
@@ -425,7 +425,7 @@ bool isReadable(const std::string& type)
     return forType(type, [](auto*) {});
 }
 
-/// \return without a tree if the descriptor names another grid whose tree it shares
+/// Reads a grid. \return without a tree if the descriptor names another grid whose tree it shares
 GridBase::Ptr readGrid(ByteCursor& in, const Descriptor& descriptor)
 {
     constexpr std::uint32_t known =
@@ -491,7 +491,7 @@ private:
         return grid;
     }
 
-    /// All grids up to the wanted one.
+    /// Reads all grids up to the wanted one.
     GridBase::Ptr readInOrder(std::int32_t count)
     {
         std::vector<Descriptor> descriptors;
@@ -528,7 +528,7 @@ private:
         return result;
     }
 
-    /// A tree that is shared was written with the first of its grids.
+    /// Returns whether `child` shares the tree of `parent`: a shared tree was written with the first of its grids.
     static bool isParent(const Descriptor& parent, const Descriptor& child)
     {
         return parent.uniqueName == child.parent && parent.parent.empty() && parent.type == child.type;
@@ -561,7 +561,7 @@ private:
     {
         const bool isFloat = descriptor.type == openvdb::FloatGrid::gridType();
         if (values_ == VdbValues::floats ? isFloat : isReadable(descriptor.type)) return;
-        // Tree_vec3s_5_4_3 and the like
+        // such as Tree_vec3s_5_4_3
         const std::string_view prefix = "Tree_", levels = "_5_4_3";
         std::string_view held = descriptor.type;
         if (held.size() <= prefix.size() + levels.size() || held.substr(0, prefix.size()) != prefix ||

@@ -17,8 +17,8 @@ namespace vdbcage::detail {
 
 namespace {
 
-/// A path is a triangle, two faces for each quad on the way, and a triangle. Of a quad the first is the face or
-/// alternate that is paired with what is before it, the second the one left over.
+/// A path of a triangle, two faces for each quad on the way, and a triangle. The first face of a quad is the face or
+/// alternate that is paired with the face before it, the second the one left over.
 class AlternatingPath {
 public:
     AlternatingPath(GuardedMesh& surface, std::uint32_t triangle, const PathOptions& options)
@@ -26,13 +26,13 @@ public:
     {
     }
 
-    /// Looks for ways on from the end to another triangle, and takes the first that is allowed. Returns whether the
-    /// search is over.
+    /// Looks for faces that continue the path to another triangle, and takes the first allowed path. Returns whether
+    /// the search is over.
     bool extend()
     {
         constexpr int mostTries = 40;
         const std::uint32_t end = path_.back();
-        const bool isFull = path_.size() + 1 >= 2 * options_.maxPairs; // with a triangle; shorter ones were tried
+        const bool isFull = path_.size() + 1 >= 2 * options_.maxPairs; // with a triangle; shorter paths were tried
         for (int i = 0; i < 3; ++i) {
             const std::uint32_t next = faceAcross(surface_, end, i);
             if (next == end || contains(next)) continue;
@@ -61,7 +61,7 @@ private:
         return shapeError(surface_, f, g, options_.mergeAngleDegrees).has_value();
     }
 
-    /// The alternate across side i of f, which `next` is the face across.
+    /// Returns the alternate across side i of f, across which `next` is the face.
     std::uint32_t alternateAcross(std::uint32_t f, int i, std::uint32_t next) const
     {
         const std::uint32_t a = surface_.face(f)[i], b = surface_.face(f)[(i + 1) % 3];
@@ -69,7 +69,7 @@ private:
         return alternates[sideOf(surface_, alternates[0], b, a) >= 0 ? 0 : 1];
     }
 
-    /// Whether a face or its quad is on the path.
+    /// Returns whether a face or its quad is on the path.
     bool contains(std::uint32_t f) const
     {
         const bool isFree = !surface_.isInQuad(f);
@@ -81,7 +81,7 @@ private:
         });
     }
 
-    /// Pairs the faces of a path between two triangles. Returns whether that is allowed; else nothing changes.
+    /// Pairs the faces of a path between two triangles. Returns whether that is allowed; if not, nothing changes.
     bool augment()
     {
         return changeWithin(surface_, options_.maxGrowth, [&] {

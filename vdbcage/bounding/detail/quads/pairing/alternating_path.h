@@ -7,7 +7,7 @@
 
 namespace vdbcage::detail {
 
-/// The end of a path: what its last two faces become.
+/// The end of a path: its last two faces become a quad, or vanish by a collapse.
 enum class PathEnd { quad, collapse };
 
 struct PathOptions {
@@ -17,10 +17,10 @@ struct PathOptions {
     PathEnd end;
 };
 
-/// Pairs a triangle with another by taking the quads on a path between them apart and pairing the faces otherwise.
+/// Pairs a triangle with another: splits the quads on a path between them and pairs the faces across the other edges.
 ///
 /// Each quad on the path is split along either diagonal. With PathEnd::collapse the last pair vanishes, by collapsing
-/// the edge between its faces. The first path that the guard allows is taken; if there is none nothing changes.
+/// the edge between its faces. The first path that the guard allows is taken; if there is none, nothing changes.
 /// Cost: O(faces) for each path that is tried, of a fixed number at most.
 /// Based on: Edmonds, Paths, Trees, and Flowers, 1965.
 void pairAlongPath(GuardedMesh& surface, std::uint32_t triangle, const PathOptions& options);

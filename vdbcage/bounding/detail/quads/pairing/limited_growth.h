@@ -4,15 +4,15 @@
 
 #include <vdbcage/bounding/detail/guard/guarded_mesh.h>
 
-/// Changes that may move a surface away from the model, but not far.
+/// Changes that may move a surface away from the model, within a limit.
 namespace vdbcage::detail {
 
-/// The volume that a surface encloses, with its other half where there is a plane of symmetry. Quads count as the mean
-/// over both diagonals.
+/// Returns the volume that a surface encloses, with its other half where there is a plane of symmetry. Quads count as
+/// the mean over both diagonals.
 double enclosedVolume(const GuardedMesh& surface);
 
-/// Asks for a change of the surface, which returns whether it is done. Undoes it if not, or if the enclosed volume grew
-/// by more than `maxGrowth`. Returns whether it stays.
+/// Calls `change`, which returns whether it changed the surface as intended. Undoes the change if not, or if the
+/// enclosed volume grew by more than `maxGrowth`. Returns whether the change stays.
 /// Cost: O(faces), for a copy to go back to.
 bool changeWithin(GuardedMesh& surface, double maxGrowth, const std::function<bool()>& change);
 

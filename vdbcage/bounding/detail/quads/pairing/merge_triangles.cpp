@@ -12,7 +12,7 @@ namespace vdbcage::detail {
 
 namespace {
 
-/// Whether the polygons around a quad would be four, and the ends of its diagonal keep three edges.
+/// Returns whether four polygons would be around the quad, and the ends of its diagonal keep three edges.
 bool fits(const GuardedMesh& surface, std::uint32_t f, std::uint32_t g)
 {
     std::vector<std::uint32_t> around;
@@ -33,7 +33,7 @@ bool fits(const GuardedMesh& surface, std::uint32_t f, std::uint32_t g)
         std::set<std::uint32_t> polygons;
         for (const std::uint32_t h : surface.facesOf(ids[end])) polygons.insert(polygonOf(surface, h));
         const std::size_t sides = surface.isOnPlane(ids[end]) ? 2 : 1;
-        if (sides * (polygons.size() - 1) < 3) return false; // one less afterwards
+        if (sides * (polygons.size() - 1) < 3) return false; // one edge less afterwards
     }
     return true;
 }
@@ -61,7 +61,7 @@ bool mergeTriangles(GuardedMesh& surface, std::uint32_t f, std::uint32_t g)
     const std::size_t end = height > 0 ? 1 : 0;
     const auto vertex = [&](std::size_t i) { return ids[static_cast<int>(i)]; };
     for (const double share : {0.25, 0.5, 0.75, 1.0}) {
-        // Where the diagonals almost meet, more than rounding takes away.
+        // Where the diagonals almost meet, the push is more than rounding takes away.
         const Vec3d push = share * (std::abs(height) + surface.guard().clearance()) * outward;
         if (!moveBy(surface, vertex(end), push)) continue;
         if (moveBy(surface, vertex(end + 2), push)) {

@@ -14,8 +14,8 @@ namespace vdbcage::detail {
 
 namespace {
 
-/// From a face's side, from a to b, away from the face, half as far as the side is long: between the two faces'
-/// planes where they meet in a ridge, along the next one in a valley.
+/// Returns a vector from a face's side, from a to b, away from the face, half as long as the side: between the planes
+/// of both faces where they meet in a ridge, along the next face in a valley.
 Vec3d asideOf(const GuardedMesh& surface, std::uint32_t f, std::uint32_t next, std::uint32_t a, std::uint32_t b)
 {
     const Vec3d along = surface.point(b) - surface.point(a);
@@ -27,9 +27,9 @@ Vec3d asideOf(const GuardedMesh& surface, std::uint32_t f, std::uint32_t next, s
     return 0.5 * along.length() * direction;
 }
 
-constexpr std::array heights{0.0, 0.03, 0.1, 0.3}; // of places that may be too near, in parts of a side
+constexpr std::array heights{0.0, 0.03, 0.1, 0.3}; // for places that may be too near, in parts of a side
 
-/// Splits side i and merges what is before it. \pre the quads are split, and the sides before this one
+/// Splits side i and merges the triangles before it. \pre the quads are split, and the sides before this one
 bool splitSide(GuardedMesh& surface, const Polychord& polychord, std::size_t i, double push)
 {
     const auto merge = [&](std::uint32_t f, std::uint32_t g) { return mergeTriangles(surface, f, g); };
@@ -37,7 +37,7 @@ bool splitSide(GuardedMesh& surface, const Polychord& polychord, std::size_t i, 
     const auto [a, b] = polychord.sides[i];
     const std::uint32_t behind = at(a, b), ahead = at(b, a);
     const bool isFirst = i == 0, isLast = i == polychord.quads.size(), onPlane = ahead == GuardedMesh::none;
-    // The new vertex takes the place of what is before the side and all of the face after it.
+    // The new vertex replaces the part before the side and the whole face after it.
     StarChange::Faces faces{behind};
     if (!isLast) {
         faces.insert(faces.end(), polychord.quads[i].begin(), polychord.quads[i].end());

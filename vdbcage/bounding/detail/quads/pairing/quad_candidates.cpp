@@ -18,7 +18,8 @@ namespace {
 
 using openvdb::Mat3d;
 
-/// Adds what an edge between faces with the normals m and n bends: its direction squared, by its length and angle.
+/// Adds the curvature of an edge between faces with the normals m and n: its direction squared, by its length and
+/// angle.
 void addBend(Mat3d& tensor, const Vec3d& edge, const Vec3d& m, const Vec3d& n)
 {
     const double length = edge.length();
@@ -29,7 +30,7 @@ void addBend(Mat3d& tensor, const Vec3d& edge, const Vec3d& m, const Vec3d& n)
     }
 }
 
-/// The other half adds the mirror image of the edges off the plane, and both meet in edges on it.
+/// Adds the other half: the mirror image of the edges off the plane; the halves meet in edges on it.
 void addOtherHalf(Mat3d& tensor, const GuardedMesh& surface, std::uint32_t v)
 {
     const int across = surface.guard().symmetry()->axis;
@@ -49,7 +50,7 @@ void addOtherHalf(Mat3d& tensor, const GuardedMesh& surface, std::uint32_t v)
     }
 }
 
-/// How the surface bends around a vertex.
+/// Returns the curvature of the surface around a vertex.
 Mat3d curvatureTensor(const GuardedMesh& surface, std::uint32_t v)
 {
     Mat3d tensor = Mat3d::zero();
@@ -68,7 +69,7 @@ Mat3d curvatureTensor(const GuardedMesh& surface, std::uint32_t v)
     return tensor;
 }
 
-/// How far a quad's sides are from the directions of curvature: 0 if along them or if there are none, up to 1.
+/// Returns how far a quad's sides are from the directions of curvature: 0 if along them or if there are none, up to 1.
 double misalignment(const std::array<Vec3d, 4>& corners, const Mat3d& tensor)
 {
     Vec3d x = corners[2] - corners[0];
@@ -100,7 +101,7 @@ double volumeBetweenDiagonals(const std::array<Vec3d, 4>& corners)
 
 std::optional<double> shapeError(const GuardedMesh& surface, std::uint32_t f, std::uint32_t g, double mergeAngleDegrees)
 {
-    constexpr double mostFlattened = 2.5; // times the angle that a quad may have, by pushing vertices
+    constexpr double mostFlattened = 2.5; // times the angle that a quad may have; vertices are pushed that far
     const double angle = angleDegrees(areaNormal(surface, f), areaNormal(surface, g));
     if (!(angle <= mostFlattened * mergeAngleDegrees)) return std::nullopt;
     double deviation;

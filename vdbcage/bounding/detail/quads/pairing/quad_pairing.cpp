@@ -16,7 +16,7 @@ namespace vdbcage::detail {
 
 namespace {
 
-/// The integral of the distance to the model over a mean face.
+/// Returns the integral of the distance to the model over a mean face.
 double distancePerFace(const GuardedMesh& surface, Interrupter* interrupter)
 {
     constexpr int samplesPerFace = 4;
@@ -30,8 +30,8 @@ bool hasEnoughQuads(const GuardedMesh& surface, const PairingOptions& options)
     return quadShare(surface) >= options.share;
 }
 
-/// One face less, the others being as many and as good, takes the distance of a face away: pairs that cost more are
-/// made for the share alone.
+/// Pairs candidates. One face less, if the others stay as many and as good, is worth the distance of a face: pairs that
+/// cost more are made only to reach the share.
 void pairGreedily(GuardedMesh& surface, const std::vector<QuadCandidate>& candidates, const PairingOptions& options,
                   Interrupter* interrupter)
 {
@@ -46,7 +46,7 @@ void pairGreedily(GuardedMesh& surface, const std::vector<QuadCandidate>& candid
     }
 }
 
-/// One triangle after the other, by as few pairs as will do.
+/// Pairs one triangle after the other, by as few pairs as will do.
 void pairAlongPaths(GuardedMesh& surface, const PairingOptions& options, double maxGrowth, Interrupter* interrupter)
 {
     for (const std::uint32_t f : trianglesOf(surface)) {
@@ -63,7 +63,7 @@ double shortestEdgeSqr(const Corners& t)
     return std::min({(t[1] - t[0]).lengthSqr(), (t[2] - t[1]).lengthSqr(), (t[0] - t[2]).lengthSqr()});
 }
 
-/// Those nearest to each other first, and with the shortest edges.
+/// Collapses triangles along paths, those nearest to each other first, and with the shortest edges.
 void collapseAlongPaths(GuardedMesh& surface, const PairingOptions& options, double maxGrowth, Interrupter* interrupter)
 {
     for (std::size_t pairs = 1; pairs <= options.maxPathPairs; ++pairs) {
@@ -79,7 +79,7 @@ void collapseAlongPaths(GuardedMesh& surface, const PairingOptions& options, dou
     }
 }
 
-/// The shortest first: each brings a face more for every quad in it.
+/// Splits polychords, the shortest first: each adds a face for every quad in it.
 void splitPolychords(GuardedMesh& surface, const PairingOptions& options, double maxGrowth, Interrupter* interrupter)
 {
     for (std::size_t length = 1; length <= 2 * options.maxPathPairs; ++length) {
