@@ -54,6 +54,6 @@ private:
 /// \throw Cancelled
 /// Cost: O(words of bits), in parallel.
 std::shared_ptr<openvdb::MaskGrid> toMask(const BitGrid& bits, const openvdb::math::Transform::Ptr& transform,
-                              Interrupter* interrupter = nullptr);
+                                          Interrupter* interrupter = nullptr);
 
 } // namespace vdbcage::detail
