@@ -87,7 +87,7 @@ PanelContent PanelLayout::content() const
         content.box = box;
         content.model = countsOf(model->mesh, picture.shapes().edgeCount(LayerId::model));
     }
-    if (const CageResultPtr& cage = parts_.making.planner().shown()) {
+    if (const CageResultPtr& cage = parts_.making.cage()) {
         content.cage = countsOf(cage->cage, picture.shapes().edgeCount(LayerId::cage));
     }
     content.overlay = parts_.control.overlay();

@@ -13,11 +13,12 @@ public:
     void update();
     /// Passes an event to the panels. Returns whether they took it.
     bool handle(const InputEvent& event);
+    /// Returns what the panels show of the state.
+    PanelContent content() const;
 
 private:
     bool layOut(const InputEvent* event, PanelAnswer& answer);
     void take(const PanelAnswer& answer);
-    PanelContent content() const;
 
     AppParts& parts_;
     ActionRunner& actions_;
