@@ -272,7 +272,7 @@ BOOST_AUTO_TEST_CASE(the_counts_are_those_of_the_drawn_cage)
     // The edited cage is drawn at once; the planner has the one before until it is checked.
     actions.perform(EditCage{CageEdit::split});
     const Mesh& drawn = parts.making.cage()->cage;
-    BOOST_REQUIRE(parts.making.planner().shown()->cage.points.size() != drawn.points.size());
+    BOOST_REQUIRE(parts.making.planner().made()->cage.points.size() != drawn.points.size());
     const Counts edited = *panels.content().cage;
     BOOST_TEST(edited.points == made.points + 1);
     BOOST_TEST(edited.points == drawn.points.size());

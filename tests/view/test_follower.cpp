@@ -40,7 +40,7 @@ struct Fixture {
         State state;
         state.document.model = model;
         session.restart(state);
-        session.setCage(test::shown(cage));
+        session.setCage(test::posable(cage));
         run("mode pose");
         run("select points 0 1 2 3 4 5 6 7 8 9 10 11 12");
     }
@@ -276,7 +276,7 @@ BOOST_AUTO_TEST_CASE(weights_from_a_file_pose_it)
     BOOST_TEST(!follower.check()->inverted);
     BOOST_TEST(follower.error().empty());
     // Of another cage: it says so, and all else goes on.
-    session.setCage(test::shown(test::torus(2, 0.6, 16, 9)));
+    session.setCage(test::posable(test::torus(2, 0.6, 16, 9)));
     follow();
     BOOST_TEST(follower.error().find("w.dmat") != std::string::npos, follower.error());
     run("coordinates mvc");

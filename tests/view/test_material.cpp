@@ -41,7 +41,7 @@ BOOST_AUTO_TEST_CASE(what_is_saved_has_the_material)
               "save-posed-models " + file("m.%04d.ply"), "wait", "expect bound yes"});
     const State& state = app.session().state();
     const Mesh& model = state.document.model->mesh;
-    const ShownCage& cage = app.session().cage();
+    const PosableCagePtr& cage = app.session().cage();
     const Binding binding = Binding(*cage->rest(), model.points, Coordinates::somigliana).with(elasticity);
     Mesh expected = model;
     expected.points = binding.pose(points());

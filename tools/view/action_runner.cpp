@@ -72,7 +72,7 @@ struct ActionRunner::VerbEffect {
     {
         const Planner& planner = parts.making.planner();
         const bool isCurrent = planner.standing() == Planner::Standing::current;
-        saveScene(parts.session.state(), isCurrent ? planner.shown().get() : nullptr, verb.path);
+        saveScene(parts.session.state(), isCurrent ? planner.made().get() : nullptr, verb.path);
         parts.saved = parts.session.state().document;
         parts.asksToQuit = false;
         saySaved(verb.path);

@@ -34,12 +34,12 @@ void AppParts::refresh()
 {
     making.follow(session, {isValueDragged, control.isMoving()});
     const Planner& planner = making.planner();
-    Shown shown;
-    shown.model = session.state().document.model;
-    shown.cage = making.cage();
-    shown.isStale = shown.cage == planner.shown() && planner.standing() == Planner::Standing::stale;
-    shown.cagePoints = making.posing().cagePoints();
-    const bool changed = screen.pictures().show(viewport(), shown, making.posing().follower(),
+    PictureContent content;
+    content.model = session.state().document.model;
+    content.cage = making.cage();
+    content.isStale = content.cage == planner.made() && planner.standing() == Planner::Standing::stale;
+    content.cagePoints = making.posing().cagePoints();
+    const bool changed = screen.pictures().show(viewport(), content, making.posing().follower(),
                                                 making.posing().compared(), session.state().view);
     if (changed) screen.invalidate();
     arePanelsCurrent = false;

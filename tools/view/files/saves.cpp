@@ -89,13 +89,13 @@ Write SaveWeights::writer(const SaveSource& source, const fs::path& file)
 Write SaveCage::writer(const SaveSource& source, const fs::path& file)
 {
     currentCage(source.planner, "save-cage");
-    return [cage = source.planner.shown(), file](Interrupter* i) { saveCage(*cage, file, i); };
+    return [cage = source.planner.made(), file](Interrupter* i) { saveCage(*cage, file, i); };
 }
 
 Write SaveReport::writer(const SaveSource& source, const fs::path& file)
 {
     currentCage(source.planner, "save-report");
-    return [cage = source.planner.shown(), file](Interrupter*) { saveReport(*cage, file); };
+    return [cage = source.planner.made(), file](Interrupter*) { saveReport(*cage, file); };
 }
 
 Write SaveOptions::writer(const SaveSource& source, const fs::path& file)
@@ -108,7 +108,7 @@ CageResultPtr currentCage(const Planner& planner, const std::string& verb)
     if (planner.standing() != Planner::Standing::current) {
         throw InputError(verb + ": the cage of these options is not made yet");
     }
-    return planner.shown();
+    return planner.made();
 }
 
 } // namespace vdbcage::view

@@ -15,7 +15,7 @@ CageResultPtr Posing::cageOf(const State& state, const Planner& planner)
         posable_.reset();
     } else if (state.view.mode == Mode::pose) {
         if (wanted == shown_ && areCarried(poses, *posable_)) return shown_;
-        ShownCage carried = carrier_.carried(MeshPtr(wanted, &wanted->cage), poses);
+        PosableCagePtr carried = carrier_.carried(MeshPtr(wanted, &wanted->cage), poses);
         if (!carried) return shown_;
         posable_ = std::move(carried);
     } else if (wanted != shown_) {
@@ -27,7 +27,7 @@ CageResultPtr Posing::cageOf(const State& state, const Planner& planner)
 
 CageResultPtr Posing::wantedCage(const Document& document, const Planner& planner)
 {
-    const CageResultPtr& made = planner.shown();
+    const CageResultPtr& made = planner.made();
     if (!document.cage || (made && made->order.cage == document.cage)) return made;
     return unchecked_.of(document.cage, [&] {
         CageResult result;

@@ -15,9 +15,9 @@ namespace {
 constexpr draw::Colour inkColour{0.20F, 0.21F, 0.23F};
 
 /// Returns the options by which two cages differ, in words: "faces 300, not 400".
-std::string differences(const CageOptions& shown, const CageOptions& wanted)
+std::string differences(const CageOptions& made, const CageOptions& wanted)
 {
-    const auto have = optionValues(shown), want = optionValues(wanted);
+    const auto have = optionValues(made), want = optionValues(wanted);
     std::string text;
     for (std::size_t i = 0; i < have.size(); ++i) {
         if (have[i].second == want[i].second) continue;
@@ -26,19 +26,19 @@ std::string differences(const CageOptions& shown, const CageOptions& wanted)
     return text;
 }
 
-/// Returns a note on the shown cage; empty if it is the wanted one.
+/// Returns a note on the made cage; empty if it is the wanted one.
 std::string standingText(const PanelContent& content)
 {
     const Planner& planner = content.planner;
-    const CageResultPtr& shown = planner.shown();
-    if (!shown) return {};
+    const CageResultPtr& made = planner.made();
+    if (!made) return {};
     switch (planner.standing()) {
     case Planner::Standing::preview:
         return "Preview, made with least effort";
     case Planner::Standing::stale:
-        if (shown->order.cage) return "Shown is the cage that was opened before";
+        if (made->order.cage) return "Shown is the cage that was opened before";
         return "Shown is the last good cage: " +
-               differences(shown->order.options, content.session.state().document.options);
+               differences(made->order.options, content.session.state().document.options);
     case Planner::Standing::current:
     case Planner::Standing::none:
         break;

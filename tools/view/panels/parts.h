@@ -32,7 +32,7 @@ struct TimeLineMemory {
 /// keys.
 void buildTimeLine(const PanelContext& context, std::map<std::string, std::string>& typed, TimeLineMemory& memory);
 void buildStatusLine(const PanelContext& context);
-/// Builds the overlays of one picture or two: the standing of the shown cage and model, axes, scale of the grid,
+/// Builds the overlays of one picture or two: the standing of the made cage and of the model, axes, scale of the grid,
 /// legend.
 void buildOverlays(const PanelContext& context, const Rectangle& viewport);
 /// Builds the messages, the question before the end, the file browser and help; one at a time. `isHelpOpen` is set to

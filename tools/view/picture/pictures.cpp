@@ -5,7 +5,7 @@
 
 namespace vdbcage::view {
 
-bool Pictures::show(const Rectangle& place, Shown shown, const Follower& follower, const Follower* compared,
+bool Pictures::show(const Rectangle& place, PictureContent content, const Follower& follower, const Follower* compared,
                     const ViewState& view)
 {
     Rectangle left = place, right = place;
@@ -18,16 +18,16 @@ bool Pictures::show(const Rectangle& place, Shown shown, const Follower& followe
     if (!compared) second_.reset();
     if (compared && !second_) second_ = std::make_unique<Viewport>(api_, isSoftware_);
     places_.assign(1, left);
-    shown.modelValues = follower.values();
-    shown.posed = &follower.model();
+    content.modelValues = follower.values();
+    content.posed = &follower.model();
     first_.resize(left.width, left.height);
-    changed |= first_.show(shown, view);
+    changed |= first_.show(content, view);
     if (!second_) return changed;
     places_.push_back(right);
-    shown.modelValues = compared->values();
-    shown.posed = &compared->model();
+    content.modelValues = compared->values();
+    content.posed = &compared->model();
     second_->resize(right.width, right.height);
-    return second_->show(shown, view) || changed;
+    return second_->show(content, view) || changed;
 }
 
 void Pictures::draw(bool isMoving)

@@ -19,7 +19,7 @@ public:
 
     /// Takes new content for the pictures within `place`: with the model as it follows the cage, and as `compared` has
     /// it if that is not null. Returns whether anything changed. \throw DeviceError
-    bool show(const Rectangle& place, Shown shown, const Follower& follower, const Follower* compared,
+    bool show(const Rectangle& place, PictureContent content, const Follower& follower, const Follower* compared,
               const ViewState& view);
 
     /// See AveragedCanvas.

@@ -53,7 +53,7 @@ private:
     std::set<PosePtr> givenUp_;
 };
 
-/// The shown cage; null: none. It follows from the document after a while.
-using ShownCage = std::shared_ptr<PosableCage>;
+/// Null: there is no cage.
+using PosableCagePtr = std::shared_ptr<PosableCage>;
 
 } // namespace vdbcage::view

@@ -50,7 +50,7 @@ void Session::cancelDrag()
     hasDraggedDocument_ = false;
 }
 
-void Session::setCage(ShownCage cage)
+void Session::setCage(PosableCagePtr cage)
 {
     const auto hasFacesOf = [&](const Mesh& before) {
         return cage && cage->rest()->triangles == before.triangles && cage->rest()->quads == before.quads;
