@@ -189,7 +189,7 @@ void ActionRunner::endDrag()
     parts_.screen.invalidate();
     const auto& record = parts_.setup.record;
     if (!record) return;
-    const State& before = session.dragged();
+    const State& before = session.beforeDrag();
     if (session.hasDraggedDocument() && session.state().document != before.document) {
         record(session.documents().undone());
     }

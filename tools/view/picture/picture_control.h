@@ -14,8 +14,9 @@
 namespace vdbcage::view {
 
 /// The control of the picture by the pointer, and by keys during a motion: it turns the view (see CameraDrag), selects
-/// parts of the cage (see Band), and moves the selection (see Grip), by handles or freely. It acts by commands; it
-/// changes nothing else.
+/// parts of the cage (see Band), and moves the selection (see Grip), by handles or freely. It acts by commands, which
+/// the host performs; but it begins drags in the session itself, and there replaces the command of a motion at each
+/// event, or cancels it. The host ends and records drags.
 class PictureControl {
 public:
     /// The things that it acts on. All must outlive it.

@@ -81,7 +81,7 @@ public:
     bool hasDraggedDocument() const { return hasDraggedDocument_; }
     bool hasDraggedView() const { return hasDraggedView_; }
     /// Returns the state at the last beginDrag().
-    const State& dragged() const { return dragged_; }
+    const State& beforeDrag() const { return beforeDrag_; }
 
     const History<Document>& documents() const { return documents_; }
     const History<ViewState>& views() const { return views_; }
@@ -109,8 +109,8 @@ private:
     PosableCagePtr cage_; ///< follows from the document, so it has no history
     History<Document> documents_;
     History<ViewState> views_;
-    State dragged_; ///< before the drag
-    PosableCagePtr draggedCage_;
+    State beforeDrag_;
+    PosableCagePtr cageBeforeDrag_;
     bool isDragging_ = false, hasDraggedDocument_ = false, hasDraggedView_ = false;
 };
 
