@@ -112,7 +112,7 @@ BOOST_AUTO_TEST_CASE(the_second_picture_has_the_material)
     // The right half, without the panels.
     const auto right = [&] {
         const draw::Picture all = app.picture();
-        const Rectangle place = app.viewport();
+        const Rectangle place = app.picturePlace();
         std::vector<std::uint8_t> bytes;
         for (int y = place.top; y < place.top + place.height; ++y) {
             const auto row = all.rgb.begin() + std::ptrdiff_t{3} * y * all.width;

@@ -49,7 +49,7 @@ struct ActionRunner::VerbEffect {
     void operator()(const FrameView& verb) const
     {
         runner.attempt(
-            SetCamera{parts.screen.pictures().first().fitted(parts.session.state().view, verb.onlySelected)});
+            SetCamera{parts.screen.viewports().first().fitted(parts.session.state().view, verb.onlySelected)});
     }
     void operator()(const StartBox& /*verb*/) const { parts.control.startBox(); }
     void operator()(const Grab& verb) const { parts.control.grab(verb.tool); }
@@ -80,7 +80,7 @@ struct ActionRunner::VerbEffect {
     void operator()(const SavePicture& verb) const
     {
         parts.refresh();
-        savePicture(parts.screen.pictures().first().picture(), verb.path);
+        savePicture(parts.screen.viewports().first().picture(), verb.path);
         saySaved(verb.path);
     }
     void saySaved(const fs::path& path) const { parts.say("saved " + path.filename().string()); }
@@ -175,7 +175,7 @@ void ActionRunner::run(const Command& command)
     parts_.watch = {};
     parts_.refresh();
     // These are not recorded as lines: they follow from the command.
-    session.execute(SetCamera{parts_.screen.pictures().first().fitted(session.state().view, false)});
+    session.execute(SetCamera{parts_.screen.viewports().first().fitted(session.state().view, false)});
     session.execute(SetFrame{0});
     // A newly opened model is no work that could be lost.
     if (!hadModel || wasSaved) parts_.saved = session.state().document;

@@ -60,7 +60,8 @@ public:
     std::optional<Rectangle> widget(const std::string& name);
     /// Scrolls to a widget.
     void reveal(const std::string& name);
-    Rectangle viewport() const { return parts_.viewport(); }
+    /// See AppParts.
+    Rectangle picturePlace() const { return parts_.picturePlace(); }
     /// Returns the pointer's position, in pixels from the top left.
     Pixel pointer() const { return parts_.control.pointer(); }
 

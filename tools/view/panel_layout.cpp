@@ -74,7 +74,7 @@ PanelContent PanelLayout::content() const
     const Session& session = parts_.session;
     const State& state = session.state();
     const Posing& posing = parts_.making.posing();
-    const Viewport& picture = parts_.screen.pictures().first();
+    const Viewport& picture = parts_.screen.viewports().first();
     PanelContent content{session,     parts_.making.planner(), parts_.making.progress(), parts_.messages,
                          parts_.note, shortcuts(parts_.keys),  parts_.recentFiles};
     content.axes = axesSeenBy(state.view.camera);
@@ -91,7 +91,7 @@ PanelContent PanelLayout::content() const
         content.cage = countsOf(cage->cage, picture.shapes().edgeCount(LayerId::cage));
     }
     content.overlay = parts_.control.overlay();
-    content.pictures = parts_.screen.pictures().places();
+    content.pictures = parts_.screen.viewports().places();
     content.binding = posing.follower().binder().progress();
     content.isPosedCoarsely = posing.follower().model().bound() && !posing.follower().model().isWhole();
     content.keys = parts_.keys;

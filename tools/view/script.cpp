@@ -33,7 +33,7 @@ std::pair<int, int> sizeOf(const std::string& text)
 
 Rectangle placeOf(App& app, const std::string& name)
 {
-    if (name == "picture") return app.viewport();
+    if (name == "picture") return app.picturePlace();
     app.reveal(name);
     const auto place = app.widget(name);
     if (!place) throw InputError("there is no widget '" + name + "' to be seen");

@@ -52,8 +52,8 @@ public:
     bool isHeld() const { return held_.has_value() || (grip_ && grip_->isFree()); }
     /// Returns whether the view is turned, moved or zoomed.
     bool isCameraDragged() const { return isCameraDragged_; }
-    /// Returns whether the selection is being moved.
-    bool isMoving() const { return grip_.has_value(); }
+    /// Returns whether it moves, turns or scales the selection.
+    bool hasGrip() const { return grip_.has_value(); }
     /// Returns whether something is under way that Escape ends.
     bool isBusy() const { return grip_ || isBoxArmed_ || band_.isThere(); }
     /// Ends the motion or box under way without effect.

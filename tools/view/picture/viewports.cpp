@@ -1,12 +1,12 @@
-#include <tools/view/picture/pictures.h>
+#include <tools/view/picture/viewports.h>
 
 #include <algorithm>
 #include <utility>
 
 namespace vdbcage::view {
 
-bool Pictures::show(const Rectangle& place, PictureContent content, const Follower& follower, const Follower* compared,
-                    const ViewState& view)
+bool Viewports::show(const Rectangle& place, PictureContent content, const Follower& follower, const Follower* compared,
+                     const ViewState& view)
 {
     Rectangle left = place, right = place;
     if (compared) {
@@ -30,13 +30,13 @@ bool Pictures::show(const Rectangle& place, PictureContent content, const Follow
     return second_->show(content, view) || changed;
 }
 
-void Pictures::draw(bool isMoving)
+void Viewports::draw(bool isMoving)
 {
     first_.draw(isMoving);
     if (second_) second_->draw(isMoving);
 }
 
-void Pictures::copyTo(GLuint framebuffer, int height) const
+void Viewports::copyTo(GLuint framebuffer, int height) const
 {
     for (const Rectangle& place : places_) {
         const Viewport& picture = &place == &places_.front() ? first_ : *second_;
