@@ -5,7 +5,7 @@
 
 #include "app_fixture.h"
 #include <tools/view/files/saving.h>
-#include <tools/view/state/move.h>
+#include <tools/view/state/cage_changes.h>
 #include <tools/view/state/words.h>
 #include <vdbcage/core/error.h>
 

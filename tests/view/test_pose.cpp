@@ -11,7 +11,7 @@
 #include <tools/edit/topology.h>
 #include <tools/view/jobs/model_values.h>
 #include <tools/view/jobs/posed_model.h>
-#include <tools/view/state/move.h>
+#include <tools/view/state/cage_changes.h>
 #include <tools/view/state/session.h>
 #include <tools/view/state/words.h>
 #include <vdbcage/core/error.h>

@@ -7,7 +7,7 @@
 
 #include "app_fixture.h"
 #include <support/reordered.h>
-#include <tools/view/state/move.h>
+#include <tools/view/state/cage_changes.h>
 #include <tools/view/state/words.h>
 #include <vdbcage/core/detail/number_text.h>
 #include <vdbcage/core/error.h>

@@ -12,7 +12,7 @@
 #include <tools/edit/carry.h>
 #include <tools/view/files/scene.h>
 #include <tools/view/jobs/carrier.h>
-#include <tools/view/state/move.h>
+#include <tools/view/state/cage_changes.h>
 #include <tools/view/state/pose_files.h>
 #include <tools/view/state/session.h>
 #include <tools/view/state/words.h>

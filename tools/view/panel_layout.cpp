@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include <tools/view/state/move.h>
+#include <tools/view/state/cage_changes.h>
 
 namespace vdbcage::view {
 

@@ -1,6 +1,6 @@
 #include <tools/view/values.h>
 
-#include <tools/view/state/move.h>
+#include <tools/view/state/cage_changes.h>
 #include <vdbcage/core/detail/number_text.h>
 
 namespace vdbcage::view {

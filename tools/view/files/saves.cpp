@@ -3,7 +3,6 @@
 #include <utility>
 
 #include <tools/view/files/saving.h>
-#include <tools/view/state/move.h>
 #include <vdbcage/core/error.h>
 
 namespace vdbcage::view {
@@ -37,7 +36,7 @@ PosedScene posedScene(const SaveSource& source)
     const int first = T::isSequence ? poses.firstFrame() : state.view.frame;
     const int last = T::isSequence ? poses.finalFrame() : first;
     const BindOrder order = bindOrder(state.document, source.cage->rest());
-    const auto binding = source.posing.follower().bindingOf(order);
+    const auto binding = source.posing.follower().bindingIfReady(order);
     return {order, binding, state.document.elasticity, poses, *source.cage, first, last};
 }
 

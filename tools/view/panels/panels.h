@@ -15,7 +15,7 @@
 #include <tools/view/jobs/runner.h>
 #include <tools/view/picture/picture_overlay.h>
 #include <tools/view/picture/rectangle.h>
-#include <tools/view/state/move.h>
+#include <tools/view/state/cage_changes.h>
 #include <tools/view/state/session.h>
 
 namespace vdbcage::view {

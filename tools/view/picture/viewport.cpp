@@ -1,6 +1,6 @@
 #include <tools/view/picture/viewport.h>
 
-#include <tools/view/state/move.h>
+#include <tools/view/state/cage_changes.h>
 
 namespace vdbcage::view {
 

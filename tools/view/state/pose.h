@@ -3,9 +3,10 @@
 #include <map>
 #include <memory>
 #include <set>
+#include <utility>
 #include <vector>
 
-#include <tools/view/state/bound_model.h>
+#include <tools/view/state/opened_mesh.h>
 #include <vdbcage/core/interrupter.h>
 
 namespace vdbcage::view {

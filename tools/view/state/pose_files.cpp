@@ -7,7 +7,7 @@
 
 #include <tools/files/frames.h>
 #include <tools/files/posed_cage.h>
-#include <tools/view/state/move.h>
+#include <tools/view/state/cage_changes.h>
 #include <tools/view/state/words.h>
 #include <vdbcage/core/detail/read_file.h>
 #include <vdbcage/core/error.h>

@@ -7,8 +7,8 @@
 #include <tools/edit/motion.h>
 #include <tools/view/state/state.h>
 
-/// Operations on the selected points of the shown cage. Each function that returns the document after it throws
-/// InputError if there is no cage, or no part of it is selected.
+/// Changes of the shown cage and its poses by hand, and the values that they begin from. Each function that returns a
+/// document, the one after the change, throws InputError if there is no cage, or no part of it is selected.
 namespace vdbcage::view {
 
 /// Returns the cage at rest. \throw InputError there is none
@@ -19,9 +19,6 @@ edit::Selection withinCage(edit::Selection selection, const edit::Elements& elem
 
 /// Returns the points that are selected or belong to selected elements. All are points of the cage.
 std::vector<openvdb::Index32> selectedPoints(const Mesh& cage, const edit::Selection& selection);
-
-/// Returns the settings by which the model is bound to the cage. \pre there is a model
-BindOrder bindOrder(const Document& document, const MeshPtr& cage);
 
 /// Returns the present points of the cage: posed in mode pose, else at rest. Empty if there is no cage.
 std::vector<openvdb::Vec3d> cagePoints(const State& state, const PosableCagePtr& cage);

@@ -1,4 +1,4 @@
-#include <tools/view/state/move.h>
+#include <tools/view/state/cage_changes.h>
 
 #include <algorithm>
 #include <cmath>
@@ -200,11 +200,6 @@ std::vector<Index32> selectedPoints(const Mesh& cage, const edit::Selection& sel
 {
     const edit::Elements elements(cage);
     return edit::pointsOf(elements, withinCage(selection, elements));
-}
-
-BindOrder bindOrder(const Document& document, const MeshPtr& cage)
-{
-    return {document.model, cage, document.coordinates, document.weights};
 }
 
 std::vector<Vec3d> cagePoints(const State& state, const PosableCagePtr& cage)
