@@ -262,7 +262,7 @@ BOOST_AUTO_TEST_CASE(the_counts_are_those_of_the_drawn_cage)
     AppParts parts(
         context.api(), setup(), [](const Command&) {}, [] {});
     ActionRunner actions(parts);
-    const PanelLayout panels(parts, actions);
+    const PanelDriver panels(parts, actions);
     parts.screen.resize(parts.setup.width, parts.setup.height);
     actions.perform(OpenModel{files[0]});
     actions.waitUntilSettled();

@@ -4,7 +4,7 @@
 #include <array>
 
 #include "app_fixture.h"
-#include <tools/view/files/saving.h>
+#include <tools/view/files/file_contents.h>
 #include <tools/view/state/cage_changes.h>
 #include <tools/view/state/words.h>
 #include <vdbcage/core/error.h>

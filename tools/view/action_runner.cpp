@@ -2,8 +2,8 @@
 
 #include <utility>
 
+#include <tools/view/files/file_contents.h>
 #include <tools/view/files/folder.h>
-#include <tools/view/files/saving.h>
 #include <tools/view/files/scene.h>
 #include <vdbcage/core/error.h>
 

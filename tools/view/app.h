@@ -7,7 +7,7 @@
 
 #include <tools/view/action_runner.h>
 #include <tools/view/app_parts.h>
-#include <tools/view/panel_layout.h>
+#include <tools/view/panel_driver.h>
 
 namespace vdbcage::view {
 
@@ -80,7 +80,7 @@ private:
 
     AppParts parts_;
     ActionRunner actions_{parts_};
-    PanelLayout panels_{parts_, actions_};
+    PanelDriver panels_{parts_, actions_};
 };
 
 } // namespace vdbcage::view

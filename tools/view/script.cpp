@@ -6,7 +6,7 @@
 #include <functional>
 #include <sstream>
 
-#include <tools/view/files/saving.h>
+#include <tools/view/files/file_contents.h>
 #include <tools/view/state/words.h>
 #include <vdbcage/core/detail/read_file.h>
 #include <vdbcage/core/error.h>

@@ -1,8 +1,8 @@
-#include <tools/view/files/saves.h>
+#include <tools/view/files/save_verbs.h>
 
 #include <utility>
 
-#include <tools/view/files/saving.h>
+#include <tools/view/files/file_contents.h>
 #include <vdbcage/core/error.h>
 
 namespace vdbcage::view {

@@ -1,4 +1,4 @@
-#include <tools/view/files/saving.h>
+#include <tools/view/files/file_contents.h>
 
 #include <cmath>
 #include <string>

@@ -4,10 +4,10 @@
 
 namespace vdbcage::view {
 
-/// The layout of the panels, which performs the actions that the user asks for in them.
-class PanelLayout {
+/// The driver of the panels: it lays them out, and performs the actions that the user asks for in them.
+class PanelDriver {
 public:
-    PanelLayout(AppParts& parts, ActionRunner& actions) : parts_(parts), actions_(actions) {}
+    PanelDriver(AppParts& parts, ActionRunner& actions) : parts_(parts), actions_(actions) {}
 
     /// Updates the panels to the state if they are not current.
     void update();
