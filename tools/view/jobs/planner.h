@@ -8,8 +8,8 @@
 
 namespace vdbcage::view {
 
-/// The decision which cage is made next, whether the job under way is still useful, and which of the made cages is the
-/// best. It has no thread and no clock: it is told about events, and asked.
+/// The decision which cage is made next, whether the job under way is still useful, and which of the made cages is
+/// offered. It has no thread and no clock: it is told about events, and asked.
 ///
 /// At most one job is under way, and at most one waits, for the wanted cage. While a value is dragged only previews are
 /// made. A preview under way is finished, unless it shares no stage with the wanted cage. A full run is stopped as soon
@@ -54,8 +54,8 @@ public:
         preview, ///< it is the preview of the wanted one
         stale    ///< it was made with other options, for the same model
     };
-    /// Returns the best of the made cages, with its own options: the wanted one, or else its preview, or else a cage of
-    /// other options for the same model; null if there is none.
+    /// Returns the offered one of the made cages, with its own options: the wanted one, or else its preview, or else a
+    /// cage of other options for the same model; null if there is none.
     const CageResultPtr& made() const { return made_; }
     Standing standing() const;
 
