@@ -29,7 +29,7 @@ State startingState()
     return state;
 }
 
-ShownCage startingCage()
+PosableCagePtr startingCage()
 {
     return std::make_shared<PosableCage>(std::make_shared<const Mesh>(test::sphere({0.5, 0.5, 0.5}, 1, 4)));
 }
@@ -53,7 +53,7 @@ void requireComesBack(const Command& command)
     require(toText(commandOf(wordsOf(text))) == text);
 }
 
-void perform(State& state, const ShownCage& cage, const std::string& line)
+void perform(State& state, const PosableCagePtr& cage, const std::string& line)
 {
     try {
         const std::vector<std::string> words = wordsOf(line);
@@ -77,7 +77,7 @@ void perform(State& state, const ShownCage& cage, const std::string& line)
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
 {
     State state = startingState();
-    const ShownCage cage = startingCage();
+    const PosableCagePtr cage = startingCage();
     std::istringstream lines(fuzz::textOf(data, size));
     for (std::string line; std::getline(lines, line);) perform(state, cage, line);
     State again;

@@ -17,14 +17,14 @@ inline view::OpenedMeshPtr opened(Mesh mesh, const std::string& name = "/no/mode
     return std::make_shared<const view::OpenedMesh>(std::move(file));
 }
 
-inline view::ShownCage shown(const view::MeshPtr& cage)
+inline view::PosableCagePtr posable(const view::MeshPtr& cage)
 {
     return std::make_shared<view::PosableCage>(cage);
 }
 
-inline view::ShownCage shown(Mesh cage)
+inline view::PosableCagePtr posable(Mesh cage)
 {
-    return shown(std::make_shared<const Mesh>(std::move(cage)));
+    return posable(std::make_shared<const Mesh>(std::move(cage)));
 }
 
 inline view::Order orderOf(const view::OpenedMeshPtr& model, int faces, Effort effort = Effort::fair)

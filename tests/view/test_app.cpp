@@ -257,6 +257,29 @@ BOOST_AUTO_TEST_CASE(a_click_selects_a_face_and_f_frames_it)
     run(app, {"mouse move picture 0.02 0.05", "mouse click", "expect selected 0"});
 }
 
+BOOST_AUTO_TEST_CASE(the_counts_are_those_of_the_drawn_cage)
+{
+    AppParts parts(
+        context.api(), setup(), [](const Command&) {}, [] {});
+    ActionRunner actions(parts);
+    const PanelDriver panels(parts, actions);
+    parts.screen.resize(parts.setup.width, parts.setup.height);
+    actions.perform(OpenModel{files[0]});
+    actions.waitUntilSettled();
+    const Counts made = *panels.content().cage;
+    actions.perform(SetMode{Mode::shape});
+    actions.perform(Select{{edit::Element::edge, {0}}});
+    // The edited cage is drawn at once; the planner has the one before until it is checked.
+    actions.perform(EditCage{CageEdit::split});
+    const Mesh& drawn = parts.making.cage()->cage;
+    BOOST_REQUIRE(parts.making.planner().made()->cage.points.size() != drawn.points.size());
+    const Counts edited = *panels.content().cage;
+    BOOST_TEST(edited.points == made.points + 1);
+    BOOST_TEST(edited.points == drawn.points.size());
+    BOOST_TEST(edited.edges == edit::Elements(drawn).edges().size());
+    BOOST_TEST(edited.faces == faceCount(drawn));
+}
+
 BOOST_AUTO_TEST_CASE(every_shortcut_stands_for_a_line_that_is_known)
 {
     App app(context.api(), setup());

@@ -10,7 +10,7 @@
 #include <tools/view/jobs/follower.h>
 #include <tools/view/jobs/model_values.h>
 #include <tools/view/jobs/posing.h>
-#include <tools/view/state/move.h>
+#include <tools/view/state/cage_changes.h>
 #include <tools/view/state/session.h>
 #include <tools/view/state/words.h>
 #include <vdbcage/core/error.h>
@@ -40,23 +40,23 @@ struct Fixture {
         State state;
         state.document.model = model;
         session.restart(state);
-        session.setCage(test::shown(cage));
+        session.setCage(test::posable(cage));
         run("mode pose");
         run("select points 0 1 2 3 4 5 6 7 8 9 10 11 12");
     }
     void run(const std::string& line) { session.execute(commandOf(wordsOf(line))); }
     std::vector<Vec3d> points() const { return cagePoints(session.state(), session.cage()); }
-    void followOnce(const Follower::Effort& effort)
+    void followOnce(const Follower::Conditions& conditions)
     {
-        follower.follow(session.state(), session.cage()->rest(), points(), effort);
+        follower.follow(session.state(), session.cage()->rest(), points(), conditions);
     }
-    void follow(Follower::Effort effort = {true, true, true})
+    void follow(Follower::Conditions conditions = {true, true, true})
     {
-        for (followOnce(effort); !follower.isSettled(); followOnce(effort)) {
+        for (followOnce(conditions); !follower.isSettled(); followOnce(conditions)) {
             follower.waitForNews(1);
             follower.update();
         }
-        followOnce(effort);
+        followOnce(conditions);
     }
 };
 
@@ -107,9 +107,10 @@ BOOST_AUTO_TEST_CASE(another_material_poses_it_anew_but_binds_nothing)
         const Binding other = binding.with(elasticity);
         BOOST_TEST(follower.model().points() == other.pose(points()), boost::test_tools::per_element());
         BOOST_TEST(follower.model().points() != before);
-        BOOST_TEST(follower.bindingOf(bindOrder(session.state().document, session.cage()->rest()))->pose(points()) ==
-                       other.pose(points()),
-                   boost::test_tools::per_element());
+        BOOST_TEST(
+            follower.bindingIfReady(bindOrder(session.state().document, session.cage()->rest()))->pose(points()) ==
+                other.pose(points()),
+            boost::test_tools::per_element());
         follow();
         const std::vector<std::uint32_t>& inverted = *follower.check()->inverted;
         BOOST_TEST((inverted == invertedTriangles(other, model->mesh, {points()}).front()));
@@ -230,8 +231,8 @@ BOOST_AUTO_TEST_CASE(a_count_that_was_stopped_is_begun_anew)
     const PoseCheckPtr first = follower.check();
     for (int i = 0; i < 20; ++i) {
         run("coordinates mlc");
-        const Follower::Effort effort{true, true, true};
-        for (followOnce(effort); !follower.isChecking(); followOnce(effort)) {
+        const Follower::Conditions conditions{true, true, true};
+        for (followOnce(conditions); !follower.isChecking(); followOnce(conditions)) {
             follower.waitForNews(1);
             follower.update();
         }
@@ -276,7 +277,7 @@ BOOST_AUTO_TEST_CASE(weights_from_a_file_pose_it)
     BOOST_TEST(!follower.check()->inverted);
     BOOST_TEST(follower.error().empty());
     // Of another cage: it says so, and all else goes on.
-    session.setCage(test::shown(test::torus(2, 0.6, 16, 9)));
+    session.setCage(test::posable(test::torus(2, 0.6, 16, 9)));
     follow();
     BOOST_TEST(follower.error().find("w.dmat") != std::string::npos, follower.error());
     run("coordinates mvc");

@@ -4,8 +4,8 @@
 #include <array>
 
 #include "app_fixture.h"
-#include <tools/view/files/saving.h>
-#include <tools/view/state/move.h>
+#include <tools/view/files/file_contents.h>
+#include <tools/view/state/cage_changes.h>
 #include <tools/view/state/words.h>
 #include <vdbcage/core/error.h>
 
@@ -41,7 +41,7 @@ BOOST_AUTO_TEST_CASE(what_is_saved_has_the_material)
               "save-posed-models " + file("m.%04d.ply"), "wait", "expect bound yes"});
     const State& state = app.session().state();
     const Mesh& model = state.document.model->mesh;
-    const ShownCage& cage = app.session().cage();
+    const PosableCagePtr& cage = app.session().cage();
     const Binding binding = Binding(*cage->rest(), model.points, Coordinates::somigliana).with(elasticity);
     Mesh expected = model;
     expected.points = binding.pose(points());
@@ -112,7 +112,7 @@ BOOST_AUTO_TEST_CASE(the_second_picture_has_the_material)
     // The right half, without the panels.
     const auto right = [&] {
         const draw::Picture all = app.picture();
-        const Rectangle place = app.viewport();
+        const Rectangle place = app.picturePlace();
         std::vector<std::uint8_t> bytes;
         for (int y = place.top; y < place.top + place.height; ++y) {
             const auto row = all.rgb.begin() + std::ptrdiff_t{3} * y * all.width;

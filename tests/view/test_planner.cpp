@@ -74,7 +74,7 @@ BOOST_AUTO_TEST_CASE(a_preview_comes_first_then_the_cage_then_the_neighbours_pre
     BOOST_TEST_REQUIRE(ahead.size() == 2);
     BOOST_CHECK(ahead[0].order == orderOf(model, 95, Effort::fast) && ahead[0].kind == Job::Kind::ahead);
     BOOST_CHECK(ahead[1].order == orderOf(model, 105, Effort::fast));
-    BOOST_CHECK(planner.shown()->order == orderOf(model, 100));
+    BOOST_CHECK(planner.made()->order == orderOf(model, 100));
     BOOST_TEST(planner.isIdle());
 }
 
@@ -104,7 +104,7 @@ BOOST_AUTO_TEST_CASE(a_drag_shows_previews_and_its_end_begins_the_full_run)
     planner.want(orderOf(model, 140), true);
     BOOST_TEST(!planner.shouldStop()); // it will be done soon
     planner.finished(resultOf(*first));
-    BOOST_TEST(planner.shown()->order.options.faces == 120);
+    BOOST_TEST(planner.made()->order.options.faces == 120);
     BOOST_CHECK(planner.standing() == Planner::Standing::stale);
     const std::optional<Job> second = planner.start();
     BOOST_TEST(second->order.options.faces == 140);
@@ -124,7 +124,7 @@ BOOST_AUTO_TEST_CASE(a_drag_with_least_effort_shows_cages_too)
     planner.want(orderOf(model, 120, Effort::fast), true);
     BOOST_TEST(!planner.shouldStop());
     planner.finished(resultOf(*job));
-    BOOST_TEST(planner.shown()->order.options.faces == 100);
+    BOOST_TEST(planner.made()->order.options.faces == 100);
     job = planner.start();
     planner.want(orderOf(model, 120, Effort::fast), false);
     BOOST_TEST(!planner.shouldStop());
@@ -145,7 +145,7 @@ BOOST_AUTO_TEST_CASE(a_preview_that_shares_no_stage_is_stopped)
     planner.start();
     planner.want(orderOf(otherModel, 100), false);
     BOOST_TEST(planner.shouldStop());
-    BOOST_TEST(!planner.shown());
+    BOOST_TEST(!planner.made());
 }
 
 BOOST_AUTO_TEST_CASE(cancelling_keeps_what_is_shown_until_something_else_is_wanted)
@@ -162,7 +162,7 @@ BOOST_AUTO_TEST_CASE(cancelling_keeps_what_is_shown_until_something_else_is_want
     planner.want(orderOf(model, 200), false);
     BOOST_TEST(!planner.start());
     BOOST_CHECK(planner.standing() == Planner::Standing::stale);
-    BOOST_TEST(planner.shown()->order.options.faces == 100);
+    BOOST_TEST(planner.made()->order.options.faces == 100);
     planner.again();
     BOOST_TEST(planner.start().has_value());
     planner.cancel();
@@ -211,12 +211,12 @@ BOOST_AUTO_TEST_CASE(intermediates_are_made_when_they_are_asked_for)
     Planner planner;
     planner.want(orderOf(model, 100), false);
     drain(planner);
-    BOOST_TEST(!planner.shown()->intermediates);
+    BOOST_TEST(!planner.made()->intermediates);
     planner.want(orderOf(model, 100), false, true);
     BOOST_TEST(!planner.isSettled());
     const std::vector<Job> jobs = drain(planner);
     BOOST_TEST(jobs.size() == 1);
-    BOOST_TEST(planner.shown()->intermediates.get());
+    BOOST_TEST(planner.made()->intermediates.get());
     BOOST_CHECK(planner.standing() == Planner::Standing::current);
 }
 
@@ -257,11 +257,11 @@ BOOST_AUTO_TEST_CASE(any_sequence_of_changes_cancels_and_late_results)
         bool isDragging = false, intermediates = false;
         std::set<std::pair<int, Effort>> broken;
         const auto check = [&] {
-            if (const CageResultPtr& shown = planner.shown()) {
-                BOOST_REQUIRE(carriesItsOptions(*shown));
-                BOOST_REQUIRE(shown->order.model == wanted.model);
+            if (const CageResultPtr& made = planner.made()) {
+                BOOST_REQUIRE(carriesItsOptions(*made));
+                BOOST_REQUIRE(made->order.model == wanted.model);
             }
-            const bool isCurrent = planner.shown() && planner.shown()->order == wanted;
+            const bool isCurrent = planner.made() && planner.made()->order == wanted;
             BOOST_REQUIRE((planner.standing() == Planner::Standing::current) == isCurrent);
             ++seen[planner.standing()];
         };
@@ -327,7 +327,7 @@ BOOST_AUTO_TEST_CASE(any_sequence_of_changes_cancels_and_late_results)
             BOOST_CHECK(planner.standing() != Planner::Standing::stale);
         }
         BOOST_CHECK(planner.standing() == Planner::Standing::current);
-        BOOST_TEST((!intermediates || planner.shown()->intermediates));
+        BOOST_TEST((!intermediates || planner.made()->intermediates));
         BOOST_TEST(planner.isIdle());
     }
     for (const auto standing :

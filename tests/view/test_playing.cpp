@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "app_fixture.h"
-#include <tools/view/state/move.h>
+#include <tools/view/state/cage_changes.h>
 #include <tools/view/state/words.h>
 #include <vdbcage/core/error.h>
 

@@ -11,7 +11,7 @@
 #include <tools/edit/topology.h>
 #include <tools/view/jobs/model_values.h>
 #include <tools/view/jobs/posed_model.h>
-#include <tools/view/state/move.h>
+#include <tools/view/state/cage_changes.h>
 #include <tools/view/state/session.h>
 #include <tools/view/state/words.h>
 #include <vdbcage/core/error.h>
@@ -43,7 +43,7 @@ struct Posing {
         State state;
         state.document.model = model;
         session.restart(state);
-        session.setCage(test::shown(cage));
+        session.setCage(test::posable(cage));
         run("mode pose");
         run("select points 0 1 2 3 4 5 6 7");
     }
@@ -171,7 +171,7 @@ BOOST_AUTO_TEST_CASE(in_mode_shape_the_cage_itself_is_moved_and_its_pose_rides_a
     BOOST_TEST_REQUIRE(edited.get());
     BOOST_TEST(edited->path.empty());
     BOOST_TEST(edited->mesh.points[100] == cage->points[100] + Vec3d(0, 0.01, 0));
-    session.setCage(test::shown(MeshPtr(edited, &edited->mesh)));
+    session.setCage(test::posable(MeshPtr(edited, &edited->mesh)));
     run("mode pose");
     const std::vector<Vec3d> carried = points();
     for (std::size_t i = 0; i < carried.size(); ++i) {
@@ -186,7 +186,7 @@ BOOST_AUTO_TEST_CASE(edges_are_split_collapsed_flipped_merged_and_cut)
     run("mode shape");
     const auto shape = [&] {
         const OpenedMeshPtr edited = session.state().document.cage;
-        session.setCage(test::shown(MeshPtr(edited, &edited->mesh)));
+        session.setCage(test::posable(MeshPtr(edited, &edited->mesh)));
         return edited->mesh;
     };
     const std::size_t quads = cage->quads.size(), triangles = cage->triangles.size();
@@ -262,7 +262,7 @@ BOOST_AUTO_TEST_CASE(edges_that_are_collapsed_together_are_those_that_were_selec
                 }
             }
         }
-        session.setCage(test::shown(plain));
+        session.setCage(test::posable(plain));
         session.execute(Select{{edit::Element::edge, ids}});
         if (isRefused) {
             BOOST_CHECK_THROW(run("edit-cage collapse"), InputError);
@@ -301,9 +301,9 @@ BOOST_AUTO_TEST_CASE(where_nothing_is_selected_nothing_moves)
 
 BOOST_AUTO_TEST_CASE(what_is_selected_is_forgotten_with_its_faces)
 {
-    session.setCage(test::shown(*cage));
+    session.setCage(test::posable(*cage));
     BOOST_TEST(session.state().view.selection.ids.size() == 8u);
-    session.setCage(test::shown(test::box({0, 0, 0}, {1, 1, 1})));
+    session.setCage(test::posable(test::box({0, 0, 0}, {1, 1, 1})));
     BOOST_TEST(session.state().view.selection.ids.empty());
 }
 

@@ -7,7 +7,7 @@
 
 #include "app_fixture.h"
 #include <support/reordered.h>
-#include <tools/view/state/move.h>
+#include <tools/view/state/cage_changes.h>
 #include <tools/view/state/words.h>
 #include <vdbcage/core/detail/number_text.h>
 #include <vdbcage/core/error.h>
@@ -272,7 +272,7 @@ BOOST_AUTO_TEST_CASE(boxes_and_lassos_add_and_take_out)
 {
     const Modifiers control{false, true, false}, withShift{true, true, false}, withAlt{false, true, true};
     const auto band = [&](Button button, const std::vector<Pixel>& places, const Modifiers& how) {
-        const Rectangle picture = app.viewport();
+        const Rectangle picture = app.picturePlace();
         const auto moveTo = [&](const Pixel& at) {
             app.handle({PointerMoved{picture.left + at[0] * picture.width, picture.top + at[1] * picture.height}, how});
         };

@@ -156,20 +156,20 @@ BOOST_AUTO_TEST_CASE(changes_cancels_and_late_results_give_the_cage_of_the_last_
             for (int n = below(40); n > 0; --n) std::this_thread::yield();
             if (below(3) == 0) runner.waitForNews(60);
             runner.update();
-            if (const CageResultPtr& shown = runner.planner().shown()) {
-                BOOST_REQUIRE(shown->order.model == wanted.model);
-                BOOST_REQUIRE((runner.planner().standing() == Planner::Standing::current) == (shown->order == wanted));
+            if (const CageResultPtr& made = runner.planner().made()) {
+                BOOST_REQUIRE(made->order.model == wanted.model);
+                BOOST_REQUIRE((runner.planner().standing() == Planner::Standing::current) == (made->order == wanted));
             }
         }
         wanted.options.faces = 41 + 8 * below(6);
         runner.want(wanted, false, true);
         settle(runner);
         BOOST_CHECK(runner.planner().standing() == Planner::Standing::current);
-        const CageResult& shown = *runner.planner().shown();
-        BOOST_TEST(test::sameMesh(shown.cage, freshCage(wanted)));
-        BOOST_TEST(shown.report.check.bounding());
-        BOOST_TEST_REQUIRE(shown.intermediates.get());
-        BOOST_TEST(shown.intermediates->solid->activeVoxelCount() == shown.report.solidVoxels);
+        const CageResult& made = *runner.planner().made();
+        BOOST_TEST(test::sameMesh(made.cage, freshCage(wanted)));
+        BOOST_TEST(made.report.check.bounding());
+        BOOST_TEST_REQUIRE(made.intermediates.get());
+        BOOST_TEST(made.intermediates->solid->activeVoxelCount() == made.report.solidVoxels);
     }
 }
 
@@ -216,10 +216,10 @@ BOOST_AUTO_TEST_CASE(an_opened_cage_is_checked_as_the_command_does)
         order.cage = test::opened(test::box(openvdb::Vec3d(-size), openvdb::Vec3d(size)));
         runner.want(order, false, true);
         settle(runner);
-        const CageResultPtr& shown = runner.planner().shown();
-        BOOST_TEST_REQUIRE(shown.get());
-        BOOST_TEST(test::sameMesh(shown->cage, order.cage->mesh));
-        BOOST_TEST(shown->report.check.bounding() == (size > 1));
+        const CageResultPtr& made = runner.planner().made();
+        BOOST_TEST_REQUIRE(made.get());
+        BOOST_TEST(test::sameMesh(made->cage, order.cage->mesh));
+        BOOST_TEST(made->report.check.bounding() == (size > 1));
     }
 }
 

@@ -41,7 +41,7 @@ BOOST_AUTO_TEST_CASE(every_command_reads_back_from_its_text)
     const Files files;
     std::mt19937 random(1);
     State state = applied({}, OpenModel{files.list[0]});
-    const ShownCage cage = test::shown(test::torus(1, 0.3, 16, 8));
+    const PosableCagePtr cage = test::posable(test::torus(1, 0.3, 16, 8));
     const auto outcome = [&](const Command& command) -> std::optional<State> {
         try {
             return applied(state, command, cage);
@@ -94,7 +94,7 @@ BOOST_AUTO_TEST_CASE(undoing_all_gives_the_first_state_and_redoing_all_the_last)
     const State opened = session.state();
     session = Session();
     session.restart(opened);
-    session.setCage(test::shown(test::torus(1, 0.3, 16, 8)));
+    session.setCage(test::posable(test::torus(1, 0.3, 16, 8)));
     for (int i = 0; i < 10000; ++i) {
         if (random() % 50 == 0) session.beginDrag();
         if (random() % 40 == 0) session.endDrag();

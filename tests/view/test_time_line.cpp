@@ -12,7 +12,7 @@
 #include <tools/edit/carry.h>
 #include <tools/view/files/scene.h>
 #include <tools/view/jobs/carrier.h>
-#include <tools/view/state/move.h>
+#include <tools/view/state/cage_changes.h>
 #include <tools/view/state/pose_files.h>
 #include <tools/view/state/session.h>
 #include <tools/view/state/words.h>
@@ -37,7 +37,7 @@ struct Fixture {
         const fs::path model = folder / "model.obj";
         writeMesh(test::box({0.2, 0.2, 0.2}, {0.8, 0.8, 0.8}), model);
         run("open " + quotedWord(model.string()));
-        session.setCage(test::shown(cage));
+        session.setCage(test::posable(cage));
         run("mode pose");
         run("select points 0 1 2");
     }
@@ -220,7 +220,7 @@ BOOST_AUTO_TEST_CASE(points_in_another_order_are_put_into_order)
 {
     std::mt19937 random(1);
     const Mesh rest = test::lopsided(test::torus(2, 1, 8, 6));
-    session.setCage(test::shown(rest));
+    session.setCage(test::posable(rest));
     Mesh posed = rest;
     posed.points[3] += Vec3d(0, 0.5, 0);
     writeMesh(test::reordered(posed, random), folder / "o.0001.obj");
@@ -233,7 +233,7 @@ BOOST_AUTO_TEST_CASE(points_in_another_order_are_put_into_order)
     BOOST_CHECK(points() == posed.points);
     BOOST_TEST(run("open-poses " + file("o.0002.obj")) == "o.%04d.obj: 1 of 2 frames: " + said);
     for (const int frame : {1, 2}) BOOST_CHECK(at(frame) == posed.points);
-    session.setCage(test::shown(cage));
+    session.setCage(test::posable(cage));
     writeMesh(test::reordered(*cage, random), folder / "box.1.obj");
     for (const char* line : {"open-pose ", "open-poses "}) {
         checkRefused(line + file("box.1.obj"), "its points are in another order than the cage's, and its faces do not "
@@ -295,7 +295,7 @@ BOOST_AUTO_TEST_CASE(a_scene_keeps_all_of_it)
     run("set-key 12 \"the end\"");
     run("set-key 20 \"\"");
     // Another cage at rest.
-    session.setCage(test::shown(test::box({-0.1, 0, 0}, {1, 1, 1})));
+    session.setCage(test::posable(test::box({-0.1, 0, 0}, {1, 1, 1})));
     run("time 5");
     run("move 0 0 0.25");
     run("time 30");
@@ -367,7 +367,7 @@ BOOST_AUTO_TEST_CASE(poses_are_carried_over_on_a_thread_of_its_own)
     BOOST_TEST(carried(other)->rest() == other);
     BOOST_TEST(carrier.error().empty());
     // Who only looks neither waits nor is refused.
-    session.setCage(test::shown(other));
+    session.setCage(test::posable(other));
     run("select points 0 1 2");
     BOOST_TEST(!selectionFrame(state(), session.cage(), {}));
     session.setCage(there);
@@ -376,7 +376,7 @@ BOOST_AUTO_TEST_CASE(poses_are_carried_over_on_a_thread_of_its_own)
     Mesh open = *cage;
     open.quads.pop_back();
     const MeshPtr rest = std::make_shared<const Mesh>(open);
-    session.setCage(test::shown(rest));
+    session.setCage(test::posable(rest));
     run("clear-poses");
     run("select points 0 1 2");
     run("move 0.3 0.1 0");

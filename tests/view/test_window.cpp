@@ -243,7 +243,7 @@ public:
 
     void moveTo(const std::string& widget, double x = 0.5, double y = 0.5)
     {
-        const Rectangle place = widget == "picture" ? twin().viewport() : placeOf(widget);
+        const Rectangle place = widget == "picture" ? twin().picturePlace() : placeOf(widget);
         at_ = {place.left + static_cast<int>(x * place.width), place.top + static_cast<int>(y * place.height)};
         send(PointerMoved{1.0 * at_[0], 1.0 * at_[1]});
         display_.xdotool("mousemove " + std::to_string(left_ + at_[0]) + ' ' + std::to_string(top_ + at_[1]));

@@ -114,7 +114,7 @@ Json measureDrag(App& app, const Mesh& model, double seconds)
     const double fast = rerunSeconds(model, Effort::fast, {98, 151, 244, 351, 484}); // as the drag meets them
     runLine(app, "mouse move faces.slider 0.30");
     runLine(app, "mouse down");
-    CageResultPtr shown = app.planner().shown();
+    CageResultPtr made = app.planner().made();
     int cages = 0, frames = 0;
     double drawn = 0;
     const auto began = Clock::now();
@@ -129,8 +129,8 @@ Json measureDrag(App& app, const Mesh& model, double seconds)
             }
         }
         app.update();
-        if (app.planner().shown() != shown) {
-            shown = app.planner().shown();
+        if (app.planner().made() != made) {
+            made = app.planner().made();
             ++cages;
         }
         std::this_thread::sleep_for(std::chrono::milliseconds(5)); // a window sleeps until an event comes

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include <vdbcage/core/detail/printable.h>
-#include <vdbcage/pipeline/options.h>
 
 #include <tools/cli/command_line.h>
 #include <tools/cli/exit_status.h>
@@ -17,9 +16,6 @@ inline std::string printable(const std::filesystem::path& text)
 {
     return detail::printable(text.string());
 }
-
-/// Flushes standard output. \throw IoError if the text does not arrive
-void flushOutput();
 
 /// Run a command and return the exit status. \throw Error
 int runMake(Call call);
@@ -59,15 +55,5 @@ const Command& commandNamed(const std::string& name);
 
 /// Returns the description of `command`.
 CommandFacts describe(const Command& command);
-
-/// Adds the options of cages, which set `options`, and returns them. Both must outlive parsing.
-std::vector<CLI::Option*> addCageOptions(CLI::App& app, CageOptions& options);
-
-/// Sets the precision of the file that the cage is written to, so that the written cage is certified.
-/// \throw InputError the file cannot hold the requested precision; IoError unknown extension
-void setPrecisionFor(const std::filesystem::path& cage, CageOptions& options);
-
-/// Adds --memory, for memoryLimit(). `text` must outlive parsing.
-CLI::Option* addMemoryOption(CLI::App& app, std::string& text);
 
 } // namespace vdbcage::cli

@@ -1,6 +1,5 @@
 // The command `vdbcage`: messages to standard error, data to files and standard output.
 
-#include <cerrno>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
@@ -12,7 +11,6 @@
 #include <gmp.h>
 #include <unistd.h>
 
-#include <vdbcage/core/detail/io_failure.h>
 #include <vdbcage/core/error.h>
 #include <vdbcage/core/version.h>
 
@@ -147,14 +145,6 @@ __attribute__((section(".preinit_array"), used)) void (*const atStart)(int, char
 } // namespace
 
 } // namespace vdbcage::cli
-
-void vdbcage::cli::flushOutput()
-{
-    errno = 0;
-    std::cout.flush();
-    if (std::cout) return;
-    detail::throwIoError("standard output: cannot be written", errno);
-}
 
 int main(int argc, char** argv)
 {

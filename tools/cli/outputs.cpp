@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cerrno>
+#include <iostream>
 #include <system_error>
 
 #include <sys/stat.h>
@@ -123,6 +124,14 @@ void Outputs::commit()
     files_.commit();
     made_.paths.clear();
     ignoreSignals();
+}
+
+void flushOutput()
+{
+    errno = 0;
+    std::cout.flush();
+    if (std::cout) return;
+    detail::throwIoError("standard output: cannot be written", errno);
 }
 
 } // namespace vdbcage::cli

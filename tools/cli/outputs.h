@@ -61,4 +61,7 @@ private:
     PendingFiles files_; // destroyed before the folders that it is in
 };
 
+/// Flushes standard output. \throw IoError if the text does not arrive
+void flushOutput();
+
 } // namespace vdbcage::cli

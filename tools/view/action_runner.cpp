@@ -2,8 +2,8 @@
 
 #include <utility>
 
+#include <tools/view/files/file_contents.h>
 #include <tools/view/files/folder.h>
-#include <tools/view/files/saving.h>
 #include <tools/view/files/scene.h>
 #include <vdbcage/core/error.h>
 
@@ -49,7 +49,7 @@ struct ActionRunner::VerbEffect {
     void operator()(const FrameView& verb) const
     {
         runner.attempt(
-            SetCamera{parts.screen.pictures().first().fitted(parts.session.state().view, verb.onlySelected)});
+            SetCamera{parts.screen.viewports().first().fitted(parts.session.state().view, verb.onlySelected)});
     }
     void operator()(const StartBox& /*verb*/) const { parts.control.startBox(); }
     void operator()(const Grab& verb) const { parts.control.grab(verb.tool); }
@@ -72,7 +72,7 @@ struct ActionRunner::VerbEffect {
     {
         const Planner& planner = parts.making.planner();
         const bool isCurrent = planner.standing() == Planner::Standing::current;
-        saveScene(parts.session.state(), isCurrent ? planner.shown().get() : nullptr, verb.path);
+        saveScene(parts.session.state(), isCurrent ? planner.made().get() : nullptr, verb.path);
         parts.saved = parts.session.state().document;
         parts.asksToQuit = false;
         saySaved(verb.path);
@@ -80,7 +80,7 @@ struct ActionRunner::VerbEffect {
     void operator()(const SavePicture& verb) const
     {
         parts.refresh();
-        savePicture(parts.screen.pictures().first().picture(), verb.path);
+        savePicture(parts.screen.viewports().first().picture(), verb.path);
         saySaved(verb.path);
     }
     void saySaved(const fs::path& path) const { parts.say("saved " + path.filename().string()); }
@@ -175,7 +175,7 @@ void ActionRunner::run(const Command& command)
     parts_.watch = {};
     parts_.refresh();
     // These are not recorded as lines: they follow from the command.
-    session.execute(SetCamera{parts_.screen.pictures().first().fitted(session.state().view, false)});
+    session.execute(SetCamera{parts_.screen.viewports().first().fitted(session.state().view, false)});
     session.execute(SetFrame{0});
     // A newly opened model is no work that could be lost.
     if (!hadModel || wasSaved) parts_.saved = session.state().document;
@@ -189,7 +189,7 @@ void ActionRunner::endDrag()
     parts_.screen.invalidate();
     const auto& record = parts_.setup.record;
     if (!record) return;
-    const State& before = session.dragged();
+    const State& before = session.beforeDrag();
     if (session.hasDraggedDocument() && session.state().document != before.document) {
         record(session.documents().undone());
     }

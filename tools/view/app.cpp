@@ -114,7 +114,7 @@ std::optional<Rectangle> App::handlePlace(const std::string& name) const
 {
     const auto at = placeOf(parts_.control.overlay().gizmo, name, double{parts_.setup.scale});
     if (!at) return std::nullopt;
-    const Rectangle& picture = parts_.screen.pictures().places().front();
+    const Rectangle& picture = parts_.screen.viewports().places().front();
     const auto round = [](double x) { return static_cast<int>(std::lround(x)); };
     return Rectangle{picture.left + round((*at)[0]), picture.top + round((*at)[1]), 0, 0};
 }

@@ -7,7 +7,7 @@
 
 #include <tools/view/action_runner.h>
 #include <tools/view/app_parts.h>
-#include <tools/view/panel_layout.h>
+#include <tools/view/panel_driver.h>
 
 namespace vdbcage::view {
 
@@ -60,7 +60,8 @@ public:
     std::optional<Rectangle> widget(const std::string& name);
     /// Scrolls to a widget.
     void reveal(const std::string& name);
-    Rectangle viewport() const { return parts_.viewport(); }
+    /// See AppParts.
+    Rectangle picturePlace() const { return parts_.picturePlace(); }
     /// Returns the pointer's position, in pixels from the top left.
     Pixel pointer() const { return parts_.control.pointer(); }
 
@@ -79,7 +80,7 @@ private:
 
     AppParts parts_;
     ActionRunner actions_{parts_};
-    PanelLayout panels_{parts_, actions_};
+    PanelDriver panels_{parts_, actions_};
 };
 
 } // namespace vdbcage::view

@@ -8,7 +8,7 @@ AppParts::AppParts(const gl::Api& api, AppSetup given, std::function<void(const 
                    std::function<void()> endDrag)
     : setup(std::move(given)), making(std::move(setup.maker), std::move(setup.binding), setup.wake), saver(setup.wake),
       widgets(setup.scale, setup.clipboard), screen(api, setup.isSoftware, widgets),
-      control({session, screen.pictures().first(), std::move(attempt), std::move(endDrag),
+      control({session, screen.viewports().first(), std::move(attempt), std::move(endDrag),
                [this] { return pictureInUse(); }, double{setup.scale}})
 {
 }
@@ -19,28 +19,28 @@ void AppParts::chooseKeys(KeyMap map)
     control.setMouse(mouseMap(map));
 }
 
-Rectangle AppParts::viewport() const
+Rectangle AppParts::picturePlace() const
 {
-    return Panels::viewport(screen.width(), screen.height(), setup.scale, session.state().view.mode == Mode::pose);
+    return Panels::picturePlace(screen.width(), screen.height(), setup.scale, session.state().view.mode == Mode::pose);
 }
 
 Rectangle AppParts::pictureInUse() const
 {
-    const std::vector<Rectangle>& places = screen.pictures().places();
+    const std::vector<Rectangle>& places = screen.viewports().places();
     return control.home()[0] < places.back().left ? places.front() : places.back();
 }
 
 void AppParts::refresh()
 {
-    making.follow(session, {isValueDragged, control.isMoving()});
+    making.follow(session, {isValueDragged, control.hasGrip()});
     const Planner& planner = making.planner();
-    Shown shown;
-    shown.model = session.state().document.model;
-    shown.cage = making.cage();
-    shown.isStale = shown.cage == planner.shown() && planner.standing() == Planner::Standing::stale;
-    shown.cagePoints = making.posing().cagePoints();
-    const bool changed = screen.pictures().show(viewport(), shown, making.posing().follower(),
-                                                making.posing().compared(), session.state().view);
+    PictureContent content;
+    content.model = session.state().document.model;
+    content.cage = making.cage();
+    content.isStale = content.cage == planner.made() && planner.standing() == Planner::Standing::stale;
+    content.cagePoints = making.posing().cagePoints();
+    const bool changed = screen.viewports().show(picturePlace(), content, making.posing().follower(),
+                                                 making.posing().compared(), session.state().view);
     if (changed) screen.invalidate();
     arePanelsCurrent = false;
 }

@@ -31,7 +31,8 @@ struct AppSetup {
     std::function<void(const std::string&)> record = {}; ///< gets each line that the user's actions amount to
 };
 
-/// The parts of the program behind a window, and the data beside them. The parts do not know each other.
+/// The parts of the program behind a window, and the data beside them. Parts know only those passed to their
+/// constructors.
 struct AppParts {
     /// `attempt`, `endDrag`: see PictureControl. \throw DeviceError
     AppParts(const gl::Api& api, AppSetup given, std::function<void(const Command&)> attempt,
@@ -65,10 +66,10 @@ struct AppParts {
     /// do.
     bool awaitsCage() const { return isValueDragged && !making.planner().isSettled(); }
     /// Returns whether another frame will follow in a moment.
-    bool isMoving() const { return control.isCameraDragged() || control.isMoving() || isAnimated() || awaitsCage(); }
+    bool isMoving() const { return control.isCameraDragged() || control.hasGrip() || isAnimated() || awaitsCage(); }
 
-    /// Returns the viewport: the place of the picture in the window, or of both pictures.
-    Rectangle viewport() const;
+    /// Returns the place of the picture in the window, or of both pictures.
+    Rectangle picturePlace() const;
     /// Returns the place of the picture in which the pointer acts.
     Rectangle pictureInUse() const;
 

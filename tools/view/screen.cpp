@@ -3,7 +3,7 @@
 namespace vdbcage::view {
 
 Screen::Screen(const gl::Api& api, bool isSoftware, const Widgets& widgets)
-    : api_(api), widgets_(widgets), widgetRenderer_(api, widgets.glyphs()), pictures_(api, isSoftware)
+    : api_(api), widgets_(widgets), widgetRenderer_(api, widgets.glyphs()), viewports_(api, isSoftware)
 {
 }
 
@@ -20,14 +20,14 @@ bool Screen::resize(int width, int height)
 
 bool Screen::needsFrame(bool isMoving) const
 {
-    return isStale_ || widgets_.version() != drawnWidgets_ || (!pictures_.isRefined() && !leavesItRough(isMoving));
+    return isStale_ || widgets_.version() != drawnWidgets_ || (!viewports_.isRefined() && !leavesItRough(isMoving));
 }
 
 void Screen::drawFrame(bool isMoving)
 {
-    if (!leavesItRough(isMoving)) pictures_.draw(isMoving);
+    if (!leavesItRough(isMoving)) viewports_.draw(isMoving);
     draw::Target target = canvas_->target();
-    pictures_.copyTo(target.framebuffer, height_);
+    viewports_.copyTo(target.framebuffer, height_);
     widgetRenderer_.draw(target, widgets_.drawing());
     gl::throwIfFailed(api_, "drawing the window");
     isStale_ = false;
@@ -37,7 +37,7 @@ void Screen::drawFrame(bool isMoving)
 
 draw::Picture Screen::picture(bool isMoving)
 {
-    while (!pictures_.isRefined() && !isMoving) pictures_.draw(false);
+    while (!viewports_.isRefined() && !isMoving) viewports_.draw(false);
     drawFrame(isMoving);
     return draw::fromPixels(canvas_->pixels(), width_, height_, false);
 }

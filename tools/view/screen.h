@@ -5,7 +5,7 @@
 
 #include <tools/draw/canvas.h>
 #include <tools/draw/picture.h>
-#include <tools/view/picture/pictures.h>
+#include <tools/view/picture/viewports.h>
 #include <tools/view/widgets/widget_renderer.h>
 #include <tools/view/widgets/widgets.h>
 
@@ -38,16 +38,16 @@ public:
     /// Returns the number of frames drawn.
     std::uint64_t frames() const { return frames_; }
 
-    Pictures& pictures() { return pictures_; }
-    const Pictures& pictures() const { return pictures_; }
+    Viewports& viewports() { return viewports_; }
+    const Viewports& viewports() const { return viewports_; }
 
 private:
-    bool leavesItRough(bool isMoving) const { return isMoving && pictures_.isDrawn(); }
+    bool leavesItRough(bool isMoving) const { return isMoving && viewports_.isDrawn(); }
 
     const gl::Api& api_;
     const Widgets& widgets_;
     WidgetRenderer widgetRenderer_;
-    Pictures pictures_;
+    Viewports viewports_;
     std::optional<draw::Canvas> canvas_;
     int width_ = 0, height_ = 0;
     bool isStale_ = true;

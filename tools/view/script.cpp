@@ -6,7 +6,7 @@
 #include <functional>
 #include <sstream>
 
-#include <tools/view/files/saving.h>
+#include <tools/view/files/file_contents.h>
 #include <tools/view/state/words.h>
 #include <vdbcage/core/detail/read_file.h>
 #include <vdbcage/core/error.h>
@@ -33,7 +33,7 @@ std::pair<int, int> sizeOf(const std::string& text)
 
 Rectangle placeOf(App& app, const std::string& name)
 {
-    if (name == "picture") return app.viewport();
+    if (name == "picture") return app.picturePlace();
     app.reveal(name);
     const auto place = app.widget(name);
     if (!place) throw InputError("there is no widget '" + name + "' to be seen");

@@ -1,6 +1,6 @@
 #include <tools/view/values.h>
 
-#include <tools/view/state/move.h>
+#include <tools/view/state/cage_changes.h>
 #include <vdbcage/core/detail/number_text.h>
 
 namespace vdbcage::view {
@@ -23,7 +23,7 @@ std::map<std::string, std::function<std::string()>> valuesOf(const AppParts& par
     const Posing& posing = parts.making.posing();
     const auto number = [](double value) { return detail::numberText(value); };
     const auto check = [&](auto&& get) -> std::function<std::string()> {
-        return [&planner, get] { return planner.shown() ? get(planner.shown()->report.check) : std::string("none"); };
+        return [&planner, get] { return planner.made() ? get(planner.made()->report.check) : std::string("none"); };
     };
     list["standing"] = [&] {
         switch (planner.standing()) {

@@ -8,6 +8,7 @@
 #include <vdbcage/core/error.h>
 #include <vdbcage/mesh/mesh_io.h>
 
+#include <tools/cli/cage_arguments.h>
 #include <tools/cli/commands.h>
 #include <tools/cli/talk_arguments.h>
 

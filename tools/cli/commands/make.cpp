@@ -17,6 +17,7 @@
 #include <vdbcage/mesh/mesh_io.h>
 #include <vdbcage/pipeline/pipeline.h>
 
+#include <tools/cli/cage_arguments.h>
 #include <tools/cli/commands.h>
 #include <tools/cli/drawing.h>
 #include <tools/cli/interrupt.h>
@@ -202,37 +203,6 @@ std::string makeFiles(const MakeArguments& arguments, const std::string& inputs,
 }
 
 } // namespace
-
-std::vector<CLI::Option*> addCageOptions(CLI::App& app, CageOptions& options)
-{
-    std::vector<CLI::Option*> added;
-    for (const OptionText& option : describeOptions()) {
-        added.push_back(app.add_option_function<std::string>(
-            "--" + option.name,
-            [&options, name = option.name](const std::string& value) { setOption(options, name, value); },
-            option.help + (option.range.empty() ? "" : ", " + option.range) + " [" + option.defaultValue + "]"));
-        added.back()->type_name(option.value)->group(option.isRare ? rareOptions : "Options");
-    }
-    return added;
-}
-
-void setPrecisionFor(const fs::path& cage, CageOptions& options)
-{
-    if (precisionOf(cage) == Precision::float64) return;
-    if (options.precision == Precision::float64) {
-        throw InputError("--precision",
-                         "'float64' is not allowed with " + cage.string() + ": " + cage.extension().string() +
-                             " files hold float32; it must be auto or float32, or the file " + ".obj, .off or .ply");
-    }
-    options.precision = Precision::float32;
-}
-
-CLI::Option* addMemoryOption(CLI::App& app, std::string& text)
-{
-    return app.add_option("--memory", text, "refuse what would take more memory [auto]")
-        ->type_name("auto|off|SIZE")
-        ->group(rareOptions);
-}
 
 int runMake(Call call)
 {

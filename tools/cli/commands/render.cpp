@@ -112,20 +112,6 @@ Mesh readVoxels(const fs::path& path)
 
 } // namespace
 
-void requirePngExtension(const fs::path& path)
-{
-    if (path.extension() != ".png") {
-        throw InputError(path.string() + ": pictures are written as .png; the name must end so");
-    }
-}
-
-Picture drawCage(const Mesh& model, const Mesh& cage)
-{
-    Scene scene;
-    scene.panels = {{shadedLayer(model), wireframeLayer(cage)}};
-    return renderScene(scene, 1200, 900);
-}
-
 int runRender(Call call)
 {
     std::vector<std::string> files;

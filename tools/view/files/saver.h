@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include <tools/view/files/saves.h>
+#include <tools/view/files/save_verbs.h>
 #include <tools/view/jobs/worker.h>
 
 namespace vdbcage::view {

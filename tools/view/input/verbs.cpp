@@ -4,7 +4,7 @@
 
 #include <tools/edit/selection.h>
 #include <tools/view/state/animation.h>
-#include <tools/view/state/move.h>
+#include <tools/view/state/cage_changes.h>
 #include <vdbcage/core/error.h>
 
 namespace vdbcage::view {

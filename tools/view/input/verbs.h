@@ -6,7 +6,7 @@
 #include <variant>
 
 #include <tools/view/files/preferences.h>
-#include <tools/view/files/saves.h>
+#include <tools/view/files/save_verbs.h>
 #include <tools/view/state/command.h>
 
 /// Verbs are the lines (see line.h) beside the commands: the actions of menus and keys. Some amount to a command:

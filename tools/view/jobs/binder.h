@@ -5,8 +5,8 @@
 #include <optional>
 #include <string>
 
+#include <tools/view/jobs/bound_model.h>
 #include <tools/view/jobs/worker.h>
-#include <tools/view/state/bound_model.h>
 
 namespace vdbcage::view {
 

@@ -17,7 +17,7 @@ Carrier::Carrier(std::function<void()> wake)
 {
 }
 
-ShownCage Carrier::carried(const MeshPtr& cage, const TimeLine& poses)
+PosableCagePtr Carrier::carried(const MeshPtr& cage, const TimeLine& poses)
 {
     Job wanted{cage, {}};
     for (const PoseKey& key : poses.keys()) {

@@ -19,7 +19,7 @@ public:
 
     /// Returns `cage` with all poses of a time line. Null: some are being carried over now; a job for another cage or
     /// time line is stopped. Poses that cannot be carried over are at rest; error() says why.
-    ShownCage carried(const MeshPtr& cage, const TimeLine& poses);
+    PosableCagePtr carried(const MeshPtr& cage, const TimeLine& poses);
 
     /// Takes the finished result. Call carried() again then.
     void update();
@@ -36,10 +36,10 @@ private:
         std::vector<PosePtr> poses; ///< made for other cages
     };
 
-    Worker<Job, ShownCage> worker_;
+    Worker<Job, PosableCagePtr> worker_;
     Job running_;
     bool isRunning_ = false;
-    ShownCage ready_; ///< null: none
+    PosableCagePtr ready_; ///< null: none
     std::string error_;
 };
 

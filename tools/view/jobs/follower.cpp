@@ -1,27 +1,26 @@
 #include <tools/view/jobs/follower.h>
 
-#include <tools/view/jobs/model_values.h>
-#include <tools/view/state/move.h>
+#include <tools/view/state/cage_changes.h>
 
 namespace vdbcage::view {
 
 void Follower::follow(const State& state, const MeshPtr& cage, const std::vector<openvdb::Vec3d>& cagePoints,
-                      const Effort& effort)
+                      const Conditions& conditions)
 {
-    if (!effort.isPosing) {
+    if (!conditions.isPosing) {
         binder_.want(std::nullopt);
-    } else if (effort.isToStay) {
+    } else if (conditions.isToStay) {
         binder_.want(bindOrder(state.document, cage));
     }
     const Elasticity& elasticity = state.document.elasticity;
     bound_ = withMaterial_.of(std::make_pair(binder_.bound(), elasticity),
                               [&] { return withMaterial(binder_.bound(), elasticity); });
-    if (!effort.isPosing || cagePoints == cage->points) {
+    if (!conditions.isPosing || cagePoints == cage->points) {
         model_.update(nullptr, {});
     } else if (bound_ && bound_->order == bindOrder(state.document, cage)) {
         model_.update(bound_, cagePoints);
     }
-    followCheck(state, cage, cagePoints, effort.isPosing && effort.standsStill);
+    followCheck(state, cage, cagePoints, conditions.isPosing && conditions.standsStill);
     followValues(state, cage);
 }
 
@@ -35,7 +34,7 @@ void Follower::followCheck(const State& state, const MeshPtr& cage, const std::v
         // Given weights are unknown at the points that counting needs.
         const bool areCounted =
             state.view.modelColours == ModelColours::inverted && state.document.coordinates != Coordinates::given;
-        if (areCounted) order->binding = bindingOf(bound);
+        if (areCounted) order->binding = bindingIfReady(bound);
         // Triangles are counted once the model is bound.
         if (areCounted && !order->binding && !binder_.isHalted()) order.reset();
     }
@@ -54,7 +53,7 @@ void Follower::followValues(const State& state, const MeshPtr& cage)
     // Until the next pose is checked the colours are those of the previous one.
     if (colours == ModelColours::inverted && valuesOf_ == colours && model_.bound() && !check) return;
     valuesOf_ = colours;
-    values_ = valuesMemo_.of(std::tie(colours, bound_, points, version, check), [&]() -> Values {
+    values_ = valuesMemo_.of(std::tie(colours, bound_, points, version, check), [&]() -> ModelValues {
         const auto kept = [](std::vector<double> values) {
             return std::make_shared<const std::vector<double>>(std::move(values));
         };
@@ -77,7 +76,7 @@ void Follower::waitForNews(double seconds)
     checker_.waitForNews(seconds);
 }
 
-std::shared_ptr<const Binding> Follower::bindingOf(const BindOrder& order) const
+std::shared_ptr<const Binding> Follower::bindingIfReady(const BindOrder& order) const
 {
     return bound_ && bound_->order == order ? bound_->whole : nullptr;
 }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <tools/view/jobs/binder.h>
+#include <tools/view/jobs/model_values.h>
 #include <tools/view/jobs/pose_checker.h>
 #include <tools/view/jobs/posed_model.h>
 #include <tools/view/state/state.h>
@@ -23,7 +24,7 @@ public:
     Follower(Binder::Work work, const std::function<void()>& wake) : binder_(std::move(work), wake), checker_(wake) {}
 
     /// The conditions that decide how much is computed.
-    struct Effort {
+    struct Conditions {
         bool isPosing = false;    ///< there are a model and a cage, in mode pose
         bool isToStay = false;    ///< the cage stays for longer than a moment, so binding is worthwhile
         bool standsStill = false; ///< the pose is worth checking
@@ -31,12 +32,12 @@ public:
     /// Follows a state whose cage has its points at `cagePoints`. Until a new binding is there the model stays as it
     /// was posed. Cost: as Binding::pose, if the pose is another.
     void follow(const State& state, const MeshPtr& cage, const std::vector<openvdb::Vec3d>& cagePoints,
-                const Effort& effort);
+                const Conditions& conditions);
 
     const PosedModel& model() const { return model_; }
     /// Returns the values that the model's colours show, one for each point; null: none. Other values are another
     /// object.
-    const std::shared_ptr<const std::vector<double>>& values() const { return values_; }
+    const ModelValues& values() const { return values_; }
     /// Returns the verdict on the pose; null: it is at rest, or not checked yet.
     const PoseCheckPtr& check() const { return checker_.result(); }
     /// Returns whether the pose is being checked.
@@ -44,7 +45,7 @@ public:
     /// Returns the binding for the state of the last follow(), with its material; null: nothing yet.
     const BoundModelPtr& bound() const { return bound_; }
     /// Returns the complete binding, with the material of the last follow(); null: it is not there yet.
-    std::shared_ptr<const Binding> bindingOf(const BindOrder& order) const;
+    std::shared_ptr<const Binding> bindingIfReady(const BindOrder& order) const;
 
     /// Takes the results of other threads, and begins the next jobs.
     void update();
@@ -68,13 +69,12 @@ private:
     BoundModelPtr bound_;
     PoseChecker checker_;
     PosedModel model_;
-    using Values = std::shared_ptr<const std::vector<double>>;
     /// The binding, the selected points, the version of the posed model, and the verdict: each only where the values
     /// depend on it.
     using ValuesKey =
         std::tuple<ModelColours, BoundModelPtr, std::vector<openvdb::Index32>, std::uint64_t, PoseCheckPtr>;
-    vdbcage::detail::Memo<ValuesKey, Values> valuesMemo_;
-    Values values_;
+    vdbcage::detail::Memo<ValuesKey, ModelValues> valuesMemo_;
+    ModelValues values_;
     ModelColours valuesOf_ = ModelColours::plain;
 };
 

@@ -1,12 +1,16 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include <vdbcage/deform/binding.h>
 
 /// Values that colours of a model show about its pose, one for each of its points.
 namespace vdbcage::view {
+
+/// One value for each point of the model; null: none.
+using ModelValues = std::shared_ptr<const std::vector<double>>;
 
 /// Returns how far each point moves when some of the cage's points move by a small step, as a fraction of that step;
 /// the mean over the three axes. Where only the weights of the cage's points move it, as with mean value and maximum

@@ -111,9 +111,9 @@ void Planner::finished(CageResultPtr result)
     keep(result);
     choose();
     // Neither the wanted cage nor its preview is there yet: the newest one of this model is nearest to it.
-    const bool isShown = shown_ && wanted_ && (*wanted_ == shown_->order || previewOf(*wanted_) == shown_->order);
-    if (!isShown && kind != Job::Kind::ahead && wanted_ && wanted_->model == result->order.model) {
-        shown_ = std::move(result);
+    const bool isThere = made_ && wanted_ && (*wanted_ == made_->order || previewOf(*wanted_) == made_->order);
+    if (!isThere && kind != Job::Kind::ahead && wanted_ && wanted_->model == result->order.model) {
+        made_ = std::move(result);
     }
 }
 
@@ -142,9 +142,9 @@ bool Planner::isSettled() const
 
 Planner::Standing Planner::standing() const
 {
-    if (!shown_) return Standing::none;
-    if (wanted_ && shown_->order == *wanted_) return Standing::current;
-    if (wanted_ && shown_->order == previewOf(*wanted_)) return Standing::preview;
+    if (!made_) return Standing::none;
+    if (wanted_ && made_->order == *wanted_) return Standing::current;
+    if (wanted_ && made_->order == previewOf(*wanted_)) return Standing::preview;
     return Standing::stale;
 }
 
@@ -207,19 +207,19 @@ bool Planner::isUseful(const Job& job) const
     return job.order == preview || (!kept(preview) && shareStages(job.order, preview));
 }
 
-/// Shows the best of the kept results.
+/// Takes the best of the kept results.
 void Planner::choose()
 {
     if (!wanted_ || !wanted_->model) {
-        shown_.reset();
+        made_.reset();
         return;
     }
     if (const CageResultPtr full = kept(*wanted_)) {
-        shown_ = full;
+        made_ = full;
     } else if (const CageResultPtr preview = kept(previewOf(*wanted_))) {
-        shown_ = preview;
-    } else if (shown_ && shown_->order.model != wanted_->model) {
-        shown_.reset();
+        made_ = preview;
+    } else if (made_ && made_->order.model != wanted_->model) {
+        made_.reset();
     }
 }
 

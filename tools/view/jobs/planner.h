@@ -8,8 +8,8 @@
 
 namespace vdbcage::view {
 
-/// The decision which cage is made next, whether the job under way is still useful, and which cage is shown. It has no
-/// thread and no clock: it is told about events, and asked.
+/// The decision which cage is made next, whether the job under way is still useful, and which of the made cages is
+/// offered. It has no thread and no clock: it is told about events, and asked.
 ///
 /// At most one job is under way, and at most one waits, for the wanted cage. While a value is dragged only previews are
 /// made. A preview under way is finished, unless it shares no stage with the wanted cage. A full run is stopped as soon
@@ -49,13 +49,14 @@ public:
     const std::string& error() const { return error_; }
 
     enum class Standing {
-        none,    ///< there is nothing to show
+        none,    ///< there is no cage
         current, ///< it is the wanted one
         preview, ///< it is the preview of the wanted one
         stale    ///< it was made with other options, for the same model
     };
-    /// Returns the cage to show, with its own options; null if there is none.
-    const CageResultPtr& shown() const { return shown_; }
+    /// Returns the offered one of the made cages, with its own options: the wanted one, or else its preview, or else a
+    /// cage of other options for the same model; null if there is none.
+    const CageResultPtr& made() const { return made_; }
     Standing standing() const;
 
 private:
@@ -77,7 +78,7 @@ private:
     bool stop_ = false;
     std::list<CageResultPtr> kept_; ///< the last one first
     std::size_t mostBytes_;
-    CageResultPtr shown_;
+    CageResultPtr made_;
 };
 
 /// Returns the face count of a step up or down: a twentieth, at least 1. Within the option's range.

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include <tools/view/jobs/bound_model.h>
 #include <tools/view/jobs/worker.h>
-#include <tools/view/state/bound_model.h>
 
 namespace vdbcage::view {
 

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include <tools/view/state/bound_model.h>
+#include <tools/view/jobs/bound_model.h>
 
 namespace vdbcage::view {
 

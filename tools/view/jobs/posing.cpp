@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include <tools/view/state/move.h>
+#include <tools/view/state/cage_changes.h>
 
 namespace vdbcage::view {
 
@@ -15,7 +15,7 @@ CageResultPtr Posing::cageOf(const State& state, const Planner& planner)
         posable_.reset();
     } else if (state.view.mode == Mode::pose) {
         if (wanted == shown_ && areCarried(poses, *posable_)) return shown_;
-        ShownCage carried = carrier_.carried(MeshPtr(wanted, &wanted->cage), poses);
+        PosableCagePtr carried = carrier_.carried(MeshPtr(wanted, &wanted->cage), poses);
         if (!carried) return shown_;
         posable_ = std::move(carried);
     } else if (wanted != shown_) {
@@ -27,7 +27,7 @@ CageResultPtr Posing::cageOf(const State& state, const Planner& planner)
 
 CageResultPtr Posing::wantedCage(const Document& document, const Planner& planner)
 {
-    const CageResultPtr& made = planner.shown();
+    const CageResultPtr& made = planner.made();
     if (!document.cage || (made && made->order.cage == document.cage)) return made;
     return unchecked_.of(document.cage, [&] {
         CageResult result;
@@ -40,19 +40,19 @@ CageResultPtr Posing::wantedCage(const Document& document, const Planner& planne
 void Posing::follow(const State& state, const Planner& planner, bool standsStill)
 {
     const Document& document = state.document;
-    Follower::Effort effort;
-    effort.isPosing = state.view.mode == Mode::pose && document.model && posable_;
-    if (effort.isPosing && !areCarried(document.poses, *posable_)) return;
+    Follower::Conditions conditions;
+    conditions.isPosing = state.view.mode == Mode::pose && document.model && posable_;
+    if (conditions.isPosing && !areCarried(document.poses, *posable_)) return;
     // A preview's cage is replaced in a moment.
-    effort.isToStay = planner.standing() == Planner::Standing::current || planner.isHalted();
-    effort.standsStill = standsStill;
+    conditions.isToStay = planner.standing() == Planner::Standing::current || planner.isHalted();
+    conditions.standsStill = standsStill;
     poses_ = document.poses;
     cagePoints_ = pointsMemo_.of(std::tie(poses_, posable_, state.view.mode, state.view.frame), [&] {
         return std::make_shared<const std::vector<openvdb::Vec3d>>(view::cagePoints(state, posable_));
     });
     const MeshPtr rest = posable_ ? posable_->rest() : nullptr;
-    follower_.follow(state, rest, *cagePoints_, effort);
-    if (!effort.isPosing || !state.view.compared) {
+    follower_.follow(state, rest, *cagePoints_, conditions);
+    if (!conditions.isPosing || !state.view.compared) {
         compared_.reset();
         return;
     }
@@ -60,7 +60,7 @@ void Posing::follow(const State& state, const Planner& planner, bool standsStill
     State other = state;
     other.document.coordinates = *state.view.compared;
     other.document.weights.reset();
-    compared_->follow(other, rest, *cagePoints_, effort);
+    compared_->follow(other, rest, *cagePoints_, conditions);
 }
 
 bool Posing::isPosed(const State& state) const

@@ -27,7 +27,7 @@ public:
     /// is checked. In mode pose it is the previous one while poses are carried over to a new one.
     CageResultPtr cageOf(const State& state, const Planner& planner);
     /// Returns the cage of the last cageOf() for posing.
-    const ShownCage& posable() const { return posable_; }
+    const PosableCagePtr& posable() const { return posable_; }
 
     /// Follows a state, with the cage of the last cageOf(): binds the model and poses it. Until a new binding is there,
     /// or poses are carried over, the model stays as it was posed. A pose that stands still is checked.
@@ -68,10 +68,10 @@ private:
     std::unique_ptr<Follower> compared_;
     vdbcage::detail::Memo<OpenedMeshPtr, CageResultPtr> unchecked_; // of the opened cage
     CageResultPtr shown_;
-    ShownCage posable_;
+    PosableCagePtr posable_;
     TimeLine poses_; // of the last follow()
     using Points = std::shared_ptr<const std::vector<openvdb::Vec3d>>;
-    using PointsKey = std::tuple<TimeLine, ShownCage, Mode, int>; // the int is the frame
+    using PointsKey = std::tuple<TimeLine, PosableCagePtr, Mode, int>; // the int is the frame
     vdbcage::detail::Memo<PointsKey, Points> pointsMemo_;
     Points cagePoints_ = std::make_shared<const std::vector<openvdb::Vec3d>>();
 };

@@ -31,7 +31,7 @@ void buildMenu(const PanelContext& context)
     const Session& session = context.content.session;
     const Document& document = session.state().document;
     const ViewState& view = session.state().view;
-    const bool hasModel = document.model != nullptr, hasCage = context.content.planner.shown() != nullptr;
+    const bool hasModel = document.model != nullptr, hasCage = context.content.planner.made() != nullptr;
     const bool hasPoses = hasCage && !document.poses.isEmpty();
     const bool hasSelected = hasCage && !view.selection.ids.empty();
     ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {length(8), length(5)});

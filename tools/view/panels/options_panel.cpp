@@ -194,11 +194,11 @@ private:
     const std::string& value_;
 };
 
-/// Returns the pipeline's choice for `auto` in the shown cage, by the option's name.
-std::optional<double> cameTo(const std::string& name, const CageResultPtr& shown)
+/// Returns the pipeline's choice for `auto` in the made cage, by the option's name.
+std::optional<double> cameTo(const std::string& name, const CageResultPtr& made)
 {
-    if (!shown || shown->order.cage) return std::nullopt;
-    const CageReport& report = shown->report;
+    if (!made || made->order.cage) return std::nullopt;
+    const CageReport& report = made->report;
     if (name == "resolution") return report.resolution;
     if (name == "close-radius") return report.closeRadius;
     if (name == "erode-radius") return report.erodeRadius;
@@ -299,7 +299,7 @@ void buildOptions(const PanelContext& context, std::map<std::string, std::string
             ImGui::TableNextColumn();
             row.buildLabel();
             ImGui::TableNextColumn();
-            row.build(field, cameTo(info.name, context.content.planner.shown()));
+            row.build(field, cameTo(info.name, context.content.planner.made()));
             row.buildReset();
             ImGui::PopID();
             ++i;

@@ -15,9 +15,9 @@ namespace {
 constexpr draw::Colour inkColour{0.20F, 0.21F, 0.23F};
 
 /// Returns the options by which two cages differ, in words: "faces 300, not 400".
-std::string differences(const CageOptions& shown, const CageOptions& wanted)
+std::string differences(const CageOptions& made, const CageOptions& wanted)
 {
-    const auto have = optionValues(shown), want = optionValues(wanted);
+    const auto have = optionValues(made), want = optionValues(wanted);
     std::string text;
     for (std::size_t i = 0; i < have.size(); ++i) {
         if (have[i].second == want[i].second) continue;
@@ -26,19 +26,19 @@ std::string differences(const CageOptions& shown, const CageOptions& wanted)
     return text;
 }
 
-/// Returns a note on the shown cage; empty if it is the wanted one.
+/// Returns a note on the made cage; empty if it is the wanted one.
 std::string standingText(const PanelContent& content)
 {
     const Planner& planner = content.planner;
-    const CageResultPtr& shown = planner.shown();
-    if (!shown) return {};
+    const CageResultPtr& made = planner.made();
+    if (!made) return {};
     switch (planner.standing()) {
     case Planner::Standing::preview:
         return "Preview, made with least effort";
     case Planner::Standing::stale:
-        if (shown->order.cage) return "Shown is the cage that was opened before";
+        if (made->order.cage) return "Shown is the cage that was opened before";
         return "Shown is the last good cage: " +
-               differences(shown->order.options, content.session.state().document.options);
+               differences(made->order.options, content.session.state().document.options);
     case Planner::Standing::current:
     case Planner::Standing::none:
         break;
@@ -46,14 +46,14 @@ std::string standingText(const PanelContent& content)
     return {};
 }
 
-void drawPill(ImDrawList& list, const Rectangle& viewport, const std::string& text, const draw::Colour& colour)
+void drawPill(ImDrawList& list, const Rectangle& place, const std::string& text, const draw::Colour& colour)
 {
-    const float wrap = static_cast<float>(viewport.width) - length(60);
+    const float wrap = static_cast<float>(place.width) - length(60);
     const ImVec2 size = ImGui::CalcTextSize(text.c_str(), nullptr, false, wrap);
     const ImVec2 pad{length(12), length(5)};
     const ImVec2 low{
-        std::round(static_cast<float>(viewport.left) + (static_cast<float>(viewport.width) - size.x) / 2 - pad.x),
-        static_cast<float>(viewport.top) + length(12)};
+        std::round(static_cast<float>(place.left) + (static_cast<float>(place.width) - size.x) / 2 - pad.x),
+        static_cast<float>(place.top) + length(12)};
     const ImVec2 high{low.x + size.x + 2 * pad.x, low.y + size.y + 2 * pad.y};
     list.AddRectFilled(low, high, packed(theme::panel, 0.92F), length(6));
     list.AddRect(low, high, packed(colour), length(6), 0, std::max(1.0F, length(1)));
@@ -61,12 +61,12 @@ void drawPill(ImDrawList& list, const Rectangle& viewport, const std::string& te
                  text.c_str(), nullptr, wrap);
 }
 
-void drawAxes(ImDrawList& list, const Rectangle& viewport, const std::array<openvdb::Vec3d, 3>& axes)
+void drawAxes(ImDrawList& list, const Rectangle& place, const std::array<openvdb::Vec3d, 3>& axes)
 {
     constexpr std::array<draw::Colour, 3> colours{
         {{0.80F, 0.22F, 0.20F}, {0.25F, 0.58F, 0.20F}, {0.18F, 0.38F, 0.80F}}};
-    const ImVec2 centre{static_cast<float>(viewport.left) + length(46),
-                        static_cast<float>(viewport.top + viewport.height) - length(50)};
+    const ImVec2 centre{static_cast<float>(place.left) + length(46),
+                        static_cast<float>(place.top + place.height) - length(50)};
     std::array<std::size_t, 3> order{0, 1, 2};
     // The nearest axis is drawn last.
     std::sort(order.begin(), order.end(), [&](auto a, auto b) { return axes[a].z() < axes[b].z(); });
@@ -82,11 +82,11 @@ void drawAxes(ImDrawList& list, const Rectangle& viewport, const std::array<open
     }
 }
 
-void drawLegend(ImDrawList& list, const Rectangle& viewport, double largest)
+void drawLegend(ImDrawList& list, const Rectangle& place, double largest)
 {
     const float width = length(14), height = length(120);
-    const ImVec2 low{static_cast<float>(viewport.left + viewport.width) - length(86),
-                     static_cast<float>(viewport.top + viewport.height) - height - length(34)};
+    const ImVec2 low{static_cast<float>(place.left + place.width) - length(86),
+                     static_cast<float>(place.top + place.height) - height - length(34)};
     constexpr int steps = 24;
     for (int i = 0; i < steps; ++i) {
         const float top = low.y + height * static_cast<float>(i) / steps;
@@ -108,24 +108,24 @@ void drawLegend(ImDrawList& list, const Rectangle& viewport, double largest)
 constexpr draw::Colour pointColour{0.10F, 0.22F, 0.48F}, selectedColour{0.95F, 0.50F, 0.05F},
     hotColour{1.0F, 0.80F, 0.10F}, white{1, 1, 1};
 
-ImVec2 inWindow(const Rectangle& viewport, const Pixel& at)
+ImVec2 inWindow(const Rectangle& place, const Pixel& at)
 {
-    return {static_cast<float>(viewport.left + at[0]), static_cast<float>(viewport.top + at[1])};
+    return {static_cast<float>(place.left + at[0]), static_cast<float>(place.top + at[1])};
 }
 
-std::vector<ImVec2> inWindow(const Rectangle& viewport, const std::vector<Pixel>& line)
+std::vector<ImVec2> inWindow(const Rectangle& place, const std::vector<Pixel>& line)
 {
     std::vector<ImVec2> points;
-    for (const Pixel& at : line) points.push_back(inWindow(viewport, at));
+    for (const Pixel& at : line) points.push_back(inWindow(place, at));
     return points;
 }
 
-void drawGizmo(ImDrawList& list, const Rectangle& viewport, const PictureOverlay& overlay)
+void drawGizmo(ImDrawList& list, const Rectangle& place, const PictureOverlay& overlay)
 {
     for (const GizmoPart& part : overlay.gizmo) {
         const bool isHot = overlay.hot && *overlay.hot == part.handle;
         const draw::Colour& colour = isHot ? hotColour : part.colour;
-        const std::vector<ImVec2> line = inWindow(viewport, part.line);
+        const std::vector<ImVec2> line = inWindow(place, part.line);
         const int count = static_cast<int>(line.size());
         if (!part.isFilled) {
             // A pale rim makes it visible on any ground.
@@ -139,20 +139,20 @@ void drawGizmo(ImDrawList& list, const Rectangle& viewport, const PictureOverlay
     }
 }
 
-void drawEditing(ImDrawList& list, const Rectangle& viewport, const PictureOverlay& overlay)
+void drawEditing(ImDrawList& list, const Rectangle& place, const PictureOverlay& overlay)
 {
     for (const auto& edge : overlay.edges) {
-        list.AddLine(inWindow(viewport, edge[0]), inWindow(viewport, edge[1]), packed(selectedColour), length(3));
+        list.AddLine(inWindow(place, edge[0]), inWindow(place, edge[1]), packed(selectedColour), length(3));
     }
     for (const PictureOverlay::Point& point : overlay.points) {
-        const ImVec2 at = inWindow(viewport, point.at);
+        const ImVec2 at = inWindow(place, point.at);
         const float radius = length(point.isSelected ? 5 : 4);
         list.AddCircleFilled(at, radius, packed(white), 16);
         list.AddCircleFilled(at, radius - length(1), packed(point.isSelected ? selectedColour : pointColour), 16);
     }
-    drawGizmo(list, viewport, overlay);
+    drawGizmo(list, place, overlay);
     if (overlay.band.size() > 1) {
-        const std::vector<ImVec2> line = inWindow(viewport, overlay.band);
+        const std::vector<ImVec2> line = inWindow(place, overlay.band);
         list.AddPolyline(line.data(), static_cast<int>(line.size()), packed(white, 0.8F), ImDrawFlags_Closed,
                          length(3));
         list.AddPolyline(line.data(), static_cast<int>(line.size()), packed(pointColour), ImDrawFlags_Closed,
@@ -182,39 +182,38 @@ void drawPictures(ImDrawList& list, const PanelContent& content)
 
 } // namespace
 
-void buildOverlays(const PanelContext& context, const Rectangle& viewport)
+void buildOverlays(const PanelContext& context, const Rectangle& place)
 {
     const PanelContent& content = context.content;
     const ViewState& view = content.session.state().view;
     ImDrawList& list = *ImGui::GetBackgroundDrawList();
-    list.PushClipRect(
-        {static_cast<float>(viewport.left), static_cast<float>(viewport.top)},
-        {static_cast<float>(viewport.left + viewport.width), static_cast<float>(viewport.top + viewport.height)});
+    list.PushClipRect({static_cast<float>(place.left), static_cast<float>(place.top)},
+                      {static_cast<float>(place.left + place.width), static_cast<float>(place.top + place.height)});
     if (content.session.state().document.model) {
         drawPictures(list, content);
-        if (view.axes) drawAxes(list, viewport, content.axes);
+        if (view.axes) drawAxes(list, place, content.axes);
         if (view.ground) {
             const std::string text = "grid " + detail::lengthText(content.gridStep, content.gridStep);
-            list.AddText({static_cast<float>(viewport.left) + length(92),
-                          static_cast<float>(viewport.top + viewport.height) - length(30)},
+            list.AddText({static_cast<float>(place.left) + length(92),
+                          static_cast<float>(place.top + place.height) - length(30)},
                          packed(inkColour), text.c_str());
         }
-        if (content.largestDistance > 0) drawLegend(list, viewport, content.largestDistance);
+        if (content.largestDistance > 0) drawLegend(list, place, content.largestDistance);
     } else {
         const char* const text = "Drop a model here";
         const ImVec2 size = ImGui::CalcTextSize(text);
-        list.AddText({std::round(static_cast<float>(viewport.left) + (static_cast<float>(viewport.width) - size.x) / 2),
-                      std::round(static_cast<float>(viewport.top) + static_cast<float>(viewport.height) / 2)},
+        list.AddText({std::round(static_cast<float>(place.left) + (static_cast<float>(place.width) - size.x) / 2),
+                      std::round(static_cast<float>(place.top) + static_cast<float>(place.height) / 2)},
                      packed(inkColour), text);
     }
     const std::string standing = standingText(content);
     if (!content.overlay.hint.empty()) {
-        drawPill(list, viewport, content.overlay.hint, theme::accent);
+        drawPill(list, place, content.overlay.hint, theme::accent);
     } else if (content.isPosedCoarsely) {
-        drawPill(list, viewport, "Preview: a coarse model follows the cage until the model is bound", theme::accent);
+        drawPill(list, place, "Preview: a coarse model follows the cage until the model is bound", theme::accent);
     } else if (!standing.empty()) {
         const bool isPreview = content.planner.standing() == Planner::Standing::preview;
-        drawPill(list, viewport, standing, isPreview ? theme::accent : theme::warning);
+        drawPill(list, place, standing, isPreview ? theme::accent : theme::warning);
     }
     list.PopClipRect();
 }

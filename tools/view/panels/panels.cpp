@@ -50,7 +50,7 @@ Panels::Panels() : state_(std::make_unique<State>())
 }
 Panels::~Panels() = default;
 
-Rectangle Panels::viewport(int width, int height, float by, bool hasTimeLine)
+Rectangle Panels::picturePlace(int width, int height, float by, bool hasTimeLine)
 {
     const int left = scaled(layersWidth, by), top = scaled(menuHeight, by) + scaled(toolbarHeight, by);
     const int below = scaled(statusHeight, by) + (hasTimeLine ? scaled(timeLineHeight, by) : 0);
@@ -64,7 +64,7 @@ void Panels::build(const PanelContent& content, PanelAnswer& answer)
     const ImVec2 size = ImGui::GetIO().DisplaySize;
     const int width = static_cast<int>(size.x), height = static_cast<int>(size.y);
     const bool hasTimeLine = content.session.state().view.mode == Mode::pose;
-    const Rectangle middle = viewport(width, height, scale(), hasTimeLine);
+    const Rectangle middle = picturePlace(width, height, scale(), hasTimeLine);
     const int below = middle.top + middle.height, right = middle.left + middle.width;
     const int bottom = std::max(below, height - scaled(statusHeight, scale()));
 

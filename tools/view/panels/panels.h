@@ -15,7 +15,7 @@
 #include <tools/view/jobs/runner.h>
 #include <tools/view/picture/picture_overlay.h>
 #include <tools/view/picture/rectangle.h>
-#include <tools/view/state/move.h>
+#include <tools/view/state/cage_changes.h>
 #include <tools/view/state/session.h>
 
 namespace vdbcage::view {
@@ -74,7 +74,7 @@ public:
     void build(const PanelContent& content, PanelAnswer& answer);
 
     /// Returns the place of the picture in a window of that size, with the time line or without.
-    static Rectangle viewport(int width, int height, float scale, bool hasTimeLine);
+    static Rectangle picturePlace(int width, int height, float scale, bool hasTimeLine);
 
     /// Returns the places of the last layout's widgets by name.
     const std::map<std::string, Rectangle>& places() const;

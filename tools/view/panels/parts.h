@@ -32,9 +32,9 @@ struct TimeLineMemory {
 /// keys.
 void buildTimeLine(const PanelContext& context, std::map<std::string, std::string>& typed, TimeLineMemory& memory);
 void buildStatusLine(const PanelContext& context);
-/// Builds the overlays of one picture or two: the standing of the shown cage and model, axes, scale of the grid,
-/// legend.
-void buildOverlays(const PanelContext& context, const Rectangle& viewport);
+/// Builds the overlays of one picture or two: the standing of the made cage and of the model, axes, scale of the grid,
+/// legend. `place`: of all pictures.
+void buildOverlays(const PanelContext& context, const Rectangle& place);
 /// Builds the messages, the question before the end, the file browser and help; one at a time. `isHelpOpen` is set to
 /// false when it is closed.
 void buildDialogs(const PanelContext& context, bool& isHelpOpen, FileBrowser& browser);

@@ -47,11 +47,11 @@ void row(const char* label, const std::string& value)
     row(label, [&] { ImGui::TextUnformatted(value.c_str()); });
 }
 
-void buildStages(const CageResult& shown)
+void buildStages(const CageResult& made)
 {
     double all = 0;
-    for (const StageTime& stage : shown.stages) all += stage.seconds;
-    for (const StageTime& stage : shown.stages) {
+    for (const StageTime& stage : made.stages) all += stage.seconds;
+    for (const StageTime& stage : made.stages) {
         row(stage.name.c_str(), [&] {
             const float share = all > 0 ? static_cast<float>(stage.seconds / all) : 0;
             ImGui::ProgressBar(share, {-1, ImGui::GetTextLineHeight()}, number("%.2f s", stage.seconds).c_str());
@@ -99,9 +99,9 @@ void buildPose(const PanelContext& context)
 
 void buildResult(const PanelContext& context)
 {
-    const CageResultPtr& shown = context.content.planner.shown();
-    if (!shown) return;
-    const CageCheck& check = shown->report.check;
+    const CageResultPtr& made = context.content.planner.made();
+    if (!made) return;
+    const CageCheck& check = made->report.check;
     ImGui::Dummy({0, length(4)});
     heading("Cage");
     ImGui::PushStyleVar(ImGuiStyleVar_CellPadding, {length(2), length(2)});
@@ -122,15 +122,15 @@ void buildResult(const PanelContext& context)
             row("Contacts", std::to_string(check.contactFaces) + " faces touch the model");
             row("Outside", std::to_string(check.modelVerticesOutside) + " points of the model");
         }
-        if (!shown->order.cage) {
-            row("Voxels", std::to_string(shown->report.resolution) + " along the longest side");
+        if (!made->order.cage) {
+            row("Voxels", std::to_string(made->report.resolution) + " along the longest side");
         }
         buildPose(context);
         ImGui::EndTable();
     }
-    if (!shown->order.cage) {
+    if (!made->order.cage) {
         ImGui::PushTextWrapPos(0);
-        for (const std::string& remark : report::remarks(shown->report, shown->order.options)) muted(remark);
+        for (const std::string& remark : report::remarks(made->report, made->order.options)) muted(remark);
         ImGui::PopTextWrapPos();
     }
     const bool showsTimes = context.content.session.state().view.times;
@@ -138,7 +138,7 @@ void buildResult(const PanelContext& context)
         if (ImGui::BeginTable("stages", 2)) {
             ImGui::TableSetupColumn("name", ImGuiTableColumnFlags_WidthFixed, length(92));
             ImGui::TableSetupColumn("value", ImGuiTableColumnFlags_WidthStretch);
-            buildStages(*shown);
+            buildStages(*made);
             ImGui::EndTable();
         }
     }
@@ -160,13 +160,13 @@ void buildStatusLine(const PanelContext& context)
         return;
     }
     part(document.model->path.filename().string());
-    if (const CageResultPtr& shown = planner.shown()) {
-        const CageCheck& check = shown->report.check;
+    if (const CageResultPtr& made = planner.made()) {
+        const CageCheck& check = made->report.check;
         part(facesOf(check));
         if (check.volumeRatio > 0) part(number("volume x %.2f", check.volumeRatio));
         part(number("distance %.2f %%", 100 * check.meanDistance));
         part(verdictOf(check), check.bounding() ? theme::good : theme::bad);
-        if (context.content.session.state().view.times) part(number("%.2f s", shown->seconds), theme::mutedText);
+        if (context.content.session.state().view.times) part(number("%.2f s", made->seconds), theme::mutedText);
     }
     buildBinding(context);
     if (const auto& saving = context.content.saving) {

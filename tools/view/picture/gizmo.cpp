@@ -269,7 +269,6 @@ Amount movedAmount(const GizmoFrame& frame, const Handle& handle, const Pixel& f
     const Vec3d normal =
         handle.kind == Handle::Kind::plane ? frame.axes[static_cast<std::size_t>(handle.axis)] : frame.eye.back;
     const auto a = onPlane(frame, normal, from), b = onPlane(frame, normal, to);
-    amount.count = handle.kind == Handle::Kind::plane ? 2 : 3;
     if (!a || !b) return amount;
     for (int k = 0; k < 3; ++k) {
         const bool isAcross = handle.kind == Handle::Kind::plane && k == handle.axis;

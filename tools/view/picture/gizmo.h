@@ -63,7 +63,6 @@ std::optional<Pixel> placeOf(const std::vector<GizmoPart>& parts, const std::str
 /// The effect of a drag, in numbers that a user could type.
 struct Amount {
     openvdb::Vec3d values{0}; ///< move: along each axis, drawing units; rotate: degrees; scale: factors of each axis
-    int count = 1;            ///< number of values that a user can set
 };
 /// \pre tool is not select
 Amount draggedAmount(const GizmoFrame& frame, Tool tool, const Handle& handle, const Pixel& from, const Pixel& to);

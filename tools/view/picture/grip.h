@@ -37,7 +37,7 @@ public:
 
 private:
     double snappingStep() const;
-    /// Returns the amount in world units.
+    /// Returns the amount, of a move in world units, else in degrees or factors, as typed or by the pointer.
     Amount amount() const;
 
     Start start_;

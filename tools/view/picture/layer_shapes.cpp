@@ -95,21 +95,21 @@ LayerShapes::LayerShapes(const gl::Api& api, bool isSoftware)
 {
 }
 
-LayerShapes::Change LayerShapes::show(const Shown& shown, const ViewState& view)
+LayerShapes::Change LayerShapes::show(const PictureContent& content, const ViewState& view)
 {
-    const CageResultPtr& cage = shown.cage;
-    const bool isOtherModel = model_.source() != shown.model;
+    const CageResultPtr& cage = content.cage;
+    const bool isOtherModel = model_.source() != content.model;
     Change change;
     change.model = isOtherModel;
-    change.any = isOtherModel || slot(LayerId::cage).source != cage || shown.isStale != isStale_ || view != view_;
-    if (isOtherModel) setModel(shown.model);
+    change.any = isOtherModel || slot(LayerId::cage).source != cage || content.isStale != isStale_ || view != view_;
+    if (isOtherModel) setModel(content.model);
     const bool areOtherMarks = slot(LayerId::cage).source != cage || view.selection != view_.selection;
-    change.any |= model_.show(shown.model, frame_);
+    change.any |= model_.show(content.model, frame_);
     for (std::size_t i = 0; i < layerCount; ++i) change.any |= fillLayer(static_cast<LayerId>(i), cage, view);
-    change.any |= poseCage(shown.cagePoints);
-    change.model |= model_.pose(shown.model, shown.posed, frame_);
+    change.any |= poseCage(content.cagePoints);
+    change.model |= model_.pose(content.model, content.posed, frame_);
     change.any |= change.model;
-    change.any |= model_.colour(shown.model, shown.modelValues);
+    change.any |= model_.colour(content.model, content.modelValues);
     if (cage && areOtherMarks) markFaces(*cage, view.selection);
     change.any |= fillDistances(cage, view.cageColours == CageColours::distance && view.layer(LayerId::cage).shown);
     if (isOtherModel || !ground_.shape() || view.camera.view.up != view_.camera.view.up) {
@@ -117,7 +117,7 @@ LayerShapes::Change LayerShapes::show(const Shown& shown, const ViewState& view)
         change.any = true;
     }
     view_ = view;
-    isStale_ = shown.isStale;
+    isStale_ = content.isStale;
     cage_ = cage;
     return change;
 }

@@ -14,7 +14,7 @@
 namespace vdbcage::view {
 
 /// The content of the picture.
-struct Shown {
+struct PictureContent {
     OpenedMeshPtr model;
     CageResultPtr cage;                     ///< null: none
     bool isStale = false;                   ///< it fades the cage
@@ -35,7 +35,7 @@ public:
         bool model = false; ///< the model or its points
     };
     /// Takes new content. \throw DeviceError
-    Change show(const Shown& shown, const ViewState& view);
+    Change show(const PictureContent& content, const ViewState& view);
 
     /// Returns the view of the last show().
     const ViewState& view() const { return view_; }

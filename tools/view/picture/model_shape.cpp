@@ -7,7 +7,6 @@ namespace vdbcage::view {
 namespace {
 
 constexpr double creaseDegrees = 40;
-constexpr std::size_t standInTriangles = 12000;
 
 } // namespace
 
@@ -17,8 +16,8 @@ bool ModelShape::show(const OpenedMeshPtr& model, const draw::Frame& frame)
     const bool isOther = model_.source != shown;
     if (isOther) model_.fill(*api_, frame, shown, shown ? &shown->mesh : nullptr, creaseDegrees);
     if (isSoftware_ && movingShape_.source != model) {
-        const bool isLarge = model && triangulate(model->mesh).size() > 2 * standInTriangles;
-        movingModel_ = isLarge ? draw::standIn(model->mesh, standInTriangles) : draw::StandIn();
+        const bool isLarge = model && triangulate(model->mesh).size() > 2 * mostStandInTriangles;
+        movingModel_ = isLarge ? draw::standIn(model->mesh, mostStandInTriangles) : draw::StandIn();
         movingShape_.fill(*api_, frame, model, &movingModel_.mesh, creaseDegrees);
     }
     return isOther;
@@ -34,13 +33,13 @@ bool ModelShape::pose(const OpenedMeshPtr& model, const PosedModel* posed, const
     const bool isAtRest = !bound || bound->order.model != model;
     hasOnlyStandIn_ = !isAtRest && !posed->isWhole();
     if (hasOnlyStandIn_) {
-        if (bound_.source != bound->standIn) {
-            bound_.fill(*api_, frame, bound->standIn, &bound->standIn->mesh, creaseDegrees);
+        if (boundStandInShape_.source != bound->standIn) {
+            boundStandInShape_.fill(*api_, frame, bound->standIn, &bound->standIn->mesh, creaseDegrees);
         }
-        if (bound_.shape) bound_.shape->setPoints(posed->points());
+        if (boundStandInShape_.shape) boundStandInShape_.shape->setPoints(posed->points());
         return true;
     }
-    bound_ = ShapeSlot();
+    boundStandInShape_ = ShapeSlot();
     if (!shape || (isAtRest && !isPosed_)) return true;
     isPosed_ = !isAtRest;
     const std::vector<openvdb::Vec3d>& points = isAtRest ? model->mesh.points : posed->points();
@@ -74,7 +73,7 @@ bool ModelShape::colour(const OpenedMeshPtr& model, const ModelValues& values)
 
 const std::optional<draw::Shape>& ModelShape::drawn(bool isMoving) const
 {
-    if (hasOnlyStandIn_ && bound_.shape) return bound_.shape;
+    if (hasOnlyStandIn_ && boundStandInShape_.shape) return boundStandInShape_.shape;
     return isMoving && movingShape_.shape ? movingShape_.shape : model_.shape;
 }
 

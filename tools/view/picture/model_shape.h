@@ -6,6 +6,7 @@
 
 #include <tools/draw/shape.h>
 #include <tools/draw/stand_in.h>
+#include <tools/view/jobs/model_values.h>
 #include <tools/view/jobs/posed_model.h>
 
 namespace vdbcage::view {
@@ -24,9 +25,6 @@ struct ShapeSlot {
         source = from;
     }
 };
-
-/// Values that colours of the model show, one per point; null: none.
-using ModelValues = std::shared_ptr<const std::vector<double>>;
 
 /// The model as drawn: at rest or posed, coloured by values, or by a stand-in for it.
 class ModelShape {
@@ -54,9 +52,9 @@ private:
     const gl::Api* api_;
     bool isSoftware_;
     ShapeSlot model_;
-    draw::StandIn movingModel_; ///< drawn while something moves; empty: the model itself is
-    ShapeSlot movingShape_;     ///< its shape
-    ShapeSlot bound_;           ///< the bound stand-in, until all points of the model are bound
+    draw::StandIn movingModel_;   ///< drawn while something moves; empty: the model itself is
+    ShapeSlot movingShape_;       ///< its shape
+    ShapeSlot boundStandInShape_; ///< until all points of the model are bound
     ModelValues values_;
     std::uint64_t posedVersion_ = 0;
     bool isPosed_ = false;        ///< the shape is not at rest

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include <tools/edit/selection.h>
-#include <tools/view/state/move.h>
+#include <tools/view/state/cage_changes.h>
 #include <vdbcage/core/error.h>
 
 namespace vdbcage::view {

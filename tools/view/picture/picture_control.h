@@ -14,8 +14,9 @@
 namespace vdbcage::view {
 
 /// The control of the picture by the pointer, and by keys during a motion: it turns the view (see CameraDrag), selects
-/// parts of the cage (see Band), and moves the selection (see Grip), by handles or freely. It acts by commands; it
-/// changes nothing else.
+/// parts of the cage (see Band), and moves the selection (see Grip), by handles or freely. It acts by commands, which
+/// the host performs; but it begins drags in the session itself, and there replaces the command of a motion at each
+/// event, or cancels it. The host ends and records drags.
 class PictureControl {
 public:
     /// The things that it acts on. All must outlive it.
@@ -51,8 +52,8 @@ public:
     bool isHeld() const { return held_.has_value() || (grip_ && grip_->isFree()); }
     /// Returns whether the view is turned, moved or zoomed.
     bool isCameraDragged() const { return isCameraDragged_; }
-    /// Returns whether the selection is being moved.
-    bool isMoving() const { return grip_.has_value(); }
+    /// Returns whether it moves, turns or scales the selection.
+    bool hasGrip() const { return grip_.has_value(); }
     /// Returns whether something is under way that Escape ends.
     bool isBusy() const { return grip_ || isBoxArmed_ || band_.isThere(); }
     /// Ends the motion or box under way without effect.

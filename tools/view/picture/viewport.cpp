@@ -1,6 +1,6 @@
 #include <tools/view/picture/viewport.h>
 
-#include <tools/view/state/move.h>
+#include <tools/view/state/cage_changes.h>
 
 namespace vdbcage::view {
 
@@ -23,9 +23,9 @@ void Viewport::resize(int width, int height)
     if (canvas_.resize(width, height)) restart();
 }
 
-bool Viewport::show(const Shown& shown, const ViewState& view)
+bool Viewport::show(const PictureContent& content, const ViewState& view)
 {
-    const LayerShapes::Change change = shapes_.show(shown, view);
+    const LayerShapes::Change change = shapes_.show(content, view);
     if (change.model) picker_.forgetModel();
     if (change.any) restart();
     return change.any;

@@ -22,7 +22,7 @@ public:
     void resize(int width, int height);
 
     /// Takes new content. Returns whether anything changed. \throw DeviceError
-    bool show(const Shown& shown, const ViewState& view);
+    bool show(const PictureContent& content, const ViewState& view);
 
     /// Draws a frame, if there is any left to draw. \throw DeviceError
     void draw(bool isMoving);

@@ -66,7 +66,7 @@ std::vector<Command> commandsFor(const ViewState& view)
     return listFor(view, static_cast<const Command*>(nullptr));
 }
 
-State applied(const State& state, const Command& command, const ShownCage& cage, std::string* remark)
+State applied(const State& state, const Command& command, const PosableCagePtr& cage, std::string* remark)
 {
     State changed = state;
     const auto apply = [&](const auto& each) {

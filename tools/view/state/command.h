@@ -57,7 +57,7 @@ std::vector<Command> commandsFor(const ViewState& view);
 /// Returns the state after the command. OpenModel, OpenCage, OpenPose and OpenPoses read their files. `cage` is the
 /// shown one: commands that move or reset points need it. `remark` gets a note for the user, if there is one.
 /// \throw InputError, IoError; the state is unchanged
-State applied(const State& state, const Command& command, const ShownCage& cage = nullptr,
+State applied(const State& state, const Command& command, const PosableCagePtr& cage = nullptr,
               std::string* remark = nullptr);
 
 } // namespace vdbcage::view

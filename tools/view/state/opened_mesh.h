@@ -37,6 +37,7 @@ struct OpenedMesh {
     ReadSummary summary;
 };
 using OpenedMeshPtr = std::shared_ptr<const OpenedMesh>;
+using MeshPtr = std::shared_ptr<const Mesh>;
 
 /// Reads the mesh at `path`. \throw IoError as readMeshFile
 OpenedMeshPtr openMesh(const std::filesystem::path& path);

@@ -3,9 +3,10 @@
 #include <map>
 #include <memory>
 #include <set>
+#include <utility>
 #include <vector>
 
-#include <tools/view/state/bound_model.h>
+#include <tools/view/state/opened_mesh.h>
 #include <vdbcage/core/interrupter.h>
 
 namespace vdbcage::view {
@@ -53,7 +54,7 @@ private:
     std::set<PosePtr> givenUp_;
 };
 
-/// The shown cage; null: none. It follows from the document after a while.
-using ShownCage = std::shared_ptr<PosableCage>;
+/// Null: there is no cage.
+using PosableCagePtr = std::shared_ptr<PosableCage>;
 
 } // namespace vdbcage::view

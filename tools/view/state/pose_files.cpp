@@ -7,7 +7,7 @@
 
 #include <tools/files/frames.h>
 #include <tools/files/posed_cage.h>
-#include <tools/view/state/move.h>
+#include <tools/view/state/cage_changes.h>
 #include <tools/view/state/words.h>
 #include <vdbcage/core/detail/read_file.h>
 #include <vdbcage/core/error.h>
@@ -110,14 +110,14 @@ TimeLine openParameters(const MeshPtr& cage, const fs::path& path, int frames)
 
 } // namespace
 
-Document withOpenedPose(const State& state, const ShownCage& cage, const fs::path& path, std::string* remark)
+Document withOpenedPose(const State& state, const PosableCagePtr& cage, const fs::path& path, std::string* remark)
 {
     PosedPoints pose = openPosedCage(*restOf(cage), path);
     if (remark) *remark = files::describeOrder(path.filename(), pose.reordered, 1);
     return withPose(state, cage, std::move(pose.points));
 }
 
-Document withOpenedPoses(const State& state, const ShownCage& cage, const fs::path& path, int frames,
+Document withOpenedPoses(const State& state, const PosableCagePtr& cage, const fs::path& path, int frames,
                          std::string* remark)
 {
     const MeshPtr& rest = restOf(cage);

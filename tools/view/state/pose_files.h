@@ -11,7 +11,7 @@ namespace vdbcage::view {
 /// Sets the pose of the view's frame to that of the posed cage at `path`. `remark` gets a note for the user if points
 /// were put into the order of the cage.
 /// \throw InputError, IoError naming the file: as posedPoints
-Document withOpenedPose(const State& state, const ShownCage& cage, const std::filesystem::path& path,
+Document withOpenedPose(const State& state, const PosableCagePtr& cage, const std::filesystem::path& path,
                         std::string* remark = nullptr);
 
 /// Replaces all poses by those of a sequence, or of a file of parameters (.param).
@@ -23,7 +23,7 @@ Document withOpenedPose(const State& state, const ShownCage& cage, const std::fi
 /// times a point of the cage, from 0, and its displacement, x y z. The pose at the first of `frames` frames has the
 /// displacements times the least factor, the last one times the largest. (CageModeler reads this.)
 /// \throw InputError, IoError naming the file, the value and the allowed values
-Document withOpenedPoses(const State& state, const ShownCage& cage, const std::filesystem::path& path, int frames,
+Document withOpenedPoses(const State& state, const PosableCagePtr& cage, const std::filesystem::path& path, int frames,
                          std::string* remark = nullptr);
 
 /// Returns the pattern of the file `path`: its last number becomes %0Nd, with as many digits, if it begins with 0, and

@@ -32,13 +32,13 @@ void Session::beginDrag()
 {
     isDragging_ = true;
     hasDraggedDocument_ = hasDraggedView_ = false;
-    dragged_ = state_;
-    draggedCage_ = cage_;
+    beforeDrag_ = state_;
+    cageBeforeDrag_ = cage_;
 }
 
 void Session::replaceDragged(const Command& command)
 {
-    State changed = applied(dragged_, command, draggedCage_);
+    State changed = applied(beforeDrag_, command, cageBeforeDrag_);
     note(documents_, hasDraggedDocument_, state_.document, changed.document, command);
     state_.document = std::move(changed.document);
 }
@@ -50,7 +50,7 @@ void Session::cancelDrag()
     hasDraggedDocument_ = false;
 }
 
-void Session::setCage(ShownCage cage)
+void Session::setCage(PosableCagePtr cage)
 {
     const auto hasFacesOf = [&](const Mesh& before) {
         return cage && cage->rest()->triangles == before.triangles && cage->rest()->quads == before.quads;

@@ -61,7 +61,7 @@ private:
 class Session {
 public:
     const State& state() const { return state_; }
-    const ShownCage& cage() const { return cage_; }
+    const PosableCagePtr& cage() const { return cage_; }
 
     /// Applies the command. One that changes nothing leaves no step. `remark` as applied().
     /// \throw InputError, IoError; nothing has changed
@@ -81,7 +81,7 @@ public:
     bool hasDraggedDocument() const { return hasDraggedDocument_; }
     bool hasDraggedView() const { return hasDraggedView_; }
     /// Returns the state at the last beginDrag().
-    const State& dragged() const { return dragged_; }
+    const State& beforeDrag() const { return beforeDrag_; }
 
     const History<Document>& documents() const { return documents_; }
     const History<ViewState>& views() const { return views_; }
@@ -95,7 +95,7 @@ public:
     void replaceView(const ViewState& view) { state_.view = view; }
 
     /// Sets the shown cage. The selection stays if the faces are the same.
-    void setCage(ShownCage cage);
+    void setCage(PosableCagePtr cage);
 
     /// Takes another state, such as a scene's, and clears the histories.
     void restart(State state);
@@ -106,11 +106,11 @@ private:
               const Command& command);
 
     State state_;
-    ShownCage cage_; ///< follows from the document, so it has no history
+    PosableCagePtr cage_; ///< follows from the document, so it has no history
     History<Document> documents_;
     History<ViewState> views_;
-    State dragged_; ///< before the drag
-    ShownCage draggedCage_;
+    State beforeDrag_;
+    PosableCagePtr cageBeforeDrag_;
     bool isDragging_ = false, hasDraggedDocument_ = false, hasDraggedView_ = false;
 };
 

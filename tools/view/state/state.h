@@ -12,7 +12,9 @@
 #include <tools/draw/colour.h>
 #include <tools/edit/elements.h>
 #include <tools/view/state/opened_mesh.h>
+#include <tools/view/state/opened_weights.h>
 #include <tools/view/state/time_line.h>
+#include <vdbcage/deform/coordinates.h>
 #include <vdbcage/mesh/symmetry.h>
 #include <vdbcage/pipeline/options.h>
 

@@ -2,9 +2,9 @@
 
 #include <optional>
 
+#include <tools/view/state/cage_changes.h>
 #include <tools/view/state/commands/line.h>
 #include <tools/view/state/commands/situation.h>
-#include <tools/view/state/move.h>
 #include <tools/view/state/pose_files.h>
 #include <vdbcage/core/error.h>
 

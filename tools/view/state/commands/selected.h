@@ -2,9 +2,9 @@
 
 #include <cmath>
 
+#include <tools/view/state/cage_changes.h>
 #include <tools/view/state/commands/line.h>
 #include <tools/view/state/commands/situation.h>
-#include <tools/view/state/move.h>
 
 /// Commands that move the selection or change its faces.
 namespace vdbcage::view {

@@ -15,7 +15,7 @@ namespace vdbcage::view {
 /// The data that is saved.
 struct SaveSource {
     const State& state;
-    const ShownCage& cage;
+    const PosableCagePtr& cage;
     const Planner& planner;
     const Posing& posing;
 };

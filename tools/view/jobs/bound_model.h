@@ -1,27 +1,15 @@
 #pragma once
 
 #include <cstddef>
-#include <filesystem>
 #include <memory>
-#include <optional>
 #include <vector>
 
 #include <tools/draw/stand_in.h>
-#include <tools/view/state/opened_mesh.h>
+#include <tools/view/state/state.h>
 #include <vdbcage/core/interrupter.h>
 #include <vdbcage/deform/binding.h>
 
 namespace vdbcage::view {
-
-using MeshPtr = std::shared_ptr<const Mesh>;
-
-/// Weights from a file (see readWeights). They are read when a model is bound.
-struct OpenedWeights {
-    std::filesystem::path path; ///< absolute
-};
-using WeightsPtr = std::shared_ptr<const OpenedWeights>;
-/// Returns the file's path without reading the file. \throw IoError there is no such file
-WeightsPtr openWeights(const std::filesystem::path& path);
 
 /// Everything that weights depend on; the material is not among it. Cages are compared by their content: one that was
 /// made again with the same result is equal.
@@ -36,6 +24,8 @@ inline bool operator!=(const BindOrder& a, const BindOrder& b)
 {
     return !(a == b);
 }
+/// Returns the order for the document's model and family. \pre there is a model
+BindOrder bindOrder(const Document& document, const MeshPtr& cage);
 
 /// A model bound to a cage: coarsely at first, then completely. It never changes.
 struct BoundModel {
@@ -47,7 +37,10 @@ struct BoundModel {
 };
 using BoundModelPtr = std::shared_ptr<const BoundModel>;
 
-/// Returns the most triangles that a stand-in of the model has: a tenth of the model's, within bounds.
+/// The most triangles of any stand-in: few enough to be posed and drawn at each frame of a motion.
+constexpr std::size_t mostStandInTriangles = 12000;
+
+/// Returns the most triangles that a bound stand-in of the model has: a tenth of the model's, within bounds.
 std::size_t coarseTriangles(const Mesh& model);
 
 /// Returns the order's family, and the model's points that no face uses.
@@ -55,7 +48,7 @@ CoordinateOptions coordinateOptions(const BindOrder& order);
 
 /// Binds all of the model's points, or reads their weights. \throw InputError as Binding, naming the file; IoError as
 /// readWeights; Cancelled
-std::shared_ptr<const Binding> bindingOf(const BindOrder& order, Interrupter* interrupter);
+std::shared_ptr<const Binding> makeBinding(const BindOrder& order, Interrupter* interrupter);
 
 /// Binds the stand-in. Its points are some of the model's, at most about a tenth, so it costs about as much of the
 /// whole.

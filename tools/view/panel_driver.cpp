@@ -1,8 +1,8 @@
-#include <tools/view/panel_layout.h>
+#include <tools/view/panel_driver.h>
 
 #include <algorithm>
 
-#include <tools/view/state/move.h>
+#include <tools/view/state/cage_changes.h>
 
 namespace vdbcage::view {
 
@@ -30,7 +30,7 @@ std::array<Vec3d, 3> axesSeenBy(const draw::Camera& camera)
 
 } // namespace
 
-void PanelLayout::update()
+void PanelDriver::update()
 {
     // The answer of a layout may change the state, and with it the layout.
     for (int i = 0; i < 3 && !parts_.arePanelsCurrent; ++i) {
@@ -42,7 +42,7 @@ void PanelLayout::update()
     parts_.arePanelsCurrent = true;
 }
 
-bool PanelLayout::handle(const InputEvent& event)
+bool PanelDriver::handle(const InputEvent& event)
 {
     PanelAnswer answer;
     const bool isTaken = layOut(&event, answer);
@@ -50,14 +50,14 @@ bool PanelLayout::handle(const InputEvent& event)
     return isTaken;
 }
 
-bool PanelLayout::layOut(const InputEvent* event, PanelAnswer& answer)
+bool PanelDriver::layOut(const InputEvent* event, PanelAnswer& answer)
 {
     const PanelContent shown = content();
     return parts_.widgets.layOut(event, parts_.screen.width(), parts_.screen.height(),
                                  [&] { parts_.panels.build(shown, answer); });
 }
 
-void PanelLayout::take(const PanelAnswer& answer)
+void PanelDriver::take(const PanelAnswer& answer)
 {
     if (answer.beginsDrag) {
         parts_.session.beginDrag();
@@ -69,12 +69,12 @@ void PanelLayout::take(const PanelAnswer& answer)
     if (answer.beginsDrag || answer.endsDrag) parts_.refresh();
 }
 
-PanelContent PanelLayout::content() const
+PanelContent PanelDriver::content() const
 {
     const Session& session = parts_.session;
     const State& state = session.state();
     const Posing& posing = parts_.making.posing();
-    const Viewport& picture = parts_.screen.pictures().first();
+    const Viewport& picture = parts_.screen.viewports().first();
     PanelContent content{session,     parts_.making.planner(), parts_.making.progress(), parts_.messages,
                          parts_.note, shortcuts(parts_.keys),  parts_.recentFiles};
     content.axes = axesSeenBy(state.view.camera);
@@ -87,11 +87,11 @@ PanelContent PanelLayout::content() const
         content.box = box;
         content.model = countsOf(model->mesh, picture.shapes().edgeCount(LayerId::model));
     }
-    if (const CageResultPtr& cage = parts_.making.planner().shown()) {
+    if (const CageResultPtr& cage = parts_.making.cage()) {
         content.cage = countsOf(cage->cage, picture.shapes().edgeCount(LayerId::cage));
     }
     content.overlay = parts_.control.overlay();
-    content.pictures = parts_.screen.pictures().places();
+    content.pictures = parts_.screen.viewports().places();
     content.binding = posing.follower().binder().progress();
     content.isPosedCoarsely = posing.follower().model().bound() && !posing.follower().model().isWhole();
     content.keys = parts_.keys;

@@ -1,9 +1,8 @@
-#include <tools/view/files/saves.h>
+#include <tools/view/files/save_verbs.h>
 
 #include <utility>
 
-#include <tools/view/files/saving.h>
-#include <tools/view/state/move.h>
+#include <tools/view/files/file_contents.h>
 #include <vdbcage/core/error.h>
 
 namespace vdbcage::view {
@@ -37,7 +36,7 @@ PosedScene posedScene(const SaveSource& source)
     const int first = T::isSequence ? poses.firstFrame() : state.view.frame;
     const int last = T::isSequence ? poses.finalFrame() : first;
     const BindOrder order = bindOrder(state.document, source.cage->rest());
-    const auto binding = source.posing.follower().bindingOf(order);
+    const auto binding = source.posing.follower().bindingIfReady(order);
     return {order, binding, state.document.elasticity, poses, *source.cage, first, last};
 }
 
@@ -89,13 +88,13 @@ Write SaveWeights::writer(const SaveSource& source, const fs::path& file)
 Write SaveCage::writer(const SaveSource& source, const fs::path& file)
 {
     currentCage(source.planner, "save-cage");
-    return [cage = source.planner.shown(), file](Interrupter* i) { saveCage(*cage, file, i); };
+    return [cage = source.planner.made(), file](Interrupter* i) { saveCage(*cage, file, i); };
 }
 
 Write SaveReport::writer(const SaveSource& source, const fs::path& file)
 {
     currentCage(source.planner, "save-report");
-    return [cage = source.planner.shown(), file](Interrupter*) { saveReport(*cage, file); };
+    return [cage = source.planner.made(), file](Interrupter*) { saveReport(*cage, file); };
 }
 
 Write SaveOptions::writer(const SaveSource& source, const fs::path& file)
@@ -108,7 +107,7 @@ CageResultPtr currentCage(const Planner& planner, const std::string& verb)
     if (planner.standing() != Planner::Standing::current) {
         throw InputError(verb + ": the cage of these options is not made yet");
     }
-    return planner.shown();
+    return planner.made();
 }
 
 } // namespace vdbcage::view

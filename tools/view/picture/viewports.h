@@ -12,14 +12,14 @@ namespace vdbcage::view {
 /// The picture of the window, or two side by side if two families of coordinates are compared. Both have one camera.
 ///
 /// Its context must be current in each call, and must outlive it.
-class Pictures {
+class Viewports {
 public:
     /// See Viewport. \throw DeviceError
-    Pictures(const gl::Api& api, bool isSoftware) : api_(api), isSoftware_(isSoftware), first_(api, isSoftware) {}
+    Viewports(const gl::Api& api, bool isSoftware) : api_(api), isSoftware_(isSoftware), first_(api, isSoftware) {}
 
     /// Takes new content for the pictures within `place`: with the model as it follows the cage, and as `compared` has
     /// it if that is not null. Returns whether anything changed. \throw DeviceError
-    bool show(const Rectangle& place, Shown shown, const Follower& follower, const Follower* compared,
+    bool show(const Rectangle& place, PictureContent content, const Follower& follower, const Follower* compared,
               const ViewState& view);
 
     /// See AveragedCanvas.

@@ -1,4 +1,4 @@
-#include <tools/view/files/saving.h>
+#include <tools/view/files/file_contents.h>
 
 #include <cmath>
 #include <string>
@@ -114,7 +114,7 @@ void savePosedCages(PosedScene scene, const fs::path& path, Interrupter* interru
 void savePosedModels(PosedScene scene, const fs::path& path, Interrupter* interrupter)
 {
     detail::requireMeshExtension(path);
-    if (!scene.binding) scene.binding = bindingOf(scene.order, interrupter);
+    if (!scene.binding) scene.binding = makeBinding(scene.order, interrupter);
     scene.binding = withMaterial(scene.binding, scene.elasticity);
     saveFrames(scene, path, interrupter, [&](const Points& points, std::ostream& out, const fs::path& file) {
         writeMoved(scene.order.model->path, scene.binding->pose(points), out, file);

@@ -1,12 +1,12 @@
-#include <tools/view/picture/pictures.h>
+#include <tools/view/picture/viewports.h>
 
 #include <algorithm>
 #include <utility>
 
 namespace vdbcage::view {
 
-bool Pictures::show(const Rectangle& place, Shown shown, const Follower& follower, const Follower* compared,
-                    const ViewState& view)
+bool Viewports::show(const Rectangle& place, PictureContent content, const Follower& follower, const Follower* compared,
+                     const ViewState& view)
 {
     Rectangle left = place, right = place;
     if (compared) {
@@ -18,25 +18,25 @@ bool Pictures::show(const Rectangle& place, Shown shown, const Follower& followe
     if (!compared) second_.reset();
     if (compared && !second_) second_ = std::make_unique<Viewport>(api_, isSoftware_);
     places_.assign(1, left);
-    shown.modelValues = follower.values();
-    shown.posed = &follower.model();
+    content.modelValues = follower.values();
+    content.posed = &follower.model();
     first_.resize(left.width, left.height);
-    changed |= first_.show(shown, view);
+    changed |= first_.show(content, view);
     if (!second_) return changed;
     places_.push_back(right);
-    shown.modelValues = compared->values();
-    shown.posed = &compared->model();
+    content.modelValues = compared->values();
+    content.posed = &compared->model();
     second_->resize(right.width, right.height);
-    return second_->show(shown, view) || changed;
+    return second_->show(content, view) || changed;
 }
 
-void Pictures::draw(bool isMoving)
+void Viewports::draw(bool isMoving)
 {
     first_.draw(isMoving);
     if (second_) second_->draw(isMoving);
 }
 
-void Pictures::copyTo(GLuint framebuffer, int height) const
+void Viewports::copyTo(GLuint framebuffer, int height) const
 {
     for (const Rectangle& place : places_) {
         const Viewport& picture = &place == &places_.front() ? first_ : *second_;

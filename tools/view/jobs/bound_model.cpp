@@ -1,18 +1,16 @@
-#include <tools/view/state/bound_model.h>
+#include <tools/view/jobs/bound_model.h>
 
 #include <algorithm>
-#include <system_error>
 #include <utility>
 
 #include <tools/files/naming_files.h>
-#include <vdbcage/core/error.h>
 #include <vdbcage/deform/weights_io.h>
 
 namespace vdbcage::view {
 
 namespace {
 
-constexpr std::size_t mostTriangles = 12000, leastTriangles = 100, modelTrianglesPerTriangle = 10;
+constexpr std::size_t leastTriangles = 100, modelTrianglesPerTriangle = 10;
 
 std::shared_ptr<const Binding> bound(const BindOrder& order, std::vector<openvdb::Vec3d> points,
                                      const CoordinateOptions& options, Interrupter* interrupter)
@@ -24,18 +22,16 @@ std::shared_ptr<const Binding> bound(const BindOrder& order, std::vector<openvdb
 
 } // namespace
 
-WeightsPtr openWeights(const std::filesystem::path& path)
-{
-    std::error_code error;
-    if (!std::filesystem::is_regular_file(path, error)) throw IoError(path.string() + ": there is no such file");
-    return std::make_shared<const OpenedWeights>(OpenedWeights{std::filesystem::absolute(path).lexically_normal()});
-}
-
 bool operator==(const BindOrder& a, const BindOrder& b)
 {
     if (a.model != b.model || a.family != b.family || a.weights != b.weights) return false;
     return a.cage == b.cage || (a.cage->points == b.cage->points && a.cage->triangles == b.cage->triangles &&
                                 a.cage->quads == b.cage->quads);
+}
+
+BindOrder bindOrder(const Document& document, const MeshPtr& cage)
+{
+    return {document.model, cage, document.coordinates, document.weights};
 }
 
 CoordinateOptions coordinateOptions(const BindOrder& order)
@@ -48,10 +44,10 @@ CoordinateOptions coordinateOptions(const BindOrder& order)
 std::size_t coarseTriangles(const Mesh& model)
 {
     const std::size_t triangles = model.triangles.size() + 2 * model.quads.size();
-    return std::clamp(triangles / modelTrianglesPerTriangle, leastTriangles, mostTriangles);
+    return std::clamp(triangles / modelTrianglesPerTriangle, leastTriangles, mostStandInTriangles);
 }
 
-std::shared_ptr<const Binding> bindingOf(const BindOrder& order, Interrupter* interrupter)
+std::shared_ptr<const Binding> makeBinding(const BindOrder& order, Interrupter* interrupter)
 {
     const std::vector<openvdb::Vec3d>& points = order.model->mesh.points;
     if (order.weights) return std::make_shared<const Binding>(readWeights(order.weights->path, *order.cage, points));
@@ -77,7 +73,7 @@ BoundModelPtr boundWhole(const BoundModel& coarse, Interrupter* interrupter)
 {
     const Stage stage(interrupter, StageName::bind);
     BoundModel bound = coarse;
-    bound.whole = bindingOf(bound.order, interrupter);
+    bound.whole = makeBinding(bound.order, interrupter);
     return std::make_shared<const BoundModel>(std::move(bound));
 }
 

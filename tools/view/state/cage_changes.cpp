@@ -1,4 +1,4 @@
-#include <tools/view/state/move.h>
+#include <tools/view/state/cage_changes.h>
 
 #include <algorithm>
 #include <cmath>
@@ -183,7 +183,7 @@ Mesh withCutQuads(Mesh cage, const std::vector<Index32>& faces)
 
 } // namespace
 
-const MeshPtr& restOf(const ShownCage& cage)
+const MeshPtr& restOf(const PosableCagePtr& cage)
 {
     if (!cage) throw InputError("there is no cage yet");
     return cage->rest();
@@ -202,19 +202,14 @@ std::vector<Index32> selectedPoints(const Mesh& cage, const edit::Selection& sel
     return edit::pointsOf(elements, withinCage(selection, elements));
 }
 
-BindOrder bindOrder(const Document& document, const MeshPtr& cage)
-{
-    return {document.model, cage, document.coordinates, document.weights};
-}
-
-std::vector<Vec3d> cagePoints(const State& state, const ShownCage& cage)
+std::vector<Vec3d> cagePoints(const State& state, const PosableCagePtr& cage)
 {
     if (!cage) return {};
     if (state.view.mode == Mode::shape) return cage->rest()->points;
     return pointsAt(state.document.poses, state.view.frame, *cage);
 }
 
-std::optional<SelectionFrame> selectionFrame(const State& state, const ShownCage& cage,
+std::optional<SelectionFrame> selectionFrame(const State& state, const PosableCagePtr& cage,
                                              const std::array<Vec3d, 3>& view)
 {
     if (!cage) return std::nullopt;
@@ -244,7 +239,7 @@ std::optional<SelectionFrame> selectionFrame(const State& state, const ShownCage
     return frame;
 }
 
-Document withMotion(const State& state, const ShownCage& cage, const edit::Motion& motion)
+Document withMotion(const State& state, const PosableCagePtr& cage, const edit::Motion& motion)
 {
     const Mesh& rest = *restOf(cage);
     const std::vector<double> weights = weightsOf(state, rest, requiredPoints(state, rest));
@@ -265,7 +260,7 @@ Document withMotion(const State& state, const ShownCage& cage, const edit::Motio
     return withRest(state, std::move(moved));
 }
 
-Document withEdit(const State& state, const ShownCage& cage, CageEdit edit)
+Document withEdit(const State& state, const PosableCagePtr& cage, CageEdit edit)
 {
     const Mesh& rest = *restOf(cage);
     if (state.view.mode != Mode::shape) throw InputError("the faces of the cage are changed in mode shape");
@@ -280,7 +275,7 @@ Document withEdit(const State& state, const ShownCage& cage, CageEdit edit)
     return withRest(state, withEditedEdges(rest, std::move(edges), edit));
 }
 
-Document withResetPose(const State& state, const ShownCage& cage, bool onlySelected)
+Document withResetPose(const State& state, const PosableCagePtr& cage, bool onlySelected)
 {
     const Mesh& rest = *restOf(cage);
     if (!onlySelected) return withPose(state, cage, rest.points);
@@ -289,7 +284,7 @@ Document withResetPose(const State& state, const ShownCage& cage, bool onlySelec
     return withPose(state, cage, std::move(points));
 }
 
-Document withPose(const State& state, const ShownCage& cage, std::vector<Vec3d> points)
+Document withPose(const State& state, const PosableCagePtr& cage, std::vector<Vec3d> points)
 {
     const MeshPtr& rest = restOf(cage);
     if (points.size() != rest->points.size()) {
@@ -311,7 +306,7 @@ Document withPose(const State& state, const ShownCage& cage, std::vector<Vec3d> 
     return document;
 }
 
-Document withKey(const State& state, const ShownCage& cage, int frame, const std::optional<std::string>& name)
+Document withKey(const State& state, const PosableCagePtr& cage, int frame, const std::optional<std::string>& name)
 {
     Document document = state.document;
     PoseKey key;
@@ -327,7 +322,7 @@ Document withKey(const State& state, const ShownCage& cage, int frame, const std
     return document;
 }
 
-Document withInBetweens(const State& state, const ShownCage& cage, int frames)
+Document withInBetweens(const State& state, const PosableCagePtr& cage, int frames)
 {
     const MeshPtr& rest = restOf(cage);
     PosePtr pose = poseOf(rest, pointsAt(state.document.poses, state.view.frame, *cage));

@@ -4,20 +4,21 @@
 
 namespace vdbcage::view {
 
-/// The layout of the panels, which performs the actions that the user asks for in them.
-class PanelLayout {
+/// The driver of the panels: it lays them out, and performs the actions that the user asks for in them.
+class PanelDriver {
 public:
-    PanelLayout(AppParts& parts, ActionRunner& actions) : parts_(parts), actions_(actions) {}
+    PanelDriver(AppParts& parts, ActionRunner& actions) : parts_(parts), actions_(actions) {}
 
     /// Updates the panels to the state if they are not current.
     void update();
     /// Passes an event to the panels. Returns whether they took it.
     bool handle(const InputEvent& event);
+    /// Returns what the panels show of the state.
+    PanelContent content() const;
 
 private:
     bool layOut(const InputEvent* event, PanelAnswer& answer);
     void take(const PanelAnswer& answer);
-    PanelContent content() const;
 
     AppParts& parts_;
     ActionRunner& actions_;
