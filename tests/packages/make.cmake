@@ -6,7 +6,7 @@ file(REMOVE_RECURSE ${packages})
 
 run(${CMAKE_COMMAND} --preset packages -S ${source} -B ${build}_shared)
 run(${CMAKE_COMMAND} --build ${build}_shared)
-run(${CMAKE_COMMAND} -E chdir ${build}_shared cpack -B ${packages})
+run(sh -c "umask 002 && cd '${build}_shared' && cpack -B '${packages}'") # as a new user of Debian 13 has it
 
 string(REGEX MATCH "^[0-9]+\\.[0-9]+" series ${version})
 execute_process(COMMAND dpkg --print-architecture OUTPUT_VARIABLE architecture OUTPUT_STRIP_TRAILING_WHITESPACE)
