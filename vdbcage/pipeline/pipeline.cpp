@@ -55,7 +55,7 @@ CageReport reportOf(const Candidate& made, const CageOptions& options, bool areF
     if (detail::arePaired(options)) report.mergeAngle = detail::mergeAngle(options);
     report.smooth = detail::smoothing(options);
     report.offsetVoxels = made.offsetVoxels;
-    report.start = made.start;
+    report.start = made.startKind;
     report.symmetry = made.symmetry;
     report.tiltedSymmetry = made.tiltedSymmetry;
     report.noSymmetry = made.noSymmetry;

@@ -57,7 +57,7 @@ Candidate BoundingSearch::run(const Request& request)
     cache_->beginRun();
     try {
         Candidate best = find(request, cache_->isSheet(request.options, request.interrupter));
-        best.from.reset();
+        best.keptStart.reset();
         cache_->endRun();
         return best;
     } catch (const Cancelled&) {

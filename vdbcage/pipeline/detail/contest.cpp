@@ -113,7 +113,7 @@ std::optional<Candidate> Contest::climb(const Entry& entry)
     Voxels voxels = all.front().front();
     voxels.resolution = std::min(voxels.resolution, policy::hullResolution);
     voxels.plane = entry.guard().symmetry();
-    return shrinkOnto(entry, {begin(entry, voxels, CageStart::hull)});
+    return shrinkOnto(entry, {candidateFrom(entry, voxels, CageStart::hull)});
 }
 
 /// Makes the surfaces from which cages may be shrunk, with voxels like these: none if there are too many handles.
@@ -129,7 +129,7 @@ Contest::Candidates Contest::startsFrom(const Entry& entry, const Voxels& voxels
         Voxels scaled = voxels;
         scaled.resolution = static_cast<int>(std::lround(scale * resolution));
         scaled.turned = isTurned;
-        Candidate candidate = begin(entry, scaled, CageStart::closing);
+        Candidate candidate = candidateFrom(entry, scaled, CageStart::closing);
         if (hasFewEnoughHandles(options, candidate.topology)) starts.push_back(std::move(candidate));
     };
     for (const double scale : entry.competitor.startScales) {
@@ -153,9 +153,11 @@ Contest::Candidates Contest::simpleSolids(const Entry& entry)
     const CageOptions& options = entry.options();
     Voxels voxels = entry.competitor.ladders.front().front();
     voxels.plane = entry.guard().symmetry();
-    Candidates starts{begin(entry, voxels, CageStart::orientedBox)};
+    Candidates starts{candidateFrom(entry, voxels, CageStart::orientedBox)};
     const bool isBoxTooMuch = options.mesh == CageFaces::triangles && options.faces < policy::trianglesOfBox;
-    if (isBoxTooMuch && !entry.guard().symmetry()) starts.push_back(begin(entry, voxels, CageStart::tetrahedron));
+    if (isBoxTooMuch && !entry.guard().symmetry()) {
+        starts.push_back(candidateFrom(entry, voxels, CageStart::tetrahedron));
+    }
     return starts;
 }
 
@@ -167,13 +169,14 @@ std::size_t Contest::quadsOf(const CageOptions& options, const Rules& rules, Vox
 }
 
 /// Makes a candidate with its starting surface.
-Candidate Contest::begin(const Entry& entry, const Voxels& voxels, CageStart kind)
+Candidate Contest::candidateFrom(const Entry& entry, const Voxels& voxels, CageStart kind)
 {
     Candidate candidate;
-    candidate.from = cache_.start(entry.options(), request_.scale, voxels, kind, entry.rules, request_.interrupter);
-    const StartingSurface& start = candidate.from->start;
+    candidate.keptStart =
+        cache_.keptStart(entry.options(), request_.scale, voxels, kind, entry.rules, request_.interrupter);
+    const StartingSurface& start = candidate.keptStart->surface;
     candidate.voxels = voxels;
-    candidate.start = kind;
+    candidate.startKind = kind;
     candidate.offsetVoxels = start.offsetVoxels;
     candidate.closing = start.closing;
     candidate.surface = start.surface;
@@ -256,7 +259,8 @@ void Contest::decimateAndTighten(const Entry& entry, Candidates& starts) const
     // Simple solids are cages already.
     const auto isCage = [&](const Candidate& candidate) {
         const Mesh& surface = *candidate.surface;
-        const bool isSimple = candidate.start == CageStart::orientedBox || candidate.start == CageStart::tetrahedron;
+        const bool isSimple =
+            candidate.startKind == CageStart::orientedBox || candidate.startKind == CageStart::tetrahedron;
         return isSimple && surface.triangles.size() + (onlyTriangles ? 2 : 1) * surface.quads.size() <= faces;
     };
     forEachSurface(starts, StageName::decimate, [&](Candidate& candidate, Interrupter* piece) {
@@ -269,7 +273,7 @@ void Contest::decimateAndTighten(const Entry& entry, Candidates& starts) const
             candidate.decimated = decimate(surface, guard, decimation, wishes, piece);
             return;
         }
-        RecordedDecimation& recorded = candidate.from->decimation.of(
+        RecordedDecimation& recorded = candidate.keptStart->decimation.of(
             entry.rules.key, [&] { return RecordedDecimation(surface, guard, wishes, piece); });
         candidate.decimated = recorded.to(decimation, piece);
     });
@@ -325,7 +329,7 @@ Candidate Contest::box()
     box.expand(std::max(2 * guard.clearance(), policy::boxMargin * longestSide(box)));
     Candidate candidate;
     candidate.voxels = ladders(options).back().back();
-    candidate.start = CageStart::box;
+    candidate.startKind = CageStart::box;
     candidate.closing = cache_.volumes().closing(options, request_.scale, candidate.voxels, request_.interrupter);
     const bool areTriangles = options.mesh == CageFaces::triangles;
     const bool isBoxTooMuch = areTriangles && options.faces < policy::trianglesOfBox;

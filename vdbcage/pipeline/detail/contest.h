@@ -47,7 +47,7 @@ private:
     std::optional<Candidate> climb(const Entry& entry);
     Candidates startsFrom(const Entry& entry, const Voxels& voxels);
     Candidates simpleSolids(const Entry& entry);
-    Candidate begin(const Entry& entry, const Voxels& voxels, CageStart kind);
+    Candidate candidateFrom(const Entry& entry, const Voxels& voxels, CageStart kind);
     std::size_t quadsOf(const CageOptions& options, const Rules& rules, Voxels voxels);
     std::optional<Candidate> shrinkOnto(const Entry& entry, Candidates starts);
     void collapseLoops(const Entry& entry, Candidates& starts) const;

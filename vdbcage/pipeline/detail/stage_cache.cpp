@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 #include <vdbcage/pipeline/detail/simple_solids.h>
 #include <vdbcage/pipeline/detail/starting_surface.h>
@@ -99,27 +100,27 @@ std::size_t StageCache::quadsOf(const CageOptions& options, const FieldVersion& 
     return quads;
 }
 
-std::shared_ptr<KeptStart> StageCache::start(const CageOptions& options, const FieldVersion& scale,
-                                             const Voxels& voxels, CageStart kind, const Rules& rules,
-                                             Interrupter* interrupter)
+std::shared_ptr<KeptStart> StageCache::keptStart(const CageOptions& options, const FieldVersion& scale,
+                                                 const Voxels& voxels, CageStart kind, const Rules& rules,
+                                                 Interrupter* interrupter)
 {
     const ClosingKey key = closingKey(options, scale, voxels);
     const auto isIt = [&](const auto& kept) {
-        return kept->guardOptions == rules.key.guard && kept->start.kind == kind && kept->turned == voxels.turned &&
-               kept->start.closing->key == key;
+        return kept->guardOptions == rules.key.guard && kept->surface.kind == kind && kept->turned == voxels.turned &&
+               kept->surface.closing->key == key;
     };
     auto known = std::find_if(starts_.begin(), starts_.end(), isIt);
     if (known == starts_.end()) {
-        KeptStart kept{
-            rules.key.guard, voxels.turned, rules.guard, made(options, scale, voxels, kind, rules, interrupter), {}};
+        StartingSurface surface = makeStart(options, scale, voxels, kind, rules, interrupter);
+        KeptStart kept{rules.key.guard, voxels.turned, rules.guard, std::move(surface), {}};
         known = starts_.insert(starts_.end(), std::make_shared<KeptStart>(std::move(kept)));
     }
     (*known)->isUsed = true;
     return *known;
 }
 
-StartingSurface StageCache::made(const CageOptions& options, const FieldVersion& scale, const Voxels& voxels,
-                                 CageStart kind, const Rules& rules, Interrupter* interrupter)
+StartingSurface StageCache::makeStart(const CageOptions& options, const FieldVersion& scale, const Voxels& voxels,
+                                      CageStart kind, const Rules& rules, Interrupter* interrupter)
 {
     const BoundingGuard& guard = *rules.guard;
     const auto closingOf = [&](Volumes& volumes) { return volumes.closing(options, scale, voxels, interrupter); };
