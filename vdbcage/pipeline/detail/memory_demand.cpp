@@ -70,8 +70,8 @@ double MemoryDemand::bytes(int resolution) const
     for (const SearchPlan::Competitor& competitor : searchPlan(options, share_).competitors) {
         const CageOptions& of = competitor.options;
         const bool areLoops = of.mesh == CageFaces::loops && !of.resolution;
-        for (const std::vector<Voxels>& rungs : competitor.ladders) {
-            const int wanted = rungs.front().resolution;
+        for (const std::vector<Voxels>& ladder : competitor.ladders) {
+            const int wanted = ladder.front().resolution;
             const double first =
                 areLoops ? policy::quadsPerLoopsFace * of.faces : quads_ * static_cast<double>(wanted) * wanted;
             if (competitor.mayBeTurned) add(first, of);

@@ -24,8 +24,8 @@ double growth(const CageOptions& options)
     return std::max(1.0, options.faces / usualFaces);
 }
 
-/// Returns the rungs of one resolution, with all radii.
-std::vector<Voxels> rungs(int resolution, const std::optional<double>& closeRadius, double share)
+/// Returns the entries of one resolution, with all radii.
+std::vector<Voxels> entriesOf(int resolution, const std::optional<double>& closeRadius, double share)
 {
     std::vector<Voxels> list{{resolution, closeRadius.value_or(leastRadius * share)}};
     if (!closeRadius) {
@@ -123,10 +123,10 @@ std::vector<std::vector<Voxels>> ladders(const CageOptions& options, double shar
         options.resolution.value_or(std::clamp(static_cast<int>(std::ceil(wanted)), coarsestLoops, finestResolution));
     const auto finer = [share](int voxels) { return static_cast<int>(std::lround(voxels / share)); };
     if (!options.resolution) resolution = finer(resolution);
-    std::vector<std::vector<Voxels>> list{rungs(resolution, options.closeRadius, share)};
+    std::vector<std::vector<Voxels>> list{entriesOf(resolution, options.closeRadius, share)};
     if (options.resolution || !areLoops) {
         while (resolution / 2 >= finer(coarsestHalf)) {
-            list.push_back(rungs(resolution /= 2, options.closeRadius, share));
+            list.push_back(entriesOf(resolution /= 2, options.closeRadius, share));
         }
     }
     if (!options.resolution) {

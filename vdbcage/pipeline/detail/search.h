@@ -24,7 +24,7 @@ namespace policy {
 constexpr int usualResolution = 64;    ///< voxels along the longest side, for up to `usualFaces` and Effort::best
 constexpr double usualFaces = 1000;    ///< beyond, the resolution grows with the root of the faces
 constexpr int finestResolution = 512;  ///< that is chosen; finer ones must be asked for
-constexpr int coarsestResolution = 16; ///< no rung of the ladder is below
+constexpr int coarsestResolution = 16; ///< no entry of a ladder is below
 constexpr double shareFast = 2.0 / 3, shareFair = 5.0 / 6; ///< of the resolution, for time (docs/dev/BENCHMARKS.md)
 constexpr int hullResolution = 32;                         ///< a hull has no detail that more could show
 constexpr double leastRadius = 0.03;                       ///< of a closing, of the longest side
@@ -128,16 +128,16 @@ bool areWorthTheirFaces(const CageCheck& more, const CageCheck& fewer, double cl
 /// Returns the voxels to try: one ladder for the finest, and one for each of its halves. Options that are not `auto`
 /// are obeyed.
 ///
-/// The first rung of each ladder that leads to few enough handles is taken. That of the first ladder competes with
+/// The first entry of each ladder that leads to few enough handles is taken. That of the first ladder competes with
 /// those of the others if mayCoarserBeTighter().
 std::vector<std::vector<Voxels>> ladders(const CageOptions& options, double share = 1);
 
-/// Returns the first rung of the first ladder.
+/// Returns the first entry of the first ladder.
 Voxels finestVoxels(const CageOptions& options, double share = 1);
 
 /// Returns whether halves of the resolution are worth their time. A given resolution always competes with them, so that
 /// twice that resolution is never looser. Others do where gaps stay open or needed a greater radius. `finest` is the
-/// rung taken from the first ladder, `topology` that of its surface.
+/// entry taken from the first ladder, `topology` that of its surface.
 bool mayCoarserBeTighter(const CageOptions& options, double share, const Voxels& finest, const MeshTopology& topology);
 
 /// Returns whether pairs of triangles become quads.
