@@ -116,7 +116,8 @@ std::optional<Candidate> Contest::climb(const Contestant& contestant)
     return shrinkOnto(contestant, {candidateFrom(contestant, voxels, CageStart::hull)});
 }
 
-/// Makes the surfaces from which cages may be shrunk, with voxels like these: none if there are too many handles.
+/// Makes the surfaces from which cages may be shrunk, with voxels like these: none if there are too many parts or
+/// tunnels.
 Contest::Candidates Contest::startsFrom(const Contestant& contestant, const Voxels& voxels)
 {
     const CageOptions& options = contestant.options();
@@ -131,7 +132,7 @@ Contest::Candidates Contest::startsFrom(const Contestant& contestant, const Voxe
         scaled.resolution = static_cast<int>(std::lround(scale * resolution));
         scaled.turned = isTurned;
         Candidate candidate = candidateFrom(contestant, scaled, CageStart::closing);
-        if (hasFewEnoughHandles(options, candidate.topology)) starts.push_back(std::move(candidate));
+        if (leavesFacesForShape(options, candidate.topology)) starts.push_back(std::move(candidate));
     };
     for (const double scale : contestant.competitor.startScales) {
         beginWith(scale, false);

@@ -188,12 +188,12 @@ int affordableResolution(const CageOptions& options, double share, const Voxels&
     return static_cast<int>(std::lround(std::clamp(factor, coarsestShare, 1.0) * voxels.resolution));
 }
 
-bool hasFewEnoughHandles(const CageOptions& options, const MeshTopology& topology)
+bool leavesFacesForShape(const CageOptions& options, const MeshTopology& topology)
 {
     const auto parts = static_cast<double>(topology.components());
     if (options.parts == CageParts::merge && parts > 1) return false;
-    const double taken = facesPerPart * (parts - 1) + facesPerHandle * static_cast<double>(topology.genus());
-    return taken <= handleShare * options.faces;
+    const double taken = facesPerPart * (parts - 1) + facesPerTunnel * static_cast<double>(topology.genus());
+    return taken <= partsAndTunnelsShare * options.faces;
 }
 
 int smoothing(const CageOptions& options)
