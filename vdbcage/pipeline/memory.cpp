@@ -2,7 +2,6 @@
 
 #include <vdbcage/mesh/parts.h>
 #include <vdbcage/pipeline/detail/memory_demand.h>
-#include <vdbcage/pipeline/detail/simple_solids.h>
 #include <vdbcage/pipeline/detail/volumes.h>
 #include <vdbcage/volume/extract.h>
 

@@ -10,10 +10,10 @@
 #include <utility>
 #include <vector>
 
+#include <vdbcage/core/detail/longest_side.h>
 #include <vdbcage/core/detail/number_text.h>
 #include <vdbcage/core/error.h>
 #include <vdbcage/pipeline/detail/contest.h>
-#include <vdbcage/pipeline/detail/simple_solids.h>
 #include <vdbcage/pipeline/detail/stage_cache.h>
 #include <vdbcage/pipeline/detail/tilted_search.h>
 

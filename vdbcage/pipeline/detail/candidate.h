@@ -7,7 +7,7 @@
 
 #include <vdbcage/mesh/symmetry.h>
 #include <vdbcage/mesh/topology.h>
-#include <vdbcage/pipeline/detail/search.h>
+#include <vdbcage/pipeline/detail/search_policy.h>
 #include <vdbcage/pipeline/detail/volumes.h>
 #include <vdbcage/pipeline/pipeline.h>
 

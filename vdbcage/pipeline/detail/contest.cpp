@@ -13,9 +13,11 @@
 #include <vdbcage/bounding/smooth.h>
 #include <vdbcage/bounding/tighten.h>
 #include <vdbcage/bounding/triquad.h>
+#include <vdbcage/core/detail/longest_side.h>
 #include <vdbcage/core/detail/parallel.h>
 #include <vdbcage/core/detail/stage_parts.h>
 #include <vdbcage/pipeline/detail/memory_demand.h>
+#include <vdbcage/pipeline/detail/mesh_tools.h>
 #include <vdbcage/pipeline/detail/simple_solids.h>
 
 namespace vdbcage::detail {

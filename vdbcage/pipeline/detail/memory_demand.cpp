@@ -5,8 +5,8 @@
 #include <cstdio>
 #include <string>
 
+#include <vdbcage/core/detail/longest_side.h>
 #include <vdbcage/pipeline/detail/search_plan.h>
-#include <vdbcage/pipeline/detail/simple_solids.h>
 #include <vdbcage/pipeline/memory.h>
 
 namespace vdbcage::detail {

@@ -4,7 +4,8 @@
 #include <limits>
 #include <utility>
 
-#include <vdbcage/pipeline/detail/simple_solids.h>
+#include <vdbcage/core/detail/longest_side.h>
+#include <vdbcage/pipeline/detail/mesh_tools.h>
 #include <vdbcage/pipeline/detail/starting_surface.h>
 #include <vdbcage/volume/extract.h>
 #include <vdbcage/volume/morphology.h>

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include <vdbcage/core/detail/parallel.h>
-#include <vdbcage/pipeline/detail/simple_solids.h>
+#include <vdbcage/pipeline/detail/mesh_tools.h>
 #include <vdbcage/volume/cavities.h>
 #include <vdbcage/volume/mirror.h>
 #include <vdbcage/volume/morphology.h>

@@ -1,12 +1,12 @@
-#include <vdbcage/pipeline/detail/search.h>
+#include <vdbcage/pipeline/detail/search_policy.h>
 
 #include <algorithm>
 #include <cmath>
 #include <iterator>
 
 #include <vdbcage/bounding/face_wishes.h>
+#include <vdbcage/core/detail/longest_side.h>
 #include <vdbcage/mesh/parts.h>
-#include <vdbcage/pipeline/detail/simple_solids.h>
 
 namespace vdbcage::detail {
 
