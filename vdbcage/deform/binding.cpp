@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <utility>
 
+#include <vdbcage/core/detail/longest_side.h>
 #include <vdbcage/core/error.h>
 #include <vdbcage/deform/detail/coordinate_family.h>
 #include <vdbcage/deform/detail/point_checks.h>
@@ -102,7 +103,7 @@ void Binding::add(const std::vector<Vec3d>& fromHandles, const std::vector<Vec3d
                   std::vector<Vec3d>& posed) const
 {
     // In units of the cage: floats hold the motion of models of any size.
-    const double size = detail::longestSide(cage_);
+    const double size = detail::longestSide(boundingBox(cage_));
     std::vector<detail::HandleMove> moves;
     for (std::size_t k = 0; k < toHandles.size(); ++k) {
         if (fromHandles[k] == toHandles[k]) continue;

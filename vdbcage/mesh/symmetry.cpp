@@ -16,6 +16,7 @@
 #include <utility>
 #include <vector>
 
+#include <vdbcage/core/detail/longest_side.h>
 #include <vdbcage/core/detail/parallel.h>
 #include <vdbcage/core/error.h>
 #include <vdbcage/geometry/triangle_bvh.h>
@@ -39,7 +40,7 @@ public:
     {
         requireUsable(model, "model");
         const openvdb::BBoxd box = boundingBox(model);
-        side_ = box.extents()[static_cast<int>(box.maxExtent())];
+        side_ = detail::longestSide(box);
         centre_ = 0.5 * box.min() + 0.5 * box.max();
         std::vector<Vec3d> points;
         points.reserve(model.points.size());

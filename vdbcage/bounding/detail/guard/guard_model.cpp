@@ -6,6 +6,7 @@
 #include <utility>
 
 #include <vdbcage/core/detail/asker.h>
+#include <vdbcage/core/detail/longest_side.h>
 #include <vdbcage/core/detail/nearest_float.h>
 #include <vdbcage/core/error.h>
 #include <vdbcage/geometry/union_find.h>
@@ -102,7 +103,7 @@ GuardModel::GuardModel(const Mesh& model, const GuardOptions& options, Interrupt
         high[axis] = twice - box_.min()[axis];
         box_.expand(openvdb::BBoxd(low, high));
     }
-    const double side = box_.extents()[static_cast<int>(box_.maxExtent())];
+    const double side = longestSide(box_);
     scale_ = std::ldexp(1.0, -std::ilogb(side));
     clearance_ = options.clearance * side * scale_;
     // With a lesser sine the orientation tests have no room.

@@ -16,6 +16,7 @@
 #include <cmath>
 
 #include <openvdb/math/Mat3.h>
+#include <vdbcage/core/detail/longest_side.h>
 #include <vdbcage/deform/detail/coordinate_family.h>
 #include <vdbcage/deform/detail/families/patch_quadrature.h>
 #include <vdbcage/deform/detail/triangle_potentials.h>
@@ -152,7 +153,7 @@ std::vector<Vec3d> pointNormals(const std::vector<Vec3d>& points, const std::vec
 class CagePose {
 public:
     CagePose(const Mesh& cage, const std::vector<Vec3d>& posed, const Elasticity& elasticity)
-        : triangles_(triangulateByShorterDiagonal(cage)), elasticity_(elasticity), size_(longestSide(cage))
+        : triangles_(triangulateByShorterDiagonal(cage)), elasticity_(elasticity), size_(longestSide(boundingBox(cage)))
     {
         for (const Vec3d& p : cage.points) rest_.push_back(p / size_);
         for (const Vec3d& p : posed) posed_.push_back(p / size_);
