@@ -38,8 +38,7 @@ void addStretchedNormals(const Mesh& cage, const std::vector<Vec3d>& posed, cons
     }
 }
 
-void addNormalMaxDistances(const Mesh& cage, const std::vector<openvdb::Vec3I>& corners,
-                           std::vector<float>& maxDistances)
+void addNormalReach(const Mesh& cage, const std::vector<openvdb::Vec3I>& corners, std::vector<float>& reach)
 {
     const double size = longestSide(boundingBox(cage));
     for (const openvdb::Vec3I& corner : corners) {
@@ -48,7 +47,7 @@ void addNormalMaxDistances(const Mesh& cage, const std::vector<openvdb::Vec3I>& 
         };
         // Not less than the edges' product, and not zero if one of them is not.
         const double mean = 0.5 * (edge(1) + edge(2));
-        maxDistances.push_back(static_cast<float>(mean * mean));
+        reach.push_back(static_cast<float>(mean * mean));
     }
 }
 

@@ -151,9 +151,9 @@ void requireWeights(std::size_t weights, std::size_t points, std::size_t handles
                                     std::to_string(points * handles));
 }
 
-WeightBlocks::WeightBlocks(const std::vector<Vec3d>& points, const std::vector<float>& maxDistances,
-                           const MakeRows& makeRows, Interrupter* interrupter)
-    : handles_(maxDistances.size()), blocks_((points.size() + blockSize - 1) / blockSize)
+WeightBlocks::WeightBlocks(const std::vector<Vec3d>& points, const std::vector<float>& reach, const MakeRows& makeRows,
+                           Interrupter* interrupter)
+    : handles_(reach.size()), blocks_((points.size() + blockSize - 1) / blockSize)
 {
     Indices all(points.size());
     std::iota(all.begin(), all.end(), 0U);
@@ -164,7 +164,7 @@ WeightBlocks::WeightBlocks(const std::vector<Vec3d>& points, const std::vector<f
                               all.begin() + static_cast<std::ptrdiff_t>(first + count));
         std::vector<float> rows(count * handles_);
         makeRows(indices, rows);
-        const InterpolativeRows few = interpolativeRows(rows, maxDistances, tolerance, groupSize, interrupter);
+        const InterpolativeRows few = interpolativeRows(rows, reach, tolerance, groupSize, interrupter);
         Block& block = blocks_[b];
         block.held = few.kept;
         for (const std::uint32_t i : few.order) block.points.push_back(indices[i]);

@@ -31,13 +31,13 @@ public:
     /// The error that combinations may have: four times that of rounding to float.
     static constexpr float tolerance = 1.0F / (1 << 22);
 
-    /// `maxDistances` has about how far each handle may go. The size of a row is the sum of its weights' absolute
-    /// values, each times its handle's maxDistance. A row is off by at most `tolerance` of its size, and by four times
-    /// that with rounding, for any weights.
+    /// `reach` has about how far each handle may move. The size of a row is the sum of its weights' absolute values,
+    /// each times its handle's reach. A row is off by at most `tolerance` of its size, and by four times that with
+    /// rounding, for any weights.
     /// \pre `points` are finite
     /// \throw Cancelled
-    WeightBlocks(const std::vector<openvdb::Vec3d>& points, const std::vector<float>& maxDistances,
-                 const MakeRows& makeRows, Interrupter* interrupter = nullptr);
+    WeightBlocks(const std::vector<openvdb::Vec3d>& points, const std::vector<float>& reach, const MakeRows& makeRows,
+                 Interrupter* interrupter = nullptr);
 
     /// Moves `points` by `moves`, times `size`. The result is the same for any number of threads.
     /// Cost: reading the weights of these handles and the combinations once, in parallel.

@@ -363,9 +363,9 @@ void addHandles(const Mesh& cage, const std::vector<Vec3d>& posed, const Coordin
 }
 
 /// Appends their distances: they are about as long at rest.
-void addMaxDistances(const Mesh& cage, std::vector<float>& maxDistances)
+void addReach(const Mesh& cage, std::vector<float>& reach)
 {
-    maxDistances.insert(maxDistances.end(), somiglianaWeights * (cage.triangles.size() + 2 * cage.quads.size()), 4.0F);
+    reach.insert(reach.end(), somiglianaWeights * (cage.triangles.size() + 2 * cage.quads.size()), 4.0F);
 }
 
 constexpr FamilyInfo info{
@@ -381,6 +381,6 @@ constexpr FamilyInfo info{
 extern constexpr CoordinateFamily somigliana{info,
                                              formulaRows<somiglianaRow>,
                                              &RowKernels::somigliana,
-                                             {somiglianaWeights, 2 * somiglianaWeights, addHandles, addMaxDistances}};
+                                             {somiglianaWeights, 2 * somiglianaWeights, addHandles, addReach}};
 
 } // namespace vdbcage::detail
