@@ -11,10 +11,10 @@
 #include <vdbcage/core/detail/longest_side.h>
 #include <vdbcage/core/error.h>
 #include <vdbcage/deform/detail/coordinate_family.h>
+#include <vdbcage/deform/detail/given_weights.h>
 #include <vdbcage/deform/detail/point_checks.h>
 #include <vdbcage/deform/detail/row_maker.h>
 #include <vdbcage/deform/detail/weight_blocks.h>
-#include <vdbcage/deform/detail/weight_matrix.h>
 
 namespace vdbcage {
 
