@@ -4,6 +4,7 @@
 #include <vdbcage/pipeline/detail/memory_demand.h>
 #include <vdbcage/pipeline/detail/volumes.h>
 #include <vdbcage/volume/extract.h>
+#include <vdbcage/voxelize/detail/interior_by.h>
 
 namespace vdbcage {
 
@@ -30,7 +31,7 @@ detail::MemoryDemand demandOf(const Mesh& model, const CageOptions& options, Int
     CageOptions counted = options;
     counted.voxelizer = Voxelizer::cpu;
     if (options.interior == Interior::automatic) {
-        counted.interior = rayAgreement(model, &questions) < mostlySheet ? Interior::shell : Interior::solid;
+        counted.interior = detail::interiorBy(rayAgreement(model, &questions));
     }
     detail::Volumes volumes(model);
     const detail::FieldVersion scale(options.scale);

@@ -16,6 +16,7 @@
 #include <vdbcage/mesh/parts.h>
 #include <vdbcage/pipeline/detail/bounding_search.h>
 #include <vdbcage/pipeline/detail/textbook.h>
+#include <vdbcage/voxelize/detail/interior_by.h>
 
 namespace vdbcage {
 
@@ -128,7 +129,7 @@ private:
                 const Stage stage(interrupter, StageName::interior);
                 agreement = rayAgreement(model, interrupter);
             }
-            return *agreement < mostlySheet ? Interior::shell : Interior::solid;
+            return detail::interiorBy(*agreement);
         }
 
         double leastPart;
