@@ -28,15 +28,15 @@ detail::MemoryDemand demandOf(const Mesh& model, const CageOptions& options, Int
         return demandOf(largeParts(model, options.leastPart).mesh, ofAllParts, interrupter);
     }
     QuestionsOnly questions(interrupter);
-    CageOptions counted = options;
-    counted.voxelizer = Voxelizer::cpu;
+    CageOptions countedOptions = options;
+    countedOptions.voxelizer = Voxelizer::cpu;
     if (options.interior == Interior::automatic) {
-        counted.interior = detail::interiorBy(rayAgreement(model, &questions));
+        countedOptions.interior = detail::interiorBy(rayAgreement(model, &questions));
     }
     detail::Volumes volumes(model);
     const detail::FieldVersion scale(options.scale);
     const auto quadsOf = [&](const detail::Voxels& voxels) {
-        return faceCount(extractSurface(*volumes.closing(counted, scale, voxels, &questions)->mask, &questions));
+        return faceCount(extractSurface(*volumes.closing(countedOptions, scale, voxels, &questions)->mask, &questions));
     };
     const double share = options.bounding ? detail::shareOfSide(options, model, quadsOf) : 1;
     return {model, options, share, quadsOf};

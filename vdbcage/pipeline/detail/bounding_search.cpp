@@ -77,8 +77,8 @@ Candidate BoundingSearch::find(const Request& request, bool ofSheet)
         if (auto candidate = findSymmetric(request, ofSheet, noSymmetry)) return *std::move(candidate);
     }
     Contest contest{*cache_, certifier_, request, largeSurface_, ofSheet, std::nullopt};
-    std::optional<Candidate> found = contest.tightest();
-    Candidate candidate = found ? *std::move(found) : contest.box();
+    std::optional<Candidate> tightest = contest.tightest();
+    Candidate candidate = tightest ? *std::move(tightest) : contest.box();
     candidate.noSymmetry = noSymmetry;
     return candidate;
 }

@@ -91,28 +91,29 @@ std::optional<Candidate> Contest::tightestFor(const CageOptions& options)
 /// convex hull; nothing if that has too many, too.
 std::optional<Candidate> Contest::climb(const Contestant& contestant)
 {
-    const std::vector<std::vector<Voxels>>& all = contestant.competitor.ladders;
-    std::vector<std::size_t> next(all.size(), 0); // by ladder: its next entry
-    std::size_t climbed = 1;                      // only the first, until others may be tighter
+    const std::vector<std::vector<Voxels>>& ladders = contestant.competitor.ladders;
+    std::vector<std::size_t> next(ladders.size(), 0); // by ladder: its next entry
+    std::size_t climbed = 1;                          // only the first, until others may be tighter
     for (;;) {
         Candidates starts;
         for (std::size_t i = 0; i < climbed; ++i) {
-            Candidates found;
-            while (found.empty() && next[i] < all[i].size()) {
-                Voxels voxels = all[i][next[i]++];
+            Candidates ladderStarts;
+            while (ladderStarts.empty() && next[i] < ladders[i].size()) {
+                Voxels voxels = ladders[i][next[i]++];
                 voxels.plane = contestant.guard().symmetry();
-                found = startsFrom(contestant, voxels);
+                ladderStarts = startsFrom(contestant, voxels);
             }
-            if (found.empty() || mayCoarserBeTighter(contestant.options(), contestant.share, found.front().voxels,
-                                                     found.front().topology)) {
-                climbed = all.size();
+            if (ladderStarts.empty() ||
+                mayCoarserBeTighter(contestant.options(), contestant.share, ladderStarts.front().voxels,
+                                    ladderStarts.front().topology)) {
+                climbed = ladders.size();
             }
-            std::move(found.begin(), found.end(), std::back_inserter(starts));
+            std::move(ladderStarts.begin(), ladderStarts.end(), std::back_inserter(starts));
         }
         if (starts.empty()) break;
         if (auto candidate = shrinkOnto(contestant, std::move(starts))) return candidate;
     }
-    Voxels voxels = all.front().front();
+    Voxels voxels = ladders.front().front();
     voxels.resolution = std::min(voxels.resolution, policy::hullResolution);
     voxels.plane = contestant.guard().symmetry();
     return shrinkOnto(contestant, {candidateFrom(contestant, voxels, CageStart::hull)});

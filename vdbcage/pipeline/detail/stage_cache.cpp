@@ -34,16 +34,16 @@ bool StageCache::isSheet(const CageOptions& options, Interrupter* interrupter)
     });
 }
 
-const Symmetry& StageCache::symmetry(CageSymmetry wanted, Interrupter* interrupter)
+const Symmetry& StageCache::symmetry(CageSymmetry choice, Interrupter* interrupter)
 {
-    return symmetry_.of(wanted, [&] {
+    return symmetry_.of(choice, [&] {
         const Stage stage(interrupter, StageName::symmetry);
-        if (wanted == CageSymmetry::automatic) {
+        if (choice == CageSymmetry::automatic) {
             // A model too large for doubles has none.
             constexpr double any = std::numeric_limits<double>::infinity();
             return findSymmetry(model_, any, interrupter).value_or(Symmetry{{}, any});
         }
-        const int axis = wanted == CageSymmetry::x ? 0 : wanted == CageSymmetry::y ? 1 : 2;
+        const int axis = choice == CageSymmetry::x ? 0 : choice == CageSymmetry::y ? 1 : 2;
         return bestSymmetry(model_, axis, interrupter);
     });
 }
@@ -137,8 +137,8 @@ StartingSurface StageCache::makeStart(const CageOptions& options, const FieldVer
         start.closing = std::move(closing); // in the model's own place
         return start;
     }
-    const auto* const found = closingSurface_.find(closing->key);
-    std::shared_ptr<const Mesh> extracted = found ? *found : nullptr;
+    const auto* const knownSurface = closingSurface_.find(closing->key);
+    std::shared_ptr<const Mesh> extracted = knownSurface ? *knownSurface : nullptr;
     closingSurface_.forget();
     return startingSurface(std::move(closing), kind, std::nullopt, std::move(extracted), guard, interrupter);
 }

@@ -53,8 +53,8 @@ public:
 
     /// Returns whether the model is a sheet, in voxels that depend on no option except the interior.
     bool isSheet(const CageOptions& options, Interrupter* interrupter);
-    /// Returns the best plane of those that `wanted` allows. \pre it asks for one
-    const Symmetry& symmetry(CageSymmetry wanted, Interrupter* interrupter);
+    /// Returns the best plane of those that `choice` allows. \pre it asks for one
+    const Symmetry& symmetry(CageSymmetry choice, Interrupter* interrupter);
     /// Returns constraints and wishes. Forgets starts under other constraints, for memory.
     Rules rules(const CageOptions& options, const FieldVersion& density, bool ofSheet,
                 const std::optional<SymmetryPlane>& plane, Interrupter* interrupter);
