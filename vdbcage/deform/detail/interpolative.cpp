@@ -31,11 +31,11 @@ public:
           asked_(count_, 0)
     {
         for (std::size_t r = 0; r < count_; ++r) {
-            const float* const from = rows.data() + r * reach.size();
+            const float* const source = rows.data() + r * reach.size();
             float* const row = entries_.data() + r * width_;
-            for (std::size_t k = 0; k < reach.size(); ++k) row[k] = from[k] * reach[k];
+            for (std::size_t k = 0; k < reach.size(); ++k) row[k] = source[k] * reach[k];
             allowed_[r] = tolerance * sizeOf(r);
-            for (std::size_t k = 0; k < reach.size(); ++k) row[k] = (from[k] - rows[k]) * reach[k];
+            for (std::size_t k = 0; k < reach.size(); ++k) row[k] = (source[k] - rows[k]) * reach[k];
             size_[r] = sizeOf(r);
         }
         difference_ = size_;

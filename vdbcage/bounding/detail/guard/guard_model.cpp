@@ -175,13 +175,13 @@ bool GuardModel::clear(const Corners& triangle, std::uint32_t hint, std::uint32_
     const auto blocks = [&](const TriangleBvh::Item& item) {
         return comesTooNear(triangle, separator, tree_.corners(item), clearance_);
     };
-    const auto found = [&](const TriangleBvh::Item& item) {
+    const auto takeBlocker = [&](const TriangleBvh::Item& item) {
         if (blocker) *blocker = static_cast<std::uint32_t>(&item - tree_.items().data());
         return false;
     };
-    if (hint != TriangleBvh::none && blocks(tree_.items()[hint])) return found(tree_.items()[hint]);
+    if (hint != TriangleBvh::none && blocks(tree_.items()[hint])) return takeBlocker(tree_.items()[hint]);
     return tree_.traverse(tree_.near(triangle, clearance_),
-                          [&](const TriangleBvh::Item& item) { return !blocks(item) || found(item); });
+                          [&](const TriangleBvh::Item& item) { return !blocks(item) || takeBlocker(item); });
 }
 
 void GuardModel::forEachBlocker(const Corners& triangle, const std::function<bool(const Corners&)>& visit) const
