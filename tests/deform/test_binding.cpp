@@ -160,11 +160,11 @@ std::vector<double> sizesOf(const std::vector<double>& coordinates, const Mesh& 
     openvdb::BBoxd box;
     for (const Vec3d& p : cage.points) box.expand(p);
     const double size = box.extents()[int(box.maxExtent())];
-    std::vector<double> maxDistances(cage.points.size(), 1.0);
+    std::vector<double> reach(cage.points.size(), 1.0);
     if (family == Coordinates::green) {
         const auto add = [&](openvdb::Index32 corner, openvdb::Index32 next, openvdb::Index32 before) {
             const Vec3d &at = cage.points[corner], &a = cage.points[next], &b = cage.points[before];
-            maxDistances.push_back(std::pow(0.5 * ((a - at).length() + (b - at).length()) / size, 2));
+            reach.push_back(std::pow(0.5 * ((a - at).length() + (b - at).length()) / size, 2));
         };
         for (const openvdb::Vec3I& t : cage.triangles) add(t[0], t[1], t[2]);
         for (const openvdb::Vec4I& q : cage.quads) {
@@ -172,13 +172,12 @@ std::vector<double> sizesOf(const std::vector<double>& coordinates, const Mesh& 
         }
     }
     if (family == Coordinates::somigliana) {
-        maxDistances.resize(cageHandles(cage, cage.points, family).size(), 4.0);
+        reach.resize(cageHandles(cage, cage.points, family).size(), 4.0);
     }
     std::vector<double> sizes;
-    for (std::size_t i = 0; i < coordinates.size(); i += maxDistances.size()) {
+    for (std::size_t i = 0; i < coordinates.size(); i += reach.size()) {
         sizes.push_back(0);
-        for (std::size_t k = 0; k < maxDistances.size(); ++k)
-            sizes.back() += maxDistances[k] * std::abs(coordinates[i + k]);
+        for (std::size_t k = 0; k < reach.size(); ++k) sizes.back() += reach[k] * std::abs(coordinates[i + k]);
     }
     return sizes;
 }

@@ -6,6 +6,7 @@
 
 #include <openvdb/tools/Prune.h>
 #include <support/stop_at.h>
+#include <vdbcage/core/detail/grids.h>
 #include <vdbcage/core/error.h>
 #include <vdbcage/voxelize/detail/bit_grid.h>
 #include <vdbcage/voxelize/detail/fill.h>

@@ -1,6 +1,7 @@
 #include <boost/test/unit_test.hpp>
 
 #include <support/stop_at.h>
+#include <vdbcage/core/detail/grids.h>
 #include <vdbcage/core/error.h>
 #include <vdbcage/voxelize/voxelize.h>
 #include <voxelize/models.h>

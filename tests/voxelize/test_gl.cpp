@@ -11,6 +11,7 @@
 #include <support/gl_sources.h>
 #include <support/stop_at.h>
 #include <tbb/parallel_for.h>
+#include <vdbcage/core/detail/grids.h>
 #include <vdbcage/core/error.h>
 #include <vdbcage/gl/offscreen.h>
 #include <vdbcage/mesh/mesh_io.h>

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include <support/stop_at.h>
+#include <vdbcage/core/detail/grids.h>
 #include <vdbcage/core/error.h>
 #include <vdbcage/voxelize/interior.h>
 #include <vdbcage/voxelize/voxelize.h>

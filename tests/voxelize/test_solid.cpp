@@ -6,6 +6,7 @@
 
 #include <support/stop_at.h>
 #include <tbb/global_control.h>
+#include <vdbcage/core/detail/grids.h>
 #include <vdbcage/core/error.h>
 #include <vdbcage/voxelize/voxelize.h>
 #include <voxelize/models.h>

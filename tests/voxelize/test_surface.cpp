@@ -4,6 +4,7 @@
 
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
 #include <CGAL/intersections.h>
+#include <vdbcage/core/detail/grids.h>
 #include <vdbcage/voxelize/detail/face_scan.h>
 #include <vdbcage/voxelize/voxelize.h>
 #include <voxelize/models.h>

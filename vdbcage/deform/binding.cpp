@@ -8,12 +8,13 @@
 #include <cstdint>
 #include <utility>
 
+#include <vdbcage/core/detail/longest_side.h>
 #include <vdbcage/core/error.h>
 #include <vdbcage/deform/detail/coordinate_family.h>
+#include <vdbcage/deform/detail/given_weights.h>
 #include <vdbcage/deform/detail/point_checks.h>
 #include <vdbcage/deform/detail/row_maker.h>
 #include <vdbcage/deform/detail/weight_blocks.h>
-#include <vdbcage/deform/detail/weight_matrix.h>
 
 namespace vdbcage {
 
@@ -21,13 +22,13 @@ using openvdb::Vec3d;
 
 namespace {
 
-/// Returns about how far each handle goes, in units of the cage's longest side: its points as far as the cage is large.
-std::vector<float> maxDistancesOf(const Mesh& cage, Coordinates family)
+/// Returns how far each handle may move, in longest sides of the cage: 1 for a point; vectors by family.
+std::vector<float> reachOf(const Mesh& cage, Coordinates family)
 {
-    std::vector<float> maxDistances(cage.points.size(), 1.0F);
-    const detail::Vectors& vectors = detail::coordinateFamily(family).vectors;
-    if (vectors.addMaxDistances != nullptr) vectors.addMaxDistances(cage, maxDistances);
-    return maxDistances;
+    std::vector<float> reach(cage.points.size(), 1.0F);
+    const detail::VectorHandles& vectors = detail::coordinateFamily(family).vectors;
+    if (vectors.addReach != nullptr) vectors.addReach(cage, reach);
+    return reach;
 }
 
 } // namespace
@@ -40,7 +41,7 @@ Binding::Binding(const Mesh& cage, std::vector<Vec3d> points, const CoordinateOp
     detail::RowMaker maker(cage_, points_, options_, interrupter);
     restHandles_ = cageHandles(cage_, cage_.points, options_);
     weights_ = std::make_shared<detail::WeightBlocks>(
-        points_, maxDistancesOf(cage_, family()),
+        points_, reachOf(cage_, family()),
         [&](const std::vector<std::uint32_t>& block, std::vector<float>& rows) {
             maker.make(block.data(), block.size(), rows.data());
         },
@@ -61,8 +62,7 @@ Binding::Binding(const Mesh& cage, std::vector<Vec3d> points, const CoordinateOp
         if (!problem.empty()) throw InputError("weights", problem);
     }
     weights_ = std::make_shared<detail::WeightBlocks>(
-        points_, maxDistancesOf(cage_, family()),
-        [&](const std::vector<std::uint32_t>& block, std::vector<float>& rows) {
+        points_, reachOf(cage_, family()), [&](const std::vector<std::uint32_t>& block, std::vector<float>& rows) {
             for (std::size_t i = 0; i < block.size(); ++i) {
                 std::copy_n(weights.begin() + static_cast<std::ptrdiff_t>(block[i] * handles()), handles(),
                             rows.begin() + static_cast<std::ptrdiff_t>(i * handles()));
@@ -102,7 +102,7 @@ void Binding::add(const std::vector<Vec3d>& fromHandles, const std::vector<Vec3d
                   std::vector<Vec3d>& posed) const
 {
     // In units of the cage: floats hold the motion of models of any size.
-    const double size = detail::longestSide(cage_);
+    const double size = detail::longestSide(boundingBox(cage_));
     std::vector<detail::HandleMove> moves;
     for (std::size_t k = 0; k < toHandles.size(); ++k) {
         if (fromHandles[k] == toHandles[k]) continue;

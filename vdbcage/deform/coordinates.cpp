@@ -108,7 +108,7 @@ Coordinates coordinatesNamed(const std::string& name)
 
 std::size_t handleCount(const Mesh& cage, Coordinates family)
 {
-    const detail::Vectors& vectors = detail::coordinateFamily(family).vectors;
+    const detail::VectorHandles& vectors = detail::coordinateFamily(family).vectors;
     return cage.points.size() + vectors.perTriangle * cage.triangles.size() + vectors.perQuad * cage.quads.size();
 }
 
@@ -118,7 +118,7 @@ std::vector<Vec3d> cageHandles(const Mesh& cage, const std::vector<Vec3d>& posed
     detail::requireFinite(posed, "posed cage");
     std::vector<Vec3d> handles = posed;
     handles.reserve(handleCount(cage, options.family));
-    const detail::Vectors& vectors = detail::coordinateFamily(options.family).vectors;
+    const detail::VectorHandles& vectors = detail::coordinateFamily(options.family).vectors;
     if (vectors.add != nullptr) vectors.add(cage, posed, options, handles);
     return handles;
 }

@@ -7,8 +7,8 @@
 #include <algorithm>
 #include <utility>
 
+#include <vdbcage/core/detail/longest_side.h>
 #include <vdbcage/core/error.h>
-#include <vdbcage/deform/detail/unit_cage.h>
 
 namespace vdbcage {
 
@@ -35,7 +35,7 @@ double longestEdge(const std::vector<Vec3d>& points, const openvdb::Vec3I& t)
 Binding bindBeside(const Binding& binding, const Mesh& model, const std::vector<openvdb::Vec3I>& triangles,
                    const std::vector<std::uint32_t>& piece, Interrupter* interrupter)
 {
-    const double depth = below * detail::longestSide(model);
+    const double depth = below * detail::longestSide(boundingBox(model));
     std::vector<Vec3d> points;
     for (const std::uint32_t index : piece) {
         const openvdb::Vec3I& t = triangles[index];
@@ -88,7 +88,7 @@ template <typename Take>
 void forEachPiece(const Binding& binding, const Mesh& model, const std::vector<openvdb::Vec3I>& triangles,
                   Interrupter* interrupter, const Take& take)
 {
-    const double thin = thinnest * detail::longestSide(binding.cage());
+    const double thin = thinnest * detail::longestSide(boundingBox(binding.cage()));
     for (std::size_t next = 0; next < triangles.size();) {
         std::vector<std::uint32_t> indices;
         for (; next < triangles.size() && indices.size() < pieceSize; ++next) {

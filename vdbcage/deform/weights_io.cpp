@@ -16,8 +16,8 @@
 #include <vdbcage/core/detail/io_failure.h>
 #include <vdbcage/core/detail/read_file.h>
 #include <vdbcage/core/error.h>
+#include <vdbcage/deform/detail/given_weights.h>
 #include <vdbcage/deform/detail/weight_blocks.h>
-#include <vdbcage/deform/detail/weight_matrix.h>
 
 namespace vdbcage {
 

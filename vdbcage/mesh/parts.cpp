@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <openvdb/math/BBox.h>
+#include <vdbcage/core/detail/longest_side.h>
 #include <vdbcage/geometry/union_find.h>
 
 namespace vdbcage {
@@ -42,17 +43,15 @@ public:
 
     std::uint32_t of(Index32 point) { return sets_.find(point); }
     /// Returns the longest side of a part that has faces.
-    double side(std::uint32_t part) const { return sideOf(boxes_.at(part)); }
+    double side(std::uint32_t part) const { return detail::longestSide(boxes_.at(part)); }
     double largest() const
     {
         double side = 0;
-        for (const auto& part : boxes_) side = std::max(side, sideOf(part.second));
+        for (const auto& part : boxes_) side = std::max(side, detail::longestSide(part.second));
         return side;
     }
 
 private:
-    static double sideOf(const openvdb::BBoxd& box) { return box.extents()[static_cast<int>(box.maxExtent())]; }
-
     void unitePlaces(const Mesh& mesh)
     {
         std::vector<Index32> order;

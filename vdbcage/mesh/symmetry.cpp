@@ -16,6 +16,7 @@
 #include <utility>
 #include <vector>
 
+#include <vdbcage/core/detail/longest_side.h>
 #include <vdbcage/core/detail/parallel.h>
 #include <vdbcage/core/error.h>
 #include <vdbcage/geometry/triangle_bvh.h>
@@ -39,7 +40,7 @@ public:
     {
         requireUsable(model, "model");
         const openvdb::BBoxd box = boundingBox(model);
-        side_ = box.extents()[static_cast<int>(box.maxExtent())];
+        side_ = detail::longestSide(box);
         centre_ = 0.5 * box.min() + 0.5 * box.max();
         std::vector<Vec3d> points;
         points.reserve(model.points.size());
@@ -51,9 +52,9 @@ public:
 
     Symmetry best(int axis) const
     {
-        const AcrossAxis found = improved(AcrossAxis{axis, 0});
-        const double offset = centre_[axis] + found.offset * side_;
-        if (std::abs(offset) > rounding * side_) return {{axis, offset}, fit(found).deviation};
+        const AcrossAxis plane = improved(AcrossAxis{axis, 0});
+        const double offset = centre_[axis] + plane.offset * side_;
+        if (std::abs(offset) > rounding * side_) return {{axis, offset}, fit(plane).deviation};
         // The model is too inexact to distinguish the plane from that through the origin, so the latter is meant.
         return {{axis, 0}, fit(AcrossAxis{axis, -centre_[axis] / side_}).deviation};
     }
@@ -205,12 +206,12 @@ private:
     /// Takes points spread evenly over the area.
     void takeSamples(const std::vector<Vec3d>& points, const std::vector<Vec3I>& triangles)
     {
-        constexpr std::size_t wanted = 2000;
+        constexpr std::size_t sampleCount = 2000;
         const auto corners = [&](const Vec3I& t) { return Corners{points[t[0]], points[t[1]], points[t[2]]}; };
         const auto area = [](const Corners& t) { return 0.5 * (t[1] - t[0]).cross(t[2] - t[0]).length(); };
         double total = 0;
         for (const Vec3I& t : triangles) total += area(corners(t));
-        const double step = total / wanted;
+        const double step = total / sampleCount;
         double done = 0; // of the area
         for (const Vec3I& t : triangles) {
             const Corners c = corners(t);

@@ -2,9 +2,9 @@
 
 #include <vdbcage/mesh/parts.h>
 #include <vdbcage/pipeline/detail/memory_demand.h>
-#include <vdbcage/pipeline/detail/simple_solids.h>
 #include <vdbcage/pipeline/detail/volumes.h>
 #include <vdbcage/volume/extract.h>
+#include <vdbcage/voxelize/detail/interior_by.h>
 
 namespace vdbcage {
 
@@ -28,15 +28,15 @@ detail::MemoryDemand demandOf(const Mesh& model, const CageOptions& options, Int
         return demandOf(largeParts(model, options.leastPart).mesh, ofAllParts, interrupter);
     }
     QuestionsOnly questions(interrupter);
-    CageOptions counted = options;
-    counted.voxelizer = Voxelizer::cpu;
+    CageOptions countedOptions = options;
+    countedOptions.voxelizer = Voxelizer::cpu;
     if (options.interior == Interior::automatic) {
-        counted.interior = rayAgreement(model, &questions) < mostlySheet ? Interior::shell : Interior::solid;
+        countedOptions.interior = detail::interiorBy(rayAgreement(model, &questions));
     }
     detail::Volumes volumes(model);
     const detail::FieldVersion scale(options.scale);
     const auto quadsOf = [&](const detail::Voxels& voxels) {
-        return faceCount(extractSurface(*volumes.closing(counted, scale, voxels, &questions)->mask, &questions));
+        return faceCount(extractSurface(*volumes.closing(countedOptions, scale, voxels, &questions)->mask, &questions));
     };
     const double share = options.bounding ? detail::shareOfSide(options, model, quadsOf) : 1;
     return {model, options, share, quadsOf};

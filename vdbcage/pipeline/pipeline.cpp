@@ -16,6 +16,7 @@
 #include <vdbcage/mesh/parts.h>
 #include <vdbcage/pipeline/detail/bounding_search.h>
 #include <vdbcage/pipeline/detail/textbook.h>
+#include <vdbcage/voxelize/detail/interior_by.h>
 
 namespace vdbcage {
 
@@ -40,34 +41,34 @@ bool areEqual(const CageOptions& a, const CageOptions& b)
     return equal;
 }
 
-CageReport reportOf(const Candidate& made, const CageOptions& options, bool areFloats)
+CageReport reportOf(const Candidate& candidate, const CageOptions& options, bool areFloats)
 {
-    const detail::Closing& closing = *made.closing;
+    const detail::Closing& closing = *candidate.closing;
     const detail::Solid& solid = *closing.solid;
     CageReport report;
-    report.check = made.check;
-    report.floatSafe = options.bounding && areFloats && made.boundsAsFloats;
-    report.resolution = made.voxels.resolution;
+    report.check = candidate.check;
+    report.floatSafe = options.bounding && areFloats && candidate.boundsAsFloats;
+    report.resolution = candidate.voxels.resolution;
     report.voxels = solid.report;
     report.closeRadius = closing.key.closeRadius;
     report.erodeRadius = closing.key.erodeRadius;
-    report.minAngle = made.minAngle;
+    report.minAngle = candidate.minAngle;
     if (detail::arePaired(options)) report.mergeAngle = detail::mergeAngle(options);
     report.smooth = detail::smoothing(options);
-    report.offsetVoxels = made.offsetVoxels;
-    report.start = made.start;
-    report.symmetry = made.symmetry;
-    report.tiltedSymmetry = made.tiltedSymmetry;
-    report.noSymmetry = made.noSymmetry;
-    report.plan = made.plan;
-    report.repaired = made.repaired;
-    report.sideShare = made.sideShare;
-    report.startFaces = faceCount(*made.surface);
+    report.offsetVoxels = candidate.offsetVoxels;
+    report.start = candidate.startKind;
+    report.symmetry = candidate.symmetry;
+    report.tiltedSymmetry = candidate.tiltedSymmetry;
+    report.noSymmetry = candidate.noSymmetry;
+    report.plan = candidate.plan;
+    report.repaired = candidate.repaired;
+    report.sideShare = candidate.sideShare;
+    report.startFaces = faceCount(*candidate.surface);
     report.cavitiesFilled = closing.cavitiesFilled;
     report.solidParts = solid.boundary.components;
     report.solidHandles = solid.boundary.genus;
-    report.parts = made.topology.components();
-    report.handles = made.topology.genus();
+    report.parts = candidate.topology.components();
+    report.handles = candidate.topology.genus();
     report.solidVoxels = solid.voxels;
     report.closedVoxels = closing.voxels;
     return report;
@@ -88,14 +89,14 @@ public:
         detail::requireHeld(options.precision, boundingBox(work.model));
         CageOptions decided = options;
         if (options.interior == Interior::automatic) decided.interior = work.interior(interrupter);
-        Candidate made = options.bounding ? work.search.run({decided, scale, density, memoryLimit, interrupter})
-                                          : detail::textbookCage(decided, scale, work.volumes, work.certifier,
-                                                                 memoryLimit, interrupter);
-        if (options.bounding && !made.check.bounding()) {
+        Candidate candidate = options.bounding ? work.search.run({decided, scale, density, memoryLimit, interrupter})
+                                               : detail::textbookCage(decided, scale, work.volumes, work.certifier,
+                                                                      memoryLimit, interrupter);
+        if (options.bounding && !candidate.check.bounding()) {
             throw Error("the cage could not be certified; this is a defect of vdbcage, please report the model");
         }
         const std::size_t hollows = work.certifier.hollows(interrupter);
-        report_ = reportOf(made, options, work.certifier.areFloats(options.precision));
+        report_ = reportOf(candidate, options, work.certifier.areFloats(options.precision));
         report_.modelHollows = hollows;
         if (work.parts) {
             report_.partsLeftOut = work.parts->partsLeftOut;
@@ -103,13 +104,13 @@ public:
             report_.leastPartSide = work.parts->leastSide;
         }
         if (options.interior == Interior::automatic) report_.voxels.agreement = work.agreement;
-        made_ = std::move(made);
+        candidate_ = std::move(candidate);
         last_ = Last{options, std::move(scale), std::move(density)};
         last_->options.scale = last_->options.density = {};
     }
 
     const Mesh& model() const { return model_; }
-    const Candidate& made() const { return made_; }
+    const Candidate& candidate() const { return candidate_; }
     const CageReport& report() const { return report_; }
 
 private:
@@ -128,7 +129,7 @@ private:
                 const Stage stage(interrupter, StageName::interior);
                 agreement = rayAgreement(model, interrupter);
             }
-            return *agreement < mostlySheet ? Interior::shell : Interior::solid;
+            return detail::interiorBy(*agreement);
         }
 
         double leastPart;
@@ -161,7 +162,7 @@ private:
 
     const Mesh model_;
     std::unique_ptr<Work> work_;
-    Candidate made_ = nothing();
+    Candidate candidate_ = nothing();
     CageReport report_;
     std::optional<Last> last_;
 };
@@ -186,29 +187,29 @@ const Mesh& Pipeline::model() const
 }
 openvdb::MaskGrid::ConstPtr Pipeline::solid() const
 {
-    const auto& closing = impl_->made().closing;
+    const auto& closing = impl_->candidate().closing;
     return closing ? closing->solid->mask : nullptr;
 }
 openvdb::MaskGrid::ConstPtr Pipeline::closed() const
 {
-    const auto& closing = impl_->made().closing;
+    const auto& closing = impl_->candidate().closing;
     return closing ? closing->mask : nullptr;
 }
 const Mesh& Pipeline::surface() const
 {
-    return *impl_->made().surface;
+    return *impl_->candidate().surface;
 }
 const Mesh& Pipeline::smoothed() const
 {
-    return impl_->made().smoothed;
+    return impl_->candidate().smoothed;
 }
 const Mesh& Pipeline::decimated() const
 {
-    return impl_->made().decimated;
+    return impl_->candidate().decimated;
 }
 const Mesh& Pipeline::cage() const
 {
-    return impl_->made().cage;
+    return impl_->candidate().cage;
 }
 const CageReport& Pipeline::report() const
 {

@@ -5,7 +5,7 @@
 
 #include <vdbcage/core/detail/mask_grid.h>
 #include <vdbcage/core/detail/parallel.h>
-#include <vdbcage/volume/detail/boundary_leaves.h>
+#include <vdbcage/volume/detail/contour_blocks.h>
 
 namespace vdbcage {
 

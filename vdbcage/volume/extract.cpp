@@ -1,5 +1,6 @@
 // Based on: Latecki, 3D Well-Composed Pictures, Graphical Models and Image Processing 59(3), 1997.
 // Differs: repaired by adding voxels only, never by changing the sampling, and found with bit operations on 8^3 blocks.
+
 #include <vdbcage/volume/extract.h>
 
 #include <array>
@@ -9,8 +10,6 @@
 #include <openvdb/tree/ValueAccessor.h>
 #include <vdbcage/core/detail/mask_grid.h>
 #include <vdbcage/core/error.h>
-#include <vdbcage/geometry/union_find.h>
-#include <vdbcage/volume/detail/boundary_topology.h>
 #include <vdbcage/volume/detail/surface_blocks.h>
 
 namespace vdbcage {
@@ -130,23 +129,6 @@ Mesh extractSurface(const openvdb::MaskGrid& solid, Interrupter* interrupter)
         });
     });
     return mesh;
-}
-
-detail::BoundaryTopology detail::boundaryTopology(const openvdb::MaskGrid& solid, Interrupter* interrupter)
-{
-    const openvdb::MaskGrid::Ptr grid = makeWellComposed(solid, interrupter);
-    const SurfaceBlocks blocks(grid->tree(), interrupter);
-    UnionFind parts(blocks.pointCount());
-    forEachBlock(blocks.size(), grid->tree(), interrupter, [&](std::size_t i, const MaskAccessor&) {
-        blocks.forEachQuad(i, [&](std::size_t, const openvdb::Vec4I& points) {
-            for (int n = 1; n < 4; ++n) parts.unite(points[0], points[n]);
-        });
-    });
-    std::size_t components = 0;
-    for (std::uint32_t point = 0; point < blocks.pointCount(); ++point) components += parts.find(point) == point;
-    // Each quad has four edges and each edge two quads.
-    const auto euler = std::int64_t(blocks.pointCount()) - std::int64_t(blocks.quadCount());
-    return {components, std::int64_t(components) - euler / 2};
 }
 
 } // namespace vdbcage

@@ -8,7 +8,7 @@ namespace vdbcage {
 
 /// The rule that decides on the inside of a model with holes.
 enum class Interior {
-    automatic, ///< shell where rays mostly disagree, as they do about sheets (mostlySheet), else solid
+    automatic, ///< shell where rays mostly disagree, as they do about sheets (leastAgreement), else solid
     solid,     ///< all that most rays count as inside: a bowl is filled to its rim
     shell      ///< only the places that the faces enclose without a gap: a bowl is its wall
 };
@@ -27,7 +27,7 @@ enum class Interior {
 /// Based on: Nooruddin and Turk, Simplification and Repair of Polygonal Models Using Volumetric Techniques, 2003.
 VDBCAGE_API double rayAgreement(const Mesh& model, Interrupter* interrupter = nullptr);
 
-/// The rayAgreement() below which Interior::automatic takes the shell.
-constexpr double mostlySheet = 0.3;
+/// The least rayAgreement() for which Interior::automatic takes the solid.
+constexpr double leastAgreement = 0.3;
 
 } // namespace vdbcage

@@ -4,6 +4,7 @@
 
 #include <vdbcage/core/error.h>
 #include <vdbcage/voxelize/detail/backend.h>
+#include <vdbcage/voxelize/detail/interior_by.h>
 
 namespace vdbcage {
 
@@ -63,7 +64,7 @@ Voxelization voxelize(const Mesh& model, const VoxelizeOptions& options, Interru
     Interior interior = options.interior;
     if (interior == Interior::automatic) {
         agreement = rayAgreement(model, interrupter);
-        interior = *agreement < mostlySheet ? Interior::shell : Interior::solid;
+        interior = detail::interiorBy(*agreement);
     }
     const Mesh doubled = interior == Interior::shell ? withEveryFaceTwice(model) : Mesh();
     const Mesh& counted = interior == Interior::shell ? doubled : model;

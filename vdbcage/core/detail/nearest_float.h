@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include <openvdb/math/BBox.h>
+#include <vdbcage/core/detail/longest_side.h>
 
 namespace vdbcage::detail {
 
@@ -37,14 +38,14 @@ inline double floatRounding(const openvdb::BBoxd& box)
 /// Returns whether a model in `box` is too large or too small for floats and their squares.
 inline bool isBeyondFloat(const openvdb::BBoxd& box)
 {
-    return !(floatRounding(box) < 1e23 && box.extents()[static_cast<int>(box.maxExtent())] > 1e-30);
+    return !(floatRounding(box) < 1e23 && longestSide(box) > 1e-30);
 }
 
 /// Returns whether a host that stores floats can hold a model of this box: rounding is far below its size.
 /// \pre `box` is not empty
 inline bool fitsFloat(const openvdb::BBoxd& box)
 {
-    return !isBeyondFloat(box) && floatRounding(box) < 1e-5 * box.extents()[static_cast<int>(box.maxExtent())];
+    return !isBeyondFloat(box) && floatRounding(box) < 1e-5 * longestSide(box);
 }
 
 } // namespace vdbcage::detail

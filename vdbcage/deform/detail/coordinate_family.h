@@ -32,14 +32,14 @@ CageRows formulaRows(const UnitCage& cage, const CoordinateOptions& /*options*/,
     return {[&cage](const openvdb::Vec3d& x, double* to) { return row(cage, x, to); }};
 }
 
-/// The handles that come after the cage's points: see cageHandles().
-struct Vectors {
+/// The handles that are vectors. They come after the points in each row: see cageHandles().
+struct VectorHandles {
     std::size_t perTriangle = 0, perQuad = 0;
     /// Appends them to `handles`.
     void (*add)(const Mesh& cage, const std::vector<openvdb::Vec3d>& posed, const CoordinateOptions& options,
                 std::vector<openvdb::Vec3d>& handles) = nullptr;
-    /// Appends to `maxDistances` about how far each of them goes, in units of the cage's longest side.
-    void (*addMaxDistances)(const Mesh& cage, std::vector<float>& maxDistances) = nullptr;
+    /// Appends to `reach` about how far each of them may move, in longest sides of the cage.
+    void (*addReach)(const Mesh& cage, std::vector<float>& reach) = nullptr;
 };
 
 /// The parts of a family of coordinates that differ from the others. Each family has a file in families/.
@@ -51,7 +51,7 @@ struct CoordinateFamily {
     /// \throw Cancelled
     CageRows (*rowsIn)(const UnitCage& cage, const CoordinateOptions& options, Interrupter* interrupter);
     RowKernels::Rows* RowKernels::*kernel = nullptr; ///< faster than CageRows::one, which computes the rows left out
-    Vectors vectors = {};                            ///< none, if handles are points only
+    VectorHandles vectors = {};                      ///< none, if handles are points only
 };
 
 /// Returns the family of a value. families/families.cpp has the list.

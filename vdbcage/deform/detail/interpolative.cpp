@@ -25,17 +25,17 @@ constexpr double harmlessGrowth = 24;
 /// The residuals of the rows after their projection on the rows kept so far, by Gram and Schmidt.
 class Residuals {
 public:
-    Residuals(const std::vector<float>& rows, const std::vector<float>& scale, float tolerance)
-        : width_((scale.size() + floatLanes - 1) / floatLanes * floatLanes), count_(rows.size() / scale.size()),
+    Residuals(const std::vector<float>& rows, const std::vector<float>& reach, float tolerance)
+        : width_((reach.size() + floatLanes - 1) / floatLanes * floatLanes), count_(rows.size() / reach.size()),
           entries_(count_ * width_, 0.0F), allowed_(count_), size_(count_), coefficients_(count_ * count_),
           asked_(count_, 0)
     {
         for (std::size_t r = 0; r < count_; ++r) {
-            const float* const from = rows.data() + r * scale.size();
+            const float* const source = rows.data() + r * reach.size();
             float* const row = entries_.data() + r * width_;
-            for (std::size_t k = 0; k < scale.size(); ++k) row[k] = from[k] * scale[k];
+            for (std::size_t k = 0; k < reach.size(); ++k) row[k] = source[k] * reach[k];
             allowed_[r] = tolerance * sizeOf(r);
-            for (std::size_t k = 0; k < scale.size(); ++k) row[k] = (from[k] - rows[k]) * scale[k];
+            for (std::size_t k = 0; k < reach.size(); ++k) row[k] = (source[k] - rows[k]) * reach[k];
             size_[r] = sizeOf(r);
         }
         difference_ = size_;
@@ -118,44 +118,44 @@ std::vector<double> factorsOf(const Residuals& residuals, const std::vector<std:
 }
 
 /// Returns the error of the combination by `factors` in the row order[i].
-double offBy(const std::vector<float>& rows, const std::vector<float>& scale, const std::vector<std::uint32_t>& order,
+double offBy(const std::vector<float>& rows, const std::vector<float>& reach, const std::vector<std::uint32_t>& order,
              std::size_t i, const float* factors, std::size_t factorCount)
 {
-    const float* const first = rows.data() + order[0] * scale.size();
-    const float* const row = rows.data() + order[i] * scale.size();
-    std::vector<double> left(scale.size());
-    for (std::size_t k = 0; k < scale.size(); ++k) left[k] = double(row[k]) - double(first[k]);
+    const float* const first = rows.data() + order[0] * reach.size();
+    const float* const row = rows.data() + order[i] * reach.size();
+    std::vector<double> left(reach.size());
+    for (std::size_t k = 0; k < reach.size(); ++k) left[k] = double(row[k]) - double(first[k]);
     for (std::size_t j = 0; j < factorCount; ++j) {
         if (factors[j] == 0) continue;
-        const float* const held = rows.data() + order[j + 1] * scale.size();
-        for (std::size_t k = 0; k < scale.size(); ++k) {
+        const float* const held = rows.data() + order[j + 1] * reach.size();
+        for (std::size_t k = 0; k < reach.size(); ++k) {
             left[k] -= double(factors[j]) * (double(held[k]) - double(first[k]));
         }
     }
     double sum = 0;
-    for (std::size_t k = 0; k < scale.size(); ++k) sum += std::abs(left[k]) * double(scale[k]);
+    for (std::size_t k = 0; k < reach.size(); ++k) sum += std::abs(left[k]) * double(reach[k]);
     return sum;
 }
 
 } // namespace
 
-InterpolativeRows interpolativeRows(const std::vector<float>& rows, const std::vector<float>& scale, float tolerance,
+InterpolativeRows interpolativeRows(const std::vector<float>& rows, const std::vector<float>& reach, float tolerance,
                                     std::size_t unit, Interrupter* interrupter)
 {
-    const std::size_t count = scale.empty() ? 0 : rows.size() / scale.size();
+    const std::size_t count = reach.empty() ? 0 : rows.size() / reach.size();
     InterpolativeRows all;
     all.order.resize(count);
     std::iota(all.order.begin(), all.order.end(), 0U);
     all.kept = count;
     if (count <= unit) return all;
 
-    Residuals residuals(rows, scale, tolerance);
+    Residuals residuals(rows, reach, tolerance);
     InterpolativeRows result = all;
     std::vector<std::uint32_t>& order = result.order;
     for (std::size_t kept = 1;;) {
         for (;; ++kept) {
             throwIfInterrupted(interrupter);
-            if (kept > scale.size()) return all; // there would be as many factors as the entries that they replace
+            if (kept > reach.size()) return all; // there would be as many factors as the entries that they replace
             const auto worst = std::max_element(
                 order.begin() + static_cast<std::ptrdiff_t>(kept), order.end(),
                 [&](std::uint32_t a, std::uint32_t b) { return residuals.excess(a) < residuals.excess(b); });
@@ -177,7 +177,7 @@ InterpolativeRows interpolativeRows(const std::vector<float>& rows, const std::v
             const auto allowed = double(residuals.allowed(order[i]));
             if (double(tolerance) * sum <= harmlessGrowth * allowed) continue;
             const float* const rounded = result.factors.data() + (i - kept) * (kept - 1);
-            if (!(offBy(rows, scale, order, i, rounded, kept - 1) <= withRounding * allowed)) {
+            if (!(offBy(rows, reach, order, i, rounded, kept - 1) <= withRounding * allowed)) {
                 tooFarOff.push_back(order[i]);
             }
         }

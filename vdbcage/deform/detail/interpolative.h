@@ -19,11 +19,11 @@ struct InterpolativeRows {
 /// Decomposes a matrix. It keeps enough rows for the others to be off by at most `tolerance` of their size before
 /// rounding, and by four times that with rounding.
 ///
-/// The size of a row is the sum of its entries' absolute values, each times its column's `scale`. The number of kept
+/// The size of a row is the sum of its entries' absolute values, each times its column's `reach`. The number of kept
 /// rows is a multiple of `unit`, or all rows where that takes no more memory. `rows` are row after row.
 /// Cost: O(rows x kept x columns).
 /// \throw Cancelled
-InterpolativeRows interpolativeRows(const std::vector<float>& rows, const std::vector<float>& scale, float tolerance,
+InterpolativeRows interpolativeRows(const std::vector<float>& rows, const std::vector<float>& reach, float tolerance,
                                     std::size_t unit, Interrupter* interrupter = nullptr);
 
 } // namespace vdbcage::detail

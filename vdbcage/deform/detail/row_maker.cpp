@@ -49,7 +49,7 @@ RowMaker::RowMaker(const Mesh& cage, const std::vector<Vec3d>& points, const Coo
     }
     requireFinite(points, "points");
     rows_ = family_.rowsIn(cage_, options, interrupter);
-    byMeanValue_ = coordinateFamily(Coordinates::meanValue).rowsIn(cage_, options, interrupter);
+    meanValueRows_ = coordinateFamily(Coordinates::meanValue).rowsIn(cage_, options, interrupter);
 }
 
 template <typename Number>
@@ -64,26 +64,26 @@ void RowMaker::make(const std::uint32_t* indices, std::size_t count, Number* row
             const auto pointOf = [&](std::size_t lane) {
                 return indices != nullptr ? std::size_t{indices[first + lane]} : first + lane;
             };
-            std::array<Vec3d, packetSize> at{};
+            std::array<Vec3d, packetSize> places{};
             for (std::size_t lane = 0; lane < lanes; ++lane) {
                 throwIfInterrupted(interrupter_);
-                at[lane] = cage_.scaled(points_[pointOf(lane)]);
+                places[lane] = cage_.scaled(points_[pointOf(lane)]);
             }
-            const unsigned undefined = makePacket(at.data(), lanes, buffers);
-            Number* const to = rows + first * columns_;
+            const unsigned undefined = makePacket(places.data(), lanes, buffers);
+            Number* const packetRows = rows + first * columns_;
             Packet probe = {}; // not zero where the row is undefined, or a number of it not finite
             for (std::size_t lane = 0; lane < lanes; ++lane) probe[lane] = undefined >> lane & 1;
             for (std::size_t k = 0; k < columns_; ++k) {
                 for (std::size_t lane = 0; lane < lanes; ++lane) {
                     const double weight = buffers.rows[k][lane];
                     probe[lane] += 0 * weight;
-                    to[lane * columns_ + k] = static_cast<Number>(weight);
+                    packetRows[lane * columns_ + k] = static_cast<Number>(weight);
                 }
             }
             for (std::size_t lane = 0; lane < lanes; ++lane) {
                 const std::size_t point = pointOf(lane);
                 bool isDefined = probe[lane] == 0;
-                if (isLoose_[point]) isDefined = moveLoosely(at[lane], isDefined, to + lane * columns_);
+                if (isLoose_[point]) isDefined = makeLooseRow(places[lane], isDefined, packetRows + lane * columns_);
                 if (!isDefined) undefined_[point] = 1;
             }
         }
@@ -134,16 +134,16 @@ unsigned RowMaker::makePacket(const Vec3d* points, std::size_t count, const Buff
 /// Makes the row of a loose point: that of the family where it is defined, unless the point stays. Mean value
 /// coordinates are of the cage's points, the first handles of every family. Returns false where they are not defined.
 template <typename Number>
-bool RowMaker::moveLoosely(const Vec3d& at, bool isDefined, Number* row) const
+bool RowMaker::makeLooseRow(const Vec3d& place, bool isDefined, Number* row) const
 {
     const bool stays = looseMotion_ == LoosePoints::Motion::stay;
     if (isDefined && !stays) return true;
     std::fill_n(row, columns_, Number(0));
     if (stays) return true;
     std::vector<double> weights(cage_.points().size());
-    if (at.isFinite()) byMeanValue_.one(at, weights.data());
+    if (place.isFinite()) meanValueRows_.one(place, weights.data());
     std::transform(weights.begin(), weights.end(), row, [](double weight) { return static_cast<Number>(weight); });
-    return at.isFinite() && std::all_of(weights.begin(), weights.end(), [](double w) { return std::isfinite(w); });
+    return place.isFinite() && std::all_of(weights.begin(), weights.end(), [](double w) { return std::isfinite(w); });
 }
 
 } // namespace vdbcage::detail

@@ -44,7 +44,7 @@ private:
 
     unsigned makePacket(const openvdb::Vec3d* points, std::size_t count, const Buffers& buffers) const;
     template <typename Number>
-    bool moveLoosely(const openvdb::Vec3d& at, bool isDefined, Number* row) const;
+    bool makeLooseRow(const openvdb::Vec3d& place, bool isDefined, Number* row) const;
 
     const std::vector<openvdb::Vec3d>& points_;
     const CoordinateFamily& family_;
@@ -52,7 +52,7 @@ private:
     std::size_t columns_;
     UnitCage cage_;
     std::shared_ptr<const KernelCage> kernelCage_;
-    CageRows rows_, byMeanValue_;
+    CageRows rows_, meanValueRows_;
     LoosePoints::Motion looseMotion_;
     std::vector<bool> isLoose_;
     std::vector<char> undefined_; ///< by point; several threads write

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include <vdbcage/core/detail/longest_side.h>
+
 namespace vdbcage::detail {
 
 using openvdb::Vec3d;
@@ -26,7 +28,7 @@ Vec3d stretchedNormal(const Vec3d& a, const Vec3d& b, const Vec3d& posedA, const
 void addStretchedNormals(const Mesh& cage, const std::vector<Vec3d>& posed, const std::vector<openvdb::Vec3I>& corners,
                          std::vector<Vec3d>& handles)
 {
-    const double size = longestSide(cage);
+    const double size = longestSide(boundingBox(cage));
     for (const openvdb::Vec3I& corner : corners) {
         const auto edge = [&](const std::vector<Vec3d>& points, int to) {
             return points[corner[to]] / size - points[corner[0]] / size;
@@ -36,17 +38,16 @@ void addStretchedNormals(const Mesh& cage, const std::vector<Vec3d>& posed, cons
     }
 }
 
-void addNormalMaxDistances(const Mesh& cage, const std::vector<openvdb::Vec3I>& corners,
-                           std::vector<float>& maxDistances)
+void addNormalReach(const Mesh& cage, const std::vector<openvdb::Vec3I>& corners, std::vector<float>& reach)
 {
-    const double size = longestSide(cage);
+    const double size = longestSide(boundingBox(cage));
     for (const openvdb::Vec3I& corner : corners) {
         const auto edge = [&](int to) {
             return (cage.points[corner[to]] / size - cage.points[corner[0]] / size).length();
         };
         // Not less than the edges' product, and not zero if one of them is not.
         const double mean = 0.5 * (edge(1) + edge(2));
-        maxDistances.push_back(static_cast<float>(mean * mean));
+        reach.push_back(static_cast<float>(mean * mean));
     }
 }
 

@@ -17,20 +17,17 @@ namespace vdbcage::detail {
 void addStretchedNormals(const Mesh& cage, const std::vector<openvdb::Vec3d>& posed,
                          const std::vector<openvdb::Vec3I>& corners, std::vector<openvdb::Vec3d>& handles);
 
-/// Appends about how far the normals go if edges get up to twice as long.
-void addNormalMaxDistances(const Mesh& cage, const std::vector<openvdb::Vec3I>& corners,
-                           std::vector<float>& maxDistances);
+/// Appends to `reach` about how far the normals move if edges get up to twice as long.
+void addNormalReach(const Mesh& cage, const std::vector<openvdb::Vec3I>& corners, std::vector<float>& reach);
 
 /// Returns the handles of a family that has stretched normals at the corners from `cornersOf`.
 template <std::vector<openvdb::Vec3I> (*cornersOf)(const Mesh& cage)>
-constexpr Vectors stretchedNormals(std::size_t perTriangle, std::size_t perQuad)
+constexpr VectorHandles stretchedNormals(std::size_t perTriangle, std::size_t perQuad)
 {
     return {perTriangle, perQuad,
             [](const Mesh& cage, const std::vector<openvdb::Vec3d>& posed, const CoordinateOptions&,
                std::vector<openvdb::Vec3d>& handles) { addStretchedNormals(cage, posed, cornersOf(cage), handles); },
-            [](const Mesh& cage, std::vector<float>& maxDistances) {
-                addNormalMaxDistances(cage, cornersOf(cage), maxDistances);
-            }};
+            [](const Mesh& cage, std::vector<float>& reach) { addNormalReach(cage, cornersOf(cage), reach); }};
 }
 
 } // namespace vdbcage::detail

@@ -6,6 +6,7 @@
 #include <string>
 
 #include <openvdb/math/Mat3.h>
+#include <vdbcage/core/detail/longest_side.h>
 #include <vdbcage/core/error.h>
 #include <vdbcage/mesh/topology.h>
 
@@ -115,20 +116,13 @@ void requireClosed(const Mesh& cage)
 
 } // namespace
 
-double longestSide(const Mesh& mesh)
-{
-    const openvdb::BBoxd box = boundingBox(mesh);
-    const Vec3d extent = box.max() - box.min();
-    return std::max({extent[0], extent[1], extent[2]});
-}
-
 UnitCage::UnitCage(const Mesh& cage)
 {
     requireUsable(cage, "cage");
     requireClosed(cage);
     const openvdb::BBoxd box = boundingBox(cage);
     centre_ = 0.5 * box.min() + 0.5 * box.max();
-    size_ = longestSide(cage);
+    size_ = longestSide(box);
     for (const openvdb::Vec3I& t : cage.triangles) faces_.push_back({{t[0], t[1], t[2], t[2]}, false});
     for (const openvdb::Vec4I& q : cage.quads) faces_.push_back({{q[0], q[1], q[2], q[3]}, true});
 

@@ -71,9 +71,6 @@ private:
     std::vector<openvdb::Vec3d> restoring_;
 };
 
-/// Returns the longest side of the box of the mesh's faces: the unit of its UnitCage.
-double longestSide(const Mesh& mesh);
-
 /// Returns `cage` as plain data for the kernels. It must outlive the result.
 std::shared_ptr<const KernelCage> kernelCage(const UnitCage& cage);
 

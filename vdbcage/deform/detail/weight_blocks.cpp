@@ -32,9 +32,9 @@ constexpr std::size_t movesAhead = 24;
 // The number of moves that are summed up at a time: rounding grows with the length of a sum.
 constexpr std::size_t movesTogether = 64;
 
-/// A move of a group: its weights are `at` floats behind the first of the group.
+/// A move of a group: its weights are `offset` floats behind the first of the group.
 struct Move {
-    std::uint32_t at;
+    std::uint32_t offset;
     float x, y, z;
 };
 
@@ -42,15 +42,15 @@ struct Move {
 class Moves {
 public:
     void clear() { moves_.clear(); }
-    void add(std::size_t row, const Vec3f& by)
+    void add(std::size_t column, const Vec3f& motion)
     {
-        moves_.push_back({static_cast<std::uint32_t>(row * groupSize), by.x(), by.y(), by.z()});
+        moves_.push_back({static_cast<std::uint32_t>(column * groupSize), motion.x(), motion.y(), motion.z()});
     }
-    void lookAhead(std::size_t rows)
+    void lookAhead(std::size_t columns)
     {
         count_ = moves_.size();
         for (std::size_t i = 0; i < movesAhead && count_ > 0; ++i) {
-            moves_.push_back({moves_[i].at + static_cast<std::uint32_t>(rows * groupSize), 0, 0, 0});
+            moves_.push_back({moves_[i].offset + static_cast<std::uint32_t>(columns * groupSize), 0, 0, 0});
         }
     }
     std::size_t size() const { return count_; }
@@ -75,10 +75,10 @@ GroupSums sumUp(const float* weights, const Moves& moves)
         GroupSums part;
         for (std::size_t m = first; m < std::min(moves.size(), first + movesTogether); ++m) {
             const Move& move = moves[m];
-            const float* const weight = weights + move.at;
+            const float* const weight = weights + move.offset;
             // As a number, since it may lie behind the last group.
             __builtin_prefetch(reinterpret_cast<const void*>(reinterpret_cast<std::uintptr_t>(weights) +
-                                                             moves[m + movesAhead].at * sizeof(float)));
+                                                             moves[m + movesAhead].offset * sizeof(float)));
             for (std::size_t i = 0; i < groupSize; ++i) {
                 part.x[i] += weight[i] * move.x;
                 part.y[i] += weight[i] * move.y;
@@ -111,8 +111,8 @@ void sortIntoBlocks(const std::vector<Vec3d>& points, Indices::iterator begin, I
     std::for_each(begin, end, [&](std::uint32_t i) { box.expand(points[i]); });
     const auto axis = static_cast<int>(box.maxExtent());
     const std::size_t unit = count > blockSize ? blockSize : packetSize;
-    const std::size_t before = (count + unit - 1) / unit / 2 * unit;
-    const auto middle = begin + static_cast<std::ptrdiff_t>(before);
+    const std::size_t countBefore = (count + unit - 1) / unit / 2 * unit;
+    const auto middle = begin + static_cast<std::ptrdiff_t>(countBefore);
     Asker ask(interrupter);
     std::nth_element(begin, middle, end, [&](std::uint32_t a, std::uint32_t b) {
         ask();
@@ -132,12 +132,12 @@ void sortIntoBlocks(const std::vector<Vec3d>& points, Indices::iterator begin, I
 template <typename Row>
 void appendGroups(std::size_t count, std::size_t columns, const Row& row, std::vector<float>& groups)
 {
-    const std::size_t before = groups.size();
-    groups.resize(before + (count + groupSize - 1) / groupSize * groupSize * columns);
+    const std::size_t oldSize = groups.size();
+    groups.resize(oldSize + (count + groupSize - 1) / groupSize * groupSize * columns);
     for (std::size_t i = 0; i < count; ++i) {
-        float* const to = groups.data() + before + i / groupSize * groupSize * columns + i % groupSize;
-        const float* const from = row(i);
-        for (std::size_t k = 0; k < columns; ++k) to[k * groupSize] = from[k];
+        float* const place = groups.data() + oldSize + i / groupSize * groupSize * columns + i % groupSize;
+        const float* const weights = row(i);
+        for (std::size_t k = 0; k < columns; ++k) place[k * groupSize] = weights[k];
     }
 }
 
@@ -151,9 +151,9 @@ void requireWeights(std::size_t weights, std::size_t points, std::size_t handles
                                     std::to_string(points * handles));
 }
 
-WeightBlocks::WeightBlocks(const std::vector<Vec3d>& points, const std::vector<float>& maxDistances,
-                           const MakeRows& makeRows, Interrupter* interrupter)
-    : handles_(maxDistances.size()), blocks_((points.size() + blockSize - 1) / blockSize)
+WeightBlocks::WeightBlocks(const std::vector<Vec3d>& points, const std::vector<float>& reach, const MakeRows& makeRows,
+                           Interrupter* interrupter)
+    : handles_(reach.size()), blocks_((points.size() + blockSize - 1) / blockSize)
 {
     Indices all(points.size());
     std::iota(all.begin(), all.end(), 0U);
@@ -164,9 +164,9 @@ WeightBlocks::WeightBlocks(const std::vector<Vec3d>& points, const std::vector<f
                               all.begin() + static_cast<std::ptrdiff_t>(first + count));
         std::vector<float> rows(count * handles_);
         makeRows(indices, rows);
-        const InterpolativeRows few = interpolativeRows(rows, maxDistances, tolerance, groupSize, interrupter);
+        const InterpolativeRows few = interpolativeRows(rows, reach, tolerance, groupSize, interrupter);
         Block& block = blocks_[b];
-        block.held = few.kept;
+        block.heldCount = few.kept;
         for (const std::uint32_t i : few.order) block.points.push_back(indices[i]);
         appendGroups(
             few.kept, handles_, [&](std::size_t i) { return rows.data() + few.order[i] * handles_; }, block.weights);
@@ -180,33 +180,34 @@ WeightBlocks::WeightBlocks(const std::vector<Vec3d>& points, const std::vector<f
 void WeightBlocks::move(const std::vector<HandleMove>& handleMoves, double size, std::vector<Vec3d>& points) const
 {
     Moves moves;
-    for (const HandleMove& move : handleMoves) moves.add(move.handle, move.by);
+    for (const HandleMove& move : handleMoves) moves.add(move.handle, move.motion);
     moves.lookAhead(handles_);
     parallelFor(tbb::blocked_range<std::size_t>(0, blocks_.size()), [&](const auto& range) {
-        std::vector<Vec3f> held;
+        std::vector<Vec3f> heldMotions;
         Moves heldMoves;
         for (std::size_t b = range.begin(); b < range.end(); ++b) {
             const Block& block = blocks_[b];
             const float* weights = block.weights.data();
-            const auto eachGroup = [&](std::size_t begin, std::size_t end, std::size_t rows, const Moves& by,
+            const auto eachGroup = [&](std::size_t begin, std::size_t end, std::size_t columns, const Moves& groupMoves,
                                        const auto& take) {
-                for (std::size_t first = begin; first < end; first += groupSize, weights += rows * groupSize) {
-                    const GroupSums sums = sumUp(weights, by);
+                for (std::size_t first = begin; first < end; first += groupSize, weights += columns * groupSize) {
+                    const GroupSums sums = sumUp(weights, groupMoves);
                     for (std::size_t i = first; i < std::min(end, first + groupSize); ++i) {
                         take(points[block.points[i]], sums[i - first]);
                     }
                 }
             };
-            held.clear();
-            eachGroup(0, block.held, handles_, moves, [&](Vec3d& point, const Vec3f& by) {
-                point += size * Vec3d(by);
-                held.push_back(by);
+            heldMotions.clear();
+            eachGroup(0, block.heldCount, handles_, moves, [&](Vec3d& point, const Vec3f& motion) {
+                point += size * Vec3d(motion);
+                heldMotions.push_back(motion);
             });
             heldMoves.clear();
-            for (std::size_t i = 1; i < block.held; ++i) heldMoves.add(i - 1, held[i] - held[0]);
-            heldMoves.lookAhead(block.held - 1);
-            eachGroup(block.held, block.points.size(), block.held - 1, heldMoves,
-                      [&](Vec3d& point, const Vec3f& by) { point += size * (Vec3d(held[0]) + Vec3d(by)); });
+            for (std::size_t i = 1; i < block.heldCount; ++i) heldMoves.add(i - 1, heldMotions[i] - heldMotions[0]);
+            heldMoves.lookAhead(block.heldCount - 1);
+            eachGroup(
+                block.heldCount, block.points.size(), block.heldCount - 1, heldMoves,
+                [&](Vec3d& point, const Vec3f& motion) { point += size * (Vec3d(heldMotions[0]) + Vec3d(motion)); });
         }
     });
 }

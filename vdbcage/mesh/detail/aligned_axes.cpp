@@ -8,6 +8,8 @@
 #include <cstddef>
 #include <vector>
 
+#include <vdbcage/core/detail/longest_side.h>
+
 namespace vdbcage::detail {
 
 namespace {
@@ -20,7 +22,7 @@ std::vector<Vec3d> areaVectors(const Mesh& model, Interrupter* interrupter)
 {
     constexpr int cells = 24; // along each side of a cube of directions
     const openvdb::BBoxd box = boundingBox(model);
-    const double side = box.extents()[static_cast<int>(box.maxExtent())];
+    const double side = longestSide(box);
     std::vector<Vec3d> sums(std::size_t(3) * cells * cells, Vec3d(0, 0, 0));
     std::size_t visited = 0;
     for (const openvdb::Vec3I& t : triangulate(model)) {

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <string>
 
+#include <vdbcage/core/detail/longest_side.h>
 #include <vdbcage/core/detail/nearest_float.h>
 #include <vdbcage/core/detail/number_text.h>
 #include <vdbcage/core/error.h>
@@ -44,7 +45,7 @@ void requireHeld(Precision precision, const openvdb::BBoxd& box)
     if (isBeyondFloat(box)) {
         throw InputError("model", "it is too large or too small for float32" + formats);
     }
-    const double side = box.extents()[static_cast<int>(box.maxExtent())], rounding = floatRounding(box) / side;
+    const double side = longestSide(box), rounding = floatRounding(box) / side;
     if (rounding <= largestRounding) return;
     char percent[32];
     std::snprintf(percent, sizeof percent, "%.2g", 100 * rounding);

@@ -10,10 +10,10 @@
 #include <utility>
 #include <vector>
 
+#include <vdbcage/core/detail/longest_side.h>
 #include <vdbcage/core/detail/number_text.h>
 #include <vdbcage/core/error.h>
 #include <vdbcage/pipeline/detail/contest.h>
-#include <vdbcage/pipeline/detail/simple_solids.h>
 #include <vdbcage/pipeline/detail/stage_cache.h>
 #include <vdbcage/pipeline/detail/tilted_search.h>
 
@@ -57,7 +57,7 @@ Candidate BoundingSearch::run(const Request& request)
     cache_->beginRun();
     try {
         Candidate best = find(request, cache_->isSheet(request.options, request.interrupter));
-        best.from.reset();
+        best.keptStart.reset();
         cache_->endRun();
         return best;
     } catch (const Cancelled&) {
@@ -77,8 +77,8 @@ Candidate BoundingSearch::find(const Request& request, bool ofSheet)
         if (auto candidate = findSymmetric(request, ofSheet, noSymmetry)) return *std::move(candidate);
     }
     Contest contest{*cache_, certifier_, request, largeSurface_, ofSheet, std::nullopt};
-    std::optional<Candidate> found = contest.tightest();
-    Candidate candidate = found ? *std::move(found) : contest.box();
+    std::optional<Candidate> tightest = contest.tightest();
+    Candidate candidate = tightest ? *std::move(tightest) : contest.box();
     candidate.noSymmetry = noSymmetry;
     return candidate;
 }

@@ -6,7 +6,7 @@
 
 #include <vdbcage/pipeline/detail/candidate.h>
 #include <vdbcage/pipeline/detail/certifier.h>
-#include <vdbcage/pipeline/detail/search.h>
+#include <vdbcage/pipeline/detail/search_policy.h>
 #include <vdbcage/pipeline/detail/volumes.h>
 
 namespace vdbcage::detail {

@@ -7,7 +7,7 @@
 
 #include <vdbcage/mesh/symmetry.h>
 #include <vdbcage/mesh/topology.h>
-#include <vdbcage/pipeline/detail/search.h>
+#include <vdbcage/pipeline/detail/search_policy.h>
 #include <vdbcage/pipeline/detail/volumes.h>
 #include <vdbcage/pipeline/pipeline.h>
 
@@ -26,12 +26,12 @@ struct StartingSurface {
 
 struct KeptStart;
 
-/// A cage and its origin.
+/// A start, and later the cage made of it.
 struct Candidate {
     Voxels voxels;
-    CageStart start = CageStart::closing;
+    CageStart startKind = CageStart::closing;
     double offsetVoxels = 0;
-    std::shared_ptr<KeptStart> from; ///< bounding only
+    std::shared_ptr<KeptStart> keptStart; ///< bounding only
     std::shared_ptr<const Closing> closing;
     std::shared_ptr<const Mesh> surface;
     MeshTopology topology; ///< of the surface

@@ -13,9 +13,11 @@
 #include <vdbcage/bounding/smooth.h>
 #include <vdbcage/bounding/tighten.h>
 #include <vdbcage/bounding/triquad.h>
+#include <vdbcage/core/detail/longest_side.h>
 #include <vdbcage/core/detail/parallel.h>
 #include <vdbcage/core/detail/stage_parts.h>
 #include <vdbcage/pipeline/detail/memory_demand.h>
+#include <vdbcage/pipeline/detail/mesh_tools.h>
 #include <vdbcage/pipeline/detail/simple_solids.h>
 
 namespace vdbcage::detail {
@@ -76,68 +78,71 @@ std::optional<Candidate> Contest::tightestFor(const CageOptions& options)
         best = std::move(candidate);
     };
     for (const SearchPlan::Competitor& competitor : plan.competitors) {
-        const Entry entry{competitor, plan.share, rules};
-        take(climb(entry), 0);
+        const Contestant contestant{competitor, plan.share, rules};
+        take(climb(contestant), 0);
         // A box wins even if a cage of more faces is nearer to the model, by less than the clearance.
-        if (competitor.hasSimpleSolids) take(shrinkOnto(entry, simpleSolids(entry)), options.clearance);
+        if (competitor.hasSimpleSolids) take(shrinkOnto(contestant, simpleSolids(contestant)), options.clearance);
     }
     if (best) best->plan = describe(plan);
     return best;
 }
 
-/// Returns the tightest cage from the first rungs of the ladders that lead to few enough faces, or else from the convex
-/// hull; nothing if that has too many, too.
-std::optional<Candidate> Contest::climb(const Entry& entry)
+/// Returns the tightest cage from the first entries of the ladders that lead to few enough faces, or else from the
+/// convex hull; nothing if that has too many, too.
+std::optional<Candidate> Contest::climb(const Contestant& contestant)
 {
-    const std::vector<std::vector<Voxels>>& all = entry.competitor.ladders;
-    std::vector<std::size_t> next(all.size(), 0); // by ladder: its next rung
-    std::size_t climbed = 1;                      // only the first, until others may be tighter
+    const std::vector<std::vector<Voxels>>& ladders = contestant.competitor.ladders;
+    std::vector<std::size_t> next(ladders.size(), 0); // by ladder: its next entry
+    std::size_t climbed = 1;                          // only the first, until others may be tighter
     for (;;) {
         Candidates starts;
         for (std::size_t i = 0; i < climbed; ++i) {
-            Candidates found;
-            while (found.empty() && next[i] < all[i].size()) {
-                Voxels voxels = all[i][next[i]++];
-                voxels.plane = entry.guard().symmetry();
-                found = startsFrom(entry, voxels);
+            Candidates ladderStarts;
+            while (ladderStarts.empty() && next[i] < ladders[i].size()) {
+                Voxels voxels = ladders[i][next[i]++];
+                voxels.plane = contestant.guard().symmetry();
+                ladderStarts = startsFrom(contestant, voxels);
             }
-            if (found.empty() ||
-                mayCoarserBeTighter(entry.options(), entry.share, found.front().voxels, found.front().topology)) {
-                climbed = all.size();
+            if (ladderStarts.empty() ||
+                mayCoarserBeTighter(contestant.options(), contestant.share, ladderStarts.front().voxels,
+                                    ladderStarts.front().topology)) {
+                climbed = ladders.size();
             }
-            std::move(found.begin(), found.end(), std::back_inserter(starts));
+            std::move(ladderStarts.begin(), ladderStarts.end(), std::back_inserter(starts));
         }
         if (starts.empty()) break;
-        if (auto candidate = shrinkOnto(entry, std::move(starts))) return candidate;
+        if (auto candidate = shrinkOnto(contestant, std::move(starts))) return candidate;
     }
-    Voxels voxels = all.front().front();
+    Voxels voxels = ladders.front().front();
     voxels.resolution = std::min(voxels.resolution, policy::hullResolution);
-    voxels.plane = entry.guard().symmetry();
-    return shrinkOnto(entry, {begin(entry, voxels, CageStart::hull)});
+    voxels.plane = contestant.guard().symmetry();
+    return shrinkOnto(contestant, {candidateFrom(contestant, voxels, CageStart::hull)});
 }
 
-/// Makes the surfaces from which cages may be shrunk, with voxels like these: none if there are too many handles.
-Contest::Candidates Contest::startsFrom(const Entry& entry, const Voxels& voxels)
+/// Makes the surfaces from which cages may be shrunk, with voxels like these: none if there are too many parts or
+/// tunnels.
+Contest::Candidates Contest::startsFrom(const Contestant& contestant, const Voxels& voxels)
 {
-    const CageOptions& options = entry.options();
+    const CageOptions& options = contestant.options();
     int resolution = voxels.resolution;
-    if (entry.competitor.followsSurface) {
-        resolution = affordableResolution(options, entry.share, voxels, quadsOf(options, entry.rules, voxels));
+    if (contestant.competitor.followsSurface) {
+        resolution =
+            affordableResolution(options, contestant.share, voxels, quadsOf(options, contestant.rules, voxels));
     }
     Candidates starts;
     const auto beginWith = [&](double scale, bool isTurned) {
         Voxels scaled = voxels;
         scaled.resolution = static_cast<int>(std::lround(scale * resolution));
         scaled.turned = isTurned;
-        Candidate candidate = begin(entry, scaled, CageStart::closing);
-        if (hasFewEnoughHandles(options, candidate.topology)) starts.push_back(std::move(candidate));
+        Candidate candidate = candidateFrom(contestant, scaled, CageStart::closing);
+        if (leavesFacesForShape(options, candidate.topology)) starts.push_back(std::move(candidate));
     };
-    for (const double scale : entry.competitor.startScales) {
+    for (const double scale : contestant.competitor.startScales) {
         beginWith(scale, false);
         if (starts.empty()) break;
     }
-    if (entry.competitor.mayBeTurned) {
-        const auto plane = entry.guard().symmetry();
+    if (contestant.competitor.mayBeTurned) {
+        const auto plane = contestant.guard().symmetry();
         const double share = cache_.axes(plane, request_.interrupter).share;
         // Makes about as many quads as along x, y and z.
         if (share <= policy::worthTurning) {
@@ -148,14 +153,16 @@ Contest::Candidates Contest::startsFrom(const Entry& entry, const Voxels& voxels
 }
 
 /// Makes the surfaces other than closings from which cages of few faces may be shrunk.
-Contest::Candidates Contest::simpleSolids(const Entry& entry)
+Contest::Candidates Contest::simpleSolids(const Contestant& contestant)
 {
-    const CageOptions& options = entry.options();
-    Voxels voxels = entry.competitor.ladders.front().front();
-    voxels.plane = entry.guard().symmetry();
-    Candidates starts{begin(entry, voxels, CageStart::orientedBox)};
+    const CageOptions& options = contestant.options();
+    Voxels voxels = contestant.competitor.ladders.front().front();
+    voxels.plane = contestant.guard().symmetry();
+    Candidates starts{candidateFrom(contestant, voxels, CageStart::orientedBox)};
     const bool isBoxTooMuch = options.mesh == CageFaces::triangles && options.faces < policy::trianglesOfBox;
-    if (isBoxTooMuch && !entry.guard().symmetry()) starts.push_back(begin(entry, voxels, CageStart::tetrahedron));
+    if (isBoxTooMuch && !contestant.guard().symmetry()) {
+        starts.push_back(candidateFrom(contestant, voxels, CageStart::tetrahedron));
+    }
     return starts;
 }
 
@@ -167,46 +174,47 @@ std::size_t Contest::quadsOf(const CageOptions& options, const Rules& rules, Vox
 }
 
 /// Makes a candidate with its starting surface.
-Candidate Contest::begin(const Entry& entry, const Voxels& voxels, CageStart kind)
+Candidate Contest::candidateFrom(const Contestant& contestant, const Voxels& voxels, CageStart kind)
 {
     Candidate candidate;
-    candidate.from = cache_.start(entry.options(), request_.scale, voxels, kind, entry.rules, request_.interrupter);
-    const StartingSurface& start = candidate.from->start;
+    candidate.keptStart =
+        cache_.keptStart(contestant.options(), request_.scale, voxels, kind, contestant.rules, request_.interrupter);
+    const StartingSurface& start = candidate.keptStart->surface;
     candidate.voxels = voxels;
-    candidate.start = kind;
+    candidate.startKind = kind;
     candidate.offsetVoxels = start.offsetVoxels;
     candidate.closing = start.closing;
     candidate.surface = start.surface;
-    candidate.minAngle = entry.rules.key.guard.minAngleDegrees;
-    candidate.sideShare = entry.share;
+    candidate.minAngle = contestant.rules.key.guard.minAngleDegrees;
+    candidate.sideShare = contestant.share;
     candidate.topology = start.topology;
     return candidate;
 }
 
 /// Makes cages of the candidates' surfaces, side by side. Returns the tightest that has few enough faces and is
 /// certified.
-std::optional<Candidate> Contest::shrinkOnto(const Entry& entry, Candidates starts)
+std::optional<Candidate> Contest::shrinkOnto(const Contestant& contestant, Candidates starts)
 {
-    const CageOptions& options = entry.options();
+    const CageOptions& options = contestant.options();
     if (options.mesh == CageFaces::loops) {
-        collapseLoops(entry, starts);
+        collapseLoops(contestant, starts);
     } else {
-        decimateAndTighten(entry, starts);
+        decimateAndTighten(contestant, starts);
     }
     keepAtMost(static_cast<std::size_t>(options.faces), &Candidate::cage, starts);
     if (const int sweeps = smoothing(options); sweeps > 0) {
         forEach(starts, request_.interrupter, StageName::smooth, [&](Candidate& candidate, Interrupter* piece) {
-            candidate.cage = smooth(candidate.cage, entry.guard(), {sweeps}, piece);
+            candidate.cage = smooth(candidate.cage, contestant.guard(), {sweeps}, piece);
         });
     }
     for (Candidate& candidate : starts) candidate.smoothed = candidate.cage;
     if (options.mesh == CageFaces::triangles) {
         const Stage stage(request_.interrupter, StageName::coplanar);
         for (Candidate& candidate : starts) {
-            candidate.cage = bendNearCoplanarEdges(candidate.cage, entry.guard(), request_.interrupter);
+            candidate.cage = bendNearCoplanarEdges(candidate.cage, contestant.guard(), request_.interrupter);
         }
     }
-    return tightestCertified(entry, std::move(starts));
+    return tightestCertified(contestant, std::move(starts));
 }
 
 /// Changes candidates with large surfaces one after the other, then the others side by side. \throw Cancelled
@@ -227,14 +235,14 @@ void Contest::forEachSurface(Candidates& candidates, StageName name, const Chang
 }
 
 /// Makes cages of quads in loops; removes candidates that do not consist of quads.
-void Contest::collapseLoops(const Entry& entry, Candidates& starts) const
+void Contest::collapseLoops(const Contestant& contestant, Candidates& starts) const
 {
     QuadLoopsOptions options;
-    options.faces = static_cast<std::size_t>(entry.options().faces);
-    options.tightening = tightenOptions(entry.options().effort);
-    options.exchanges = loopExchanges(entry.options().effort);
+    options.faces = static_cast<std::size_t>(contestant.options().faces);
+    options.tightening = tightenOptions(contestant.options().effort);
+    options.exchanges = loopExchanges(contestant.options().effort);
     forEachSurface(starts, StageName::loops, [&](Candidate& candidate, Interrupter* piece) {
-        candidate.cage = quadLoops(*candidate.surface, entry.guard(), options, entry.rules.wishes, piece);
+        candidate.cage = quadLoops(*candidate.surface, contestant.guard(), options, contestant.rules.wishes, piece);
         candidate.decimated = candidate.cage;
     });
     const auto hasTriangles = [](const Candidate& candidate) { return !candidate.cage.triangles.empty(); };
@@ -242,11 +250,11 @@ void Contest::collapseLoops(const Entry& entry, Candidates& starts) const
 }
 
 /// Makes cages of triangles, or of triangles and quads.
-void Contest::decimateAndTighten(const Entry& entry, Candidates& starts) const
+void Contest::decimateAndTighten(const Contestant& contestant, Candidates& starts) const
 {
-    const CageOptions& options = entry.options();
-    const BoundingGuard& guard = entry.guard();
-    const FaceWishes& wishes = entry.rules.wishes;
+    const CageOptions& options = contestant.options();
+    const BoundingGuard& guard = contestant.guard();
+    const FaceWishes& wishes = contestant.rules.wishes;
     Interrupter* const interrupter = request_.interrupter;
     const auto faces = static_cast<std::size_t>(options.faces);
     const bool onlyTriangles = options.mesh == CageFaces::triangles;
@@ -256,7 +264,8 @@ void Contest::decimateAndTighten(const Entry& entry, Candidates& starts) const
     // Simple solids are cages already.
     const auto isCage = [&](const Candidate& candidate) {
         const Mesh& surface = *candidate.surface;
-        const bool isSimple = candidate.start == CageStart::orientedBox || candidate.start == CageStart::tetrahedron;
+        const bool isSimple =
+            candidate.startKind == CageStart::orientedBox || candidate.startKind == CageStart::tetrahedron;
         return isSimple && surface.triangles.size() + (onlyTriangles ? 2 : 1) * surface.quads.size() <= faces;
     };
     forEachSurface(starts, StageName::decimate, [&](Candidate& candidate, Interrupter* piece) {
@@ -269,8 +278,8 @@ void Contest::decimateAndTighten(const Entry& entry, Candidates& starts) const
             candidate.decimated = decimate(surface, guard, decimation, wishes, piece);
             return;
         }
-        RecordedDecimation& recorded = candidate.from->decimation.of(
-            entry.rules.key, [&] { return RecordedDecimation(surface, guard, wishes, piece); });
+        RecordedDecimation& recorded = candidate.keptStart->decimation.of(
+            contestant.rules.key, [&] { return RecordedDecimation(surface, guard, wishes, piece); });
         candidate.decimated = recorded.to(decimation, piece);
     });
     keepAtMost(decimation.faces, &Candidate::decimated, starts);
@@ -297,13 +306,13 @@ void Contest::decimateAndTighten(const Entry& entry, Candidates& starts) const
     }
 }
 
-std::optional<Candidate> Contest::tightestCertified(const Entry& entry, Candidates candidates)
+std::optional<Candidate> Contest::tightestCertified(const Contestant& contestant, Candidates candidates)
 {
-    const bool isWeighted = wishesOf(entry.rules.wishes).hasDensity();
+    const bool isWeighted = wishesOf(contestant.rules.wishes).hasDensity();
     for (Candidate& candidate : candidates) {
         candidate.check = certifier_.check(candidate.cage, request_.interrupter);
         candidate.looseness =
-            isWeighted ? meanDistance(candidate.cage, entry.guard(), entry.rules.wishes, request_.interrupter)
+            isWeighted ? meanDistance(candidate.cage, contestant.guard(), contestant.rules.wishes, request_.interrupter)
                        : candidate.check.meanDistance;
     }
     std::stable_sort(candidates.begin(), candidates.end(),
@@ -311,7 +320,7 @@ std::optional<Candidate> Contest::tightestCertified(const Entry& entry, Candidat
     for (Candidate& candidate : candidates) {
         if (!candidate.check.bounding()) continue;
         candidate.boundsAsFloats =
-            certifier_.boundsAsFloats(candidate.cage, entry.options().precision, request_.interrupter);
+            certifier_.boundsAsFloats(candidate.cage, contestant.options().precision, request_.interrupter);
         if (candidate.boundsAsFloats) return std::move(candidate);
     }
     return std::nullopt;
@@ -325,7 +334,7 @@ Candidate Contest::box()
     box.expand(std::max(2 * guard.clearance(), policy::boxMargin * longestSide(box)));
     Candidate candidate;
     candidate.voxels = ladders(options).back().back();
-    candidate.start = CageStart::box;
+    candidate.startKind = CageStart::box;
     candidate.closing = cache_.volumes().closing(options, request_.scale, candidate.voxels, request_.interrupter);
     const bool areTriangles = options.mesh == CageFaces::triangles;
     const bool isBoxTooMuch = areTriangles && options.faces < policy::trianglesOfBox;

@@ -33,7 +33,7 @@ public:
 private:
     using Candidates = std::vector<Candidate>;
     /// A competitor of a plan, with the data that all share.
-    struct Entry {
+    struct Contestant {
         const SearchPlan::Competitor& competitor;
         double share;
         const Rules& rules;
@@ -44,18 +44,18 @@ private:
 
     Rules rulesFor(const CageOptions& options);
     std::optional<Candidate> tightestFor(const CageOptions& options);
-    std::optional<Candidate> climb(const Entry& entry);
-    Candidates startsFrom(const Entry& entry, const Voxels& voxels);
-    Candidates simpleSolids(const Entry& entry);
-    Candidate begin(const Entry& entry, const Voxels& voxels, CageStart kind);
+    std::optional<Candidate> climb(const Contestant& contestant);
+    Candidates startsFrom(const Contestant& contestant, const Voxels& voxels);
+    Candidates simpleSolids(const Contestant& contestant);
+    Candidate candidateFrom(const Contestant& contestant, const Voxels& voxels, CageStart kind);
     std::size_t quadsOf(const CageOptions& options, const Rules& rules, Voxels voxels);
-    std::optional<Candidate> shrinkOnto(const Entry& entry, Candidates starts);
-    void collapseLoops(const Entry& entry, Candidates& starts) const;
-    void decimateAndTighten(const Entry& entry, Candidates& starts) const;
+    std::optional<Candidate> shrinkOnto(const Contestant& contestant, Candidates starts);
+    void collapseLoops(const Contestant& contestant, Candidates& starts) const;
+    void decimateAndTighten(const Contestant& contestant, Candidates& starts) const;
     bool isLarge(const Candidate& candidate) const { return faceCount(*candidate.surface) > largeSurface_; }
     template <typename Change>
     void forEachSurface(Candidates& candidates, StageName name, const Change& change) const;
-    std::optional<Candidate> tightestCertified(const Entry& entry, Candidates candidates);
+    std::optional<Candidate> tightestCertified(const Contestant& contestant, Candidates candidates);
 
     StageCache& cache_;
     Certifier& certifier_;

@@ -5,8 +5,8 @@
 #include <cstdio>
 #include <string>
 
+#include <vdbcage/core/detail/longest_side.h>
 #include <vdbcage/pipeline/detail/search_plan.h>
-#include <vdbcage/pipeline/detail/simple_solids.h>
 #include <vdbcage/pipeline/memory.h>
 
 namespace vdbcage::detail {
@@ -68,16 +68,16 @@ double MemoryDemand::bytes(int resolution) const
         }
     };
     for (const SearchPlan::Competitor& competitor : searchPlan(options, share_).competitors) {
-        const CageOptions& of = competitor.options;
-        const bool areLoops = of.mesh == CageFaces::loops && !of.resolution;
-        for (const std::vector<Voxels>& rungs : competitor.ladders) {
-            const int wanted = rungs.front().resolution;
-            const double first =
-                areLoops ? policy::quadsPerLoopsFace * of.faces : quads_ * static_cast<double>(wanted) * wanted;
-            if (competitor.mayBeTurned) add(first, of);
+        const CageOptions& competitorOptions = competitor.options;
+        const bool areLoops = competitorOptions.mesh == CageFaces::loops && !competitorOptions.resolution;
+        for (const std::vector<Voxels>& ladder : competitor.ladders) {
+            const int ladderResolution = ladder.front().resolution;
+            const double first = areLoops ? policy::quadsPerLoopsFace * competitorOptions.faces
+                                          : quads_ * static_cast<double>(ladderResolution) * ladderResolution;
+            if (competitor.mayBeTurned) add(first, competitorOptions);
             for (const double scale : competitor.startScales) {
-                add(first * scale * scale, of);
-                finest = std::max(finest, scale * wanted);
+                add(first * scale * scale, competitorOptions);
+                finest = std::max(finest, scale * ladderResolution);
             }
         }
     }

@@ -4,7 +4,7 @@
 #include <functional>
 
 #include <vdbcage/mesh/mesh.h>
-#include <vdbcage/pipeline/detail/search.h>
+#include <vdbcage/pipeline/detail/search_policy.h>
 
 namespace vdbcage::detail {
 

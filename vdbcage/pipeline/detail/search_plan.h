@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include <vdbcage/pipeline/detail/search.h>
+#include <vdbcage/pipeline/detail/search_policy.h>
 
 namespace vdbcage::detail {
 

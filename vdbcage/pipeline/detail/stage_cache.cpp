@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
-#include <vdbcage/pipeline/detail/simple_solids.h>
+#include <vdbcage/core/detail/longest_side.h>
+#include <vdbcage/pipeline/detail/mesh_tools.h>
 #include <vdbcage/pipeline/detail/starting_surface.h>
 #include <vdbcage/volume/extract.h>
 #include <vdbcage/volume/morphology.h>
@@ -32,16 +34,16 @@ bool StageCache::isSheet(const CageOptions& options, Interrupter* interrupter)
     });
 }
 
-const Symmetry& StageCache::symmetry(CageSymmetry wanted, Interrupter* interrupter)
+const Symmetry& StageCache::symmetry(CageSymmetry choice, Interrupter* interrupter)
 {
-    return symmetry_.of(wanted, [&] {
+    return symmetry_.of(choice, [&] {
         const Stage stage(interrupter, StageName::symmetry);
-        if (wanted == CageSymmetry::automatic) {
+        if (choice == CageSymmetry::automatic) {
             // A model too large for doubles has none.
             constexpr double any = std::numeric_limits<double>::infinity();
             return findSymmetry(model_, any, interrupter).value_or(Symmetry{{}, any});
         }
-        const int axis = wanted == CageSymmetry::x ? 0 : wanted == CageSymmetry::y ? 1 : 2;
+        const int axis = choice == CageSymmetry::x ? 0 : choice == CageSymmetry::y ? 1 : 2;
         return bestSymmetry(model_, axis, interrupter);
     });
 }
@@ -99,27 +101,27 @@ std::size_t StageCache::quadsOf(const CageOptions& options, const FieldVersion& 
     return quads;
 }
 
-std::shared_ptr<KeptStart> StageCache::start(const CageOptions& options, const FieldVersion& scale,
-                                             const Voxels& voxels, CageStart kind, const Rules& rules,
-                                             Interrupter* interrupter)
+std::shared_ptr<KeptStart> StageCache::keptStart(const CageOptions& options, const FieldVersion& scale,
+                                                 const Voxels& voxels, CageStart kind, const Rules& rules,
+                                                 Interrupter* interrupter)
 {
     const ClosingKey key = closingKey(options, scale, voxels);
     const auto isIt = [&](const auto& kept) {
-        return kept->guardOptions == rules.key.guard && kept->start.kind == kind && kept->turned == voxels.turned &&
-               kept->start.closing->key == key;
+        return kept->guardOptions == rules.key.guard && kept->surface.kind == kind && kept->turned == voxels.turned &&
+               kept->surface.closing->key == key;
     };
     auto known = std::find_if(starts_.begin(), starts_.end(), isIt);
     if (known == starts_.end()) {
-        KeptStart kept{
-            rules.key.guard, voxels.turned, rules.guard, made(options, scale, voxels, kind, rules, interrupter), {}};
+        StartingSurface surface = makeStart(options, scale, voxels, kind, rules, interrupter);
+        KeptStart kept{rules.key.guard, voxels.turned, rules.guard, std::move(surface), {}};
         known = starts_.insert(starts_.end(), std::make_shared<KeptStart>(std::move(kept)));
     }
     (*known)->isUsed = true;
     return *known;
 }
 
-StartingSurface StageCache::made(const CageOptions& options, const FieldVersion& scale, const Voxels& voxels,
-                                 CageStart kind, const Rules& rules, Interrupter* interrupter)
+StartingSurface StageCache::makeStart(const CageOptions& options, const FieldVersion& scale, const Voxels& voxels,
+                                      CageStart kind, const Rules& rules, Interrupter* interrupter)
 {
     const BoundingGuard& guard = *rules.guard;
     const auto closingOf = [&](Volumes& volumes) { return volumes.closing(options, scale, voxels, interrupter); };
@@ -135,8 +137,8 @@ StartingSurface StageCache::made(const CageOptions& options, const FieldVersion&
         start.closing = std::move(closing); // in the model's own place
         return start;
     }
-    const auto* const found = closingSurface_.find(closing->key);
-    std::shared_ptr<const Mesh> extracted = found ? *found : nullptr;
+    const auto* const knownSurface = closingSurface_.find(closing->key);
+    std::shared_ptr<const Mesh> extracted = knownSurface ? *knownSurface : nullptr;
     closingSurface_.forget();
     return startingSurface(std::move(closing), kind, std::nullopt, std::move(extracted), guard, interrupter);
 }

@@ -37,7 +37,7 @@ struct KeptStart {
     GuardOptions guardOptions; ///< the key, together with kind, closing and `turned`
     bool turned = false;       ///< its voxels lie along the model's own axes
     std::shared_ptr<const BoundingGuard> guard;
-    StartingSurface start;
+    StartingSurface surface;
     Memo<WishesKey, RecordedDecimation> decimation;
     bool isUsed = true; ///< in this run
 };
@@ -53,8 +53,8 @@ public:
 
     /// Returns whether the model is a sheet, in voxels that depend on no option except the interior.
     bool isSheet(const CageOptions& options, Interrupter* interrupter);
-    /// Returns the best plane of those that `wanted` allows. \pre it asks for one
-    const Symmetry& symmetry(CageSymmetry wanted, Interrupter* interrupter);
+    /// Returns the best plane of those that `choice` allows. \pre it asks for one
+    const Symmetry& symmetry(CageSymmetry choice, Interrupter* interrupter);
     /// Returns constraints and wishes. Forgets starts under other constraints, for memory.
     Rules rules(const CageOptions& options, const FieldVersion& density, bool ofSheet,
                 const std::optional<SymmetryPlane>& plane, Interrupter* interrupter);
@@ -66,8 +66,8 @@ public:
     std::size_t quadsOf(const CageOptions& options, const FieldVersion& scale, const Voxels& voxels,
                         Interrupter* interrupter);
     /// Returns a surface from which a cage may be shrunk.
-    std::shared_ptr<KeptStart> start(const CageOptions& options, const FieldVersion& scale, const Voxels& voxels,
-                                     CageStart kind, const Rules& rules, Interrupter* interrupter);
+    std::shared_ptr<KeptStart> keptStart(const CageOptions& options, const FieldVersion& scale, const Voxels& voxels,
+                                         CageStart kind, const Rules& rules, Interrupter* interrupter);
 
     /// Marks all starts as unused.
     void beginRun();
@@ -86,8 +86,8 @@ private:
     using Axis = std::optional<int>; // across the plane of symmetry
 
     Turned& turnedModel(const std::optional<SymmetryPlane>& plane, Interrupter* interrupter);
-    StartingSurface made(const CageOptions& options, const FieldVersion& scale, const Voxels& voxels, CageStart kind,
-                         const Rules& rules, Interrupter* interrupter);
+    StartingSurface makeStart(const CageOptions& options, const FieldVersion& scale, const Voxels& voxels,
+                              CageStart kind, const Rules& rules, Interrupter* interrupter);
 
     const Mesh& model_;
     Volumes& volumes_;

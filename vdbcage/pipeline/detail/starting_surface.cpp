@@ -5,7 +5,9 @@
 #include <utility>
 #include <vector>
 
+#include <vdbcage/core/detail/longest_side.h>
 #include <vdbcage/core/detail/mask_grid.h>
+#include <vdbcage/pipeline/detail/mesh_tools.h>
 #include <vdbcage/pipeline/detail/simple_solids.h>
 #include <vdbcage/volume/convex_hull.h>
 #include <vdbcage/volume/extract.h>

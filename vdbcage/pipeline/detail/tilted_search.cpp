@@ -5,7 +5,7 @@
 #include <utility>
 
 #include <vdbcage/core/detail/parallel.h>
-#include <vdbcage/pipeline/detail/simple_solids.h>
+#include <vdbcage/pipeline/detail/mesh_tools.h>
 
 namespace vdbcage::detail {
 

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include <vdbcage/core/detail/parallel.h>
-#include <vdbcage/pipeline/detail/simple_solids.h>
+#include <vdbcage/pipeline/detail/mesh_tools.h>
 #include <vdbcage/volume/cavities.h>
 #include <vdbcage/volume/mirror.h>
 #include <vdbcage/volume/morphology.h>
@@ -118,15 +118,15 @@ std::shared_ptr<const Solid> Volumes::solid(const SolidKey& key, Interrupter* in
     voxelization.voxelizer = key.voxelizer;
     voxelization.interior = key.interior;
     if (key.plane) voxelization.box = boxWithMirrorImage(boundingBox(model_), *key.plane);
-    auto made = std::make_shared<Solid>();
-    made->key = key;
+    auto solid = std::make_shared<Solid>();
+    solid->key = key;
     auto [mask, report] = voxelize(model_, voxelization, interrupter);
-    made->report = std::move(report);
+    solid->report = std::move(report);
     if (key.plane) mask = withMirrorImage(*mask, key.plane->axis, key.resolution, interrupter);
-    made->voxels = countOf(*mask);
-    made->boundary = boundaryTopology(*mask, interrupter);
-    made->mask = std::move(mask);
-    solid_ = std::move(made);
+    solid->voxels = countOf(*mask);
+    solid->boundary = boundaryTopology(*mask, interrupter);
+    solid->mask = std::move(mask);
+    solid_ = std::move(solid);
     return solid_;
 }
 
@@ -135,23 +135,23 @@ std::shared_ptr<const Closing> Volumes::closing(const CageOptions& options, cons
 {
     const ClosingKey key = closingKey(options, scale, voxels);
     if (closing_ && closing_->key == key) return closing_;
-    auto made = std::make_shared<Closing>();
-    made->key = key;
-    made->solid = solid(key.solid, interrupter);
+    auto closing = std::make_shared<Closing>();
+    closing->key = key;
+    closing->solid = solid(key.solid, interrupter);
     closing_.reset();
     const Stage stage(interrupter, StageName::close);
-    CloseOptions closing;
-    closing.closeRadiusVoxels = key.closeRadius * voxels.resolution;
-    closing.erodeRadiusVoxels = key.erodeRadius * voxels.resolution;
-    closing.element = key.element;
-    auto closed = closeMask(*made->solid->mask, closing, options.scale, interrupter);
+    CloseOptions closeOptions;
+    closeOptions.closeRadiusVoxels = key.closeRadius * voxels.resolution;
+    closeOptions.erodeRadiusVoxels = key.erodeRadius * voxels.resolution;
+    closeOptions.element = key.element;
+    auto closed = closeMask(*closing->solid->mask, closeOptions, options.scale, interrupter);
     // The scale need not be symmetric.
     if (voxels.plane) closed = withMirrorImage(*closed, voxels.plane->axis, voxels.resolution, interrupter);
     FilledMask filled = fillCavities(*closed, interrupter);
-    made->cavitiesFilled = filled.cavities;
-    made->voxels = countOf(*filled.mask);
-    made->mask = std::move(filled.mask);
-    closing_ = std::move(made);
+    closing->cavitiesFilled = filled.cavities;
+    closing->voxels = countOf(*filled.mask);
+    closing->mask = std::move(filled.mask);
+    closing_ = std::move(closing);
     return closing_;
 }
 

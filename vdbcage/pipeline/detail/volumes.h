@@ -9,7 +9,7 @@
 #include <vdbcage/core/grids.h>
 #include <vdbcage/core/interrupter.h>
 #include <vdbcage/mesh/mesh.h>
-#include <vdbcage/pipeline/detail/search.h>
+#include <vdbcage/pipeline/detail/search_policy.h>
 #include <vdbcage/pipeline/options.h>
 #include <vdbcage/volume/detail/boundary_topology.h>
 

@@ -10,7 +10,7 @@ namespace vdbcage::detail {
 
 struct BoundaryTopology {
     std::size_t components = 0; ///< separate surfaces, inner ones too
-    std::int64_t genus = 0;     ///< handles of all of them
+    std::int64_t genus = 0;     ///< tunnels through all of them
 };
 
 /// Returns the same components and genus as analyzeTopology of extractSurface(solid), by Euler's formula, without

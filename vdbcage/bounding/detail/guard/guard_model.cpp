@@ -6,6 +6,7 @@
 #include <utility>
 
 #include <vdbcage/core/detail/asker.h>
+#include <vdbcage/core/detail/longest_side.h>
 #include <vdbcage/core/detail/nearest_float.h>
 #include <vdbcage/core/error.h>
 #include <vdbcage/geometry/union_find.h>
@@ -102,7 +103,7 @@ GuardModel::GuardModel(const Mesh& model, const GuardOptions& options, Interrupt
         high[axis] = twice - box_.min()[axis];
         box_.expand(openvdb::BBoxd(low, high));
     }
-    const double side = box_.extents()[static_cast<int>(box_.maxExtent())];
+    const double side = longestSide(box_);
     scale_ = std::ldexp(1.0, -std::ilogb(side));
     clearance_ = options.clearance * side * scale_;
     // With a lesser sine the orientation tests have no room.
@@ -174,13 +175,13 @@ bool GuardModel::clear(const Corners& triangle, std::uint32_t hint, std::uint32_
     const auto blocks = [&](const TriangleBvh::Item& item) {
         return comesTooNear(triangle, separator, tree_.corners(item), clearance_);
     };
-    const auto found = [&](const TriangleBvh::Item& item) {
+    const auto takeBlocker = [&](const TriangleBvh::Item& item) {
         if (blocker) *blocker = static_cast<std::uint32_t>(&item - tree_.items().data());
         return false;
     };
-    if (hint != TriangleBvh::none && blocks(tree_.items()[hint])) return found(tree_.items()[hint]);
+    if (hint != TriangleBvh::none && blocks(tree_.items()[hint])) return takeBlocker(tree_.items()[hint]);
     return tree_.traverse(tree_.near(triangle, clearance_),
-                          [&](const TriangleBvh::Item& item) { return !blocks(item) || found(item); });
+                          [&](const TriangleBvh::Item& item) { return !blocks(item) || takeBlocker(item); });
 }
 
 void GuardModel::forEachBlocker(const Corners& triangle, const std::function<bool(const Corners&)>& visit) const

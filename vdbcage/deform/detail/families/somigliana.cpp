@@ -16,6 +16,7 @@
 #include <cmath>
 
 #include <openvdb/math/Mat3.h>
+#include <vdbcage/core/detail/longest_side.h>
 #include <vdbcage/deform/detail/coordinate_family.h>
 #include <vdbcage/deform/detail/families/patch_quadrature.h>
 #include <vdbcage/deform/detail/triangle_potentials.h>
@@ -152,7 +153,7 @@ std::vector<Vec3d> pointNormals(const std::vector<Vec3d>& points, const std::vec
 class CagePose {
 public:
     CagePose(const Mesh& cage, const std::vector<Vec3d>& posed, const Elasticity& elasticity)
-        : triangles_(triangulateByShorterDiagonal(cage)), elasticity_(elasticity), size_(longestSide(cage))
+        : triangles_(triangulateByShorterDiagonal(cage)), elasticity_(elasticity), size_(longestSide(boundingBox(cage)))
     {
         for (const Vec3d& p : cage.points) rest_.push_back(p / size_);
         for (const Vec3d& p : posed) posed_.push_back(p / size_);
@@ -362,9 +363,9 @@ void addHandles(const Mesh& cage, const std::vector<Vec3d>& posed, const Coordin
 }
 
 /// Appends their distances: they are about as long at rest.
-void addMaxDistances(const Mesh& cage, std::vector<float>& maxDistances)
+void addReach(const Mesh& cage, std::vector<float>& reach)
 {
-    maxDistances.insert(maxDistances.end(), somiglianaWeights * (cage.triangles.size() + 2 * cage.quads.size()), 4.0F);
+    reach.insert(reach.end(), somiglianaWeights * (cage.triangles.size() + 2 * cage.quads.size()), 4.0F);
 }
 
 constexpr FamilyInfo info{
@@ -380,6 +381,6 @@ constexpr FamilyInfo info{
 extern constexpr CoordinateFamily somigliana{info,
                                              formulaRows<somiglianaRow>,
                                              &RowKernels::somigliana,
-                                             {somiglianaWeights, 2 * somiglianaWeights, addHandles, addMaxDistances}};
+                                             {somiglianaWeights, 2 * somiglianaWeights, addHandles, addReach}};
 
 } // namespace vdbcage::detail

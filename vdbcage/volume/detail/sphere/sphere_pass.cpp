@@ -14,7 +14,7 @@
 #include <tbb/enumerable_thread_specific.h>
 
 #include <vdbcage/core/detail/parallel.h>
-#include <vdbcage/volume/detail/boundary_leaves.h>
+#include <vdbcage/volume/detail/contour_blocks.h>
 #include <vdbcage/volume/detail/sphere/sphere_query.h>
 #include <vdbcage/volume/detail/sphere/varying_query.h>
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include <vdbcage/core/detail/simd.h>
-#include <vdbcage/volume/detail/boundary_leaves.h>
+#include <vdbcage/volume/detail/contour_blocks.h>
 #include <vdbcage/volume/detail/progress.h>
 
 namespace vdbcage::detail {

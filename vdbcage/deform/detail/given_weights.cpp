@@ -1,8 +1,7 @@
 // Based on: NumPy Enhancement Proposal 1 with numpy.lib.format for the versions 2.0 and 3.0;
 // libigl.github.io/file-formats/dmat.
 
-#include <vdbcage/core/detail/joined.h>
-#include <vdbcage/deform/detail/weight_matrix.h>
+#include <vdbcage/deform/detail/given_weights.h>
 
 #include <array>
 #include <charconv>
@@ -11,6 +10,7 @@
 #include <cstring>
 #include <system_error>
 
+#include <vdbcage/core/detail/joined.h>
 #include <vdbcage/core/detail/number_text.h>
 #include <vdbcage/core/error.h>
 #include <vdbcage/mesh/io/text_cursor.h>
@@ -117,8 +117,8 @@ private:
     /// Returns the next character that is not blank, 0 at the end.
     char next()
     {
-        const std::size_t at = left_.find_first_not_of(" \n");
-        left_.remove_prefix(at == std::string_view::npos ? left_.size() : at);
+        const std::size_t blanks = left_.find_first_not_of(" \n");
+        left_.remove_prefix(blanks == std::string_view::npos ? left_.size() : blanks);
         return left_.empty() ? '\0' : left_.front();
     }
     bool skip(char c)
@@ -158,9 +158,9 @@ private:
         while (!skip(')')) {
             next();
             std::size_t number = 0;
-            const auto read = std::from_chars(left_.data(), left_.data() + left_.size(), number);
-            if (read.ec != std::errc()) failParsing();
-            left_.remove_prefix(static_cast<std::size_t>(read.ptr - left_.data()));
+            const auto result = std::from_chars(left_.data(), left_.data() + left_.size(), number);
+            if (result.ec != std::errc()) failParsing();
+            left_.remove_prefix(static_cast<std::size_t>(result.ptr - left_.data()));
             skip('L'); // in Python 2
             numbers.push_back(number);
             if (!skip(',') && next() != ')') failParsing();
@@ -180,9 +180,9 @@ std::string shapeText(const std::vector<std::size_t>& shape)
 /// Reads a number of rows or columns in a .dmat file.
 std::size_t dmatCount(TextCursor& cursor, const char* what)
 {
-    const char* const at = cursor.position();
+    const char* const start = cursor.position();
     const std::int64_t count = cursor.integer(what);
-    if (count < 0) cursor.fail(at, std::string(what) + " is " + std::to_string(count) + "; it must not be negative");
+    if (count < 0) cursor.fail(start, std::string(what) + " is " + std::to_string(count) + "; it must not be negative");
     return static_cast<std::size_t>(count);
 }
 

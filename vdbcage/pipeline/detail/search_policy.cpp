@@ -1,12 +1,12 @@
-#include <vdbcage/pipeline/detail/search.h>
+#include <vdbcage/pipeline/detail/search_policy.h>
 
 #include <algorithm>
 #include <cmath>
 #include <iterator>
 
 #include <vdbcage/bounding/face_wishes.h>
+#include <vdbcage/core/detail/longest_side.h>
 #include <vdbcage/mesh/parts.h>
-#include <vdbcage/pipeline/detail/simple_solids.h>
 
 namespace vdbcage::detail {
 
@@ -24,8 +24,8 @@ double growth(const CageOptions& options)
     return std::max(1.0, options.faces / usualFaces);
 }
 
-/// Returns the rungs of one resolution, with all radii.
-std::vector<Voxels> rungs(int resolution, const std::optional<double>& closeRadius, double share)
+/// Returns the entries of one resolution, with all radii.
+std::vector<Voxels> entriesOf(int resolution, const std::optional<double>& closeRadius, double share)
 {
     std::vector<Voxels> list{{resolution, closeRadius.value_or(leastRadius * share)}};
     if (!closeRadius) {
@@ -100,12 +100,12 @@ double shareOfSide(const CageOptions& options, const Mesh& model,
     const openvdb::Vec3d extents = boundingBox(model).extents() / side;
     const double box = extents[0] * extents[1] * extents[2];
     std::optional<double> largest; // the largest part, once it is needed
-    CageOptions counted = options;
-    if (options.mesh == CageFaces::loops) counted.mesh = CageFaces::quads; // voxels of loops follow the surface
+    CageOptions countedOptions = options;
+    if (options.mesh == CageFaces::loops) countedOptions.mesh = CageFaces::quads; // voxels of loops follow the surface
     for (double share = 1;; share /= 2) {
-        Voxels voxels = finestVoxels(counted, share);
+        Voxels voxels = finestVoxels(countedOptions, share);
         const double finer = 2.0 * voxels.resolution;
-        voxels.resolution = static_cast<int>(std::lround(startScales(counted).front() * voxels.resolution));
+        voxels.resolution = static_cast<int>(std::lround(startScales(countedOptions).front() * voxels.resolution));
         if (finer > mostResolution || box * finer * finer * finer > mostVoxels) return share;
         const double triangles = 2 * static_cast<double>(quadsOf(voxels));
         if (triangles >= (share == 1 ? fewestTriangles : usualTriangles) * options.faces) return share;
@@ -117,16 +117,16 @@ double shareOfSide(const CageOptions& options, const Mesh& model,
 std::vector<std::vector<Voxels>> ladders(const CageOptions& options, double share)
 {
     const bool areLoops = options.mesh == CageFaces::loops;
-    const double wanted = areLoops ? loopsResolution * std::sqrt(options.faces)
-                                   : shareOf(options.effort) * usualResolution * std::sqrt(growth(options));
-    int resolution =
-        options.resolution.value_or(std::clamp(static_cast<int>(std::ceil(wanted)), coarsestLoops, finestResolution));
+    const double wantedResolution = areLoops ? loopsResolution * std::sqrt(options.faces)
+                                             : shareOf(options.effort) * usualResolution * std::sqrt(growth(options));
+    int resolution = options.resolution.value_or(
+        std::clamp(static_cast<int>(std::ceil(wantedResolution)), coarsestLoops, finestResolution));
     const auto finer = [share](int voxels) { return static_cast<int>(std::lround(voxels / share)); };
     if (!options.resolution) resolution = finer(resolution);
-    std::vector<std::vector<Voxels>> list{rungs(resolution, options.closeRadius, share)};
+    std::vector<std::vector<Voxels>> list{entriesOf(resolution, options.closeRadius, share)};
     if (options.resolution || !areLoops) {
         while (resolution / 2 >= finer(coarsestHalf)) {
-            list.push_back(rungs(resolution /= 2, options.closeRadius, share));
+            list.push_back(entriesOf(resolution /= 2, options.closeRadius, share));
         }
     }
     if (!options.resolution) {
@@ -188,12 +188,12 @@ int affordableResolution(const CageOptions& options, double share, const Voxels&
     return static_cast<int>(std::lround(std::clamp(factor, coarsestShare, 1.0) * voxels.resolution));
 }
 
-bool hasFewEnoughHandles(const CageOptions& options, const MeshTopology& topology)
+bool leavesFacesForShape(const CageOptions& options, const MeshTopology& topology)
 {
     const auto parts = static_cast<double>(topology.components());
     if (options.parts == CageParts::merge && parts > 1) return false;
-    const double taken = facesPerPart * (parts - 1) + facesPerHandle * static_cast<double>(topology.genus());
-    return taken <= handleShare * options.faces;
+    const double takenFaces = facesPerPart * (parts - 1) + facesPerTunnel * static_cast<double>(topology.genus());
+    return takenFaces <= partsAndTunnelsShare * options.faces;
 }
 
 int smoothing(const CageOptions& options)

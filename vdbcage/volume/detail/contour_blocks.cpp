@@ -1,4 +1,4 @@
-#include <vdbcage/volume/detail/boundary_leaves.h>
+#include <vdbcage/volume/detail/contour_blocks.h>
 
 #include <algorithm>
 #include <atomic>
@@ -15,7 +15,7 @@ public:
     PaddedEntries(const MaskTree& tree, const Coord& origin) : own_(blockAt(tree, origin))
     {
         own_.forEachEntry(
-            [&](int n, const std::uint64_t* entry) { kinds_[at(n >> 8, n >> 4 & 15, n & 15)] = kindOf(entry); });
+            [&](int n, const std::uint64_t* entry) { kinds_[kindIndex(n >> 8, n >> 4 & 15, n & 15)] = kindOf(entry); });
         for (std::size_t axis = 0; axis < 3; ++axis) {
             for (const bool upper : {false, true}) {
                 Coord beside = origin;
@@ -34,7 +34,7 @@ public:
         std::array<std::uint64_t, 64> groups{};
         for (int x = 0; x < entriesPerAxis; ++x) {
             for (int y = 0; y < entriesPerAxis; ++y) {
-                const std::uint8_t* const own = &kinds_[at(x, y, 0)];
+                const std::uint8_t* const own = &kinds_[kindIndex(x, y, 0)];
                 std::array<std::uint8_t, entriesPerAxis> differs; // side by side, for vectors
                 for (std::ptrdiff_t z = 0; z < entriesPerAxis; ++z) {
                     const std::uint8_t kind = own[z];
@@ -71,7 +71,7 @@ private:
     static constexpr Kind empty = 0, full = 1, mixed = 2;
     static constexpr std::ptrdiff_t size = 18, stepY = size, stepX = size * size;
 
-    static std::size_t at(int x, int y, int z)
+    static std::size_t kindIndex(int x, int y, int z)
     {
         return static_cast<std::size_t>((x + 1) * stepX + (y + 1) * stepY + z + 1);
     }
@@ -84,12 +84,13 @@ private:
     {
         for (int i = 0; i < entriesPerAxis; ++i) {
             for (int j = 0; j < entriesPerAxis; ++j) {
-                Coord from, to;
-                from[axis] = upper ? 0 : entriesPerAxis - 1;
-                to[axis] = upper ? entriesPerAxis : -1;
-                from[(axis + 1) % 3] = to[(axis + 1) % 3] = i;
-                from[(axis + 2) % 3] = to[(axis + 2) % 3] = j;
-                kinds_[at(to.x(), to.y(), to.z())] = kindOf(neighbour.entry(entryIndex(from.x(), from.y(), from.z())));
+                Coord source, target;
+                source[axis] = upper ? 0 : entriesPerAxis - 1;
+                target[axis] = upper ? entriesPerAxis : -1;
+                source[(axis + 1) % 3] = target[(axis + 1) % 3] = i;
+                source[(axis + 2) % 3] = target[(axis + 2) % 3] = j;
+                kinds_[kindIndex(target.x(), target.y(), target.z())] =
+                    kindOf(neighbour.entry(entryIndex(source.x(), source.y(), source.z())));
             }
         }
     }
@@ -149,7 +150,7 @@ ContourBlock contourOfBlock(const MaskTree& tree, const Coord& origin, std::uint
     Words words;
     for (int group = 0; group < 64; ++group) {
         const Coord first(group / 16 * groupEntries, group / 4 % 4 * groupEntries, group % 4 * groupEntries);
-        ContourGroup found{{}, result.leaves.size(), 0};
+        ContourGroup contour{{}, result.leaves.size(), 0};
         for (std::uint64_t left = candidates[static_cast<std::size_t>(group)]; left != 0; left &= left - 1) {
             const int i = __builtin_ctzll(left);
             const Coord entry = first.offsetBy(i / 16, i / 4 % 4, i % 4);
@@ -158,13 +159,13 @@ ContourBlock contourOfBlock(const MaskTree& tree, const Coord& origin, std::uint
             const BitBox& box = result.leaves.emplace_back(contourLeaf(n, words)).box;
             result.words.push_back(words);
             const Coord corner = origin + entryOffset(n);
-            found.box.expand(corner.offsetBy(box.lower[0], box.lower[1], box.lower[2]));
-            found.box.expand(corner.offsetBy(box.upper[0], box.upper[1], box.upper[2]));
+            contour.box.expand(corner.offsetBy(box.lower[0], box.lower[1], box.lower[2]));
+            contour.box.expand(corner.offsetBy(box.upper[0], box.upper[1], box.upper[2]));
         }
-        found.end = result.leaves.size();
-        if (found.end == found.begin) continue;
-        result.groups.push_back(found);
-        result.box.expand(found.box);
+        contour.end = result.leaves.size();
+        if (contour.end == contour.begin) continue;
+        result.groups.push_back(contour);
+        result.box.expand(contour.box);
     }
     result.leaves.shrink_to_fit();
     result.words.shrink_to_fit();

@@ -24,7 +24,7 @@ namespace policy {
 constexpr int usualResolution = 64;    ///< voxels along the longest side, for up to `usualFaces` and Effort::best
 constexpr double usualFaces = 1000;    ///< beyond, the resolution grows with the root of the faces
 constexpr int finestResolution = 512;  ///< that is chosen; finer ones must be asked for
-constexpr int coarsestResolution = 16; ///< no rung of the ladder is below
+constexpr int coarsestResolution = 16; ///< no entry of a ladder is below
 constexpr double shareFast = 2.0 / 3, shareFair = 5.0 / 6; ///< of the resolution, for time (docs/dev/BENCHMARKS.md)
 constexpr int hullResolution = 32;                         ///< a hull has no detail that more could show
 constexpr double leastRadius = 0.03;                       ///< of a closing, of the longest side
@@ -50,8 +50,8 @@ constexpr double loopsStarts[] = {1.0, 1.35}, bestLoopsStarts[] = {0.85, 1.0, 1.
 constexpr double enoughTriangles = 9000; ///< for up to `usualFaces` and Effort::fast; with 7500 some are 8 % looser
 constexpr double coarsestShare = 0.75;   ///< of the resolution to have no more: thin parts need some
 constexpr std::size_t largeSurface = 500'000; ///< faces: beyond, one after the other and not recorded, for memory
-constexpr double handleShare = 0.15;          ///< of the faces, that parts and handles may take
-constexpr double facesPerPart = 8, facesPerHandle = 12; ///< about the least that one takes
+constexpr double partsAndTunnelsShare = 0.15; ///< of the faces, that parts and tunnels may take
+constexpr double facesPerPart = 8, facesPerTunnel = 12; ///< about the least that one takes
 
 // Starts. Among few faces the order of the collapses is luck, so several starts pay. For the fewest, voxels of up to
 // twice the width are as good, and two starts with these take hardly more time than one without.
@@ -66,8 +66,8 @@ constexpr double nearlyOnFaces = 30;  ///< the same, for models of fewer faces t
 constexpr double fewestUneven = 12.5; ///< faces; then twice as many, and so on
 constexpr double muchTighter = 0.8;   ///< of the mean distance with a share of the largest
 
-// Finer voxels can be worse: they leave gaps open, whose handles take faces. Coarser ones therefore compete with those
-// that are given, and with others where there are handles, which is 5 % tighter on 30 models of that kind. That takes
+// Finer voxels can be worse: they leave gaps open, whose tunnels take faces. Coarser ones therefore compete with those
+// that are given, and with others where there are tunnels, which is 5 % tighter on 30 models of that kind. That takes
 // twice the processor time, but in parallel little longer.
 constexpr int coarsestHalf = 24; ///< voxels along the longest side
 
@@ -128,16 +128,16 @@ bool areWorthTheirFaces(const CageCheck& more, const CageCheck& fewer, double cl
 /// Returns the voxels to try: one ladder for the finest, and one for each of its halves. Options that are not `auto`
 /// are obeyed.
 ///
-/// The first rung of each ladder that leads to few enough handles is taken. That of the first ladder competes with
-/// those of the others if mayCoarserBeTighter().
+/// The first entry of each ladder that leads to few enough parts and tunnels is taken. That of the first ladder
+/// competes with those of the others if mayCoarserBeTighter().
 std::vector<std::vector<Voxels>> ladders(const CageOptions& options, double share = 1);
 
-/// Returns the first rung of the first ladder.
+/// Returns the first entry of the first ladder.
 Voxels finestVoxels(const CageOptions& options, double share = 1);
 
 /// Returns whether halves of the resolution are worth their time. A given resolution always competes with them, so that
 /// twice that resolution is never looser. Others do where gaps stay open or needed a greater radius. `finest` is the
-/// rung taken from the first ladder, `topology` that of its surface.
+/// entry taken from the first ladder, `topology` that of its surface.
 bool mayCoarserBeTighter(const CageOptions& options, double share, const Voxels& finest, const MeshTopology& topology);
 
 /// Returns whether pairs of triangles become quads.
@@ -159,8 +159,8 @@ bool dependsOnSurface(const CageOptions& options);
 /// \pre dependsOnSurface()
 int affordableResolution(const CageOptions& options, double share, const Voxels& voxels, std::size_t quads);
 
-/// Returns whether parts and handles leave enough faces for the shape.
-bool hasFewEnoughHandles(const CageOptions& options, const MeshTopology& topology);
+/// Returns whether parts and tunnels leave enough faces for the shape.
+bool leavesFacesForShape(const CageOptions& options, const MeshTopology& topology);
 
 /// Returns the number of sweeps of smoothing.
 int smoothing(const CageOptions& options);
