@@ -21,7 +21,7 @@
 #include <vdbcage/core/error.h>
 #include <vdbcage/volume/extract.h>
 
-#include "lump.h"
+#include "support/lump.h"
 #include "support/manifold.h"
 #include "support/shapes.h"
 #include "support/solids.h"

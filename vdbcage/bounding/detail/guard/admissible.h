@@ -42,6 +42,8 @@ void contacts(const GuardedMesh& mesh, const StarChange& star, const Vec3d& from
 bool makeQuad(GuardedMesh& mesh, std::uint32_t f, std::uint32_t g);
 
 /// Changes that were each allowed on the surface as it was when the batch began, made one after the other.
+///
+/// Moves and collapses only: splits and flips change faces that no vertex which moved is a corner of.
 /// \pre allows() is not asked before the batch ends
 class Batch {
 public:
