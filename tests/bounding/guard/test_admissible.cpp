@@ -27,6 +27,8 @@ using openvdb::Vec4I;
 
 namespace {
 
+constexpr double leastAngle = 10 * M_PI / 180;
+
 /// A lump around specks: a part of the model each, some near its surface.
 struct Specks {
     explicit Specks(unsigned seed) : surface(test::Lump(seed).surface), guard(test::speckled(seed, 2), options()) {}
@@ -34,7 +36,8 @@ struct Specks {
     {
         GuardOptions options;
         options.clearance = 1e-3;
-        options.minAngleDegrees = 5;
+        options.minAngleDegrees = 10;
+        options.spacing = 0.01;
         return options;
     }
 
@@ -105,7 +108,7 @@ struct Faults {
     bool only(bool Faults::*fault) const { return this->*fault && int(shape) + model + surface + swept == 1; }
 };
 
-Faults faultsAt(const GuardedMesh& surface, std::uint32_t v, double leastAngle)
+Faults faultsAt(const GuardedMesh& surface, std::uint32_t v, double least)
 {
     Faults faults;
     const std::vector<std::uint32_t> all = test::facesAndAlternates(surface);
@@ -113,10 +116,10 @@ Faults faultsAt(const GuardedMesh& surface, std::uint32_t v, double leastAngle)
     for (const std::uint32_t f : all) {
         if (!test::hasCorner(surface.face(f), v)) continue;
         const Corners t = surface.corners(f);
-        faults.shape = faults.shape || hasNoArea(t) || !(smallestAngle(t) >= leastAngle);
+        faults.shape = faults.shape || hasNoArea(t) || !(smallestAngle(t) >= least);
         for (const TriangleBvh::Item& item : guard.tree().items()) {
-            const double least = guard.clearance();
-            faults.model = faults.model || distance(t, guard.tree().corners(item), least) < least;
+            const double clearance = guard.clearance();
+            faults.model = faults.model || distance(t, guard.tree().corners(item), clearance) < clearance;
         }
         for (const std::uint32_t g : all) {
             if (g == f || surface.areAlternatives(f, g)) continue;
@@ -187,7 +190,6 @@ BOOST_AUTO_TEST_CASE(exactly_the_changes_that_leave_a_good_surface_are_allowed)
         GuardedMesh surface(specks.surface, modelOf(specks.guard));
         BOOST_REQUIRE(specks.guard.facesTooNear(specks.surface).empty());
         BOOST_REQUIRE(tooNearPairs(surface) == 0);
-        const double leastAngle = 5 * M_PI / 180;
         std::mt19937 random(seed);
         for (int i = 0; i < 250; ++i) {
             StarChange star;
@@ -225,7 +227,7 @@ BOOST_AUTO_TEST_CASE(with_quads_exactly_the_moves_that_leave_both_diagonals_good
             if (!findStar(surface, random, star, place)) continue;
             GuardedMesh changed = surface;
             changed.apply(star, place);
-            const bool isGood = !faultsAt(changed, star.centre, 5 * M_PI / 180).any();
+            const bool isGood = !faultsAt(changed, star.centre, leastAngle).any();
             const bool may = allows(surface, star, place);
             BOOST_TEST(may == isGood);
             ++(may ? allowed : refused);
@@ -251,7 +253,7 @@ BOOST_AUTO_TEST_CASE(a_worse_angle_is_allowed_nowhere_but_what_is_bad_may_get_be
         const BoundingGuard guard(test::speckled(seed, 2), strict);
         std::mt19937 random(seed);
         GuardedMesh surface(specks.surface, modelOf(specks.guard));
-        for (int i = 0; i < 60; ++i) { // rough, with angles of 5 degrees and more
+        for (int i = 0; i < 60; ++i) { // rough, with angles of 10 degrees and more
             StarChange star;
             Vec3d place;
             if (findStar(surface, random, star, place) && allows(surface, star, place)) surface.apply(star, place);
@@ -378,7 +380,7 @@ BOOST_AUTO_TEST_CASE(quads_are_made_exactly_where_both_diagonals_are_good)
                     GuardedMesh quad = surface;
                     quad.pair(f, g, {Vec3I(q[0], q[1], q[3]), Vec3I(q[1], q[2], q[3])});
                     for (const std::uint32_t v : {q[1], q[3]}) { // between them they have both alternates and all faces
-                        const Faults faults = faultsAt(quad, v, 5 * M_PI / 180);
+                        const Faults faults = faultsAt(quad, v, leastAngle);
                         isGood = isGood && !faults.any();
                     }
                     const auto angle = [&](const Vec3I& s, const Vec3I& t) {
@@ -441,7 +443,7 @@ BOOST_AUTO_TEST_CASE(changes_of_a_batch_are_good_together)
             BOOST_TEST(test::treeIsRight(surface));
             BOOST_TEST(tooNearPairs(surface) == 0);
             for (const std::uint32_t v : moved) {
-                if (surface.isVertex(v)) BOOST_TEST(!faultsAt(surface, v, 5 * M_PI / 180).any());
+                if (surface.isVertex(v)) BOOST_TEST(!faultsAt(surface, v, leastAngle).any());
             }
         }
     }

@@ -198,6 +198,54 @@ BOOST_AUTO_TEST_CASE(over_a_flat_model_a_vertex_slides_to_what_is_nearest_to_its
     }
 }
 
+BOOST_AUTO_TEST_CASE(in_a_nook_of_three_walls_the_place_is_about_the_best_of_a_grid)
+{
+    // A cube whose corner is dented towards the corner of three walls.
+    Mesh walls;
+    for (int axis = 0; axis < 3; ++axis) {
+        Vec3d high(1.0);
+        high[axis] = 0;
+        walls = test::joined(walls, test::box({-0.2, -0.2, -0.2}, high));
+    }
+    GuardOptions options;
+    options.clearance = 1e-3;
+    options.minAngleDegrees = 0;
+    const BoundingGuard guard(walls, options);
+    Mesh cage = test::box({-3, -3, -3}, {3, 3, 3});
+    for (openvdb::Vec4I& q : cage.quads) { // at the corner no diagonal ends
+        if (q[1] != 7 && q[3] != 7) q = {q[1], q[2], q[3], q[0]};
+    }
+    cage.points[7] = Vec3d(1.5);
+    const GuardedMesh surface(cage, modelOf(guard));
+    const StarChange star = starOf(surface, 7);
+    BOOST_REQUIRE(star.link.size() == 3U);
+    BOOST_REQUIRE(allows(surface, star, surface.point(7)));
+    std::mt19937 random(6);
+    for (int i = 0; i < 20; ++i) {
+        const Vec3d goal = modelOf(guard).scaled(Vec3d(-0.1) + 0.4 * test::randomVector(random));
+        const auto worth = [&](const Vec3d& p) { return (p - goal).length(); };
+        double best = worth(surface.point(7));
+        constexpr int steps = 16;
+        for (int k = 0; k < steps * steps * steps; ++k) {
+            const Vec3d p = rounded(
+                surface, star,
+                modelOf(guard).scaled(Vec3d(0.004) + 0.06 * Vec3d(k % steps, k / steps % steps, k / steps / steps)));
+            if (worth(p) < best && allows(surface, star, p)) best = worth(p);
+        }
+        Vec3d p = surface.point(7);
+        for (int step = 0; step < 6; ++step) {
+            Quadratic change;
+            change.curvature = Mat3d::identity();
+            change.slope = p - goal;
+            GuardedMesh now = surface;
+            now.apply(star, p);
+            if (!descend(now, star, p, change, {100, 1, 1e-6}, takeAll)) break;
+        }
+        BOOST_TEST(allows(surface, star, p));
+        BOOST_TEST(worth(p) < best + 0.01);
+    }
+}
+
 BOOST_AUTO_TEST_CASE(places_are_offered_until_one_is_taken)
 {
     const BoundingGuard guard(test::box({-0.01, -0.01, -0.01}, {0.01, 0.01, 0.01}));
