@@ -233,16 +233,12 @@ BOOST_AUTO_TEST_CASE(in_a_nook_of_three_walls_the_place_is_about_the_best_of_a_g
             if (worth(p) < best && allows(surface, star, p)) best = worth(p);
         }
         Vec3d p = surface.point(7);
-        for (int step = 0; step < 6; ++step) {
-            Quadratic change;
-            change.curvature = Mat3d::identity();
-            change.slope = p - goal;
-            GuardedMesh now = surface;
-            now.apply(star, p);
-            if (!descend(now, star, p, change, {100, 1, 1e-6}, takeAll)) break;
-        }
+        Quadratic change;
+        change.curvature = Mat3d::identity();
+        change.slope = p - goal;
+        BOOST_TEST(descend(surface, star, p, change, {100}, takeAll));
         BOOST_TEST(allows(surface, star, p));
-        BOOST_TEST(worth(p) < best + 0.01);
+        BOOST_TEST(worth(p) <= best);
     }
 }
 

@@ -9,6 +9,7 @@
 #include <tbb/global_control.h>
 #include <vdbcage/bounding/detail/guard/admissible.h>
 #include <vdbcage/bounding/detail/triangles/collapse.h>
+#include <vdbcage/bounding/detail/triangles/relax.h>
 #include <vdbcage/bounding/detail/triangles/vertex_quadrics.h>
 #include <vdbcage/check/check.h>
 #include <vdbcage/core/error.h>
@@ -50,8 +51,11 @@ BOOST_AUTO_TEST_CASE(the_cheapest_edge_that_may_go_goes_first)
     int same = 0, all = 0;
     for (unsigned seed = 1; seed <= 8; ++seed) {
         const BoundingGuard guard(test::soup(seed, 20, 0.1));
-        const GuardedMesh before(roughBall(5, seed), modelOf(guard));
+        GuardedMesh before(roughBall(6, seed), modelOf(guard));
+        // On the model many edges may not go where that costs least.
+        if (seed % 2 == 0) tighten(before, 8, areaPerSample(before, before.liveFaces(), 4), nullptr);
         const VertexQuadrics quadrics(before);
+        int blocked = 0;
         double least = std::numeric_limits<double>::infinity();
         StarChange best;
         Vec3d bestPlace(0.0);
@@ -61,12 +65,14 @@ BOOST_AUTO_TEST_CASE(the_cheapest_edge_that_may_go_goes_first)
                 if (v < u || !starOfCollapse(before, u, v, star)) continue;
                 const Quadric q = quadrics.sum(u, v);
                 const auto place = quadrics.findPlace(star, q, true);
+                blocked += !allows(before, star, rounded(before, star, quadrics.optimum(q, u, v)));
                 if (!place || quadrics.cost(q, *place) >= least) continue;
                 least = quadrics.cost(q, *place);
                 best = star;
                 bestPlace = *place;
             }
         }
+        if (seed % 2 == 0) BOOST_TEST(blocked > 50);
         GuardedMesh expected = before, surface = before;
         expected.apply(best, bestPlace);
         collapseByQuadrics(surface, before.liveFaces() - 2, nullptr);
