@@ -49,7 +49,7 @@ BOOST_AUTO_TEST_SUITE(collapse)
 BOOST_AUTO_TEST_CASE(the_cheapest_edge_that_may_go_goes_first)
 {
     int same = 0, all = 0;
-    for (unsigned seed = 1; seed <= 8; ++seed) {
+    for (unsigned seed = 1; seed <= 24; ++seed) {
         const BoundingGuard guard(test::soup(seed, 20, 0.1));
         GuardedMesh before(roughBall(6, seed), modelOf(guard));
         // On the model many edges may not go where that costs least.
@@ -81,7 +81,7 @@ BOOST_AUTO_TEST_CASE(the_cheapest_edge_that_may_go_goes_first)
         ++all;
     }
     // An optimum that is too far away is taken for dearer than it is.
-    BOOST_TEST(same >= all - 1);
+    BOOST_TEST(same >= all - 2);
 }
 
 BOOST_AUTO_TEST_CASE(as_many_faces_are_left_as_asked_and_the_surface_bounds)
