@@ -99,6 +99,7 @@ public:
 
     /// Calls visit(thing, itsBox) for each thing whose box meets `box`, until it returns false. Returns false if it
     /// stopped.
+    /// \pre the box is finite
     template <typename Visit>
     bool forEachOverlap(const Box& box, const Visit& visit) const
     {

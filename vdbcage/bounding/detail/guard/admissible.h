@@ -42,6 +42,8 @@ void contacts(const GuardedMesh& mesh, const StarChange& star, const Vec3d& from
 bool makeQuad(GuardedMesh& mesh, std::uint32_t f, std::uint32_t g);
 
 /// Changes made one after the other, each of them allowed on the surface as it was when the batch began.
+///
+/// Moves and collapses only: splits and flips change faces without a corner at a vertex that moved.
 /// \pre allows() is not called before the batch ends
 class Batch {
 public:

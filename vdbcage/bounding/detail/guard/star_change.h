@@ -30,7 +30,7 @@ struct StarChange {
 /// Returns the star of a vertex as it is, for moving it.
 StarChange starOf(const GuardedMesh& mesh, std::uint32_t v);
 /// Makes the star that replaces the stars of both ends of an edge. Returns false where the link condition forbids the
-/// collapse.
+/// collapse, and where the vertex would have three edges.
 /// \pre the ends are in no quad
 /// Based on: Dey, Edelsbrunner, Guha, Nekhayev, Topology Preserving Edge Contraction, 1999.
 bool starOfCollapse(const GuardedMesh& mesh, std::uint32_t keep, std::uint32_t remove, StarChange& star);
@@ -46,13 +46,13 @@ StarChange starOfSplit(const GuardedMesh& mesh, std::uint32_t u, std::uint32_t v
 bool starOfFlip(const GuardedMesh& mesh, std::uint32_t c, std::uint32_t a, std::uint32_t b, StarChange& star);
 /// Makes the star around a new vertex that replaces some faces. If `onPlane`, the vertex is on the plane of symmetry,
 /// where the faces have a side. Returns false unless they are one disk without a vertex inside.
-/// \pre they are in no quad
+/// \pre they are in no quad, and hang together over edges
 bool starOfFaces(const GuardedMesh& mesh, const StarChange::Faces& faces, bool onPlane, StarChange& star);
 
 /// Makes the star around `centre` that replaces some faces, all those around it among them. If `removed` is a vertex,
 /// all around it are among them too, and it is removed. Returns false unless the faces are one disk without another
 /// vertex inside, or half of one that ends on the plane of symmetry.
-/// \pre they are in no quad
+/// \pre they are in no quad, and hang together over edges
 bool starOfPatch(const GuardedMesh& mesh, std::uint32_t centre, std::uint32_t removed, const StarChange::Faces& faces,
                  StarChange& star);
 

@@ -45,7 +45,7 @@ bool splitSide(GuardedMesh& surface, const Polychord& polychord, std::size_t i, 
         faces.push_back(ahead);
     }
     Vec3d middle = 0.5 * (surface.point(a) + surface.point(b));
-    if (isFirst) middle += push * asideOf(surface, behind, ahead, a, b);
+    if (isFirst && !onPlane) middle += push * asideOf(surface, behind, ahead, a, b);
     if (isLast && !onPlane) middle += push * asideOf(surface, ahead, behind, b, a);
     const std::uint32_t first = cornerOpposite(surface, behind, a, b);
     const std::uint32_t last = onPlane ? GuardedMesh::none : cornerOpposite(surface, ahead, b, a);

@@ -19,7 +19,7 @@
 #include <vdbcage/check/check.h>
 #include <vdbcage/volume/extract.h>
 
-#include "lump.h"
+#include "support/lump.h"
 #include "support/manifold.h"
 #include "support/shapes.h"
 #include "support/solids.h"
