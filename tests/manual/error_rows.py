@@ -516,7 +516,7 @@ OTHERS = [
         "make model.obj -o new.obj --faces 4 --mesh quads"),
     make("--symmetry: 'WORD' is not allowed: the model misses NAME by N % of its longest side; it may be at most N %",
          "--symmetry x", {"model.obj": "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 1 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n"}),
-    make("--skip-done needs --report FILE.json, which tells what was done", "--skip-done"),
+    make("--skip-done needs --report FILE.json, the record of what it did", "--skip-done"),
     Row("--influence: a panel needs a model and its cage", "render model.obj -o new.png --influence 0"),
     Row("--influence: N is not a vertex of the cage; 0 to N are", "render model.obj cage.obj -o new.png --influence 8"),
     Row("a lone + must stand between two files: FILE + FILE", "render + model.obj -o new.png"),

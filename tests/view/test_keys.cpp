@@ -264,10 +264,10 @@ BOOST_AUTO_TEST_CASE(help_tells_what_the_mouse_does)
     BOOST_TEST(row(KeyMap::blender, "left button, drag").find("turns") == 0u);
     BOOST_TEST(row(KeyMap::blender, "shift+left button, drag") == "moves the view");
     BOOST_TEST(row(KeyMap::blender, "control+right button, drag") ==
-               "selects what is in a lasso; at its end alt takes out, shift adds");
+               "selects elements in a lasso; at its end alt takes out, shift adds");
     BOOST_TEST(row(KeyMap::maya, "alt+right button, drag") == "zooms");
     BOOST_TEST(row(KeyMap::maya, "left button, drag") ==
-               "selects what is in a box; at its end control+shift adds, control takes out, shift inverts");
+               "selects elements in a box; at its end control+shift adds, control takes out, shift inverts");
     BOOST_TEST(row(KeyMap::maya, "control+left button, click") == "takes it out");
     for (const KeyMap map : {KeyMap::blender, KeyMap::maya}) {
         BOOST_TEST(!row(map, "left button on a handle, drag").empty());

@@ -33,7 +33,7 @@ void setPrecisionFor(const std::filesystem::path& cage, CageOptions& options)
 
 CLI::Option* addMemoryOption(CLI::App& app, std::string& text)
 {
-    return app.add_option("--memory", text, "refuse what would take more memory [auto]")
+    return app.add_option("--memory", text, "refuse runs that would take more memory [auto]")
         ->type_name("auto|off|SIZE")
         ->group(rareOptions);
 }

@@ -187,7 +187,7 @@ std::vector<std::pair<std::string, std::string>> describeScript()
 {
     return {
         {"wait", "until the cage is made, or cannot be, and files are written"},
-        {"screenshot FILE.png [WIDTHxHEIGHT]", "writes what the window shows, in that size from now on"},
+        {"screenshot FILE.png [WIDTHxHEIGHT]", "writes a picture of the window, in that size from now on"},
         {"expect NAME VALUE", "ends with an error unless NAME is VALUE, or with <, <=, >, >= before a number is so"},
         {"mouse move WIDGET|picture [X [Y]]", "moves the pointer to a share of the widget, from its left and top"},
         {"mouse move handle.NAME", "to a handle in the picture: x, y, z, plane-x, plane-y, plane-z or screen"},

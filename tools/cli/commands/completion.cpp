@@ -68,7 +68,7 @@ void printOffers(std::vector<std::string> words)
     const Offers offers(begun);
     if (words.size() == 1) {
         offerCommands(offers);
-        offers.word("help", "print what a command takes");
+        offers.word("help", "print the options of a command");
         offers.word("--help");
         offers.word("--version");
     } else if (words[0] == "help") {
@@ -161,7 +161,7 @@ int runCompletion(Call call)
     }
     std::string shell;
     CLI::App app("vdbcage completion bash|fish|zsh\n"
-                 "Prints what lets a shell complete the commands, options and files of vdbcage.",
+                 "Prints a shell's script that completes commands, options and files of vdbcage.",
                  "completion");
     app.add_option("shell", shell)->required()->type_name("SHELL");
     if (!parse(app, std::move(call))) return exitGood;

@@ -223,7 +223,7 @@ int runDeform(Call call)
     const CoordinateArguments arguments(app, CoordinateArguments::For::poses);
     app.add_option("--weights", weights, "of bind, or a matrix (.npy, .dmat) [computed]")->type_name("WEIGHTS");
     app.add_flag("--inversions", inversions, "print how many triangles each pose inverts");
-    app.add_flag("--compare", compare, "draw all families, and print what they distort");
+    app.add_flag("--compare", compare, "draw all families, and print their distortion");
     const TalkArguments talk(app, "print warnings; progress without a terminal");
     if (!parse(app, std::move(call))) return exitGood;
     if (compare) {

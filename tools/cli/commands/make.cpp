@@ -105,9 +105,9 @@ std::string summaryOf(const MakeArguments& arguments, const std::vector<ModelFil
     out << (check.bounding() ? ", certified bounding"
             : check.valid()  ? ", NOT bounding"
                              : ", NOT a valid cage")
-        << (check.bounding() && report.partsLeftOut > 0 ? " what was not left out" : "") << ", mean distance "
-        << 100 * check.meanDistance << " % of the longest side, resolution " << report.resolution << ", " << seconds
-        << " s\n";
+        << (check.bounding() && report.partsLeftOut > 0 ? " the parts that were not left out" : "")
+        << ", mean distance " << 100 * check.meanDistance << " % of the longest side, resolution " << report.resolution
+        << ", " << seconds << " s\n";
     for (const std::string& remark : report::remarks(report, arguments.options)) out << "  " << remark << '\n';
     out << describe(models);
     if (lieApart(models)) {
@@ -227,7 +227,7 @@ int runMake(Call call)
     arguments.isVerbose = talk.verbose();
     arguments.memoryLimit = memoryLimit(memory);
     if (skipsDone && arguments.report.empty()) {
-        throw InputError("--skip-done needs --report FILE.json, which tells what was done");
+        throw InputError("--skip-done needs --report FILE.json, the record of what it did");
     }
     setPrecisionFor(arguments.cage, arguments.options);
     std::optional<Outputs> outputs(std::in_place);

@@ -42,7 +42,7 @@ void addExitStatus(manual::ManualPage& page, const std::vector<Command>& some)
     page.section("EXIT STATUS");
     page.item("0", "", "All went well.");
     page.item("1", "",
-              "The input, an option or a file is bad. A line on standard error says which, and what is allowed.");
+              "The input, an option or a file is bad. A line on standard error names it, and the allowed values.");
     for (const Command& command : some) {
         const std::string meaning = meaningOfTwo(describe(command));
         if (!meaning.empty()) page.item("2", "", "Of " + command.name + ": " + meaning);

@@ -136,7 +136,7 @@ int runRender(Call call)
     const CoordinateArguments arguments(app, CoordinateArguments::For::weights, "of the weight");
     app.add_flag("--same-view", scene.sameView, "one scale and place for all panels");
     bool isVerbose = false;
-    app.add_flag("-v,--verbose", isVerbose, "print warnings of what is odd in the files");
+    app.add_flag("-v,--verbose", isVerbose, "print warnings of oddities in the files");
     if (!parse(app, std::move(call))) return exitGood;
     requireWithin({0, 100}, scene.columns, "--columns");
     requireWithin({-360, 360}, scene.view.azimuthDegrees, "--azimuth");

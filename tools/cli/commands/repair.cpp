@@ -101,11 +101,11 @@ int runRepair(Call call)
     std::filesystem::path cagePath, outputPath, reportPath;
     CLI::App app("vdbcage repair CAGE -o OUT [OPTIONS]\n"
                  "Stitches, orients, fills holes and resolves self-intersections.\n"
-                 "Exit status 2: OUT is what could be mended, and not a valid cage.",
+                 "Exit status 2: OUT is mended as far as possible, but no valid cage.",
                  "repair");
     app.add_option("cage", cagePath)->required()->type_name("CAGE");
     app.add_option("-o,--output", outputPath, "the mended cage to write")->required()->type_name("OUT");
-    app.add_option("--report", reportPath, "what was done and what could not be, as JSON")->type_name("FILE.json");
+    app.add_option("--report", reportPath, "the repairs, and the faults that stayed, as JSON")->type_name("FILE.json");
     const TalkArguments talk(app);
     const std::vector<std::string> arguments = call.words;
     if (!parse(app, std::move(call))) return exitGood;

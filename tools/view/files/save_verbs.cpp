@@ -67,7 +67,7 @@ Write SaveColours::writer(const SaveSource& source, const fs::path& file)
     const auto values = source.posing.follower().values();
     if (!values) {
         throw InputError("save-colours", "the model shows none; in mode pose, once it is bound, it can show influence, "
-                                         "stretch, or what is inverted");
+                                         "stretch, or inverted triangles");
     }
     const OpenedMeshPtr model = source.state.document.model;
     const PosedModel& posed = source.posing.follower().model();

@@ -75,7 +75,7 @@ struct SaveColours : SaveFile {
     static LineInfo info()
     {
         return {"save-colours", "FILE.ply", 1, 1,
-                "writes the posed model with what its colours tell: influence, stretch or inverted"};
+                "writes the posed model in its colours: influence, stretch or inverted"};
     }
     static Write writer(const SaveSource& source, const std::filesystem::path& file);
 };
@@ -83,7 +83,7 @@ struct SaveWeights : SaveFile {
     using SaveFile::SaveFile;
     static LineInfo info()
     {
-        return {"save-weights", "FILE.npy", 1, 1, "writes by what weights the cage moves the model"};
+        return {"save-weights", "FILE.npy", 1, 1, "writes the weights by which the cage moves the model"};
     }
     static Write writer(const SaveSource& source, const std::filesystem::path& file);
 };

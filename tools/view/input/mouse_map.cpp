@@ -56,15 +56,15 @@ const char* textOf(DragAction action)
 {
     switch (action) {
     case DragAction::turn:
-        return "turns the view around what is under the pointer";
+        return "turns the view around the place under the pointer";
     case DragAction::pan:
         return "moves the view";
     case DragAction::zoom:
         return "zooms";
     case DragAction::box:
-        return "selects what is in a box";
+        return "selects elements in a box";
     case DragAction::lasso:
-        return "selects what is in a lasso";
+        return "selects elements in a lasso";
     }
     return "";
 }
@@ -75,7 +75,7 @@ const char* textOf(PickAction action)
     case PickAction::none:
         return "does nothing";
     case PickAction::replace:
-        return "selects what is under the pointer, and nothing else";
+        return "selects only the element under the pointer";
     case PickAction::toggle:
         return "selects one more, or one less";
     case PickAction::add:
@@ -151,7 +151,7 @@ std::vector<std::pair<std::string, std::string>> describeMouse(KeyMap map)
         if (binding->action == PickAction::none) continue;
         rows.emplace_back(withModifiers(binding->held, "left button, click"), textOf(binding->action));
     }
-    rows.emplace_back("left button on a handle, drag", "moves, turns or scales what is selected; control: in steps");
+    rows.emplace_back("left button on a handle, drag", "moves, turns or scales the selection; control: in steps");
     return rows;
 }
 

@@ -22,7 +22,7 @@ struct Undo {
 };
 struct Redo {
     static constexpr bool isRecorded = true;
-    static LineInfo info() { return {"redo", "", 0, 0, "does again what was taken back"}; }
+    static LineInfo info() { return {"redo", "", 0, 0, "makes the change again that was undone"}; }
 };
 struct UndoView {
     static constexpr bool isRecorded = true;
@@ -40,7 +40,7 @@ struct Cancel {
     static constexpr bool isRecorded = true;
     static LineInfo info()
     {
-        return {"cancel", "", 0, 0, "closes what is open, or stops what is written, made or bound"};
+        return {"cancel", "", 0, 0, "closes a menu or dialog, or stops writing, making or binding"};
     }
 };
 struct MoreFaces {
@@ -57,7 +57,7 @@ struct Toggle {
     static LineInfo info()
     {
         return {"toggle", "LAYER|ground|axes|turntable|mode|play|see-through|mirror-x|mirror-y|mirror-z", 1, 1,
-                "shows what is hidden and hides what is shown"};
+                "shows a hidden layer and hides a shown one"};
     }
     static Toggle read(const Arguments& arguments) { return {arguments[0]}; }
     std::string text() const { return written(what); }
@@ -88,7 +88,7 @@ struct SetProjection {
 
     static LineInfo info()
     {
-        return {"projection", "perspective|orthographic|toggle", 1, 1, "how what is far away looks"};
+        return {"projection", "perspective|orthographic|toggle", 1, 1, "the projection of the view"};
     }
     static SetProjection read(const Arguments& arguments);
     std::string text() const { return written(projection ? nameIn(projectionNames, *projection) : "toggle"); }
@@ -107,7 +107,7 @@ struct SelectKind {
 
     static LineInfo info()
     {
-        return {"select-kind", "points|edges|faces", 1, 1, "selects these from now on; what is selected becomes such"};
+        return {"select-kind", "points|edges|faces", 1, 1, "selects these from now on; the selection becomes such"};
     }
     static SelectKind read(const Arguments& arguments)
     {
@@ -125,14 +125,11 @@ struct SelectNone {
     static Command command(const Situation& now);
 };
 struct SelectInvert {
-    static LineInfo info() { return {"select-invert", "", 0, 0, "selects what is not selected"}; }
+    static LineInfo info() { return {"select-invert", "", 0, 0, "inverts the selection"}; }
     static Command command(const Situation& now);
 };
 struct SelectLinked {
-    static LineInfo info()
-    {
-        return {"select-linked", "", 0, 0, "selects all that hangs together with what is selected"};
-    }
+    static LineInfo info() { return {"select-linked", "", 0, 0, "selects the connected part of the cage"}; }
     static Command command(const Situation& now);
 };
 struct SelectGrow {
@@ -140,20 +137,20 @@ struct SelectGrow {
     static Command command(const Situation& now);
 };
 struct SelectShrink {
-    static LineInfo info() { return {"select-shrink", "", 0, 0, "selects what has no neighbour that is not selected"}; }
+    static LineInfo info() { return {"select-shrink", "", 0, 0, "shrinks the selection by one ring"}; }
     static Command command(const Situation& now);
 };
 struct SelectLoop {
-    static LineInfo info() { return {"select-loop", "", 0, 0, "selects the loops through what is selected"}; }
+    static LineInfo info() { return {"select-loop", "", 0, 0, "selects the loops through the selection"}; }
     static Command command(const Situation& now);
 };
 struct StartBox {
-    static LineInfo info() { return {"box", "", 0, 0, "selects what is in the box that is dragged next"}; }
+    static LineInfo info() { return {"box", "", 0, 0, "selects elements in the box that is dragged next"}; }
 };
 struct Grab {
     Tool tool = Tool::move; ///< not select
 
-    static LineInfo info() { return {"grab", "move|rotate|scale", 1, 1, "moves what is selected with the pointer"}; }
+    static LineInfo info() { return {"grab", "move|rotate|scale", 1, 1, "moves the selection with the pointer"}; }
     static Grab read(const Arguments& arguments);
     std::string text() const { return written(nameIn(toolNames, tool)); }
 };
@@ -198,14 +195,14 @@ struct SavePicture : SaveFile {
     static LineInfo info()
     {
         return {"save-picture", "FILE.png", 1, 1,
-                "writes what is seen, without the panels; of two pictures the left one"};
+                "writes the picture without the panels; of two pictures the left one"};
     }
 };
 struct OpenScene {
     static constexpr bool isRecorded = true;
     std::string path;
 
-    static LineInfo info() { return {"open-scene", "FILE.json", 1, 1, "opens what save-scene wrote"}; }
+    static LineInfo info() { return {"open-scene", "FILE.json", 1, 1, "opens a scene of save-scene"}; }
     static OpenScene read(const Arguments& arguments) { return {arguments[0]}; }
     std::string text() const { return written(path); }
 };
@@ -252,7 +249,7 @@ struct QuitUnsaved {
 struct Tick {
     double seconds = 0;
 
-    static LineInfo info() { return {"tick", "SECONDS", 1, 1, "lets time pass for what moves by itself"}; }
+    static LineInfo info() { return {"tick", "SECONDS", 1, 1, "lets time pass for playing poses and the turntable"}; }
     static Tick read(const Arguments& arguments) { return {arguments.number(0, {0, 86400})}; }
     std::string text() const { return written(seconds); }
 };

@@ -18,11 +18,11 @@ struct LayerText {
 };
 
 constexpr std::array<LayerText, layerCount> texts{
-    {{LayerId::model, "Model", "what the cage is made for"},
+    {{LayerId::model, "Model", "the model inside the cage"},
      {LayerId::cage, "Cage", "the outcome; hidden edges are faint"},
      {LayerId::decimated, "Decimated", "the cage before its triangles were merged to quads and tightened"},
      {LayerId::smoothed, "Smoothed", "the cage after smoothing; where bounding is off, the surface after it"},
-     {LayerId::surface, "Surface", "what the cage was made from"},
+     {LayerId::surface, "Surface", "the surface that the cage was made from"},
      {LayerId::closed, "Closing", "exposed faces of the closing's voxels"},
      {LayerId::closedNodes, "Closing: nodes", "a box for each node of the closing's tree"},
      {LayerId::solid, "Voxels", "exposed faces of the model's voxels"},
@@ -97,7 +97,7 @@ void buildModelColours(const PanelContext& context)
 {
     const ModelColours now = context.content.session.state().view.modelColours;
     constexpr std::array<const char*, 4> labels{"Plain", "Influence", "Stretch", "Inverted"},
-        helps{"one colour", "how far the posed model follows what is selected: red with it, blue against it",
+        helps{"one colour", "how far the posed model follows the selection: red with it, blue against it",
               "where lengths are longer (red) or shorter (blue) than at rest",
               "triangles that the pose turns inside out; they are counted while it stands still"};
     for (std::size_t i = 0; i < labels.size(); ++i) {

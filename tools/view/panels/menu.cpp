@@ -85,7 +85,7 @@ void buildMenu(const PanelContext& context)
         item(context, "Select all", SelectAll{}, hasCage);
         item(context, "Select nothing", SelectNone{}, hasSelected);
         item(context, "Invert the selection", SelectInvert{}, hasCage);
-        item(context, "Select what hangs together", SelectLinked{}, hasSelected);
+        item(context, "Select the connected part", SelectLinked{}, hasSelected);
         item(context, "Select loops", SelectLoop{}, hasSelected);
         item(context, "Select more", SelectGrow{}, hasSelected);
         item(context, "Select less", SelectShrink{}, hasSelected);
@@ -103,7 +103,7 @@ void buildMenu(const PanelContext& context)
             item(context, "Cut quads to triangles", EditCage{CageEdit::cut}, isShape);
         });
         item(context, "Reset the pose", ResetPose{false}, hasPoses);
-        item(context, "Reset the pose of what is selected", ResetPose{true}, hasPoses && hasSelected);
+        item(context, "Reset the pose of the selection", ResetPose{true}, hasPoses && hasSelected);
         item(context, "Insert a key", InsertKey{}, hasCage && view.mode == Mode::pose);
         item(context, "Remove the key", RemoveKey{}, document.poses.keyAt(view.frame) != nullptr);
         menu(context, "In-betweens from rest", [&] {
@@ -115,7 +115,7 @@ void buildMenu(const PanelContext& context)
     });
     menu(context, "View", [&] {
         item(context, "Frame all", FrameView{false});
-        item(context, "Frame what is selected", FrameView{true}, hasSelected);
+        item(context, "Frame the selection", FrameView{true}, hasSelected);
         ImGui::Separator();
         for (const auto from : {Look::From::front, Look::From::back, Look::From::right, Look::From::left,
                                 Look::From::top, Look::From::bottom}) {

@@ -150,7 +150,7 @@ private:
             }
             if (isAuto) ImGui::PopStyleColor();
             context_.name(name_ + ".auto");
-            help(isAuto ? "chosen for you; press to keep what it came to" : "press to have it chosen for you");
+            help(isAuto ? "chosen for you; press to keep the chosen value" : "press to have it chosen for you");
         } else {
             ImGui::Dummy({length(autoWidth), 1});
         }

@@ -82,7 +82,7 @@ void buildMirror(const PanelContext& context, const ViewState& view)
         if (ImGui::Button((label + "##mirror").c_str())) context.ask(Toggle{"mirror-" + name});
         if (isOn) ImGui::PopStyleColor();
         context.name("mirror." + name);
-        help("what is done on one side of the cage is done on the other too, to points that have a partner there");
+        help("a change on one side of the cage is made on the other too, at points that have a partner there");
     }
 }
 
@@ -96,7 +96,7 @@ void buildSoft(const PanelContext& context, const ViewState& view)
     }
     context.followDrag();
     context.name("soft");
-    help("what is nearer than this along the cage moves too, less and less; a part of the model's longest side");
+    help("points nearer than this along the cage move too, less and less; a part of the model's longest side");
 }
 
 } // namespace
@@ -133,7 +133,7 @@ void buildToolbar(const PanelContext& context)
     gap();
     const auto handles = [&](const char* does, Tool tool) {
         const std::string free = context.keyOf(Grab{tool});
-        return std::string("handles that ") + does + " what is selected" +
+        return std::string("handles that ") + does + " the selection" +
                (free.empty() ? "" : "; " + free + " does it without handles");
     };
     choices(context, "tool",
@@ -142,13 +142,12 @@ void buildToolbar(const PanelContext& context)
              {"Rotate", SetTool{Tool::rotate}, view.tool == Tool::rotate, handles("turn", Tool::rotate)},
              {"Scale", SetTool{Tool::scale}, view.tool == Tool::scale, handles("scale", Tool::scale)}});
     gap();
-    list(
-        context, "orientation",
-        {{"world", "World", "handles along the axes of the world", SetOrientation{Orientation::world}},
-         {"local", "Local", "handles along the principal axes of what is selected", SetOrientation{Orientation::local}},
-         {"normal", "Normal", "handles along the mean normal of what is selected", SetOrientation{Orientation::normal}},
-         {"view", "View", "handles to the right, up and to the viewer", SetOrientation{Orientation::view}}},
-        static_cast<std::size_t>(view.orientation), length(78));
+    list(context, "orientation",
+         {{"world", "World", "handles along the axes of the world", SetOrientation{Orientation::world}},
+          {"local", "Local", "handles along the principal axes of the selection", SetOrientation{Orientation::local}},
+          {"normal", "Normal", "handles along the mean normal of the selection", SetOrientation{Orientation::normal}},
+          {"view", "View", "handles to the right, up and to the viewer", SetOrientation{Orientation::view}}},
+         static_cast<std::size_t>(view.orientation), length(78));
     ImGui::SameLine(0, length(4));
     buildPivot(context, view);
     gap();
@@ -156,7 +155,7 @@ void buildToolbar(const PanelContext& context)
     if (ImGui::Button("See through")) context.ask(SetSeeThrough{!view.seeThrough});
     if (view.seeThrough) ImGui::PopStyleColor();
     context.name("see-through");
-    help(context.withKey("selects what is hidden too", Toggle{"see-through"}));
+    help(context.withKey("selects hidden elements too", Toggle{"see-through"}));
     gap();
     buildMirror(context, view);
     gap();

@@ -271,7 +271,7 @@ Document withEdit(const State& state, const PosableCagePtr& cage, CageEdit edit)
         return withRest(state, withCutQuads(rest, edit::converted(elements, selection, edit::Element::face).ids));
     }
     std::vector<Edge> edges = selectedEdges(elements, selection);
-    if (edges.empty()) throw InputError("no edge of the cage is selected, nor one between what is");
+    if (edges.empty()) throw InputError("no edge of the cage is selected, nor one between selected elements");
     return withRest(state, withEditedEdges(rest, std::move(edges), edit));
 }
 

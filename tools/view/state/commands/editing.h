@@ -78,7 +78,7 @@ struct SetPivot {
 
 struct SetSeeThrough : ViewSwitch<&ViewState::seeThrough> {
     using ViewSwitch::ViewSwitch;
-    static LineInfo info() { return {"see-through", "on|off", 1, 1, "selects what is hidden too"}; }
+    static LineInfo info() { return {"see-through", "on|off", 1, 1, "selects hidden elements too"}; }
 };
 
 /// The radius of soft selection: points near the selection, along the cage's surface, move too.
