@@ -84,6 +84,7 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_done_is_one_line)
     const std::string script = (folder / "s.view").string();
     test::writeText(script, "open none.obj\n");
     expectError({program}, "display");
+    expectError({"env", "--unset=XDG_RUNTIME_DIR", program}, "display"); // as after `su -`
     expectError({program, "--hat"}, "--hat");
     expectError({program, "--without-window", "egl"}, "--script");
     expectError({program, "--script", script, "--without-window", "glx"}, "glx");
@@ -92,9 +93,9 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_done_is_one_line)
     expectError({program, "none.obj", "--script", script}, "none.obj");
     expectError({program, "--script", script, "--record", (folder / "no" / "r").string()}, "no/r");
     // A display that has no OpenGL 4.5.
-    expectError(
-        {"xvfb-run", "-a", "-s", displayOptions, "env", "MESA_GL_VERSION_OVERRIDE=3.3", program, "--script", script},
-        "OpenGL");
+    expectError({"xvfb-run", "-a", "-s", displayOptions, "env", "--unset=XDG_RUNTIME_DIR",
+                 "MESA_GL_VERSION_OVERRIDE=3.3", program, "--script", script},
+                "OpenGL");
 }
 
 BOOST_AUTO_TEST_CASE(the_first_walk_looks_the_same_everywhere)

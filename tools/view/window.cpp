@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <cstdlib>
 #include <map>
 #include <utility>
 
@@ -236,6 +237,10 @@ void Window::State::present()
 Window::Window(int width, int height)
 {
     glfwSetErrorCallback(nullptr);
+#ifdef GLFW_PLATFORM // since 3.4 it tries Wayland first, whose library writes to standard error where there is none
+    const bool mayHaveWayland = std::getenv("WAYLAND_DISPLAY") || std::getenv("XDG_RUNTIME_DIR");
+    if (!mayHaveWayland) glfwInitHint(GLFW_PLATFORM, GLFW_PLATFORM_X11);
+#endif
     if (!glfwInit()) fail("there is no display to open a window on");
     state_ = std::make_unique<State>();
     glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 4);
