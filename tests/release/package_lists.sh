@@ -6,11 +6,11 @@ before=$(compgen -v)
 before_functions=$(compgen -A function || true)
 . "$1"
 new=$(comm -13 <(sort <<<"$before") <(compgen -v | sort) | grep -vxE 'before|before_functions|PIPESTATUS|BASH_.*|_' | tr '\n' ' ')
-[ "$new" = "packages release_packages test_packages " ] || { echo "it sets: $new" >&2; exit 1; }
+[ "$new" = "packages quick_test_packages release_packages test_packages " ] || { echo "it sets: $new" >&2; exit 1; }
 system=asked
 . "$1"
 [ "$system" = asked ] || { echo "it changes \$system" >&2; exit 1; }
-for list in packages test_packages release_packages; do
+for list in packages quick_test_packages test_packages release_packages; do
     declare -n names=$list
     [ "${#names[@]}" -gt 0 ] || { echo "$list is empty" >&2; exit 1; }
 done
