@@ -105,7 +105,7 @@ int runRepair(Call call)
                  "repair");
     app.add_option("cage", cagePath)->required()->type_name("CAGE");
     app.add_option("-o,--output", outputPath, "the mended cage to write")->required()->type_name("OUT");
-    app.add_option("--report", reportPath, "the repairs, and the faults that stayed, as JSON")->type_name("FILE.json");
+    app.add_option("--report", reportPath, "the repairs and remaining faults, as JSON")->type_name("FILE.json");
     const TalkArguments talk(app);
     const std::vector<std::string> arguments = call.words;
     if (!parse(app, std::move(call))) return exitGood;
