@@ -64,5 +64,6 @@ function(vdbcage_embed_shaders target folder)
     # A target of its own: the one that needs them may be another folder's.
     add_custom_target(${target}_${folder}_shaders DEPENDS ${header})
     add_dependencies(${target} ${target}_${folder}_shaders)
+    add_dependencies(vdbcage_generated ${target}_${folder}_shaders)
     target_include_directories(${target} PRIVATE ${include})
 endfunction()
