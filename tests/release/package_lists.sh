@@ -3,9 +3,8 @@
 # that tools/in_system was asked for, stays as it was. Arguments: the script.
 set -eu
 before=$(compgen -v)
-before_functions=$(compgen -A function || true)
 . "$1"
-new=$(comm -13 <(sort <<<"$before") <(compgen -v | sort) | grep -vxE 'before|before_functions|PIPESTATUS|BASH_.*|_' | tr '\n' ' ')
+new=$(comm -13 <(sort <<<"$before") <(compgen -v | sort) | grep -vxE 'before|PIPESTATUS|BASH_.*|_' | tr '\n' ' ')
 [ "$new" = "packages quick_test_packages release_packages test_packages " ] || { echo "it sets: $new" >&2; exit 1; }
 system=asked
 . "$1"

@@ -96,6 +96,7 @@ BOOST_AUTO_TEST_CASE(where_nothing_is_in_the_way_the_place_is_the_best_one)
     const BoundingGuard guard(test::box({-0.01, -0.01, -0.01}, {0.01, 0.01, 0.01}));
     const GuardedMesh surface(test::ball(6), modelOf(guard));
     std::mt19937 random(1);
+    std::uint32_t free = 0, halved = 0, shortened = 0;
     for (std::uint32_t v = 0; v < surface.vertices(); ++v) {
         const StarChange star = starOf(surface, v);
         const double radius = radiusOf(surface, star, surface.point(v));
@@ -103,19 +104,26 @@ BOOST_AUTO_TEST_CASE(where_nothing_is_in_the_way_the_place_is_the_best_one)
         const Quadratic change = towardsGoal(random, way);
         const Vec3d goal = rounded(surface, star, surface.point(v) + way);
         if (!allows(surface, star, goal)) continue;
+        ++free;
         Vec3d p = surface.point(v);
         BOOST_TEST(descend(surface, star, p, change, {radius}, takeAll));
         BOOST_TEST((p - goal).length() < 1e-6 * radius);
         Vec3d half = surface.point(v);
-        if (descend(surface, star, half, change, {radius, 0.5}, takeAll))
+        if (descend(surface, star, half, change, {radius, 0.5}, takeAll)) {
             BOOST_TEST((half - surface.point(v) - 0.5 * way).length() < 1e-6 * radius);
+            ++halved;
+        }
         Vec3d far = surface.point(v); // half of the radius at most
         const bool isFound = descend(surface, star, far, towardsGoal(random, 100 * way), {radius}, takeAll);
         if (isFound) BOOST_TEST((far - surface.point(v)).length() < 0.5001 * radius);
+        shortened += isFound;
         Vec3d near = surface.point(v); // not worth a step
         BOOST_TEST(!descend(surface, star, near, towardsGoal(random, 1e-5 * way), {radius}, takeAll));
         BOOST_TEST(near == surface.point(v));
     }
+    BOOST_TEST(free > surface.vertices() / 2);
+    BOOST_TEST(halved > free / 2);
+    BOOST_TEST(shortened > free / 2);
 }
 
 BOOST_AUTO_TEST_CASE(the_place_is_nearly_as_good_as_the_best_of_many_allowed_ones)
@@ -247,6 +255,7 @@ BOOST_AUTO_TEST_CASE(places_are_offered_until_one_is_taken)
     const BoundingGuard guard(test::box({-0.01, -0.01, -0.01}, {0.01, 0.01, 0.01}));
     const GuardedMesh surface(test::ball(6), modelOf(guard));
     std::mt19937 random(2);
+    int repeated = 0;
     for (std::uint32_t v = 0; v < surface.vertices(); v += 7) {
         const StarChange star = starOf(surface, v);
         const Vec3d from = surface.point(v);
@@ -269,11 +278,13 @@ BOOST_AUTO_TEST_CASE(places_are_offered_until_one_is_taken)
             BOOST_TEST(allows(surface, star, offered[i]));
             if (i > 0) BOOST_TEST((offered[i] - from).length() < (offered[i - 1] - from).length()); // nearer each time
         }
+        repeated += offered.size() > 1;
         Quadratic flat = change; // which has no best place
         flat.curvature = Mat3d::zero();
         Vec3d p = from;
         BOOST_TEST(!descend(surface, star, p, flat, {radius}, takeAll));
     }
+    BOOST_TEST(repeated > 10);
 }
 
 BOOST_AUTO_TEST_CASE(the_integral_of_the_distance_is_that_of_many_samples)

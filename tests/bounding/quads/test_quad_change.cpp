@@ -99,11 +99,7 @@ BOOST_AUTO_TEST_CASE(there_are_as_many_changes_as_polygons_and_edges_have)
             BOOST_TEST(change.gain <= last);
             last = change.gain;
         }
-        // Those after which a vertex would have less than three edges gain nothing that is above any number.
-        BOOST_TEST(found[Kind::rotation] <= rotations);
-        BOOST_TEST(found[Kind::merge] <= merges);
         BOOST_TEST(found[Kind::split] == splits);
-        BOOST_TEST(found[Kind::collapse] <= 2 * now.table.count());
         std::size_t bad[3] = {}; // of rotations, merges, collapses
         const auto valences = valencesOf(now.polygons);
         for (const auto& [edge, polygon] : at) {
@@ -133,6 +129,7 @@ BOOST_AUTO_TEST_CASE(there_are_as_many_changes_as_polygons_and_edges_have)
                 bad[2] += isBad;
             }
         }
+        // Those after which a vertex would have less than three edges gain nothing that is above any number.
         BOOST_TEST(found[Kind::rotation] + bad[0] == rotations);
         BOOST_TEST(found[Kind::merge] + bad[1] == merges);
         BOOST_TEST(found[Kind::collapse] + bad[2] == 2 * now.table.count());
