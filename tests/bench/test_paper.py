@@ -37,6 +37,13 @@ class Paper(unittest.TestCase):
         for row in bounding:
             self.assertIn(">certified</td>", row)
 
+    def test_whole_runs_are_refused_where_none_would_be_made(self):
+        script = pathlib.Path(os.environ["VDBCAGE_SOURCE"]) / "tools/bench/paper.py"
+        done = subprocess.run([script, "-o", "paper.html", "--whole-runs", "8"], capture_output=True, text=True)
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("--whole-runs: 8 is not allowed; it must be 32 or more", done.stderr)
+        self.assertFalse(pathlib.Path("paper.html").exists())
+
 
 if __name__ == "__main__":
     unittest.main()

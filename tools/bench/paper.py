@@ -280,7 +280,7 @@ def add_poses(page, programs, arguments):
                  "The same pose of a cage of triangles and of a tri-quad one, and what it does to the model's surface. "
                  "Distortion 1 is none.")
     rows = []
-    for name in set(arguments.models) & {"bishop", "creature"}:
+    for name in [name for name in arguments.models if name in ("bishop", "creature")]:
         for mesh in ["triangles", "triquad"]:
             programs.cage(f"{name}.obj", "cage.obj", "--mesh", mesh)
             if name == "bishop":
@@ -343,6 +343,9 @@ def main():
     parser.add_argument("--voxelizers", default="cpu,gl,cgal", help="cgal needs the GPL part [%(default)s]")
     parser.add_argument("--threads", type=int, default=len(os.sched_getaffinity(0)), help="[all]")
     arguments = parser.parse_args()
+    least = max(RESOLUTIONS[0], min(arguments.resolutions))
+    if arguments.whole_runs < least:
+        parser.error(f"--whole-runs: {arguments.whole_runs} is not allowed; it must be {least} or more")
     matplotlib.use("svg")
     with tempfile.TemporaryDirectory() as folder:
         programs = Programs(arguments.programs, pathlib.Path(folder), arguments.threads)
