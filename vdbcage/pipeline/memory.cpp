@@ -3,7 +3,6 @@
 #include <vdbcage/mesh/parts.h>
 #include <vdbcage/pipeline/detail/memory_demand.h>
 #include <vdbcage/pipeline/detail/volumes.h>
-#include <vdbcage/volume/extract.h>
 #include <vdbcage/voxelize/detail/interior_by.h>
 
 namespace vdbcage {
@@ -36,7 +35,7 @@ detail::MemoryDemand demandOf(const Mesh& model, const CageOptions& options, Int
     detail::Volumes volumes(model);
     const detail::FieldVersion scale(options.scale);
     const auto quadsOf = [&](const detail::Voxels& voxels) {
-        return faceCount(extractSurface(*volumes.closing(countedOptions, scale, voxels, &questions)->mask, &questions));
+        return detail::quadsOf(volumes, countedOptions, scale, voxels, &questions);
     };
     const double share = options.bounding ? detail::shareOfSide(options, model, quadsOf) : 1;
     return {model, options, share, quadsOf};

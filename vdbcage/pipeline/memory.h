@@ -32,7 +32,8 @@ public:
 /// \param interrupter asked whether to stop, but told of no stage; may be null
 /// \throw InputError as Pipeline::run()
 /// \throw Cancelled when asked to stop
-/// Cost: that of voxels and their closing at resolution 64, once.
+/// Cost: that of voxels, their closing and its surface, at a resolution of up to 512 if it is not given and many faces
+/// are asked for, and at up to 64; several times where specks take most of the longest side.
 VDBCAGE_API std::size_t predictedMemory(const Mesh& model, const CageOptions& options = {},
                                         Interrupter* interrupter = nullptr);
 

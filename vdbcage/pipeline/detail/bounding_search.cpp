@@ -1,14 +1,10 @@
 #include <vdbcage/pipeline/detail/bounding_search.h>
 
-#include <algorithm>
 #include <cmath>
 #include <iomanip>
-#include <iterator>
-#include <limits>
 #include <sstream>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include <vdbcage/core/detail/longest_side.h>
 #include <vdbcage/core/detail/number_text.h>
@@ -95,12 +91,12 @@ std::optional<Candidate> BoundingSearch::findSymmetric(const Request& request, b
     const std::string finding = "the model misses " + nameOf(best.plane) + " by " + percentOfSide(best.deviation);
     if (!isAnyAllowed && best.deviation > limit) {
         throw InputError("--symmetry", "'" + nameOf(best.plane) + "' is not allowed: " + finding +
-                                           "; it may be at most " + detail::numberText(100 * limit) + " %");
+                                           "; it may be at most " + numberText(100 * limit) + " %");
     }
     if (best.deviation <= limit) {
         Contest contest{*cache_, certifier_, request, largeSurface_, ofSheet, best.plane};
         if (auto candidate = contest.tightest()) {
-            best.plane = *contest.rules().guard->symmetry();
+            best.plane = *candidate->voxels.plane;
             candidate->symmetry = best;
             return candidate;
         }
@@ -109,7 +105,7 @@ std::optional<Candidate> BoundingSearch::findSymmetric(const Request& request, b
     }
     if (auto candidate = findTilted(request, objection)) return candidate;
     if (!objection.empty()) return std::nullopt;
-    objection = finding + ", which is more than " + detail::numberText(100 * limit) + " %";
+    objection = finding + ", which is more than " + numberText(100 * limit) + " %";
     if (best.deviation <= policy::largestRequestedDeviation) {
         objection += ": --symmetry " + nameOf(best.plane) + " takes it all the same";
     }
@@ -140,8 +136,8 @@ std::optional<Candidate> BoundingSearch::findTilted(const Request& request, std:
         std::ostringstream text;
         text << "the model misses the plane across (" << std::setprecision(2) << n[0] << ", " << n[1] << ", " << n[2]
              << ") by " << percentOfSide(deviation) << ", which is more than "
-             << detail::numberText(100 * options.symmetryTolerance) << " %: --symmetry-tolerance "
-             << tolerance(deviation) << " takes it all the same";
+             << numberText(100 * options.symmetryTolerance) << " %: --symmetry-tolerance " << tolerance(deviation)
+             << " takes it all the same";
         objection = text.str();
     }
     return std::nullopt;

@@ -13,6 +13,12 @@
 
 namespace vdbcage::detail {
 
+/// Returns whether a start is a solid other than a closing or its hull. Such a one is a cage already.
+constexpr bool isSimpleSolid(CageStart kind)
+{
+    return kind == CageStart::orientedBox || kind == CageStart::tetrahedron;
+}
+
 /// The surface from which bounding cages of any face count are made: one around a closing or its convex hull, or a
 /// simple solid.
 struct StartingSurface {

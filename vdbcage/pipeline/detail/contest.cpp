@@ -159,8 +159,7 @@ Contest::Candidates Contest::simpleSolids(const Contestant& contestant)
     Voxels voxels = contestant.competitor.ladders.front().front();
     voxels.plane = contestant.guard().symmetry();
     Candidates starts{candidateFrom(contestant, voxels, CageStart::orientedBox)};
-    const bool isBoxTooMuch = options.mesh == CageFaces::triangles && options.faces < policy::trianglesOfBox;
-    if (isBoxTooMuch && !contestant.guard().symmetry()) {
+    if (isBoxTooMuch(options) && !contestant.guard().symmetry()) {
         starts.push_back(candidateFrom(contestant, voxels, CageStart::tetrahedron));
     }
     return starts;
@@ -264,9 +263,8 @@ void Contest::decimateAndTighten(const Contestant& contestant, Candidates& start
     // Simple solids are cages already.
     const auto isCage = [&](const Candidate& candidate) {
         const Mesh& surface = *candidate.surface;
-        const bool isSimple =
-            candidate.startKind == CageStart::orientedBox || candidate.startKind == CageStart::tetrahedron;
-        return isSimple && surface.triangles.size() + (onlyTriangles ? 2 : 1) * surface.quads.size() <= faces;
+        return isSimpleSolid(candidate.startKind) &&
+               surface.triangles.size() + (onlyTriangles ? 2 : 1) * surface.quads.size() <= faces;
     };
     forEachSurface(starts, StageName::decimate, [&](Candidate& candidate, Interrupter* piece) {
         const Mesh& surface = *candidate.surface;
@@ -329,17 +327,15 @@ std::optional<Candidate> Contest::tightestCertified(const Contestant& contestant
 Candidate Contest::box()
 {
     const CageOptions& options = request_.options;
-    const BoundingGuard& guard = *rules().guard;
+    const BoundingGuard& guard = *rulesFor(options).guard;
     openvdb::BBoxd box = boundingBox(cache_.model());
     box.expand(std::max(2 * guard.clearance(), policy::boxMargin * longestSide(box)));
     Candidate candidate;
     candidate.voxels = ladders(options).back().back();
     candidate.startKind = CageStart::box;
     candidate.closing = cache_.volumes().closing(options, request_.scale, candidate.voxels, request_.interrupter);
-    const bool areTriangles = options.mesh == CageFaces::triangles;
-    const bool isBoxTooMuch = areTriangles && options.faces < policy::trianglesOfBox;
-    Mesh surface = isBoxTooMuch ? tetrahedronMesh(box) : boxMesh(box);
-    if (areTriangles) surface = triangulated(std::move(surface));
+    Mesh surface = isBoxTooMuch(options) ? tetrahedronMesh(box) : boxMesh(box);
+    if (options.mesh == CageFaces::triangles) surface = triangulated(std::move(surface));
     candidate.surface = std::make_shared<const Mesh>(std::move(surface));
     candidate.topology = analyzeTopology(*candidate.surface, nullptr);
     candidate.decimated = candidate.smoothed = candidate.cage =

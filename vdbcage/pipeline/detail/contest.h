@@ -27,8 +27,6 @@ public:
     std::optional<Candidate> tightest();
     /// Returns the model's bounding box, the last resort, with its verdict.
     Candidate box();
-    /// Returns the rules under which the cages are made.
-    Rules rules() { return rulesFor(request_.options); }
 
 private:
     using Candidates = std::vector<Candidate>;

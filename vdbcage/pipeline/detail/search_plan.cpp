@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include <vdbcage/core/detail/joined.h>
 #include <vdbcage/core/detail/number_text.h>
 
 namespace vdbcage::detail {
@@ -41,12 +42,11 @@ std::vector<std::string> describe(const SearchPlan& plan)
     std::vector<std::string> lines;
     for (const SearchPlan::Competitor& competitor : plan.competitors) {
         std::string line = valueOf(competitor.options, "mesh") + ", " + valueOf(competitor.options, "effort") + ": ";
-        for (const std::vector<Voxels>& ladder : competitor.ladders) {
-            if (&ladder != &competitor.ladders.front()) line += "; ";
-            line += std::to_string(ladder.front().resolution) + " voxels, close radius " +
-                    numberText(ladder.front().closeRadius);
-            if (ladder.size() > 1) line += " to " + numberText(ladder.back().closeRadius);
-        }
+        line += joined(competitor.ladders, "; ", [](const std::vector<Voxels>& ladder) {
+            const std::string to = ladder.size() > 1 ? " to " + numberText(ladder.back().closeRadius) : "";
+            return std::to_string(ladder.front().resolution) + " voxels, close radius " +
+                   numberText(ladder.front().closeRadius) + to;
+        });
         if (competitor.startScales.size() > 1) {
             line += "; begun with";
             for (const double scale : competitor.startScales) line += ' ' + numberText(scale);

@@ -96,8 +96,9 @@ double shareOfSide(const CageOptions& options, const Mesh& model,
                    const std::function<std::size_t(const Voxels&)>& quadsOf)
 {
     if (options.resolution) return 1;
-    const double side = longestSide(boundingBox(model));
-    const openvdb::Vec3d extents = boundingBox(model).extents() / side;
+    const openvdb::BBoxd bounds = boundingBox(model);
+    const double side = longestSide(bounds);
+    const openvdb::Vec3d extents = bounds.extents() / side;
     const double box = extents[0] * extents[1] * extents[2];
     std::optional<double> largest; // the largest part, once it is needed
     CageOptions countedOptions = options;

@@ -88,12 +88,18 @@ constexpr std::size_t trianglesPerQuad = 3;       ///< at first: two a quad, and
 constexpr int symmetricPerturbations = 3;         ///< times as many, in the time that half a surface saves
 constexpr double largestRequestedDeviation = 0.3; ///< of a plane across a given axis; beyond, it is no symmetry
 constexpr double leastTurnedSide = 0.05;          ///< world units: OpenVDB has no turned voxels below 1.44e-5
-constexpr int trianglesOfBox = 12;
-constexpr double boxMargin = 0.01;       ///< of the longest side, between the model and its box
+constexpr double boxMargin = 0.01;                ///< of the longest side, between the model and its box
 constexpr double leastThickness = 0.005; ///< of a box, over its longest side: the guard keeps surfaces 0.002 apart
 constexpr int usualSmoothing = 3;        ///< sweeps that remove the steps of the voxels, where there is no guard
 
 } // namespace policy
+
+/// Returns whether a box has more faces than the options allow.
+inline bool isBoxTooMuch(const CageOptions& options)
+{
+    constexpr int trianglesOfBox = 12;
+    return options.mesh == CageFaces::triangles && options.faces < trianglesOfBox;
+}
 
 /// The values of the voxels' options, with `auto` resolved.
 struct Voxels {

@@ -107,13 +107,12 @@ std::shared_ptr<KeptStart> StageCache::keptStart(const CageOptions& options, con
 {
     const ClosingKey key = closingKey(options, scale, voxels);
     const auto isIt = [&](const auto& kept) {
-        return kept->guardOptions == rules.key.guard && kept->surface.kind == kind && kept->turned == voxels.turned &&
-               kept->surface.closing->key == key;
+        return kept->surface.kind == kind && kept->turned == voxels.turned && kept->surface.closing->key == key;
     };
     auto known = std::find_if(starts_.begin(), starts_.end(), isIt);
     if (known == starts_.end()) {
         StartingSurface surface = makeStart(options, scale, voxels, kind, rules, interrupter);
-        KeptStart kept{rules.key.guard, voxels.turned, rules.guard, std::move(surface), {}};
+        KeptStart kept{voxels.turned, rules.guard, std::move(surface), {}};
         known = starts_.insert(starts_.end(), std::make_shared<KeptStart>(std::move(kept)));
     }
     (*known)->isUsed = true;
@@ -126,7 +125,7 @@ StartingSurface StageCache::makeStart(const CageOptions& options, const FieldVer
     const BoundingGuard& guard = *rules.guard;
     const auto closingOf = [&](Volumes& volumes) { return volumes.closing(options, scale, voxels, interrupter); };
     auto closing = closingOf(volumes_);
-    if (kind == CageStart::orientedBox || kind == CageStart::tetrahedron) {
+    if (isSimpleSolid(kind)) {
         return simpleSolid(std::move(closing), kind, model_, axes(guard.symmetry(), interrupter).rows,
                            thinnestBox(rules.key.guard), guard, interrupter);
     }

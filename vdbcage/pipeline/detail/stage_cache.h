@@ -34,8 +34,7 @@ struct Rules {
 
 /// A starting surface, kept from run to run with its decimations.
 struct KeptStart {
-    GuardOptions guardOptions; ///< the key, together with kind, closing and `turned`
-    bool turned = false;       ///< its voxels lie along the model's own axes
+    bool turned = false; ///< its voxels lie along the model's own axes; the key together with kind and closing
     std::shared_ptr<const BoundingGuard> guard;
     StartingSurface surface;
     Memo<WishesKey, RecordedDecimation> decimation;

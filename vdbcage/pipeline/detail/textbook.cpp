@@ -1,6 +1,5 @@
 #include <vdbcage/pipeline/detail/textbook.h>
 
-#include <algorithm>
 #include <utility>
 
 #include <vdbcage/pipeline/detail/memory_demand.h>
@@ -13,6 +12,9 @@
 
 namespace vdbcage::detail {
 
+namespace {
+
+/// Makes quads by merging alone, as the options ask.
 Mesh merged(const Mesh& triangles, const CageOptions& options)
 {
     if (options.mesh == CageFaces::triangles) return triangles;
@@ -21,12 +23,14 @@ Mesh merged(const Mesh& triangles, const CageOptions& options)
     return triquad(triangles, merging);
 }
 
+} // namespace
+
 Candidate textbookCage(const CageOptions& options, const FieldVersion& scale, Volumes& volumes, Certifier& certifier,
                        std::size_t memoryLimit, Interrupter* interrupter)
 {
     if (memoryLimit < unlimitedMemory) {
         const auto quadsOf = [&](const Voxels& voxels) {
-            return faceCount(extractSurface(*volumes.closing(options, scale, voxels, interrupter)->mask, interrupter));
+            return detail::quadsOf(volumes, options, scale, voxels, interrupter);
         };
         MemoryDemand(certifier.model(), options, 1, quadsOf).requireWithin(memoryLimit);
     }

@@ -13,7 +13,4 @@ namespace vdbcage::detail {
 Candidate textbookCage(const CageOptions& options, const FieldVersion& scale, Volumes& volumes, Certifier& certifier,
                        std::size_t memoryLimit, Interrupter* interrupter);
 
-/// Makes quads by merging alone, as the options ask.
-Mesh merged(const Mesh& triangles, const CageOptions& options);
-
 } // namespace vdbcage::detail

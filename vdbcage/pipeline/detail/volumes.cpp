@@ -8,6 +8,7 @@
 #include <vdbcage/core/detail/parallel.h>
 #include <vdbcage/pipeline/detail/mesh_tools.h>
 #include <vdbcage/volume/cavities.h>
+#include <vdbcage/volume/extract.h>
 #include <vdbcage/volume/mirror.h>
 #include <vdbcage/volume/morphology.h>
 
@@ -105,6 +106,12 @@ ClosingKey closingKey(const CageOptions& options, const FieldVersion& scale, con
 std::size_t countOf(const openvdb::MaskGrid& mask)
 {
     return static_cast<std::size_t>(isolated([&] { return mask.activeVoxelCount(); }));
+}
+
+std::size_t quadsOf(Volumes& volumes, const CageOptions& options, const FieldVersion& scale, const Voxels& voxels,
+                    Interrupter* interrupter)
+{
+    return faceCount(extractSurface(*volumes.closing(options, scale, voxels, interrupter)->mask, interrupter));
 }
 
 std::shared_ptr<const Solid> Volumes::solid(const SolidKey& key, Interrupter* interrupter)

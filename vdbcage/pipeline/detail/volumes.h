@@ -95,4 +95,8 @@ ClosingKey closingKey(const CageOptions& options, const FieldVersion& scale, con
 /// Returns the number of active voxels of `mask`.
 std::size_t countOf(const openvdb::MaskGrid& mask);
 
+/// Returns the number of quads of a closing's surface.
+std::size_t quadsOf(Volumes& volumes, const CageOptions& options, const FieldVersion& scale, const Voxels& voxels,
+                    Interrupter* interrupter);
+
 } // namespace vdbcage::detail
