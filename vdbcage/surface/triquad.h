@@ -1,7 +1,6 @@
 #pragma once
 
 #include <vdbcage/core/export.h>
-#include <vdbcage/core/interrupter.h>
 #include <vdbcage/core/range.h>
 #include <vdbcage/mesh/mesh.h>
 

@@ -4,7 +4,6 @@
 #include <vdbcage/volume/extract.h>
 
 #include <array>
-#include <cstdint>
 #include <vector>
 
 #include <openvdb/tree/ValueAccessor.h>

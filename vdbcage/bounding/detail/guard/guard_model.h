@@ -75,6 +75,4 @@ private:
     Spacing spacing_;
 };
 
-const GuardModel& modelOf(const BoundingGuard& guard);
-
 } // namespace vdbcage::detail

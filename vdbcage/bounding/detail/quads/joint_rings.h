@@ -7,7 +7,6 @@
 #include <vdbcage/bounding/detail/guard/limb.h>
 #include <vdbcage/bounding/detail/quads/quad_loop.h>
 #include <vdbcage/bounding/detail/quads/quad_shape_term.h>
-#include <vdbcage/core/interrupter.h>
 
 namespace vdbcage::detail {
 

@@ -33,12 +33,22 @@ QuadShapeTerm shapeTerm(const GuardedMesh& surface, const QuadTable& table, cons
             weights.hold > 0 ? JointRings(surface, table).holds() : std::vector<PlaneHold>()};
 }
 
-void relaxQuads(GuardedMesh& surface, const QuadTable& table, const ShapeWeights& weights, int sweeps,
-                Interrupter* interrupter)
+namespace {
+
+void relaxSome(GuardedMesh& surface, const QuadTable& table, const std::vector<std::uint32_t>& vertices,
+               const ShapeWeights& weights, int sweeps, Interrupter* interrupter)
 {
     const double sample = areaPerSample(surface);
     const QuadShapeTerm term = shapeTerm(surface, table, weights, sample, interrupter);
-    tighten(surface, sweeps, sample, interrupter, &term);
+    tighten(surface, vertices, sweeps, sample, interrupter, &term);
+}
+
+} // namespace
+
+void relaxQuads(GuardedMesh& surface, const QuadTable& table, const ShapeWeights& weights, int sweeps,
+                Interrupter* interrupter)
+{
+    relaxSome(surface, table, allVertices(surface), weights, sweeps, interrupter);
 }
 
 void relaxQuads(GuardedMesh& surface, const QuadTable& table, int sweeps, Interrupter* interrupter)
@@ -49,33 +59,28 @@ void relaxQuads(GuardedMesh& surface, const QuadTable& table, int sweeps, Interr
 void relaxQuads(GuardedMesh& surface, const QuadTable& table, const std::vector<std::uint32_t>& vertices, int sweeps,
                 Interrupter* interrupter)
 {
-    const double sample = areaPerSample(surface);
-    const QuadShapeTerm term = shapeTerm(surface, table, usualShape, sample, interrupter);
-    tighten(surface, vertices, sweeps, sample, interrupter, &term);
+    relaxSome(surface, table, vertices, usualShape, sweeps, interrupter);
 }
 
 void straighten(GuardedMesh& surface, const QuadTable& table, const std::vector<std::uint32_t>& vertices,
                 Interrupter* interrupter)
 {
-    sweep(
-        surface, vertices, interrupter,
-        [&](std::uint32_t v, const StarChange& star) -> std::optional<Vec3d> {
-            const auto& quads = table.quadsOf(v);
-            if (quads.empty()) return std::nullopt;
-            Vec3d by(0.0);
-            for (const std::uint32_t q : quads) {
-                const Vec4I& ids = table.corners(q);
-                int i = 0;
-                while (ids[i] != v) ++i;
-                const auto corner = [&](int k) { return surface.point(ids[(i + k) % 4]); };
-                by += corner(1) - corner(2) + corner(3) - corner(0);
-            }
-            by /= static_cast<double>(quads.size());
-            const Vec3d up = outward(surface, star);
-            by -= by.dot(up) * up;
-            return towards(surface, star, surface.point(v) + by, {0.5, 0.25, 0.1});
-        },
-        [](std::uint32_t, const StarChange&, bool) {});
+    sweep(surface, vertices, interrupter, [&](std::uint32_t v, const StarChange& star) -> std::optional<Vec3d> {
+        const auto& quads = table.quadsOf(v);
+        if (quads.empty()) return std::nullopt;
+        Vec3d by(0.0);
+        for (const std::uint32_t q : quads) {
+            const Vec4I& ids = table.corners(q);
+            int i = 0;
+            while (ids[i] != v) ++i;
+            const auto corner = [&](int k) { return surface.point(ids[(i + k) % 4]); };
+            by += corner(1) - corner(2) + corner(3) - corner(0);
+        }
+        by /= static_cast<double>(quads.size());
+        const Vec3d up = outward(surface, star);
+        by -= by.dot(up) * up;
+        return towards(surface, star, surface.point(v) + by, {0.5, 0.25, 0.1});
+    });
 }
 
 std::size_t countUnfit(const GuardedMesh& surface, const QuadTable& table)

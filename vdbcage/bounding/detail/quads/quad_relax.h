@@ -17,10 +17,11 @@ double distancePerPolygon(const GuardedMesh& surface, const QuadTable& table, do
 
 /// Returns the number of quads that are not fit.
 std::size_t countUnfit(const GuardedMesh& surface, const QuadTable& table);
+
 /// The weight of a quad that is not fit, in parts of the distance of a mean quad.
 constexpr double unfitWeight = 8;
 
-/// The weights of the shape while loops are added and removed, in parts of the distance of a mean quad.
+/// The weights of the shape while connectivity changes, in parts of the distance of a mean quad.
 constexpr ShapeWeights usualShape{0.35, 0.15, 0, 0.35, unfitWeight};
 /// Returns the weights times the distance of a mean quad.
 ShapeWeights scaled(const ShapeWeights& weights, double distance);

@@ -52,12 +52,9 @@ double meanIncidentEdge(const GuardedMesh& surface, const StarChange& star)
 void inflate(GuardedMesh& surface, const std::vector<std::uint32_t>& vertices, double by, Interrupter* interrupter,
              const ShapeTerm* shape)
 {
-    sweep(
-        surface, vertices, interrupter,
-        [&](std::uint32_t v, const StarChange& star) {
-            return towards(surface, star, surface.point(v) + by * outward(surface, star), {1.0, 0.5, 0.2}, shape);
-        },
-        [](std::uint32_t, const StarChange&, bool) {});
+    sweep(surface, vertices, interrupter, [&](std::uint32_t v, const StarChange& star) {
+        return towards(surface, star, surface.point(v) + by * outward(surface, star), {1.0, 0.5, 0.2}, shape);
+    });
 }
 
 namespace {
@@ -116,14 +113,11 @@ void undoWhereGrown(GuardedMesh& surface, const GuardedMesh& before, const std::
     const auto isBetter = [&](std::uint32_t v) { return !(around[v] > 0); };
     vertices.erase(std::remove_if(vertices.begin(), vertices.end(), isBetter), vertices.end());
     for (int i = 0; i < passes; ++i) {
-        sweep(
-            surface, vertices, interrupter,
-            [&](std::uint32_t v, const StarChange& star) -> std::optional<Vec3d> {
-                const Vec3d& place = before.point(v);
-                if (surface.point(v) == place || !allows(surface, star, place)) return std::nullopt;
-                return place;
-            },
-            [](std::uint32_t, const StarChange&, bool) {});
+        sweep(surface, vertices, interrupter, [&](std::uint32_t v, const StarChange& star) -> std::optional<Vec3d> {
+            const Vec3d& place = before.point(v);
+            if (surface.point(v) == place || !allows(surface, star, place)) return std::nullopt;
+            return place;
+        });
     }
 }
 
@@ -148,13 +142,10 @@ double areaPerSample(const GuardedMesh& surface, std::size_t faces, int samples)
 
 void shrink(GuardedMesh& surface, Interrupter* interrupter)
 {
-    sweep(
-        surface, allVertices(surface), interrupter,
-        [&](std::uint32_t v, const StarChange& star) {
-            const Vec3d closest = surface.guard().tree().closest(surface.point(v)).point;
-            return towards(surface, star, 0.5 * (ringAverage(surface, star) + closest), {0.9, 0.5, 0.2});
-        },
-        [](std::uint32_t, const StarChange&, bool) {});
+    sweep(surface, allVertices(surface), interrupter, [&](std::uint32_t v, const StarChange& star) {
+        const Vec3d closest = surface.guard().tree().closest(surface.point(v)).point;
+        return towards(surface, star, 0.5 * (ringAverage(surface, star) + closest), {0.9, 0.5, 0.2});
+    });
 }
 
 void inflate(GuardedMesh& surface, double by, Interrupter* interrupter)
@@ -183,15 +174,11 @@ void roundOff(GuardedMesh& surface, int sweeps, Interrupter* interrupter)
             const std::uint32_t v = vertices[k];
             toAverage[v] = ringAverage(surface, starOf(surface, v)) - surface.point(v);
         });
-        sweep(
-            surface, vertices, interrupter,
-            [&](std::uint32_t v, const StarChange& star) {
-                const Vec3d around = ringMean(star, Vec3d(0.0), [&](std::uint32_t w) { return toAverage[w]; });
-                const Vec3d room = outwardShare * meanIncidentEdge(surface, star) * outward(surface, star);
-                return towards(surface, star, surface.point(v) + 0.7 * toAverage[v] - 0.7 * around + room,
-                               {1.0, 0.5, 0.2});
-            },
-            [](std::uint32_t, const StarChange&, bool) {});
+        sweep(surface, vertices, interrupter, [&](std::uint32_t v, const StarChange& star) {
+            const Vec3d around = ringMean(star, Vec3d(0.0), [&](std::uint32_t w) { return toAverage[w]; });
+            const Vec3d room = outwardShare * meanIncidentEdge(surface, star) * outward(surface, star);
+            return towards(surface, star, surface.point(v) + 0.7 * toAverage[v] - 0.7 * around + room, {1.0, 0.5, 0.2});
+        });
     }
 }
 
@@ -271,15 +258,13 @@ void relaxFinally(GuardedMesh& surface, double areaPerSample, Interrupter* inter
     const DistanceMeasure measure(surface, areaPerSample, shape);
     std::vector<std::uint32_t> seed(surface.vertices(), TriangleBvh::none);
     for (int i = 0; i < sweeps; ++i) {
-        sweep(
-            surface, allVertices(surface), interrupter,
-            [&](std::uint32_t v, const StarChange& star) -> std::optional<Vec3d> {
-                Vec3d p = surface.point(v);
-                DistanceMeasure::Fit fit = measure.fit(surface, star, p, seed[v]);
-                if (!measure.improve(surface, star, p, fit, seed[v], pace)) return std::nullopt;
-                return p;
-            },
-            [](std::uint32_t, const StarChange&, bool) {});
+        sweep(surface, allVertices(surface), interrupter,
+              [&](std::uint32_t v, const StarChange& star) -> std::optional<Vec3d> {
+                  Vec3d p = surface.point(v);
+                  DistanceMeasure::Fit fit = measure.fit(surface, star, p, seed[v]);
+                  if (!measure.improve(surface, star, p, fit, seed[v], pace)) return std::nullopt;
+                  return p;
+              });
     }
 }
 

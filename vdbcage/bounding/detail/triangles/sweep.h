@@ -58,4 +58,12 @@ void sweep(GuardedMesh& surface, const std::vector<std::uint32_t>& vertices, Int
     }
 }
 
+/// Moves each vertex to the allowed place that propose(v, star) returns, if any.
+template <typename Propose>
+void sweep(GuardedMesh& surface, const std::vector<std::uint32_t>& vertices, Interrupter* interrupter,
+           const Propose& propose)
+{
+    sweep(surface, vertices, interrupter, propose, [](std::uint32_t, const StarChange&, bool) {});
+}
+
 } // namespace vdbcage::detail
