@@ -1,6 +1,5 @@
 // Poses a model by its cage, whose upper half leans over:  example_pose model.obj cage.obj posed.obj
 
-#include <cmath>
 #include <iostream>
 #include <vector>
 

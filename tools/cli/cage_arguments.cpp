@@ -26,7 +26,7 @@ void setPrecisionFor(const std::filesystem::path& cage, CageOptions& options)
     if (options.precision == Precision::float64) {
         throw InputError("--precision",
                          "'float64' is not allowed with " + cage.string() + ": " + cage.extension().string() +
-                             " files hold float32; it must be auto or float32, or the file " + ".obj, .off or .ply");
+                             " files hold float32; it must be auto or float32, or the file .obj, .off or .ply");
     }
     options.precision = Precision::float32;
 }

@@ -121,10 +121,10 @@ const CLI::Option* optionOf(const CLI::App& app, const CLI::ParseError& error)
     const std::string name = option->get_name();
     if (dynamic_cast<const CLI::RequiredError*>(&error)) throw InputError(name + " is required");
     const int most = option->get_items_expected_max();
-    if (most == 0) throw InputError(name + ": it takes no value");
-    if (option->results().empty()) throw InputError(name + ": it needs a value, " + option->get_type_name());
+    if (most == 0) throw InputError(name, "it takes no value");
+    if (option->results().empty()) throw InputError(name, "it needs a value, " + option->get_type_name());
     if (option->count() > static_cast<std::size_t>(most)) {
-        throw InputError(name + ": it is given " + std::to_string(option->count()) + " times; once is allowed");
+        throw InputError(name, "it is given " + std::to_string(option->count()) + " times; once is allowed");
     }
     const std::string given = "'" + option->results().front() + "'";
     if (option->get_type_name() == "N") {

@@ -63,8 +63,8 @@ CoordinateOptions CoordinateArguments::optionsOf(Coordinates family) const
     const CoordinateOptions options = optionsOfEach(family);
     const auto requireFor = [&](const CLI::Option* option, bool FamilyInfo::*has) {
         if (option->count() == 0 || familyInfo(family).*has) return;
-        throw InputError(option->get_lnames().front() + ": only " + namesOf(has) + " coordinates have it; these are " +
-                         coordinatesName(family));
+        throw InputError(option->get_lnames().front(),
+                         "only " + namesOf(has) + " coordinates have it; these are " + coordinatesName(family));
     };
     requireFor(resolutionOption_, &FamilyInfo::hasResolution);
     for (const CLI::Option* option : elasticOptions_) requireFor(option, &FamilyInfo::hasElasticity);

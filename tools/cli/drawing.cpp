@@ -7,7 +7,7 @@ namespace vdbcage::cli {
 void requirePngExtension(const std::filesystem::path& path)
 {
     if (path.extension() != ".png") {
-        throw InputError(path.string() + ": pictures are written as .png; the name must end so");
+        throw InputError(path.string(), "pictures are written as .png; the name must end so");
     }
 }
 

@@ -54,7 +54,7 @@ std::vector<ModelFile> readModels(const std::vector<std::filesystem::path>& path
         for (const ModelFile& other : models) {
             std::error_code ignored; // reading reports the error
             if (std::filesystem::equivalent(path, other.path, ignored)) {
-                throw InputError(path.string() + ": this model is named twice");
+                throw InputError(path.string(), "this model is named twice");
             }
         }
         const std::string bytes = detail::readMeshBytes(path);

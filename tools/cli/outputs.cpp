@@ -96,10 +96,10 @@ void Outputs::writes(const fs::path& path)
     if (!isFolderMade) requireWritable(path);
     const auto [known, isFirst] = known_.emplace(identityOf(path), fs::path());
     if (isFirst) return;
-    throw InputError(path.string() + ": this file is named twice; " +
-                     (known->second.empty()
-                          ? "all outputs must be different files"
-                          : "it is the input " + known->second.string() + ", which would be overwritten"));
+    throw InputError(path.string(), "this file is named twice; " + (known->second.empty()
+                                                                        ? "all outputs must be different files"
+                                                                        : "it is the input " + known->second.string() +
+                                                                              ", which would be overwritten"));
 }
 
 void Outputs::add(const fs::path& path, const FileWriter& write)

@@ -30,7 +30,7 @@ Pattern parse(const fs::path& path)
             digits = 10 * digits + static_cast<std::size_t>(name[end++] - '0');
         }
         if (end == name.size() || name[end] != 'd') continue;
-        if (pattern.found) throw InputError(path.string() + ": has more than one place for a frame's number");
+        if (pattern.found) throw InputError(path.string(), "has more than one place for a frame's number");
         pattern = {name.substr(0, at), name.substr(end + 1), digits, true};
     }
     return pattern;

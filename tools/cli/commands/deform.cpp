@@ -98,17 +98,17 @@ std::vector<fs::path> weightsFiles(const fs::path& output, const std::vector<fs:
 {
     if (models.size() == 1) {
         if (output.extension() == ".npy") return {output};
-        throw InputError(output.string() + ": weights are written as .npy; the name must end so");
+        throw InputError(output.string(), "weights are written as .npy; the name must end so");
     }
     if (output.extension() == ".npy") {
-        throw InputError(output.string() + ": for several models it must be a folder, which gets a .npy for each");
+        throw InputError(output.string(), "for several models it must be a folder, which gets a .npy for each");
     }
     std::vector<fs::path> files;
     for (const fs::path& model : models) {
         files.push_back(output / model.stem().concat(".npy"));
         if (std::count(files.begin(), files.end(), files.back()) > 1) {
-            throw InputError(model.string() + ": another model has this name too, and the weights of both would be " +
-                             files.back().string());
+            throw InputError(model.string(), "another model has this name too, and the weights of both would be " +
+                                                 files.back().string());
         }
     }
     return files;
@@ -270,8 +270,8 @@ int runDeform(Call call)
         }
     }
     if (!weights.empty() && arguments.familyIsGiven() && binding.family() != family) {
-        throw InputError(weights.string() + ": has " + coordinatesName(binding.family()) +
-                         " coordinates; --coordinates asks for " + arguments.familyName());
+        throw InputError(weights.string(), std::string("has ") + coordinatesName(binding.family()) +
+                                               " coordinates; --coordinates asks for " + arguments.familyName());
     }
     const std::string fit = weights.empty() ? describeFit(cage, model, &*progress) : "";
     if (!weights.empty()) binding = binding.with(arguments.optionsOf(binding.family()).elasticity);

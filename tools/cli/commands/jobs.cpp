@@ -88,12 +88,13 @@ int runJobs(Call call)
         const std::string name = model.stem().string();
         const auto [first, isNew] = modelOf.try_emplace(name, model);
         if (!isNew) {
-            throw InputError(model.string() + ": another model has this name too, and the cages of both would be " +
-                             (folder / name).string() + '.' + format + ": " + first->second.string());
+            throw InputError(model.string(), "another model has this name too, and the cages of both would be " +
+                                                 (folder / name).string() + '.' + format + ": " +
+                                                 first->second.string());
         }
         std::error_code ignored;
         if (fs::equivalent(folder / (name + '.' + format), model, ignored)) {
-            throw InputError(model.string() + ": its cage would replace it; choose another folder");
+            throw InputError(model.string(), "its cage would replace it; choose another folder");
         }
         const auto output = [&](const char* option, const std::string& extension) {
             return std::string(" ") + option + ' ' + shellWord(asFile(folder / (name + extension)));

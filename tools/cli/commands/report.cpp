@@ -24,7 +24,7 @@ int runReport(Call call)
     if (!parse(app, std::move(call))) return exitGood;
     const auto requireExtension = [](const std::filesystem::path& file, const std::string& extension) {
         if (file.empty() || file.extension() == extension) return;
-        throw InputError(file.string() + ": the name must end in " + extension);
+        throw InputError(file.string(), "the name must end in " + extension);
     };
     requireExtension(csv, ".csv");
     requireExtension(html, ".html");

@@ -123,7 +123,7 @@ void savePosedModels(PosedScene scene, const fs::path& path, Interrupter* interr
 
 void saveWeights(const BindOrder& order, const fs::path& path, Interrupter* interrupter)
 {
-    if (path.extension() != ".npy") throw InputError(path.string() + ": weights are written as .npy");
+    if (path.extension() != ".npy") throw InputError(path.string(), "weights are written as .npy");
     const std::vector<openvdb::Vec3d>& points = order.model->mesh.points;
     const std::vector<float> weights = computeWeights(*order.cage, points, coordinateOptions(order), interrupter);
     writeWeights(*order.cage, points, order.family, weights, path);
@@ -132,7 +132,7 @@ void saveWeights(const BindOrder& order, const fs::path& path, Interrupter* inte
 void saveColours(const Mesh& model, const std::vector<openvdb::Vec3d>& points, const std::vector<double>& values,
                  const fs::path& path)
 {
-    if (path.extension() != ".ply") throw InputError(path.string() + ": colours are written as .ply");
+    if (path.extension() != ".ply") throw InputError(path.string(), "colours are written as .ply");
     Mesh coloured = model;
     coloured.points = points;
     std::vector<PointColour> colours;
@@ -146,7 +146,7 @@ void saveColours(const Mesh& model, const std::vector<openvdb::Vec3d>& points, c
 
 void savePicture(const draw::Picture& picture, const fs::path& path)
 {
-    if (path.extension() != ".png") throw InputError(path.string() + ": pictures are written as .png");
+    if (path.extension() != ".png") throw InputError(path.string(), "pictures are written as .png");
     saveText(draw::encodePng(picture), path);
 }
 

@@ -17,7 +17,7 @@ void requirePoses(const SaveSource& source, const std::string& verb)
     // The poses belong to the shown cage; a new one may not have them yet.
     const CageResultPtr current = currentCage(source.planner, verb);
     if (!source.cage || source.cage->rest().get() != &current->cage) {
-        throw InputError(verb + ": the poses are not carried over to the new cage yet");
+        throw InputError(verb, "the poses are not carried over to the new cage yet");
     }
     for (const PoseKey& key : source.state.document.poses.keys()) {
         if (source.cage->isGivenUp(key.pose)) {
@@ -87,14 +87,12 @@ Write SaveWeights::writer(const SaveSource& source, const fs::path& file)
 
 Write SaveCage::writer(const SaveSource& source, const fs::path& file)
 {
-    currentCage(source.planner, "save-cage");
-    return [cage = source.planner.made(), file](Interrupter* i) { saveCage(*cage, file, i); };
+    return [cage = currentCage(source.planner, "save-cage"), file](Interrupter* i) { saveCage(*cage, file, i); };
 }
 
 Write SaveReport::writer(const SaveSource& source, const fs::path& file)
 {
-    currentCage(source.planner, "save-report");
-    return [cage = source.planner.made(), file](Interrupter*) { saveReport(*cage, file); };
+    return [cage = currentCage(source.planner, "save-report"), file](Interrupter*) { saveReport(*cage, file); };
 }
 
 Write SaveOptions::writer(const SaveSource& source, const fs::path& file)
@@ -105,7 +103,7 @@ Write SaveOptions::writer(const SaveSource& source, const fs::path& file)
 CageResultPtr currentCage(const Planner& planner, const std::string& verb)
 {
     if (planner.standing() != Planner::Standing::current) {
-        throw InputError(verb + ": the cage of these options is not made yet");
+        throw InputError(verb, "the cage of these options is not made yet");
     }
     return planner.made();
 }

@@ -20,7 +20,7 @@ Saver::Saver(std::function<void()> wake)
 void Saver::save(const std::filesystem::path& path, bool isSequence,
                  const std::function<Write(const std::filesystem::path&)>& makeWriter)
 {
-    if (isBusy_) throw InputError(path.string() + ": another file is still being written");
+    if (isBusy_) throw InputError(path.string(), "another file is still being written");
     const std::filesystem::path file = isSequence ? files::patternFor(path) : path;
     Write write = makeWriter(file);
     isBusy_ = true;

@@ -42,8 +42,8 @@ fs::path sameFile(const Json& file, const fs::path& scene)
     const std::string digest = digestOf(path);
     const auto saved = file.at("digest").get<std::string>();
     if (digest != saved) {
-        throw InputError(path.string() + ": it is not the file that the scene " + scene.string() +
-                         " was saved with (its digest is " + digest + ", not " + saved + ")");
+        throw InputError(path.string(), "it is not the file that the scene " + scene.string() +
+                                            " was saved with (its digest is " + digest + ", not " + saved + ")");
     }
     return path;
 }
@@ -130,9 +130,9 @@ fs::path poseBeside(const fs::path& scene, int frame)
 
 void saveScene(const State& state, const CageResult* current, const fs::path& path)
 {
-    if (path.extension() != ".json") throw InputError(path.string() + ": scenes are written as .json");
+    if (path.extension() != ".json") throw InputError(path.string(), "scenes are written as .json");
     const Document& document = state.document;
-    if (!document.model) throw InputError(path.string() + ": there is no model yet, so there is no scene to save");
+    if (!document.model) throw InputError(path.string(), "there is no model yet, so there is no scene to save");
     Json options = Json::object(), view = Json::array();
     for (const auto& [name, value] : optionValues(document.options)) options[name] = value;
     for (const Command& command : commandsFor(state.view)) view.push_back(toText(command));
@@ -170,7 +170,7 @@ void saveScene(const State& state, const CageResult* current, const fs::path& pa
     try {
         text = scene.dump(2) + '\n';
     } catch (const Json::exception&) {
-        throw InputError(path.string() + ": a name of a file is not UTF-8, as JSON must be");
+        throw InputError(path.string(), "a name of a file is not UTF-8, as JSON must be");
     }
     PendingFiles files;
     const auto add = [&](const Mesh& mesh, const fs::path& file) {

@@ -29,15 +29,14 @@ TimeLine openSequence(const MeshPtr& cage, const fs::path& path, std::string* re
 {
     const fs::path pattern = patternOf(path);
     if (!files::isPattern(pattern)) {
-        throw InputError(path.string() + ": its name has no number; a sequence is named as walk.0001.obj");
+        throw InputError(path.string(), "its name has no number; a sequence is named as walk.0001.obj");
     }
     TimeLine poses;
     const std::vector<files::Frame> frames = files::findFrames(pattern);
     std::size_t reordered = 0;
     for (const files::Frame& frame : frames) {
         if (frame.number > lastFrame) {
-            throw InputError(frame.path.string() + ": the number of a frame must be at most " +
-                             std::to_string(lastFrame));
+            throw InputError(frame.path.string(), "the number of a frame must be at most " + std::to_string(lastFrame));
         }
         PosedPoints pose = openPosedCage(*cage, frame.path);
         reordered += pose.reordered;
@@ -56,7 +55,7 @@ public:
     double number(const std::string& what)
     {
         std::string word;
-        if (!(words_ >> word)) throw InputError(path_ + ": it ends where " + what + " should be");
+        if (!(words_ >> word)) throw InputError(path_, "it ends where " + what + " should be");
         try {
             return numberOf(word, what);
         } catch (const InputError& error) {
@@ -68,15 +67,15 @@ public:
         const double value = number(what);
         if (!(value >= 0 && value <= static_cast<double>(most) && value == std::floor(value))) {
             std::ostringstream text;
-            text << path_ << ": " << what << " is " << value << "; it must be a whole number from 0 to " << most;
-            throw InputError(text.str());
+            text << what << " is " << value << "; it must be a whole number from 0 to " << most;
+            throw InputError(path_, text.str());
         }
         return static_cast<std::size_t>(value);
     }
     void requireEnd()
     {
         std::string word;
-        if (words_ >> word) throw InputError(path_ + ": '" + word + "' comes after the last move");
+        if (words_ >> word) throw InputError(path_, "'" + word + "' comes after the last move");
     }
 
 private:
@@ -99,7 +98,7 @@ TimeLine openParameters(const MeshPtr& cage, const fs::path& path, int frames)
         std::vector<Vec3d> points = cage->points;
         for (std::size_t i = 0; i < points.size(); ++i) {
             points[i] += factor * moves[i];
-            if (!points[i].isFinite()) throw InputError(path.string() + ": it moves a point out of all numbers");
+            if (!points[i].isFinite()) throw InputError(path.string(), "it moves a point out of all numbers");
         }
         return poseOf(cage, std::move(points));
     };

@@ -90,7 +90,7 @@ double numberOf(const std::string& word, const std::string& what)
     const char* const end = word.data() + word.size();
     const auto parsed = std::from_chars(word.data(), end, value);
     if (parsed.ec != std::errc() || parsed.ptr != end || !std::isfinite(value)) {
-        throw InputError(what + ": '" + word + "' is not allowed; it must be a number");
+        throw InputError(what, "'" + word + "' is not allowed; it must be a number");
     }
     return value;
 }
@@ -101,8 +101,8 @@ int wholeNumberOf(const std::string& word, const std::string& what, int least, i
     const char* const end = word.data() + word.size();
     const auto parsed = std::from_chars(word.data(), end, value);
     if (parsed.ec != std::errc() || parsed.ptr != end || value < least || value > most) {
-        throw InputError(what + ": '" + word + "' is not allowed; it must be a whole number, " + std::to_string(least) +
-                         " to " + std::to_string(most));
+        throw InputError(what, "'" + word + "' is not allowed; it must be a whole number, " + std::to_string(least) +
+                                   " to " + std::to_string(most));
     }
     return value;
 }
@@ -111,12 +111,12 @@ bool switchOf(const std::string& word, const std::string& what)
 {
     if (word == "on") return true;
     if (word == "off") return false;
-    throw InputError(what + ": '" + word + "' is not allowed; it must be on or off");
+    throw InputError(what, "'" + word + "' is not allowed; it must be on or off");
 }
 
 void refuse(const std::string& what, const std::string& value, const std::string& allowed)
 {
-    throw InputError(what + ": '" + value + "' is not allowed; it must be " + allowed);
+    throw InputError(what, "'" + value + "' is not allowed; it must be " + allowed);
 }
 
 } // namespace vdbcage::view

@@ -15,7 +15,7 @@ namespace vdbcage::view {
 inline PoseKey requiredKey(const TimeLine& poses, int frame, const std::string& command)
 {
     const PoseKey* const key = poses.keyAt(frame);
-    if (!key) throw InputError(command + ": there is no key at frame " + std::to_string(frame));
+    if (!key) throw InputError(command, "there is no key at frame " + std::to_string(frame));
     return *key;
 }
 
