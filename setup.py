@@ -19,8 +19,9 @@ FRESH = WORK / "setuptools"  # made anew: else a wheel would also have what an o
 class CMakeBuild(build_ext):
     def build_extension(self, extension):
         subprocess.run(["cmake", "-S", SOURCE, "-B", WORK, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release",
-                        "-DBUILD_SHARED_LIBS=OFF", "-DVDBCAGE_BUILD_TESTS=OFF", "-DVDBCAGE_BUILD_VIEW=OFF",
-                        f"-DVDBCAGE_PYTHON={sys.executable}", *shlex.split(os.environ.get("CMAKE_ARGS", ""))], check=True)
+                        "-DCMAKE_UNITY_BUILD=ON", "-DBUILD_SHARED_LIBS=OFF", "-DVDBCAGE_BUILD_TESTS=OFF",
+                        "-DVDBCAGE_BUILD_VIEW=OFF", f"-DVDBCAGE_PYTHON={sys.executable}",
+                        *shlex.split(os.environ.get("CMAKE_ARGS", ""))], check=True)
         subprocess.run(["cmake", "--build", WORK, "--target", "vdbcage_python"], check=True)
         built = pathlib.Path(self.get_ext_fullpath(extension.name))
         built.parent.mkdir(parents=True, exist_ok=True)

@@ -7,6 +7,7 @@ set(library ${build})
 if(kind STREQUAL "shared")
     set(library ${build}_shared) # beside the other: a compiler cache sees the same relative paths
     run(${CMAKE_COMMAND} -S ${source} -B ${library} -G Ninja -DCMAKE_BUILD_TYPE=Release -DBUILD_SHARED_LIBS=ON
+        -DCMAKE_UNITY_BUILD=${unity}
         -DCMAKE_CXX_COMPILER=${compiler} -DCMAKE_CXX_COMPILER_LAUNCHER=${launcher} -DVDBCAGE_BUILD_TESTS=OFF
         -DVDBCAGE_WITH_CGAL_GPL=OFF -DVDBCAGE_WARNINGS_AS_ERRORS=${strict}
         -DVDBCAGE_BUILD_TOOLS=${tools} -DVDBCAGE_BUILD_VIEW=${view} -DVDBCAGE_BUILD_PYTHON=${python}

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <sstream>
 #include <system_error>
 
 #include <tools/report/run_facts.h>
@@ -144,6 +145,14 @@ Mesh readMesh(const std::filesystem::path& path, std::string& warnings)
     MeshFile file = readMeshFile(path);
     warnings += report::warningLines(path, file.summary);
     return std::move(file.mesh);
+}
+
+std::string bytesOf(const Mesh& mesh, const std::filesystem::path& path)
+{
+    std::ostringstream out;
+    out.exceptions(std::ios::badbit); // the stream would hide a lack of memory
+    writeMesh(mesh, out, path);
+    return out.str();
 }
 
 const char* verdict(const CageCheck& check)

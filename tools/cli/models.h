@@ -53,6 +53,9 @@ std::string warningLines(const std::vector<ModelFile>& models);
 /// Reads a mesh and appends the warningLines() of the file.
 Mesh readMesh(const std::filesystem::path& path, std::string& warnings);
 
+/// Returns the bytes of a file of this name that holds the mesh. \throw IoError
+std::string bytesOf(const Mesh& mesh, const std::filesystem::path& path);
+
 /// Returns "bounding", "NOT bounding" or "NOT a valid cage".
 const char* verdict(const CageCheck& check);
 

@@ -20,10 +20,10 @@ namespace {
 using openvdb::Vec3d;
 
 /// Three or four points.
-using Corners = std::vector<Index>;
+using Polygon = std::vector<Index>;
 
 /// Returns a normal of the face; its length is twice the area.
-Vec3d normalOf(const std::vector<Vec3d>& points, const Corners& face)
+Vec3d normalOf(const std::vector<Vec3d>& points, const Polygon& face)
 {
     const Vec3d &a = points[face[0]], &c = points[face[2]];
     return face.size() == 3 ? (points[face[1]] - a).cross(c - a) : (c - a).cross(points[face[3]] - points[face[1]]);
@@ -31,7 +31,7 @@ Vec3d normalOf(const std::vector<Vec3d>& points, const Corners& face)
 
 /// A face that replaces another one in an edit.
 struct Replacement {
-    Corners corners;
+    Polygon corners;
     Vec3d oldNormal;
 };
 
@@ -62,7 +62,7 @@ public:
         throw InputError((kind_ == Element::edge ? "edge " : "face ") + std::to_string(id_), problem);
     }
 
-    Corners cornersOf(Index face) const
+    Polygon cornersOf(Index face) const
     {
         const Ids ids = elements_.pointsOfFace(face);
         return {ids.begin(), ids.end()};
@@ -71,7 +71,7 @@ public:
     /// A face beside the edge, its corners turned so that the edge is from the first to the second one.
     struct Side {
         Index face;
-        Corners corners;
+        Polygon corners;
     };
     /// Returns both sides: along the edge from its smaller point to its larger one, then the other way.
     std::pair<Side, Side> sides() const
@@ -126,7 +126,7 @@ public:
         std::sort(gone.begin(), gone.end());
         Mesh result;
         result.points = std::move(points);
-        const auto add = [&](const Corners& c) {
+        const auto add = [&](const Polygon& c) {
             if (c.size() == 3) {
                 result.triangles.emplace_back(rename(c[0]), rename(c[1]), rename(c[2]));
             } else {
@@ -158,7 +158,7 @@ private:
 
     void requireUpright(const std::vector<Vec3d>& points, const Replacement& face) const
     {
-        const Corners& c = face.corners;
+        const Polygon& c = face.corners;
         const bool isFlat = c.size() == 3 ? detail::isDegenerate(points[c[0]], points[c[1]], points[c[2]])
                                           : detail::isDegenerate(points[c[0]], points[c[1]], points[c[2]]) ||
                                                 detail::isDegenerate(points[c[0]], points[c[2]], points[c[3]]);
@@ -184,7 +184,7 @@ Mesh splitEdge(const Mesh& mesh, Index edge)
     const auto [one, other] = edit.sides();
     std::vector<Replacement> added;
     for (const Edit::Side& side : {one, other}) {
-        const Corners& c = side.corners;
+        const Polygon& c = side.corners;
         const Vec3d normal = normalOf(mesh.points, c);
         added.push_back({{c[0], middle, c.back()}, normal});
         added.push_back({{middle, c[1], c[2]}, normal});
@@ -223,7 +223,7 @@ Mesh collapseEdge(const Mesh& mesh, Index edge)
     for (const Index end : {kept, gone}) {
         for (const Index face : elements.facesOfPoint(end)) {
             if (end == gone && (face == one.face || face == other.face)) continue; // handled at the first end
-            Corners corners = edit.cornersOf(face);
+            Polygon corners = edit.cornersOf(face);
             const Vec3d normal = normalOf(mesh.points, corners);
             const bool isBeside = face == one.face || face == other.face;
             if (!isBeside && std::count(corners.begin(), corners.end(), end == gone ? kept : gone) > 0) {
@@ -253,9 +253,9 @@ Mesh flipEdge(const Mesh& mesh, Index edge)
     edit.requireEdgesAt(b, 4);
     edit.requireNoEdge(c, d);
     const Vec3d first = normalOf(mesh.points, one.corners), second = normalOf(mesh.points, other.corners);
-    const Corners atA{a, d, c}, atB{d, b, c};
+    const Polygon atA{a, d, c}, atB{d, b, c};
     // Each new triangle replaces a part of both old ones.
-    for (const Corners& corners : {atA, atB}) {
+    for (const Polygon& corners : {atA, atB}) {
         if (!(normalOf(mesh.points, corners).dot(second) > 0)) edit.fail("a face would turn over");
     }
     return edit.replaced(mesh.points, {one.face, other.face}, {{atA, first}, {atB, first}});
@@ -266,7 +266,7 @@ Mesh mergeFaces(const Mesh& mesh, Index edge)
     constexpr double leastCosine = 0.5; // of 60 degrees
     const Edit edit(mesh, Element::edge, edge);
     const auto [one, other] = edit.triangles();
-    const Corners quad{one.corners[0], other.corners[2], one.corners[1], one.corners[2]};
+    const Polygon quad{one.corners[0], other.corners[2], one.corners[1], one.corners[2]};
     edit.requireEdgesAt(quad[0], 4);
     edit.requireEdgesAt(quad[2], 4);
     double deviation = 0;
@@ -280,7 +280,7 @@ Mesh mergeFaces(const Mesh& mesh, Index edge)
 Mesh cutQuad(const Mesh& mesh, Index face, std::optional<Diagonal> diagonal)
 {
     const Edit edit(mesh, Element::face, face);
-    Corners c = edit.cornersOf(face);
+    Polygon c = edit.cornersOf(face);
     if (c.size() != 4) edit.fail("it is a triangle; only quads are cut");
     const auto squaredLength = [&](std::size_t from) {
         return (mesh.points[c[from]] - mesh.points[c[from + 2]]).lengthSqr();

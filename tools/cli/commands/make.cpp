@@ -158,15 +158,6 @@ void reportFailure(const MakeArguments& arguments, const Failure& failure) noexc
     }
 }
 
-/// Returns the bytes of the cage's file, for its hash in reports.
-std::string bytesOf(const Mesh& cage, const fs::path& path)
-{
-    std::ostringstream out;
-    out.exceptions(std::ios::badbit); // the stream would hide a lack of memory
-    writeMesh(cage, out, path);
-    return out.str();
-}
-
 /// Makes the cage, writes all files and returns the text to print. All memory is freed before the files get their
 /// names: freeing may fail too (trees of OpenVDB ask for memory for it), and ends the process.
 std::string makeFiles(const MakeArguments& arguments, const std::string& inputs, Outputs& outputs,

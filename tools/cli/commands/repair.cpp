@@ -45,13 +45,6 @@ report::Json toJson(const RepairReport& report)
             {"after", toJson(report.after)}};
 }
 
-std::string bytesOf(const Mesh& mesh, const std::filesystem::path& path)
-{
-    std::ostringstream bytes;
-    writeMesh(mesh, bytes, path);
-    return bytes.str();
-}
-
 /// Returns the defects that keep a mesh from being a valid cage.
 std::string defects(const CageCheck& check)
 {

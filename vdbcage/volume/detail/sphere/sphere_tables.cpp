@@ -26,11 +26,6 @@ int heightAt(int dx, int dy, std::int64_t squaredRadius)
     return static_cast<int>(height) + 1;
 }
 
-int gap(int position, int lower, int upper)
-{
-    return std::max({lower - position, position - upper, 0});
-}
-
 } // namespace
 
 SphereTables::SphereTables(std::int64_t squared, const Progress& progress)

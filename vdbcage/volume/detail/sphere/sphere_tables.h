@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -11,6 +12,12 @@ namespace vdbcage::detail {
 
 constexpr int lanes = 64;        ///< the columns of an entry: column (x, y) is lane 8 y + x
 constexpr int smallRadius = 120; ///< largest radius, rounded up, for which heights fit bytes
+
+/// Returns the voxels between a position and an interval.
+inline int gap(int position, int lower, int upper)
+{
+    return std::max({lower - position, position - upper, 0});
+}
 
 /// The height of no voxel. Heights count from it, so differences of bytes stay above 0.
 template <class T>

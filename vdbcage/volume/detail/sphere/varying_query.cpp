@@ -4,16 +4,11 @@
 #include <cmath>
 #include <limits>
 
+#include <vdbcage/volume/detail/sphere/sphere_tables.h>
+
 namespace vdbcage::detail {
 
 namespace {
-
-constexpr int lanes = 64; // the (y, z) of one x
-
-int gap(int position, int lower, int upper)
-{
-    return std::max({lower - position, position - upper, 0});
-}
 
 // Returns squared distances along one axis, from a voxel or an interval of them to each of the four entries of a part.
 std::array<std::int32_t, 4> nearSquares(int lower, int upper)
