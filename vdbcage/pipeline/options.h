@@ -130,8 +130,8 @@ void visitOptions(Options& options, Visit&& visit)
           options.mergeAngle);
     visit(OptionInfo{"symmetry", "", "symmetric cages of symmetric models"}, options.symmetry);
     visit(OptionInfo{"symmetry-tolerance", "F", "how symmetric models are", {0, 0.3}, true}, options.symmetryTolerance);
-    visit(OptionInfo{"interior", "", "what is inside of open models"}, options.interior);
-    visit(OptionInfo{"voxelizer", "", "what makes the voxels", {}, true}, options.voxelizer);
+    visit(OptionInfo{"interior", "", "open models are solids, or shells"}, options.interior);
+    visit(OptionInfo{"voxelizer", "", "voxelizes by CPU, OpenGL or CGAL", {}, true}, options.voxelizer);
     visit(OptionInfo{"bounding", "", "only ever a certified cage", {}, true}, options.bounding);
     visit(OptionInfo{"clearance", "F", "least distance to model", GuardOptions::clearances, true}, options.clearance);
     visit(OptionInfo{"min-angle", "DEG", "floor for triangle angles", GuardOptions::minAngles, true}, options.minAngle);
