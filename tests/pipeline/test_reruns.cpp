@@ -16,8 +16,8 @@
 #include <tbb/global_control.h>
 #include <vdbcage/check/check.h>
 #include <vdbcage/core/error.h>
-#include <vdbcage/pipeline/detail/bounding_search.h>
-#include <vdbcage/pipeline/detail/volumes.h>
+#include <vdbcage/pipeline/detail/search/bounding_search.h>
+#include <vdbcage/pipeline/detail/stages/volumes.h>
 #include <vdbcage/pipeline/pipeline.h>
 #include <vdbcage/volume/factor_field.h>
 

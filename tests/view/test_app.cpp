@@ -4,12 +4,12 @@
 #include <filesystem>
 #include <random>
 
-#include "app_fixture.h"
-#include "random_command.h"
 #include <tools/view/state/words.h>
 #include <vdbcage/check/check.h>
 #include <vdbcage/core/error.h>
 #include <vdbcage/mesh/mesh_io.h>
+#include <view/support/app_fixture.h>
+#include <view/support/random_command.h>
 
 using namespace vdbcage;
 using namespace vdbcage::test;

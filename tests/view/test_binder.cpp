@@ -5,10 +5,10 @@
 #include <random>
 #include <thread>
 
-#include "orders.h"
 #include <support/shapes.h>
-#include <tools/view/jobs/binder.h>
+#include <tools/view/posing/binder.h>
 #include <vdbcage/core/error.h>
+#include <view/support/orders.h>
 
 using namespace vdbcage;
 using namespace vdbcage::view;

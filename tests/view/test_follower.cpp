@@ -4,18 +4,18 @@
 #include <atomic>
 #include <cmath>
 
-#include "orders.h"
 #include <support/shapes.h>
 #include <support/temporary_folder.h>
-#include <tools/view/jobs/follower.h>
 #include <tools/view/jobs/model_values.h>
-#include <tools/view/jobs/posing.h>
+#include <tools/view/posing/follower.h>
+#include <tools/view/posing/posing.h>
 #include <tools/view/state/cage_changes.h>
 #include <tools/view/state/session.h>
 #include <tools/view/state/words.h>
 #include <vdbcage/core/error.h>
 #include <vdbcage/deform/inversions.h>
 #include <vdbcage/deform/weights_io.h>
+#include <view/support/orders.h>
 
 using namespace vdbcage;
 using namespace vdbcage::view;

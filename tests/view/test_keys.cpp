@@ -5,10 +5,10 @@
 #include <filesystem>
 #include <set>
 
-#include "app_fixture.h"
 #include <tools/view/input/key_map.h>
 #include <tools/view/state/words.h>
 #include <vdbcage/core/error.h>
+#include <view/support/app_fixture.h>
 
 using namespace vdbcage;
 using namespace vdbcage::test;

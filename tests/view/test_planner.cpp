@@ -5,9 +5,9 @@
 #include <random>
 #include <set>
 
-#include "orders.h"
 #include <support/shapes.h>
 #include <tools/view/jobs/planner.h>
+#include <view/support/orders.h>
 
 using namespace vdbcage;
 using namespace vdbcage::view;

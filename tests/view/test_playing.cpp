@@ -3,10 +3,10 @@
 
 #include <cmath>
 
-#include "app_fixture.h"
 #include <tools/view/state/cage_changes.h>
 #include <tools/view/state/words.h>
 #include <vdbcage/core/error.h>
+#include <view/support/app_fixture.h>
 
 using namespace vdbcage;
 using namespace vdbcage::test;

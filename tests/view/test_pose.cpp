@@ -5,16 +5,16 @@
 #include <cmath>
 #include <random>
 
-#include "orders.h"
 #include <support/shapes.h>
 #include <tools/edit/mirror.h>
 #include <tools/edit/topology.h>
 #include <tools/view/jobs/model_values.h>
-#include <tools/view/jobs/posed_model.h>
+#include <tools/view/posing/posed_model.h>
 #include <tools/view/state/cage_changes.h>
 #include <tools/view/state/session.h>
 #include <tools/view/state/words.h>
 #include <vdbcage/core/error.h>
+#include <view/support/orders.h>
 
 using namespace vdbcage;
 using namespace vdbcage::view;

@@ -5,12 +5,12 @@
 #include <random>
 #include <thread>
 
-#include "app_fixture.h"
 #include <support/reordered.h>
 #include <tools/view/state/cage_changes.h>
 #include <tools/view/state/words.h>
 #include <vdbcage/core/detail/number_text.h>
 #include <vdbcage/core/error.h>
+#include <view/support/app_fixture.h>
 
 using namespace vdbcage;
 using namespace vdbcage::test;

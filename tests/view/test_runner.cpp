@@ -7,12 +7,12 @@
 #include <new>
 #include <random>
 
-#include "orders.h"
 #include <support/shapes.h>
 #include <support/stop_at.h>
 #include <tools/view/jobs/runner.h>
 #include <vdbcage/core/detail/grids.h>
 #include <vdbcage/core/error.h>
+#include <view/support/orders.h>
 
 using namespace vdbcage;
 using namespace vdbcage::view;

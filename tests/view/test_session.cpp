@@ -4,14 +4,14 @@
 #include <limits>
 #include <random>
 
-#include "orders.h"
-#include "random_command.h"
 #include <support/shapes.h>
 #include <support/temporary_folder.h>
 #include <tools/view/state/session.h>
 #include <tools/view/state/words.h>
 #include <vdbcage/core/error.h>
 #include <vdbcage/mesh/mesh_io.h>
+#include <view/support/orders.h>
+#include <view/support/random_command.h>
 
 using namespace vdbcage;
 using namespace vdbcage::view;

@@ -5,19 +5,19 @@
 #include <map>
 #include <random>
 
-#include "orders.h"
 #include <support/reordered.h>
 #include <support/shapes.h>
 #include <support/temporary_folder.h>
 #include <tools/edit/carry.h>
 #include <tools/view/files/scene.h>
-#include <tools/view/jobs/carrier.h>
+#include <tools/view/posing/carrier.h>
 #include <tools/view/state/cage_changes.h>
 #include <tools/view/state/pose_files.h>
 #include <tools/view/state/session.h>
 #include <tools/view/state/words.h>
 #include <vdbcage/core/error.h>
 #include <vdbcage/mesh/mesh_io.h>
+#include <view/support/orders.h>
 
 using namespace vdbcage;
 using namespace vdbcage::view;

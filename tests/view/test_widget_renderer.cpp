@@ -14,7 +14,7 @@
 #include <tools/view/widgets/theme.h>
 #include <tools/view/widgets/widget_renderer.h>
 #include <vdbcage/gl/offscreen.h>
-#include <view/panel.h>
+#include <view/support/panel.h>
 
 using namespace vdbcage;
 using namespace vdbcage::view;

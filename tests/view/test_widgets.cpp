@@ -8,7 +8,7 @@
 
 #include <tools/view/widgets/theme.h>
 #include <vdbcage/core/error.h>
-#include <view/panel.h>
+#include <view/support/panel.h>
 
 using namespace vdbcage;
 using namespace vdbcage::view;

@@ -1,4 +1,4 @@
-#include "models.h"
+#include <tools/cli/models.h>
 
 #include <algorithm>
 #include <cstdint>

@@ -8,7 +8,7 @@
 
 #include <tools/view/files/model_watch.h>
 #include <tools/view/files/saver.h>
-#include <tools/view/jobs/making.h>
+#include <tools/view/making.h>
 #include <tools/view/panels/panels.h>
 #include <tools/view/picture/picture_control.h>
 #include <tools/view/screen.h>

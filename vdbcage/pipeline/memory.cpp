@@ -1,8 +1,8 @@
 #include <vdbcage/pipeline/memory.h>
 
 #include <vdbcage/mesh/parts.h>
-#include <vdbcage/pipeline/detail/memory_demand.h>
-#include <vdbcage/pipeline/detail/volumes.h>
+#include <vdbcage/pipeline/detail/search/memory_demand.h>
+#include <vdbcage/pipeline/detail/stages/volumes.h>
 #include <vdbcage/voxelize/detail/interior_by.h>
 
 namespace vdbcage {

@@ -14,8 +14,8 @@
 #include <vdbcage/core/detail/parallel.h>
 #include <vdbcage/core/error.h>
 #include <vdbcage/mesh/parts.h>
-#include <vdbcage/pipeline/detail/bounding_search.h>
-#include <vdbcage/pipeline/detail/textbook.h>
+#include <vdbcage/pipeline/detail/search/bounding_search.h>
+#include <vdbcage/pipeline/detail/search/textbook.h>
 #include <vdbcage/voxelize/detail/interior_by.h>
 
 namespace vdbcage {

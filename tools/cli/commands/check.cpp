@@ -8,10 +8,10 @@
 #include <vdbcage/mesh/io/formats.h>
 #include <vdbcage/mesh/parts.h>
 
+#include <tools/cli/arguments/talk_arguments.h>
 #include <tools/cli/commands.h>
 #include <tools/cli/interrupt.h>
 #include <tools/cli/outputs.h>
-#include <tools/cli/talk_arguments.h>
 
 namespace vdbcage::cli {
 

@@ -13,13 +13,13 @@
 #include <vdbcage/mesh/io/formats.h>
 #include <vdbcage/mesh/mesh_io.h>
 
+#include <tools/cli/arguments/coordinate_arguments.h>
+#include <tools/cli/arguments/talk_arguments.h>
 #include <tools/cli/commands.h>
 #include <tools/cli/commands/compare_families.h>
-#include <tools/cli/coordinate_arguments.h>
 #include <tools/cli/drawing.h>
 #include <tools/cli/interrupt.h>
 #include <tools/cli/outputs.h>
-#include <tools/cli/talk_arguments.h>
 
 namespace vdbcage::cli {
 

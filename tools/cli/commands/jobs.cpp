@@ -8,9 +8,9 @@
 #include <vdbcage/core/error.h>
 #include <vdbcage/mesh/mesh_io.h>
 
-#include <tools/cli/cage_arguments.h>
+#include <tools/cli/arguments/cage_arguments.h>
+#include <tools/cli/arguments/talk_arguments.h>
 #include <tools/cli/commands.h>
-#include <tools/cli/talk_arguments.h>
 
 namespace vdbcage::cli {
 

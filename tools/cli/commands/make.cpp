@@ -17,12 +17,12 @@
 #include <vdbcage/mesh/mesh_io.h>
 #include <vdbcage/pipeline/pipeline.h>
 
-#include <tools/cli/cage_arguments.h>
+#include <tools/cli/arguments/cage_arguments.h>
+#include <tools/cli/arguments/talk_arguments.h>
 #include <tools/cli/commands.h>
 #include <tools/cli/drawing.h>
 #include <tools/cli/interrupt.h>
 #include <tools/cli/outputs.h>
-#include <tools/cli/talk_arguments.h>
 
 namespace vdbcage::cli {
 

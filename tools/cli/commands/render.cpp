@@ -14,8 +14,8 @@
 #include <vdbcage/volume/extract.h>
 #include <vdbcage/volume/vdb_io.h>
 
+#include <tools/cli/arguments/coordinate_arguments.h>
 #include <tools/cli/commands.h>
-#include <tools/cli/coordinate_arguments.h>
 #include <tools/cli/drawing.h>
 #include <tools/cli/outputs.h>
 

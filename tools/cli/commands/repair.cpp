@@ -13,10 +13,10 @@
 #include <vdbcage/mesh/mesh_io.h>
 #include <vdbcage/surface/repair.h>
 
+#include <tools/cli/arguments/talk_arguments.h>
 #include <tools/cli/commands.h>
 #include <tools/cli/interrupt.h>
 #include <tools/cli/outputs.h>
-#include <tools/cli/talk_arguments.h>
 
 namespace vdbcage::cli {
 

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include <tools/draw/picture.h>
-#include <tools/view/jobs/bound_model.h>
 #include <tools/view/jobs/cage_result.h>
+#include <tools/view/posing/bound_model.h>
 #include <tools/view/state/time_line.h>
 #include <vdbcage/deform/binding.h>
 

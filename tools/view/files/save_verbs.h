@@ -4,7 +4,7 @@
 #include <functional>
 #include <string>
 
-#include <tools/view/jobs/posing.h>
+#include <tools/view/posing/posing.h>
 #include <tools/view/state/commands/line.h>
 
 /// Verbs that write a file of the scene's results. Each is a line (see line.h) with a writer:

@@ -11,10 +11,10 @@
 #include <openvdb/math/Vec3.h>
 #include <tools/view/input/key_map.h>
 #include <tools/view/jobs/planner.h>
-#include <tools/view/jobs/pose_checker.h>
 #include <tools/view/jobs/runner.h>
 #include <tools/view/picture/picture_overlay.h>
 #include <tools/view/picture/rectangle.h>
+#include <tools/view/posing/pose_checker.h>
 #include <tools/view/state/cage_changes.h>
 #include <tools/view/state/session.h>
 

@@ -7,7 +7,7 @@
 #include <tools/draw/shape.h>
 #include <tools/draw/stand_in.h>
 #include <tools/view/jobs/model_values.h>
-#include <tools/view/jobs/posed_model.h>
+#include <tools/view/posing/posed_model.h>
 
 namespace vdbcage::view {
 

@@ -3,9 +3,9 @@
 #include <memory>
 #include <vector>
 
-#include <tools/view/jobs/posing.h>
 #include <tools/view/picture/rectangle.h>
 #include <tools/view/picture/viewport.h>
+#include <tools/view/posing/posing.h>
 
 namespace vdbcage::view {
 
