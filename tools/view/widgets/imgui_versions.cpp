@@ -110,9 +110,9 @@ void setUp()
     ImGuiIO& io = ImGui::GetIO();
     io.ConfigInputTrickleEventQueue = false; // a frame gets one event, and modifiers
 #if IMGUI_VERSION_NUM >= 19140
-    // An abandoned frame is no error to report.
+    // An abandoned frame is no error to show. ImGui asks for one way to tell of it: its log, which nobody sees.
     io.ConfigErrorRecoveryEnableAssert = false;
-    io.ConfigErrorRecoveryEnableDebugLog = false;
+    io.ConfigErrorRecoveryEnableDebugLog = true;
     io.ConfigErrorRecoveryEnableTooltip = false;
 #endif
 }
