@@ -9,7 +9,7 @@
 
 #include <vdbcage/core/detail/parallel.h>
 #include <vdbcage/geometry/floats.h>
-#include <vdbcage/geometry/triangle_bvh.h>
+#include <vdbcage/geometry/triangle.h>
 
 namespace vdbcage::detail {
 

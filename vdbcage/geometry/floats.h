@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 
@@ -31,6 +32,17 @@ inline float leastOf(Floats v)
 inline float greatestOf(Floats v)
 {
     return -leastOf(-v);
+}
+
+/// Returns a float not above, off by up to 2e-7 of the value.
+inline float roundedDown(double value)
+{
+    return static_cast<float>(value - 1.2e-7 * std::abs(value) - 1e-40);
+}
+/// Returns a float not below, off by up to 2e-7 of the value.
+inline float roundedUp(double value)
+{
+    return static_cast<float>(value + 1.2e-7 * std::abs(value) + 1e-40);
 }
 
 /// Returns the results of a comparison, a bit each.

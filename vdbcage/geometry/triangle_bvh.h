@@ -3,51 +3,18 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <memory>
 #include <vector>
 
-#include <openvdb/Types.h>
 #include <vdbcage/core/interrupter.h>
+#include <vdbcage/geometry/bvh_space.h>
 #include <vdbcage/geometry/floats.h>
+#include <vdbcage/geometry/triangle.h>
 
 namespace vdbcage::detail {
-
-using openvdb::Vec3d;
-using openvdb::Vec3I;
-
-/// The three corners of a triangle.
-using Corners = std::array<Vec3d, 3>;
-
-/// A closed box: a point on its side belongs to it. Not initialized by default.
-struct Box {
-    Vec3d lo, hi;
-
-    static Box of(const Vec3d& p) { return {p, p}; }
-    static Box of(const Corners& t);
-    void expand(const Box& other);
-    bool meets(const Box& other) const
-    {
-        return lo[0] <= other.hi[0] && other.lo[0] <= hi[0] && lo[1] <= other.hi[1] && other.lo[1] <= hi[1] &&
-               lo[2] <= other.hi[2] && other.lo[2] <= hi[2];
-    }
-    /// Returns the squared distance from p, 0 inside; rounded.
-    double squaredDistance(const Vec3d& p) const
-    {
-        double sum = 0;
-        for (int i = 0; i < 3; ++i) {
-            const double d = std::max(std::max(lo[i] - p[i], p[i] - hi[i]), 0.0);
-            sum += d * d;
-        }
-        return sum;
-    }
-};
-
-/// Returns the point of the closed triangle nearest to `p`; rounded. The triangle may be degenerate.
-Vec3d closestPointOnTriangle(const Vec3d& p, const Corners& triangle);
 
 /// A bounding volume hierarchy over triangles, which are indices into points and may be degenerate.
 ///
@@ -123,16 +90,10 @@ public:
     Closest closest(const Vec3d& p, std::uint32_t seed = none, double slack = 0) const;
 
 private:
-    friend class TreeBuilder;
+    friend class BvhBuilder;
     struct alignas(64) Node : FourBoxes {   // two cache lines
         std::array<std::uint32_t, 4> child; // a node, or a leaf
         std::uint32_t frame;                // the axes of the boxes: of frames_
-    };
-    // Orthonormal axes, through the middle of the tree's units.
-    struct Frame {
-        std::array<Vec3d, 3> axes{Vec3d(1, 0, 0), Vec3d(0, 1, 0), Vec3d(0, 0, 1)};
-
-        Vec3d of(const Vec3d& p) const { return {axes[0].dot(p), axes[1].dot(p), axes[2].dot(p)}; }
     };
     static constexpr std::uint32_t isLeaf = std::uint32_t(1) << 31;
     static constexpr std::uint32_t maxItems = std::uint32_t(1) << 29;
@@ -167,17 +128,12 @@ private:
         }
     }
 
-    /// Returns a point in the units of nodes, in which the box is [-1, 1] along its longest side. Monotone in every
-    /// coordinate.
-    Vec3d inUnits(const Vec3d& p) const { return (p - centre_) * scale_; }
-
     std::vector<Vec3d> points_;
     std::vector<Item> items_;
     std::unique_ptr<Node[]> nodes_; // the root first
-    std::vector<Frame> frames_;     // the first is the tree's own
+    std::vector<BvhFrame> frames_;  // the first is the tree's own
     Box box_;
-    Vec3d centre_{0.0};
-    double scale_ = 1;
+    BvhUnits units_;
 };
 
 /// The region of a query: a box, cut by slabs, in the units of the tree that made it. If it came from up to four points
@@ -202,7 +158,7 @@ public:
         return bits(met);
     }
     /// Returns the same query for nodes whose boxes are along other axes; it may be a little wider.
-    Query along(const Frame& frame) const;
+    Query along(const BvhFrame& frame) const;
     /// Returns whether both certainly came from the same points, perhaps along other axes.
     bool isFromSamePoints(const Query& other) const
     {
@@ -220,7 +176,7 @@ private:
     explicit Query(const Box& box);
     void addSlab(const Vec3d& normal, double low, double high, double farthest);
     void addPoint(const Vec3d& p) { points_[count_++] = p; }
-    Query aroundPoints(const Frame& frame) const;
+    Query aroundPoints(const BvhFrame& frame) const;
 
     std::array<Floats, 3> lo_, hi_;
     std::array<Slab, 10> slab_; // not initialized

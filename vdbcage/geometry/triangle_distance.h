@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include <vdbcage/geometry/triangle_bvh.h>
+#include <vdbcage/geometry/triangle.h>
 
 /// Distances between triangles, in rounded arithmetic with stated errors.
 namespace vdbcage::detail {

@@ -5,7 +5,7 @@
 #include <cstddef>
 
 #include <boost/container/small_vector.hpp>
-#include <vdbcage/geometry/triangle_bvh.h>
+#include <vdbcage/geometry/triangle.h>
 
 /// Tests of how the triangles of one surface touch each other, decided exactly.
 namespace vdbcage::detail {

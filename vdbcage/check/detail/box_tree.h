@@ -9,7 +9,7 @@
 #include <vector>
 
 #include <vdbcage/core/interrupter.h>
-#include <vdbcage/geometry/triangle_bvh.h>
+#include <vdbcage/geometry/triangle.h>
 
 namespace vdbcage::detail {
 

@@ -5,7 +5,7 @@
 
 #include <openvdb/Types.h>
 #include <vdbcage/core/interrupter.h>
-#include <vdbcage/geometry/triangle_bvh.h>
+#include <vdbcage/geometry/triangle.h>
 
 /// Exact predicates of triangles with any finite doubles as coordinates. All sets are closed: a touch counts.
 namespace vdbcage::detail {
