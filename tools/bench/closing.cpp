@@ -113,7 +113,7 @@ Json measure(const std::string& model, int resolution, int radius, const CageOpt
         mebibytes(closed->tree()) + (element == StructuringElement::sphere ? mebibytes(dilated->tree()) : 0);
     line["closing"]["memory_peak_beyond_trees_mib"] = memory - trees;
     line["interrupter"] = largestGap(runs, [&](GapClock& clock) { return closeMask(*solid, {r, r, element}, &clock); });
-    if (element == StructuringElement::sphere && (shape.scale.grid || !shape.scale.regions.empty())) {
+    if (element == StructuringElement::sphere && !shape.scale.isNone()) {
         const auto close = [&](Interrupter* watcher) {
             return closeMask(*solid, {r, r, element}, shape.scale, watcher);
         };

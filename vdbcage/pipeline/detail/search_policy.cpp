@@ -167,8 +167,8 @@ std::vector<double> startScales(const CageOptions& options)
 
 bool mayBeTurned(const CageOptions& options)
 {
-    const bool isScaled = options.scale.grid || !options.scale.regions.empty(); // in places along x, y and z
-    return options.mesh == CageFaces::loops && !options.resolution && !isScaled;
+    // Places of a scale are along x, y and z.
+    return options.mesh == CageFaces::loops && !options.resolution && options.scale.isNone();
 }
 
 bool dependsOnSurface(const CageOptions& options)
