@@ -107,7 +107,7 @@ double shareOfSide(const CageOptions& options, const Mesh& model,
         Voxels voxels = finestVoxels(countedOptions, share);
         const double finer = 2.0 * voxels.resolution;
         voxels.resolution = static_cast<int>(std::lround(startScales(countedOptions).front() * voxels.resolution));
-        if (finer > mostResolution || box * finer * finer * finer > mostVoxels) return share;
+        if (finer > CageOptions::resolutions.most || box * finer * finer * finer > mostVoxels) return share;
         const double triangles = 2 * static_cast<double>(quadsOf(voxels));
         if (triangles >= (share == 1 ? fewestTriangles : usualTriangles) * options.faces) return share;
         if (!largest) largest = largestPart(model) / side;
