@@ -93,11 +93,6 @@ Mesh start(const BoundingGuard& guard, int axis, int sum)
     return guard.symmetrized(ball(axis, sum), snap);
 }
 
-bool same(const Mesh& a, const Mesh& b)
-{
-    return a.points == b.points && a.triangles == b.triangles && a.quads == b.quads;
-}
-
 /// Faces with corners on both sides of the plane, or none off it.
 std::size_t facesNotOnOneSide(const Mesh& mesh, const SymmetryPlane& plane)
 {
@@ -312,7 +307,7 @@ BOOST_AUTO_TEST_CASE(threads_do_not_matter)
     };
     const Mesh many = make();
     const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
-    BOOST_CHECK(same(many, make()));
+    BOOST_CHECK(test::sameMesh(many, make()));
 }
 
 BOOST_AUTO_TEST_CASE(surfaces_that_are_not_symmetric_are_refused)

@@ -150,21 +150,11 @@ bool findStar(const GuardedMesh& surface, std::mt19937& random, StarChange& star
 {
     const auto v = static_cast<std::uint32_t>(random() % surface.vertices());
     if (!surface.isVertex(v)) return false;
-    const auto neighbours = surface.neighbours(v);
-    const std::uint32_t w = neighbours[random() % neighbours.size()];
-    star = starOf(surface, v);
-    const double size = (surface.point(v) - surface.point(w)).length();
-    Vec3d start = surface.point(v);
-    const auto kind = surface.quads() > 0 ? 0 : random() % kinds;
-    const auto edge = star.link[random() % star.link.size()];
-    if (kind == 1 && !starOfCollapse(surface, v, w, star)) return false;
-    if (kind == 2) {
-        star = starOfSplit(surface, v, w);
-        start = 0.5 * (start + surface.point(w));
-    }
-    if (kind == 3 && !starOfFlip(surface, v, edge[0], edge[1], star)) return false;
+    const auto change = test::randomChange(surface, v, random, kinds);
+    if (!change) return false;
+    star = change->star;
     const double far = std::array<double, 4>{0.05, 0.2, 0.6, 2.0}[random() % 4];
-    place = rounded(surface, star, start + test::randomVector(random, far * size));
+    place = rounded(surface, star, change->start + test::randomVector(random, far * change->size));
     return true;
 }
 

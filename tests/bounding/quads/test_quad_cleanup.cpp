@@ -90,11 +90,6 @@ double irregularityOf(const GuardedMesh& surface, const QuadTable& table)
     return sum;
 }
 
-bool same(const Mesh& a, const Mesh& b)
-{
-    return a.points == b.points && a.triangles == b.triangles && a.quads == b.quads;
-}
-
 /// Of a cage: the share of vertices without four edges, and the mean deviation of quads' corners from square, in
 /// degrees.
 struct Shape {
@@ -179,7 +174,7 @@ BOOST_AUTO_TEST_CASE(a_change_that_is_taken_back_leaves_no_trace)
             table.restore(savedQuads);
             surface.restore(savedFaces);
             ++taken;
-            BOOST_CHECK(same(surface.mesh(), before.surface.mesh()));
+            BOOST_CHECK(test::sameMesh(surface.mesh(), before.surface.mesh()));
             BOOST_TEST(surface.liveFaces() == before.surface.liveFaces());
             BOOST_TEST(table.count() == before.table.count());
             for (std::uint32_t v = 0; v < before.surface.vertices(); ++v) {
