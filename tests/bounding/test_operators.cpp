@@ -15,6 +15,7 @@
 #include <vdbcage/bounding/tighten.h>
 #include <vdbcage/bounding/triquad.h>
 #include <vdbcage/check/check.h>
+#include <vdbcage/core/detail/pi.h>
 #include <vdbcage/core/error.h>
 #include <vdbcage/volume/extract.h>
 
@@ -71,7 +72,7 @@ double fold(const Mesh& mesh, const openvdb::Vec4I& quad)
         normals[std::size_t(i)] = (next - p).cross(last - p).unit();
     }
     const double least = std::min(normals[0].dot(normals[2]), normals[1].dot(normals[3]));
-    return std::acos(std::clamp(least, -1.0, 1.0)) * 180 / 3.14159265358979323846;
+    return std::acos(std::clamp(least, -1.0, 1.0)) * 180 / detail::pi;
 }
 
 constexpr Effort efforts[] = {Effort::fast, Effort::fair, Effort::best};

@@ -17,6 +17,7 @@
 #include <vdbcage/bounding/triquad.h>
 #include <vdbcage/check/check.h>
 #include <vdbcage/core/detail/nearest_float.h>
+#include <vdbcage/core/detail/pi.h>
 #include <vdbcage/core/error.h>
 #include <vdbcage/volume/extract.h>
 #include <vdbcage/volume/mirror.h>
@@ -118,7 +119,7 @@ Mesh prism()
     Mesh mesh;
     for (const double x : {0.0, 0.4, -0.4}) {
         for (openvdb::Index32 i = 0; i < sides; ++i) {
-            const double angle = 6.283185307179586 * i / sides;
+            const double angle = 2 * detail::pi * i / sides;
             mesh.points.emplace_back(x, 0.4 * std::cos(angle), 0.4 * std::sin(angle));
         }
     }

@@ -20,6 +20,7 @@
 #include <tbb/blocked_range.h>
 #include <vdbcage/core/detail/asker.h>
 #include <vdbcage/core/detail/parallel.h>
+#include <vdbcage/core/detail/pi.h>
 #include <vdbcage/core/error.h>
 
 namespace vdbcage::detail {
@@ -745,7 +746,7 @@ private:
     TriangleBvh::Frame rolled(const TriangleBvh::Frame& frame, const Ref* first, const Ref* last) const
     {
         constexpr int tries = 8;
-        constexpr double right = 1.57079632679489662;
+        constexpr double right = pi / 2;
         Asker ask(interrupter_);
         TriangleBvh::Frame best;
         float least = std::numeric_limits<float>::infinity();

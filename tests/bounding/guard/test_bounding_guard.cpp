@@ -10,6 +10,7 @@
 #include <vdbcage/bounding/detail/guard/admissible.h>
 #include <vdbcage/bounding/detail/guard/contact_planes.h>
 #include <vdbcage/bounding/detail/guard/guard_model.h>
+#include <vdbcage/core/detail/pi.h>
 #include <vdbcage/core/error.h>
 #include <vdbcage/mesh/topology.h>
 
@@ -48,7 +49,7 @@ Mesh bipyramid(const Vec3d& centre, double size, int sides = 6)
     Mesh mesh;
     mesh.points = {centre + Vec3d(0, 0, size), centre - Vec3d(0, 0, size)};
     for (int i = 0; i < sides; ++i) {
-        const double angle = 6.283185307179586 * i / sides;
+        const double angle = 2 * detail::pi * i / sides;
         mesh.points.push_back(centre + size * Vec3d(std::cos(angle), std::sin(angle), 0));
     }
     for (int i = 0; i < sides; ++i) {

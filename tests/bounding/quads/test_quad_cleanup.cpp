@@ -17,6 +17,7 @@
 #include <vdbcage/bounding/detail/quads/quad_making.h>
 #include <vdbcage/bounding/triquad.h>
 #include <vdbcage/check/check.h>
+#include <vdbcage/core/detail/pi.h>
 #include <vdbcage/volume/extract.h>
 
 #include "support/lump.h"
@@ -107,7 +108,7 @@ struct Shape {
             for (int i = 0; i < 4; ++i) {
                 const Vec3d u = (cage.points[q[(i + 1) % 4]] - cage.points[q[i]]).unit(),
                             w = (cage.points[q[(i + 3) % 4]] - cage.points[q[i]]).unit();
-                sum += std::abs(std::acos(std::clamp(u.dot(w), -1.0, 1.0)) * 180 / 3.14159265358979323846 - 90);
+                sum += std::abs(std::acos(std::clamp(u.dot(w), -1.0, 1.0)) * 180 / pi - 90);
             }
         }
         angle = sum / double(4 * cage.quads.size());

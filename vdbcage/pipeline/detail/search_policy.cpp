@@ -6,6 +6,7 @@
 
 #include <vdbcage/bounding/face_wishes.h>
 #include <vdbcage/core/detail/longest_side.h>
+#include <vdbcage/core/detail/pi.h>
 #include <vdbcage/mesh/parts.h>
 
 namespace vdbcage::detail {
@@ -217,7 +218,7 @@ double mergeAngle(const CageOptions& options)
 
 double thinnestBox(const GuardOptions& guarding)
 {
-    constexpr double degree = 0.01745329251994329577, room = 1.001;
+    constexpr double degree = pi / 180, room = 1.001;
     return std::max(leastThickness, room * std::tan(degree * guarding.minAngleDegrees));
 }
 
