@@ -10,7 +10,6 @@
 #include <tbb/info.h>
 #include <vdbcage/core/detail/pi.h>
 #include <vdbcage/core/error.h>
-#include <vdbcage/core/version.h>
 #include <vdbcage/mesh/mesh_io.h>
 #include <vdbcage/pipeline/pipeline.h>
 #include <vdbcage/surface/decimate.h>

@@ -8,7 +8,6 @@
 
 #include <tbb/global_control.h>
 #include <tbb/info.h>
-#include <vdbcage/core/error.h>
 #include <vdbcage/mesh/mesh_io.h>
 #include <vdbcage/voxelize/voxelize.h>
 

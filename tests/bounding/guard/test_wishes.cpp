@@ -10,7 +10,6 @@
 #include <vdbcage/bounding/detail/guard/limb.h>
 #include <vdbcage/bounding/detail/guard/wishes.h>
 #include <vdbcage/core/detail/pi.h>
-#include <vdbcage/core/error.h>
 
 #include "support/guarded_surface.h"
 #include "support/shapes.h"

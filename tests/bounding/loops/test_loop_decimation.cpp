@@ -14,7 +14,6 @@
 #include <vdbcage/bounding/detail/triangles/relax.h>
 #include <vdbcage/check/check.h>
 #include <vdbcage/core/error.h>
-#include <vdbcage/volume/extract.h>
 
 #include "support/quad_surface.h"
 #include "support/shapes.h"

@@ -3,7 +3,6 @@
 #include <boost/test/unit_test.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
 #include <random>
@@ -18,7 +17,6 @@
 #include <vdbcage/bounding/triquad.h>
 #include <vdbcage/check/check.h>
 #include <vdbcage/core/detail/pi.h>
-#include <vdbcage/volume/extract.h>
 
 #include "support/lump.h"
 #include "support/manifold.h"
