@@ -15,6 +15,7 @@
 #include <vdbcage/bounding/tighten.h>
 #include <vdbcage/bounding/triquad.h>
 #include <vdbcage/check/check.h>
+#include <vdbcage/core/detail/pi.h>
 #include <vdbcage/core/error.h>
 #include <vdbcage/volume/extract.h>
 
@@ -44,11 +45,6 @@ std::vector<Mesh> models()
             test::joined(test::box({-0.2, -0.2, -0.2}, {0, 0, 0}), test::box({0, 0, 0}, {0.2, 0.2, 0.2}))};
 }
 
-bool same(const Mesh& a, const Mesh& b)
-{
-    return a.points == b.points && a.triangles == b.triangles && a.quads == b.quads;
-}
-
 /// The sum over the edges of length times squared angle between the normals.
 double bending(const Mesh& mesh)
 {
@@ -76,7 +72,7 @@ double fold(const Mesh& mesh, const openvdb::Vec4I& quad)
         normals[std::size_t(i)] = (next - p).cross(last - p).unit();
     }
     const double least = std::min(normals[0].dot(normals[2]), normals[1].dot(normals[3]));
-    return std::acos(std::clamp(least, -1.0, 1.0)) * 180 / 3.14159265358979323846;
+    return std::acos(std::clamp(least, -1.0, 1.0)) * 180 / detail::pi;
 }
 
 constexpr Effort efforts[] = {Effort::fast, Effort::fair, Effort::best};
@@ -130,7 +126,8 @@ BOOST_AUTO_TEST_CASE(a_recorded_decimation_gives_the_same_whatever_was_asked_bef
         detail::RecordedDecimation recorded(surface, guard, {}, nullptr);
         for (const std::size_t faces : {100U, 300U, 40U, 300U}) {
             for (const Effort effort : {Effort::fast, Effort::fair}) {
-                BOOST_CHECK(same(recorded.to(to(faces, effort), nullptr), decimate(surface, guard, to(faces, effort))));
+                BOOST_CHECK(test::sameMesh(recorded.to(to(faces, effort), nullptr),
+                                           decimate(surface, guard, to(faces, effort))));
             }
         }
     }
@@ -215,7 +212,7 @@ BOOST_AUTO_TEST_CASE(smoothing_makes_it_rounder)
         BOOST_TEST(now < 0.95 * last);
         last = now;
     }
-    BOOST_CHECK(same(smooth(tight, guard, {0}), tight));
+    BOOST_CHECK(test::sameMesh(smooth(tight, guard, {0}), tight));
 }
 
 BOOST_AUTO_TEST_CASE(quads_bound_and_fold_as_little_as_asked)
@@ -400,7 +397,7 @@ BOOST_AUTO_TEST_CASE(threads_do_not_matter)
     };
     const Mesh many = make();
     const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
-    BOOST_CHECK(same(many, make()));
+    BOOST_CHECK(test::sameMesh(many, make()));
 }
 
 BOOST_AUTO_TEST_CASE(cancelling_at_any_question_throws)

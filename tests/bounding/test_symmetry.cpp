@@ -17,6 +17,7 @@
 #include <vdbcage/bounding/triquad.h>
 #include <vdbcage/check/check.h>
 #include <vdbcage/core/detail/nearest_float.h>
+#include <vdbcage/core/detail/pi.h>
 #include <vdbcage/core/error.h>
 #include <vdbcage/volume/extract.h>
 #include <vdbcage/volume/mirror.h>
@@ -93,11 +94,6 @@ Mesh start(const BoundingGuard& guard, int axis, int sum)
     return guard.symmetrized(ball(axis, sum), snap);
 }
 
-bool same(const Mesh& a, const Mesh& b)
-{
-    return a.points == b.points && a.triangles == b.triangles && a.quads == b.quads;
-}
-
 /// Faces with corners on both sides of the plane, or none off it.
 std::size_t facesNotOnOneSide(const Mesh& mesh, const SymmetryPlane& plane)
 {
@@ -123,7 +119,7 @@ Mesh prism()
     Mesh mesh;
     for (const double x : {0.0, 0.4, -0.4}) {
         for (openvdb::Index32 i = 0; i < sides; ++i) {
-            const double angle = 6.283185307179586 * i / sides;
+            const double angle = 2 * detail::pi * i / sides;
             mesh.points.emplace_back(x, 0.4 * std::cos(angle), 0.4 * std::sin(angle));
         }
     }
@@ -312,7 +308,7 @@ BOOST_AUTO_TEST_CASE(threads_do_not_matter)
     };
     const Mesh many = make();
     const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
-    BOOST_CHECK(same(many, make()));
+    BOOST_CHECK(test::sameMesh(many, make()));
 }
 
 BOOST_AUTO_TEST_CASE(surfaces_that_are_not_symmetric_are_refused)

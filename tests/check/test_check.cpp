@@ -8,6 +8,7 @@
 #include <vdbcage/check/check.h>
 #include <vdbcage/check/detail/predicates.h>
 #include <vdbcage/core/detail/nearest_float.h>
+#include <vdbcage/core/detail/pi.h>
 #include <vdbcage/core/error.h>
 
 using namespace vdbcage;
@@ -463,7 +464,7 @@ BOOST_AUTO_TEST_CASE(measures_of_spheres)
     BOOST_TEST(result.meanDistance * side == 1, boost::test_tools::tolerance(0.01));
     BOOST_TEST(result.maxDistance * side == 1, boost::test_tools::tolerance(0.01));
     BOOST_TEST(result.minDistance * side == 1, boost::test_tools::tolerance(0.01));
-    BOOST_TEST(result.cageVolume == 32.0 / 3 * 3.14159265, boost::test_tools::tolerance(0.01));
+    BOOST_TEST(result.cageVolume == 32.0 / 3 * detail::pi, boost::test_tools::tolerance(0.01));
     BOOST_TEST(result.volumeRatio == 8, boost::test_tools::tolerance(0.001));
     // Far away the volume keeps its digits.
     const Vec3d far(1e6, -1e6, 1e6);
@@ -478,10 +479,10 @@ BOOST_AUTO_TEST_CASE(measures_of_boxes)
     const Mesh cage = box({0, 0, 0}, {10, 2, 2}), model = box({1, 0.5, 0.5}, {9, 1.5, 1.5});
     const CageCheck result = checkCage(cage, model);
     BOOST_TEST(result.volumeRatio == 40.0 / 8, boost::test_tools::tolerance(1e-12));
-    BOOST_TEST(result.minAngleDegrees == std::atan2(2, 10) * 180 / M_PI, boost::test_tools::tolerance(1e-9));
+    BOOST_TEST(result.minAngleDegrees == std::atan2(2, 10) * 180 / detail::pi, boost::test_tools::tolerance(1e-9));
     // Of the 72 angles under both diagonals 16 are like the least, 16 are 45 degrees, 16 the least's complement, 24
     // right.
-    BOOST_TEST(result.medianAngleDegrees == std::atan2(10, 2) * 180 / M_PI, boost::test_tools::tolerance(1e-9));
+    BOOST_TEST(result.medianAngleDegrees == std::atan2(10, 2) * 180 / detail::pi, boost::test_tools::tolerance(1e-9));
     const double side = 8;
     BOOST_TEST(result.diagonal * side == std::sqrt(66.0), boost::test_tools::tolerance(1e-12));
     BOOST_TEST(result.maxDistance * side == std::sqrt(1.5), boost::test_tools::tolerance(1e-12)); // a corner

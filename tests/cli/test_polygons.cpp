@@ -6,6 +6,7 @@
 
 #include <nlohmann/json.hpp>
 #include <support/run_command.h>
+#include <vdbcage/core/detail/pi.h>
 
 using namespace vdbcage;
 using test::runCommand;
@@ -19,7 +20,7 @@ std::string circle(int corners, double height)
 {
     std::string text;
     for (int i = 0; i < corners; ++i) {
-        const double angle = 2 * M_PI * i / corners;
+        const double angle = 2 * detail::pi * i / corners;
         text += "v " + std::to_string(std::cos(angle)) + ' ' + std::to_string(std::sin(angle)) + ' ' +
                 std::to_string(height + 0.2 * std::cos(2 * angle)) + '\n';
     }
@@ -38,7 +39,7 @@ std::string crown(int corners)
 {
     std::string text;
     for (int i = 0; i < corners; ++i) {
-        const double angle = 2 * M_PI * i / corners, radius = i % 2 == 0 ? 1 : 0.6;
+        const double angle = 2 * detail::pi * i / corners, radius = i % 2 == 0 ? 1 : 0.6;
         text += "v " + std::to_string(radius * std::cos(angle)) + ' ' + std::to_string(radius * std::sin(angle)) + ' ' +
                 std::to_string(0.5 * std::cos(3 * angle)) + '\n';
     }

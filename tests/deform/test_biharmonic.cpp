@@ -8,6 +8,7 @@
 #include <deform/cages.h>
 #include <support/stop_at.h>
 #include <tbb/global_control.h>
+#include <vdbcage/core/detail/pi.h>
 #include <vdbcage/core/error.h>
 #include <vdbcage/deform/binding.h>
 #include <vdbcage/deform/detail/families/biharmonic.h>
@@ -16,6 +17,7 @@
 using namespace vdbcage;
 using detail::BiharmonicCage;
 using detail::BiharmonicPart;
+using detail::pi;
 using detail::UnitCage;
 using openvdb::Vec3d;
 using test::Kind;
@@ -117,7 +119,6 @@ Numbers numbersOf(const BiharmonicPart& part)
 
 Numbers rule(const Triangle& c, const Triangle& hats) // `hats`: of each corner of the piece, those of the triangle
 {
-    constexpr double pi = 3.14159265358979323846;
     const double root = std::sqrt(15.0), a = (6 - root) / 21, b = (6 + root) / 21;
     const double weightA = (155 - root) / 1200, weightB = (155 + root) / 1200;
     const double samples[7][4] = {{1. / 3, 1. / 3, 1. / 3, 9. / 40}, {a, a, 1 - 2 * a, weightA},

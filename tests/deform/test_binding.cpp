@@ -7,6 +7,7 @@
 #include <deform/cages.h>
 #include <support/stop_at.h>
 #include <tbb/global_control.h>
+#include <vdbcage/core/detail/pi.h>
 #include <vdbcage/core/error.h>
 #include <vdbcage/deform/binding.h>
 #include <vdbcage/deform/detail/weight_blocks.h>
@@ -57,15 +58,15 @@ Mesh bar(int pieces)
 
 Vec3d bent(const Vec3d& p) // by a quarter turn over the middle half
 {
-    const double angle = std::clamp(p.x(), -1.0, 1.0) * 3.14159265358979323846 / 4;
-    const double radius = 4 / 3.14159265358979323846, over = p.x() - std::clamp(p.x(), -1.0, 1.0);
+    const double angle = std::clamp(p.x(), -1.0, 1.0) * detail::pi / 4;
+    const double radius = 4 / detail::pi, over = p.x() - std::clamp(p.x(), -1.0, 1.0);
     return {(radius - p.y()) * std::sin(angle) + over * std::cos(angle),
             radius - (radius - p.y()) * std::cos(angle) + over * std::sin(angle), p.z()};
 }
 
 Vec3d twisted(const Vec3d& p) // by a quarter turn along the bar
 {
-    const double angle = p.x() * 3.14159265358979323846 / 8;
+    const double angle = p.x() * detail::pi / 8;
     return {p.x(), p.y() * std::cos(angle) - p.z() * std::sin(angle),
             p.y() * std::sin(angle) + p.z() * std::cos(angle)};
 }

@@ -7,12 +7,14 @@
 #include <deform/cages.h>
 #include <support/stop_at.h>
 #include <tbb/global_control.h>
+#include <vdbcage/core/detail/pi.h>
 #include <vdbcage/core/error.h>
 #include <vdbcage/deform/binding.h>
 #include <vdbcage/deform/detail/families/harmonic.h>
 
 using namespace vdbcage;
 using detail::HarmonicGrid;
+using detail::pi;
 using detail::UnitCage;
 using openvdb::Vec3d;
 using test::Kind;
@@ -77,7 +79,6 @@ Mesh splitBox()
 /// others zero: the series of its separation of variables.
 double harmonicHat(const Vec3d& p)
 {
-    constexpr double pi = 3.14159265358979323846;
     double sum = 0;
     for (int m = 1; m < 80; m += 2) {
         for (int n = 1; n < 80; n += 2) {

@@ -6,12 +6,14 @@
 #include <deform/cages.h>
 #include <openvdb/math/Mat3.h>
 #include <support/shapes.h>
+#include <vdbcage/core/detail/pi.h>
 #include <vdbcage/core/error.h>
 #include <vdbcage/deform/binding.h>
 #include <vdbcage/deform/detail/gauss.h>
 #include <vdbcage/deform/distortion.h>
 
 using namespace vdbcage;
+using detail::pi;
 using openvdb::Mat3d;
 using openvdb::Vec3d;
 using test::jittered;
@@ -24,7 +26,6 @@ using test::weighted;
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
 using Rotations = Elasticity::Rotations;
 
 struct Triangle {

@@ -9,6 +9,7 @@
 
 #include <draw/meshes.h>
 #include <tools/draw/geometry.h>
+#include <vdbcage/core/detail/pi.h>
 #include <vdbcage/core/error.h>
 
 using namespace vdbcage;
@@ -76,7 +77,7 @@ BOOST_AUTO_TEST_CASE(a_sphere_is_smooth_also_across_seams)
 BOOST_AUTO_TEST_CASE(the_crease_angle_decides)
 {
     // Two squares that meet at 30 degrees.
-    const double angle = 30 * M_PI / 180;
+    const double angle = 30 * detail::pi / 180;
     Mesh mesh;
     mesh.points = {{0, 0, 0},
                    {1, 0, 0},

@@ -9,6 +9,7 @@
 #include <openvdb/math/Mat.h>
 #include <openvdb/math/Mat3.h>
 #include <tools/edit/motion.h>
+#include <vdbcage/core/detail/pi.h>
 #include <vdbcage/core/error.h>
 
 using namespace vdbcage;
@@ -49,7 +50,7 @@ Vec3d reference(const Vec3d& point, double weight, const Motion& motion)
     if (const auto* move = std::get_if<Move>(&motion)) return point + weight * move->by;
     if (const auto* rotate = std::get_if<Rotate>(&motion)) {
         const auto matrix =
-            openvdb::math::rotation<openvdb::Mat3d>(rotate->axis, weight * rotate->degrees * M_PI / 180);
+            openvdb::math::rotation<openvdb::Mat3d>(rotate->axis, weight * rotate->degrees * detail::pi / 180);
         return rotate->pivot + (point - rotate->pivot) * matrix;
     }
     const auto& scale = std::get<Scale>(motion);

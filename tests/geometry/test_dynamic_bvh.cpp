@@ -1,6 +1,7 @@
 #include <boost/test/unit_test.hpp>
 
 #include <algorithm>
+#include <limits>
 #include <random>
 #include <vector>
 
@@ -87,6 +88,32 @@ BOOST_AUTO_TEST_CASE(finds_what_a_list_finds_while_things_come_move_and_go)
             tree.refit();
             for (const Box& box : {random.next(), thing < boxes.size() ? boxes[thing] : random.next()}) {
                 BOOST_REQUIRE(found(tree, box) == expected(boxes, alive, box));
+            }
+        }
+    }
+}
+
+BOOST_AUTO_TEST_CASE(boxes_beyond_floats_meet_what_is_there_and_nothing_else)
+{
+    constexpr double huge = 1e300, infinite = std::numeric_limits<double>::infinity();
+    for (const std::size_t count : {1U, 2U, 3U, 4U, 5U, 60U}) { // with and without absent children
+        Boxes random(static_cast<unsigned>(count));
+        std::vector<Box> boxes;
+        for (std::size_t i = 0; i < count; ++i) boxes.push_back(random.next());
+        boxes.back() = {Vec3d(huge), Vec3d(2 * huge)};
+        std::vector<char> alive(count, 1);
+        DynamicBvh tree(boxes);
+        for (const bool isFirstGone : {false, true}) {
+            if (isFirstGone) {
+                tree.remove(0);
+                tree.refit();
+                alive[0] = 0;
+            }
+            for (const double least : {-infinite, -huge, 0.0, huge}) {
+                for (const double most : {1.5 * huge, infinite}) {
+                    const Box box{Vec3d(least), Vec3d(most)};
+                    BOOST_TEST(found(tree, box) == expected(boxes, alive, box));
+                }
             }
         }
     }

@@ -7,13 +7,14 @@
 #include <random>
 #include <vector>
 
+#include <vdbcage/core/detail/pi.h>
 #include <vdbcage/geometry/triangle_pair.h>
 
 using namespace vdbcage::detail;
 
 namespace {
 
-constexpr double degree = M_PI / 180;
+constexpr double degree = pi / 180;
 
 class RandomPoints {
 public:

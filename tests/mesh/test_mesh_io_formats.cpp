@@ -9,6 +9,7 @@
 
 #include <mesh/mesh_samples.h>
 #include <support/shapes.h>
+#include <vdbcage/core/detail/pi.h>
 #include <vdbcage/core/error.h>
 #include <vdbcage/mesh/io/polygon_soup.h>
 #include <vdbcage/mesh/io/polygon_splitter.h>
@@ -180,7 +181,7 @@ MeshFile onCircle(const std::vector<std::pair<std::size_t, std::size_t>>& firstA
     constexpr std::size_t points = 5000;
     detail::PolygonSoup soup;
     for (std::size_t i = 0; i < points; ++i) {
-        const double angle = 2 * M_PI * static_cast<double>(i) / static_cast<double>(points);
+        const double angle = 2 * detail::pi * static_cast<double>(i) / static_cast<double>(points);
         soup.points.emplace_back(std::cos(angle), std::sin(angle), 0);
     }
     for (const auto& [first, count] : firstAndCount) {
@@ -237,7 +238,7 @@ BOOST_AUTO_TEST_CASE(faces_of_more_than_64_corners_are_there_as_a_fan_and_as_ear
         detail::PolygonSoup soup;
         std::vector<openvdb::Index32> face;
         for (std::size_t i = 0; i < corners; ++i) {
-            const double angle = 2 * M_PI * double(i) / double(corners), radius = i % 2 == 0 ? 1 : 0.5;
+            const double angle = 2 * detail::pi * double(i) / double(corners), radius = i % 2 == 0 ? 1 : 0.5;
             soup.points.emplace_back(radius * std::cos(angle), radius * std::sin(angle), 0);
             face.push_back(openvdb::Index32((i + 7) % corners));
         }

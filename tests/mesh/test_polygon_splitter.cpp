@@ -9,6 +9,7 @@
 #include <set>
 #include <vector>
 
+#include <vdbcage/core/detail/pi.h>
 #include <vdbcage/mesh/io/polygon_splitter.h>
 
 using namespace vdbcage;
@@ -132,7 +133,7 @@ BOOST_AUTO_TEST_CASE(a_convex_polygon_becomes_a_fan)
     for (std::size_t n = 5; n < 200; n += 7) {
         std::vector<std::pair<double, double>> circle;
         for (std::size_t i = 0; i < n; ++i) {
-            const double angle = 2 * M_PI * double(i) / double(n);
+            const double angle = 2 * detail::pi * double(i) / double(n);
             circle.emplace_back(3 * std::cos(angle), std::sin(angle));
         }
         const Split result = split(flat(circle));
@@ -159,7 +160,7 @@ BOOST_DATA_TEST_CASE(ragged_stars_are_divided_without_overlap, boost::unit_test:
     std::vector<std::pair<double, double>> star;
     for (int i = 0; i < n; ++i) {
         const double r = radius(random);
-        star.emplace_back(r * std::cos(2 * M_PI * i / n), r * std::sin(2 * M_PI * i / n));
+        star.emplace_back(r * std::cos(2 * detail::pi * i / n), r * std::sin(2 * detail::pi * i / n));
     }
     const Loop loop = placed(star, random);
     checkTriangles(loop, split(loop).triangles);
@@ -297,7 +298,7 @@ BOOST_AUTO_TEST_CASE(there_are_as_many_alternatives_as_announced)
 
 namespace {
 
-constexpr double turn = 2 * M_PI;
+constexpr double turn = 2 * detail::pi;
 
 Vec3d onCircle(double angle, double radius)
 {

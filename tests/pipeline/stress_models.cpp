@@ -9,6 +9,7 @@
 #include <utility>
 
 #include <support/shapes.h>
+#include <vdbcage/core/detail/pi.h>
 
 namespace vdbcage::test {
 
@@ -17,7 +18,7 @@ namespace {
 using openvdb::Index32;
 using openvdb::Vec3d;
 
-constexpr double pi = 3.14159265358979323846;
+using detail::pi;
 
 /// Only what the engine itself gives, since the standard's distributions differ between libraries. For the same reason
 /// no expression below asks twice but in braces, which keep the order.

@@ -83,7 +83,7 @@ BOOST_AUTO_TEST_CASE(a_scale_field_is_given_as_text)
     BOOST_CHECK_EXCEPTION(requireValid(options), InputError,
                           [](const InputError& error) { return names(error, "--scale-field"); });
     setOption(options, "scale-field", "none");
-    BOOST_TEST(options.scale.regions.empty());
+    BOOST_TEST(options.scale.isNone());
     BOOST_CHECK_NO_THROW(requireValid(options));
     for (const char* bad : {"sphere:0,0,0,1", "sphere:0,0,0,-1,1", "sphere:0,0,0,1,9", "box:0,0,0,1,1,1,x",
                             "box:0,0,0,1,1,1,-0.1", "ball:0,0,0,1,1", "sphere:0,0,0,1,1;", ""}) {
@@ -98,7 +98,8 @@ BOOST_AUTO_TEST_CASE(a_density_is_given_as_text_and_needs_the_guard)
     setOption(options, "density", "sphere:0,1,-2.5,0.5,2");
     BOOST_REQUIRE(options.density.regions.size() == 1U);
     BOOST_TEST(options.density.regions[0].factor == 2);
-    BOOST_TEST(options.scale.regions.empty());
+    BOOST_TEST(!options.density.isNone());
+    BOOST_TEST(options.scale.isNone());
     BOOST_CHECK_NO_THROW(requireValid(options));
     options.bounding = false;
     BOOST_CHECK_EXCEPTION(requireValid(options), InputError,

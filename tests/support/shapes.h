@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include <vdbcage/core/detail/pi.h>
 #include <vdbcage/mesh/mesh.h>
 
 namespace vdbcage::test {
@@ -26,7 +27,7 @@ inline Mesh sphere(const openvdb::Vec3d& centre, double radius, int rings)
     mesh.points.push_back(centre + openvdb::Vec3d(0, 0, radius));
     for (int ring = 1; ring < rings; ++ring) {
         for (int i = 0; i < around; ++i) {
-            const double polar = M_PI * ring / rings, azimuth = 2 * M_PI * i / around;
+            const double polar = detail::pi * ring / rings, azimuth = 2 * detail::pi * i / around;
             mesh.points.push_back(centre + radius * openvdb::Vec3d(std::sin(polar) * std::cos(azimuth),
                                                                    std::sin(polar) * std::sin(azimuth),
                                                                    std::cos(polar)));
@@ -53,7 +54,7 @@ inline Mesh torus(double radius, double tube, int around, int across)
     Mesh mesh;
     for (int i = 0; i < around; ++i) {
         for (int j = 0; j < across; ++j) {
-            const double u = 2 * M_PI * i / around, v = 2 * M_PI * j / across;
+            const double u = 2 * detail::pi * i / around, v = 2 * detail::pi * j / across;
             const double reach = radius + tube * std::cos(v);
             mesh.points.emplace_back(reach * std::cos(u), reach * std::sin(u), tube * std::sin(v));
         }
@@ -69,7 +70,7 @@ inline Mesh torus(double radius, double tube, int around, int across)
 /// Returns the mesh turned about the z axis through the origin.
 inline Mesh turnedAboutZ(Mesh mesh, double degrees)
 {
-    const double angle = degrees * M_PI / 180, c = std::cos(angle), s = std::sin(angle);
+    const double angle = degrees * detail::pi / 180, c = std::cos(angle), s = std::sin(angle);
     for (openvdb::Vec3d& p : mesh.points) p = openvdb::Vec3d(c * p[0] - s * p[1], s * p[0] + c * p[1], p[2]);
     return mesh;
 }

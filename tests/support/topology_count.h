@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include <vdbcage/core/detail/pi.h>
 #include <vdbcage/mesh/mesh.h>
 
 namespace vdbcage::test {
@@ -94,7 +95,7 @@ inline std::vector<double> sortedAngles(const Mesh& mesh)
         for (int i = 0; i < 3; ++i) {
             const openvdb::Vec3d& p = mesh.points[t[i]];
             const openvdb::Vec3d a = mesh.points[t[(i + 1) % 3]] - p, b = mesh.points[t[(i + 2) % 3]] - p;
-            angles.push_back(std::atan2(a.cross(b).length(), a.dot(b)) * 180 / M_PI);
+            angles.push_back(std::atan2(a.cross(b).length(), a.dot(b)) * 180 / detail::pi);
         }
     }
     std::sort(angles.begin(), angles.end());

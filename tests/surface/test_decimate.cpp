@@ -3,6 +3,7 @@
 #include <boost/test/unit_test.hpp>
 
 #include <tbb/global_control.h>
+#include <vdbcage/core/detail/pi.h>
 #include <vdbcage/core/error.h>
 #include <vdbcage/surface/decimate.h>
 #include <vdbcage/surface/smooth.h>
@@ -48,7 +49,7 @@ Mesh sphere(unsigned rings)
     const unsigned around = 2 * rings;
     for (unsigned i = 1; i < rings; ++i) {
         for (unsigned j = 0; j < around; ++j) {
-            const double a = M_PI * i / rings, b = 2 * M_PI * j / around;
+            const double a = detail::pi * i / rings, b = 2 * detail::pi * j / around;
             mesh.points.emplace_back(std::sin(a) * std::cos(b), std::sin(a) * std::sin(b), std::cos(a));
         }
     }
@@ -108,7 +109,7 @@ double sharpestFold(const Mesh& mesh)
             sharpest = std::max(sharpest, std::acos(std::clamp(normal.dot(other->second), -1.0, 1.0)));
         }
     }
-    return sharpest * 180 / M_PI;
+    return sharpest * 180 / detail::pi;
 }
 
 } // namespace

@@ -3,6 +3,7 @@
 #include <set>
 
 #include <tbb/global_control.h>
+#include <vdbcage/core/detail/pi.h>
 #include <vdbcage/core/error.h>
 #include <vdbcage/surface/smooth.h>
 #include <vdbcage/volume/extract.h>
@@ -106,7 +107,7 @@ BOOST_AUTO_TEST_CASE(rounds_without_shrinking)
         BOOST_TEST(after.area < area); // the steps go, more with every iteration
         area = after.area;
     }
-    BOOST_TEST(area < 1.05 * 4 * 3.14159265 * 0.45 * 0.45);
+    BOOST_TEST(area < 1.05 * 4 * detail::pi * 0.45 * 0.45);
 }
 
 BOOST_AUTO_TEST_CASE(threads_do_not_matter)

@@ -2,6 +2,7 @@
 #include <boost/test/data/test_case.hpp>
 #include <boost/test/unit_test.hpp>
 
+#include <vdbcage/core/detail/pi.h>
 #include <vdbcage/core/error.h>
 #include <vdbcage/surface/decimate.h>
 #include <vdbcage/surface/smooth.h>
@@ -67,7 +68,7 @@ bool unfolded(const Mesh& mesh, const Vec4I& q)
 double dihedral(const Mesh& mesh, const Vec4I& q)
 {
     const Vec3d a = doubledArea(mesh, q[0], q[1], q[2]), b = doubledArea(mesh, q[0], q[2], q[3]);
-    return std::atan2(a.cross(b).length(), a.dot(b)) * 180 / M_PI;
+    return std::atan2(a.cross(b).length(), a.dot(b)) * 180 / detail::pi;
 }
 
 std::size_t facesThatShareTwoEdges(const Mesh& mesh)

@@ -69,13 +69,11 @@ BOOST_AUTO_TEST_CASE(a_preview_comes_first_then_the_cage_then_the_neighbours_pre
     planner.finished(resultOf(*job));
     BOOST_CHECK(planner.standing() == Planner::Standing::current);
     BOOST_TEST(planner.isSettled());
-    BOOST_TEST(!planner.isIdle());
     const std::vector<Job> ahead = drain(planner);
     BOOST_TEST_REQUIRE(ahead.size() == 2);
     BOOST_CHECK(ahead[0].order == orderOf(model, 95, Effort::fast) && ahead[0].kind == Job::Kind::ahead);
     BOOST_CHECK(ahead[1].order == orderOf(model, 105, Effort::fast));
     BOOST_CHECK(planner.made()->order == orderOf(model, 100));
-    BOOST_TEST(planner.isIdle());
 }
 
 BOOST_AUTO_TEST_CASE(what_was_made_once_is_there_at_once)
@@ -328,7 +326,6 @@ BOOST_AUTO_TEST_CASE(any_sequence_of_changes_cancels_and_late_results)
         }
         BOOST_CHECK(planner.standing() == Planner::Standing::current);
         BOOST_TEST((!intermediates || planner.made()->intermediates));
-        BOOST_TEST(planner.isIdle());
     }
     for (const auto standing :
          {Planner::Standing::none, Planner::Standing::current, Planner::Standing::preview, Planner::Standing::stale}) {

@@ -85,7 +85,7 @@ BOOST_AUTO_TEST_CASE(what_is_wanted_is_made_and_the_owner_woken)
     settle(runner);
     BOOST_CHECK(runner.planner().standing() == Planner::Standing::current);
     BOOST_TEST(woken > 0);
-    while (!runner.planner().isIdle()) {
+    while (runner.planner().running()) {
         runner.waitForNews(60);
         runner.update();
     }

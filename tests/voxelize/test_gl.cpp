@@ -12,6 +12,7 @@
 #include <support/stop_at.h>
 #include <tbb/parallel_for.h>
 #include <vdbcage/core/detail/grids.h>
+#include <vdbcage/core/detail/pi.h>
 #include <vdbcage/core/error.h>
 #include <vdbcage/gl/offscreen.h>
 #include <vdbcage/mesh/mesh_io.h>
@@ -107,7 +108,7 @@ Mesh walls(int corners)
 {
     Mesh mesh;
     for (int i = 0; i < corners; ++i) {
-        const double angle = 2 * M_PI * i / corners, radius = i % 2 == 0 ? 1 : 0.37;
+        const double angle = 2 * pi * i / corners, radius = i % 2 == 0 ? 1 : 0.37;
         mesh.points.emplace_back(radius * std::cos(angle), radius * std::sin(angle), -0.8);
         mesh.points.emplace_back(radius * std::cos(angle), radius * std::sin(angle), 0.9);
     }

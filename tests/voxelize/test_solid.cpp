@@ -7,6 +7,7 @@
 #include <support/stop_at.h>
 #include <tbb/global_control.h>
 #include <vdbcage/core/detail/grids.h>
+#include <vdbcage/core/detail/pi.h>
 #include <vdbcage/core/error.h>
 #include <vdbcage/voxelize/voxelize.h>
 #include <voxelize/models.h>
@@ -33,7 +34,7 @@ double windingNumber(const Mesh& mesh, const Vec3d& p)
         const double la = a.length(), lb = b.length(), lc = c.length();
         angle += 2 * std::atan2(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
     }
-    return angle / (4 * M_PI);
+    return angle / (4 * detail::pi);
 }
 
 } // namespace

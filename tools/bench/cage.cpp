@@ -8,8 +8,8 @@
 #include <openvdb/math/Mat3.h>
 #include <tbb/global_control.h>
 #include <tbb/info.h>
+#include <vdbcage/core/detail/pi.h>
 #include <vdbcage/core/error.h>
-#include <vdbcage/core/version.h>
 #include <vdbcage/mesh/mesh_io.h>
 #include <vdbcage/pipeline/pipeline.h>
 #include <vdbcage/surface/decimate.h>
@@ -23,7 +23,7 @@ namespace {
 /// Returns a copy of a model: the same shape, but other voxels and other ties. Copy 0 is the model itself.
 Mesh copyOf(Mesh model, int copy)
 {
-    constexpr double radians = 0.3 * 3.14159265358979323846 / 180;
+    constexpr double radians = 0.3 * detail::pi / 180;
     const auto turn = openvdb::math::rotation<openvdb::Mat3d>(openvdb::Vec3d(1, 2, 3).unit(), copy * radians);
     for (openvdb::Vec3d& point : model.points) point = turn * point;
     return model;

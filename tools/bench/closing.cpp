@@ -8,7 +8,6 @@
 
 #include <tbb/global_control.h>
 #include <tbb/info.h>
-#include <vdbcage/core/error.h>
 #include <vdbcage/mesh/mesh_io.h>
 #include <vdbcage/voxelize/voxelize.h>
 
@@ -113,7 +112,7 @@ Json measure(const std::string& model, int resolution, int radius, const CageOpt
         mebibytes(closed->tree()) + (element == StructuringElement::sphere ? mebibytes(dilated->tree()) : 0);
     line["closing"]["memory_peak_beyond_trees_mib"] = memory - trees;
     line["interrupter"] = largestGap(runs, [&](GapClock& clock) { return closeMask(*solid, {r, r, element}, &clock); });
-    if (element == StructuringElement::sphere && (shape.scale.grid || !shape.scale.regions.empty())) {
+    if (element == StructuringElement::sphere && !shape.scale.isNone()) {
         const auto close = [&](Interrupter* watcher) {
             return closeMask(*solid, {r, r, element}, shape.scale, watcher);
         };

@@ -3,7 +3,6 @@
 #include "rivals.h"
 
 #include <algorithm>
-#include <array>
 #include <cstdint>
 #include <vector>
 

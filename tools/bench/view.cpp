@@ -2,14 +2,12 @@
 
 #include <atomic>
 #include <chrono>
-#include <cmath>
 #include <iostream>
 #include <random>
 #include <thread>
 
 #include <tools/view/app.h>
 #include <tools/view/script.h>
-#include <tools/view/state/words.h>
 #include <vdbcage/core/error.h>
 #include <vdbcage/gl/offscreen.h>
 #include <vdbcage/mesh/mesh_io.h>

@@ -10,7 +10,6 @@
 #include <openvdb/tools/MeshToVolume.h>
 #include <tbb/global_control.h>
 #include <tbb/info.h>
-#include <vdbcage/core/error.h>
 #include <vdbcage/gl/offscreen.h>
 #include <vdbcage/mesh/mesh_io.h>
 #include <vdbcage/voxelize/detail/gl.h>

@@ -3,7 +3,6 @@
 #include <filesystem>
 #include <map>
 #include <optional>
-#include <string>
 #include <tuple>
 #include <vector>
 

@@ -5,6 +5,7 @@
 #include <limits>
 #include <sstream>
 
+#include <vdbcage/core/detail/pi.h>
 #include <vdbcage/core/error.h>
 
 namespace vdbcage::draw {
@@ -13,7 +14,7 @@ namespace {
 
 using openvdb::Vec3d;
 
-constexpr double degree = M_PI / 180;
+constexpr double degree = detail::pi / 180;
 constexpr double viewAngle = 22 * degree; // across the shorter side of a panel
 constexpr double margin = 0.05;           // on each side, of the panel
 // In perspective nothing nearer than this fraction of the distance is drawn, or depth would have no bits left.

@@ -9,6 +9,7 @@
 #include <string>
 #include <tuple>
 
+#include <vdbcage/core/detail/pi.h>
 #include <vdbcage/core/error.h>
 #include <vdbcage/geometry/union_find.h>
 #include <vdbcage/mesh/detail/half_edges.h>
@@ -106,7 +107,7 @@ UnionFind joinSmooth(const Mesh& mesh, const HalfEdges& halfEdges, const EdgeTab
     normals.reserve(faceCount(mesh));
     for (const openvdb::Vec3I& triangle : mesh.triangles) normals.push_back(faceNormal(mesh.points, triangle));
     for (const openvdb::Vec4I& quad : mesh.quads) normals.push_back(faceNormal(mesh.points, quad));
-    const double smooth = std::cos(creaseDegrees * M_PI / 180);
+    const double smooth = std::cos(creaseDegrees * detail::pi / 180);
     for (std::size_t edge = 0; edge < edges.size(); ++edge) {
         const EdgeTable::Span both = edges[edge];
         if (both.size() != 2) continue;

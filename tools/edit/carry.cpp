@@ -6,7 +6,6 @@
 #include <utility>
 
 #include <tools/edit/elements.h>
-#include <vdbcage/core/error.h>
 #include <vdbcage/deform/binding.h>
 
 namespace vdbcage::edit {

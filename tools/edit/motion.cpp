@@ -5,6 +5,7 @@
 #include <string>
 
 #include <vdbcage/core/detail/number_text.h>
+#include <vdbcage/core/detail/pi.h>
 #include <vdbcage/core/error.h>
 
 namespace vdbcage::edit {
@@ -20,7 +21,7 @@ struct Turn {
 /// Returns sine and cosine by the remainder to the nearest multiple of 90 degrees, which is exact.
 Turn turnBy(double degrees)
 {
-    constexpr double radiansPerDegree = M_PI / 180;
+    constexpr double radiansPerDegree = detail::pi / 180;
     int quarters = 0;
     const double rest = std::remquo(degrees, 90.0, &quarters) * radiansPerDegree;
     const double sine = std::sin(rest), cosine = std::cos(rest);

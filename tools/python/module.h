@@ -2,7 +2,6 @@
 
 #include <filesystem>
 #include <memory>
-#include <string>
 
 #include <openvdb/openvdb.h>
 #include <pybind11/pybind11.h>

@@ -3,7 +3,6 @@
 #include <map>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include <pybind11/stl.h>
@@ -129,10 +128,9 @@ void defineVolume(py::module_& module)
         options.erodeRadiusVoxels = erodeRadius;
         options.element = optionsWith("element", element).element;
         const FactorField field = optionsWith("scale-field", scale).scale;
-        const bool isUniform = !field.grid && field.regions.empty();
         return VolumeMask{resultOfJob(progress, [&](Interrupter* interrupter) {
-            return isUniform ? closeMask(*mask.grid, options, interrupter)
-                             : closeMask(*mask.grid, options, field, interrupter);
+            return field.isNone() ? closeMask(*mask.grid, options, interrupter)
+                                  : closeMask(*mask.grid, options, field, interrupter);
         })};
     });
     module.def("read_vdb", [](const std::string& path) {

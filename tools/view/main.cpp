@@ -4,7 +4,6 @@
 #include <exception>
 #include <filesystem>
 #include <iostream>
-#include <optional>
 
 #include <CLI/CLI.hpp>
 

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <charconv>
-#include <cmath>
-#include <functional>
 #include <sstream>
 
 #include <tools/view/files/file_contents.h>

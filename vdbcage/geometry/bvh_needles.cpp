@@ -11,6 +11,7 @@
 
 #include <openvdb/math/Math.h>
 #include <vdbcage/core/detail/asker.h>
+#include <vdbcage/core/detail/pi.h>
 
 namespace vdbcage::detail {
 
@@ -116,7 +117,7 @@ BvhFrame NeedleFinder::alongLongest(const BvhFrame& frame, const LeafRef* first,
 BvhFrame NeedleFinder::rolled(const BvhFrame& frame, const LeafRef* first, const LeafRef* last) const
 {
     constexpr int tries = 8;
-    constexpr double right = 1.57079632679489662;
+    constexpr double right = pi / 2;
     Asker ask(interrupter_);
     BvhFrame best;
     float least = std::numeric_limits<float>::infinity();

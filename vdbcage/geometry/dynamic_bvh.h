@@ -98,8 +98,7 @@ public:
     }
 
     /// Calls visit(thing, itsBox) for each thing whose box meets `box`, until it returns false. Returns false if it
-    /// stopped.
-    /// \pre the box is finite
+    /// stopped. Sides of `box` may be infinite.
     template <typename Visit>
     bool forEachOverlap(const Box& box, const Visit& visit) const
     {
@@ -135,12 +134,14 @@ public:
 private:
     static constexpr std::uint32_t isThing = std::uint32_t(1) << 31;
 
+    /// Returns the box in finite floats: an infinite one would meet absent children, too, which are empty boxes.
     static FloatBox rounded(const Box& box)
     {
+        constexpr double most = std::numeric_limits<float>::max();
         FloatBox result;
         for (int i = 0; i < 3; ++i) {
-            result.lo[i] = static_cast<float>(box.lo[i]);
-            result.hi[i] = static_cast<float>(box.hi[i]);
+            result.lo[i] = static_cast<float>(std::clamp(box.lo[i], -most, most));
+            result.hi[i] = static_cast<float>(std::clamp(box.hi[i], -most, most));
         }
         return result;
     }

@@ -3,13 +3,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include <vdbcage/core/detail/pi.h>
+
 namespace vdbcage::detail {
 
 using openvdb::Vec3d;
 
 double angleDegrees(const Vec3d& a, const Vec3d& b)
 {
-    constexpr double degrees = 180 / M_PI;
+    constexpr double degrees = 180 / pi;
     return std::atan2(a.cross(b).length(), a.dot(b)) * degrees;
 }
 

@@ -99,7 +99,7 @@ struct ToText {
     std::string operator()(const FactorField& value) const
     {
         if (!value.source.empty()) return value.source;
-        return value.grid || !value.regions.empty() ? "given" : "none";
+        return value.isNone() ? "none" : "given";
     }
     std::string operator()(const Joints& value) const
     {

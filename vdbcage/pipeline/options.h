@@ -46,6 +46,8 @@ enum class CageSymmetry {
 /// Members that are not set are chosen by vdbcage; docs/user/OPTIONS.md says how. Values out of their range are an
 /// InputError of Pipeline::run() and makeCage().
 struct CageOptions {
+    static constexpr Range resolutions{8, 2048}; ///< of `resolution`
+
     /// Faces of the cage, at most: leastFaces() to 1000000. A quad counts once.
     int faces = 400;
     /// Voxels along the model's longest side, 8 to 2048. Halves of it down to 24 compete with it, so that doubling it,
@@ -112,7 +114,7 @@ template <typename Options, typename Visit>
 void visitOptions(Options& options, Visit&& visit)
 {
     visit(OptionInfo{"faces", "N", "faces of the cage, at most", {4, 1000000}}, options.faces);
-    visit(OptionInfo{"resolution", "N", "voxels along the longest side", {8, 2048}}, options.resolution);
+    visit(OptionInfo{"resolution", "N", "voxels along the longest side", CageOptions::resolutions}, options.resolution);
     visit(OptionInfo{"close-radius", "F", "bridges gaps up to twice it", {0, 0.25}}, options.closeRadius);
     visit(OptionInfo{"erode-radius", "F", "if less, offset without bounding", {0, 0.25}, true}, options.erodeRadius);
     visit(OptionInfo{"element", "", "shape of the closing", {}, true}, options.element);

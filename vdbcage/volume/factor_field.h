@@ -36,6 +36,9 @@ struct FactorField {
     std::vector<FactorRegion> regions; ///< their factors are multiplied where they overlap
     std::string source = {};           ///< the text that it was read from; empty if it was made otherwise
     std::filesystem::path file = {};   ///< that `grid` was read from; empty if it was not read
+
+    /// Returns whether it was left out: the factor is 1 everywhere.
+    bool isNone() const { return !grid && regions.empty(); }
 };
 
 /// Reads a field from text.

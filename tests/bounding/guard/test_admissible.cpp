@@ -12,6 +12,7 @@
 #include <CGAL/intersections.h>
 #include <vdbcage/bounding/detail/guard/admissible.h>
 #include <vdbcage/check/check.h>
+#include <vdbcage/core/detail/pi.h>
 #include <vdbcage/geometry/quad_shape.h>
 
 #include "support/guarded_surface.h"
@@ -27,7 +28,7 @@ using openvdb::Vec4I;
 
 namespace {
 
-constexpr double leastAngle = 10 * M_PI / 180;
+constexpr double leastAngle = 10 * pi / 180;
 
 /// A lump around specks: a part of the model each, some near its surface.
 struct Specks {
@@ -47,7 +48,7 @@ struct Specks {
 
 double smallestAngle(const Corners& t)
 {
-    double least = M_PI;
+    double least = pi;
     for (std::size_t i = 0; i < 3; ++i) {
         const Vec3d u = t[(i + 1) % 3] - t[i], v = t[(i + 2) % 3] - t[i];
         least = std::min(least, std::acos(std::clamp(u.dot(v) / (u.length() * v.length()), -1.0, 1.0)));
@@ -150,21 +151,11 @@ bool findStar(const GuardedMesh& surface, std::mt19937& random, StarChange& star
 {
     const auto v = static_cast<std::uint32_t>(random() % surface.vertices());
     if (!surface.isVertex(v)) return false;
-    const auto neighbours = surface.neighbours(v);
-    const std::uint32_t w = neighbours[random() % neighbours.size()];
-    star = starOf(surface, v);
-    const double size = (surface.point(v) - surface.point(w)).length();
-    Vec3d start = surface.point(v);
-    const auto kind = surface.quads() > 0 ? 0 : random() % kinds;
-    const auto edge = star.link[random() % star.link.size()];
-    if (kind == 1 && !starOfCollapse(surface, v, w, star)) return false;
-    if (kind == 2) {
-        star = starOfSplit(surface, v, w);
-        start = 0.5 * (start + surface.point(w));
-    }
-    if (kind == 3 && !starOfFlip(surface, v, edge[0], edge[1], star)) return false;
+    const auto change = test::randomChange(surface, v, random, kinds);
+    if (!change) return false;
+    star = change->star;
     const double far = std::array<double, 4>{0.05, 0.2, 0.6, 2.0}[random() % 4];
-    place = rounded(surface, star, start + test::randomVector(random, far * size));
+    place = rounded(surface, star, change->start + test::randomVector(random, far * change->size));
     return true;
 }
 
@@ -262,7 +253,7 @@ BOOST_AUTO_TEST_CASE(a_worse_angle_is_allowed_nowhere_but_what_is_bad_may_get_be
         for (std::uint32_t v = 0; v < rough.vertices(); ++v) {
             const StarChange star = starOf(rough, v);
             const auto leastAt = [&](const Vec3d& p) {
-                double least = M_PI;
+                double least = pi;
                 for (std::size_t i = 0; i < star.link.size(); ++i)
                     least = std::min(least, smallestAngle(starCorners(rough, star, i, p)));
                 return least;
@@ -272,9 +263,9 @@ BOOST_AUTO_TEST_CASE(a_worse_angle_is_allowed_nowhere_but_what_is_bad_may_get_be
                 const double before = leastAt(rough.point(v)), after = leastAt(place);
                 GuardedMesh changed = rough;
                 changed.apply(star, place);
-                const bool isGood = !faultsAt(changed, v, std::min(before, M_PI / 6)).any();
+                const bool isGood = !faultsAt(changed, v, std::min(before, pi / 6)).any();
                 BOOST_TEST(allows(rough, star, place) == isGood);
-                if (before < M_PI / 6) (after < before ? worse : better) += isGood || after < before;
+                if (before < pi / 6) (after < before ? worse : better) += isGood || after < before;
             }
         }
     }

@@ -10,9 +10,11 @@
 #include <vdbcage/bounding/detail/guard/admissible.h>
 #include <vdbcage/bounding/detail/guard/contact_planes.h>
 #include <vdbcage/bounding/detail/guard/guard_model.h>
+#include <vdbcage/core/detail/pi.h>
 #include <vdbcage/core/error.h>
 #include <vdbcage/mesh/topology.h>
 
+#include "support/guarded_surface.h"
 #include "support/shapes.h"
 #include "support/symmetric.h"
 
@@ -25,16 +27,9 @@ using openvdb::Vec3d;
 
 namespace {
 
-Vec3d randomPoint(std::mt19937& random, double size = 1)
-{
-    std::uniform_real_distribution<double> coordinate(-size, size);
-    return {coordinate(random), coordinate(random), coordinate(random)};
-}
-
 Corners randomTriangle(std::mt19937& random, double size)
 {
-    const Vec3d centre = randomPoint(random);
-    return {centre + randomPoint(random, size), centre + randomPoint(random, size), centre + randomPoint(random, size)};
+    return test::randomTriangle(random, size, test::randomVector(random));
 }
 
 Mesh soup(std::mt19937& random, int triangles, double size)
@@ -54,7 +49,7 @@ Mesh bipyramid(const Vec3d& centre, double size, int sides = 6)
     Mesh mesh;
     mesh.points = {centre + Vec3d(0, 0, size), centre - Vec3d(0, 0, size)};
     for (int i = 0; i < sides; ++i) {
-        const double angle = 6.283185307179586 * i / sides;
+        const double angle = 2 * detail::pi * i / sides;
         mesh.points.push_back(centre + size * Vec3d(std::cos(angle), std::sin(angle), 0));
     }
     for (int i = 0; i < sides; ++i) {
@@ -236,7 +231,7 @@ BOOST_AUTO_TEST_CASE(impacts_are_the_first_on_the_way)
         const Mesh model = round % 2 ? soup(random, 300, 0.01) : soup(random, 20, 0.5);
         const BoundingGuard guard = guardOf(model);
         Corners now = randomTriangle(random, 0.7);
-        Vec3d to = randomPoint(random);
+        Vec3d to = test::randomVector(random);
         for (Vec3d* p : {&now[0], &now[1], &now[2], &to}) *p = detail::modelOf(guard).scaled(*p);
         const auto at = [&](double time) { return Corners{now[0] + time * (to - now[0]), now[1], now[2]}; };
         if (!(distanceTo(model, guard, now) > 1e-6)) continue;
@@ -377,7 +372,7 @@ BOOST_AUTO_TEST_CASE(contacts_do_not_depend_on_what_was_learned_before)
             const Vec3d from = surface.point(v);
             detail::Obstacle obstacle;
             for (const double way : {1.0, 0.9, 0.7, 0.5, 0.3}) {
-                const Vec3d inside = detail::modelOf(guard).scaled(randomPoint(random));
+                const Vec3d inside = detail::modelOf(guard).scaled(test::randomVector(random));
                 const Vec3d to = rounded(surface, star, (1 - way) * from + way * inside);
                 if (allows(surface, star, to, &obstacle)) continue;
                 if (obstacle.clear > 0 && obstacle.clear < star.link.size()) ++known;

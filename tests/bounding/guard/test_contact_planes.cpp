@@ -19,12 +19,6 @@ using namespace vdbcage::detail;
 
 namespace {
 
-Corners randomTriangle(std::mt19937& random, double size, const Vec3d& centre)
-{
-    const Vec3d a = test::randomVector(random, size), b = test::randomVector(random, size);
-    return {centre + a, centre + b, centre + test::randomVector(random, size)};
-}
-
 double distance(const Corners& a, const Corners& b)
 {
     return std::sqrt(nearness(a, b).squaredDistance);
@@ -53,8 +47,8 @@ BOOST_AUTO_TEST_CASE(an_approach_ends_at_the_clearance)
     int held = 0, lost = 0, none = 0;
     std::mt19937 random(1);
     for (int i = 0; i < 20000; ++i) {
-        const Corners star = randomTriangle(random, 1, Vec3d(0.0)),
-                      other = randomTriangle(random, 1, test::randomVector(random, 1));
+        const Corners star = test::randomTriangle(random, 1, Vec3d(0.0)),
+                      other = test::randomTriangle(random, 1, test::randomVector(random, 1));
         const double apart = distance(star, other);
         if (apart > 0 && apart < 1e-3) continue;
         const double clearance = apart * (i % 2 == 0 ? 1.0001 : 0.9999);
@@ -90,12 +84,12 @@ BOOST_AUTO_TEST_CASE(an_impact_ends_the_way_about_the_clearance_before_it)
     int hits = 0, misses = 0;
     for (int i = 0; i < 4000; ++i) {
         Mesh model; // one triangle, so that there is one first contact
-        for (const Vec3d& p : randomTriangle(random, 1, Vec3d(0.0))) model.points.push_back(p);
+        for (const Vec3d& p : test::randomTriangle(random, 1, Vec3d(0.0))) model.points.push_back(p);
         model.triangles.emplace_back(0, 1, 2);
         const BoundingGuard guard(model);
         const GuardModel& of = modelOf(guard);
         const Corners obstacle{of.scaled(model.points[0]), of.scaled(model.points[1]), of.scaled(model.points[2])};
-        const Corners now = randomTriangle(random, 1, test::randomVector(random, 1));
+        const Corners now = test::randomTriangle(random, 1, test::randomVector(random, 1));
         const Vec3d to = test::randomVector(random, 1.5);
         if (distance(now, obstacle) < 0.05) continue;
         std::vector<HalfSpace> halfSpaces;

@@ -21,9 +21,7 @@ namespace {
 
 Corners randomTriangle(std::mt19937& random, double size)
 {
-    const Vec3d centre = test::randomVector(random, 0.5), a = test::randomVector(random, size),
-                b = test::randomVector(random, size);
-    return {centre + a, centre + b, centre + test::randomVector(random, size)};
+    return test::randomTriangle(random, size, test::randomVector(random, 0.5));
 }
 
 BoundingGuard guardOf(const Mesh& model, Precision precision, double clearance = 1e-3)

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <map>
 #include <random>
-#include <set>
 #include <utility>
 #include <vector>
 
@@ -38,18 +37,10 @@ std::uint32_t randomVertex(const GuardedMesh& surface, std::mt19937& random)
 /// A change of a kind taken at random, at a place taken at random: one that the guard allows, or none.
 bool findChange(const GuardedMesh& surface, std::mt19937& random, StarChange& star, Vec3d& place)
 {
-    const std::uint32_t v = randomVertex(surface, random);
-    const auto neighbours = surface.neighbours(v);
-    const std::uint32_t w = neighbours[random() % neighbours.size()];
-    const auto kind = random() % 4;
-    star = starOf(surface, v);
-    const auto edge = star.link[random() % star.link.size()];
-    const double size = (surface.point(v) - surface.point(w)).length();
-    if (kind == 1 && !starOfCollapse(surface, v, w, star)) return false;
-    if (kind == 2) star = starOfSplit(surface, v, w);
-    if (kind == 3 && !starOfFlip(surface, v, edge[0], edge[1], star)) return false;
-    const Vec3d start = kind == 2 ? 0.5 * (surface.point(v) + surface.point(w)) : surface.point(v);
-    place = rounded(surface, star, start + test::randomVector(random, 0.3 * size));
+    const auto change = test::randomChange(surface, randomVertex(surface, random), random);
+    if (!change) return false;
+    star = change->star;
+    place = rounded(surface, star, change->start + test::randomVector(random, 0.3 * change->size));
     return allows(surface, star, place);
 }
 

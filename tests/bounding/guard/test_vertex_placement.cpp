@@ -20,21 +20,6 @@ using openvdb::Mat3d;
 
 namespace {
 
-Vec3d closestByAll(const GuardModel& guard, const Vec3d& p)
-{
-    Vec3d closest(1e9);
-    for (const TriangleBvh::Item& item : guard.tree().items()) {
-        const Vec3d there = closestPointOnTriangle(p, guard.tree().corners(item));
-        if ((there - p).lengthSqr() < (closest - p).lengthSqr()) closest = there;
-    }
-    return closest;
-}
-
-double distanceByAll(const GuardModel& guard, const Vec3d& p)
-{
-    return (closestByAll(guard, p) - p).length();
-}
-
 /// Calls visit(place, weight of corner 0, area) for n x n samples of a triangle.
 template <typename Visit>
 void forEachSample(const Corners& t, int n, const Visit& visit)
@@ -55,7 +40,7 @@ void forEachSample(const Corners& t, int n, const Visit& visit)
 double integralByAll(const GuardModel& guard, const Corners& t, int n)
 {
     double sum = 0;
-    forEachSample(t, n, [&](const Vec3d& p, double, double area) { sum += area * distanceByAll(guard, p); });
+    forEachSample(t, n, [&](const Vec3d& p, double, double area) { sum += area * test::distanceByAll(guard, p); });
     return sum;
 }
 
@@ -300,8 +285,8 @@ BOOST_AUTO_TEST_CASE(the_integral_of_the_distance_is_that_of_many_samples)
         const double fine = DistanceMeasure(surface, area / 64).integral(t, seed), all = integralByAll(model, t, 10);
         BOOST_TEST(std::abs(fine - all) < 0.04 * all);                       // distances may be 3 % too large
         const double one = DistanceMeasure(surface, area).integral(t, seed); // at the centroid
-        BOOST_TEST(one >= 0.999999 * area * distanceByAll(model, (t[0] + t[1] + t[2]) / 3.0));
-        BOOST_TEST(one <= 1.030001 * area * distanceByAll(model, (t[0] + t[1] + t[2]) / 3.0));
+        BOOST_TEST(one >= 0.999999 * area * test::distanceByAll(model, (t[0] + t[1] + t[2]) / 3.0));
+        BOOST_TEST(one <= 1.030001 * area * test::distanceByAll(model, (t[0] + t[1] + t[2]) / 3.0));
         sum += fine;
         expected += all;
     }
@@ -347,7 +332,7 @@ BOOST_AUTO_TEST_CASE(the_fit_is_the_sum_of_the_star_and_tells_how_it_changes)
             for (std::size_t i = 0; i < star.link.size(); ++i) {
                 const double share = surface.weight(star.keptFaces[i]);
                 forEachSample(starCorners(surface, star, i, p), 6, [&](const Vec3d& at, double weight, double area) {
-                    Vec3d away = at - closestByAll(modelOf(guard), at);
+                    Vec3d away = at - test::closestByAll(modelOf(guard), at);
                     if (away.normalize(0)) slope += share * area * weight * away;
                     most += share * area * weight;
                 });

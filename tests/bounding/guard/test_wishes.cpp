@@ -9,7 +9,7 @@
 
 #include <vdbcage/bounding/detail/guard/limb.h>
 #include <vdbcage/bounding/detail/guard/wishes.h>
-#include <vdbcage/core/error.h>
+#include <vdbcage/core/detail/pi.h>
 
 #include "support/guarded_surface.h"
 #include "support/shapes.h"
@@ -45,7 +45,7 @@ double radiusByAll(const TriangleBvh& model, const Vec3d& place, const Vec3d& ax
     const Vec3d u = axis.cross(aside).unit(), v = axis.cross(u);
     std::vector<double> distances;
     for (int i = 0; i < count; ++i) {
-        const double angle = 2 * M_PI * i / count;
+        const double angle = 2 * pi * i / count;
         distances.push_back(distanceByAll(model, place, std::cos(angle) * u + std::sin(angle) * v));
     }
     std::sort(distances.begin(), distances.end());

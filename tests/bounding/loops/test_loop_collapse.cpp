@@ -2,9 +2,6 @@
 #include <boost/test/unit_test.hpp>
 
 #include <algorithm>
-#include <map>
-#include <random>
-#include <set>
 #include <vector>
 
 #include <vdbcage/bounding/detail/loops/loop_collapse.h>
@@ -115,16 +112,7 @@ BOOST_AUTO_TEST_CASE(what_settles_is_told_the_vertices_that_the_rungs_became)
         loops.insert(loops.end(), turning.begin(), turning.end());
         for (const QuadLoop& loop : loops) {
             if (!leavesQuads(before.surface, before.table, loop)) continue;
-            std::vector<std::set<std::uint32_t>> groups; // of vertices that become one
-            for (const Rung& rung : loop.rungs) {
-                std::set<std::uint32_t> group(rung.begin(), rung.end());
-                for (std::size_t i = groups.size(); i-- > 0;) {
-                    if (groups[i].count(rung[0]) + groups[i].count(rung[1]) == 0) continue;
-                    group.insert(groups[i].begin(), groups[i].end());
-                    groups.erase(groups.begin() + static_cast<std::ptrdiff_t>(i));
-                }
-                groups.push_back(group);
-            }
+            const auto groups = test::mergedGroups(loop);
             for (const bool isAccepted : {true, false}) {
                 test::Working now(lump.surface, lump.guard);
                 std::vector<std::uint32_t> given;

@@ -14,7 +14,6 @@
 #include <vdbcage/bounding/detail/triangles/relax.h>
 #include <vdbcage/check/check.h>
 #include <vdbcage/core/error.h>
-#include <vdbcage/volume/extract.h>
 
 #include "support/quad_surface.h"
 #include "support/shapes.h"
@@ -45,11 +44,6 @@ void requireGood(const test::Working& now, const BoundingGuard& guard)
     BOOST_TEST(test::treeIsRight(now.surface));
     BOOST_TEST(checkCage(mesh, model).bounding());
     if (guard.symmetry()) BOOST_CHECK(test::isSymmetric(mesh, *guard.symmetry()));
-}
-
-bool sameWorking(const test::Working& a, const test::Working& b)
-{
-    return test::sameSurface(a.surface, b.surface) && a.quads() == b.quads();
 }
 
 /// A long bar of voxels, with a joint in it.
@@ -137,7 +131,7 @@ BOOST_AUTO_TEST_CASE(at_most_as_many_quads_are_left_as_asked)
             BOOST_TEST(now.table.count() < last);
             last = now.table.count();
             requireGood(now, guard);
-            if (quads == before.table.count()) BOOST_TEST(sameWorking(now, before)); // nothing to do
+            if (quads == before.table.count()) BOOST_TEST(test::sameSurface(now, before)); // nothing to do
         }
     }
 }
@@ -152,7 +146,7 @@ BOOST_AUTO_TEST_CASE(a_loop_through_one_of_some_quads_goes_or_nothing_does)
         const bool isDone = collapseLoopThrough(now.surface, now.table, {q}, nullptr);
         BOOST_TEST(isDone == (now.table.count() < before.table.count()));
         if (!isDone) {
-            BOOST_TEST(sameWorking(now, before));
+            BOOST_TEST(test::sameSurface(now, before));
             continue;
         }
         ++done;
@@ -169,7 +163,7 @@ BOOST_AUTO_TEST_CASE(a_loop_through_one_of_some_quads_goes_or_nothing_does)
     BOOST_TEST(done > 3);
     test::Working none = start(guard, 6);
     BOOST_TEST(!collapseLoopThrough(none.surface, none.table, {}, nullptr));
-    BOOST_TEST(sameWorking(none, before));
+    BOOST_TEST(test::sameSurface(none, before));
 }
 
 BOOST_AUTO_TEST_CASE(an_exchange_brings_a_surface_nearer_with_no_more_quads)
@@ -267,7 +261,7 @@ BOOST_AUTO_TEST_CASE(threads_do_not_matter_and_every_question_can_cancel)
         const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
         test::Working alone = start(guard, 6);
         run(alone, nullptr);
-        BOOST_TEST(sameWorking(many, alone));
+        BOOST_TEST(test::sameSurface(many, alone));
     }
 }
 

@@ -2,8 +2,6 @@
 #include <boost/test/unit_test.hpp>
 
 #include <algorithm>
-#include <map>
-#include <random>
 #include <set>
 #include <vector>
 

@@ -13,6 +13,7 @@
 #include <vdbcage/bounding/detail/quads/pairing/quad_candidates.h>
 #include <vdbcage/bounding/detail/quads/pairing/quad_pairing.h>
 #include <vdbcage/check/check.h>
+#include <vdbcage/core/detail/pi.h>
 
 #include "support/guarded_surface.h"
 #include "support/manifold.h"
@@ -240,7 +241,7 @@ BOOST_AUTO_TEST_CASE(candidates_are_all_neighbours_with_a_shape_that_may_do)
                 if (shared != 2) continue;
                 const auto p = pointsOf(surface, surface.quadOf(f, g));
                 const auto angle = [](const Vec3d& u, const Vec3d& v) {
-                    return std::acos(std::clamp(u.dot(v) / (u.length() * v.length()), -1.0, 1.0)) * 180 / M_PI;
+                    return std::acos(std::clamp(u.dot(v) / (u.length() * v.length()), -1.0, 1.0)) * 180 / pi;
                 };
                 const double fold = angle(areaNormal(surface, f), areaNormal(surface, g));
                 double deviation = 0;
@@ -288,7 +289,7 @@ BOOST_AUTO_TEST_CASE(quads_along_the_directions_of_curvature_come_first)
     Mesh cylinder;
     for (openvdb::Index32 j = 0; j <= along; ++j) {
         for (openvdb::Index32 i = 0; i < around; ++i) {
-            const double angle = 2 * M_PI * i / around;
+            const double angle = 2 * pi * i / around;
             cylinder.points.emplace_back(std::cos(angle), std::sin(angle), 0.52 * j);
         }
     }

@@ -3,7 +3,6 @@
 #include <boost/test/unit_test.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
 #include <random>
@@ -17,7 +16,7 @@
 #include <vdbcage/bounding/detail/quads/quad_making.h>
 #include <vdbcage/bounding/triquad.h>
 #include <vdbcage/check/check.h>
-#include <vdbcage/volume/extract.h>
+#include <vdbcage/core/detail/pi.h>
 
 #include "support/lump.h"
 #include "support/manifold.h"
@@ -90,11 +89,6 @@ double irregularityOf(const GuardedMesh& surface, const QuadTable& table)
     return sum;
 }
 
-bool same(const Mesh& a, const Mesh& b)
-{
-    return a.points == b.points && a.triangles == b.triangles && a.quads == b.quads;
-}
-
 /// Of a cage: the share of vertices without four edges, and the mean deviation of quads' corners from square, in
 /// degrees.
 struct Shape {
@@ -112,7 +106,7 @@ struct Shape {
             for (int i = 0; i < 4; ++i) {
                 const Vec3d u = (cage.points[q[(i + 1) % 4]] - cage.points[q[i]]).unit(),
                             w = (cage.points[q[(i + 3) % 4]] - cage.points[q[i]]).unit();
-                sum += std::abs(std::acos(std::clamp(u.dot(w), -1.0, 1.0)) * 180 / 3.14159265358979323846 - 90);
+                sum += std::abs(std::acos(std::clamp(u.dot(w), -1.0, 1.0)) * 180 / pi - 90);
             }
         }
         angle = sum / double(4 * cage.quads.size());
@@ -179,7 +173,7 @@ BOOST_AUTO_TEST_CASE(a_change_that_is_taken_back_leaves_no_trace)
             table.restore(savedQuads);
             surface.restore(savedFaces);
             ++taken;
-            BOOST_CHECK(same(surface.mesh(), before.surface.mesh()));
+            BOOST_CHECK(test::sameMesh(surface.mesh(), before.surface.mesh()));
             BOOST_TEST(surface.liveFaces() == before.surface.liveFaces());
             BOOST_TEST(table.count() == before.table.count());
             for (std::uint32_t v = 0; v < before.surface.vertices(); ++v) {

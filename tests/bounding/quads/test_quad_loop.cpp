@@ -49,18 +49,8 @@ bool diagonalsAreAlone(const Mesh& mesh)
 /// The most vertices that become one where the rungs of a loop become points.
 std::size_t mostMerged(const QuadLoop& loop)
 {
-    std::vector<std::set<std::uint32_t>> groups;
-    for (const Rung& rung : loop.rungs) {
-        std::set<std::uint32_t> group(rung.begin(), rung.end());
-        for (std::size_t i = groups.size(); i-- > 0;) {
-            if (groups[i].count(rung[0]) + groups[i].count(rung[1]) == 0) continue;
-            group.insert(groups[i].begin(), groups[i].end());
-            groups.erase(groups.begin() + static_cast<std::ptrdiff_t>(i));
-        }
-        groups.push_back(group);
-    }
     std::size_t most = 0;
-    for (const auto& group : groups) most = std::max(most, group.size());
+    for (const auto& group : test::mergedGroups(loop)) most = std::max(most, group.size());
     return most;
 }
 

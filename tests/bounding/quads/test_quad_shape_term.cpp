@@ -10,6 +10,7 @@
 #include <vdbcage/bounding/detail/guard/face_queries.h>
 #include <vdbcage/bounding/detail/quads/quad_relax.h>
 #include <vdbcage/bounding/detail/quads/quad_shape_term.h>
+#include <vdbcage/core/detail/pi.h>
 #include <vdbcage/geometry/quad_shape.h>
 
 #include "support/lump.h"
@@ -46,7 +47,7 @@ struct Rough {
 double angleAt(const Vec3d& p, const Vec3d& a, const Vec3d& b)
 {
     const Vec3d u = (a - p).unit(), v = (b - p).unit();
-    return std::acos(std::clamp(u.dot(v), -1.0, 1.0)) * 180 / M_PI;
+    return std::acos(std::clamp(u.dot(v), -1.0, 1.0)) * 180 / pi;
 }
 
 double smallestAngle(const Places& p)
@@ -128,7 +129,7 @@ BOOST_AUTO_TEST_CASE(a_quad_costs_what_its_corners_and_its_fold_say)
             const Places p = rough.places(q);
             double sum = 0;
             for (std::size_t i = 0; i < 4; ++i) {
-                const double size = std::abs(std::cos(angleAt(p[i], p[(i + 1) % 4], p[(i + 3) % 4]) * M_PI / 180));
+                const double size = std::abs(std::cos(angleAt(p[i], p[(i + 1) % 4], p[(i + 3) % 4]) * pi / 180));
                 sum += weights.corners * std::pow(std::max(0.0, size - weights.free), 2);
                 sum += weights.bad * std::pow(std::max(0.0, size - 0.6), 2);
             }

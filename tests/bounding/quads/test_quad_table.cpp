@@ -7,7 +7,6 @@
 #include <set>
 #include <vector>
 
-#include <vdbcage/bounding/detail/guard/admissible.h>
 #include <vdbcage/bounding/detail/quads/quad_table.h>
 #include <vdbcage/core/error.h>
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <optional>
 #include <random>
 #include <set>
 #include <vector>
@@ -18,6 +19,29 @@ inline openvdb::Vec3d randomVector(std::mt19937& random, double size = 1)
     std::uniform_real_distribution<double> coordinate(-size, size);
     const double x = coordinate(random), y = coordinate(random);
     return {x, y, coordinate(random)};
+}
+
+/// Returns a triangle with its corners in a cube about `centre`, of sides of twice the size.
+inline detail::Corners randomTriangle(std::mt19937& random, double size, const openvdb::Vec3d& centre)
+{
+    const openvdb::Vec3d a = randomVector(random, size), b = randomVector(random, size);
+    return {centre + a, centre + b, centre + randomVector(random, size)};
+}
+
+/// Returns the point of the model nearest to p, in the guard's units.
+inline openvdb::Vec3d closestByAll(const detail::GuardModel& guard, const openvdb::Vec3d& p)
+{
+    openvdb::Vec3d closest(1e9);
+    for (const detail::TriangleBvh::Item& item : guard.tree().items()) {
+        const openvdb::Vec3d there = detail::closestPointOnTriangle(p, guard.tree().corners(item));
+        if ((there - p).lengthSqr() < (closest - p).lengthSqr()) closest = there;
+    }
+    return closest;
+}
+
+inline double distanceByAll(const detail::GuardModel& guard, const openvdb::Vec3d& p)
+{
+    return (closestByAll(guard, p) - p).length();
 }
 
 /// The numbers of all faces that live, and of the alternates.
@@ -122,6 +146,32 @@ inline bool sameSurface(const detail::GuardedMesh& a, const detail::GuardedMesh&
         if (isA && (a.point(v) != b.point(v) || a.facesOf(v) != b.facesOf(v))) return false;
     }
     return true;
+}
+
+/// A change of a surface around a vertex.
+struct RandomChange {
+    detail::StarChange star;
+    openvdb::Vec3d start; ///< the vertex, or the middle of the edge that is split
+    double size;          ///< the length of an edge there
+};
+
+/// Returns a change of v taken at random, one of the first `kinds` of moves, collapses, splits and flips, or none if it
+/// is impossible. Surfaces with quads only get moves.
+inline std::optional<RandomChange> randomChange(const detail::GuardedMesh& surface, std::uint32_t v,
+                                                std::mt19937& random, unsigned kinds = 4)
+{
+    const auto neighbours = surface.neighbours(v);
+    const std::uint32_t w = neighbours[random() % neighbours.size()];
+    RandomChange change{starOf(surface, v), surface.point(v), (surface.point(v) - surface.point(w)).length()};
+    const auto kind = surface.quads() > 0 ? 0 : random() % kinds;
+    const auto edge = change.star.link[random() % change.star.link.size()];
+    if (kind == 1 && !starOfCollapse(surface, v, w, change.star)) return std::nullopt;
+    if (kind == 2) {
+        change.star = starOfSplit(surface, v, w);
+        change.start = 0.5 * (surface.point(v) + surface.point(w));
+    }
+    if (kind == 3 && !starOfFlip(surface, v, edge[0], edge[1], change.star)) return std::nullopt;
+    return change;
 }
 
 /// Makes quads of pairs of triangles at random, of one in `oneIn` that can be.

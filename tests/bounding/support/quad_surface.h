@@ -96,21 +96,36 @@ inline bool same(const detail::Quadric& a, const detail::Quadric& b)
            cost(a, {-3, 1, 2}) == cost(b, {-3, 1, 2});
 }
 
-/// To the bit, with the order of all lists.
+/// Returns whether surfaces and quads are the same to the bit; numbers that are used up do not count.
+inline bool sameSurface(const Working& a, const Working& b)
+{
+    return sameSurface(a.surface, b.surface) && a.quads() == b.quads() && a.table.count() == b.table.count();
+}
+
+/// Returns whether the lists of quads, the quadrics and the numbers of vertices are the same, too.
 inline bool same(const Working& a, const Working& b)
 {
-    if (!sameMesh(a.surface.mesh(), b.surface.mesh()) || a.quads() != b.quads() || a.table.count() != b.table.count())
-        return false;
-    if (a.surface.vertices() != b.surface.vertices() || a.surface.liveFaces() != b.surface.liveFaces()) return false;
+    if (!sameSurface(a, b) || a.surface.vertices() != b.surface.vertices()) return false;
     for (std::uint32_t v = 0; v < a.surface.vertices(); ++v) {
-        if (a.surface.facesOf(v) != b.surface.facesOf(v) || a.table.quadsOf(v) != b.table.quadsOf(v)) return false;
-        if (a.surface.point(v) != b.surface.point(v) || !same(a.quadrics.of(v), b.quadrics.of(v))) return false;
-    }
-    for (std::uint32_t f = 0; f < a.surface.faces(); ++f) {
-        if (a.surface.isFace(f) != b.surface.isFace(f)) return false;
-        if (a.surface.isFace(f) && a.surface.face(f) != b.surface.face(f)) return false;
+        if (a.table.quadsOf(v) != b.table.quadsOf(v) || !same(a.quadrics.of(v), b.quadrics.of(v))) return false;
     }
     return true;
+}
+
+/// Returns the groups of vertices that become one where the rungs of a loop become points.
+inline std::vector<std::set<std::uint32_t>> mergedGroups(const detail::QuadLoop& loop)
+{
+    std::vector<std::set<std::uint32_t>> groups;
+    for (const detail::Rung& rung : loop.rungs) {
+        std::set<std::uint32_t> group(rung.begin(), rung.end());
+        for (std::size_t i = groups.size(); i-- > 0;) {
+            if (groups[i].count(rung[0]) + groups[i].count(rung[1]) == 0) continue;
+            group.insert(groups[i].begin(), groups[i].end());
+            groups.erase(groups.begin() + static_cast<std::ptrdiff_t>(i));
+        }
+        groups.push_back(group);
+    }
+    return groups;
 }
 
 /// The quads that are left where the rungs of a loop become points, by their numbers alone.

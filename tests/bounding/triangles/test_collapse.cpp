@@ -1,10 +1,8 @@
 // Rows of collapses, against the cheapest of all edges and against being made anew.
 #include <boost/test/unit_test.hpp>
 
-#include <algorithm>
 #include <limits>
 #include <random>
-#include <vector>
 
 #include <tbb/global_control.h>
 #include <vdbcage/bounding/detail/guard/admissible.h>

@@ -2,7 +2,6 @@
 #include <boost/test/unit_test.hpp>
 
 #include <algorithm>
-#include <utility>
 #include <vector>
 
 #include <vdbcage/bounding/decimate.h>

@@ -37,14 +37,6 @@ GuardedMesh start(const BoundingGuard& guard, int resolution = 9, GuardedMesh::Q
     return GuardedMesh(guard.symmetry() ? guard.symmetrized(ball, 0.25 / resolution) : ball, modelOf(guard), quads);
 }
 
-double distanceByAll(const GuardModel& guard, const Vec3d& p)
-{
-    double least = 1e9;
-    for (const TriangleBvh::Item& item : guard.tree().items())
-        least = std::min(least, (closestPointOnTriangle(p, guard.tree().corners(item)) - p).lengthSqr());
-    return std::sqrt(least);
-}
-
 double perSampleOf(const GuardedMesh& surface)
 {
     return areaPerSample(surface, surface.liveFaces(), 4);
@@ -92,7 +84,7 @@ BOOST_AUTO_TEST_CASE(areas_and_distances_are_sums_over_the_faces)
             for (const std::uint32_t f : test::facesAndAlternates(surface)) {
                 const Corners t = surface.corners(f);
                 const double size = 0.5 * (t[1] - t[0]).cross(t[2] - t[0]).length();
-                const double middle = distanceByAll(modelOf(guard), (t[0] + t[1] + t[2]) / 3.0);
+                const double middle = test::distanceByAll(modelOf(guard), (t[0] + t[1] + t[2]) / 3.0);
                 integral += surface.weight(f) * size * middle;
                 if (!surface.isFace(f)) continue;
                 sum += size;

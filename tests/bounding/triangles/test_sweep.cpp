@@ -13,7 +13,6 @@
 
 #include "support/guarded_surface.h"
 #include "support/lump.h"
-#include "support/manifold.h"
 #include "support/shapes.h"
 #include "support/stop_at.h"
 #include "support/surface_models.h"

@@ -1,6 +1,5 @@
 #include <tools/cli/arguments/coordinate_arguments.h>
 
-#include <vdbcage/core/detail/number_text.h>
 #include <vdbcage/core/error.h>
 
 namespace vdbcage::cli {

@@ -1,7 +1,6 @@
 #include <tools/view/jobs/planner.h>
 
 #include <algorithm>
-#include <array>
 
 namespace vdbcage::view {
 

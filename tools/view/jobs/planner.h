@@ -39,9 +39,7 @@ public:
     void stopped();
 
     const std::optional<Job>& running() const { return running_; }
-    /// Returns whether nothing is under way or to be done.
-    bool isIdle() const { return !running_ && !nextJob(); }
-    /// Returns the same as isIdle, except that jobs made ahead do not count.
+    /// Returns whether nothing is under way or to be done, except for jobs made ahead.
     bool isSettled() const;
     /// Returns whether the wanted cage was cancelled, or failed.
     bool isHalted() const { return isHalted_; }

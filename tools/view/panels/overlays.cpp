@@ -1,11 +1,9 @@
 // Overlays of the picture. None of them takes the pointer.
 #include <algorithm>
 #include <cstdio>
-#include <numeric>
 
 #include <tools/view/panels/parts.h>
 #include <tools/view/picture/distance_colours.h>
-#include <tools/view/state/words.h>
 #include <vdbcage/core/detail/length_text.h>
 
 namespace vdbcage::view {

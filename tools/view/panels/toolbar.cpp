@@ -1,5 +1,4 @@
 // The toolbar for work in the picture: mode, kind of selection, tool, and options of motions.
-#include <cstdio>
 
 #include <tools/view/panels/parts.h>
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <vdbcage/core/detail/pi.h>
+
 namespace vdbcage::view {
 
 namespace {
@@ -120,9 +122,9 @@ public:
             std::vector<Pixel> line;
             constexpr int steps = 96;
             // It starts where the ring passes behind, so that the visible part is one stroke.
-            const double start = std::atan2(v.dot(eye_), u.dot(eye_)) + M_PI;
+            const double start = std::atan2(v.dot(eye_), u.dot(eye_)) + detail::pi;
             for (int i = 0; i <= steps; ++i) {
-                const double angle = start + 2 * M_PI * i / steps;
+                const double angle = start + 2 * detail::pi * i / steps;
                 const Vec3d side = u * std::cos(angle) + v * std::sin(angle);
                 if (side.dot(eye_) >= -1e-9) line.push_back(at(side * ringRadius));
             }
@@ -153,7 +155,7 @@ private:
         std::vector<Pixel> line;
         constexpr int steps = 48;
         for (int i = 0; i < steps + (isFilled ? 0 : 1); ++i) {
-            const double angle = 2 * M_PI * i / steps;
+            const double angle = 2 * detail::pi * i / steps;
             line.push_back(at((u * std::cos(angle) + v * std::sin(angle)) * radius));
         }
         add(handle, std::move(line), isFilled);
@@ -286,14 +288,14 @@ Amount turnedAmount(const GizmoFrame& frame, const Handle& handle, const Pixel& 
     if (std::abs(facing) > 0.2) {
         // The ring turns as a wheel seen from one of its sides.
         const double x0 = from[0] - centre[0], y0 = from[1] - centre[1], x1 = to[0] - centre[0], y1 = to[1] - centre[1];
-        degrees = -std::atan2(x0 * y1 - y0 * x1, x0 * x1 + y0 * y1) * 180 / M_PI * (facing > 0 ? 1 : -1);
+        degrees = -std::atan2(x0 * y1 - y0 * x1, x0 * x1 + y0 * y1) * 180 / detail::pi * (facing > 0 ? 1 : -1);
     } else {
         // The ring turns as a wheel seen from its edge: its part nearest to the eye follows the pointer.
         const Vec3d way = axis.cross(towardsEye(frame));
         const double x = way.dot(frame.eye.right), y = -way.dot(frame.eye.up),
                      length = std::max(1e-9, std::hypot(x, y));
         const double pixels = ((to[0] - from[0]) * x + (to[1] - from[1]) * y) / length;
-        degrees = pixels / (ringRadius * frame.pixel) * 180 / M_PI;
+        degrees = pixels / (ringRadius * frame.pixel) * 180 / detail::pi;
     }
     Amount amount;
     amount.values[0] = degrees;

@@ -2,7 +2,6 @@
 
 #include <memory>
 #include <optional>
-#include <vector>
 
 #include <tools/draw/shape.h>
 #include <tools/draw/stand_in.h>

@@ -1,7 +1,6 @@
 #include <tools/view/picture/viewports.h>
 
 #include <algorithm>
-#include <utility>
 
 namespace vdbcage::view {
 

@@ -6,7 +6,6 @@
 #include <optional>
 #include <string>
 #include <tuple>
-#include <vector>
 
 #include <tools/draw/camera.h>
 #include <tools/draw/colour.h>

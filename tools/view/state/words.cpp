@@ -1,10 +1,7 @@
 #include <tools/view/state/words.h>
 
-#include <algorithm>
-#include <array>
 #include <charconv>
 #include <cmath>
-#include <cstdio>
 
 #include <vdbcage/core/error.h>
 

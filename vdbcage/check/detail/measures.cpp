@@ -5,6 +5,7 @@
 
 #include <vdbcage/core/detail/asker.h>
 #include <vdbcage/core/detail/parallel.h>
+#include <vdbcage/core/detail/pi.h>
 
 namespace vdbcage::detail {
 
@@ -103,7 +104,7 @@ double angleDegrees(const Vec3d& at, const Vec3d& b, const Vec3d& c)
     Vec3d u = b - at, v = c - at;
     u.normalize(); // leaves a zero vector unchanged
     v.normalize();
-    return std::atan2(u.cross(v).length(), u.dot(v)) * (180 / M_PI);
+    return std::atan2(u.cross(v).length(), u.dot(v)) * (180 / pi);
 }
 
 } // namespace

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <cstddef>
 
+#include <vdbcage/core/detail/pi.h>
+
 namespace vdbcage::detail {
 
 namespace {
@@ -10,7 +12,6 @@ namespace {
 /// Finds the roots of the Legendre polynomial by Newton's method.
 GaussRule makeRule(int points)
 {
-    constexpr double pi = 3.14159265358979323846;
     GaussRule rule{};
     for (int i = 0; i < points; ++i) {
         double x = std::cos(pi * (i + 0.75) / (points + 0.5)), slope = 1;

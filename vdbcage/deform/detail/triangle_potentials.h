@@ -3,6 +3,7 @@
 #include <array>
 
 #include <openvdb/Types.h>
+#include <vdbcage/core/detail/pi.h>
 
 namespace vdbcage::detail {
 
@@ -30,7 +31,7 @@ struct TrianglePotentials {
 TrianglePotentials trianglePotentials(const std::array<openvdb::Vec3d, 3>& corners, bool onFace);
 
 /// The solid angle of all directions.
-constexpr double fourPi = 4 * 3.14159265358979323846;
+constexpr double fourPi = 4 * pi;
 
 /// The width of a triangle over its longest side below which closed forms lose too many digits.
 constexpr double sliverWidth = 1e-7;

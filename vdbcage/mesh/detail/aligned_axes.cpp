@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <vdbcage/core/detail/longest_side.h>
+#include <vdbcage/core/detail/pi.h>
 
 namespace vdbcage::detail {
 
@@ -57,7 +58,7 @@ double projectedArea(const Mat3d& axes, const std::vector<Vec3d>& vectors)
 /// of them the area is concave, so the best angle is one of these.
 void turnAbout(int third, const std::vector<Vec3d>& vectors, Mat3d& axes)
 {
-    constexpr double quarter = 1.57079632679489661923;
+    constexpr double quarter = pi / 2;
     const Vec3d u = axes.row((third + 1) % 3), v = axes.row((third + 2) % 3);
     struct Seen {
         double angle, length; // in the plane of both axes, within the first quarter

@@ -6,6 +6,7 @@
 
 #include <vdbcage/bounding/face_wishes.h>
 #include <vdbcage/core/detail/longest_side.h>
+#include <vdbcage/core/detail/pi.h>
 #include <vdbcage/mesh/parts.h>
 
 namespace vdbcage::detail {
@@ -107,7 +108,7 @@ double shareOfSide(const CageOptions& options, const Mesh& model,
         Voxels voxels = finestVoxels(countedOptions, share);
         const double finer = 2.0 * voxels.resolution;
         voxels.resolution = static_cast<int>(std::lround(startScales(countedOptions).front() * voxels.resolution));
-        if (finer > mostResolution || box * finer * finer * finer > mostVoxels) return share;
+        if (finer > CageOptions::resolutions.most || box * finer * finer * finer > mostVoxels) return share;
         const double triangles = 2 * static_cast<double>(quadsOf(voxels));
         if (triangles >= (share == 1 ? fewestTriangles : usualTriangles) * options.faces) return share;
         if (!largest) largest = largestPart(model) / side;
@@ -167,8 +168,8 @@ std::vector<double> startScales(const CageOptions& options)
 
 bool mayBeTurned(const CageOptions& options)
 {
-    const bool isScaled = options.scale.grid || !options.scale.regions.empty(); // in places along x, y and z
-    return options.mesh == CageFaces::loops && !options.resolution && !isScaled;
+    // Places of a scale are along x, y and z.
+    return options.mesh == CageFaces::loops && !options.resolution && options.scale.isNone();
 }
 
 bool dependsOnSurface(const CageOptions& options)
@@ -217,7 +218,7 @@ double mergeAngle(const CageOptions& options)
 
 double thinnestBox(const GuardOptions& guarding)
 {
-    constexpr double degree = 0.01745329251994329577, room = 1.001;
+    constexpr double degree = pi / 180, room = 1.001;
     return std::max(leastThickness, room * std::tan(degree * guarding.minAngleDegrees));
 }
 

@@ -34,7 +34,6 @@ constexpr double greatestRadius = 0.24;                    ///< after three doub
 // fills.
 constexpr double fewestTriangles = 3;  ///< of the surface, for each face of the cage; most models have 6 and more
 constexpr double usualTriangles = 8;   ///< the same number, for which voxels are then made finer
-constexpr int mostResolution = 2048;   ///< that can be asked for
 constexpr double mostVoxels = 1 << 30; ///< of the bounding box, a bit each in voxelizers
 
 // Loops of quads begin with the quads of coarse voxels, several times as many as are wanted.

@@ -8,6 +8,7 @@
 #include <vdbcage/core/detail/asker.h>
 #include <vdbcage/core/detail/longest_side.h>
 #include <vdbcage/core/detail/nearest_float.h>
+#include <vdbcage/core/detail/pi.h>
 #include <vdbcage/core/error.h>
 #include <vdbcage/geometry/union_find.h>
 #include <vdbcage/mesh/detail/precision.h>
@@ -15,8 +16,6 @@
 namespace vdbcage::detail {
 
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
 
 /// Returns the signed solid angle of a triangle seen from p (van Oosterom and Strackee 1983).
 double solidAngle(const Corners& t, const Vec3d& p)

@@ -8,6 +8,7 @@
 
 #include <vdbcage/bounding/detail/guard/admissible.h>
 #include <vdbcage/bounding/detail/guard/star_change.h>
+#include <vdbcage/core/detail/pi.h>
 #include <vdbcage/core/error.h>
 
 namespace vdbcage::detail {
@@ -279,7 +280,7 @@ Vec4I GuardedMesh::quadOf(std::uint32_t f, std::uint32_t g) const
 
 void GuardedMesh::limitQuadFold(double degrees)
 {
-    constexpr double radians = 3.14159265358979323846 / 180, rounding = 1e-12;
+    constexpr double radians = pi / 180, rounding = 1e-12;
     leastQuadCosine_ = degrees >= 90 ? 0 : std::cos(degrees * radians) - rounding;
 }
 

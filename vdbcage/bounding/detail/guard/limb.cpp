@@ -6,11 +6,11 @@
 #include <limits>
 #include <optional>
 
+#include <vdbcage/core/detail/pi.h>
+
 namespace vdbcage::detail {
 
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
 
 /// Returns where `ray` meets a triangle, as a share of the ray; nothing if it does not.
 /// Based on: Moller, Trumbore, Fast, Minimum Storage Ray/Triangle Intersection, 1997.

@@ -19,7 +19,7 @@ public:
     Wishes(const GuardModel& guard, const FaceWishOptions& options, Interrupter* interrupter);
 
     /// Returns whether distance counts more in some places than in others.
-    bool hasDensity() const { return density_.grid || !density_.regions.empty() || !aroundJoints_.empty(); }
+    bool hasDensity() const { return !density_.isNone() || !aroundJoints_.empty(); }
     /// Returns the weight of distance at a point of the model: the third power of the density.
     ///
     /// Faces of size h are about h^2 from the model. The integral of the distance is least where h^4 times the weight

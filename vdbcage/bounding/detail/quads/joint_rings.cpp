@@ -4,11 +4,12 @@
 #include <cmath>
 #include <map>
 
+#include <vdbcage/core/detail/pi.h>
+
 namespace vdbcage::detail {
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
 constexpr double leastCosine = 0.5; // of a ring's normal and the limb
 // In radii of the limb:
 constexpr double widest = 2;         // of a ring

@@ -13,6 +13,7 @@
 
 #include <tbb/blocked_range.h>
 #include <vdbcage/core/detail/parallel.h>
+#include <vdbcage/core/detail/pi.h>
 #include <vdbcage/deform/detail/coordinate_family.h>
 #include <vdbcage/deform/detail/triangle_potentials.h>
 
@@ -23,7 +24,6 @@ using openvdb::Vec3d;
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
 /// The distance, in voxels, below which something is met; no distance is taken as less.
 constexpr double nearest = 1e-10;
 

@@ -22,6 +22,8 @@ constexpr int width = 4;
 constexpr int width = 2;
 #endif
 
+constexpr double pi = 3.14159265358979323846; // here again, since these sources include no other header
+
 typedef double Lanes __attribute__((vector_size(8 * width)));
 typedef std::int64_t Mask __attribute__((vector_size(8 * width))); // all bits of a lane, or none
 
@@ -149,7 +151,7 @@ inline Vector cross(Vector a, Vector b)
 /// interpolates atan(t) / t at the Chebyshev points of t^2 and is off by 4e-17.
 inline Lanes angleOf(Lanes y, Lanes x)
 {
-    constexpr double pi = 3.14159265358979323846, tangent = 0.41421356237309504880; // of pi / 8
+    constexpr double tangent = 0.41421356237309504880; // of pi / 8
     constexpr double c[] = {0.99999999999999996532,   -0.33333333333328438572,  0.19999999998855110133,
                             -0.14285714180976466754,  0.1111110618045594214,    -0.090907730748083422369,
                             0.076899534963058498403,  -0.066402339304206526316, 0.056883492267631898886,

@@ -16,7 +16,7 @@ extern const RowKernels VDBCAGE_KERNELS;
 
 namespace {
 
-constexpr double fourPi = 4 * 3.14159265358979323846;
+constexpr double fourPi = 4 * pi;
 
 struct Corner {
     Vector place; // seen from the points
@@ -256,7 +256,6 @@ struct SeenEdge {
 template <typename Take>
 Mask forEachMeanValue(const KernelCage& cage, Vector x, void* scratch, const Take& take)
 {
-    constexpr double pi = 3.14159265358979323846;
     auto* const corners = static_cast<Corner*>(scratch);
     auto* const edges = reinterpret_cast<SeenEdge*>(corners + cage.pointCount);
     Mask near = Mask{};

@@ -117,9 +117,8 @@ std::optional<Candidate> BoundingSearch::findSymmetric(const Request& request, b
 /// no axis is as good.
 std::optional<Candidate> BoundingSearch::findTilted(const Request& request, std::string& objection)
 {
-    const auto varies = [](const FactorField& field) { return field.grid || !field.regions.empty(); };
     const CageOptions& options = request.options;
-    const bool isPlaced = varies(options.scale) || varies(options.density) || !options.joints.list.empty();
+    const bool isPlaced = !options.scale.isNone() || !options.density.isNone() || !options.joints.list.empty();
     if (isPlaced || longestSide(boundingBox(cache_->model())) < policy::leastTurnedSide) return std::nullopt;
     if (!tilted_) {
         const Stage stage(request.interrupter, StageName::symmetry);

@@ -90,7 +90,7 @@ double MemoryDemand::bytes(int resolution) const
 /// Returns the finest resolution, below that of the options, with at most `limit` bytes; 0 if there is none.
 int MemoryDemand::finestWithin(double limit) const
 {
-    constexpr int least = 8; // resolution that can be asked for
+    constexpr auto least = static_cast<int>(CageOptions::resolutions.least);
     int fits = finestVoxels(options_, share_).resolution - 1;
     while (fits >= least && bytes(fits) > limit) --fits; // larger surfaces may take less: they are not recorded
     return fits >= least ? fits : 0;

@@ -116,50 +116,47 @@ std::size_t quadsOf(Volumes& volumes, const CageOptions& options, const FieldVer
 
 std::shared_ptr<const Solid> Volumes::solid(const SolidKey& key, Interrupter* interrupter)
 {
-    if (solid_ && solid_->key == key) return solid_;
-    closing_.reset(); // before the new one takes memory
-    solid_.reset();
-    const Stage stage(interrupter, StageName::voxelize);
-    VoxelizeOptions voxelization;
-    voxelization.resolution = key.resolution;
-    voxelization.voxelizer = key.voxelizer;
-    voxelization.interior = key.interior;
-    if (key.plane) voxelization.box = boxWithMirrorImage(boundingBox(model_), *key.plane);
-    auto solid = std::make_shared<Solid>();
-    solid->key = key;
-    auto [mask, report] = voxelize(model_, voxelization, interrupter);
-    solid->report = std::move(report);
-    if (key.plane) mask = withMirrorImage(*mask, key.plane->axis, key.resolution, interrupter);
-    solid->voxels = countOf(*mask);
-    solid->boundary = boundaryTopology(*mask, interrupter);
-    solid->mask = std::move(mask);
-    solid_ = std::move(solid);
-    return solid_;
+    return solid_.of(key, [&] {
+        closing_.forget(); // before the new one takes memory
+        const Stage stage(interrupter, StageName::voxelize);
+        VoxelizeOptions voxelization;
+        voxelization.resolution = key.resolution;
+        voxelization.voxelizer = key.voxelizer;
+        voxelization.interior = key.interior;
+        if (key.plane) voxelization.box = boxWithMirrorImage(boundingBox(model_), *key.plane);
+        auto solid = std::make_shared<Solid>();
+        auto [mask, report] = voxelize(model_, voxelization, interrupter);
+        solid->report = std::move(report);
+        if (key.plane) mask = withMirrorImage(*mask, key.plane->axis, key.resolution, interrupter);
+        solid->voxels = countOf(*mask);
+        solid->boundary = boundaryTopology(*mask, interrupter);
+        solid->mask = std::move(mask);
+        return solid;
+    });
 }
 
 std::shared_ptr<const Closing> Volumes::closing(const CageOptions& options, const FieldVersion& scale,
                                                 const Voxels& voxels, Interrupter* interrupter)
 {
     const ClosingKey key = closingKey(options, scale, voxels);
-    if (closing_ && closing_->key == key) return closing_;
-    auto closing = std::make_shared<Closing>();
-    closing->key = key;
-    closing->solid = solid(key.solid, interrupter);
-    closing_.reset();
-    const Stage stage(interrupter, StageName::close);
-    CloseOptions closeOptions;
-    closeOptions.closeRadiusVoxels = key.closeRadius * voxels.resolution;
-    closeOptions.erodeRadiusVoxels = key.erodeRadius * voxels.resolution;
-    closeOptions.element = key.element;
-    auto closed = closeMask(*closing->solid->mask, closeOptions, options.scale, interrupter);
-    // The scale need not be symmetric.
-    if (voxels.plane) closed = withMirrorImage(*closed, voxels.plane->axis, voxels.resolution, interrupter);
-    FilledMask filled = fillCavities(*closed, interrupter);
-    closing->cavitiesFilled = filled.cavities;
-    closing->voxels = countOf(*filled.mask);
-    closing->mask = std::move(filled.mask);
-    closing_ = std::move(closing);
-    return closing_;
+    return closing_.of(key, [&] {
+        auto closing = std::make_shared<Closing>();
+        closing->key = key;
+        closing->solid = solid(key.solid, interrupter);
+        const Stage stage(interrupter, StageName::close);
+        CloseOptions closeOptions;
+        closeOptions.closeRadiusVoxels = key.closeRadius * voxels.resolution;
+        closeOptions.erodeRadiusVoxels = key.erodeRadius * voxels.resolution;
+        closeOptions.element = key.element;
+        auto closed = closeMask(*closing->solid->mask, closeOptions, options.scale, interrupter);
+        // The scale need not be symmetric.
+        if (voxels.plane) closed = withMirrorImage(*closed, voxels.plane->axis, voxels.resolution, interrupter);
+        FilledMask filled = fillCavities(*closed, interrupter);
+        closing->cavitiesFilled = filled.cavities;
+        closing->voxels = countOf(*filled.mask);
+        closing->mask = std::move(filled.mask);
+        return closing;
+    });
 }
 
 } // namespace vdbcage::detail

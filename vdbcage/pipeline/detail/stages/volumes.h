@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include <vdbcage/core/detail/memo.h>
 #include <vdbcage/core/grids.h>
 #include <vdbcage/core/interrupter.h>
 #include <vdbcage/mesh/mesh.h>
@@ -47,7 +48,6 @@ struct ClosingKey {
 
 /// The voxelized model.
 struct Solid {
-    SolidKey key;
     std::shared_ptr<const openvdb::MaskGrid> mask;
     VoxelizeReport report;
     std::size_t voxels = 0; ///< active ones
@@ -85,8 +85,8 @@ public:
 
 private:
     const Mesh& model_;
-    std::shared_ptr<const Solid> solid_;
-    std::shared_ptr<const Closing> closing_;
+    Memo<SolidKey, std::shared_ptr<const Solid>> solid_;
+    Memo<ClosingKey, std::shared_ptr<const Closing>> closing_;
 };
 
 /// Returns the key of the closing that Volumes::closing returns.
