@@ -8,7 +8,10 @@ import numpy
 from support import BISHOP, Case, load, positions
 
 sys.path.insert(0, os.environ["VDBCAGE_MODULE"])
-import pyopenvdb  # noqa: E402
+try:
+    import pyopenvdb  # noqa: E402
+except ModuleNotFoundError:
+    import openvdb as pyopenvdb  # noqa: E402; its name since OpenVDB 12
 import vdbcage  # noqa: E402
 
 

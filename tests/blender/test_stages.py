@@ -3,7 +3,10 @@
 import bmesh
 import bpy
 import numpy
-import pyopenvdb
+try:
+    import pyopenvdb
+except ModuleNotFoundError:
+    import openvdb as pyopenvdb  # its name since OpenVDB 12
 from support import BISHOP, Case, load, positions, select
 
 STAGES = ("solid", "dilated", "closed", "contour")

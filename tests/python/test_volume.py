@@ -1,5 +1,8 @@
 import numpy
-import pyopenvdb
+try:
+    import pyopenvdb
+except ModuleNotFoundError:
+    import openvdb as pyopenvdb  # its name since OpenVDB 12
 
 import vdbcage
 from support import BISHOP, Case, command
