@@ -11,10 +11,10 @@
 #include <vdbcage/core/error.h>
 #include <vdbcage/mesh/mesh.h>
 
+#include "bounding/support/targets.h"
 #include "support/shapes.h"
 #include "support/surface_models.h"
 #include "support/symmetric.h"
-#include "support/targets.h"
 
 using namespace vdbcage;
 using openvdb::Vec3d;

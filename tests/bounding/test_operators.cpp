@@ -19,12 +19,12 @@
 #include <vdbcage/core/error.h>
 #include <vdbcage/volume/extract.h>
 
+#include "bounding/support/spacing.h"
+#include "bounding/support/targets.h"
 #include "support/shapes.h"
 #include "support/solids.h"
-#include "support/spacing.h"
 #include "support/stop_at.h"
 #include "support/surface_models.h"
-#include "support/targets.h"
 
 using namespace vdbcage;
 using openvdb::Vec3d;

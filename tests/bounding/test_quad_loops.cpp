@@ -15,11 +15,11 @@
 #include <vdbcage/core/error.h>
 #include <vdbcage/volume/extract.h>
 
-#include "support/manifold.h"
-#include "support/quad_surface.h"
+#include "bounding/support/manifold.h"
+#include "bounding/support/quad_surface.h"
+#include "bounding/support/spacing.h"
 #include "support/shapes.h"
 #include "support/solids.h"
-#include "support/spacing.h"
 #include "support/stop_at.h"
 #include "support/surface_models.h"
 

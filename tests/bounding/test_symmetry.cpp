@@ -22,12 +22,12 @@
 #include <vdbcage/volume/extract.h>
 #include <vdbcage/volume/mirror.h>
 
-#include "support/manifold.h"
+#include "bounding/support/manifold.h"
+#include "bounding/support/spacing.h"
+#include "bounding/support/targets.h"
 #include "support/shapes.h"
 #include "support/solids.h"
-#include "support/spacing.h"
 #include "support/symmetric.h"
-#include "support/targets.h"
 
 using namespace vdbcage;
 using openvdb::Vec3d;

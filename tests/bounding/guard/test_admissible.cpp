@@ -15,10 +15,10 @@
 #include <vdbcage/core/detail/pi.h>
 #include <vdbcage/geometry/quad_shape.h>
 
-#include "support/guarded_surface.h"
-#include "support/lump.h"
+#include "bounding/support/guarded_surface.h"
+#include "bounding/support/lump.h"
+#include "bounding/support/spacing.h"
 #include "support/shapes.h"
-#include "support/spacing.h"
 #include "support/surface_models.h"
 #include "support/symmetric.h"
 

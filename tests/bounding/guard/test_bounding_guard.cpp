@@ -14,7 +14,7 @@
 #include <vdbcage/core/error.h>
 #include <vdbcage/mesh/topology.h>
 
-#include "support/guarded_surface.h"
+#include "bounding/support/guarded_surface.h"
 #include "support/shapes.h"
 #include "support/symmetric.h"
 

@@ -7,8 +7,8 @@
 
 #include <vdbcage/bounding/detail/guard/face_queries.h>
 
-#include "support/guarded_surface.h"
-#include "support/lump.h"
+#include "bounding/support/guarded_surface.h"
+#include "bounding/support/lump.h"
 #include "support/surface_models.h"
 #include "support/topology_count.h"
 

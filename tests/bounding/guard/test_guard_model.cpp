@@ -8,7 +8,7 @@
 #include <vdbcage/bounding/detail/guard/guard_model.h>
 #include <vdbcage/core/error.h>
 
-#include "support/guarded_surface.h"
+#include "bounding/support/guarded_surface.h"
 #include "support/shapes.h"
 #include "support/stop_at.h"
 #include "support/surface_models.h"

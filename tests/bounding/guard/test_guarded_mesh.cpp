@@ -10,9 +10,9 @@
 #include <vdbcage/bounding/detail/guard/admissible.h>
 #include <vdbcage/core/error.h>
 
-#include "support/guarded_surface.h"
-#include "support/lump.h"
-#include "support/manifold.h"
+#include "bounding/support/guarded_surface.h"
+#include "bounding/support/lump.h"
+#include "bounding/support/manifold.h"
 #include "support/shapes.h"
 #include "support/surface_models.h"
 #include "support/symmetric.h"

@@ -11,13 +11,13 @@
 #include <vdbcage/bounding/decimate.h>
 #include <vdbcage/bounding/detail/guard/star_change.h>
 
-#include "support/guarded_surface.h"
-#include "support/lump.h"
-#include "support/manifold.h"
+#include "bounding/support/guarded_surface.h"
+#include "bounding/support/lump.h"
+#include "bounding/support/manifold.h"
+#include "bounding/support/targets.h"
 #include "support/shapes.h"
 #include "support/surface_models.h"
 #include "support/symmetric.h"
-#include "support/targets.h"
 #include "support/topology_count.h"
 
 using namespace vdbcage;

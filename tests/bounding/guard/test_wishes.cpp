@@ -11,7 +11,7 @@
 #include <vdbcage/bounding/detail/guard/wishes.h>
 #include <vdbcage/core/detail/pi.h>
 
-#include "support/guarded_surface.h"
+#include "bounding/support/guarded_surface.h"
 #include "support/shapes.h"
 #include "support/surface_models.h"
 

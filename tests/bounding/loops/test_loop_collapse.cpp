@@ -7,8 +7,8 @@
 #include <vdbcage/bounding/detail/loops/loop_collapse.h>
 #include <vdbcage/check/check.h>
 
-#include "support/lump.h"
-#include "support/quad_surface.h"
+#include "bounding/support/lump.h"
+#include "bounding/support/quad_surface.h"
 
 using namespace vdbcage;
 using namespace vdbcage::detail;

@@ -15,7 +15,7 @@
 #include <vdbcage/check/check.h>
 #include <vdbcage/core/error.h>
 
-#include "support/quad_surface.h"
+#include "bounding/support/quad_surface.h"
 #include "support/shapes.h"
 #include "support/stop_at.h"
 #include "support/surface_models.h"

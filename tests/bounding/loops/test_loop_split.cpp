@@ -8,8 +8,8 @@
 #include <vdbcage/bounding/detail/loops/loop_split.h>
 #include <vdbcage/check/check.h>
 
-#include "support/lump.h"
-#include "support/quad_surface.h"
+#include "bounding/support/lump.h"
+#include "bounding/support/quad_surface.h"
 #include "support/shapes.h"
 #include "support/surface_models.h"
 

@@ -15,8 +15,8 @@
 #include <vdbcage/check/check.h>
 #include <vdbcage/core/detail/pi.h>
 
-#include "support/guarded_surface.h"
-#include "support/manifold.h"
+#include "bounding/support/guarded_surface.h"
+#include "bounding/support/manifold.h"
 #include "support/shapes.h"
 #include "support/surface_models.h"
 #include "support/symmetric.h"

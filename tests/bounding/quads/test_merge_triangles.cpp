@@ -13,12 +13,12 @@
 #include <vdbcage/bounding/detail/quads/pairing/merge_triangles.h>
 #include <vdbcage/check/check.h>
 
-#include "support/guarded_surface.h"
-#include "support/manifold.h"
+#include "bounding/support/guarded_surface.h"
+#include "bounding/support/manifold.h"
+#include "bounding/support/targets.h"
 #include "support/shapes.h"
 #include "support/surface_models.h"
 #include "support/symmetric.h"
-#include "support/targets.h"
 #include "support/topology_count.h"
 
 using namespace vdbcage;

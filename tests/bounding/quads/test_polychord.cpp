@@ -13,9 +13,9 @@
 #include <vdbcage/bounding/detail/quads/pairing/polychord.h>
 #include <vdbcage/check/check.h>
 
-#include "support/guarded_surface.h"
-#include "support/lump.h"
-#include "support/manifold.h"
+#include "bounding/support/guarded_surface.h"
+#include "bounding/support/lump.h"
+#include "bounding/support/manifold.h"
 #include "support/shapes.h"
 #include "support/surface_models.h"
 #include "support/symmetric.h"

@@ -11,8 +11,8 @@
 
 #include <vdbcage/bounding/detail/quads/quad_change.h>
 
-#include "support/lump.h"
-#include "support/quad_surface.h"
+#include "bounding/support/lump.h"
+#include "bounding/support/quad_surface.h"
 #include "support/surface_models.h"
 
 using namespace vdbcage;

@@ -18,13 +18,13 @@
 #include <vdbcage/check/check.h>
 #include <vdbcage/core/detail/pi.h>
 
-#include "support/lump.h"
-#include "support/manifold.h"
+#include "bounding/support/lump.h"
+#include "bounding/support/manifold.h"
+#include "bounding/support/targets.h"
 #include "support/shapes.h"
 #include "support/solids.h"
 #include "support/surface_models.h"
 #include "support/symmetric.h"
-#include "support/targets.h"
 
 using namespace vdbcage;
 using namespace vdbcage::detail;

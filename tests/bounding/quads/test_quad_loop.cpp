@@ -9,8 +9,8 @@
 #include <vdbcage/bounding/detail/quads/quad_loop.h>
 #include <vdbcage/volume/extract.h>
 
-#include "support/lump.h"
-#include "support/quad_surface.h"
+#include "bounding/support/lump.h"
+#include "bounding/support/quad_surface.h"
 #include "support/shapes.h"
 #include "support/surface_models.h"
 

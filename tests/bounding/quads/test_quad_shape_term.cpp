@@ -13,8 +13,8 @@
 #include <vdbcage/core/detail/pi.h>
 #include <vdbcage/geometry/quad_shape.h>
 
-#include "support/lump.h"
-#include "support/quad_surface.h"
+#include "bounding/support/lump.h"
+#include "bounding/support/quad_surface.h"
 #include "support/surface_models.h"
 
 using namespace vdbcage;

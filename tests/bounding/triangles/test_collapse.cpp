@@ -12,9 +12,9 @@
 #include <vdbcage/check/check.h>
 #include <vdbcage/core/error.h>
 
-#include "support/guarded_surface.h"
-#include "support/lump.h"
-#include "support/manifold.h"
+#include "bounding/support/guarded_surface.h"
+#include "bounding/support/lump.h"
+#include "bounding/support/manifold.h"
 #include "support/shapes.h"
 #include "support/stop_at.h"
 #include "support/surface_models.h"

@@ -10,12 +10,12 @@
 #include <vdbcage/bounding/detail/triangles/relax.h>
 #include <vdbcage/check/check.h>
 
-#include "support/manifold.h"
+#include "bounding/support/manifold.h"
+#include "bounding/support/targets.h"
 #include "support/shapes.h"
 #include "support/stop_at.h"
 #include "support/surface_models.h"
 #include "support/symmetric.h"
-#include "support/targets.h"
 
 using namespace vdbcage;
 using detail::GuardedMesh;

@@ -11,8 +11,8 @@
 #include <vdbcage/bounding/detail/triangles/sweep.h>
 #include <vdbcage/core/error.h>
 
-#include "support/guarded_surface.h"
-#include "support/lump.h"
+#include "bounding/support/guarded_surface.h"
+#include "bounding/support/lump.h"
 #include "support/shapes.h"
 #include "support/stop_at.h"
 #include "support/surface_models.h"

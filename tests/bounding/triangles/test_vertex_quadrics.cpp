@@ -9,8 +9,8 @@
 #include <vdbcage/bounding/detail/guard/admissible.h>
 #include <vdbcage/bounding/detail/triangles/vertex_quadrics.h>
 
-#include "support/guarded_surface.h"
-#include "support/lump.h"
+#include "bounding/support/guarded_surface.h"
+#include "bounding/support/lump.h"
 #include "support/shapes.h"
 #include "support/surface_models.h"
 
