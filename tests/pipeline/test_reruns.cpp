@@ -243,7 +243,7 @@ BOOST_AUTO_TEST_CASE(every_option_counts)
     std::ofstream(joints) << "0 0 0.5\n";
     const std::map<std::string, std::string> others{{"density", "sphere:0,0,1,0.7,8"},
                                                     {"joints", joints},
-                                                    {"faces", "60"},
+                                                    {"faces", "110"},
                                                     {"resolution", "20"},
                                                     {"close-radius", "0.2"},
                                                     {"erode-radius", "0.02"},
@@ -272,7 +272,7 @@ BOOST_AUTO_TEST_CASE(every_option_counts)
     options.resolution = 16;
     options.closeRadius = 0.08;
     options.mesh = CageFaces::triquad; // so that the merge angle matters
-    options.faces = 80;                // enough for two parts
+    options.faces = 150;               // enough for two parts
     options.effort = Effort::fast;
     Pipeline made(model);
     const Mesh cage = made.run(options);
