@@ -110,9 +110,10 @@ void setUp()
     ImGuiIO& io = ImGui::GetIO();
     io.ConfigInputTrickleEventQueue = false; // a frame gets one event, and modifiers
 #if IMGUI_VERSION_NUM >= 19140
-    // An abandoned frame is no error to show. ImGui asks for one way to tell of it: its log, which nobody sees.
+    // An abandoned frame is no error to report. ImGui asks for one way to report it.
+    ImGui::GetCurrentContext()->ErrorCallback = [](ImGuiContext*, void*, const char*) {};
     io.ConfigErrorRecoveryEnableAssert = false;
-    io.ConfigErrorRecoveryEnableDebugLog = true;
+    io.ConfigErrorRecoveryEnableDebugLog = false;
     io.ConfigErrorRecoveryEnableTooltip = false;
 #endif
 }
@@ -163,6 +164,14 @@ void abandonFrame()
     ImGui::ErrorCheckEndFrameRecover(nullptr);
 #endif
     ImGui::EndFrame(); // later versions recover here
+}
+
+void clearSources(ImFontAtlas& atlas)
+{
+    atlas.ClearTexData();
+#if IMGUI_VERSION_NUM < 19200
+    atlas.ClearInputData();
+#endif
 }
 
 void pushFont(ImFont* font)

@@ -30,6 +30,8 @@ void abandonFrame();
 /// Returns whether a key was pressed, within a frame.
 bool isPressed(Key key);
 
+/// Frees the pixels of an atlas that is built, and where glyphs do not go with them, its fonts' files.
+void clearSources(ImFontAtlas& atlas);
 /// Sets the font until ImGui::PopFont().
 void pushFont(ImFont* font);
 

@@ -174,8 +174,7 @@ Glyphs makeGlyphs(ImFontAtlas& atlas, float scale)
     atlas.GetTexDataAsAlpha8(&coverage, &glyphs.width, &glyphs.height);
     const auto count = static_cast<std::size_t>(glyphs.width) * static_cast<std::size_t>(glyphs.height);
     glyphs.coverage.assign(coverage, coverage + count);
-    atlas.ClearTexData();
-    atlas.ClearInputData();
+    imgui::clearSources(atlas);
     return glyphs;
 }
 
