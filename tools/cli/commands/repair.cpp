@@ -16,6 +16,7 @@
 #include <tools/cli/arguments/talk_arguments.h>
 #include <tools/cli/commands.h>
 #include <tools/cli/interrupt.h>
+#include <tools/cli/models.h>
 #include <tools/cli/outputs.h>
 
 namespace vdbcage::cli {
