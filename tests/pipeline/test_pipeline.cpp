@@ -280,11 +280,17 @@ BOOST_AUTO_TEST_CASE(the_fewest_faces_bound_any_model)
     triangle.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
     triangle.triangles = {{0, 1, 2}};
     const Mesh plate = test::box({0, 0, 0}, {1, 1, 1e-4});
-    for (const Mesh& model :
-         {saturn(), test::torus(1, 0.05, 24, 6), triangle, plate, test::transformed(saturn(), 1e-6, {0, 0, 0}),
-          test::transformed(saturn(), 1e6, {1e7, 0, 0})}) {
+    const std::vector<CageSymmetry> both{CageSymmetry::off, CageSymmetry::automatic};
+    const std::vector<std::pair<Mesh, std::vector<CageSymmetry>>> cases{
+        {saturn(), both},
+        {test::torus(1, 0.05, 24, 6), both},
+        {triangle, both},
+        {plate, both},
+        {test::transformed(saturn(), 1e-6, {0, 0, 0}), {CageSymmetry::automatic}},
+        {test::transformed(saturn(), 1e6, {1e7, 0, 0}), {CageSymmetry::off}}};
+    for (const auto& [model, symmetries] : cases) {
         for (const CageFaces mesh : {CageFaces::triangles, CageFaces::triquad, CageFaces::quads, CageFaces::loops}) {
-            for (const CageSymmetry symmetry : {CageSymmetry::off, CageSymmetry::automatic}) {
+            for (const CageSymmetry symmetry : symmetries) {
                 CageOptions options;
                 options.effort = Effort::fast;
                 options.mesh = mesh;
