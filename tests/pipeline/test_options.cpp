@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <support/option_values.h>
 #include <support/temporary_folder.h>
 #include <vdbcage/core/error.h>
 #include <vdbcage/pipeline/options.h>
@@ -37,16 +38,24 @@ BOOST_AUTO_TEST_CASE(every_option_is_described_and_valid_by_default)
 BOOST_AUTO_TEST_CASE(text_goes_in_and_comes_out)
 {
     CageOptions options;
-    const std::vector<std::pair<std::string, std::string>> wanted{
-        {"faces", "100"},       {"resolution", "64"},     {"close-radius", "0.125"}, {"erode-radius", "0.0625"},
-        {"element", "cube"},    {"scale-field", "none"},  {"density", "none"},       {"joints", "none"},
-        {"smooth", "7"},        {"parts", "merge"},       {"least-part", "0.1"},     {"mesh", "triquad"},
-        {"quad-shape", "0.25"}, {"merge-angle", "22.5"},  {"symmetry", "auto"},      {"symmetry-tolerance", "0.01"},
-        {"interior", "shell"},  {"voxelizer", "cpu"},     {"bounding", "off"},       {"clearance", "0.001"},
-        {"min-angle", "2"},     {"precision", "float32"}, {"effort", "best"}};
-    for (const auto& option : wanted) setOption(options, option.first, option.second);
-    BOOST_CHECK(optionValues(options) == wanted);
-    BOOST_CHECK(optionValues(CageOptions{}) != wanted);
+    const std::vector<OptionText> described = describeOptions();
+    auto expected = optionValues(options);
+    for (std::size_t i = 0; i < described.size(); ++i) {
+        const std::vector<std::string> values = test::otherValues(described[i]);
+        BOOST_TEST(values.empty() == (described[i].value == "FILE")); // joints have a test of their own
+        for (const std::string& value : values) {
+            setOption(options, described[i].name, value);
+            expected[i].second = value;
+            BOOST_CHECK_MESSAGE(optionValues(options) == expected, described[i].name << ' ' << value);
+        }
+    }
+    for (const OptionText& option : described) setOption(options, option.name, option.defaultValue);
+    BOOST_CHECK(optionValues(options) == optionValues(CageOptions{}));
+
+    const std::vector<std::pair<std::string, std::string>> given{
+        {"faces", "100"},   {"resolution", "64"}, {"erode-radius", "0.0625"}, {"element", "cube"},
+        {"parts", "merge"}, {"mesh", "triquad"},  {"bounding", "off"},        {"effort", "best"}};
+    for (const auto& [name, value] : given) setOption(options, name, value);
     BOOST_TEST(options.faces == 100);
     BOOST_TEST(options.erodeRadius.value() == 0.0625);
     BOOST_CHECK(options.element == StructuringElement::cube);

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <random>
 
+#include <support/option_values.h>
 #include <tools/view/state/words.h>
 #include <vdbcage/check/check.h>
 #include <vdbcage/core/error.h>
@@ -38,29 +39,10 @@ BOOST_AUTO_TEST_CASE(each_option_goes_through_its_widget_to_its_ends_and_back)
     CageOptions defaults;
     const auto texts = describeOptions();
     std::size_t i = 0;
-    visitOptions(defaults, [&](const OptionInfo& info, const auto& field) {
+    visitOptions(defaults, [&](const OptionInfo& info, const auto& /*field*/) {
         const OptionText& text = texts[i++];
         const std::string name = info.name;
-        std::vector<std::string> values;
-        using Field = std::decay_t<decltype(field)>;
-        if constexpr (std::is_same_v<Field, FactorField>) {
-            values = {"sphere:0,0,0,1,0.5", "box:0,0,0,1,1,1,2"};
-        } else if constexpr (std::is_same_v<Field, Joints>) {
-            // of a file: none is the only text that needs no other
-        } else if (!text.range.empty()) {
-            const auto word = [&](double value) {
-                std::string digits = std::to_string(static_cast<long>(value));
-                return value == std::floor(value) ? digits : "0.1";
-            };
-            values = {word(info.range.most)};
-            if (info.range.least == std::floor(info.range.least)) values.push_back(word(info.range.least));
-        } else {
-            for (std::size_t begin = 0; begin <= text.value.size();) {
-                const std::size_t end = std::min(text.value.find('|', begin), text.value.size());
-                values.push_back(text.value.substr(begin, end - begin));
-                begin = end + 1;
-            }
-        }
+        std::vector<std::string> values = otherValues(text);
         values.push_back(text.defaultValue);
         for (const std::string& value : values) {
             BOOST_TEST_CONTEXT(name << ' ' << value)
