@@ -5,10 +5,13 @@
 #include <set>
 #include <sstream>
 
+#include <support/option_values.h>
+#include <support/read_json.h>
 #include <support/run_command.h>
 #include <vdbcage/pipeline/options.h>
 
 using namespace vdbcage;
+using nlohmann::json;
 using test::runCommand;
 
 namespace {
@@ -49,6 +52,33 @@ std::vector<std::string> commands()
     BOOST_REQUIRE(names.size() > 5);
     return names;
 }
+
+/// The form of an option's value in reports, by the type of its field.
+struct SchemaByType {
+    const OptionInfo& info;
+    const OptionText& text;
+
+    json number(const char* type) const
+    {
+        return {{"type", type}, {"minimum", info.range.least}, {"maximum", info.range.most}};
+    }
+    json operator()(int /*type*/) const { return number("integer"); }
+    json operator()(double /*type*/) const { return number("number"); }
+    json operator()(bool /*type*/) const { return {{"type", "boolean"}}; }
+    template <typename Number>
+    json operator()(const std::optional<Number>& /*type*/) const
+    {
+        return {{"oneOf", json::array({json{{"const", "auto"}}, (*this)(Number{})})}};
+    }
+    json textOrNone() const { return {{"type", json::array({"string", "null"})}}; }
+    json operator()(const FactorField& /*type*/) const { return textOrNone(); }
+    json operator()(const Joints& /*type*/) const { return textOrNone(); }
+    template <typename Name>
+    json operator()(Name /*type*/) const
+    {
+        return {{"enum", test::optionWords(text)}};
+    }
+};
 
 } // namespace
 
@@ -111,6 +141,30 @@ BOOST_AUTO_TEST_CASE(the_page_of_options_lists_the_same_options_with_the_same_de
         row += " | " + option.defaultValue + " |";
         BOOST_TEST(std::count(page.begin(), page.end(), row) == 1, "OPTIONS.md lacks the row: " + row);
     }
+}
+
+BOOST_AUTO_TEST_CASE(the_schema_of_reports_has_the_same_options_with_the_same_values)
+{
+    const json schema = test::readJson(VDBCAGE_SOURCE_DIR "/docs/user/report.schema.json").at("$defs").at("options");
+    const std::vector<OptionText> texts = describeOptions();
+    json wanted;
+    std::set<std::string> names;
+    const CageOptions defaults;
+    visitOptions(defaults, [&](const OptionInfo& info, const auto& field) {
+        wanted[info.name] = SchemaByType{info, texts.at(names.size())}(field);
+        names.insert(info.name);
+    });
+    for (const auto& [name, form] : schema.at("properties").items()) {
+        BOOST_TEST(names.count(name) == 1U, "report.schema.json has " + name + ", which is no option");
+    }
+    for (const std::string& name : names) {
+        const json form = schema.at("properties").value(name, json());
+        BOOST_TEST((form == wanted[name]),
+                   "report.schema.json has " + form.dump() + " of " + name + "; it must be " + wanted[name].dump());
+    }
+    const json& required = schema.at("required");
+    BOOST_TEST(required.size() == names.size());
+    BOOST_TEST(required.get<std::set<std::string>>() == names, boost::test_tools::per_element());
 }
 
 BOOST_AUTO_TEST_CASE(without_arguments_there_is_a_short_help)
