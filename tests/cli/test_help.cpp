@@ -8,6 +8,7 @@
 #include <support/option_values.h>
 #include <support/read_json.h>
 #include <support/run_command.h>
+#include <vdbcage/deform/coordinates.h>
 #include <vdbcage/pipeline/options.h>
 
 using namespace vdbcage;
@@ -181,6 +182,24 @@ BOOST_AUTO_TEST_CASE(the_page_of_options_has_every_command)
     for (const std::string& name : commands()) {
         BOOST_TEST(page.find("\n    vdbcage " + name + ' ') != std::string::npos, name);
     }
+}
+
+BOOST_AUTO_TEST_CASE(the_page_of_deforming_has_a_row_for_each_family_in_their_order)
+{
+    const auto page = linesOf(test::readText(VDBCAGE_SOURCE_DIR "/docs/user/DEFORMING.md"));
+    std::vector<std::string> rows, wanted;
+    const std::regex pattern("\\| (`[^|]+) \\| .+ \\| ([a-z]+) \\|"); // names, effect, place
+    auto line = std::find(page.begin(), page.end(), "| family | effect | points |");
+    for (; line != page.end() && !line->empty(); ++line) {
+        std::smatch match;
+        if (std::regex_match(*line, match, pattern)) rows.push_back(match.str(1) + ": " + match.str(2));
+    }
+    for (const FamilyInfo& family : coordinateFamilies()) {
+        const std::string name = family.name, nameOnQuads = family.nameOnQuads;
+        const std::string names = nameOnQuads == name ? "`" + name + "`" : "`" + name + "` (`" + nameOnQuads + "`)";
+        wanted.push_back(names + (family.isEverywhere ? ": anywhere" : ": inside"));
+    }
+    BOOST_TEST(rows == wanted, boost::test_tools::per_element());
 }
 
 BOOST_AUTO_TEST_CASE(help_of_a_command_is_found_both_ways)
