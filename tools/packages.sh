@@ -36,7 +36,7 @@ release_packages=(
 
 case $(. /etc/os-release 2>/dev/null && echo "${VERSION_CODENAME-}" || echo unknown) in # sets nothing for its caller
 bookworm | trixie) test_packages+=(libosmesa6) ;; # draws without EGL; Mesa gave it up in 2025
-forky | sid) ;;
+forky | sid) test_packages+=(python3-cattr python3-requests) ;; # Blender 5.2 asks for them, its package does not
 *) echo "This system is not known (Debian 12, 13 and sid are): names of packages may differ; INSTALL.md says what is needed." >&2 ;;
 esac
 

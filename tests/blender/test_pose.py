@@ -22,6 +22,14 @@ def key(model):
     return numpy.array([point.co for point in model.data.shape_keys.key_blocks[-1].data])
 
 
+def curves(action):
+    """The curves of an action; from Blender 5.0 on they are in its layers."""
+    if hasattr(action, "fcurves"):
+        return action.fcurves
+    return [curve for layer in action.layers for strip in layer.strips for bag in strip.channelbags
+            for curve in bag.fcurves]
+
+
 class Pose(Case):
     def by_hand(self, family, cage, model, rest, posed):
         """The points that the command's deform gives, in the world: `rest` and `posed` are points of the cage."""
@@ -97,7 +105,7 @@ class Pose(Case):
         pose.keyframe_insert("value", frame=3)
         pose.value = 1
         pose.keyframe_insert("value", frame=6)
-        for curve in cage.data.shape_keys.animation_data.action.fcurves:
+        for curve in curves(cage.data.shape_keys.animation_data.action):
             for point in curve.keyframe_points:
                 point.interpolation = "LINEAR"
         scene = bpy.context.scene

@@ -98,9 +98,9 @@ def open_tab(window):
     for y in range(bar.y + bar.height - 20, bar.y, -30):
         if drawn:
             break
-        for value in ("PRESS", "RELEASE"):
-            window.event("LEFTMOUSE", value, bar.x + bar.width - 8, y)
-        yield
+        for kind, value in (("MOUSEMOVE", "NOTHING"), ("LEFTMOUSE", "PRESS"), ("LEFTMOUSE", "RELEASE")):
+            window.event(kind, value, bar.x + bar.width - 12, y)
+            yield  # Blender 5 takes no two at once
     panel.VDBCAGE_PT_cage.draw = draw
     check(bool(drawn), "the tab Cage is opened by a click")
 
