@@ -30,6 +30,15 @@ def named_by_content(path):
     return named
 
 
+def drawn_aside(thing, grid):
+    """How far from its place in the file Blender draws a volume, in its own space; its grid is loaded. Voxel ijk is
+    centred at ijk. Blender 3.4 and 4.3 draw it from ijk to ijk + 1; 5.2 centres it, and there the box that it gives for
+    an object ends half a voxel beside a whole one."""
+    corner = grid.matrix_object.inverted() @ Vector(thing.bound_box[0])
+    is_centred = round(2 * corner.x) % 2 == 1
+    return Vector([0 if is_centred else axis.length / 2 for axis in grid.matrix_object.to_3x3().col])
+
+
 class VDBCAGE_OT_show_stages(MakingOperator, bpy.types.Operator):
     """Show the volumes from which the cage of the selected objects is made"""
 
@@ -57,9 +66,9 @@ class VDBCAGE_OT_show_stages(MakingOperator, bpy.types.Operator):
         for name, volume in volumes.items():
             thing = bpy.data.objects.new(f"{first.name} {name}", volume)
             collection.objects.link(thing)
-            # Voxel ijk is centred at ijk in the file; Blender draws it from ijk to ijk + 1.
-            half = Vector([axis.length / 2 for axis in volume.grids[0].matrix_object.to_3x3().col])
-            thing.matrix_world = first.matrix_world @ Matrix.Translation(-half)
+            context.view_layer.update()
+            moved = drawn_aside(thing, volume.grids[0])
+            thing.matrix_world = first.matrix_world @ Matrix.Translation(-moved)
             volume.grids.unload()
 
     def _volumes(self, context, first):
