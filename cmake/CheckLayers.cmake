@@ -70,7 +70,7 @@ foreach(file IN LISTS files)
         set(header ${CMAKE_MATCH_1})
         # A function that a header defines could be the linker's choice for sources of all instruction sets.
         if(file MATCHES "${ofInstructionSets}" AND
-           NOT header MATCHES "^(cstddef|cstdint|immintrin\\.h|vdbcage/deform/detail/kernels/(lanes|kernel_cage|row_kernels(_of_set)?)\\.h)$")
+           NOT header MATCHES "^(cstddef|cstdint|immintrin\\.h|vdbcage/core/detail/pi\\.h|vdbcage/deform/detail/kernels/(lanes|kernel_cage|row_kernels(_of_set)?)\\.h)$")
             list(APPEND problems "${file}: it is compiled for several instruction sets and must not include ${header}")
         endif()
         if(room AND header STREQUAL "vdbcage/vdbcage.h")

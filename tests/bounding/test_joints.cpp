@@ -17,6 +17,8 @@
 #include <vdbcage/core/error.h>
 #include <vdbcage/volume/extract.h>
 
+#include "bounding/support/targets.h"
+
 using namespace vdbcage;
 using openvdb::Vec3d;
 
@@ -47,13 +49,6 @@ GuardOptions guarding(const std::optional<SymmetryPlane>& plane = {})
 FaceWishes with(const std::vector<Joint>& joints, const BoundingGuard& guard, double density = 2)
 {
     return FaceWishes(guard, {{}, joints, density});
-}
-
-QuadLoopsOptions to(std::size_t faces)
-{
-    QuadLoopsOptions options;
-    options.faces = faces;
-    return options;
 }
 
 constexpr double radius = 2.4; // of the bar
@@ -104,12 +99,12 @@ BOOST_AUTO_TEST_CASE(loops_get_three_rings_at_a_joint)
     const Bar bar;
     const Mesh surface = extractSurface(*bar.voxels);
     const BoundingGuard guard(bar.model, guarding());
-    const Mesh other = quadLoops(surface, guard, to(60));
+    const Mesh other = quadLoops(surface, guard, test::loops(60));
     for (const double place : {-9.0, 0.0, 6.5}) {
         BOOST_TEST(ringsAt(other, place) < 3U, "without a joint at " << place);
         for (const bool hasAxis : {false, true}) {
             const Joint joint{{place, 0, 0}, hasAxis ? std::optional(Vec3d(1, 0, 0)) : std::nullopt};
-            const Mesh cage = quadLoops(surface, guard, to(60), with({joint}, guard));
+            const Mesh cage = quadLoops(surface, guard, test::loops(60), with({joint}, guard));
             BOOST_TEST(cage.triangles.empty());
             BOOST_TEST(faceCount(cage) <= 60U);
             BOOST_TEST(checkCage(cage, bar.model).bounding());
@@ -150,7 +145,7 @@ BOOST_AUTO_TEST_CASE(symmetric_loops_get_them_on_both_sides)
     const Bar bar;
     const BoundingGuard guard(bar.model, guarding(SymmetryPlane{0, 0}));
     const Mesh surface = guard.symmetrized(extractSurface(*bar.voxels), 0.25);
-    const Mesh cage = quadLoops(surface, guard, to(80), with({{{-8, 0, 0}, std::nullopt}}, guard));
+    const Mesh cage = quadLoops(surface, guard, test::loops(80), with({{{-8, 0, 0}, std::nullopt}}, guard));
     BOOST_TEST(test::isSymmetric(cage, *guard.symmetry()));
     for (const double place : {-8.0, 8.0}) BOOST_TEST(ringsAt(cage, place) >= 3U);
 }
@@ -216,14 +211,14 @@ BOOST_AUTO_TEST_CASE(threads_do_not_matter_and_every_question_can_cancel)
     const FaceWishes wishes = with({{{3, 0, 0}, std::nullopt}}, guard);
     constexpr int start = 1000000;
     test::StopAt watcher(start);
-    const Mesh many = quadLoops(surface, guard, to(60), wishes, &watcher);
+    const Mesh many = quadLoops(surface, guard, test::loops(60), wishes, &watcher);
     const int all = test::questions(watcher, start);
     const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
-    const Mesh single = quadLoops(surface, guard, to(60), wishes);
+    const Mesh single = quadLoops(surface, guard, test::loops(60), wishes);
     BOOST_TEST((many.points == single.points && many.quads == single.quads));
     for (const int k : {0, all / 7, all / 3, all / 2, all - 1}) {
         test::StopAt stop(k);
-        BOOST_CHECK_THROW(quadLoops(surface, guard, to(60), wishes, &stop), Cancelled);
+        BOOST_CHECK_THROW(quadLoops(surface, guard, test::loops(60), wishes, &stop), Cancelled);
     }
 }
 

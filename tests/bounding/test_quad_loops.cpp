@@ -18,6 +18,7 @@
 #include "bounding/support/manifold.h"
 #include "bounding/support/quad_surface.h"
 #include "bounding/support/spacing.h"
+#include "bounding/support/targets.h"
 #include "support/shapes.h"
 #include "support/solids.h"
 #include "support/stop_at.h"
@@ -29,13 +30,6 @@ using openvdb::Vec3d;
 using openvdb::Vec4I;
 
 namespace {
-
-QuadLoopsOptions to(std::size_t faces)
-{
-    QuadLoopsOptions options;
-    options.faces = faces;
-    return options;
-}
 
 /// The part of the quads that is on a loop that passes no quad twice.
 double loopShare(const Mesh& mesh)
@@ -64,7 +58,7 @@ BOOST_DATA_TEST_CASE(every_cage_bounds_its_model, boost::unit_test::data::make({
     int reached = 0;
     for (const Mesh& model : models()) {
         const BoundingGuard guard(model);
-        const Mesh cage = quadLoops(test::ball(12), guard, to(std::size_t(faces)));
+        const Mesh cage = quadLoops(test::ball(12), guard, test::loops(std::size_t(faces)));
         BOOST_TEST(checkCage(cage, model).bounding()); // under both diagonals
         BOOST_TEST(guard.facesTooNear(cage).empty());
         BOOST_TEST(test::pairsTooNear(cage, guard) == 0U);
@@ -83,7 +77,7 @@ BOOST_AUTO_TEST_CASE(a_box_is_six_quads_and_tight)
     const BoundingGuard guard(model);
     const Mesh start = extractSurface(*test::sample(
         12, [&](const Vec3d& p) { return std::abs(p.x()) < 0.4 && std::abs(p.y()) < 0.35 && std::abs(p.z()) < 0.3; }));
-    const Mesh cage = quadLoops(start, guard, to(6));
+    const Mesh cage = quadLoops(start, guard, test::loops(6));
     BOOST_TEST(cage.quads.size() == 6U);
     BOOST_TEST(cage.triangles.empty());
     const CageCheck check = checkCage(cage, model);
@@ -98,7 +92,7 @@ BOOST_AUTO_TEST_CASE(corners_get_squarer_where_that_is_asked)
     slender.minAngleDegrees = 1;
     const BoundingGuard guard(model, slender);
     const auto angles = [&](double mean) {
-        QuadLoopsOptions options = to(150);
+        QuadLoopsOptions options = test::loops(150);
         options.meanAngleDegrees = mean;
         options.mostAngleDegrees = 90;
         const GuardedMesh surface(quadLoops(test::ball(16), guard, options), modelOf(guard));
@@ -115,7 +109,7 @@ BOOST_AUTO_TEST_CASE(symmetric_cages_stay_symmetric)
     const Mesh model = test::joined(test::sphere({-0.2, 0, 0}, 0.15, 10), test::sphere({0.2, 0, 0}, 0.15, 10));
     const BoundingGuard guard = test::guardOf(model, true);
     const Mesh start = guard.symmetrized(test::ball(14), 0.25 / 14);
-    const Mesh cage = quadLoops(start, guard, to(80));
+    const Mesh cage = quadLoops(start, guard, test::loops(80));
     BOOST_TEST(checkCage(cage, model).bounding());
     BOOST_TEST(cage.triangles.empty());
     BOOST_TEST(cage.quads.size() <= 80U);
@@ -130,7 +124,7 @@ BOOST_AUTO_TEST_CASE(exchanged_loops_bring_a_surface_nearer)
     for (const Mesh& model : {test::torus(0.3, 0.08, 24, 10), test::box({-0.3, -0.2, -0.1}, {0.2, 0.2, 0.2})}) {
         const BoundingGuard guard(model);
         for (const int exchanges : {0, 4}) {
-            QuadLoopsOptions options = to(100);
+            QuadLoopsOptions options = test::loops(100);
             options.exchanges = exchanges;
             const Mesh cage = quadLoops(test::ball(14), guard, options);
             BOOST_TEST(cage.quads.size() <= 100U);
@@ -144,7 +138,7 @@ BOOST_AUTO_TEST_CASE(threads_do_not_matter)
 {
     const Mesh model = test::soup(4, 60, 0.1);
     const BoundingGuard guard(model);
-    const auto make = [&] { return quadLoops(test::ball(14), guard, to(60)); };
+    const auto make = [&] { return quadLoops(test::ball(14), guard, test::loops(60)); };
     const Mesh many = make();
     const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
     BOOST_CHECK(test::sameMesh(many, make()));
@@ -155,12 +149,12 @@ BOOST_AUTO_TEST_CASE(cancelling_at_any_question_throws)
     const Mesh model = test::sphere({0, 0, 0}, 0.4, 8), start = test::ball(7);
     const BoundingGuard guard(model);
     test::StopAt never(1000000);
-    quadLoops(start, guard, to(40), {}, &never);
+    quadLoops(start, guard, test::loops(40), {}, &never);
     const int asked = test::questions(never, 1000000);
     BOOST_TEST(asked > 50);
     for (int i = 0; i < 50; ++i) {
         test::StopAt stop(asked * i / 50);
-        BOOST_CHECK_THROW(quadLoops(start, guard, to(40), {}, &stop), Cancelled);
+        BOOST_CHECK_THROW(quadLoops(start, guard, test::loops(40), {}, &stop), Cancelled);
     }
 }
 
@@ -183,7 +177,7 @@ BOOST_AUTO_TEST_CASE(progress_grows)
     bar->fill(openvdb::CoordBBox({0, 0, 0}, {39, 2, 2}), true);
     bar->tree().voxelizeActiveTiles();
     const BoundingGuard guard(test::box({0, 0, 0}, {39, 2, 2}));
-    quadLoops(extractSurface(*bar), guard, to(150), {}, &watcher);
+    quadLoops(extractSurface(*bar), guard, test::loops(150), {}, &watcher);
     BOOST_TEST(watcher.grows);
     BOOST_TEST(watcher.times > 5);
     BOOST_TEST(watcher.last >= 70);
@@ -193,7 +187,7 @@ BOOST_AUTO_TEST_CASE(bad_options_and_surfaces_are_refused)
 {
     const Mesh model = test::sphere({0, 0, 0}, 0.4, 8);
     const BoundingGuard guard(model);
-    BOOST_CHECK_THROW(quadLoops(test::ball(), guard, to(5)), InputError);
+    BOOST_CHECK_THROW(quadLoops(test::ball(), guard, test::loops(5)), InputError);
     QuadLoopsOptions options;
     options.tightening.sweeps = -1;
     BOOST_CHECK_THROW(quadLoops(test::ball(), guard, options), InputError);
@@ -209,14 +203,14 @@ BOOST_AUTO_TEST_CASE(bad_options_and_surfaces_are_refused)
         BOOST_CHECK_THROW(quadLoops(test::ball(), guard, options), InputError);
     }
     const Mesh withTriangles = test::sphere({0, 0, 0}, 0.6, 8);
-    BOOST_CHECK_THROW(quadLoops(withTriangles, guard, to(40)), InputError);
+    BOOST_CHECK_THROW(quadLoops(withTriangles, guard, test::loops(40)), InputError);
     Mesh inPairs = test::ball(); // which might be taken for quads
     inPairs.triangles = triangulate(inPairs);
     inPairs.quads.clear();
-    BOOST_CHECK_THROW(quadLoops(inPairs, guard, to(40)), InputError);
+    BOOST_CHECK_THROW(quadLoops(inPairs, guard, test::loops(40)), InputError);
     Mesh open = test::ball();
     open.quads.pop_back();
-    BOOST_CHECK_THROW(quadLoops(open, guard, to(40)), InputError);
+    BOOST_CHECK_THROW(quadLoops(open, guard, test::loops(40)), InputError);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -154,7 +154,7 @@ int main(int argc, char** argv)
             const std::filesystem::path path = std::filesystem::path(argv[2]) / name.data();
             std::error_code ignored;
             if (std::filesystem::equivalent(path, argv[1], ignored)) {
-                throw vdbcage::InputError(path.string() + ": is the cage itself; it would be overwritten");
+                throw vdbcage::InputError(path.string(), "is the cage itself; it would be overwritten");
             }
             files.add(path, [&](std::ostream& out) { vdbcage::writeMesh(pose, out, path); });
         }

@@ -1,7 +1,5 @@
 #include <boost/test/unit_test.hpp>
 
-#include <array>
-#include <atomic>
 #include <cmath>
 #include <limits>
 #include <map>

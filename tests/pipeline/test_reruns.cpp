@@ -7,7 +7,6 @@
 #include <string>
 
 #include "runs.h"
-#include <filesystem>
 #include <fstream>
 #include <openvdb/tools/ChangeBackground.h>
 #include <support/cancelled_host.h>

@@ -1,7 +1,6 @@
 #include <boost/test/unit_test.hpp>
 
 #include <atomic>
-#include <mutex>
 #include <random>
 #include <thread>
 

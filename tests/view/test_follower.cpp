@@ -2,7 +2,6 @@
 #include <boost/test/unit_test.hpp>
 
 #include <atomic>
-#include <cmath>
 
 #include <support/shapes.h>
 #include <support/temporary_folder.h>

@@ -7,7 +7,6 @@
 
 #include <tools/view/input/key_map.h>
 #include <tools/view/state/words.h>
-#include <vdbcage/core/error.h>
 #include <view/support/app_fixture.h>
 
 using namespace vdbcage;

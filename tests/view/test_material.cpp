@@ -6,7 +6,6 @@
 #include <tools/view/files/file_contents.h>
 #include <tools/view/state/cage_changes.h>
 #include <tools/view/state/words.h>
-#include <vdbcage/core/error.h>
 #include <view/support/app_fixture.h>
 
 using namespace vdbcage;

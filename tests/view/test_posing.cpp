@@ -1,7 +1,6 @@
 // Posing and editing in the window, without one.
 #include <boost/test/unit_test.hpp>
 
-#include <atomic>
 #include <random>
 #include <thread>
 
@@ -9,7 +8,6 @@
 #include <tools/view/state/cage_changes.h>
 #include <tools/view/state/words.h>
 #include <vdbcage/core/detail/number_text.h>
-#include <vdbcage/core/error.h>
 #include <view/support/app_fixture.h>
 
 using namespace vdbcage;

@@ -2,8 +2,6 @@
 
 #include <array>
 #include <atomic>
-#include <condition_variable>
-#include <mutex>
 #include <new>
 #include <random>
 

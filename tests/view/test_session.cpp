@@ -1,7 +1,5 @@
 #include <boost/test/unit_test.hpp>
 
-#include <functional>
-#include <limits>
 #include <random>
 
 #include <support/shapes.h>

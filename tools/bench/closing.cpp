@@ -1,6 +1,5 @@
 // vdbcage-bench closing: costs of dilating, eroding and closing a model's voxels, beside other ways to do it.
 
-#include <algorithm>
 #include <fstream>
 #include <iostream>
 

@@ -33,7 +33,7 @@ public:
 /// \throw InputError as Pipeline::run()
 /// \throw Cancelled when asked to stop
 /// Cost: that of voxels, their closing and its surface, at a resolution of up to 512 if it is not given and many faces
-/// are asked for, and at up to 64; several times where specks take most of the longest side.
+/// are asked for, and at up to 64. Where specks take most of the longest side: several times, and at up to 1024.
 VDBCAGE_API std::size_t predictedMemory(const Mesh& model, const CageOptions& options = {},
                                         Interrupter* interrupter = nullptr);
 

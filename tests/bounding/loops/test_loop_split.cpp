@@ -1,7 +1,6 @@
 // Loops that are split lengthwise.
 #include <boost/test/unit_test.hpp>
 
-#include <algorithm>
 #include <set>
 #include <vector>
 

@@ -3,6 +3,7 @@
 #include <cstddef>
 
 #include <vdbcage/bounding/decimate.h>
+#include <vdbcage/bounding/quad_loops.h>
 #include <vdbcage/bounding/triquad.h>
 
 namespace vdbcage::test {
@@ -17,6 +18,13 @@ inline BoundingTriquadOptions quads(std::size_t faces, double degrees)
     BoundingTriquadOptions options;
     options.faces = faces;
     options.mergeAngleDegrees = degrees;
+    return options;
+}
+
+inline QuadLoopsOptions loops(std::size_t faces)
+{
+    QuadLoopsOptions options;
+    options.faces = faces;
     return options;
 }
 

@@ -34,7 +34,7 @@ SetMirror toggledMirror(const Situation& now, int axis)
 template <class T, class Change>
 Command selected(const Situation& now, const Change& change)
 {
-    if (!now.cage) throw InputError(T::info().name + ": there is no cage yet");
+    if (!now.cage) throw InputError(T::info().name, "there is no cage yet");
     const edit::Elements elements(*now.cage->rest());
     return Select{change(elements, withinCage(now.state.view.selection, elements))};
 }

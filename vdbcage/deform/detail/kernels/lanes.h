@@ -4,12 +4,13 @@
 // source, so that no other source runs instructions that its processor lacks. Every operation is one of IEEE 754 on
 // each lane alone: all instruction sets, of any width, return the same bits.
 
-#include <cstddef>
 #include <cstdint>
 
 #if defined(__SSE2__)
 #include <immintrin.h>
 #endif
+
+#include <vdbcage/core/detail/pi.h>
 
 namespace vdbcage::detail {
 namespace {
@@ -21,8 +22,6 @@ constexpr int width = 4;
 #else
 constexpr int width = 2;
 #endif
-
-constexpr double pi = 3.14159265358979323846; // here again, since these sources include no other header
 
 typedef double Lanes __attribute__((vector_size(8 * width)));
 typedef std::int64_t Mask __attribute__((vector_size(8 * width))); // all bits of a lane, or none

@@ -32,9 +32,10 @@ struct Rules {
     FaceWishes wishes;
 };
 
-/// A starting surface, kept from run to run with its decimations.
+/// A starting surface, kept from run to run with its decimations. Its key is turned, with kind and closing: all that
+/// are kept are of the guard that rules() returned last.
 struct KeptStart {
-    bool turned = false; ///< its voxels lie along the model's own axes; the key together with kind and closing
+    bool turned = false; ///< its voxels lie along the model's own axes
     std::shared_ptr<const BoundingGuard> guard;
     StartingSurface surface;
     Memo<WishesKey, RecordedDecimation> decimation;

@@ -1,7 +1,6 @@
 #include <vdbcage/volume/detail/sphere/varying_query.h>
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include <vdbcage/volume/detail/sphere/sphere_tables.h>
