@@ -30,7 +30,7 @@ try {
     std::vector<openvdb::Vec3d> moved = cage.points;
     for (openvdb::Vec3d& point : moved) point = leaning(point, height);
     const std::vector<openvdb::Vec3d> posed = binding.pose(moved);
-    vdbcage::writeMoved(words[1], posed, words[3]); // keeps texture coordinates and groups of an .obj
+    vdbcage::writeMoved(words[1], posed, words[3]); // keeps all else if the format stays
 
     // The cage leads: the model leans as it does, but smoothly where the cage has its fold.
     double motion = 0, difference = 0;

@@ -278,7 +278,7 @@ FILES = [
         "jobs model.obj other/model.obj -o new", {"other/model.obj": TETRAHEDRON}),
     Row("FILE: its cage would replace it; choose another folder", "jobs model.obj -o ."),
     Row("'WORD': a job is a line, and cannot have control characters", ["jobs", "mo\ndel.obj", "-o", "new"]),
-    Row("FILE: WHAT of point N is N, which does not fit the floats of an STL file",
+    Row("FILE: WHAT of point N is N, which does not fit the floats of the file",
         "repair large.obj -o new.stl", {"large.obj": BOX.replace("v -1 -1 -1", "v 1e50 -1 -1")}),
     Row("FILE: it is too large or too small for float32; .obj, .off and .ply files hold float64",
         "make model.obj -o new.stl --effort fast --faces 20 --resolution 16",

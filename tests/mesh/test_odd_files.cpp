@@ -384,7 +384,7 @@ BOOST_AUTO_TEST_CASE(characters_of_utf16_become_those_of_utf8)
     const std::vector<openvdb::Vec3d> points{{0, 0, 1}, {1, 0, 1}, {0, 1, 1}};
     writeMoved(folder / "a.obj", points, folder / "b.obj");
     BOOST_TEST(readText(folder / "b.obj") ==
-               "o A\xC3\xA4\xE2\x82\xAC\xF0\x9D\x84\x9E\xEF\xBF\xBD \nv 0 0 1\nv 1 0 1\nv 0 1 1\nf 1 2 3\n");
+               "o A\xC3\xA4\xE2\x82\xAC\xF0\x9D\x84\x9E\xEF\xBF\xBD \nv 0 0+e0 1\nv 1 0 1\nv 0 1 1\nf 1 2 3\n");
 }
 
 BOOST_AUTO_TEST_CASE(remarks_stay_where_points_are_moved)

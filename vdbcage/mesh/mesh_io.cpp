@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <new>
+#include <optional>
 #include <string_view>
 #include <system_error>
 #include <utility>
@@ -17,7 +18,7 @@
 #include <vdbcage/core/error.h>
 #include <vdbcage/mesh/detail/precision.h>
 #include <vdbcage/mesh/io/formats.h>
-#include <vdbcage/mesh/io/moved_obj.h>
+#include <vdbcage/mesh/io/moved_bytes.h>
 
 namespace vdbcage {
 
@@ -28,12 +29,14 @@ struct Format {
     Precision precision; ///< of the written numbers
     MeshFile (*parse)(std::string_view, const std::string&);
     void (*write)(const Mesh&, const std::string&, std::ostream&); ///< writes points that have this precision
+    std::string (*moved)(std::string_view, const std::string&, const std::vector<openvdb::Vec3d>&);
 };
 
-constexpr std::array<Format, 4> formats{{{".obj", Precision::float64, detail::parseObj, detail::writeObj},
-                                         {".off", Precision::float64, detail::parseOff, detail::writeOff},
-                                         {".ply", Precision::float64, detail::parsePly, detail::writePly},
-                                         {".stl", Precision::float32, detail::parseStl, detail::writeStl}}};
+constexpr std::array<Format, 4> formats{
+    {{".obj", Precision::float64, detail::parseObj, detail::writeObj, detail::movedObj},
+     {".off", Precision::float64, detail::parseOff, detail::writeOff, detail::movedOff},
+     {".ply", Precision::float64, detail::parsePly, detail::writePly, detail::movedPly},
+     {".stl", Precision::float32, detail::parseStl, detail::writeStl, detail::movedStl}}};
 
 const Format& formatOf(const std::filesystem::path& path)
 {
@@ -59,21 +62,34 @@ void requireFinitePoints(const std::vector<openvdb::Vec3d>& points, const std::s
     }
 }
 
+void requireFitFloats(const std::vector<openvdb::Vec3d>& points, const std::string& name)
+{
+    constexpr const char* coordinateNames[3] = {"the x coordinate", "the y coordinate", "the z coordinate"};
+    constexpr double largest = double(std::numeric_limits<float>::max());
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        for (int axis = 0; axis < 3; ++axis) {
+            const double value = points[i][axis];
+            if (!(std::abs(value) > largest)) continue;
+            throw IoError(name + ": " + coordinateNames[axis] + " of point " + std::to_string(i) + " is " +
+                          detail::numberText(value) + ", which does not fit the floats of the file");
+        }
+    }
+}
+
 /// Does the same as asWritten().
 Mesh rounded(Mesh mesh, const Format& format, const std::string& name)
 {
     if (format.precision == Precision::float64) return mesh;
-    constexpr const char* coordinateNames[3] = {"the x coordinate", "the y coordinate", "the z coordinate"};
-    constexpr double largest = double(std::numeric_limits<float>::max());
-    for (std::size_t i = 0; i < mesh.points.size(); ++i) {
-        for (int axis = 0; axis < 3; ++axis) {
-            const double value = mesh.points[i][axis];
-            if (!(std::abs(value) > largest)) continue;
-            throw IoError(name + ": " + coordinateNames[axis] + " of point " + std::to_string(i) + " is " +
-                          detail::numberText(value) + ", which does not fit the floats of an STL file");
-        }
-    }
+    requireFitFloats(mesh.points, name);
     return detail::asFloats(std::move(mesh));
+}
+
+/// Returns the precision of the coordinates in a file, which stays when its points are moved; nothing if they are
+/// integers, which cannot hold other positions.
+std::optional<Precision> movablePrecision(const Format& format, std::string_view bytes, const std::string& name)
+{
+    if (format.parse == detail::parsePly) return detail::plyPrecision(bytes, name);
+    return format.precision;
 }
 
 } // namespace
@@ -157,6 +173,13 @@ void writeColouredPly(const Mesh& mesh, const std::vector<PointColour>& colours,
     detail::writePly(mesh, &colours, out);
 }
 
+Precision movedPrecision(const std::filesystem::path& original, const std::filesystem::path& path)
+{
+    const Format& format = formatOf(path);
+    if (&format != &formatOf(original) || format.parse != detail::parsePly) return format.precision;
+    return movablePrecision(format, detail::readMeshBytes(original), original.string()).value_or(format.precision);
+}
+
 void writeMoved(const std::filesystem::path& original, const std::vector<openvdb::Vec3d>& points,
                 const std::filesystem::path& path)
 {
@@ -167,20 +190,29 @@ void writeMoved(const std::filesystem::path& original, const std::vector<openvdb
                 const std::filesystem::path& path)
 {
     const std::string name = path.string();
-    const bool isObj = formatOf(original).parse == detail::parseObj && formatOf(path).parse == detail::parseObj;
+    const Format& format = formatOf(path);
+    const bool keepsFormat = &format == &formatOf(original);
     requireFinitePoints(points, name);
-    const std::string text = detail::readMeshBytes(original);
-    Mesh mesh = detail::parseMesh(text, original).mesh;
+    const std::string bytes = detail::readMeshBytes(original);
+    Mesh mesh = detail::parseMesh(bytes, original).mesh;
     if (mesh.points.size() != points.size()) {
         throw InputError(name, std::to_string(points.size()) + " positions were given; " + original.string() + " has " +
                                    std::to_string(mesh.points.size()) + " points");
     }
-    if (isObj) {
-        out << detail::movedObj(text, original.string(), points);
-    } else {
+    const auto stays = [](const openvdb::Vec3d& a, const openvdb::Vec3d& b) { return detail::sameBits(a, b); };
+    if (keepsFormat && std::equal(points.begin(), points.end(), mesh.points.begin(), stays)) {
+        out << bytes;
+        return;
+    }
+    const std::optional<Precision> precision =
+        keepsFormat ? movablePrecision(format, bytes, original.string()) : std::nullopt;
+    if (!precision) {
         mesh.points = points;
         writeMesh(mesh, out, path);
+        return;
     }
+    if (*precision == Precision::float32) requireFitFloats(points, name);
+    out << format.moved(bytes, original.string(), points);
 }
 
 } // namespace vdbcage

@@ -97,17 +97,28 @@ using PointColour = std::array<std::uint8_t, 3>;
 VDBCAGE_API void writeColouredPly(const Mesh& mesh, const std::vector<PointColour>& colours, std::ostream& out,
                                   const std::filesystem::path& path);
 
+/// Returns the numbers of the coordinates that writeMoved() writes: float32 if they are floats, else float64.
+///
+/// From PLY to PLY they are as in the original: float32 if x, y or z is a float there. Otherwise it is
+/// precisionOf(path).
+/// \param original the model's file; it is read if both are PLY
+/// \param path only its extension counts; the file need not exist
+/// \throw IoError when an extension is unknown, or the PLY cannot be read or has a malformed header
+VDBCAGE_API Precision movedPrecision(const std::filesystem::path& original, const std::filesystem::path& path);
+
 /// Writes a model file again with other positions of its points.
 ///
-/// From OBJ to OBJ all else stays byte by byte: polygons of any size, texture coordinates, groups, materials, comments,
-/// text behind the coordinates of a point. Only normals are turned, as the faces around them turn. Other formats have
-/// the points and faces that readMesh() finds. The file appears whole or not at all.
+/// In the format of the original all else stays byte by byte, as the \ref mesh "page of this room" says: polygons of
+/// any size, comments, colours, texture coordinates, groups and other elements. In an OBJ normals turn with the faces
+/// around them, in an STL they are computed; those of OFF and PLY stay. Points equal to those of the original leave its
+/// bytes. Another format, or a PLY whose coordinates are integers, gets the points and faces that readMesh() finds. The
+/// file appears whole or not at all.
 /// \param original the model's file, as for readMesh()
-/// \param points the new positions, world units, in the order of readMesh()
+/// \param points the new positions, world units, in the order of readMesh(); where movedPrecision() is float32, those
+/// that move are rounded to it
 /// \param path the file that is written, as for writeMesh()
-/// \throw InputError when `points` are not as many as the model's, or not finite; as writeMesh(), except from OBJ to
-/// OBJ
-/// \throw IoError as readMesh() and writeMesh()
+/// \throw InputError when `points` are not as many as the model's, or not finite; as writeMesh() in another format
+/// \throw IoError as readMesh() and writeMesh(), and when a coordinate does not fit floats of the file
 VDBCAGE_API void writeMoved(const std::filesystem::path& original, const std::vector<openvdb::Vec3d>& points,
                             const std::filesystem::path& path);
 

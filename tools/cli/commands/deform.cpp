@@ -213,8 +213,8 @@ int runDeform(Call call)
     bool inversions = false, compare = false;
     CLI::App app("vdbcage deform CAGE POSED_CAGE MODEL -o OUT [OPTIONS]\n"
                  "Moves the model as its cage moved. A sequence has the frame's number in the\n"
-                 "names of POSED_CAGE and OUT: cage.%04d.obj. From OBJ to OBJ all stays as it\n"
-                 "was but positions and normals. With --compare OUT is a picture (.png).",
+                 "names of POSED_CAGE and OUT: cage.%04d.obj. In the format of MODEL all stays\n"
+                 "as it was but positions and normals. With --compare OUT is a picture (.png).",
                  "deform");
     app.add_option("cage", cagePath)->required()->type_name("CAGE");
     app.add_option("posed", posedPath)->required()->type_name("POSED_CAGE");

@@ -1,9 +1,11 @@
-#include <vdbcage/mesh/io/moved_obj.h>
+#include <vdbcage/mesh/io/formats.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 
 #include <vdbcage/core/detail/number_text.h>
+#include <vdbcage/mesh/io/moved_bytes.h>
 #include <vdbcage/mesh/io/obj_syntax.h>
 #include <vdbcage/mesh/io/utf16.h>
 
@@ -88,20 +90,29 @@ Vec3d turned(const Vec3d& v, const Vec3d& from, const Vec3d& to)
 }
 
 /// Returns each normal turned by the mean rotation of the faces that use it, by their area; zero where none has an
-/// area.
+/// area, and where no point of them moves.
 std::vector<Vec3d> turnedNormals(const Statements& statements, const std::vector<Vec3d>& points)
 {
     std::vector<Vec3d> normals(statements.normals.size(), Vec3d(0));
+    std::vector<bool> turns(normals.size(), false);
+    const auto moves = [&](const Corner& corner) {
+        return !sameBits(statements.points[corner.point].value, points[corner.point]);
+    };
     for (const std::vector<Corner>& face : statements.faces) {
         const Vec3d before = areaOf(face, [&](std::size_t i) { return statements.points[i].value; });
         const Vec3d after = areaOf(face, [&](std::size_t i) { return points[i]; });
         const double area = before.length(), posedArea = after.length();
         if (!(area > 0 && posedArea > 0)) continue;
+        const bool isMoved = std::any_of(face.begin(), face.end(), moves);
         for (const Corner& corner : face) {
             if (corner.normal >= normals.size()) continue;
+            if (isMoved) turns[corner.normal] = true;
             normals[corner.normal] +=
                 area * turned(statements.normals[corner.normal].value, before / area, after / posedArea);
         }
+    }
+    for (std::size_t n = 0; n < normals.size(); ++n) {
+        if (!turns[n]) normals[n] = Vec3d(0);
     }
     return normals;
 }
@@ -115,13 +126,14 @@ std::string movedObj(std::string_view original, const std::string& name, const s
     const std::string_view bytes = asUtf8(original, name, storage, warnings);
     const Statements statements = read(bytes, name, warnings);
     const std::vector<Vec3d> normals = turnedNormals(statements, points);
-    std::string text;
-    text.reserve(bytes.size() + bytes.size() / 2);
-    const char* at = bytes.data();
+    MovedBytes moved(bytes, points);
     const auto replace = [&](const Triple& old, const Vec3d& value) {
-        text.append(at, old.begin);
-        text += numberText(value.x()) + " " + numberText(value.y()) + " " + numberText(value.z());
-        at = old.end;
+        TextCursor in({old.begin, static_cast<std::size_t>(old.end - old.begin)}, name, objSyntax, &warnings);
+        for (int axis = 0; axis < 3; ++axis) {
+            std::string_view number;
+            in.coordinate("", &number);
+            if (!sameBits(value[axis], old.value[axis])) moved.replace(number, numberText(value[axis]));
+        }
     };
     for (std::size_t p = 0, n = 0; p < points.size() || n < normals.size();) {
         const bool isPoint =
@@ -135,8 +147,7 @@ std::string movedObj(std::string_view original, const std::string& name, const s
             ++n;
         }
     }
-    text.append(at, bytes.data() + bytes.size());
-    return text;
+    return moved.finish();
 }
 
 } // namespace vdbcage::detail

@@ -11,6 +11,8 @@
 #include <utility>
 #include <vector>
 
+#include <vdbcage/core/detail/number_text.h>
+#include <vdbcage/mesh/io/moved_bytes.h>
 #include <vdbcage/mesh/io/output_buffer.h>
 #include <vdbcage/mesh/io/polygon_soup.h>
 #include <vdbcage/mesh/io/text_cursor.h>
@@ -22,12 +24,13 @@ namespace {
 
 class OffParser {
 public:
-    OffParser(std::string_view bytes, const std::string& name, Warnings& warnings)
-        : in_(bytes, name, TextSyntax{'#'}, &warnings), name_(name), warnings_(warnings)
+    /// Replaces the coordinates in `moved`, unless that is null.
+    OffParser(std::string_view bytes, const std::string& name, Warnings& warnings, MovedBytes* moved = nullptr)
+        : in_(bytes, name, TextSyntax{'#'}, &warnings), moved_(moved)
     {
     }
 
-    MeshFile parse()
+    PolygonSoup parse()
     {
         if (!in_.skipToWord()) in_.fail("the file ends before a header; the first line must be OFF");
         header();
@@ -54,7 +57,7 @@ public:
             in_.fail(in_.quoted(in_.position()) + " follows the last of the " + std::to_string(faces_) +
                      " faces that the header announces; correct the header");
         }
-        return toMesh(std::move(soup_), name_, warnings_);
+        return std::move(soup_);
     }
 
 private:
@@ -103,7 +106,11 @@ private:
         constexpr const char* names[3] = {"the x coordinate", "the y coordinate", "the z coordinate"};
         for (int axis = 0; axis < 3; ++axis) {
             requireMore("point", i, points_);
-            p[axis] = in_.coordinate(names[axis]);
+            std::string_view number;
+            p[axis] = in_.coordinate(names[axis], &number);
+            if (!moved_) continue;
+            const double value = moved_->point(i)[axis];
+            if (!sameBits(value, p[axis])) moved_->replace(number, numberText(value));
         }
         soup_.points.push_back(p);
         in_.nextLine();
@@ -136,8 +143,7 @@ private:
     }
 
     TextCursor in_;
-    const std::string& name_;
-    Warnings& warnings_;
+    MovedBytes* moved_;
     PolygonSoup soup_;
     std::vector<openvdb::Index32> face_;
     std::uint64_t points_ = 0, faces_ = 0;
@@ -160,7 +166,18 @@ MeshFile parseOff(std::string_view bytes, const std::string& name)
 {
     Warnings warnings;
     std::string storage;
-    return OffParser(asUtf8(bytes, name, storage, warnings), name, warnings).parse();
+    PolygonSoup soup = OffParser(asUtf8(bytes, name, storage, warnings), name, warnings).parse();
+    return toMesh(std::move(soup), name, warnings);
+}
+
+std::string movedOff(std::string_view bytes, const std::string& name, const std::vector<openvdb::Vec3d>& points)
+{
+    Warnings warnings; // the same as when it was read as a mesh
+    std::string storage;
+    const std::string_view text = asUtf8(bytes, name, storage, warnings);
+    MovedBytes moved(text, points);
+    OffParser(text, name, warnings, &moved).parse();
+    return moved.finish();
 }
 
 void writeOff(const Mesh& mesh, const std::string&, std::ostream& out)

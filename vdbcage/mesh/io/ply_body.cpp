@@ -15,6 +15,7 @@
 
 #include <vdbcage/core/detail/number_text.h>
 #include <vdbcage/core/error.h>
+#include <vdbcage/mesh/io/moved_bytes.h>
 #include <vdbcage/mesh/io/output_buffer.h>
 #include <vdbcage/mesh/io/ply_header.h>
 #include <vdbcage/mesh/io/polygon_soup.h>
@@ -30,6 +31,12 @@ constexpr const char* coordinateNames[3] = {"the x coordinate", "the y coordinat
 bool isFloating(PlyType type)
 {
     return type == PlyType::float32 || type == PlyType::float64;
+}
+
+/// Returns whether a property of "vertex" is x, y or z.
+bool isCoordinate(const PlyProperty& property)
+{
+    return property.name == "x" || property.name == "y" || property.name == "z";
 }
 
 std::string ordinal(const PlyElement& element, std::uint64_t i)
@@ -72,7 +79,15 @@ public:
     double coordinate(PlyType, int axis)
     {
         mark();
-        return in_.coordinate(coordinateNames[axis]);
+        return in_.coordinate(coordinateNames[axis], &coordinate_);
+    }
+    /// Returns the piece of the file that is the coordinate read last.
+    std::string_view lastCoordinate() const { return coordinate_; }
+    /// Returns a coordinate as the file has it. The digits of a float read back as that value, whether as a float or as
+    /// a double.
+    static std::string written(PlyType type, double value)
+    {
+        return numberText(type == PlyType::float32 ? double(float(value)) : value);
     }
     std::int64_t integer(PlyType type, const char* what)
     {
@@ -111,6 +126,7 @@ private:
 
     TextCursor in_;
     const char* marked_ = nullptr;
+    std::string_view coordinate_;
 };
 
 /// The body of a binary file.
@@ -138,6 +154,11 @@ public:
                  "; coordinates must be finite");
         }
         return value;
+    }
+    std::string_view lastCoordinate() const { return bytes_.substr(marked_, at_ - marked_); }
+    std::string written(PlyType type, double value) const
+    {
+        return type == PlyType::float32 ? store(float(value)) : store(value);
     }
     std::int64_t integer(PlyType type, const char* what)
     {
@@ -189,6 +210,14 @@ private:
         std::memcpy(&value, raw, sizeof(Value));
         return value;
     }
+    template <typename Value>
+    std::string store(Value value) const
+    {
+        std::string raw(sizeof(Value), '\0');
+        std::memcpy(raw.data(), &value, sizeof(Value));
+        if (reversed_) std::reverse(raw.begin(), raw.end());
+        return raw;
+    }
     double floating(PlyType type) { return type == PlyType::float32 ? double(load<float>()) : load<double>(); }
     std::int64_t whole(PlyType type)
     {
@@ -228,8 +257,9 @@ enum class Use { x, y, z, face, strips, none };
 template <typename Source>
 class BodyParser {
 public:
-    BodyParser(const PlyHeader& header, const std::string& name, Source source)
-        : header_(header), name_(name), in_(std::move(source))
+    /// Replaces the coordinates in `moved`, unless that is null.
+    BodyParser(const PlyHeader& header, const std::string& name, Source source, MovedBytes* moved)
+        : header_(header), name_(name), in_(std::move(source)), moved_(moved)
     {
     }
 
@@ -257,7 +287,7 @@ private:
         for (const PlyProperty& property : element.properties) {
             Use use = Use::none;
             const std::string& name = property.name;
-            if (hasPoints && name.size() == 1 && name[0] >= 'x' && name[0] <= 'z') use = Use(name[0] - 'x');
+            if (hasPoints && isCoordinate(property)) use = Use(name[0] - 'x');
             if (name == "vertex_indices" || name == "vertex_index") {
                 if (hasFaces) use = Use::face;
                 if (hasStrips) use = Use::strips;
@@ -281,7 +311,9 @@ private:
             for (std::size_t j = 0; j < element.properties.size(); ++j) {
                 const PlyProperty& property = element.properties[j];
                 if (uses_[j] <= Use::z) {
-                    point[int(uses_[j])] = in_.coordinate(property.type, int(uses_[j]));
+                    const int axis = int(uses_[j]);
+                    point[axis] = in_.coordinate(property.type, axis);
+                    if (moved_) move(property.type, point[axis], moved_->point(i)[axis]);
                 } else if (property.isList) {
                     list(property, uses_[j]);
                 } else {
@@ -291,6 +323,11 @@ private:
             in_.endElement(element, i);
             if (hasPoints) soup_.points.push_back(point);
         }
+    }
+
+    void move(PlyType type, double from, double to)
+    {
+        if (!sameBits(from, to)) moved_->replace(in_.lastCoordinate(), in_.written(type, to));
     }
 
     void list(const PlyProperty& property, Use use)
@@ -346,6 +383,7 @@ private:
     const PlyHeader& header_;
     const std::string& name_;
     Source in_;
+    MovedBytes* moved_;
     PolygonSoup soup_;
     std::uint64_t points_ = 0;
     std::vector<Use> uses_;
@@ -409,6 +447,37 @@ void requireGeometry(const PlyHeader& header, const std::string& name)
     }
 }
 
+/// The text of a header and what it says.
+struct CheckedHeader {
+    std::string_view bytes; ///< of the file, as UTF-8
+    PlyHeader header;
+};
+
+/// Reads the header and checks that the file has points and faces. `storage` is that of asUtf8().
+CheckedHeader checkedHeader(std::string_view given, const std::string& name, std::string& storage, Warnings& warnings)
+{
+    const std::string_view bytes = asUtf8(given, name, storage, warnings);
+    CheckedHeader checked{bytes, parsePlyHeader(bytes, name, warnings)};
+    requireGeometry(checked.header, name);
+    if (checked.header.format != PlyFormat::ascii && bytes.data() != given.data()) {
+        throw IoError(name + ": line " + std::to_string(checked.header.endLine) +
+                      ": binary data follow text of UTF-16; export the file again, as ascii or as binary");
+    }
+    return checked;
+}
+
+/// Reads what follows the header, and replaces the coordinates in `moved`, unless that is null.
+PolygonSoup parseBody(const CheckedHeader& checked, const std::string& name, Warnings& warnings,
+                      MovedBytes* moved = nullptr)
+{
+    const auto& [bytes, header] = checked;
+    if (header.format == PlyFormat::ascii) {
+        return BodyParser(header, name, AsciiSource(bytes, header.size, name, warnings), moved).parse();
+    }
+    const bool reversed = header.format == PlyFormat::binaryBigEndian;
+    return BodyParser(header, name, BinarySource(bytes, header.size, name, reversed), moved).parse();
+}
+
 template <typename Face>
 void writeFace(OutputBuffer& buffer, const Face& face)
 {
@@ -418,23 +487,39 @@ void writeFace(OutputBuffer& buffer, const Face& face)
 
 } // namespace
 
-MeshFile parsePly(std::string_view given, const std::string& name)
+MeshFile parsePly(std::string_view bytes, const std::string& name)
 {
     Warnings warnings;
     std::string storage;
-    const std::string_view bytes = asUtf8(given, name, storage, warnings);
-    const PlyHeader header = parsePlyHeader(bytes, name, warnings);
-    requireGeometry(header, name);
-    const auto parse = [&](auto source) {
-        PolygonSoup soup = BodyParser(header, name, std::move(source)).parse();
-        return toMesh(std::move(soup), name, warnings);
-    };
-    if (header.format == PlyFormat::ascii) return parse(AsciiSource(bytes, header.size, name, warnings));
-    if (bytes.data() != given.data()) {
-        throw IoError(name + ": line " + std::to_string(header.endLine) +
-                      ": binary data follow text of UTF-16; export the file again, as ascii or as binary");
+    const CheckedHeader checked = checkedHeader(bytes, name, storage, warnings);
+    PolygonSoup soup = parseBody(checked, name, warnings);
+    return toMesh(std::move(soup), name, warnings);
+}
+
+std::optional<Precision> plyPrecision(std::string_view bytes, const std::string& name)
+{
+    Warnings warnings; // the same as when it is read as a mesh
+    std::string storage;
+    Precision precision = Precision::float64;
+    for (const PlyElement& element : checkedHeader(bytes, name, storage, warnings).header.elements) {
+        if (element.name != "vertex") continue;
+        for (const PlyProperty& property : element.properties) {
+            if (!isCoordinate(property)) continue;
+            if (!isFloating(property.type)) return std::nullopt;
+            if (property.type == PlyType::float32) precision = Precision::float32;
+        }
     }
-    return parse(BinarySource(bytes, header.size, name, header.format == PlyFormat::binaryBigEndian));
+    return precision;
+}
+
+std::string movedPly(std::string_view bytes, const std::string& name, const std::vector<openvdb::Vec3d>& points)
+{
+    Warnings warnings; // the same as when it was read as a mesh
+    std::string storage;
+    const CheckedHeader checked = checkedHeader(bytes, name, storage, warnings);
+    MovedBytes moved(checked.bytes, points);
+    parseBody(checked, name, warnings, &moved);
+    return moved.finish();
 }
 
 void writePly(const Mesh& mesh, const std::string&, std::ostream& out)

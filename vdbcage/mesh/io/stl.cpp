@@ -11,11 +11,13 @@
 #include <cstdint>
 #include <cstring>
 #include <limits>
+#include <optional>
 #include <utility>
 #include <vector>
 
 #include <vdbcage/core/detail/number_text.h>
 #include <vdbcage/core/error.h>
+#include <vdbcage/mesh/io/moved_bytes.h>
 #include <vdbcage/mesh/io/output_buffer.h>
 #include <vdbcage/mesh/io/polygon_soup.h>
 #include <vdbcage/mesh/io/text_cursor.h>
@@ -88,6 +90,46 @@ Value loadLittleEndian(const char* bytes)
     return value;
 }
 
+/// Returns the normal of a facet, of length 1; zero if it has no area.
+openvdb::Vec3s normalOf(const openvdb::Vec3s (&corners)[3])
+{
+    const openvdb::Vec3d first(corners[0]);
+    openvdb::Vec3d normal = (openvdb::Vec3d(corners[1]) - first).cross(openvdb::Vec3d(corners[2]) - first);
+    const double length = normal.length();
+    if (length > 0) normal /= length;
+    return openvdb::Vec3s(normal);
+}
+
+/// The pieces of the file that are the numbers of a facet.
+struct FacetNumbers {
+    std::string_view normal[3];
+    std::string_view corners[3][3]; ///< x, y and z of each
+};
+
+/// Replaces the numbers of a facet if one of its corners moves. `points` are those read so far, `written(float)` is a
+/// number as the file has it.
+template <typename Written>
+void moveFacet(const FacetNumbers& numbers, const openvdb::Vec3I& triangle, const std::vector<openvdb::Vec3d>& points,
+               MovedBytes& moved, const Written& written)
+{
+    bool isMoved = false;
+    openvdb::Vec3s corners[3];
+    for (int corner = 0; corner < 3; ++corner) {
+        const openvdb::Vec3d& to = moved.point(triangle[corner]);
+        isMoved = isMoved || !sameBits(points[triangle[corner]], to);
+        corners[corner] = openvdb::Vec3s(to);
+    }
+    if (!isMoved) return;
+    const openvdb::Vec3s normal = normalOf(corners);
+    for (int axis = 0; axis < 3; ++axis) moved.replace(numbers.normal[axis], written(normal[axis]));
+    for (int corner = 0; corner < 3; ++corner) {
+        for (int axis = 0; axis < 3; ++axis) {
+            if (sameBits(points[triangle[corner]][axis], moved.point(triangle[corner])[axis])) continue;
+            moved.replace(numbers.corners[corner][axis], written(corners[corner][axis]));
+        }
+    }
+}
+
 std::string_view lowerCase(std::string_view word, char (&buffer)[16])
 {
     const std::size_t length = std::min(word.size(), sizeof(buffer));
@@ -98,8 +140,9 @@ std::string_view lowerCase(std::string_view word, char (&buffer)[16])
 
 class AsciiParser {
 public:
-    AsciiParser(std::string_view bytes, const std::string& name, Warnings& warnings)
-        : in_(bytes, name, {}, &warnings), merger_(soup_.points)
+    /// Replaces the numbers of facets in `moved`, unless that is null.
+    AsciiParser(std::string_view bytes, const std::string& name, Warnings& warnings, MovedBytes* moved = nullptr)
+        : in_(bytes, name, {}, &warnings), merger_(soup_.points), moved_(moved)
     {
     }
 
@@ -121,11 +164,13 @@ public:
 private:
     void facet()
     {
+        FacetNumbers numbers;
         expect("facet");
         expect("normal");
         // The corners determine the normal; that of a face without area is often written as "nan".
-        for (int axis = 0; axis < 3; ++axis) {
-            if (in_.word().empty()) in_.fail("the facet's normal is missing; it has three numbers");
+        for (std::string_view& number : numbers.normal) {
+            number = in_.word();
+            if (number.empty()) in_.fail("the facet's normal is missing; it has three numbers");
         }
         expect("outer");
         expect("loop");
@@ -133,12 +178,17 @@ private:
         for (int corner = 0; corner < 3; ++corner) {
             expect("vertex");
             openvdb::Vec3d p;
-            for (int axis = 0; axis < 3; ++axis) p[axis] = in_.coordinate(coordinateNames[axis]);
+            for (int axis = 0; axis < 3; ++axis) {
+                p[axis] = in_.coordinate(coordinateNames[axis], &numbers.corners[corner][axis]);
+            }
             triangle[corner] = merger_.index(p);
         }
         expect("endloop");
         expect("endfacet");
         soup_.triangles.push_back(triangle);
+        // The digits of a float read back as that value, whether as a float or as a double.
+        const auto written = [](float value) { return numberText(double(value)); };
+        if (moved_) moveFacet(numbers, triangle, soup_.points, *moved_, written);
     }
 
     /// Skips whole lines: remarks, or additions of programs such as colours. A line with a word of the format may be a
@@ -181,9 +231,31 @@ private:
     TextCursor in_;
     PolygonSoup soup_;
     PointMerger merger_;
+    MovedBytes* moved_;
 };
 
-PolygonSoup parseBinary(std::string_view bytes, const std::string& name)
+FacetNumbers binaryNumbers(std::string_view facet)
+{
+    FacetNumbers numbers;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        numbers.normal[axis] = facet.substr(4 * axis, 4);
+        for (std::size_t corner = 0; corner < 3; ++corner) {
+            numbers.corners[corner][axis] = facet.substr(12 * (corner + 1) + 4 * axis, 4);
+        }
+    }
+    return numbers;
+}
+
+std::string littleEndian(float value)
+{
+    static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "reverse the bytes here");
+    std::string bytes(sizeof(value), '\0');
+    std::memcpy(bytes.data(), &value, sizeof(value));
+    return bytes;
+}
+
+/// Replaces the numbers of facets in `moved`, unless that is null.
+PolygonSoup parseBinary(std::string_view bytes, const std::string& name, MovedBytes* moved = nullptr)
 {
     const auto fail = [&](std::size_t byte, const std::string& problem) {
         throw IoError(name + ": byte " + std::to_string(byte) + ": " + problem);
@@ -221,6 +293,7 @@ PolygonSoup parseBinary(std::string_view bytes, const std::string& name)
             triangle[int(corner)] = merger.index(p);
         }
         soup.triangles.push_back(triangle);
+        if (moved) moveFacet(binaryNumbers(bytes.substr(facet)), triangle, soup.points, *moved, littleEndian);
     }
     return soup;
 }
@@ -244,16 +317,40 @@ bool looksAscii(std::string_view bytes)
     return in.skipToWord() && lowerCase(in.word(), buffer) == "solid";
 }
 
+/// Returns the text of an ascii file, and nothing of a binary one. `storage` is that of asUtf8().
+std::optional<std::string_view> asciiText(std::string_view bytes, const std::string& name, std::string& storage,
+                                          Warnings& warnings)
+{
+    if (hasBinarySize(bytes)) return std::nullopt;
+    const std::string_view text = asUtf8(bytes, name, storage, warnings);
+    if (looksAscii(text)) return text;
+    warnings = {};
+    return std::nullopt;
+}
+
 } // namespace
 
 MeshFile parseStl(std::string_view bytes, const std::string& name)
 {
-    if (hasBinarySize(bytes)) return toMesh(parseBinary(bytes, name), name);
     Warnings warnings;
     std::string storage;
-    const std::string_view text = asUtf8(bytes, name, storage, warnings);
-    if (!looksAscii(text)) return toMesh(parseBinary(bytes, name), name);
-    return toMesh(AsciiParser(text, name, warnings).parse(), name, warnings);
+    const std::optional<std::string_view> text = asciiText(bytes, name, storage, warnings);
+    PolygonSoup soup = text ? AsciiParser(*text, name, warnings).parse() : parseBinary(bytes, name);
+    return toMesh(std::move(soup), name, warnings);
+}
+
+std::string movedStl(std::string_view bytes, const std::string& name, const std::vector<openvdb::Vec3d>& points)
+{
+    Warnings warnings; // the same as when it was read as a mesh
+    std::string storage;
+    const std::optional<std::string_view> text = asciiText(bytes, name, storage, warnings);
+    MovedBytes moved(text.value_or(bytes), points);
+    if (text) {
+        AsciiParser(*text, name, warnings, &moved).parse();
+    } else {
+        parseBinary(bytes, name, &moved);
+    }
+    return moved.finish();
 }
 
 void writeStl(const Mesh& mesh, const std::string& name, std::ostream& out)
@@ -270,11 +367,8 @@ void writeStl(const Mesh& mesh, const std::string& name, std::ostream& out)
     for (const openvdb::Vec3I& triangle : triangles) {
         openvdb::Vec3s corners[3];
         for (int corner = 0; corner < 3; ++corner) corners[corner] = openvdb::Vec3s(mesh.points[triangle[corner]]);
-        const openvdb::Vec3d first(corners[0]);
-        openvdb::Vec3d normal = (openvdb::Vec3d(corners[1]) - first).cross(openvdb::Vec3d(corners[2]) - first);
-        const double length = normal.length();
-        if (length > 0) normal /= length;
-        for (int axis = 0; axis < 3; ++axis) buffer.binary(static_cast<float>(normal[axis]));
+        const openvdb::Vec3s normal = normalOf(corners);
+        for (int axis = 0; axis < 3; ++axis) buffer.binary(normal[axis]);
         for (const openvdb::Vec3s& p : corners) {
             for (int axis = 0; axis < 3; ++axis) buffer.binary(p[axis]);
         }

@@ -194,15 +194,18 @@ bool TextCursor::skipWord(std::string_view expected)
     return false;
 }
 
-double TextCursor::coordinate(const char* what)
+double TextCursor::coordinate(const char* what, std::string_view* place)
 {
     skipBlanks();
+    const char* first = at_;
     double value = 0;
     const std::from_chars_result result = parse(at_, end_, value);
     if (result.ptr == at_ || !endsWord(result.ptr) || result.ec != std::errc() || !std::isfinite(value)) {
-        return unusualCoordinate(what);
+        value = unusualCoordinate(what);
+    } else {
+        at_ = result.ptr;
     }
-    at_ = result.ptr;
+    if (place) *place = {first, static_cast<std::size_t>(at_ - first)};
     return value;
 }
 

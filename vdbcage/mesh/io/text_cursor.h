@@ -52,8 +52,8 @@ public:
     bool skipWord(std::string_view expected);
     /// Reads the next word as a finite number. One that is too small for a double becomes zero. If there are
     /// `warnings`, forms like 3.1+e2 and 1.5d3 are numbers too. `what` names the number in messages, as "the x
-    /// coordinate".
-    double coordinate(const char* what);
+    /// coordinate". If `place` is not null, it becomes the piece of the file that is the number.
+    double coordinate(const char* what, std::string_view* place = nullptr);
     /// Skips the next word if it is a number of any kind. Returns whether.
     bool skipNumber();
     /// Reads the next word as an integer.
