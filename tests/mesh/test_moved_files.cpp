@@ -579,6 +579,16 @@ BOOST_AUTO_TEST_CASE(normals_of_an_obj_stay_where_no_point_moves)
     BOOST_TEST(moved.find("vn 0 0 2") == std::string::npos);
 }
 
+BOOST_AUTO_TEST_CASE(normals_of_an_obj_that_are_no_directions_stay)
+{
+    const std::string end = "f 1//1 2//2 3//3\nf 1//4 2//5 3//4\n";
+    const std::string before =
+        "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn nan 0 nan\nvn 1e999 0 1\nvn 0 0\nvn red\nvn 0 0 1\n" + end;
+    // A quarter turn about x.
+    BOOST_TEST(movedBytes(before, ".obj", {{0, 0, 0}, {1, 0, 0}, {0, 0, 1}}) ==
+               "v 0 0 0\nv 1 0 0\nv 0 0 1\nvn nan 0 nan\nvn 1e999 0 1\nvn 0 0\nvn red\nvn 0 -1 0\n" + end);
+}
+
 BOOST_AUTO_TEST_CASE(polygons_and_colours_of_a_ply_stay)
 {
     const Points points = pointsOf(asciiPlyPyramid(), ".ply");

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 
 #include <vdbcage/core/detail/number_text.h>
 #include <vdbcage/mesh/io/moved_bytes.h>
@@ -38,8 +39,16 @@ Statements read(std::string_view bytes, const std::string& name, Warnings& warni
     const auto triple = [&](std::vector<Triple>& to) {
         in.atLineEnd(); // skips blanks
         const char* begin = in.position();
-        const double x = in.coordinate("x"), y = in.coordinate("y"), z = in.coordinate("z");
-        to.push_back({begin, in.position(), Vec3d(x, y, z)});
+        Vec3d value;
+        for (int axis = 0; axis < 3; ++axis) {
+            const std::optional<double> number = in.finiteNumber();
+            if (!number) { // a normal, which the reader of meshes does not look at; without a direction it stays
+                to.push_back({begin, begin, Vec3d(0)});
+                return;
+            }
+            value[axis] = *number;
+        }
+        to.push_back({begin, in.position(), value});
     };
     const auto resolved = [](std::int64_t index, std::size_t count) {
         return index > 0 ? static_cast<std::size_t>(index - 1) : count - static_cast<std::size_t>(-index);

@@ -199,19 +199,42 @@ double TextCursor::coordinate(const char* what, std::string_view* place)
     skipBlanks();
     const char* first = at_;
     double value = 0;
-    const std::from_chars_result result = parse(at_, end_, value);
-    if (result.ptr == at_ || !endsWord(result.ptr) || result.ec != std::errc() || !std::isfinite(value)) {
-        value = unusualCoordinate(what);
-    } else {
-        at_ = result.ptr;
+    switch (readNumber(value)) {
+    case Problem::none:
+        break;
+    case Problem::missing:
+        failMissing(what);
+    case Problem::noNumber:
+        fail(first, std::string(what) + " is " + quoted(first) +
+                        ", which is not a number; numbers are written like 12, -0.5 and 3e-2");
+    case Problem::notFinite:
+        fail(first, std::string(what) + " is " + quoted(first) + "; coordinates must be finite");
     }
     if (place) *place = {first, static_cast<std::size_t>(at_ - first)};
     return value;
 }
 
-double TextCursor::unusualCoordinate(const char* what)
+std::optional<double> TextCursor::finiteNumber()
 {
-    if (atLineEnd()) failMissing(what);
+    skipBlanks();
+    double value = 0;
+    if (readNumber(value) == Problem::none) return value;
+    return std::nullopt;
+}
+
+TextCursor::Problem TextCursor::readNumber(double& value)
+{
+    const std::from_chars_result result = parse(at_, end_, value);
+    if (result.ptr == at_ || !endsWord(result.ptr) || result.ec != std::errc() || !std::isfinite(value)) {
+        return readUnusualNumber(value);
+    }
+    at_ = result.ptr;
+    return Problem::none;
+}
+
+TextCursor::Problem TextCursor::readUnusualNumber(double& value)
+{
+    if (atLineEnd()) return Problem::missing;
     const char* start = at_;
     std::string_view text = word();
     const UnusualNumber unusual = warnings_ ? usualForm(text) : UnusualNumber{};
@@ -220,18 +243,12 @@ double TextCursor::unusualCoordinate(const char* what)
         text = unusual.text;
     }
     const char* end = text.data() + text.size();
-    double value = 0;
     const std::from_chars_result result = parse(text.data(), end, value);
-    if (result.ptr != end) {
-        fail(start, std::string(what) + " is " + quoted(start) +
-                        ", which is not a number; numbers are written like 12, -0.5 and 3e-2");
-    }
-    const bool isFinite = result.ec == std::errc() && std::isfinite(value);
-    if (!isFinite && (result.ec == std::errc() || !isTooSmall(text.data(), end))) {
-        fail(start, std::string(what) + " is " + quoted(start) + "; coordinates must be finite");
-    }
-    if (isFinite) return value;
-    return text.front() == '-' ? -0.0 : 0.0;
+    if (result.ptr != end) return Problem::noNumber;
+    if (result.ec == std::errc()) return std::isfinite(value) ? Problem::none : Problem::notFinite;
+    if (!isTooSmall(text.data(), end)) return Problem::notFinite;
+    value = text.front() == '-' ? -0.0 : 0.0;
+    return Problem::none;
 }
 
 bool TextCursor::skipNumber()

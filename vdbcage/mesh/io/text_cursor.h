@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -54,6 +55,8 @@ public:
     /// `warnings`, forms like 3.1+e2 and 1.5d3 are numbers too. `what` names the number in messages, as "the x
     /// coordinate". If `place` is not null, it becomes the piece of the file that is the number.
     double coordinate(const char* what, std::string_view* place = nullptr);
+    /// Does the same, but returns nothing, and may stop anywhere in the line, if the next word is not a finite number.
+    std::optional<double> finiteNumber();
     /// Skips the next word if it is a number of any kind. Returns whether.
     bool skipNumber();
     /// Reads the next word as an integer.
@@ -91,7 +94,9 @@ private:
     bool endsWord(const char* at) const;
     const char* wordEnd(const char* at) const;
     void skipBlanks();
-    double unusualCoordinate(const char* what);
+    enum class Problem { none, missing, noNumber, notFinite };
+    Problem readNumber(double& value);
+    Problem readUnusualNumber(double& value);
     [[noreturn]] void failMissing(const char* what) const;
 
     const char* begin_;
