@@ -91,7 +91,7 @@ def start_cluster(environment):
 
 def without_slurm(log):
     """The log of a task without what Slurm says there: of a /proc that is read-only, as in some containers."""
-    return re.sub(r"(?m)^\[\d{4}-\d\d-\d\dT[\d:.]+\] .*\n", "", log)
+    return re.sub(r"(?m)^(\[\d{4}-\d\d-\d\dT[\d:.]+\]|slurmstepd-\w+: error: failed to open /proc/).*\n", "", log)
 
 
 class Slurm(Case):
