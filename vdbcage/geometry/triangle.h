@@ -41,4 +41,7 @@ struct Box {
 /// Returns the point of the closed triangle nearest to `p`; rounded. The triangle may be degenerate.
 Vec3d closestPointOnTriangle(const Vec3d& p, const Corners& triangle);
 
+/// Returns the weights of a triangle's corners for the foot of `p` in its plane; zeros for a degenerate triangle.
+Vec3d barycentric(const Vec3d& p, const Corners& triangle);
+
 } // namespace vdbcage::detail

@@ -139,6 +139,8 @@ bool sweepsOverNothing(const GuardedMesh& mesh, const StarChange& star, const Ve
         for (const Vec3d& corner : {box.lo, box.hi}) box.expand(Box::of(mesh.guard().mirrored(corner)));
     }
     if (!mesh.guard().mayHoldPart(box)) return true;
+    const auto mayCut = [&](std::uint32_t f) { return mesh.mayCut(f); };
+    if (std::any_of(star.oldFaces.begin(), star.oldFaces.end(), mayCut)) return true;
     // The surface with every quad split by its diagonal, then by the alternate one. Parts of the model touch neither,
     // so one inside both is inside for every choice of diagonals.
     for (const bool hidesAlternates : {true, false}) {
@@ -168,9 +170,11 @@ bool allows(const GuardedMesh& mesh, const StarChange& star, const Vec3d& p, Obs
     Obstacle none;
     Obstacle& found = obstacle ? *obstacle : none;
     found.clear = 0;
+    if (mesh.isPinned(star.centre) || mesh.isPinned(star.removed)) return false;
     if (isTooNearPlane(mesh, star, p)) return false;
     if (!wellShaped(mesh, star, p)) return false;
     for (; found.clear < star.link.size(); ++found.clear) {
+        if (mesh.mayCut(star.keptFaces[found.clear])) continue;
         if (!mesh.guard().clear(starCorners(mesh, star, found.clear, p), found.item, &found.item)) return false;
     }
     if (!clearOfSurface(mesh, star, p)) return false;
@@ -186,7 +190,8 @@ void contacts(const GuardedMesh& mesh, const StarChange& star, const Vec3d& from
     const Spacing& spacing = mesh.guard().spacing();
     for (std::size_t i = 0; i < star.link.size(); ++i) {
         const Corners now = starCorners(mesh, star, i, from), then = starCorners(mesh, star, i, to);
-        const bool isBlocked = i >= obstacle.clear && !mesh.guard().clear(then, obstacle.item, &obstacle.item);
+        const bool isBlocked = i >= obstacle.clear && !mesh.mayCut(star.keptFaces[i]) &&
+                               !mesh.guard().clear(then, obstacle.item, &obstacle.item);
         if (isBlocked && !addImpacts(mesh.guard(), now, to, i == 0, clearance, halfSpaces)) {
             int gaps = 0;
             mesh.guard().forEachBlocker(then, [&](const Corners& other) {
@@ -245,9 +250,10 @@ bool makeQuad(GuardedMesh& mesh, std::uint32_t f, std::uint32_t g)
         SurfaceTriangle(Vec3I(ids[0], ids[1], ids[3]), {places[0], places[1], places[3]}),
         SurfaceTriangle(Vec3I(ids[1], ids[2], ids[3]), {places[1], places[2], places[3]})};
     Box all = Box::of(places[0]);
+    const bool mayCut = mesh.mayCut(f) || mesh.mayCut(g);
     for (const SurfaceTriangle& triangle : triangles) {
         if (hasNoArea(triangle.corners) || minSine(triangle.corners) < mesh.guard().minSine()) return false;
-        if (!mesh.guard().clear(triangle.corners, TriangleBvh::none, nullptr)) return false;
+        if (!mayCut && !mesh.guard().clear(triangle.corners, TriangleBvh::none, nullptr)) return false;
         all.expand(Box::of(triangle.corners));
     }
     const Spacing& spacing = mesh.guard().spacing();
@@ -259,7 +265,7 @@ bool makeQuad(GuardedMesh& mesh, std::uint32_t f, std::uint32_t g)
             return !tooNear(triangles[0], near, spacing) && !tooNear(triangles[1], near, spacing);
         });
     if (!isFree) return false;
-    if (mesh.guard().mayHoldPart(all)) {
+    if (!mayCut && mesh.guard().mayHoldPart(all)) {
         const Corners s = mesh.corners(f), t = mesh.corners(g);
         if (mesh.guard().swept({triangles[0].corners, triangles[1].corners, {s[0], s[2], s[1]}, {t[0], t[2], t[1]}},
                                all)) {

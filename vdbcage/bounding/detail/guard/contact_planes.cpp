@@ -9,17 +9,6 @@ namespace vdbcage::detail {
 
 namespace {
 
-/// Returns the weights of t's corners for p's foot in its plane; zeros for a degenerate t.
-Vec3d barycentric(const Vec3d& p, const Corners& t)
-{
-    const Vec3d u = t[1] - t[0], v = t[2] - t[0], w = p - t[0];
-    const double uu = u.dot(u), uv = u.dot(v), vv = v.dot(v), wu = w.dot(u), wv = w.dot(v);
-    const double determinant = uu * vv - uv * uv;
-    if (!(determinant > 0)) return Vec3d(0.0);
-    const double b = (wu * vv - wv * uv) / determinant, c = (wv * uu - wu * uv) / determinant;
-    return {1 - b - c, b, c};
-}
-
 /// The first contact of a triangle whose corner 0 moves in a straight line.
 struct Impact {
     double time = 1;   ///< 0 to 1

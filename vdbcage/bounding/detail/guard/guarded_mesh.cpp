@@ -301,8 +301,10 @@ void GuardedMesh::pair(std::uint32_t f, std::uint32_t g, const std::array<Vec3I,
     }
     quads_[number] = {{f, g}, {faces(), faces() + 1}};
     quadAt_[f] = quadAt_[g] = number;
+    const bool mayCutToo = mayCut(f) || mayCut(g);
     for (const Vec3I& t : alternates) {
         const std::uint32_t o = faces();
+        if (mayCutToo) letCut(o, true);
         faces_.push_back(t);
         life_.push_back(alternate);
         quadAt_.push_back(number);
@@ -310,6 +312,18 @@ void GuardedMesh::pair(std::uint32_t f, std::uint32_t g, const std::array<Vec3I,
         tree_.insert(o, Box::of(corners(o)));
     }
     tree_.rebuildIfWorthwhile();
+}
+
+void GuardedMesh::letCut(std::uint32_t face, bool may)
+{
+    if (mayCut_.size() <= face) mayCut_.resize(face + 1, 0);
+    mayCut_[face] = may ? 1 : 0;
+}
+
+void GuardedMesh::pin(std::uint32_t v)
+{
+    isPinned_.resize(points_.size(), 0);
+    isPinned_[v] = 1;
 }
 
 void GuardedMesh::splitQuad(std::uint32_t face)

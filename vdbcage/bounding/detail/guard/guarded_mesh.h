@@ -127,6 +127,15 @@ public:
         return alternatesOf_.empty() ? noAlternates_ : alternatesOf_[v];
     }
 
+    /// Lets a face cut the model, or no longer. A surface with such faces does not bound yet: all changes are allowed
+    /// that the model alone would forbid there.
+    void letCut(std::uint32_t face, bool may);
+    bool mayCut(std::uint32_t face) const { return face < mayCut_.size() && mayCut_[face] != 0; }
+
+    /// Keeps a vertex where it is: no change is allowed that moves it.
+    void pin(std::uint32_t v);
+    bool isPinned(std::uint32_t v) const { return v < isPinned_.size() && isPinned_[v] != 0; }
+
     /// Returns the live triangles and quads, in order, without unused points, then the mirror image of them all.
     Mesh mesh() const;
     const GuardModel& guard() const { return guard_; }
@@ -157,6 +166,8 @@ private:
     std::vector<Quad> quads_;
     std::vector<std::uint32_t> freeQuads_; // of quads_, not in use
     std::vector<std::uint32_t> quadAt_;    // by face: of quads_, or none
+    std::vector<char> mayCut_;             // by face; faces beyond its end may not
+    std::vector<char> isPinned_;           // by vertex; vertices beyond its end are not
     DynamicBvh tree_;
 };
 
