@@ -18,7 +18,7 @@ set(floor_bounding 5)
 set(floor_pipeline 6)
 
 # Rooms have folders; one includes those that come before it in its list, and itself. "." is the room's own folder.
-set(folders_vdbcage/bounding/detail guard triangles quads loops)
+set(folders_vdbcage/bounding/detail guard triangles quads loops fit)
 set(folders_vdbcage/volume/detail vdb . cube sphere)
 set(folders_vdbcage/deform/detail kernels . families)
 set(folders_vdbcage/pipeline/detail . stages search)

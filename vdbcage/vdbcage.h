@@ -8,6 +8,7 @@
 #include <vdbcage/bounding/decimate.h>
 #include <vdbcage/bounding/effort.h>
 #include <vdbcage/bounding/face_wishes.h>
+#include <vdbcage/bounding/fit.h>
 #include <vdbcage/bounding/joints.h>
 #include <vdbcage/bounding/near_coplanar.h>
 #include <vdbcage/bounding/quad_loops.h>

@@ -15,6 +15,7 @@ enum class StageName {
     guard,        ///< the search tree of a guard or of a check is built
     close,        ///< the voxels are closed
     surface,      ///< the surface that the cage is shrunk from is made
+    fit,          ///< a drawn cage is moved until it bounds
     decimate,     ///< the surface gets fewer faces
     loops,        ///< the surface gets fewer quads, in closed loops
     tighten,      ///< triangles are pulled onto the model
@@ -39,7 +40,7 @@ struct StageInfo {
 };
 
 /// All stages, in the order of StageName.
-inline constexpr std::array<StageInfo, 20> stageTable{{{StageName::read, "read", 0, 2},
+inline constexpr std::array<StageInfo, 21> stageTable{{{StageName::read, "read", 0, 2},
                                                        {StageName::bindCoarsely, "bind coarsely", 0, 2},
                                                        {StageName::interior, "interior", 2, 3},
                                                        {StageName::voxelize, "voxelize", 3, 6},
@@ -47,6 +48,7 @@ inline constexpr std::array<StageInfo, 20> stageTable{{{StageName::read, "read",
                                                        {StageName::guard, "guard", 6, 8},
                                                        {StageName::close, "close", 8, 10},
                                                        {StageName::surface, "surface", 10, 13},
+                                                       {StageName::fit, "fit", 13, 60},
                                                        {StageName::decimate, "decimate", 13, 60},
                                                        {StageName::loops, "loops", 13, 92},
                                                        {StageName::tighten, "tighten", 60, 90},

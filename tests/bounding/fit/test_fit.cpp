@@ -1,0 +1,301 @@
+// Fits of drawn cages: examined by checkCage, which knows nothing of the guard.
+#include <boost/test/unit_test.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <set>
+#include <vector>
+
+#include <tbb/global_control.h>
+#include <vdbcage/bounding/fit.h>
+#include <vdbcage/bounding/tighten.h>
+#include <vdbcage/check/check.h>
+#include <vdbcage/core/error.h>
+#include <vdbcage/mesh/symmetry.h>
+
+#include "bounding/support/guarded_surface.h"
+#include "support/says.h"
+#include "support/shapes.h"
+#include "support/stop_at.h"
+#include "support/surface_models.h"
+
+using namespace vdbcage;
+using openvdb::Vec3d;
+
+namespace {
+
+BoundingGuard guardFor(const Mesh& model)
+{
+    return BoundingGuard(model, fitGuardOptions());
+}
+
+FitOptions tight(double tightness)
+{
+    FitOptions options;
+    options.tightness = tightness;
+    return options;
+}
+
+Mesh moved(Mesh mesh, unsigned seed, double size)
+{
+    std::mt19937 random(seed);
+    for (Vec3d& p : mesh.points) p += test::randomVector(random, size);
+    return mesh;
+}
+
+bool haveSameFaces(const Mesh& a, const Mesh& b)
+{
+    return a.points.size() == b.points.size() && a.triangles == b.triangles && a.quads == b.quads;
+}
+
+/// Returns the number of points that differ in a bit.
+std::size_t movedPoints(const Mesh& a, const Mesh& b)
+{
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < a.points.size(); ++i) count += a.points[i] != b.points[i];
+    return count;
+}
+
+struct Case {
+    const char* name;
+    Mesh model, cage;
+};
+
+std::vector<Case> cases()
+{
+    const Mesh ball = test::sphere({0, 0, 0}, 0.5, 10), box = test::box({-0.3, -0.2, -0.4}, {0.3, 0.2, 0.4});
+    const Mesh ring = test::torus(0.4, 0.12, 24, 12), coarse = test::torus(0.4, 0.12, 10, 5);
+    const Mesh apart =
+        test::joined(test::transformed(ball, 0.3, {-0.3, 0, 0}), test::transformed(ball, 0.3, {0.3, 0, 0}));
+    return {{"too small", ball, test::sphere({0, 0, 0}, 0.42, 6)},
+            {"inside", ball, test::box({-0.1, -0.1, -0.1}, {0.1, 0.1, 0.1})},
+            {"beside", ball, test::sphere({0.3, 0.1, 0}, 0.5, 6)},
+            {"a box about a ball", ball, test::box({-0.4, -0.4, -0.4}, {0.4, 0.4, 0.4})},
+            {"a ball about a box", box, test::sphere({0, 0, 0}, 0.3, 6)},
+            {"a ring", ring, coarse},
+            {"a moved ring", ring, moved(coarse, 3, 0.02)},
+            {"two parts", apart, test::sphere({0, 0, 0}, 0.2, 6)},
+            {"triangles without order", test::soup(1, 30, 0.1), test::sphere({0, 0, 0}, 0.3, 6)},
+            {"points moved a little", ball, moved(test::sphere({0, 0, 0}, 0.5, 7), 1, 0.02)},
+            {"points moved far", ball, moved(test::sphere({0, 0, 0}, 0.5, 7), 2, 0.12)}};
+}
+
+} // namespace
+
+BOOST_AUTO_TEST_SUITE(fit)
+
+BOOST_AUTO_TEST_CASE(cages_that_cut_come_to_bound)
+{
+    double tightest = 0; // logarithm of the distance for 1 over that for .5, summed
+    for (const auto& [name, model, cage] : cases()) {
+        const BoundingGuard guard = guardFor(model);
+        const CageChecker checker(model);
+        double distances[3];
+        int i = 0;
+        for (const double tightness : {0.0, 0.5, 1.0}) {
+            BOOST_TEST_CONTEXT(name << ", " << tightness)
+            {
+                const Fit fit = fitCage(cage, guard, tight(tightness));
+                BOOST_TEST((fit.obstacle == Fit::Obstacle::none));
+                BOOST_TEST(fit.heldFaces.empty());
+                BOOST_TEST(haveSameFaces(fit.cage, cage));
+                const CageCheck check = checker.check(fit.cage);
+                BOOST_TEST(check.bounding());
+                BOOST_TEST(guard.facesTooNear(fit.cage).empty());
+                distances[i++] = check.meanDistance;
+            }
+        }
+        BOOST_TEST_INFO(name);
+        BOOST_TEST(distances[1] <= distances[0]);
+        tightest += std::log(distances[2] / distances[1]);
+    }
+    BOOST_TEST(tightest < 0);
+}
+
+BOOST_AUTO_TEST_CASE(a_cage_that_bounds_stays_as_it_is)
+{
+    const Mesh model = test::sphere({0, 0, 0}, 0.5, 10), cage = test::sphere({0.01, 0, 0}, 0.6, 7);
+    BOOST_REQUIRE(checkCage(cage, model).bounding());
+    BOOST_TEST(movedPoints(fitCage(cage, guardFor(model), tight(0)).cage, cage) == 0U);
+    BOOST_TEST(movedPoints(fitCage(cage, guardFor(model), tight(1)).cage, cage) > 0U);
+}
+
+BOOST_AUTO_TEST_CASE(only_the_surroundings_of_a_cut_move)
+{
+    const Mesh model = test::sphere({0, 0, 0}, 0.5, 16);
+    Mesh cage = test::sphere({0, 0, 0}, 0.56, 12);
+    const std::size_t dent = cage.points.size() / 2;
+    cage.points[dent] *= 0.8;
+    const Fit fit = fitCage(cage, guardFor(model), tight(0));
+    BOOST_TEST(checkCage(fit.cage, model).bounding());
+    std::set<std::size_t> near{dent};
+    for (int ring = 0; ring < 2; ++ring) {
+        std::set<std::size_t> wider = near;
+        const auto widen = [&](const auto& face) {
+            bool meets = false;
+            for (int i = 0; i < face.size; ++i) meets = meets || near.count(face[i]) > 0;
+            for (int i = 0; meets && i < face.size; ++i) wider.insert(face[i]);
+        };
+        for (const auto& t : cage.triangles) widen(t);
+        for (const auto& q : cage.quads) widen(q);
+        near = wider;
+    }
+    BOOST_TEST(cage.points[dent] != fit.cage.points[dent]);
+    for (std::size_t i = 0; i < cage.points.size(); ++i) {
+        if (near.count(i) == 0) BOOST_TEST((cage.points[i] == fit.cage.points[i]), i);
+    }
+}
+
+BOOST_AUTO_TEST_CASE(as_tight_as_tighten)
+{
+    const Mesh model = test::torus(0.4, 0.12, 24, 12), cage = test::torus(0.4, 0.16, 12, 6);
+    const BoundingGuard guard = guardFor(model);
+    BOOST_REQUIRE(checkCage(cage, model).bounding());
+    const double tightened = checkCage(tighten(cage, guard), model).meanDistance;
+    BOOST_TEST(checkCage(fitCage(cage, guard, tight(1)).cage, model).meanDistance <= 1.1 * tightened);
+}
+
+BOOST_AUTO_TEST_CASE(kept_points_keep_their_bits)
+{
+    const Mesh model = test::sphere({0, 0, 0}, 0.5, 10);
+    Mesh cage = test::sphere({0, 0, 0}, 0.45, 7);
+    cage.points[0] = Vec3d(0.03, 0, 0.6); // the pole
+    const BoundingGuard guard = guardFor(model);
+    FitOptions options = tight(1);
+    options.keptPoints = {0};
+    const Fit fit = fitCage(cage, guard, options);
+    BOOST_TEST(checkCage(fit.cage, model).bounding());
+    BOOST_TEST((fit.cage.points[0] == cage.points[0]));
+    BOOST_TEST(movedPoints(fit.cage, cage) > cage.points.size() / 2);
+
+    // The point 20 is inside of the model: the faces around it cannot bound.
+    options.keptPoints = {20};
+    const Fit held = fitCage(cage, guard, options);
+    BOOST_TEST((held.obstacle == Fit::Obstacle::model));
+    BOOST_TEST(haveSameFaces(held.cage, cage));
+    BOOST_TEST((held.cage.points[20] == cage.points[20]));
+    BOOST_REQUIRE(!held.heldFaces.empty());
+    for (const std::size_t face : held.heldFaces) {
+        const std::size_t triangles = cage.triangles.size();
+        const bool isAround =
+            face < triangles ? test::hasCorner(cage.triangles[face], 20) : [&](const openvdb::Vec4I& q) {
+                return q[0] == 20 || q[1] == 20 || q[2] == 20 || q[3] == 20;
+            }(cage.quads[face - triangles]);
+        BOOST_TEST(isAround, face);
+    }
+}
+
+BOOST_AUTO_TEST_CASE(what_keeps_a_cage_from_bounding_is_told)
+{
+    const Mesh model = test::sphere({0, 0, 0}, 0.2, 8);
+    const BoundingGuard guard = guardFor(model);
+    FitOptions options;
+    options.keptPoints = {0, 1, 2, 3, 4, 5, 6, 7};
+    Mesh crossing = test::box({-1, -1, -1}, {1, 1, 1});
+    crossing.points[0] = Vec3d(1.2, 0, 0); // through the side
+    const Fit crossed = fitCage(crossing, guard, options);
+    BOOST_TEST((crossed.obstacle == Fit::Obstacle::itself));
+    BOOST_TEST(!crossed.heldFaces.empty());
+    Mesh concave = test::box({-1, -1, -1}, {1, 1, 1});
+    concave.points[7] = Vec3d(-0.2, -0.2, 1);
+    const Fit bent = fitCage(concave, guard, options);
+    BOOST_TEST((bent.obstacle == Fit::Obstacle::quads));
+    BOOST_TEST(std::count(bent.heldFaces.begin(), bent.heldFaces.end(), 5U) == 1); // the top
+    for (const Fit& fit : {crossed, bent}) BOOST_TEST(haveSameFaces(fit.cage, crossing));
+    BOOST_TEST(movedPoints(crossed.cage, crossing) == 0U);
+    BOOST_TEST(movedPoints(bent.cage, concave) == 0U);
+}
+
+BOOST_AUTO_TEST_CASE(points_at_one_place_move_together)
+{
+    // The box of a modelling program: four points a face.
+    const Mesh box = test::box({-0.2, -0.2, -0.2}, {0.2, 0.2, 0.2});
+    Mesh cage;
+    for (const auto& q : box.quads) {
+        const auto first = static_cast<openvdb::Index32>(cage.points.size());
+        for (int i = 0; i < 4; ++i) cage.points.push_back(box.points[q[i]]);
+        cage.quads.emplace_back(first, first + 1, first + 2, first + 3);
+    }
+    const Mesh model = test::sphere({0, 0, 0}, 0.3, 8);
+    const Fit fit = fitCage(cage, guardFor(model), tight(1));
+    BOOST_TEST(haveSameFaces(fit.cage, cage));
+    std::set<Vec3d> places(fit.cage.points.begin(), fit.cage.points.end());
+    BOOST_TEST(places.size() == 8U);
+    Mesh joined = box;
+    for (std::size_t i = 0; i < cage.quads.size(); ++i) {
+        for (int k = 0; k < 4; ++k) joined.points[box.quads[i][k]] = fit.cage.points[cage.quads[i][k]];
+    }
+    BOOST_TEST(checkCage(joined, model).bounding());
+}
+
+BOOST_AUTO_TEST_CASE(a_concave_quad_becomes_one_that_bounds_under_both_diagonals)
+{
+    const Mesh model = test::sphere({0, 0, 0}, 0.3, 8);
+    Mesh box = test::box({-0.4, -0.4, -0.4}, {0.4, 0.4, 0.4});
+    box.points[7] = Vec3d(0.05, 0.05, 0.4); // the quad of the top is concave there
+    // As a reader gives it: two triangles, and their other splits.
+    Mesh cage = box;
+    const openvdb::Vec4I top = cage.quads.back();
+    cage.quads.pop_back();
+    int at = 0;
+    while (top[at] != 7) ++at;
+    const auto corner = [&](int i) { return top[(at + i) % 4]; };
+    cage.triangles = {{corner(0), corner(1), corner(2)}, {corner(0), corner(2), corner(3)}};
+    cage.alternatives = {{corner(1), corner(2), corner(3)}, {corner(0), corner(1), corner(3)}};
+    const Fit fit = fitCage(cage, guardFor(model));
+    BOOST_TEST(haveSameFaces(fit.cage, cage));
+    box.points = fit.cage.points;
+    BOOST_TEST(checkCage(box, model).bounding());
+}
+
+BOOST_AUTO_TEST_CASE(threads_do_not_matter)
+{
+    const Mesh model = test::soup(1, 30, 0.1), cage = moved(test::sphere({0, 0, 0}, 0.3, 6), 5, 0.02);
+    const BoundingGuard guard = guardFor(model);
+    std::vector<Mesh> results;
+    for (const std::size_t threads : {1U, 2U, 5U}) {
+        const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+        results.push_back(fitCage(cage, guard).cage);
+    }
+    BOOST_TEST(test::sameMesh(results[0], results[1]));
+    BOOST_TEST(test::sameMesh(results[0], results[2]));
+}
+
+BOOST_AUTO_TEST_CASE(cancelling_at_any_question)
+{
+    const Mesh model = test::sphere({0, 0, 0}, 0.5, 8), cage = moved(test::sphere({0, 0, 0}, 0.5, 5), 2, 0.12);
+    const BoundingGuard guard = guardFor(model);
+    constexpr int start = 1 << 30;
+    test::StopAt never(start);
+    fitCage(cage, guard, {}, &never);
+    const int all = test::questions(never, start);
+    BOOST_TEST(all > 20);
+    for (int k = 0; k < all; k += std::max(1, all / 40)) {
+        test::StopAt stop(k);
+        BOOST_CHECK_THROW(fitCage(cage, guard, {}, &stop), Cancelled);
+    }
+}
+
+BOOST_AUTO_TEST_CASE(cages_that_are_none_are_refused)
+{
+    const Mesh model = test::sphere({0, 0, 0}, 0.5, 8), cage = test::sphere({0, 0, 0}, 0.45, 6);
+    const BoundingGuard guard = guardFor(model);
+    Mesh open = cage;
+    open.triangles.pop_back();
+    BOOST_CHECK_EXCEPTION(fitCage(open, guard), InputError,
+                          test::says("cage: it is not a closed, oriented 2-manifold (3 boundary edges"));
+    Mesh turned = cage;
+    for (auto& t : turned.triangles) std::swap(t[0], t[1]);
+    for (auto& q : turned.quads) std::swap(q[1], q[3]);
+    BOOST_CHECK_EXCEPTION(fitCage(turned, guard), InputError, test::says("cage: it faces inward"));
+    BOOST_CHECK_EXCEPTION(fitCage(cage, guard, tight(1.5)), InputError, test::says("tightness: 1.5 is not allowed"));
+    FitOptions options;
+    options.keptPoints = {cage.points.size()};
+    BOOST_CHECK_EXCEPTION(fitCage(cage, guard, options), InputError, test::says("kept points: 62 is not allowed"));
+    GuardOptions symmetric = fitGuardOptions();
+    symmetric.symmetry = SymmetryPlane{0, 0};
+    BOOST_CHECK_EXCEPTION(fitCage(cage, BoundingGuard(model, symmetric)), InputError, test::says("plane of symmetry"));
+}
+
+BOOST_AUTO_TEST_SUITE_END()

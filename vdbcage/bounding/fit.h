@@ -1,0 +1,65 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include <vdbcage/bounding/bounding_guard.h>
+#include <vdbcage/bounding/tighten.h>
+#include <vdbcage/core/export.h>
+#include <vdbcage/core/interrupter.h>
+#include <vdbcage/core/range.h>
+#include <vdbcage/mesh/mesh.h>
+
+namespace vdbcage {
+
+/// Options of fitCage().
+struct FitOptions {
+    static constexpr Range tightnesses{0, 1}; ///< of `tightness`
+
+    /// 0 moves only points that have to move, and no farther than they have to. 1 is as tight as tighten(). Between
+    /// them distance is traded against the shape that was drawn.
+    double tightness = 0.5;
+    /// Points of the cage that stay where they are: their indices, in any order.
+    std::vector<std::size_t> keptPoints = {};
+    TightenOptions tightening = {}; ///< for a tightness above 0
+};
+
+/// A fitted cage, or the best that came of it.
+struct Fit {
+    /// The reasons for which a cage does not bound in the end.
+    enum class Obstacle {
+        none,   ///< it bounds
+        itself, ///< faces of the cage cross each other, and no place was found where they do not
+        model,  ///< faces cut the model, and found no place beyond it
+        quads   ///< quads that are not convex, so that one of their splits does not bound
+    };
+
+    Mesh cage; ///< the cage with other positions of points; connectivity and order are as they were
+    Obstacle obstacle = Obstacle::none; ///< none if it bounds
+    /// Faces that keep it from bounding, ascending, triangles first, then quads; none if it bounds.
+    std::vector<std::size_t> heldFaces = {};
+};
+
+/// Returns the options of a guard for fitCage(): cages that people drew have narrower faces and gaps than those that
+/// are made.
+/// \param precision of the fitted cage's coordinates
+[[nodiscard]] VDBCAGE_API GuardOptions fitGuardOptions(Precision precision = Precision::automatic);
+
+/// Moves the points of a cage that somebody drew until it bounds the guard's model with the clearance, then tightens
+/// it; \ref bounding tells how. Quads count under both diagonals and are never split. Points at one place move
+/// together.
+/// \param cage closed and 2-manifold once points at one place are one; it may cut the model, lie inside of it, and
+/// cross itself
+/// \param guard of the model, without a plane of symmetry, best with fitGuardOptions()
+/// \param options in the ranges of their members
+/// \param interrupter told of the progress; may be null
+/// \return the cage, and whether it bounds; a point that need not move keeps its bits
+/// \throw InputError when an option is out of range or no point of the cage; when the cage is not closed and
+/// 2-manifold, or faces inward; when the guard has a plane of symmetry
+/// \throw Cancelled when asked to stop
+/// Cost: O(rounds * (n log m + s log n)) for n faces, m of the model and s <= m + 20,000 samples of it; up to 300
+/// rounds.
+VDBCAGE_API Fit fitCage(const Mesh& cage, const BoundingGuard& guard, const FitOptions& options = {},
+                        Interrupter* interrupter = nullptr);
+
+} // namespace vdbcage
