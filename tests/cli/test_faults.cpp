@@ -63,6 +63,7 @@ std::vector<Work> works()
         {"stages",
          {"make", "@model.obj", "-o", "@o.obj", "--effort", "fast", "--stages", "@st", "--report", "@r.json"}},
         {"check", {"check", "@cage.obj", "@model.obj", "--report", "@r.json"}},
+        {"fit", {"fit", "@cage.obj", "@model.obj", "-o", "@o.obj", "--report", "@r.json"}},
         {"bind mlc", {"bind", "@cage.obj", "@model.obj", "-o", "@w.npy", "--coordinates", "mlc"}},
         {"bind harmonic",
          {"bind", "@cage.obj", "@model.obj", "-o", "@w.npy", "--coordinates", "harmonic", "--resolution", "16"}},

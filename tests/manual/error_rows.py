@@ -470,6 +470,10 @@ def sphere(rings, sides):
     return obj(points, "".join("f %d %d %d\n" % face for face in faces))
 
 
+def fit(message, files=None, words=""):
+    return Row(message, "fit cage.obj model.obj -o new.obj " + words, files)
+
+
 def bind(message, words="", **files):
     return Row(message, "bind cage.obj model.obj -o new.npy " + words,
                {name + ".obj": content for name, content in files.items()})
@@ -523,6 +527,15 @@ OTHERS = [
     Row("a panel has no file; write FILE... / FILE...", "render model.obj / -o new.png"),
     Row("picture: N x N pixels are too few for N panels",
         "render model.obj / model.obj -o new.png --columns 2 --size 1x1"),
+    fit("FILE: it is not a closed, oriented 2-manifold (N boundary edges, N edges of more than two faces, N edges whose "
+        "faces disagree, N points where surfaces touch); vdbcage repair may help",
+        {"cage.obj": BOX.replace("f 1 2 4 3\n", "")}),
+    Row("FILE: its extension must be that of the cage, WORD: all else in the file stays",
+        "fit cage.obj model.obj -o new.ply"),
+    fit("NAME: 'WORD' is not allowed; it must be numbers of points, as 1-20,35", words="--keep points:all"),
+    fit("--keep: N is not allowed; the cage has N points", words="--keep points:8"),
+    fit("FILE: no place was found where WORD",
+        {"model.obj": obj([tuple(3 * x for x in p) for p in CORNERS], BOX_FACES)}, "--keep points:0"),
     bind("FILE: it is not closed and oriented (N boundary edges, N edges whose faces disagree); vdbcage repair may "
          "help", cage=BOX.replace("f 1 2 4 3\n", "")),
     bind("FILE: it faces inward; turn its faces around",

@@ -76,11 +76,12 @@ LIBRARY_ONLY = {
         "a layer has … colours of points", "loose points: there is no point",
     ],
     "the command makes the surfaces, voxels and planes that it works on": [
-        "surface: ", "the surface is not a 2-manifold", "has no length", "has two faces on the same side", "axis: …",
+        "surface: ", "guard: it has a plane of symmetry", "the surface is not a 2-manifold", "has no length", "has two faces on the same side", "axis: …",
         "symmetry axis: …", "the mask has active voxels near", "convex hull: a mask of",
         "model: its bounding box is not within the box given for the voxels",
     ],
     "the command looks at its options and files before": [
+        "kept points: … is not allowed",
         "faces: … is not allowed; a closed surface", "decimation: faces is", "there is no option '…'; there are:",
         "is … voxels; it must be between 0 and", "is …; it must be …", "the cube has one radius everywhere",
         "is not at a finite place", "has an axis without length", "coordinates: 'given' weights were made elsewhere",

@@ -47,6 +47,14 @@ const std::vector<Command>& commands()
            "vdbcage deform cage.obj posed.obj bishop.obj -o moved.obj --weights weights.npy"},
           {"All families of coordinates beside each other, in a picture and in numbers:",
            "vdbcage deform cage.obj posed.obj bishop.obj -o families.png --compare"}}},
+        {"fit",
+         "move a drawn cage to where it bounds",
+         runFit,
+         "The cage may cut the model, lie inside of it, and cross itself. It keeps its points, faces and their order: "
+         "quads stay quads, and groups, materials and texture coordinates of an OBJ stay as they are. It is certified "
+         "as by check.",
+         {{"A cage of an earlier version of the model, moved no farther than it has to be:",
+           "vdbcage fit cage.obj bishop.obj -o fitted.obj --tight 0"}}},
         {"repair",
          "mend a cage that was made elsewhere",
          runRepair,

@@ -23,6 +23,7 @@ int runCheck(Call call);
 int runRender(Call call);
 int runBind(Call call);
 int runDeform(Call call);
+int runFit(Call call);
 int runRepair(Call call);
 int runJobs(Call call);
 int runReport(Call call);
