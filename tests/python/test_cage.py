@@ -48,6 +48,30 @@ class CageTest(Case):
         self.assertEqual(vdbcage.check_cage(cage, model), cage.check)
         json.dumps(cage.report)  # plain values
 
+    def test_a_drawn_cage_is_fitted(self):
+        model = Mesh.read(BISHOP)
+        made = make_cage(model, faces=100, mesh="quads", effort="fast")
+        drawn = Mesh(made.points * 0.97, made.triangles, made.quads)
+        cages = [vdbcage.fit_cage(drawn, model, tight=tight) for tight in (0, 1)]
+        for cage in cages:
+            self.assertTrue(cage.check.bounding)
+            self.assertEqual(vdbcage.check_cage(cage, model), cage.check)
+            numpy.testing.assert_array_equal(cage.quads, drawn.quads)
+            numpy.testing.assert_array_equal(cage.triangles, drawn.triangles)
+            ways = numpy.linalg.norm(cage.points - drawn.points, axis=1)
+            numpy.testing.assert_allclose(cage.report["ways"], ways)
+            self.assertEqual(cage.report["moved_points"], (ways > 0).sum())
+            json.dumps(cage.report)
+        self.assertLess(cages[1].check.mean_distance, cages[0].check.mean_distance)
+        kept = vdbcage.fit_cage(made, model, keep=[0, 5])
+        numpy.testing.assert_array_equal(kept.points[[0, 5]], made.points[[0, 5]])
+        self.refuses("cage: no place was found where it does not cut the model", vdbcage.fit_cage, drawn, model,
+                     keep=range(len(drawn.points)))
+        self.refuses("tight: 2 is not allowed", vdbcage.fit_cage, drawn, model, tight=2)
+        self.refuses("keep: row 0 has the index 999", vdbcage.fit_cage, drawn, model, keep=[999])
+        self.refuses("cage: it is not a closed, oriented 2-manifold", vdbcage.fit_cage,
+                     Mesh(drawn.points, drawn.triangles, drawn.quads[1:]), model)
+
     def test_a_file_holds_the_cage_that_was_certified(self):
         shift = [20000, 0, 0]
         bishop = Mesh.read(BISHOP)

@@ -7,7 +7,9 @@
 #include <vector>
 
 #include <pybind11/stl.h>
+#include <tools/report/fit_words.h>
 #include <tools/report/report.h>
+#include <vdbcage/bounding/fit.h>
 #include <vdbcage/check/check.h>
 #include <vdbcage/core/error.h>
 #include <vdbcage/mesh/parts.h>
@@ -186,6 +188,22 @@ void defineCage(py::module_& module)
         const CageOptions options = toOptions(texts);
         return resultOfJob(progress,
                            [&](Interrupter* interrupter) { return predictedMemory(*model, options, interrupter); });
+    });
+    module.def("fit_cage", [](const MeshPtr& cage, const MeshPtr& model, double tight,
+                              const std::vector<std::size_t>& keep, const py::object& progress) {
+        struct Fitted {
+            Fit fit;
+            CageCheck check;
+        };
+        const Fitted fitted = resultOfJob(progress, [&](Interrupter* interrupter) {
+            const BoundingGuard guard(*model, fitGuardOptions(Precision::float64), interrupter);
+            Fitted result{fitCage(*cage, guard, {tight, keep, tightenOptions(Effort::fair)}, interrupter), {}};
+            if (!result.fit.heldFaces.empty())
+                throw InputError("cage", "no place was found where " + report::unfoundPlace(result.fit));
+            result.check = checkCage(result.fit.cage, *model, {}, interrupter);
+            return result;
+        });
+        return py::make_tuple(std::make_shared<Mesh>(fitted.fit.cage), toDict(fitted.check));
     });
     module.def("check_cage", [](const MeshPtr& cage, const MeshPtr& model, double leastPart, bool asFloats,
                                 bool measure, std::size_t samples, const py::object& progress) {

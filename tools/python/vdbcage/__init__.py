@@ -30,8 +30,8 @@ from typing import TYPE_CHECKING, Any
 import numpy
 
 __all__ = ["Binding", "Cage", "CageCheck", "Cancelled", "DeviceError", "Elasticity", "Error", "Family", "InputError",
-           "IoError", "Mask", "Mesh", "Pipeline", "check_cage", "close_mask", "coordinate_families", "make_cage",
-           "posed_points", "predicted_memory", "read_vdb", "voxelize", "write_vdb"]
+           "IoError", "Mask", "Mesh", "Pipeline", "check_cage", "close_mask", "coordinate_families", "fit_cage",
+           "make_cage", "posed_points", "predicted_memory", "read_vdb", "voxelize", "write_vdb"]
 
 if TYPE_CHECKING:
     import numpy.typing as npt
@@ -240,14 +240,14 @@ class CageCheck:
 
 
 class Cage(Mesh):
-    """A mesh that make_cage or Pipeline.run made, with its verdict and its report."""
+    """A mesh that make_cage, Pipeline.run or fit_cage made, with its verdict and its report."""
 
     __slots__ = ("_check", "_report")
     _check: CageCheck
     _report: dict[str, Any]
 
     def __init__(self, *args: object, **kwargs: object) -> None:
-        raise TypeError("a vdbcage.Cage comes from make_cage")
+        raise TypeError("a vdbcage.Cage comes from make_cage or fit_cage")
 
     @classmethod
     def _made(cls, mesh, check, report):
@@ -409,6 +409,29 @@ def check_cage(cage: Mesh, model: Mesh, *, least_part: float = 0, as_floats: boo
     least_part = _arguments.number("least_part", least_part, 0, 1)
     return CageCheck(**_vdbcage.check_cage(_mesh("cage", cage), _mesh("model", model), least_part, bool(as_floats),
                                            bool(measure), samples, _arguments.callback(progress)))
+
+
+def fit_cage(cage: Mesh, model: Mesh, /, *, tight: float = 0.5, keep: npt.ArrayLike | None = None,
+             progress: _Progress = None) -> Cage:
+    """Moves the points of a cage that somebody drew until it is certified to bound a model, and returns it as a Cage.
+
+    It has the points and faces of the cage in their order; only positions differ. Its report has the way of each point
+    in world units, "ways", and their number, "moved_points".
+
+    cage: a Mesh, closed and 2-manifold once points at one place are one; it may cut the model and cross itself
+    model: a Mesh, as for make_cage
+    tight: 0 moves only points that have to move, 1 is tightest; between them distance is traded against the drawn shape
+    keep: indices of points that stay where they are, an array of shape (n,)
+    progress: see the help of vdbcage
+    Raises InputError if the cage is no closed 2-manifold, or no place was found where it bounds; Cancelled.
+    """
+    tight = _arguments.number("tight", tight, 0, 1)
+    mesh = _mesh("cage", cage)
+    keep = _arguments.places("keep", keep, len(cage.points))
+    with _names_of_python():
+        fitted, check = _vdbcage.fit_cage(mesh, _mesh("model", model), tight, keep, _arguments.callback(progress))
+    ways = numpy.linalg.norm(fitted.points - cage.points, axis=1)
+    return Cage._made(fitted, check, {"ways": ways.tolist(), "moved_points": int((ways > 0).sum())})
 
 
 @dataclasses.dataclass(frozen=True)
