@@ -393,7 +393,7 @@ bool grow(GuardedMesh& surface, std::uint32_t firstOfQuads, const GrowthPace& pa
     Growth growth(surface, firstOfQuads, pace, finder, interrupter);
     for (int i = 0; i < rounds; ++i) {
         throwIfInterrupted(interrupter);
-        // What is loosened last has time to come back.
+        // Places that are loosened late have time to come back.
         if (growth.isDoneAfterRound(i + pace.patience < rounds)) return true;
     }
     return false;
