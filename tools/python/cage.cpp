@@ -198,9 +198,9 @@ void defineCage(py::module_& module)
         const Fitted fitted = resultOfJob(progress, [&](Interrupter* interrupter) {
             const BoundingGuard guard(*model, fitGuardOptions(Precision::float64), interrupter);
             Fitted result{fitCage(*cage, guard, {tight, keep, tightenOptions(Effort::fair)}, interrupter), {}};
-            if (!result.fit.heldFaces.empty())
-                throw InputError("cage", "no place was found where " + report::unfoundPlace(result.fit));
             result.check = checkCage(result.fit.cage, *model, {}, interrupter);
+            if (result.fit.obstacle != Fit::Obstacle::none || !result.check.bounding())
+                throw InputError("cage", "no place was found where " + report::unfoundPlace(result.fit));
             return result;
         });
         return py::make_tuple(std::make_shared<Mesh>(fitted.fit.cage), toDict(fitted.check));

@@ -121,6 +121,18 @@ BOOST_AUTO_TEST_CASE(a_cage_that_bounds_stays_as_it_is)
     BOOST_TEST(movedPoints(fitCage(cage, guardFor(model), tight(1)).cage, cage) > 0U);
 }
 
+BOOST_AUTO_TEST_CASE(no_part_of_the_model_is_too_small_to_be_inside)
+{
+    // A speck just outside of the cage, in one cell of the samples with a point of the model inside.
+    Mesh model = test::box({-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5});
+    const Mesh speck = test::transformed(model, 1e-4, {0.5 + 2e-3, 0.5, 0.5});
+    model = test::joined(model, speck);
+    const Mesh cage = test::box({-0.501, -0.501, -0.501}, {0.501, 0.501, 0.501});
+    BOOST_REQUIRE(guardFor(model).facesTooNear(cage).empty());
+    BOOST_REQUIRE(!checkCage(cage, model).bounding());
+    BOOST_TEST(checkCage(fitCage(cage, guardFor(model), tight(0)).cage, model).bounding());
+}
+
 BOOST_AUTO_TEST_CASE(only_the_surroundings_of_a_cut_move)
 {
     const Mesh model = test::sphere({0, 0, 0}, 0.5, 16);

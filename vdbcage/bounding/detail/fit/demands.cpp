@@ -145,6 +145,8 @@ DemandFinder::DemandFinder(const GuardModel& model, Interrupter* interrupter)
         if (taken.insert(key).second) samples_.push_back(p);
     };
     throwIfInterrupted(interrupter);
+    // Once no face cuts the model, each part is inside if this point of it is.
+    for (const TriangleBvh::Item& item : model.parts().items()) samples_.push_back(model.parts().corners(item)[0]);
     for (const TriangleBvh::Item& item : model.tree().items()) {
         const Corners t = model.tree().corners(item);
         for (const Vec3d& p : t) take(p);

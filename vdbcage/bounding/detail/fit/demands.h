@@ -35,7 +35,7 @@ struct Demand {
 /// cross itself.
 class DemandFinder {
 public:
-    /// Samples the model: one point of it in each cell of a grid that it meets.
+    /// Samples the model: a point of each connected part, and one in each cell of a grid that the model meets.
     DemandFinder(const GuardModel& model, Interrupter* interrupter);
 
     /// Returns the demands of samples that are outside: that the surface is beyond each by a margin, where it is

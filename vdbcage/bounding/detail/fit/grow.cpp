@@ -392,7 +392,7 @@ bool grow(GuardedMesh& surface, std::uint32_t firstOfQuads, const GrowthPace& pa
     constexpr int rounds = 150;
     Growth growth(surface, firstOfQuads, pace, finder, interrupter);
     for (int i = 0; i < rounds; ++i) {
-        throwIfInterrupted(interrupter);
+        throwIfInterrupted(interrupter, 100 * i / rounds);
         // Places that are loosened late have time to come back.
         if (growth.isDoneAfterRound(i + pace.patience < rounds)) return true;
     }

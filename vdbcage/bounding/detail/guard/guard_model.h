@@ -53,6 +53,8 @@ public:
     bool swept(const std::vector<Corners>& surface, const Box& box) const;
 
     const TriangleBvh& tree() const { return tree_; }
+    /// Returns a point of each connected part, as a degenerate triangle.
+    const TriangleBvh& parts() const { return parts_; }
     /// Returns the bounding box in the world's units, with its mirror image.
     const openvdb::BBoxd& box() const { return box_; }
     double clearance() const { return clearance_; }
