@@ -14,6 +14,7 @@
 #include <vdbcage/bounding/detail/triangles/sweep.h>
 #include <vdbcage/bounding/detail/triangles/tightening.h>
 #include <vdbcage/core/error.h>
+#include <vdbcage/mesh/detail/half_edges.h>
 #include <vdbcage/mesh/topology.h>
 
 namespace vdbcage {
@@ -58,7 +59,21 @@ std::vector<char> halvesOfConcaveQuads(const Mesh& mesh)
     return isHalf;
 }
 
-/// A cage in the guard's units, whose points at one place are one.
+/// Returns for each point whether an edge with one face ends there. Where programs split a surface for normals or
+/// texture coordinates, it has such edges.
+std::vector<char> pointsOfBoundaries(const Mesh& mesh)
+{
+    const HalfEdges halfEdges(mesh);
+    const EdgeTable edges(halfEdges, mesh.points.size());
+    std::vector<char> isEnd(mesh.points.size(), 0);
+    for (std::size_t edge = 0; edge < edges.size(); ++edge) {
+        if (edges[edge].size() == 1) isEnd[halfEdges.from(edges[edge][0])] = isEnd[halfEdges.to(edges[edge][0])] = 1;
+    }
+    return isEnd;
+}
+
+/// A cage in the guard's units, whose points at one place of a seam are one. Points that meet elsewhere stay apart: an
+/// artist drew them onto each other.
 class WeldedCage {
 public:
     enum class Splits { lessFolded, other }; ///< of quads into the triangles that they are until they are quads
@@ -66,13 +81,15 @@ public:
     WeldedCage(const Mesh& cage, const GuardModel& guard, Splits splits)
         : splits_(splits), cage_(cage), guard_(guard), vertexOf_(cage.points.size())
     {
+        const std::vector<char> isAtSeam = pointsOfBoundaries(cage);
         std::vector<std::uint32_t> order(cage.points.size());
         std::iota(order.begin(), order.end(), 0U);
         std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-            return std::tie(cage.points[a], a) < std::tie(cage.points[b], b);
+            return std::tie(cage.points[a], isAtSeam[a], a) < std::tie(cage.points[b], isAtSeam[b], b);
         });
         for (std::size_t i = 0; i < order.size(); ++i) {
-            const bool isSame = i > 0 && cage.points[order[i]] == cage.points[order[i - 1]];
+            const bool isSame = i > 0 && isAtSeam[order[i]] && isAtSeam[order[i - 1]] &&
+                                cage.points[order[i]] == cage.points[order[i - 1]];
             vertexOf_[order[i]] = isSame ? vertexOf_[order[i - 1]] : order[i];
         }
         for (const Vec3d& p : cage.points) drawn_.push_back(guard.rounded(guard.scaled(p)));

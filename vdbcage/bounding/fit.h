@@ -46,10 +46,9 @@ struct Fit {
 [[nodiscard]] VDBCAGE_API GuardOptions fitGuardOptions(Precision precision = Precision::automatic);
 
 /// Moves the points of a cage that somebody drew until it bounds the guard's model with the clearance, then tightens
-/// it; \ref bounding tells how. Quads count under both diagonals and are never split. Points at one place move
-/// together.
-/// \param cage closed and 2-manifold once points at one place are one; it may cut the model, lie inside of it, and
-/// cross itself
+/// it; \ref bounding tells how. Quads count under both diagonals and are never split. Points at one place of a seam,
+/// where edges have one face, move together.
+/// \param cage closed and 2-manifold once seams are closed; it may cut the model, lie inside of it, and cross itself
 /// \param guard of the model, without a plane of symmetry, best with fitGuardOptions()
 /// \param options in the ranges of their members
 /// \param interrupter told of the progress; may be null

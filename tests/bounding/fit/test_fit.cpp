@@ -241,6 +241,20 @@ BOOST_AUTO_TEST_CASE(points_at_one_place_move_together)
     BOOST_TEST(checkCage(joined, model).bounding());
 }
 
+BOOST_AUTO_TEST_CASE(points_drawn_onto_each_other_come_apart)
+{
+    // As Blender's Shrinkwrap leaves them: two neighbours at one place, and two points that no face joins.
+    const Mesh model = test::sphere({0, 0, 0}, 0.5, 10);
+    Mesh cage = test::sphere({0, 0, 0}, 0.52, 7);
+    cage.points[20] = cage.points[21];
+    cage.points[40] = cage.points[42];
+    const Fit fit = fitCage(cage, guardFor(model));
+    BOOST_TEST(haveSameFaces(fit.cage, cage));
+    BOOST_TEST(checkCage(fit.cage, model).bounding());
+    BOOST_TEST((fit.cage.points[20] != fit.cage.points[21]));
+    BOOST_TEST((fit.cage.points[40] != fit.cage.points[42]));
+}
+
 BOOST_AUTO_TEST_CASE(a_concave_quad_becomes_one_that_bounds_under_both_diagonals)
 {
     const Mesh model = test::sphere({0, 0, 0}, 0.3, 8);

@@ -418,7 +418,7 @@ def fit_cage(cage: Mesh, model: Mesh, /, *, tight: float = 0.5, keep: npt.ArrayL
     It has the points and faces of the cage in their order; only positions differ. Its report has the way of each point
     in world units, "ways", and their number, "moved_points".
 
-    cage: a Mesh, closed and 2-manifold once points at one place are one; it may cut the model and cross itself
+    cage: a Mesh, closed and 2-manifold once its seams are closed; it may cut the model and cross itself
     model: a Mesh, as for make_cage
     tight: 0 moves only points that have to move, 1 is tightest; between them distance is traded against the drawn shape
     keep: indices of points that stay where they are, an array of shape (n,)
