@@ -140,7 +140,7 @@ int runFit(Call call)
     app.add_option("--tight", options.tightness, "0: least moves, 1: tightest, 0 to 1 [0.5]")->type_name("F");
     app.add_option("--keep", keep, "points that stay, counted from 0")->type_name("points:1-20,35|FILE");
     app.add_option("--report", reportPath, "what moved, and the verdicts, as JSON")->type_name("FILE.json");
-    const TalkArguments talk(app);
+    const TalkArguments talk(app, "progress without a terminal");
     const std::vector<std::string> arguments = call.words;
     if (!parse(app, std::move(call))) return exitGood;
     requireWithin(FitOptions::tightnesses, options.tightness, "--tight");
