@@ -129,6 +129,12 @@ class Case(unittest.TestCase):
         self.assertIn(text, str(caught.exception))
         self.assertEqual(state(), before)
 
+    def certified(self, cage, *models, status=0):
+        """The command says that the cage bounds these models, in the cage's space; with status 2 that it does not."""
+        path = write_obj(self.folder / "checked_cage.obj", cage, cage)
+        for i, model in enumerate(models):
+            command("check", path, write_obj(self.folder / f"checked_{i}.obj", model, cage), status=status)
+
     def assertNear(self, a, b, tolerance):
         self.assertEqual(numpy.shape(a), numpy.shape(b))
         self.assertLessEqual(numpy.abs(numpy.subtract(a, b)).max(), tolerance)

@@ -11,7 +11,7 @@ import addon_utils
 import bpy
 from support import ADDON, IS_EXTENSION, MODULE, SOURCE, Case
 
-OPERATORS = {"bind", "cancel", "make_cage", "pose", "rebind", "set_rest", "show_stages"}
+OPERATORS = {"bind", "cancel", "fit_cage", "make_cage", "pose", "rebind", "set_rest", "show_stages"}
 
 
 class Addon(Case):
@@ -20,7 +20,8 @@ class Addon(Case):
         bpy.ops.preferences.addon_disable(module=MODULE)
         self.assertEqual(set(dir(bpy.ops.vdbcage)), set())
         for kind, name in ((bpy.types.Scene, "vdbcage"), (bpy.types.Scene, "vdbcage_bind"),
-                           (bpy.types.Scene, "vdbcage_pose"), (bpy.types.Scene, "vdbcage_stages"),
+                           (bpy.types.Scene, "vdbcage_fit"), (bpy.types.Scene, "vdbcage_pose"),
+                           (bpy.types.Scene, "vdbcage_stages"),
                            (bpy.types.Object, "vdbcage"), (bpy.types.WindowManager, "vdbcage")):
             self.assertFalse(hasattr(kind, name), name)
         bpy.ops.preferences.addon_enable(module=MODULE)

@@ -38,6 +38,9 @@ class Docs(Case):
         self.assertTrue((self.folder / "vdbcage_cache" / "creature.pc2").exists())
         docs.run_until("show_stages")
         self.assertEqual(len(bpy.data.collections["creature Stages"].objects), 4)
+        docs.run_until("fit_cage")
+        self.assertEqual(cage["vdbcage_report"]["kind"], "fit")
+        self.assertFalse(cage["vdbcage_report"]["before"]["bounding"])
 
         for thing in list(bpy.data.objects):
             bpy.data.objects.remove(thing)

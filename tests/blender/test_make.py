@@ -12,12 +12,6 @@ files = part("files")
 
 
 class Make(Case):
-    def certified(self, cage, *models):
-        """The command says that the cage bounds these models, in the cage's space."""
-        path = write_obj(self.folder / "checked_cage.obj", cage, cage)
-        for i, model in enumerate(models):
-            command("check", path, write_obj(self.folder / f"checked_{i}.obj", model, cage))
-
     def test_the_cage_is_the_certified_one_of_the_command(self):
         model = load(CREATURE)
         selected = list(bpy.context.selected_objects)

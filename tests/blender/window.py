@@ -12,7 +12,7 @@ from mathutils import Quaternion, Vector
 
 sys.path.insert(0, str(pathlib.Path(__file__).parent))
 from documented import Documented  # noqa: E402
-from support import BISHOP, COMMAND, MODULE, load, part, positions, preferences, select  # noqa: E402
+from support import BISHOP, COMMAND, MODULE, load, part, positions, preferences, select, set_positions  # noqa: E402
 
 LONG = {"faces": 2000, "effort": "best", "mesh": "quads"}  # no machine is done before it is cancelled
 pictures = pathlib.Path(sys.argv[sys.argv.index("--") + 1])
@@ -176,11 +176,42 @@ def cancelling(window):
     check(cages() == ["bishop Cage"] and temporary() == [], "the cage is made")
     cage = bpy.data.objects["bishop Cage"]
     check(len(cage.data.polygons) <= 60, "with what the panel shows")
+    yield from fitting(window, cage)
     invoke(window, bpy.ops.vdbcage.pose, coordinates="mvc")
     bpy.data.objects.remove(cage)
     while running():
         yield
     check(model.data.shape_keys is None and temporary() == [], "a cage that was deleted meanwhile poses nothing")
+
+
+def fitting(window, cage):
+    """`cage` is a certified one, and its model is selected."""
+    labels = set()
+
+    def run():
+        invoke(window, bpy.ops.vdbcage.fit_cage)
+        while running():
+            labels.add(bpy.context.window_manager.vdbcage.label)
+            yield
+
+    settings = bpy.context.scene.vdbcage_fit
+    shape = 0.9 * positions(cage, world=False)  # it cuts the model
+    set_positions(cage, shape)
+    cage.vertex_groups.new(name="all").add(list(range(len(shape))), 1, "REPLACE")
+    settings.keep = "all"
+    yield from run()
+    check(any(face.select for face in cage.data.polygons) and not all(face.select for face in cage.data.polygons),
+          "faces that hold a cage back are selected")
+    check("Fit Cage: fit" in labels, "the panel shows its stage")
+    settings.keep = ""
+    invoke(window, bpy.ops.vdbcage.fit_cage)
+    cage.data.vertices[0].co.x += 0.01
+    while running():
+        yield
+    check(cage["vdbcage_report"]["kind"] == "make", "a cage that was edited meanwhile is not fitted")
+    set_positions(cage, shape)
+    yield from run()
+    check(cage["vdbcage_report"]["kind"] == "fit" and temporary() == [], "the cage is fitted")
 
 
 def documented(window):

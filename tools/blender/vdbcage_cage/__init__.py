@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0 OR GPL-3.0-or-later
-"""Cages in Blender: made, bound, posed and looked into, by the command `vdbcage`."""
+"""Cages in Blender: made, fitted, bound, posed and looked into, by the command `vdbcage`."""
 
 bl_info = {  # of Blender 3.4 to 4.1; later ones read blender_manifest.toml
     "name": "vdbcage",
@@ -13,10 +13,10 @@ bl_info = {  # of Blender 3.4 to 4.1; later ones read blender_manifest.toml
 
 import bpy  # noqa: E402 (Blender reads bl_info first)
 
-from . import bind, links, make, panel, pose, running, stages  # noqa: E402
+from . import bind, fit, links, make, panel, pose, running, stages  # noqa: E402
 
 # Each has its CLASSES, and where they are kept its PROPERTIES: of what, by what name, and of what kind.
-_modules = (links, running, make, stages, bind, pose, panel)
+_modules = (links, running, make, fit, stages, bind, pose, panel)
 
 
 def register():

@@ -51,47 +51,73 @@ def joined(meshes):
                     numpy.concatenate([mesh.corners + start for mesh, start in zip(meshes, before)]))
 
 
-def write_ply(path, mesh):
-    """Writes a binary PLY: doubles, and faces of any number of corners."""
+_numbers = {"float": "<f4", "double": "<f8"}  # of coordinates, by their names in a PLY
+
+
+def write_ply(path, mesh, number="double"):
+    """Writes a binary PLY: points of `number`, float or double, and faces of any number of corners."""
     starts = numpy.cumsum(mesh.counts) - mesh.counts
     faces = numpy.insert(mesh.corners, starts, mesh.counts).astype("<i4")  # the count before each face's corners
     header = ("ply\nformat binary_little_endian 1.0\n"
-              f"element vertex {len(mesh.points)}\nproperty double x\nproperty double y\nproperty double z\n"
+              f"element vertex {len(mesh.points)}\n"
+              f"property {number} x\nproperty {number} y\nproperty {number} z\n"
               f"element face {len(mesh.counts)}\nproperty list int int vertex_indices\nend_header\n")
     with open(path, "wb") as file:
         file.write(header.encode())
-        file.write(numpy.ascontiguousarray(mesh.points, "<f8").tobytes())
+        file.write(numpy.ascontiguousarray(mesh.points, _numbers[number]).tobytes())
         file.write(faces.tobytes())
 
 
 def _ply(path):
-    """Header and body of a PLY of the command: the numbers of points and faces, and the bytes behind the header."""
+    """A PLY of the command: its points, (n, 3) doubles, the number of its faces, and the bytes of these."""
     with open(path, "rb") as file:
         data = file.read()
     end = data.index(b"end_header\n") + len(b"end_header\n")
     words = data[:end].decode().split()
-    numbers = {words[i + 1]: int(words[i + 2]) for i, word in enumerate(words) if word == "element"}
-    return numbers["vertex"], numbers["face"], data[end:]
+    counts = {words[i + 1]: int(words[i + 2]) for i, word in enumerate(words) if word == "element"}
+    number = numpy.dtype(_numbers[words[words.index("x") - 1]])
+    coordinates = 3 * counts["vertex"]
+    points = numpy.frombuffer(data, number, coordinates, end).reshape(-1, 3).astype(numpy.float64)
+    return points, counts["face"], data[end + coordinates * number.itemsize:]
 
 
 def read_ply_points(path):
     """The points of a PLY that the command wrote, (n, 3) doubles."""
-    points, _, body = _ply(path)
-    return numpy.frombuffer(body, "<f8", points * 3).reshape(-1, 3)
+    return _ply(path)[0]
 
 
 def read_ply(path):
     """A PLY that the command wrote."""
     points, faces, body = _ply(path)
-    at = points * 24
+    at = 0
     counts, corners = [], []
     for _ in range(faces):
         count = body[at]
         counts.append(count)
         corners.extend(struct.unpack_from(f"<{count}i", body, at + 1))
         at += 1 + 4 * count
-    return Polygons(numpy.frombuffer(body, "<f8", points * 3).reshape(-1, 3), numpy.array(counts, int),
-                    numpy.array(corners, int))
+    return Polygons(points, numpy.array(counts, int), numpy.array(corners, int))
+
+
+def polygons_of_faces(mesh):
+    """The polygon that each face of the command is, or is a part of.
+
+    The command counts triangles first, then quads. It splits concave quads and larger polygons; their triangles come
+    behind the others, in the order of the polygons.
+    """
+    starts = numpy.cumsum(mesh.counts) - mesh.counts
+    is_quad = mesh.counts == 4
+    corners = mesh.points[mesh.corners[starts[is_quad, None] + numpy.arange(4)]]
+    before, after = corners - numpy.roll(corners, 1, axis=1), numpy.roll(corners, -1, axis=1) - corners
+    normals = numpy.cross(corners[:, 2] - corners[:, 0], corners[:, 3] - corners[:, 1])[:, None]
+    # A corner that cuts off next to nothing keeps no orientation: as in PolygonSplitter::splitQuad.
+    keeps = (normals * numpy.cross(before, after)).sum(axis=2) > 1e-10 * (normals * normals).sum(axis=2)
+    is_concave = numpy.zeros(len(mesh.counts), bool)
+    is_concave[is_quad] = (keeps[:, 0] & keeps[:, 2]) != (keeps[:, 1] & keeps[:, 3])
+    is_whole = is_quad & ~is_concave
+    larger = numpy.flatnonzero((mesh.counts > 3) & ~is_whole)
+    return numpy.concatenate([numpy.flatnonzero(mesh.counts == 3), numpy.repeat(larger, mesh.counts[larger] - 2),
+                              numpy.flatnonzero(is_whole)])
 
 
 class PointCache:

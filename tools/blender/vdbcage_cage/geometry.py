@@ -43,6 +43,47 @@ def rest(thing):
     return _polygons(thing.data, points)
 
 
+def set_rest(thing, points):
+    """Moves the points of an object's mesh as it was modelled. Every shape key keeps its offsets from the basis."""
+    mesh = thing.data
+    keys = mesh.shape_keys
+    if keys:
+        moves = points - _positions(keys.reference_key.data)
+        for key in keys.key_blocks:
+            shape = points if key == keys.reference_key else _positions(key.data) + moves
+            key.data.foreach_set("co", shape.astype(numpy.float32).ravel())
+    mesh.vertices.foreach_set("co", points.astype(numpy.float32).ravel())
+    mesh.update()
+
+
+def points_of_group(thing, name):
+    """The points that have a weight above 0 in a vertex group. Raises CommandError."""
+    group = thing.vertex_groups.get(name)
+    if group is None:
+        raise CommandError(f"{thing.name} has no vertex group {name}")
+    points = [vertex.index for vertex in thing.data.vertices
+              if any(one.group == group.index and one.weight > 0 for one in vertex.groups)]
+    if not points:
+        raise CommandError(f"{thing.name}: no point has a weight above 0 in the vertex group {name}")
+    return points
+
+
+def select_faces(thing, faces):
+    """Selects these faces of an object's mesh, and nothing else of it."""
+    mesh = thing.data
+    for collection, chosen in ((mesh.vertices, []), (mesh.edges, []), (mesh.polygons, faces)):
+        is_selected = numpy.zeros(len(collection), bool)
+        is_selected[chosen] = True
+        collection.foreach_set("select", is_selected)
+    mesh.update()
+
+
+def require_object_mode(thing):
+    """Raises CommandError: what is set beside the mesh in Edit Mode is lost."""
+    if thing.mode == "EDIT":
+        raise CommandError(f"{thing.name} is in Edit Mode. Leave it first")
+
+
 @contextlib.contextmanager
 def muted(modifiers, keys=()):
     """For a while these modifiers and shape keys do nothing."""

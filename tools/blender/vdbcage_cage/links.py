@@ -56,6 +56,17 @@ def cage_of(context, model):
     return cage if in_scene(context, cage) else None
 
 
+def active_cage(context):
+    """The cage that the active object has, or else is itself; or None."""
+    thing = context.object
+    if thing is None:
+        return None
+    cage = cage_of(context, thing)
+    if cage is None and any(cage_of(context, model) == thing for model in context.scene.objects):
+        return thing
+    return cage
+
+
 def pairs(context):
     """The selected models, and the models of the selected cages, each with its cage. Raises CommandError."""
     selected = set(context.selected_objects)

@@ -78,9 +78,9 @@ def selected_models(context):
     return sorted(models, key=lambda thing: thing != context.object)
 
 
-def joined_models(context, models, surface):
-    """The models as one mesh, in the space of the first. Raises CommandError."""
-    world = geometry.inverse(models[0].name, models[0].matrix_world)
+def joined_models(context, models, surface, space):
+    """The models as one mesh, in the space of an object. Raises CommandError."""
+    world = geometry.inverse(space.name, space.matrix_world)
     meshes = []
     for model in models:
         if surface == "REST":
@@ -91,11 +91,18 @@ def joined_models(context, models, surface):
             raise CommandError(f"{model.name} has no faces")
         if not numpy.isfinite(mesh.points).all():
             raise CommandError(f"{model.name} has a point that is not finite")
-        if model != models[0]:
+        if model != space:
             geometry.inverse(model.name, model.matrix_world)
             mesh = mesh.moved(world @ geometry.matrix(model.matrix_world))
         meshes.append(mesh)
     return files.joined(meshes)
+
+
+def keep_report(cage, path):
+    """Makes a report of the command a custom property of the cage; the report."""
+    report = json.loads(path.read_text(encoding="utf-8"))
+    cage["vdbcage_report"] = _property(report)
+    return report
 
 
 def still_there(context, names):
@@ -125,14 +132,14 @@ class MakingOperator(Options, CommandOperator):
                  "--precision", "float32",  # Blender holds no other
                  *option_words(self)]
         file.parent.mkdir()
-        self._written = joined_models(context, models, self.surface)
+        self._written = joined_models(context, models, self.surface, models[0])
         files.write_ply(file, self._written)
         return words
 
     def models(self, context):
         """The models, after the command has ended. Raises CommandError if they are not what they were."""
         models = still_there(context, self._models)
-        if not joined_models(context, models, self.surface).equals(self._written):
+        if not joined_models(context, models, self.surface, models[0]).equals(self._written):
             raise CommandError(f"{', '.join(self._models)} changed while the command ran. Run it again")
         return models
 
@@ -149,11 +156,10 @@ class VDBCAGE_OT_make_cage(MakingOperator, bpy.types.Operator):
     def finish(self, context, job):
         models = self.models(context)
         polygons = files.read_ply(job.folder / "cage.ply")
-        report = json.loads((job.folder / "report.json").read_text(encoding="utf-8"))
         first = models[0]
         name = f"{first.name} Cage"
         cage = bpy.data.objects.new(name, geometry.new_mesh(name, polygons))
-        cage["vdbcage_report"] = _property(report)
+        report = keep_report(cage, job.folder / "report.json")
         cage.display_type = "WIRE"
         cage.hide_render = True
         own = [collection for collection in first.users_collection

@@ -64,8 +64,12 @@ class VDBCAGE_PT_cage(_Panel, bpy.types.Panel):
         box = self.layout.box().column(align=True)
         box.label(text=cage.name, icon="CHECKMARK" if check["bounding"] else "ERROR")
         faces = check["triangles"] + check["quads"]
-        box.label(text=f"{faces} faces, made in {report['seconds']:.1f} s")
-        box.label(text="Certified when it was made" if check["bounding"] else "Not certified")
+        if report["kind"] == "fit":
+            box.label(text=f"{faces} faces, {report['moved_points']} points moved")
+            box.label(text="Certified when it was fitted")
+        else:
+            box.label(text=f"{faces} faces, made in {report['seconds']:.1f} s")
+            box.label(text="Certified when it was made" if check["bounding"] else "Not certified")
         box.label(text=f"Distance {100 * check['mean_distance']:.2f} % of the size")
 
 
@@ -82,6 +86,23 @@ class VDBCAGE_PT_more(_Panel, bpy.types.Panel):
         column.prop(settings, "smooth")
         column.prop(settings, "symmetry")
         column.prop(settings, "more")
+
+
+class VDBCAGE_PT_fit(_Panel, bpy.types.Panel):
+    bl_label = "Fit"
+    bl_parent_id = "VDBCAGE_PT_cage"
+
+    def draw(self, context):
+        settings = context.scene.vdbcage_fit
+        column = _column(self.layout)
+        _cage(column, context)
+        column.prop(settings, "tight", slider=True)
+        cage = links.active_cage(context)
+        if cage is None:
+            column.prop(settings, "keep")
+        else:
+            column.prop_search(settings, "keep", cage, "vertex_groups")
+        self.layout.operator("vdbcage.fit_cage", icon="MOD_SHRINKWRAP")
 
 
 class VDBCAGE_PT_stages(_Panel, bpy.types.Panel):
@@ -137,4 +158,4 @@ def _cage(column, context):
         column.prop(thing.vdbcage, "cage")
 
 
-CLASSES = (VDBCAGE_PT_cage, VDBCAGE_PT_more, VDBCAGE_PT_stages, VDBCAGE_PT_bind, VDBCAGE_PT_pose)
+CLASSES = (VDBCAGE_PT_cage, VDBCAGE_PT_fit, VDBCAGE_PT_more, VDBCAGE_PT_stages, VDBCAGE_PT_bind, VDBCAGE_PT_pose)

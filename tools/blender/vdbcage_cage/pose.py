@@ -68,7 +68,7 @@ class VDBCAGE_OT_pose(CommandOperator, bpy.types.Operator):
         things = [still_there(context, [pose.model, pose.cage]) for pose in self._poses]
         # All that can fail comes before the scene changes.
         for model, _ in things:
-            _require_object_mode(model)
+            geometry.require_object_mode(model)
         if self.target == "SHAPE_KEY":
             results = [pose.result(0) for pose in self._poses]
             for (model, _), points in zip(things, results):
@@ -110,7 +110,7 @@ class _Pose:
         self._folder, self._coordinates = place, coordinates
         self._model_file = place / f"{files.file_name(model.name)}.ply"  # messages of the command have this name
         rest = links.rest_of(model, cage)
-        _require_object_mode(model)
+        geometry.require_object_mode(model)
         if target == "SHAPE_KEY" and model.data.users - model.data.use_fake_user > 1:
             raise CommandError(f"{model.name} shares its mesh with other objects, which a shape key would pose too. "
                                "Make it a single user first")
@@ -180,12 +180,6 @@ def _write_frames(context, poses, frames):
     finally:
         if context.scene.frame_current != current:
             context.scene.frame_set(current)
-
-
-def _require_object_mode(model):
-    """Raises CommandError: what is set beside the mesh in Edit Mode is lost."""
-    if model.mode == "EDIT":
-        raise CommandError(f"{model.name} is in Edit Mode. Leave it first")
 
 
 def _set_shape_key(model, cage, points):

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0 OR GPL-3.0-or-later
 """Operators that run the command. The window stays alive meanwhile: a timer looks at the process ten times a second."""
 
+import contextlib
+
 import bpy
 
 from .command import CommandError, Job, found
@@ -56,7 +58,8 @@ class CommandOperator:
         try:
             with Job(bpy.app.tempdir) as job:
                 job.start(self.prepare(context, job))
-                job.wait()
+                with self._explained(context, job):
+                    job.wait()
                 self.finish(context, job)
         except _failures as error:
             return self._failed(error)
@@ -86,6 +89,17 @@ class CommandOperator:
     def take_settings(self, context):
         """Before a run from the panel: takes what the panel shows, unless the caller said otherwise."""
 
+    def failure(self, context, job, error):
+        """The error to report when a command ended with `error`; its files are still there."""
+        return error
+
+    @contextlib.contextmanager
+    def _explained(self, context, job):
+        try:
+            yield
+        except CommandError as error:
+            raise self.failure(context, job, error) from None
+
     def _failed(self, error):
         self.report({"ERROR"}, str(error))
         return {"CANCELLED"}
@@ -100,7 +114,9 @@ class CommandOperator:
         if event.type != "TIMER":
             return {"PASS_THROUGH"}
         try:
-            if not self._job.poll():
+            with self._explained(context, self._job):
+                has_ended = self._job.poll()
+            if not has_ended:
                 running.label, running.percent = f"{self.bl_label}: {self._job.stage}", self._job.percent
                 _redraw(context)
                 return {"PASS_THROUGH"}
