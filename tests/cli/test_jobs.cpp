@@ -10,6 +10,8 @@
 #include <support/process.h>
 #include <support/read_json.h>
 #include <support/run_command.h>
+#include <support/shapes.h>
+#include <vdbcage/check/check.h>
 #include <vdbcage/mesh/mesh_io.h>
 
 using namespace vdbcage;
@@ -115,12 +117,35 @@ BOOST_AUTO_TEST_CASE(what_is_no_job)
     expectRefusal({"jobs", "a/x.obj", "b/x.obj", "-o", out}, "b/x.obj: another model has this name too");
     expectRefusal({"jobs", "a\nb.obj", "-o", out}, "cannot have control characters");
     writeText(folder / "x.obj", "");
-    expectRefusal({"jobs", folder / "x.obj", "-o", folder.path()}, "x.obj: its cage would replace it");
+    expectRefusal({"jobs", folder / "x.obj", "-o", folder.path()}, "x.obj: the cage of x would replace it");
     expectRefusal({"jobs", "a.obj", "-o", out, "--faces", "3"}, "faces: '3' is not allowed");
     expectRefusal({"jobs", "a.obj", "-o", out, "--format", "vdb"}, ".obj");
     expectRefusal({"jobs", "a.obj", "-o", out, "--memory", "2X"}, "--memory: '2X' is not allowed");
     expectRefusal({"jobs", "a.obj", "-o", out, "--progress", "rarely"}, "progress: 'rarely' is neither auto nor lines");
     expectRefusal({"jobs", "a.obj", "-o", out, "--report", "x.json"}, "there is no option '--report'");
+    const std::string joints = folder / "joints\n.txt";
+    writeText(joints, "0 0 0\n");
+    expectRefusal({"jobs", "a.obj", "-o", out, "--joints", joints}, "joints\\n.txt': a job is a line");
+    expectRefusal({"jobs", "a.obj", "-o", out, "--tight", "1"}, "--tight: it needs --fit CAGE");
+    const auto expectNoFit = [&](std::vector<std::string> words, const std::string& mention) {
+        words.insert(words.begin(), {"jobs", "--fit", "cage.obj", "a.obj", "-o", out});
+        expectRefusal(words, mention);
+    };
+    expectNoFit({"--tight", "2"}, "--tight: 2 is not allowed; it must be 0 to 1");
+    expectNoFit({"--tight", "much"}, "--tight: 'much' is not allowed; it must be a number");
+    expectNoFit({"--keep", "points:3-1"}, "'3-1' is not allowed; it must be numbers of points, as 1-20,35");
+    expectNoFit({"--keep", "points:1\n2"}, "a job is a line, and cannot have control characters");
+    expectNoFit({"--progress", "rarely"}, "progress: 'rarely' is neither auto nor lines");
+    for (const std::string option : {"--faces=60", "--memory=2G", "--format=obj", "--pictures"}) {
+        const std::string name = option.substr(0, option.find('='));
+        expectNoFit({option}, name + ": it does not go with --fit; the options of vdbcage fit do");
+    }
+    expectNoFit({"--least", "1"}, "there is no option '--least'");
+    expectNoFit({"b/a.obj"}, "b/a.obj: another model has this name too");
+    expectRefusal({"jobs", "--fit", "cage.vdb", "a.obj", "-o", out}, "cage.vdb: the file name ends in \".vdb\"");
+    expectRefusal({"jobs", "--fit", "ca\nge.obj", "a.obj", "-o", out}, "cannot have control characters");
+    expectRefusal({"jobs", "--fit", folder / "x.obj", "a/x.obj", "-o", folder.path()},
+                  "x.obj: the cage of x would replace it; choose another folder");
     BOOST_TEST(!std::filesystem::exists(out));
 }
 
@@ -179,6 +204,108 @@ BOOST_AUTO_TEST_CASE(jobs_run_once_and_failed_ones_again)
     const auto drawn = [&] { return runCommand({"sh", "-c", lines[0] + " --smooth 1 --picture " + picture}).err; };
     BOOST_TEST(drawn().find("certified bounding") != std::string::npos);
     BOOST_TEST(drawn().find("was done before") != std::string::npos);
+}
+
+BOOST_AUTO_TEST_CASE(a_line_of_fit_for_each_model)
+{
+    const TemporaryFolder folder;
+    const std::string out = folder / "fits";
+    const auto result = runCommand({command, "jobs", "--fit", "a cage.ply", "a/body.obj", "b/the body.stl", "-o", out,
+                                    "--command", "/opt/vdbcage", "--keep", "points:1-20,35", "--tight=0.7", "--threads",
+                                    "2", "--progress", "lines"});
+    BOOST_TEST(result.status == 0, result.err);
+    const std::string start = "/opt/vdbcage fit 'a cage.ply' ";
+    const std::string options = " --skip-done --tight=0.7 --keep=points:1-20,35 --progress=lines --threads=2";
+    const std::vector<std::string> expected{
+        start + "a/body.obj -o " + out + "/body.ply --report " + out + "/body.json" + options,
+        start + "'b/the body.stl' -o '" + out + "/the body.ply' --report '" + out + "/the body.json'" + options};
+    BOOST_TEST(linesOf(result.out) == expected, boost::test_tools::per_element());
+    BOOST_TEST(std::filesystem::is_directory(out));
+}
+
+// By the shell, as farms run them.
+BOOST_AUTO_TEST_CASE(fits_run_once_and_again_where_anything_changed)
+{
+    const TemporaryFolder folder;
+    const std::string cage = folder / "a cage.obj", out = folder / "the fits", kept = folder / "kept.txt";
+    const std::vector<std::string> names{"ball", "wide ball"};
+    const std::vector<std::string> models{folder / "ball.obj", folder / "wide ball.obj"};
+    writeMesh(test::sphere({0, 0, 0}, 0.9, 4), cage);
+    writeMesh(test::sphere({0.1, 0, 0}, 1, 8), models[0]);
+    writeMesh(test::sphere({0, 0.2, 0}, 1.3, 8), models[1]);
+    const auto listed =
+        runCommand({command, "jobs", "--fit", cage, models[0], models[1], "-o", out, "--command", command});
+    BOOST_TEST_REQUIRE(listed.status == 0, listed.err);
+    const std::vector<std::string> lines = linesOf(listed.out);
+    BOOST_TEST_REQUIRE(lines.size() == 2U);
+    const auto file = [&](std::size_t i, const char* extension) { return out + "/" + names[i] + extension; };
+    const auto run = [&](std::size_t i, const std::string& more = "") {
+        return runCommand({"sh", "-c", lines[i] + more});
+    };
+    const auto isDoneAnew = [&](std::size_t i, const std::string& more = "") {
+        const auto result = run(i, more);
+        BOOST_TEST(result.status == 0, result.err);
+        const bool wasDone = result.err == file(i, ".obj") + ": was done before\n";
+        BOOST_TEST((result.out.find(": bounding\n") != std::string::npos) == !wasDone, result.out + result.err);
+        return !wasDone;
+    };
+    for (std::size_t i = 0; i < 2; ++i) {
+        BOOST_TEST(isDoneAnew(i));
+        BOOST_TEST(checkCage(readMesh(file(i, ".obj")), readMesh(models[i])).bounding());
+        BOOST_TEST(readJson(file(i, ".json"))["fitted"] == file(i, ".obj"));
+    }
+    const std::string fitted = readText(file(0, ".obj")), report = readText(file(0, ".json"));
+    for (const char* more : {"", " -q", " --threads 2"}) {
+        const auto again = run(0, more);
+        BOOST_TEST(again.status == 0);
+        BOOST_TEST(again.out.empty(), again.out);
+        BOOST_TEST((readText(file(0, ".json")) == report));
+    }
+    BOOST_TEST(!isDoneAnew(1));
+    const auto listing = runCommand({command, "report", out});
+    BOOST_TEST(listing.status == 0, listing.err);
+    BOOST_TEST(listing.out.find("2 jobs: 2 certified\n") != std::string::npos, listing.out);
+
+    std::filesystem::remove(file(0, ".obj"));
+    BOOST_TEST(isDoneAnew(0));
+    BOOST_TEST((readText(file(0, ".obj")) == fitted));
+    for (const char* broken : {"{", "", "[]", "{\"fitted\": 5, \"inputs\": null}"}) {
+        writeText(file(0, ".json"), broken);
+        BOOST_TEST(isDoneAnew(0), broken);
+    }
+    BOOST_TEST(isDoneAnew(0, " --tight 1"));
+    BOOST_TEST(!isDoneAnew(0, " --tight 1"));
+    writeText(models[0], readText(models[0]) + "# changed\n");
+    BOOST_TEST(isDoneAnew(0));
+    BOOST_TEST(!isDoneAnew(0));
+    BOOST_TEST(!isDoneAnew(1)); // has another model
+    writeText(cage, readText(cage) + "# changed\n");
+    for (std::size_t i = 0; i < 2; ++i) {
+        BOOST_TEST(isDoneAnew(i));
+        BOOST_TEST(!isDoneAnew(i));
+    }
+
+    // One that failed is tried again, and the change of a file of --keep counts.
+    const std::string keep = " --keep '" + kept + "'";
+    writeText(kept, "0-" + std::to_string(readMesh(cage).points.size() - 1));
+    for (int i = 0; i < 2; ++i) {
+        const auto failed = run(0, keep);
+        BOOST_TEST(failed.status == 1);
+        const nlohmann::json failure = readJson(file(0, ".json"));
+        BOOST_TEST(failure["exit_status"] == 1);
+        BOOST_TEST(failed.err == "vdbcage: error: " + failure["error"].get<std::string>() + "\n");
+    }
+    const auto told = runCommand({command, "report", out});
+    BOOST_TEST(told.status == 2);
+    BOOST_TEST(told.out.find("2 jobs: 1 certified, 1 failed\n") != std::string::npos, told.out);
+    std::filesystem::copy_file(cage, models[0], std::filesystem::copy_options::overwrite_existing);
+    writeMesh(test::sphere({0, 0, 0}, 1.5, 4), cage);
+    writeText(kept, "0");
+    BOOST_TEST(isDoneAnew(0, keep));
+    BOOST_TEST(!isDoneAnew(0, keep));
+    writeText(kept, "1");
+    BOOST_TEST(isDoneAnew(0, keep));
+    expectRefusal({"fit", cage, models[0], "-o", folder / "x.obj", "--skip-done"}, "--skip-done needs --report");
 }
 
 BOOST_AUTO_TEST_CASE(reports_of_many_jobs)
@@ -250,10 +377,10 @@ BOOST_AUTO_TEST_CASE(reports_of_many_jobs)
     // The volume is empty, between distance and angle.
     const std::string openRow = readText(folder / "open.csv");
     BOOST_TEST(std::regex_search(openRow, std::regex(",true,[0-9]+,[0-9]+,[^,]+,[^,]+,,[0-9]")), openRow);
-    expectRefusal({"report", out + "/other.json"}, "other.json: it is no report of vdbcage make");
+    expectRefusal({"report", out + "/other.json"}, "other.json: it is no report of vdbcage make or fit");
     expectRefusal({"report", folder / "none"}, "none: cannot be read");
     std::filesystem::create_directory(folder / "nothing");
-    expectRefusal({"report", folder / "nothing"}, "there are no reports of vdbcage make");
+    expectRefusal({"report", folder / "nothing"}, "there are no reports of vdbcage make or fit");
     writeText(out + "/tight.png", "PNG");
     expectRefusal({"report", out, "--html", html}, "tight.png: it is no PNG picture");
     BOOST_TEST((readText(html) == page));

@@ -80,3 +80,24 @@ Host {" ".join(HOSTS)}
         done = self.shell(sharing)  # here all hosts share a disk
         self.assertEqual(sorted(done.splitlines()), [f"cages/{name}.obj: was done before" for name in (BAD, *GOOD)])
         self.assertEqual(self.results(), before)
+
+    def test_one_cage_on_two_hosts(self):
+        corners = [(x, y, z) for x in (-1000, 1000) for y in (-1000, 1000) for z in (-1000, 1000)]
+        faces = "f 1 2 4 3\nf 5 7 8 6\nf 1 5 6 2\nf 3 4 8 7\nf 1 3 7 5\nf 2 6 8 4\n"
+        (self.folder / "box.obj").write_text("".join("v %d %d %d\n" % corner for corner in corners) + faces)
+        script = changed(recipe("GNU parallel over several hosts")[0], "jobs assets", "jobs --fit box.obj assets")
+        script = changed(script, "-o cages", "-o cages --tight 0")
+        script = changed(script, "--transferfile {1}", "--transferfile {1} --transferfile box.obj")
+        first = self.run_shell(script)
+        self.assertEqual(first.returncode, 1, first.stdout)
+        self.assertIn(f"vdbcage: error: assets/{BAD}.obj: line ", first.stdout)
+        self.assertEqual({job["Host"] for job in self.log()}, set(HOSTS))
+        for name in GOOD:
+            self.assertEqual((self.cages / f"{name}.obj").read_bytes(), (self.folder / "box.obj").read_bytes())
+            self.assertIn('"bounding": true', (self.cages / f"{name}.json").read_text())
+        for host in HOSTS:
+            self.assertEqual([path.name for path in (FOLDER / host).rglob("*")], [".parallel", "tmp", "kept"])
+        before = self.results()
+        again = self.run_shell("sh jobs.txt")
+        self.assertEqual(again.stdout.count(": was done before\n"), len(GOOD), again.stdout)
+        self.assertEqual(self.results(), before)

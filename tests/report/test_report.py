@@ -172,6 +172,18 @@ class Reports(unittest.TestCase):
         self.assertEqual(report["quads"]["corner_mean_degrees"], 0)
         self.assertIsNone(self.run_command("check", "open.obj", "box.obj", status=2)["check"]["genus"])
 
+    def test_a_fitted_cage(self):
+        (self.folder / "large.obj").write_text(BOX.replace("v 2", "v 2.1"))
+        words = ("fit", "box.obj", "large.obj", "-o", "fitted.obj")
+        report = self.run_command(*words)
+        self.assertEqual((report["fitted"], report["exit_status"], report["error"]), ("fitted.obj", 0, None))
+        self.assertEqual(report["cage_sha256"], self.sha256("box.obj"))
+        self.assertTrue(report["check"]["bounding"])
+        held = self.run_command(*words, "--keep", "points:0-7", status=1)
+        self.assertEqual((held["fitted"], held["exit_status"]), (None, 1))
+        self.assertEqual(self.error, f"vdbcage: error: {held['error']}\n")
+        self.assertNotEqual(held["inputs"], report["inputs"])
+
     @unittest.skipIf(os.environ["VDBCAGE_HAS_GPL_PART"] != "1", "without repair")
     def test_a_repair(self):
         report = self.run_command("repair", "open.obj", "-o", "mended.obj")

@@ -182,4 +182,13 @@ bool parse(CLI::App& app, Call call)
     return true;
 }
 
+std::vector<std::pair<std::string, std::string>> valuesOf(const std::vector<CLI::Option*>& options)
+{
+    std::vector<std::pair<std::string, std::string>> values;
+    for (const CLI::Option* option : options) {
+        for (const std::string& value : option->results()) values.emplace_back(option->get_lnames().front(), value);
+    }
+    return values;
+}
+
 } // namespace vdbcage::cli

@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -41,6 +42,10 @@ struct Call {
 /// effect. Returns false if nothing else is to be done: the command was described, or help was asked for and printed.
 /// \throw InputError
 bool parse(CLI::App& app, Call call);
+
+/// Returns the name, without dashes, and the value of each option that was given, in the order of `options`. An option
+/// that was given several times has as many.
+std::vector<std::pair<std::string, std::string>> valuesOf(const std::vector<CLI::Option*>& options);
 
 /// Returns "; did you mean make?" if one of `known` is near to `word`, else "".
 std::string didYouMean(const std::string& word, const std::vector<std::string>& known);

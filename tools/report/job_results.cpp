@@ -25,16 +25,17 @@ std::string modelsOf(const Json& report)
                           [](const Json& model) { return model.at("file").get<std::string>(); });
 }
 
-/// Returns the result in `text`; none: it is no report of `make`.
+/// Returns the result in `text`; none: it is no report of `make` or `fit`.
 std::optional<JobResult> resultOf(const fs::path& file, const std::string& text)
 {
     JobResult result;
     try {
         const Json report = Json::parse(text);
         result.report = file;
-        if (report.at("format") != 1 || report.at("kind") != "make") return std::nullopt;
-        // A report by the window has no file of the cage.
-        const Json& cage = report.at("cage");
+        const std::string kind = report.at("kind").get<std::string>();
+        if (report.at("format") != 1 || (kind != "make" && kind != "fit")) return std::nullopt;
+        // A report by the window has no file of the cage, nor has one of a cage that found no place.
+        const Json& cage = report.at(kind == "make" ? "cage" : "fitted");
         result.cage = cage.is_null() ? file.string() : cage.get<std::string>();
         result.models = modelsOf(report);
         if (!report.at("error").is_null()) {
@@ -105,10 +106,10 @@ std::vector<JobResult> readJobResults(const std::vector<fs::path>& paths)
             continue;
         }
         auto result = resultOf(path, detail::readFile(path));
-        if (!result) throw IoError(path.string() + ": it is no report of vdbcage make");
+        if (!result) throw IoError(path.string() + ": it is no report of vdbcage make or fit");
         results.push_back(std::move(*result));
     }
-    if (results.empty()) throw IoError(paths.front().string() + ": there are no reports of vdbcage make");
+    if (results.empty()) throw IoError(paths.front().string() + ": there are no reports of vdbcage make or fit");
     std::sort(results.begin(), results.end(), comesBefore);
     return results;
 }

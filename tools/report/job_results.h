@@ -6,7 +6,7 @@
 
 namespace vdbcage::report {
 
-/// The content of a report of `make`.
+/// The content of a report of `make` or `fit`.
 struct JobResult {
     std::filesystem::path report; ///< the file
     std::string cage;             ///< as the report names it
@@ -24,7 +24,8 @@ struct JobResult {
 
 /// Reads reports, also those in folders and below them. Failures come first, then cages that do not bound, then the
 /// loosest; equal ones by name. Other JSON files in folders are ignored.
-/// \throw IoError a file or folder cannot be read; a file that was named is no report of `make`; there are none
+/// \throw IoError a file or folder cannot be read; a file that was named is no report of
+/// `make` or `fit`; there are none
 std::vector<JobResult> readJobResults(const std::vector<std::filesystem::path>& paths);
 
 /// Returns lines for a terminal, with a heading and a sum.

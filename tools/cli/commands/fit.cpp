@@ -1,10 +1,8 @@
-#include <algorithm>
-#include <charconv>
+#include <chrono>
 #include <iomanip>
 #include <iostream>
 #include <optional>
 #include <sstream>
-#include <string_view>
 
 #include <tools/files/naming_files.h>
 #include <tools/report/fit_words.h>
@@ -12,66 +10,21 @@
 #include <tools/report/run_facts.h>
 #include <vdbcage/bounding/fit.h>
 #include <vdbcage/check/check.h>
-#include <vdbcage/core/detail/read_file.h>
 #include <vdbcage/core/error.h>
-#include <vdbcage/core/range.h>
 #include <vdbcage/mesh/io/formats.h>
 #include <vdbcage/mesh/mesh_io.h>
 
+#include <tools/cli/arguments/fit_arguments.h>
 #include <tools/cli/arguments/talk_arguments.h>
 #include <tools/cli/commands.h>
 #include <tools/cli/interrupt.h>
 #include <tools/cli/models.h>
 #include <tools/cli/outputs.h>
+#include <tools/cli/skip_done.h>
 
 namespace vdbcage::cli {
 
 namespace {
-
-constexpr std::string_view listPrefix = "points:";
-
-/// Returns the numbers of a list such as "1-20,35". Blanks and ends of lines part them, too.
-/// \throw InputError naming `source`
-std::vector<std::size_t> numbersOf(const std::string& list, const std::string& source)
-{
-    std::vector<std::size_t> numbers;
-    const auto fail = [&](const std::string& word) {
-        throw InputError(source, "'" + word + "' is not allowed; it must be numbers of points, as 1-20,35");
-    };
-    std::string words = list;
-    std::replace(words.begin(), words.end(), ',', ' ');
-    std::istringstream in(words);
-    for (std::string word; in >> word;) {
-        const char *at = word.data(), *const end = at + word.size();
-        const auto number = [&] {
-            constexpr std::size_t most = 0xffffffff;
-            std::size_t value = 0;
-            const auto read = std::from_chars(at, end, value);
-            if (read.ec != std::errc() || value > most) fail(word);
-            at = read.ptr;
-            return value;
-        };
-        const std::size_t first = number();
-        std::size_t last = first;
-        if (at != end && *at == '-') {
-            ++at;
-            last = number();
-        }
-        constexpr std::size_t mostInRange = 100'000'000;
-        if (at != end || last < first || last - first > mostInRange) fail(word);
-        for (std::size_t i = first; i <= last; ++i) numbers.push_back(i);
-    }
-    if (numbers.empty()) fail(list);
-    return numbers;
-}
-
-/// Returns the points that --keep names, itself or in a file.
-std::vector<std::size_t> keptPoints(const std::string& keep)
-{
-    if (keep.empty()) return {};
-    if (keep.compare(0, listPrefix.size(), listPrefix) == 0) return numbersOf(keep.substr(listPrefix.size()), "--keep");
-    return numbersOf(detail::readFile(keep), keep);
-}
 
 /// The ways of a cage's points, in world units.
 struct Ways {
@@ -128,7 +81,6 @@ int runFit(Call call)
 {
     std::filesystem::path cagePath, outputPath, reportPath;
     std::vector<std::filesystem::path> modelPaths;
-    std::string keep;
     CLI::App app("vdbcage fit CAGE MODEL... -o OUT [OPTIONS]\n"
                  "Moves the points of a cage that somebody drew until it bounds the models.\n"
                  "Faces, their order and all else in the file stay.",
@@ -136,28 +88,42 @@ int runFit(Call call)
     app.add_option("cage", cagePath)->required()->type_name("CAGE");
     app.add_option("models", modelPaths)->required()->type_name("MODEL...");
     app.add_option("-o,--output", outputPath, "the fitted cage to write, as CAGE")->required()->type_name("OUT");
-    FitOptions options;
-    app.add_option("--tight", options.tightness, "0: least moves, 1: tightest, 0 to 1 [0.5]")->type_name("F");
-    app.add_option("--keep", keep, "points that stay, counted from 0")->type_name("points:1-20,35|FILE");
+    FitArguments fitting;
+    FitOptions& options = fitting.options;
+    const std::vector<CLI::Option*> fitOptions = addFitOptions(app, fitting);
     app.add_option("--report", reportPath, "what moved, and the verdicts, as JSON")->type_name("FILE.json");
+    bool skipsDone = false;
+    app.add_flag("--skip-done", skipsDone, "nothing if the report tells that it was done");
     const TalkArguments talk(app, "progress without a terminal");
     const std::vector<std::string> arguments = call.words;
     if (!parse(app, std::move(call))) return exitGood;
-    requireWithin(FitOptions::tightnesses, options.tightness, "--tight");
+    requireReport(skipsDone, reportPath);
+    requireValid(fitting);
     detail::requireMeshExtension(outputPath);
     if (cagePath.extension() != outputPath.extension()) {
         throw InputError(outputPath.string(), "its extension must be that of the cage, " +
                                                   cagePath.extension().string() + ": all else in the file stays");
     }
     Outputs outputs;
-    outputs.reads(cagePath);
-    for (const std::filesystem::path& model : modelPaths) outputs.reads(model);
-    if (!keep.empty() && keep.compare(0, listPrefix.size(), listPrefix) != 0) outputs.reads(keep);
+    std::vector<std::filesystem::path> inputPaths{cagePath};
+    inputPaths.insert(inputPaths.end(), modelPaths.begin(), modelPaths.end());
+    for (const std::filesystem::path& file : filesOf(fitting)) inputPaths.push_back(file);
+    for (const std::filesystem::path& file : inputPaths) outputs.reads(file);
     outputs.writes(outputPath);
     if (!reportPath.empty()) outputs.writes(reportPath);
 
+    const auto began = std::chrono::steady_clock::now();
     std::optional<Progress> progress(talk.progressForm());
-    options.keptPoints = keptPoints(keep);
+    // Hashes the files before the work: a run is repeated if they change meanwhile.
+    const std::string inputs = reportPath.empty() ? std::string() : fingerprint(inputPaths, valuesOf(fitOptions));
+    const report::Json done{{"format", 1}, {"kind", "fit"}, {"fitted", outputPath.string()}, {"inputs", inputs}};
+    if (skipsDone && wasDone(reportPath, done, {outputPath})) {
+        progress->succeed();
+        progress.reset();
+        if (!talk.quiet()) std::cerr << printable(outputPath) << ": was done before\n";
+        return exitGood;
+    }
+    options.keptPoints = keptPoints(fitting);
     options.tightening = tightenOptions(Effort::fair);
     const std::string cageFile = detail::readMeshBytes(cagePath);
     const MeshFile cage = detail::parseMesh(cageFile, cagePath);
@@ -189,12 +155,20 @@ int runFit(Call call)
     const CageCheck check = checker.check(written, {}, &*progress);
     const Ways ways = waysOf(cage.mesh, fit.cage);
     const bool fits = fit.obstacle == Fit::Obstacle::none && check.bounding();
+    const auto failure = [&] {
+        return InputError(cagePath.string(), "no place was found where " + report::unfoundPlace(fit));
+    };
     if (!reportPath.empty()) {
         report::Json report = report::runFacts("fit", arguments);
         report["models"] = entryOf(models);
         report["cage"] = cagePath.string();
         report["cage_sha256"] = report::sha256Of(cageFile);
         report["cage_warnings"] = cage.summary.warnings;
+        report["inputs"] = inputs;
+        report["exit_status"] = fits ? exitGood : exitError;
+        report["error"] = fits ? report::Json() : report::Json(detail::printable(failure().what()));
+        report["seconds"] = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+        report["memory_peak_mib"] = report::peakMemory();
         report["fitted"] = fits ? report::Json(outputPath.string()) : report::Json();
         report["before"] = report::toJson(before);
         report["check"] = report::toJson(check);
@@ -208,7 +182,7 @@ int runFit(Call call)
     progress.reset();
     if (!fits) {
         outputs.commit();
-        throw InputError(cagePath.string(), "no place was found where " + report::unfoundPlace(fit));
+        throw failure();
     }
     if (!talk.quiet()) {
         std::cout << printable(outputPath) << ": " << verdict(check) << '\n'

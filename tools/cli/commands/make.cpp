@@ -3,7 +3,6 @@
 #include <iostream>
 #include <optional>
 
-#include <tools/cli/fingerprint.h>
 #include <tools/cli/memory_limit.h>
 #include <tools/cli/models.h>
 #include <tools/files/naming_files.h>
@@ -12,7 +11,6 @@
 #include <tools/report/run_facts.h>
 #include <vdbcage/core/detail/joined.h>
 #include <vdbcage/core/detail/number_text.h>
-#include <vdbcage/core/detail/read_file.h>
 #include <vdbcage/core/error.h>
 #include <vdbcage/mesh/mesh_io.h>
 #include <vdbcage/pipeline/pipeline.h>
@@ -23,6 +21,7 @@
 #include <tools/cli/drawing.h>
 #include <tools/cli/interrupt.h>
 #include <tools/cli/outputs.h>
+#include <tools/cli/skip_done.h>
 
 namespace vdbcage::cli {
 
@@ -129,21 +128,6 @@ std::string summaryOf(const MakeArguments& arguments, const std::vector<ModelFil
     return out.str();
 }
 
-/// Returns whether the report is about the same inputs, with this fingerprint, and all results exist.
-bool wasDone(const MakeArguments& arguments, const std::string& inputs)
-{
-    std::error_code ignored;
-    for (const fs::path& file : resultsOf(arguments)) {
-        if (!fs::is_regular_file(file, ignored)) return false;
-    }
-    if (!fs::is_regular_file(arguments.report, ignored) || fs::is_empty(arguments.report, ignored)) return false;
-    const report::Json report = report::Json::parse(detail::readFile(arguments.report), nullptr, false);
-    const auto has = [&](const char* name, const report::Json& value) {
-        return report.is_object() && report.contains(name) && report[name] == value;
-    };
-    return has("format", 1) && has("cage", arguments.cage.string()) && has("inputs", inputs);
-}
-
 /// Writes a report of the failure if possible. Ignores errors of that: the first failure matters more.
 void reportFailure(const MakeArguments& arguments, const Failure& failure) noexcept
 {
@@ -217,9 +201,7 @@ int runMake(Call call)
     if (!parse(app, std::move(call))) return exitGood;
     arguments.isVerbose = talk.verbose();
     arguments.memoryLimit = memoryLimit(memory);
-    if (skipsDone && arguments.report.empty()) {
-        throw InputError("--skip-done needs --report FILE.json, the record of what it did");
-    }
+    requireReport(skipsDone, arguments.report);
     setPrecisionFor(arguments.cage, arguments.options);
     std::optional<Outputs> outputs(std::in_place);
     announce(arguments, *outputs);
@@ -229,9 +211,11 @@ int runMake(Call call)
     try {
         std::optional<Progress> progress(talk.progressForm());
         // Hashes the files before the work: a run is repeated if they change meanwhile.
-        const std::string inputs =
-            arguments.report.empty() ? std::string() : fingerprint(inputsOf(arguments), arguments.options);
-        if (skipsDone && wasDone(arguments, inputs)) {
+        const std::string inputs = arguments.report.empty()
+                                       ? std::string()
+                                       : fingerprint(inputsOf(arguments), optionValues(arguments.options));
+        const report::Json done{{"format", 1}, {"cage", arguments.cage.string()}, {"inputs", inputs}};
+        if (skipsDone && wasDone(arguments.report, done, resultsOf(arguments))) {
             text = printable(arguments.cage) + ": was done before\n";
         } else {
             text = makeFiles(arguments, inputs, *outputs, *progress);

@@ -15,7 +15,7 @@ int runReport(Call call)
     std::vector<std::filesystem::path> paths;
     std::filesystem::path csv, html;
     CLI::App app("vdbcage report DIR|FILE.json... [OPTIONS]\n"
-                 "Lists the reports of make: failures first, then the loosest cages.\n"
+                 "Lists the reports of make and fit: failures first, then the loosest cages.\n"
                  "Exit status 2: a job failed, or a cage does not bound its model.",
                  "report");
     app.add_option("reports", paths)->required()->type_name("DIR|FILE.json...");

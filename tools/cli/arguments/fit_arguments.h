@@ -1,0 +1,32 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include <vdbcage/bounding/fit.h>
+
+/// The options of the commands that fit cages.
+namespace vdbcage::cli {
+
+/// The values of these options.
+struct FitArguments {
+    FitOptions options;
+    std::string keep; ///< "points:" and a list, or the name of a file that has one; empty: no point stays
+};
+
+/// Adds the options of fits, which set `arguments`, and returns them. Both must outlive parsing.
+std::vector<CLI::Option*> addFitOptions(CLI::App& app, FitArguments& arguments);
+
+/// Refuses values that are not allowed. Reads no file. \throw InputError
+void requireValid(const FitArguments& arguments);
+
+/// Returns all files that are named.
+std::vector<std::filesystem::path> filesOf(const FitArguments& arguments);
+
+/// Returns the points that --keep names, itself or in a file. \throw InputError, IoError
+std::vector<std::size_t> keptPoints(const FitArguments& arguments);
+
+} // namespace vdbcage::cli
