@@ -19,6 +19,7 @@ int runStages(int argc, char** argv);
 int runCage(int argc, char** argv);
 int runClosing(int argc, char** argv);
 int runDeform(int argc, char** argv);
+int runFit(int argc, char** argv);
 int runVoxelize(int argc, char** argv);
 int runView(int argc, char** argv); ///< in builds with the window
 

@@ -1,6 +1,6 @@
 // vdbcage-bench: costs and quality of cages, as JSON lines on standard output. Each whole run (`cage`, or no
-// subcommand) is a process of its own; closing, voxelize, deform and view run in this process. paper.py makes a page of
-// them.
+// subcommand) is a process of its own; closing, voxelize, deform, fit and view run in this process. paper.py makes a
+// page of them.
 
 #include <cstdio>
 #include <exception>
@@ -18,6 +18,7 @@ int main(int argc, char** argv)
         if (argc > 1 && std::string(argv[1]) == "closing") return bench::runClosing(argc, argv);
         if (argc > 1 && std::string(argv[1]) == "voxelize") return bench::runVoxelize(argc, argv);
         if (argc > 1 && std::string(argv[1]) == "deform") return bench::runDeform(argc, argv);
+        if (argc > 1 && std::string(argv[1]) == "fit") return bench::runFit(argc, argv);
         if (argc > 1 && std::string(argv[1]) == "view") {
 #ifdef VDBCAGE_HAS_VIEW
             return bench::runView(argc, argv);
