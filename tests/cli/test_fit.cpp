@@ -131,6 +131,64 @@ BOOST_AUTO_TEST_CASE(points_of_keep_stay)
     }
 }
 
+BOOST_AUTO_TEST_CASE(points_slide_along_axes_and_go_no_farther)
+{
+    const Scene scene;
+    const auto before = readMesh(scene / "cage.obj").points;
+    const auto moved = [&](const std::vector<std::string>& words) {
+        const auto result = scene.fit(words);
+        BOOST_TEST_REQUIRE(result.status == 0, result.err);
+        return readMesh(scene / "new.obj").points;
+    };
+    const auto slid = moved({"--tight", "1", "--keep", "points:0-1:yz,2:x"});
+    for (const std::size_t i : {0U, 1U}) BOOST_TEST(slid[i][0] == before[i][0]);
+    for (const int axis : {1, 2}) BOOST_TEST(slid[2][axis] == before[2][axis]);
+    BOOST_TEST((slid[0] != before[0]));
+    for (const auto& [words, most] :
+         {std::pair(std::vector<std::string>{"--tight", "1"}, 10.0),
+          std::pair(std::vector<std::string>{"--tight", "1", "--most", "0.2"}, 0.2 * 2.2)}) {
+        const auto points = moved(words);
+        for (std::size_t i = 0; i < points.size(); ++i) BOOST_TEST((points[i] - before[i]).length() <= most);
+    }
+}
+
+BOOST_AUTO_TEST_CASE(cages_of_other_places_are_told_and_placed)
+{
+    const Scene scene;
+    // The ball in other units, elsewhere.
+    writeMesh(test::sphere({1000, 20, 0}, 110, 12), scene / "ball.obj");
+    const auto asItIs = scene.fit({"-v"});
+    const std::string told = "and 100 % of the model's vertices are outside of it; --place scales";
+    BOOST_TEST(asItIs.err.find(told) < asItIs.err.find("fit"), asItIs.err); // before the work
+    const auto held = scene.fit({"--keep", "points:0-8"});
+    BOOST_TEST(held.status == 1);
+    BOOST_TEST(held.err.find(told) != std::string::npos, held.err);
+    for (const char* turn : {"", "turn"}) {
+        std::vector<std::string> words{"--place"};
+        if (*turn) words.emplace_back(turn);
+        const auto placed = scene.fit(words);
+        BOOST_TEST_REQUIRE(placed.status == 0, placed.err);
+        BOOST_TEST(placed.err == "");
+        BOOST_TEST(checkCage(readMesh(scene / "new.obj"), readMesh(scene / "ball.obj")).bounding());
+    }
+    // A file after --place is none of its values.
+    BOOST_TEST(runCommand({command, "fit", scene / "cage.obj", "--place", scene / "ball.obj", "-o", scene / "new.obj"})
+                   .status == 0);
+}
+
+BOOST_AUTO_TEST_CASE(a_model_in_the_place_of_its_cage_is_told)
+{
+    const Scene scene;
+    writeMesh(test::sphere({0, 0, 0}, 3, 12), scene / "cage.obj");
+    const auto swapped = runCommand({command, "fit", scene / "ball.obj", scene / "cage.obj", "-o", scene / "new.obj"});
+    BOOST_TEST(swapped.err.find("ball.obj: it is inside of") == std::string::npos); // neither is the finer one
+    writeMesh(test::box({-3, -3, -3}, {3, 3, 3}), scene / "cage.obj");
+    const auto told = runCommand({command, "fit", scene / "ball.obj", scene / "cage.obj", "-o", scene / "new.obj"});
+    BOOST_TEST(told.status == 1);
+    BOOST_TEST(told.err.find("which bounds it: give the cage first, then the model") != std::string::npos, told.err);
+    BOOST_TEST(!told.err.empty());
+}
+
 BOOST_AUTO_TEST_CASE(a_cage_without_room_is_not_written)
 {
     const Scene scene;
@@ -141,6 +199,7 @@ BOOST_AUTO_TEST_CASE(a_cage_without_room_is_not_written)
     BOOST_TEST(result.err.find("cage.obj: no place was found where it does not cut the model (faces ") !=
                    std::string::npos,
                result.err);
+    BOOST_TEST(result.err.find("; kept: points 0, 1, ") != std::string::npos, result.err);
     BOOST_TEST(readText(scene / "new.obj") == "it was there before");
     const auto report = readJson(scene / "r.json");
     BOOST_TEST(report["fitted"].is_null());
@@ -177,8 +236,11 @@ BOOST_AUTO_TEST_CASE(other_formats_and_lists_are_refused)
     };
     refuses({}, "new.ply", "its extension must be that of the cage, .obj");
     refuses({"--tight", "2"}, "new.obj", "--tight: 2 is not allowed; it must be 0 to 1");
-    for (const char* list : {"points:", "points:1-", "points:3-1", "points:x", "points:-1", "points:1 2 q"})
+    for (const char* list :
+         {"points:", "points:1-", "points:3-1", "points:x", "points:-1", "points:1 2 q", "points:1:", "points:1:w"})
         refuses({"--keep", list}, "new.obj", "is not allowed; it must be numbers of points, as 1-20,35");
+    refuses({"--most", "-1"}, "new.obj", "--most: -1 is not allowed; it must be 0 to inf");
+    refuses({"--place=up"}, "new.obj", "--place: up is not allowed; it must be turn, or nothing");
     refuses({"--keep", "points:9"}, "new.obj", "--keep: 9 is not allowed; the cage has 9 points");
     refuses({"--keep", scene / "missing.txt"}, "new.obj", "missing.txt");
 }

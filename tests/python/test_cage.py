@@ -65,6 +65,13 @@ class CageTest(Case):
         self.assertLess(cages[1].check.mean_distance, cages[0].check.mean_distance)
         kept = vdbcage.fit_cage(made, model, keep=[0, 5])
         numpy.testing.assert_array_equal(kept.points[[0, 5]], made.points[[0, 5]])
+        near = vdbcage.fit_cage(made, model, tight=1, most=0.01)
+        side = numpy.ptp(model.points, axis=0).max()
+        self.assertTrue(0 < max(near.report["ways"]) <= 0.01 * side)
+        far = Mesh(100 * made.points[:, [1, 2, 0]] + 5, made.triangles, made.quads)  # turned, in other units
+        self.assertTrue(vdbcage.fit_cage(far, model, place="turn").check.bounding)
+        self.refuses("place: 'x' is not allowed; it must be 'box' or 'turn'", vdbcage.fit_cage, made, model, place="x")
+        self.refuses("most: -1 is not allowed", vdbcage.fit_cage, made, model, most=-1)
         self.refuses("cage: no place was found where it does not cut the model", vdbcage.fit_cage, drawn, model,
                      keep=range(len(drawn.points)))
         self.refuses("tight: 2 is not allowed", vdbcage.fit_cage, drawn, model, tight=2)

@@ -110,6 +110,14 @@ void Progress::succeed()
     if (form_ == ProgressForm::farm) drawForFarm(100);
 }
 
+void Progress::say(const std::string& line)
+{
+    if (form_ != ProgressForm::bar && form_ != ProgressForm::lines) return;
+    const std::lock_guard lock(mutex_);
+    if (lineOnScreen.exchange(false)) std::fputs("\r\033[K", stderr);
+    std::fprintf(stderr, "%s\n", line.c_str());
+}
+
 double Progress::seconds() const
 {
     return std::chrono::duration<double>(Clock::now() - began_).count();

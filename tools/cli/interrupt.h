@@ -54,6 +54,8 @@ public:
 
     /// Ends with 100 % in forms that have a percentage: the work is done.
     void succeed();
+    /// Writes a line to standard error where progress goes there.
+    void say(const std::string& line);
 
     void start(const char* name = nullptr) override;
     void end() override;

@@ -189,22 +189,30 @@ void defineCage(py::module_& module)
         return resultOfJob(progress,
                            [&](Interrupter* interrupter) { return predictedMemory(*model, options, interrupter); });
     });
-    module.def("fit_cage", [](const MeshPtr& cage, const MeshPtr& model, double tight,
-                              const std::vector<std::size_t>& keep, const py::object& progress) {
-        struct Fitted {
-            Fit fit;
-            CageCheck check;
-        };
-        const Fitted fitted = resultOfJob(progress, [&](Interrupter* interrupter) {
-            const BoundingGuard guard(*model, fitGuardOptions(Precision::float64), interrupter);
-            Fitted result{fitCage(*cage, guard, {tight, keep, tightenOptions(Effort::fair)}, interrupter), {}};
-            result.check = checkCage(result.fit.cage, *model, {}, interrupter);
-            if (result.fit.obstacle != Fit::Obstacle::none || !result.check.bounding())
-                throw InputError("cage", "no place was found where " + report::unfoundPlace(result.fit));
-            return result;
-        });
-        return py::make_tuple(std::make_shared<Mesh>(fitted.fit.cage), toDict(fitted.check));
-    });
+    module.def("fit_cage",
+               [](const MeshPtr& cage, const MeshPtr& model, double tight, const std::vector<std::size_t>& keep,
+                  double most, const std::string& place, const py::object& progress) {
+                   struct Fitted {
+                       Fit fit;
+                       CageCheck check;
+                   };
+                   const Fitted fitted = resultOfJob(progress, [&](Interrupter* interrupter) {
+                       const BoundingGuard guard(*model, fitGuardOptions(Precision::float64), interrupter);
+                       FitOptions options;
+                       options.tightness = tight;
+                       options.mostWay = most;
+                       options.keptPoints = keep;
+                       options.tightening = tightenOptions(Effort::fair);
+                       const PlaceTurns turns = place == "turn" ? PlaceTurns::quarters : PlaceTurns::none;
+                       const Mesh drawn = place.empty() ? *cage : placeCage(*cage, guard, turns, interrupter);
+                       Fitted result{fitCage(drawn, guard, options, interrupter), {}};
+                       result.check = checkCage(result.fit.cage, *model, {}, interrupter);
+                       if (result.fit.obstacle != Fit::Obstacle::none || !result.check.bounding())
+                           throw InputError("cage", "no place was found where " + report::unfoundPlace(result.fit));
+                       return result;
+                   });
+                   return py::make_tuple(std::make_shared<Mesh>(fitted.fit.cage), toDict(fitted.check));
+               });
     module.def("check_cage", [](const MeshPtr& cage, const MeshPtr& model, double leastPart, bool asFloats,
                                 bool measure, std::size_t samples, const py::object& progress) {
         return toDict(resultOfJob(progress, [&](Interrupter* interrupter) {

@@ -1,6 +1,7 @@
 #include <vdbcage/bounding/fit.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <optional>
 #include <string>
@@ -117,14 +118,16 @@ public:
         for (const Vec3d& p : places) mesh.points.push_back(guard_.unscaled(p));
         return mesh;
     }
-    /// Returns the cage with these places of the vertices. A point whose vertex is where it was drawn keeps its bits.
+    /// Returns the cage with these places of the vertices. Coordinates that are as drawn keep their bits.
     template <typename Place>
     Mesh cageWith(const Place& place) const
     {
         Mesh cage = cage_;
         for (std::size_t i = 0; i < cage.points.size(); ++i) {
-            const Vec3d p = place(vertexOf_[i]);
-            if (p != drawn_[vertexOf_[i]]) cage.points[i] = guard_.unscaled(p);
+            const Vec3d p = place(vertexOf_[i]), moved = guard_.unscaled(p);
+            for (int k = 0; k < 3; ++k) {
+                if (p[k] != drawn_[vertexOf_[i]][k]) cage.points[i][k] = moved[k];
+            }
         }
         return cage;
     }
@@ -186,29 +189,32 @@ std::vector<std::size_t> unique(std::vector<std::size_t> list)
     return list;
 }
 
-/// One way to make a cage bound.
+/// An attempt to make a cage bound.
 class Attempt {
 public:
+    struct Way {
+        GrowthPace pace;
+        bool aligns; ///< the cage as a whole comes first
+    };
     Attempt(const Mesh& cage, const GuardModel& model, WeldedCage::Splits splits)
         : cage_(cage, model, splits), model_(model)
     {
     }
     /// Returns whether the cage bounds.
-    bool succeeds(const std::vector<char>& isKept, const GrowthPace& pace, DemandFinder& finder,
-                  Interrupter* interrupter)
+    bool succeeds(const MoveLimits& limits, const Way& way, DemandFinder& finder, Interrupter* interrupter)
     {
         places_ = cage_.drawn();
-        const bool isFree = std::find(isKept.begin(), isKept.end(), 1) == isKept.end();
-        if (!untangle(places_, cage_.triangles(), isKept, model_, interrupter)) return false;
-        if (isFree) {
+        const bool isFree = std::none_of(limits.begin(), limits.end(), [](const auto& limit) { return limit; });
+        if (!untangle(places_, cage_.triangles(), limits, model_, interrupter)) return false;
+        if (isFree && way.aligns) {
             align(places_, cage_.triangles(), finder, interrupter);
             for (Vec3d& p : places_) p = model_.rounded(p);
         }
         surface_.emplace(cage_.inWorld(places_), model_);
-        for (std::uint32_t v = 0; v < isKept.size(); ++v) {
-            if (isKept[v]) surface_->pin(v);
+        for (std::uint32_t v = 0; v < limits.size(); ++v) {
+            if (limits[v]) surface_->limit(v, *limits[v]);
         }
-        return grow(*surface_, cage_.firstOfQuads(), pace, finder, interrupter);
+        return grow(*surface_, cage_.firstOfQuads(), way.pace, finder, interrupter);
     }
     const WeldedCage& cage() const { return cage_; }
     /// \pre it succeeded
@@ -263,6 +269,57 @@ private:
     std::optional<GuardedMesh> surface_; // during and after it
 };
 
+/// Returns the limits of vertices.
+/// \throw InputError for a point that the cage has not
+MoveLimits limitsOf(const WeldedCage& cage, const GuardModel& model, std::size_t points, const FitOptions& options)
+{
+    const Vec3d size = model.tree().box().hi - model.tree().box().lo;
+    const double longestSide = std::max({size[0], size[1], size[2]});
+    MoveLimits limits(points);
+    const auto limitAt = [&](std::size_t vertex) -> MoveLimit& {
+        if (!limits[vertex]) {
+            limits[vertex].emplace();
+            limits[vertex]->home = cage.drawn()[vertex];
+            limits[vertex]->radius = options.mostWay * longestSide;
+        }
+        return *limits[vertex];
+    };
+    const auto vertexOf = [&](std::size_t point) {
+        if (point >= points) {
+            throw InputError("kept points", std::to_string(point) + " is not allowed; the cage has " +
+                                                std::to_string(points) + " points");
+        }
+        return cage.vertexOf(point);
+    };
+    if (std::isfinite(options.mostWay)) {
+        for (std::size_t v = 0; v < points; ++v) limitAt(v);
+    }
+    for (const std::size_t point : options.keptPoints) limitAt(vertexOf(point)).radius = 0;
+    for (const FitOptions::Rail& rail : options.rails) {
+        MoveLimit& limit = limitAt(vertexOf(rail.point));
+        for (const std::size_t i : {0U, 1U, 2U}) limit.mayMove[i] = limit.mayMove[i] && rail.mayMove[i];
+    }
+    return limits;
+}
+
+std::vector<std::size_t> holdingPoints(const Mesh& cage, const std::vector<std::size_t>& faces,
+                                       const FitOptions& options)
+{
+    std::vector<char> holds(cage.points.size(), 0);
+    for (const std::size_t point : options.keptPoints) holds[point] = 1;
+    for (const FitOptions::Rail& rail : options.rails) holds[rail.point] = 1;
+    std::vector<std::size_t> points;
+    const auto take = [&](std::uint32_t point) {
+        if (holds[point]) points.push_back(point);
+    };
+    for (const std::size_t face : faces) {
+        const bool isTriangle = face < cage.triangles.size();
+        for (int i = 0; isTriangle && i < 3; ++i) take(cage.triangles[face][i]);
+        for (int i = 0; !isTriangle && i < 4; ++i) take(cage.quads[face - cage.triangles.size()][i]);
+    }
+    return unique(std::move(points));
+}
+
 } // namespace
 
 GuardOptions fitGuardOptions(Precision precision)
@@ -274,39 +331,47 @@ GuardOptions fitGuardOptions(Precision precision)
     return options;
 }
 
+Mesh placeCage(Mesh cage, const BoundingGuard& guard, PlaceTurns turns, Interrupter* interrupter)
+{
+    requireUsable(cage, "cage");
+    const GuardModel& model = modelOf(guard);
+    for (Vec3d& p : cage.points) p = model.scaled(p);
+    DemandFinder finder(model, interrupter);
+    place(cage.points, triangulate(cage), model.tree().box(), turns == PlaceTurns::quarters, finder, interrupter);
+    for (Vec3d& p : cage.points) p = model.unscaled(model.rounded(p));
+    return cage;
+}
+
 Fit fitCage(const Mesh& cage, const BoundingGuard& guard, const FitOptions& options, Interrupter* interrupter)
 {
     requireWithin(FitOptions::tightnesses, options.tightness, "tightness");
+    requireWithin(FitOptions::ways, options.mostWay, "most way");
     requireValid(options.tightening);
     requireUsable(cage, "cage");
     const GuardModel& model = modelOf(guard);
     if (model.symmetry()) throw InputError("guard", "it has a plane of symmetry, which a fit does not keep");
     using Splits = WeldedCage::Splits;
     Attempt first(cage, model, Splits::lessFolded);
-    std::vector<char> isKept(cage.points.size(), 0);
-    for (const std::size_t point : options.keptPoints) {
-        if (point >= cage.points.size()) {
-            throw InputError("kept points", std::to_string(point) + " is not allowed; the cage has " +
-                                                std::to_string(cage.points.size()) + " points");
-        }
-        isKept[first.cage().vertexOf(point)] = 1;
-    }
+    const MoveLimits limits = limitsOf(first.cage(), model, cage.points.size(), options);
     requireClosed(first.cage().inWorld(first.cage().drawn()));
     std::optional<Stage> stage(std::in_place, interrupter, StageName::fit);
     DemandFinder finder(model, interrupter);
     // Each works where others sometimes fail.
-    constexpr GrowthPace patient{25, 3}, quick{12, 1};
+    constexpr Attempt::Way patient{{25, 3}, true}, quick{{12, 1}, false};
     Attempt other(cage, model, Splits::other);
     Attempt* found = nullptr;
     Fit failed;
-    for (const auto& [attempt, pace] :
+    for (const auto& [attempt, way] :
          {std::pair(&first, patient), std::pair(&other, patient), std::pair(&first, quick), std::pair(&other, quick)}) {
-        const bool succeeds = attempt->succeeds(isKept, pace, finder, interrupter);
+        const bool succeeds = attempt->succeeds(limits, way, finder, interrupter);
         if (succeeds) found = attempt;
         if (succeeds) break;
         if (failed.heldFaces.empty()) failed = attempt->failed();
     }
-    if (!found) return failed;
+    if (!found) {
+        failed.holdingPoints = holdingPoints(cage, failed.heldFaces, options);
+        return failed;
+    }
     GuardedMesh& surface = found->surface();
     const WeldedCage& welded = found->cage();
     moveBack(surface, welded.drawn(), interrupter);

@@ -118,6 +118,16 @@ BOOST_AUTO_TEST_CASE(a_cage_of_another_size_and_place_is_aligned)
     align(cage.points, triangles, finder, nullptr);
     BOOST_TEST(finder.ofSamples(cage.points, triangles).size() <= finder.samples() / 50);
     BOOST_TEST(before > finder.samples() / 4);
+    // A cage that fits but for the model's limb stays where it is.
+    Mesh horned = ball;
+    for (Vec3d& p : horned.points) p[2] = p[2] > 0.45 ? 5 * p[2] : p[2];
+    const GuardModel hornedGuard(horned, {}, nullptr);
+    DemandFinder hornedFinder(hornedGuard, nullptr);
+    Mesh near = test::sphere({0, 0, 0}, 0.53, 10);
+    for (Vec3d& p : near.points) p = hornedGuard.scaled(p);
+    const std::vector<Vec3d> body = near.points;
+    align(near.points, triangulate(near), hornedFinder, nullptr);
+    BOOST_TEST((near.points == body));
     // Where nothing is outside, nothing moves.
     Mesh around = test::sphere({0, 0, 0}, 0.6, 7);
     for (Vec3d& p : around.points) p = guard.scaled(p);

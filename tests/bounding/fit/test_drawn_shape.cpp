@@ -73,7 +73,7 @@ BOOST_AUTO_TEST_CASE(pinned_vertices_stay_and_faces_may_cut_only_where_they_are_
     BOOST_TEST(allows(cutting, starOf(cutting, v), in));
     for (const std::uint32_t f : test::facesAndAlternates(cutting)) cutting.letCut(f, false);
     BOOST_TEST(!allows(cutting, starOf(cutting, v), in));
-    surface.pin(v);
+    surface.limit(v, {surface.point(v), {false, false, false}});
     BOOST_TEST(!allows(surface, starOf(surface, v), out));
     BOOST_TEST(allows(surface, starOf(surface, v + 1), 1.05 * surface.point(v + 1)));
 }

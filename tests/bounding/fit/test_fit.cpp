@@ -188,6 +188,7 @@ BOOST_AUTO_TEST_CASE(kept_points_keep_their_bits)
     BOOST_TEST(haveSameFaces(held.cage, cage));
     BOOST_TEST((held.cage.points[20] == cage.points[20]));
     BOOST_REQUIRE(!held.heldFaces.empty());
+    BOOST_TEST((held.holdingPoints == std::vector<std::size_t>{20}));
     for (const std::size_t face : held.heldFaces) {
         const std::size_t triangles = cage.triangles.size();
         const bool isAround =
@@ -196,6 +197,82 @@ BOOST_AUTO_TEST_CASE(kept_points_keep_their_bits)
             }(cage.quads[face - triangles]);
         BOOST_TEST(isAround, face);
     }
+}
+
+BOOST_AUTO_TEST_CASE(points_on_rails_move_along_their_axes)
+{
+    const Mesh model = test::sphere({0, 0, 0}, 0.5, 10);
+    const Mesh cage = test::sphere({0, 0, 0}, 0.45, 8);
+    const BoundingGuard guard = guardFor(model);
+    FitOptions options = tight(1);
+    for (std::size_t i = 0; i < cage.points.size(); ++i) {
+        if (std::abs(cage.points[i][0]) < 1e-12) options.rails.push_back({i, {false, true, true}});
+    }
+    const auto aside = std::find_if(cage.points.begin(), cage.points.end(), [](const Vec3d& p) { return p[0] > 0.3; });
+    options.rails.push_back({static_cast<std::size_t>(aside - cage.points.begin()), {true, false, false}});
+    BOOST_REQUIRE(options.rails.size() > 3U);
+    const Fit fit = fitCage(cage, guard, options);
+    BOOST_TEST(checkCage(fit.cage, model).bounding());
+    std::size_t slid = 0;
+    for (const FitOptions::Rail& rail : options.rails) {
+        for (int i = 0; i < 3; ++i) {
+            const bool moved = fit.cage.points[rail.point][i] != cage.points[rail.point][i];
+            slid += moved;
+            if (moved) BOOST_TEST(rail.mayMove[static_cast<std::size_t>(i)]);
+        }
+    }
+    BOOST_TEST(slid > options.rails.size());
+}
+
+BOOST_AUTO_TEST_CASE(no_point_goes_farther_than_it_may)
+{
+    const Mesh model = test::sphere({0, 0, 0}, 0.5, 10);
+    const Mesh cage = moved(test::sphere({0, 0, 0}, 0.6, 7), 2, 0.08);
+    const BoundingGuard guard = guardFor(model);
+    double farthest = 0;
+    for (const double most : {1.0, 0.15, 0.1}) {
+        FitOptions options = tight(1);
+        options.mostWay = most;
+        const Fit fit = fitCage(cage, guard, options);
+        BOOST_TEST(checkCage(fit.cage, model).bounding());
+        double way = 0;
+        for (std::size_t i = 0; i < cage.points.size(); ++i)
+            way = std::max(way, (fit.cage.points[i] - cage.points[i]).length());
+        BOOST_TEST(way <= most);
+        farthest = std::max(farthest, way);
+    }
+    BOOST_TEST(farthest > 0.15);
+    FitOptions still = tight(1);
+    still.mostWay = 0.001;
+    const Fit held = fitCage(cage, guard, still);
+    BOOST_TEST((held.obstacle != Fit::Obstacle::none));
+    for (std::size_t i = 0; i < cage.points.size(); ++i)
+        BOOST_TEST((held.cage.points[i] - cage.points[i]).length() <= 0.001);
+    still.mostWay = -1;
+    BOOST_CHECK_EXCEPTION(fitCage(cage, guard, still), InputError, test::says("most way"));
+}
+
+BOOST_AUTO_TEST_CASE(cages_of_other_units_are_placed)
+{
+    Mesh model = test::sphere({0, 0, 0}, 0.5, 8);
+    for (Vec3d& p : model.points) p = Vec3d(p[0], 0.3 * p[1], 0.5 * p[2] + (p[0] > 0 ? 2 * p[0] * p[0] : 0));
+    const BoundingGuard guard = guardFor(model);
+    Mesh cage = model;
+    for (Vec3d& p : cage.points) p = 250 * p + Vec3d(3000, 20, -7);
+    const auto difference = [&](const Mesh& placed) {
+        double most = 0;
+        for (std::size_t i = 0; i < placed.points.size(); ++i)
+            most = std::max(most, (placed.points[i] - model.points[i]).length());
+        return most;
+    };
+    BOOST_TEST(difference(placeCage(cage, guard)) < 1e-6);
+    for (Vec3d& p : cage.points) p = Vec3d(-p[1], p[2], -p[0]);
+    BOOST_TEST(difference(placeCage(cage, guard)) > 0.3);
+    const Mesh turned = placeCage(cage, guard, PlaceTurns::quarters);
+    BOOST_TEST(haveSameFaces(turned, model));
+    BOOST_TEST(difference(turned) < 1e-6);
+    BOOST_TEST(checkCage(fitCage(turned, guard).cage, model).bounding());
+    BOOST_CHECK_THROW(placeCage(Mesh(), guard), InputError);
 }
 
 BOOST_AUTO_TEST_CASE(what_keeps_a_cage_from_bounding_is_told)

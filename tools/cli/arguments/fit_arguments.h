@@ -14,8 +14,22 @@ namespace vdbcage::cli {
 /// The values of these options.
 struct FitArguments {
     FitOptions options;
-    std::string keep; ///< "points:" and a list, or the name of a file that has one; empty: no point stays
+    std::string keep;  ///< "points:" and a list, or the name of a file that has one; empty: no point stays
+    std::string place; ///< "box" or "turn"; empty: the cage is where it is to be
 };
+
+/// The points that --keep names.
+struct KeptPoints {
+    std::vector<std::size_t> numbers;    ///< of those that stay
+    std::vector<FitOptions::Rail> rails; ///< the others
+
+    /// Returns the greatest number; 0 if there is none.
+    std::size_t greatest() const;
+};
+
+/// Gives --place in a command line its value, which may be left out: "turn" if that follows, else "box". A file that
+/// follows is none.
+std::vector<std::string> withPlaceValue(std::vector<std::string> words);
 
 /// Adds the options of fits, which set `arguments`, and returns them. Both must outlive parsing.
 std::vector<CLI::Option*> addFitOptions(CLI::App& app, FitArguments& arguments);
@@ -27,6 +41,6 @@ void requireValid(const FitArguments& arguments);
 std::vector<std::filesystem::path> filesOf(const FitArguments& arguments);
 
 /// Returns the points that --keep names, itself or in a file. \throw InputError, IoError
-std::vector<std::size_t> keptPoints(const FitArguments& arguments);
+KeptPoints keptPoints(const FitArguments& arguments);
 
 } // namespace vdbcage::cli

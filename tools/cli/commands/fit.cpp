@@ -1,9 +1,12 @@
+#include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <iomanip>
 #include <iostream>
 #include <optional>
 #include <sstream>
 
+#include <openvdb/math/BBox.h>
 #include <tools/files/naming_files.h>
 #include <tools/report/fit_words.h>
 #include <tools/report/report.h>
@@ -25,6 +28,40 @@
 namespace vdbcage::cli {
 
 namespace {
+
+/// \throw InputError when the cage is the model and the model its cage
+void requireNotSwapped(const Mesh& cage, const Mesh& model, const CageCheck& check, const std::string& cageFile,
+                       const std::string& models, Interrupter* interrupter)
+{
+    if (check.modelVerticesOutside == 0 || faceCount(cage) <= faceCount(model)) return;
+    CheckOptions verdictOnly;
+    verdictOnly.measure = false;
+    if (!CageChecker(cage, interrupter).check(model, verdictOnly, interrupter).bounding()) return;
+    throw InputError(cageFile, "it is inside of " + models + ", which bounds it: give the cage first, then the model");
+}
+
+double longestSideOf(const Mesh& mesh)
+{
+    openvdb::BBoxd box;
+    for (const openvdb::Vec3d& p : mesh.points) box.expand(p);
+    return std::max({box.extents()[0], box.extents()[1], box.extents()[2]});
+}
+
+/// Returns a note for a cage that may be that of another model; nothing for others.
+std::string noteIfFarOff(const Mesh& cage, const CageCheck& check, const Mesh& model, const std::string& place)
+{
+    constexpr double most = 0.95, mostRatio = 2; // of the model's vertices; of the longest sides, either way
+    const auto all = static_cast<double>(model.points.size() - check.loosePoints);
+    const double outside = static_cast<double>(check.modelVerticesOutside) / all;
+    const double ratio = longestSideOf(cage) / check.longestSide;
+    if (outside <= most && ratio <= mostRatio && mostRatio * ratio >= 1) return {};
+    std::ostringstream note;
+    note << "its longest side is " << std::setprecision(3) << ratio << " times the model's, and "
+         << std::lround(100 * outside) << " % of the model's vertices are outside of it";
+    if (place.empty()) note << "; --place scales and moves it into the model's box, --place turn turns it, too";
+    if (place == "box") note << "; --place turn turns it, too";
+    return note.str();
+}
 
 /// The ways of a cage's points, in world units.
 struct Ways {
@@ -75,6 +112,12 @@ std::string inShort(const CageCheck& check)
     return text.str();
 }
 
+Mesh placed(const Mesh& cage, const std::string& place, const BoundingGuard& guard, Progress& progress)
+{
+    if (place.empty()) return cage;
+    return placeCage(cage, guard, place == "turn" ? PlaceTurns::quarters : PlaceTurns::none, &progress);
+}
+
 } // namespace
 
 int runFit(Call call)
@@ -96,6 +139,7 @@ int runFit(Call call)
     app.add_flag("--skip-done", skipsDone, "nothing if the report tells that it was done");
     const TalkArguments talk(app, "progress without a terminal");
     const std::vector<std::string> arguments = call.words;
+    call.words = withPlaceValue(std::move(call.words));
     if (!parse(app, std::move(call))) return exitGood;
     requireReport(skipsDone, reportPath);
     requireValid(fitting);
@@ -123,30 +167,37 @@ int runFit(Call call)
         if (!talk.quiet()) std::cerr << printable(outputPath) << ": was done before\n";
         return exitGood;
     }
-    options.keptPoints = keptPoints(fitting);
+    const KeptPoints kept = keptPoints(fitting);
+    options.keptPoints = kept.numbers;
+    options.rails = kept.rails;
     options.tightening = tightenOptions(Effort::fair);
     const std::string cageFile = detail::readMeshBytes(cagePath);
     const MeshFile cage = detail::parseMesh(cageFile, cagePath);
     const std::size_t points = cage.mesh.points.size();
-    for (const std::size_t point : options.keptPoints) {
-        if (point < points) continue;
-        throw InputError("--keep",
-                         std::to_string(point) + " is not allowed; the cage has " + std::to_string(points) + " points");
+    if (!fitting.keep.empty() && kept.greatest() >= points) {
+        throw InputError("--keep", std::to_string(kept.greatest()) + " is not allowed; the cage has " +
+                                       std::to_string(points) + " points");
     }
     std::vector<ModelFile> models = readModels(modelPaths, reportPath.empty() ? Hashes::none : Hashes::sha256);
     const std::string names = namesOf(models);
     const Mesh model = takeMesh(models);
     const CageChecker checker(model, &*progress);
     const CageCheck before = checker.check(cage.mesh, {}, &*progress);
+    requireNotSwapped(cage.mesh, model, before, cagePath.string(), names, &*progress);
     const std::map<std::string, std::string> files{{"cage", cagePath.string()}, {"model", names}};
+    std::string note;
     const Fit fit = files::namingFiles(files, [&] {
         const GuardOptions guardOptions = fitGuardOptions(movedPrecision(cagePath, outputPath));
         std::optional<Stage> examining(std::in_place, &*progress, StageName::guard);
         const BoundingGuard guard(model, guardOptions, &*progress);
         examining.reset();
+        const Mesh drawn = placed(cage.mesh, fitting.place, guard, *progress);
+        const CageCheck check = fitting.place.empty() ? before : checker.check(drawn, {}, &*progress);
+        note = noteIfFarOff(drawn, check, model, fitting.place);
+        if (!note.empty()) progress->say("vdbcage: " + cagePath.string() + ": " + note);
         // A cage that bounds has nothing that has to move, whatever its shape is.
-        if (options.tightness == 0 && before.bounding() && guard.facesTooNear(cage.mesh).empty()) return Fit{cage.mesh};
-        return fitCage(cage.mesh, guard, options, &*progress);
+        if (options.tightness == 0 && check.bounding() && guard.facesTooNear(drawn).empty()) return Fit{drawn};
+        return fitCage(drawn, guard, options, &*progress);
     });
     std::ostringstream out;
     writeMoved(cagePath, fit.cage.points, out, outputPath);
@@ -156,7 +207,8 @@ int runFit(Call call)
     const Ways ways = waysOf(cage.mesh, fit.cage);
     const bool fits = fit.obstacle == Fit::Obstacle::none && check.bounding();
     const auto failure = [&] {
-        return InputError(cagePath.string(), "no place was found where " + report::unfoundPlace(fit));
+        return InputError(cagePath.string(),
+                          "no place was found where " + report::unfoundPlace(fit) + (note.empty() ? "" : "; " + note));
     };
     if (!reportPath.empty()) {
         report::Json report = report::runFacts("fit", arguments);
@@ -187,6 +239,7 @@ int runFit(Call call)
     if (!talk.quiet()) {
         std::cout << printable(outputPath) << ": " << verdict(check) << '\n'
                   << "  before                    " << inShort(before) << '\n'
+                  << (note.empty() ? "" : "  note                      " + note + '\n')
                   << describe(cage.mesh, ways, check.longestSide) << report::describe(check)
                   << report::warningLines(cagePath, cage.summary) << warningLines(models);
         flushOutput();

@@ -94,6 +94,7 @@ int runJobs(Call call)
     CLI::Option* const ofProgress =
         app.add_option("--progress", progress, "of each job: auto, or lines for farms [auto]")->type_name("auto|lines");
     app.set_help_all_flag("--help-all", "print this and the rarer options");
+    call.words = withPlaceValue(std::move(call.words));
     if (!parse(app, std::move(call))) return exitGood;
 
     const bool fits = fit->count() > 0;

@@ -19,13 +19,14 @@ from __future__ import annotations
 import contextlib
 import dataclasses
 import difflib
+import math
 import numbers
 import operator
 import os
 import re
 import warnings
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy
 
@@ -412,7 +413,7 @@ def check_cage(cage: Mesh, model: Mesh, *, least_part: float = 0, as_floats: boo
 
 
 def fit_cage(cage: Mesh, model: Mesh, /, *, tight: float = 0.5, keep: npt.ArrayLike | None = None,
-             progress: _Progress = None) -> Cage:
+             most: float = math.inf, place: Literal["box", "turn"] | None = None, progress: _Progress = None) -> Cage:
     """Moves the points of a cage that somebody drew until it is certified to bound a model, and returns it as a Cage.
 
     It has the points and faces of the cage in their order; only positions differ. Its report has the way of each point
@@ -422,14 +423,20 @@ def fit_cage(cage: Mesh, model: Mesh, /, *, tight: float = 0.5, keep: npt.ArrayL
     model: a Mesh, as for make_cage
     tight: 0 moves only points that have to move, 1 is tightest; between them distance is traded against the drawn shape
     keep: indices of points that stay where they are, an array of shape (n,)
+    most: no point goes farther, as a share of the longest side of the model's box, 0 or more
+    place: "box" first scales and moves the cage into the model's box; "turn" turns it by multiples of 90 degrees, too
     progress: see the help of vdbcage
     Raises InputError if the cage is no closed 2-manifold, or no place was found where it bounds; Cancelled.
     """
     tight = _arguments.number("tight", tight, 0, 1)
     mesh = _mesh("cage", cage)
     keep = _arguments.places("keep", keep, len(cage.points))
+    most = _arguments.number("most", most, 0, math.inf)
+    if place not in (None, "box", "turn"):
+        raise InputError(f"place: {place!r} is not allowed; it must be 'box' or 'turn'")
     with _names_of_python():
-        fitted, check = _vdbcage.fit_cage(mesh, _mesh("model", model), tight, keep, _arguments.callback(progress))
+        fitted, check = _vdbcage.fit_cage(mesh, _mesh("model", model), tight, keep, most, place or "",
+                                          _arguments.callback(progress))
     ways = numpy.linalg.norm(fitted.points - cage.points, axis=1)
     return Cage._made(fitted, check, {"ways": ways.tolist(), "moved_points": int((ways > 0).sum())})
 

@@ -4,6 +4,9 @@
 #include <vdbcage/bounding/detail/fit/align.h>
 
 #include <algorithm>
+#include <array>
+#include <limits>
+#include <numeric>
 
 #include <openvdb/math/Mat3.h>
 
@@ -49,6 +52,31 @@ Alignment alignmentFor(const std::vector<Vec3d>& points, const std::vector<Deman
     return map;
 }
 
+double meanOf(const std::vector<double>& list)
+{
+    return std::accumulate(list.begin(), list.end(), 0.0) / static_cast<double>(list.size());
+}
+
+double medianOf(std::vector<double> list)
+{
+    const auto middle = list.begin() + static_cast<std::ptrdiff_t>(list.size() / 2);
+    std::nth_element(list.begin(), middle, list.end());
+    return *middle;
+}
+
+/// Returns how far a surface and a model are from each other, on both ways: the model's samples that are outside, and
+/// the surface's points.
+template <typename Average>
+double misfit(const std::vector<Vec3d>& points, const std::vector<Demand>& demands, const DemandFinder& finder,
+              const Average& average)
+{
+    std::vector<double> outside, away;
+    for (const Demand& d : demands) outside.push_back(d.offset - d.normal.dot(d.point(points)));
+    outside.resize(finder.samples(), 0);
+    for (const Vec3d& p : points) away.push_back(finder.distanceToModel(p));
+    return average(outside) + average(away);
+}
+
 } // namespace
 
 void align(std::vector<Vec3d>& points, const std::vector<Vec3I>& triangles, DemandFinder& finder,
@@ -57,12 +85,68 @@ void align(std::vector<Vec3d>& points, const std::vector<Vec3I>& triangles, Dema
     constexpr int rounds = 20;
     constexpr double little = 0.02; // of the samples
     const double stiffness = little * static_cast<double>(finder.samples());
-    for (int round = 0; round < rounds; ++round) {
+    constexpr double mostMisfit = 2; // over that before: faces have to be farther from the model to have it inside
+    std::vector<Vec3d> moving = points;
+    std::vector<Demand> demands = finder.ofSamples(moving, triangles);
+    const double before = misfit(points, demands, finder, medianOf);
+    for (int round = 0; round<rounds&& static_cast<double>(demands.size())> stiffness; ++round) {
         throwIfInterrupted(interrupter);
-        const std::vector<Demand> demands = finder.ofSamples(points, triangles);
-        if (static_cast<double>(demands.size()) <= stiffness) return;
-        const Alignment map = alignmentFor(points, demands, stiffness);
-        for (Vec3d& p : points) p += map.stepOf(p);
+        const Alignment map = alignmentFor(moving, demands, stiffness);
+        for (Vec3d& p : moving) p += map.stepOf(p);
+        demands = finder.ofSamples(moving, triangles);
+    }
+    // A cage that fits but for a limb was blown up until that was inside, too. Medians know nothing of the limb.
+    if (misfit(moving, demands, finder, medianOf) <= mostMisfit * before) points = std::move(moving);
+}
+
+namespace {
+
+/// Returns the rotations by multiples of 90 degrees about the axes; the first turns nothing.
+std::vector<openvdb::Mat3d> quarterTurns()
+{
+    std::vector<openvdb::Mat3d> turns;
+    std::array<int, 3> axes{0, 1, 2};
+    do {
+        for (int signs = 0; signs < 8; ++signs) {
+            openvdb::Mat3d turn = openvdb::Mat3d::zero();
+            for (const int i : {0, 1, 2}) turn[i][axes[static_cast<std::size_t>(i)]] = (signs >> i & 1) != 0 ? -1 : 1;
+            if (turn.det() > 0) turns.push_back(turn);
+        }
+    } while (std::next_permutation(axes.begin(), axes.end()));
+    return turns;
+}
+
+/// Moves points and scales them along the axes, so that their box is `box`; along an axis without extent they are only
+/// moved.
+void moveIntoBox(std::vector<Vec3d>& points, const Box& box)
+{
+    Box now = Box::of(points.front());
+    for (const Vec3d& p : points) now.expand(Box::of(p));
+    for (Vec3d& p : points) {
+        for (const int i : {0, 1, 2}) {
+            const double size = now.hi[i] - now.lo[i];
+            const double scale = size > 0 ? (box.hi[i] - box.lo[i]) / size : 1;
+            p[i] = 0.5 * (box.lo[i] + box.hi[i]) + scale * (p[i] - 0.5 * (now.lo[i] + now.hi[i]));
+        }
+    }
+}
+
+} // namespace
+
+void place(std::vector<Vec3d>& points, const std::vector<Vec3I>& triangles, const Box& box, bool mayTurn,
+           DemandFinder& finder, Interrupter* interrupter)
+{
+    if (!mayTurn) return moveIntoBox(points, box);
+    const std::vector<Vec3d> before = points;
+    double least = std::numeric_limits<double>::infinity();
+    for (const openvdb::Mat3d& turn : quarterTurns()) {
+        throwIfInterrupted(interrupter);
+        std::vector<Vec3d> turned;
+        for (const Vec3d& p : before) turned.push_back(turn * p);
+        moveIntoBox(turned, box);
+        const double now = misfit(turned, finder.ofSamples(turned, triangles), finder, meanOf);
+        if (now < least) points = turned;
+        least = std::min(least, now);
     }
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -46,6 +47,7 @@ public:
     /// Returns the demands of faces and alternates that may cut the model and do: that all of it is beneath them.
     std::vector<Demand> ofContacts(const GuardedMesh& surface) const;
     std::size_t samples() const { return samples_.size(); }
+    double distanceToModel(const Vec3d& p) const { return std::sqrt(model_.tree().closest(p).squaredDistance); }
 
 private:
     class SplitSurface;

@@ -290,6 +290,10 @@ void Growth::place(const VertexDemands& demands)
         isStuck[v] = isStuck[v] && waits_[v] >= 2;
         if (isStuck[v]) waits_[v] = -patience;
     }
+    for (const auto& [quad, rounds] : unmade_) {
+        if (rounds < patience || rounds % patience != 0) continue;
+        for (const int k : {0, 1, 2, 3}) isStuck[quads_.corners(quad)[k]] = 1;
+    }
     splitQuadsAround(isStuck);
 }
 

@@ -170,7 +170,8 @@ bool allows(const GuardedMesh& mesh, const StarChange& star, const Vec3d& p, Obs
     Obstacle none;
     Obstacle& found = obstacle ? *obstacle : none;
     found.clear = 0;
-    if (mesh.isPinned(star.centre) || mesh.isPinned(star.removed)) return false;
+    const MoveLimit* limit = mesh.limitOf(star.centre);
+    if ((limit && !limit->allows(p)) || mesh.limitOf(star.removed)) return false;
     if (isTooNearPlane(mesh, star, p)) return false;
     if (!wellShaped(mesh, star, p)) return false;
     for (; found.clear < star.link.size(); ++found.clear) {
@@ -188,6 +189,8 @@ void contacts(const GuardedMesh& mesh, const StarChange& star, const Vec3d& from
     // A little more than the clearance, so that rounding leaves the next try on the right side.
     const double clearance = 1.01 * mesh.guard().clearance();
     const Spacing& spacing = mesh.guard().spacing();
+    const MoveLimit* limit = mesh.limitOf(star.centre);
+    if (limit) addReach(*limit, to, halfSpaces);
     for (std::size_t i = 0; i < star.link.size(); ++i) {
         const Corners now = starCorners(mesh, star, i, from), then = starCorners(mesh, star, i, to);
         const bool isBlocked = i >= obstacle.clear && !mesh.mayCut(star.keptFaces[i]) &&
@@ -214,26 +217,18 @@ void contacts(const GuardedMesh& mesh, const StarChange& star, const Vec3d& from
                 return true;
             });
     }
+    for (int axis = 0; limit && axis < 3; ++axis) {
+        if (!limit->mayMove[static_cast<std::size_t>(axis)]) restrictToPlane(axis, limit->home[axis], halfSpaces);
+    }
     if (!mesh.guard().symmetry()) return;
-    Vec3d across(0.0);
-    across[mesh.guard().symmetry()->axis] = 1;
-    if (!star.onPlane) {
-        if (isTooNearPlane(mesh, star, to)) {
-            halfSpaces.push_back({across, mesh.guard().symmetry()->offset + 0.505 * spacingAround(mesh, star, to)});
-        }
-        return;
+    const auto [axis, offset] = *mesh.guard().symmetry();
+    if (star.onPlane) {
+        restrictToPlane(axis, offset, halfSpaces);
+    } else if (isTooNearPlane(mesh, star, to)) {
+        Vec3d across(0.0);
+        across[axis] = 1;
+        halfSpaces.push_back({across, offset + 0.505 * spacingAround(mesh, star, to)});
     }
-    // The centre moves in the plane, so the half-spaces become half-spaces of the plane.
-    constexpr double leastSine = 1e-6;
-    std::size_t kept = 0;
-    for (HalfSpace& h : halfSpaces) {
-        const double height = h.normal.dot(across);
-        const Vec3d normal = h.normal - height * across;
-        const double length = normal.length();
-        if (!(length > leastSine)) continue;
-        halfSpaces[kept++] = {normal / length, (h.offset - height * mesh.guard().symmetry()->offset) / length};
-    }
-    halfSpaces.resize(kept);
 }
 
 bool makeQuad(GuardedMesh& mesh, std::uint32_t f, std::uint32_t g)

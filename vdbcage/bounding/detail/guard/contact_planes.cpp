@@ -96,4 +96,29 @@ void addApproach(const Corners& star, const Corners& other, const Vec3d& at, dou
     halfSpaces.push_back({apart, apart.dot(at) + (clearance - distance) / weight});
 }
 
+void addReach(const MoveLimit& limit, const Vec3d& to, std::vector<HalfSpace>& halfSpaces)
+{
+    const Vec3d way = to - limit.home;
+    const double length = way.length();
+    if (!(length > limit.radius)) return;
+    const Vec3d inward = way / -length;
+    halfSpaces.push_back({inward, inward.dot(limit.nearest(to))});
+}
+
+void restrictToPlane(int axis, double offset, std::vector<HalfSpace>& halfSpaces)
+{
+    constexpr double leastSine = 1e-6;
+    Vec3d across(0.0);
+    across[axis] = 1;
+    std::size_t kept = 0;
+    for (const HalfSpace& h : halfSpaces) {
+        const double height = h.normal.dot(across);
+        const Vec3d normal = h.normal - height * across;
+        const double length = normal.length();
+        if (!(length > leastSine)) continue;
+        halfSpaces[kept++] = {normal / length, (h.offset - height * offset) / length};
+    }
+    halfSpaces.resize(kept);
+}
+
 } // namespace vdbcage::detail

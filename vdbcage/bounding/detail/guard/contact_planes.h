@@ -3,6 +3,7 @@
 #include <vector>
 
 #include <vdbcage/bounding/detail/guard/guard_model.h>
+#include <vdbcage/bounding/detail/guard/move_limit.h>
 
 /// Half-spaces that a vertex must stay in so that its triangles keep clear of obstacles on its way, to first order.
 namespace vdbcage::detail {
@@ -24,5 +25,11 @@ bool addImpacts(const GuardModel& guard, const Corners& now, const Vec3d& to, bo
 /// `other`. Adds none if they cross.
 void addApproach(const Corners& star, const Corners& other, const Vec3d& at, double clearance,
                  std::vector<HalfSpace>& halfSpaces);
+
+/// Adds the half-space of the places within a limit's radius, if `to` is not.
+void addReach(const MoveLimit& limit, const Vec3d& to, std::vector<HalfSpace>& halfSpaces);
+
+/// Makes half-spaces those of a plane across an axis, for a vertex that moves in it.
+void restrictToPlane(int axis, double offset, std::vector<HalfSpace>& halfSpaces);
 
 } // namespace vdbcage::detail

@@ -320,10 +320,10 @@ void GuardedMesh::letCut(std::uint32_t face, bool may)
     mayCut_[face] = may ? 1 : 0;
 }
 
-void GuardedMesh::pin(std::uint32_t v)
+void GuardedMesh::limit(std::uint32_t v, const MoveLimit& limit)
 {
-    isPinned_.resize(points_.size(), 0);
-    isPinned_[v] = 1;
+    limits_.resize(points_.size());
+    limits_[v] = limit;
 }
 
 void GuardedMesh::splitQuad(std::uint32_t face)

@@ -3,12 +3,14 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <utility>
 #include <vector>
 
 #include <boost/container/small_vector.hpp>
 #include <openvdb/math/Vec4.h>
 #include <vdbcage/bounding/detail/guard/guard_model.h>
+#include <vdbcage/bounding/detail/guard/move_limit.h>
 #include <vdbcage/bounding/detail/guard/wishes.h>
 #include <vdbcage/geometry/dynamic_bvh.h>
 
@@ -132,9 +134,14 @@ public:
     void letCut(std::uint32_t face, bool may);
     bool mayCut(std::uint32_t face) const { return face < mayCut_.size() && mayCut_[face] != 0; }
 
-    /// Keeps a vertex where it is: no change is allowed that moves it.
-    void pin(std::uint32_t v);
-    bool isPinned(std::uint32_t v) const { return v < isPinned_.size() && isPinned_[v] != 0; }
+    /// Keeps a vertex within a limit: no change is allowed that takes it elsewhere or removes it.
+    /// \pre the vertex is within
+    void limit(std::uint32_t v, const MoveLimit& limit);
+    /// Returns the limit of a vertex; null if it has none.
+    const MoveLimit* limitOf(std::uint32_t v) const
+    {
+        return v < limits_.size() && limits_[v] ? &*limits_[v] : nullptr;
+    }
 
     /// Returns the live triangles and quads, in order, without unused points, then the mirror image of them all.
     Mesh mesh() const;
@@ -164,10 +171,10 @@ private:
     std::size_t liveFaces_ = 0;
     double leastQuadCosine_ = 0;
     std::vector<Quad> quads_;
-    std::vector<std::uint32_t> freeQuads_; // of quads_, not in use
-    std::vector<std::uint32_t> quadAt_;    // by face: of quads_, or none
-    std::vector<char> mayCut_;             // by face; faces beyond its end may not
-    std::vector<char> isPinned_;           // by vertex; vertices beyond its end are not
+    std::vector<std::uint32_t> freeQuads_;         // of quads_, not in use
+    std::vector<std::uint32_t> quadAt_;            // by face: of quads_, or none
+    std::vector<char> mayCut_;                     // by face; faces beyond its end may not
+    std::vector<std::optional<MoveLimit>> limits_; // by vertex; vertices beyond its end have none
     DynamicBvh tree_;
 };
 

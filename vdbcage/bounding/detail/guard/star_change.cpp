@@ -167,7 +167,9 @@ Vec3d outward(const GuardedMesh& mesh, const StarChange& star)
 
 Vec3d rounded(const GuardedMesh& mesh, const StarChange& star, const Vec3d& p)
 {
-    return mesh.guard().rounded(star.onPlane ? mesh.ontoPlane(p) : p);
+    const Vec3d place = mesh.guard().rounded(star.onPlane ? mesh.ontoPlane(p) : p);
+    const MoveLimit* limit = mesh.limitOf(star.centre);
+    return limit ? limit->onRail(place) : place;
 }
 
 } // namespace vdbcage::detail

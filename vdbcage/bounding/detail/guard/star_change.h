@@ -58,7 +58,8 @@ bool starOfPatch(const GuardedMesh& mesh, std::uint32_t centre, std::uint32_t re
 
 /// Returns the mean normal of the old faces, of unit length or zero.
 Vec3d outward(const GuardedMesh& mesh, const StarChange& star);
-/// Returns `p` as a place of the centre: on the plane of symmetry if `star.onPlane`, and rounded as the guard asks.
+/// Returns `p` as a place of the centre: on the plane of symmetry if `star.onPlane`, on its rail if it has one, and
+/// rounded as the guard asks.
 Vec3d rounded(const GuardedMesh& mesh, const StarChange& star, const Vec3d& p);
 /// Returns the triangle at link edge i with the centre at `p`.
 inline Corners starCorners(const GuardedMesh& mesh, const StarChange& star, std::size_t i, const Vec3d& p)

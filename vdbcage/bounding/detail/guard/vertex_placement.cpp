@@ -92,19 +92,32 @@ std::optional<openvdb::Mat3d> inverseCholesky(const openvdb::Mat3d& a)
     return r.inverse(0.0);
 }
 
+/// Returns a change that has its least value where coordinates stay that may not move.
+Quadratic restricted(Quadratic change, const MoveLimit* limit)
+{
+    for (int i = 0; limit && i < 3; ++i) {
+        if (limit->mayMove[static_cast<std::size_t>(i)]) continue;
+        for (const int j : {0, 1, 2}) change.curvature[i][j] = change.curvature[j][i] = 0;
+        change.curvature[i][i] = 1;
+        change.slope[i] = 0;
+    }
+    return change;
+}
+
 } // namespace
 
 bool descend(const GuardedMesh& surface, const StarChange& star, Vec3d& p, const Quadratic& change,
              const StepLimit& limit, const std::function<bool(const Vec3d&)>& accepts)
 {
     constexpr int attempts = 8;
-    const auto inverse = inverseCholesky(change.curvature);
+    const Quadratic free = restricted(change, surface.limitOf(star.centre));
+    const auto inverse = inverseCholesky(free.curvature);
     if (!inverse) return false;
     std::vector<HalfSpace> halfSpaces;
     double share = limit.share;
     Obstacle obstacle;
     for (int attempt = 0; attempt < attempts; ++attempt) {
-        const auto solution = solve(*inverse, change.slope, halfSpaces, p);
+        const auto solution = solve(*inverse, free.slope, halfSpaces, p);
         if (!solution) return false;
         Vec3d delta = *solution;
         const double length = delta.length();
