@@ -125,7 +125,8 @@ BOOST_AUTO_TEST_CASE(a_line_with_too_few_or_too_many_words_says_how_it_is_writte
         Words many(20, "1");
         many.insert(many.begin(), name);
         if (!takesAny) BOOST_TEST(isRefused(many), usage);
-        if (!takesAny && usage != name) BOOST_TEST(isRefused({name}), usage);
+        const bool needsWords = usage != name && usage[name.size() + 1] != '[';
+        if (!takesAny && needsWords) BOOST_TEST(isRefused({name}), usage);
         if (!takesAny) ++refused;
     }
     BOOST_TEST(refused > 80);

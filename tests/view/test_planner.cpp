@@ -230,6 +230,49 @@ BOOST_AUTO_TEST_CASE(an_opened_cage_is_looked_at_once)
     BOOST_CHECK(planner.standing() == Planner::Standing::current);
 }
 
+BOOST_AUTO_TEST_CASE(a_fit_is_finished_while_its_tightness_is_dragged)
+{
+    const auto fit = [](double tightness) {
+        Order order = orderOf(model, 100);
+        order.cage = otherModel;
+        order.fit = FitOrder{tightness};
+        return order;
+    };
+    Planner planner;
+    planner.want(fit(0.1), true);
+    const std::optional<Job> first = planner.start();
+    BOOST_TEST_REQUIRE(first.has_value());
+    BOOST_CHECK(first->order == fit(0.1));
+    planner.want(fit(0.2), true);
+    planner.want(fit(0.3), true);
+    BOOST_TEST(!planner.shouldStop());
+    planner.finished(resultOf(*first));
+    BOOST_CHECK(planner.made()->order == fit(0.1)); // it is shown until the next is there
+    BOOST_CHECK(planner.standing() == Planner::Standing::stale);
+    BOOST_CHECK(planner.start()->order == fit(0.3));
+    planner.want(fit(0.4), true);
+    BOOST_TEST(!planner.shouldStop());
+    planner.want(fit(0.4), false); // the drag ends
+    BOOST_TEST(planner.shouldStop());
+    planner.stopped();
+    const std::vector<Job> jobs = drain(planner);
+    BOOST_TEST_REQUIRE(jobs.size() == 1);
+    BOOST_CHECK(jobs[0].order == fit(0.4));
+    BOOST_CHECK(planner.standing() == Planner::Standing::current);
+    planner.want(fit(0.1), false); // it was kept
+    BOOST_TEST(planner.isSettled());
+    planner.want(fit(0.5), false);
+    planner.start();
+    planner.want(fit(0.6), false);
+    BOOST_TEST(planner.shouldStop());
+    planner.stopped();
+    // Of other locked points, or of none, it is another cage.
+    Order locked = fit(0.1);
+    locked.fit->locked = {3};
+    planner.want(locked, false);
+    BOOST_TEST(!planner.isSettled());
+}
+
 BOOST_AUTO_TEST_CASE(little_memory_keeps_what_is_wanted)
 {
     Planner planner(1);

@@ -416,4 +416,85 @@ BOOST_AUTO_TEST_CASE(stretch_tells_how_lengths_changed)
     for (const double value : stretch(model->mesh, posed)) BOOST_TEST(value == -4);
 }
 
+/// Takes the edited cage as the shown one, as the program does.
+void showEdited(Session& session)
+{
+    session.setCage(test::posable(session.state().document.cage->mesh));
+}
+
+BOOST_AUTO_TEST_CASE(locked_points_stay_at_rest_and_pose_like_others)
+{
+    const auto locked = [&] { return session.state().document.locked; };
+    BOOST_CHECK_THROW(run("lock"), InputError); // in mode pose
+    run("mode shape");
+    run("select points");
+    BOOST_CHECK_THROW(run("lock"), InputError);
+    run("select points 1 4");
+    run("lock");
+    BOOST_TEST(locked() == (std::vector<openvdb::Index32>{1, 4}), boost::test_tools::per_element());
+    BOOST_TEST(session.documents().undone() == "lock");
+    showEdited(session);
+    const std::size_t depth = session.documents().depth();
+    run("lock"); // no step
+    BOOST_TEST(session.documents().depth() == depth);
+    BOOST_CHECK_EXCEPTION(run("move 1 0 0"), InputError, [](const InputError& error) {
+        return std::string(error.what()) == "all selected points are locked";
+    });
+    run("select points 0 1 2 3 4 5");
+    run("soft 0.3");
+    run("move 0.25 0 -1");
+    showEdited(session);
+    for (std::size_t i = 0; i < 6; ++i) {
+        BOOST_TEST(points()[i] == cage->points[i] + (i == 1 || i == 4 ? Vec3d(0) : Vec3d(0.25, 0, -1)));
+    }
+    run("select points 4");
+    run("unlock");
+    BOOST_TEST(locked() == std::vector<openvdb::Index32>{1}, boost::test_tools::per_element());
+    run("select points 1");
+    run("soft 0");
+    run("mode pose");
+    run("move 1 0 0");
+    BOOST_TEST(points()[1] == cage->points[1] + Vec3d(1, 0, 0));
+    session.undo();
+    run("set faces 50"); // another cage
+    BOOST_TEST(locked().empty());
+}
+
+BOOST_AUTO_TEST_CASE(a_lock_of_a_fitted_cage_keeps_the_points_where_they_are_seen)
+{
+    run("mode shape");
+    run("fit");
+    Mesh fitted = *cage;
+    for (Vec3d& p : fitted.points) p *= 1.5;
+    session.setCage(test::posable(fitted));
+    run("lock");
+    BOOST_TEST(!session.state().document.isFitted);
+    BOOST_TEST(test::sameMesh(session.state().document.cage->mesh, fitted));
+    BOOST_TEST(session.state().document.locked.size() == 8u);
+}
+
+BOOST_AUTO_TEST_CASE(a_collapse_renumbers_locked_points_and_moves_none)
+{
+    run("mode shape");
+    run("select points 3 60 127");
+    run("lock");
+    showEdited(session);
+    run("select points 24 25 40 41");
+    run("edit-cage collapse");
+    const Mesh& edited = session.state().document.cage->mesh;
+    BOOST_TEST_REQUIRE(edited.points.size() < cage->points.size());
+    const std::vector<openvdb::Index32>& locked = session.state().document.locked;
+    BOOST_TEST_REQUIRE(locked.size() == 3u);
+    const std::array<std::size_t, 3> before{3, 60, 127};
+    for (std::size_t i = 0; i < 3; ++i) BOOST_TEST(edited.points[locked[i]] == cage->points[before[i]]);
+    showEdited(session);
+    const edit::Elements elements(edited);
+    run("select edges " + std::to_string(elements.edgesOfPoint(locked[1])[0]));
+    BOOST_CHECK_EXCEPTION(run("edit-cage collapse"), InputError, [](const InputError& error) {
+        return std::string(error.what()).find("has a locked point") != std::string::npos;
+    });
+    run("edit-cage split");
+    BOOST_TEST(session.state().document.locked.size() == 3u);
+}
+
 BOOST_AUTO_TEST_SUITE_END()

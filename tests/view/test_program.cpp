@@ -204,6 +204,61 @@ BOOST_AUTO_TEST_CASE(a_walk_opened_as_a_sequence_gives_the_frames_of_deform)
     }
 }
 
+BOOST_AUTO_TEST_CASE(an_edited_cage_that_cuts_is_fitted_as_the_command_does_it)
+{
+    const test::TemporaryFolder folder;
+    const auto file = [&](const std::string& name) { return (folder / name).string(); };
+    const std::string model = source + "/data/bishop.obj";
+    const std::vector<std::string> script{"open " + model,
+                                          "set effort fast",
+                                          "set resolution 24",
+                                          "set faces 80",
+                                          "set precision float64", // as files of the command have it
+                                          "wait",
+                                          "expect bounding yes",
+                                          "select points 0 1 2 3 4 5 6 7 8 9 10 11",
+                                          "scale 0.7 1 0.7 0 0 0",
+                                          "select points 30 31",
+                                          "lock",
+                                          "wait",
+                                          "expect bounding no",
+                                          "save-cage " + file("drawn.obj"),
+                                          "widget fit press",
+                                          "wait",
+                                          "expect fit 0.5",
+                                          "expect fit-problem none",
+                                          "expect bounding yes",
+                                          "save-cage " + file("fitted.obj"),
+                                          "mouse move tight 0.5",
+                                          "mouse down",
+                                          "mouse move tight 0.8",
+                                          "mouse move tight 1",
+                                          "mouse up",
+                                          "wait",
+                                          "expect fit 1",
+                                          "expect bounding yes",
+                                          "save-cage " + file("tight.obj"),
+                                          "undo",
+                                          "expect fit off",
+                                          "expect undo lock",
+                                          "wait",
+                                          "expect bounding no",
+                                          "save-cage " + file("undone.obj")};
+    std::string lines;
+    for (const std::string& line : script) lines += line + '\n';
+    test::writeText(file("s.view"), lines);
+    must({program, "--script", file("s.view"), "--without-window", "any"});
+    BOOST_TEST((test::readText(file("undone.obj")) == test::readText(file("drawn.obj"))));
+    for (const auto& [name, tightness] :
+         std::vector<std::pair<std::string, std::string>>{{"fitted.obj", "0.5"}, {"tight.obj", "1"}}) {
+        must({VDBCAGE_COMMAND, "check", file(name), model});
+        must({VDBCAGE_COMMAND, "fit", file("drawn.obj"), model, "-o", file("command.obj"), "--tight", tightness,
+              "--keep", "points:30,31"});
+        BOOST_TEST(readMesh(file(name)).points == readMesh(file("command.obj")).points,
+                   boost::test_tools::per_element());
+    }
+}
+
 BOOST_AUTO_TEST_CASE(what_is_recorded_does_the_same_again)
 {
     const test::TemporaryFolder folder;

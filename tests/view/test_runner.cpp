@@ -221,6 +221,48 @@ BOOST_AUTO_TEST_CASE(an_opened_cage_is_checked_as_the_command_does)
     }
 }
 
+BOOST_AUTO_TEST_CASE(an_opened_cage_that_cuts_is_fitted_except_where_it_is_locked)
+{
+    const OpenedMeshPtr model = test::opened(test::sphere({0, 0, 0}, 1, 8));
+    Runner runner(makePipelineMaker(), [] {});
+    Order order = orderOf(model, 100);
+    Mesh drawn = test::sphere({0, 0, 0}, 0.9, 6);
+    drawn.points[0] = drawn.points[0].unit() * 1.5;
+    order.cage = test::opened(drawn);
+    const auto fitted = [&](const FitOrder& fit) {
+        order.fit = fit;
+        runner.want(order, false);
+        settle(runner);
+        BOOST_TEST_REQUIRE(runner.planner().error() == "");
+        return runner.planner().made();
+    };
+    const CageResultPtr least = fitted({0, {0}}), tightest = fitted({1, {0}});
+    for (const CageResultPtr& made : {least, tightest}) {
+        BOOST_TEST(made->fitProblem == "");
+        BOOST_TEST(made->report.check.bounding());
+        BOOST_TEST(made->cage.points[0] == drawn.points[0]);
+        BOOST_TEST(made->cage.points[1] != drawn.points[1]);
+    }
+    BOOST_TEST(tightest->report.check.meanDistance < least->report.check.meanDistance);
+    // One that bounds already stays at the least moves.
+    order.cage = test::opened(least->cage);
+    BOOST_TEST(test::sameMesh(fitted({0})->cage, least->cage));
+    // What does not come to bound stays as it was drawn, with the reason.
+    order.cage = test::opened(drawn);
+    FitOrder all;
+    for (openvdb::Index32 i = 0; i < drawn.points.size(); ++i) all.locked.push_back(i);
+    const CageResultPtr held = fitted(all);
+    BOOST_TEST(held->fitProblem.rfind("no place was found where it does not cut the model", 0) == 0u);
+    BOOST_TEST(test::sameMesh(held->cage, drawn));
+    BOOST_TEST(!held->report.check.bounding());
+    Mesh open = drawn;
+    open.triangles.pop_back();
+    order.cage = test::opened(open);
+    const CageResultPtr refused = fitted({0.5});
+    BOOST_TEST(refused->fitProblem.rfind("it is not a closed, oriented 2-manifold", 0) == 0u);
+    BOOST_TEST(!refused->report.check.valid());
+}
+
 BOOST_AUTO_TEST_CASE(an_objection_to_the_model_names_its_file)
 {
     Mesh flat;

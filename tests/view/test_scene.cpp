@@ -75,6 +75,30 @@ BOOST_AUTO_TEST_CASE(saved_opened_and_saved_again_it_is_the_same)
     BOOST_TEST(test::sameMesh(readMesh(folder / "a scene.cage.obj"), test::sphere({0.1, 0.2, 0.3}, 1 / 3.0, 6)));
 }
 
+BOOST_AUTO_TEST_CASE(fits_and_locked_points_are_kept)
+{
+    const fs::path path = folder / "scene.json";
+    State state = applied(applied({}, OpenModel{files[0]}), OpenCage{files[1]});
+    state.document.locked = {1, 5};
+    state = applied(state, FitCage{0.25});
+    saveScene(state, nullptr, path);
+    const Document opened = openScene(path).document;
+    BOOST_TEST(opened.isFitted);
+    BOOST_TEST(opened.tightness == 0.25);
+    BOOST_TEST(opened.locked == state.document.locked, boost::test_tools::per_element());
+    const std::string good = test::readText(path);
+    for (const auto& [from, to] : std::vector<std::pair<std::string, std::string>>{{"\"fit\": 0.25", "\"fit\": 2"},
+                                                                                   {"\"fit\": 0.25", "\"fit\": \"x\""},
+                                                                                   {"    5\n", "    8\n"},
+                                                                                   {"    5\n", "    -5\n"}}) {
+        std::string bad = good;
+        BOOST_TEST_REQUIRE(bad.find(from) != std::string::npos, from);
+        bad.replace(bad.find(from), from.size(), to);
+        test::writeText(path, bad);
+        BOOST_TEST_CONTEXT(to) BOOST_CHECK_THROW(openScene(path), InputError);
+    }
+}
+
 BOOST_AUTO_TEST_CASE(a_folder_with_a_scene_can_be_moved)
 {
     const test::TemporaryFolder other;

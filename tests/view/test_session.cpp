@@ -140,6 +140,80 @@ BOOST_AUTO_TEST_CASE(a_drag_is_one_step)
     BOOST_CHECK(session.state() == before);
 }
 
+BOOST_AUTO_TEST_CASE(fits_that_follow_each_other_are_one_step)
+{
+    const Files files;
+    Session session;
+    session.execute(OpenModel{files.list[0]});
+    session.execute(OpenCage{files.list[1]});
+    const auto show = [&] { // what is seen, without a fit
+        session.setCage(test::posable(session.state().document.cage->mesh));
+    };
+    show();
+    const State drawn = session.state();
+    session.execute(commandOf({"fit"}));
+    BOOST_TEST(session.state().document.isFitted);
+    BOOST_TEST(session.state().document.tightness == 0.5);
+    BOOST_CHECK(session.state().document.cage == drawn.document.cage);
+    session.beginDrag();
+    for (const char* tightness : {"0.6", "0.7", "0.8"}) session.execute(commandOf({"fit", tightness}));
+    session.endDrag();
+    BOOST_TEST(session.hasDraggedDocument());
+    session.execute(commandOf({"fit", "0.9"}));
+    BOOST_TEST(session.documents().depth() == 3);
+    BOOST_TEST(session.documents().undone() == "fit 0.9");
+    session.undo();
+    BOOST_CHECK(session.state() == drawn);
+    session.redo();
+    BOOST_TEST(session.state().document.tightness == 0.9);
+    // An edit by hand goes on from the fitted cage, and the next fit is another step. A fit after an undo makes what
+    // was undone impossible to redo.
+    session.execute(Select{{edit::Element::point, {0}}});
+    session.execute(MoveSelected{{0, 0, 1}});
+    BOOST_TEST(!session.state().document.isFitted);
+    BOOST_TEST(session.state().document.tightness == 0.9);
+    show();
+    session.execute(FitCage{0.9});
+    BOOST_TEST(session.documents().depth() == 5);
+    session.undo();
+    session.undo();
+    BOOST_TEST(session.documents().canRedo());
+    session.execute(FitCage{0.1});
+    BOOST_TEST(!session.documents().canRedo());
+    BOOST_TEST(session.documents().depth() == 3);
+    session.execute(CloseCage{});
+    BOOST_TEST(!session.state().document.isFitted);
+}
+
+BOOST_AUTO_TEST_CASE(a_fit_of_a_made_cage_is_of_a_copy)
+{
+    const Files files;
+    Session session;
+    session.execute(OpenModel{files.list[0]});
+    BOOST_CHECK_THROW(session.execute(FitCage{}), InputError); // there is no cage yet
+    session.setCage(test::posable(test::torus(1, 0.3, 16, 8)));
+    session.execute(FitCage{});
+    BOOST_TEST_REQUIRE(session.state().document.cage.get());
+    BOOST_TEST(session.state().document.cage->path.empty());
+    BOOST_TEST(test::sameMesh(session.state().document.cage->mesh, *session.cage()->rest()));
+}
+
+BOOST_AUTO_TEST_CASE(a_tightness_out_of_range_is_refused_with_the_range)
+{
+    for (const auto& [word, problem] : std::vector<std::pair<std::string, std::string>>{
+             {"2", "2 is not allowed; it must be " + toText(FitOptions::tightnesses)},
+             {"-0.1", "-0.1 is not allowed; it must be " + toText(FitOptions::tightnesses)},
+             {"nan", "'nan' is not allowed; it must be a number"},
+             {"tight", "'tight' is not allowed; it must be a number"}}) {
+        try {
+            commandOf({"fit", word});
+            BOOST_TEST(false, word << " was read");
+        } catch (const InputError& error) {
+            BOOST_TEST(error.what() == "fit: " + problem);
+        }
+    }
+}
+
 BOOST_AUTO_TEST_CASE(the_material_is_of_the_document)
 {
     const Elasticity bulging{0.3, Elasticity::Rotations::local, 0, 5};
@@ -246,6 +320,11 @@ BOOST_AUTO_TEST_CASE(a_line_that_is_no_command_is_refused)
                              "scale 1 1 1 0 0 0 1 0 0 1 1 0",
                              "edit-cage melt",
                              "reset-pose some",
+                             "fit 1.5",
+                             "fit off",
+                             "fit 0 1",
+                             "lock 1",
+                             "unlock all",
                              "coordinates best",
                              "coordinates given",
                              "compare given",

@@ -575,6 +575,40 @@ BOOST_AUTO_TEST_CASE(parts_of_the_cage_are_selected_and_moved)
     BOOST_TEST(twin().value("undo") != "move 0.2 0 0");
 }
 
+BOOST_AUTO_TEST_CASE(an_edited_cage_is_fitted_and_its_points_are_locked)
+{
+    key("1");
+    key("a");
+    seesAnother();
+    key("s");
+    for (const char* letter : {"0", "period", "7"}) key(letter);
+    key("enter");
+    seesAnother();
+    runLine(twin(), "expect bounding no");
+    click("fit");
+    seesAnother();
+    runLine(twin(), "expect bounding yes");
+    moveTo("tight", 0.5);
+    press();
+    moveTo("tight", 0.8);
+    moveTo("tight", 0.9);
+    release();
+    seesAnother();
+    runLine(twin(), "expect bounding yes");
+    click("lock");
+    seesAnother();
+    key("g"); // which moves none of them, and says so
+    moveTo("picture", 0.6, 0.6);
+    seesAnother();
+    key("escape");
+    for (const char* step : {"lock", "fit "}) {
+        BOOST_TEST(twin().value("undo").substr(0, 4) == step);
+        key("control+z");
+        seesAnother();
+    }
+    runLine(twin(), "expect bounding no");
+}
+
 BOOST_AUTO_TEST_CASE(files_are_opened_and_saved_by_dialogs)
 {
     const std::string other = (folder / "other.obj").string(), cage = (folder / "made.obj").string();

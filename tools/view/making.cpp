@@ -30,7 +30,7 @@ void Making::follow(Session& session, const Hand& hand)
 {
     const Document& document = session.state().document;
     std::optional<Order> order;
-    if (document.model) order = Order{document.model, document.options, document.cage};
+    if (document.model) order = orderOf(document);
     runner_.want(order, hand.hasValue || hand.hasCage, keepsIntermediates_ || showsIntermediates(session.state().view));
     cage_ = posing_.cageOf(session.state(), planner());
     if (session.cage() != posing_.posable()) session.setCage(posing_.posable());

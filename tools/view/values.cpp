@@ -57,6 +57,12 @@ std::map<std::string, std::function<std::string()>> valuesOf(const AppParts& par
         const OpenedMeshPtr& cage = state.document.cage;
         return !cage ? "none" : cage->path.empty() ? "edited" : cage->path.filename().string();
     };
+    list["fit"] = [&, number] { return state.document.isFitted ? number(state.document.tightness) : "off"; };
+    list["fit-problem"] = [&] {
+        const CageResultPtr& made = planner.made();
+        return made && !made->fitProblem.empty() ? made->fitProblem : "none";
+    };
+    list["locked"] = [&] { return std::to_string(state.document.locked.size()); };
     list["undo"] = [&] { return session.documents().canUndo() ? session.documents().undone() : "none"; };
     list["redo"] = [&] { return session.documents().canRedo() ? session.documents().redone() : "none"; };
     list["undo-view"] = [&] { return session.views().canUndo() ? session.views().undone() : "none"; };

@@ -21,7 +21,16 @@ inline view::Command randomMove(std::mt19937& random)
     const auto below = [&](int n) { return static_cast<int>(random() % static_cast<unsigned>(n)); };
     const auto real = [&] { return std::uniform_real_distribution<double>(-1, 1)(random); };
     const auto vector = [&] { return openvdb::Vec3d(real(), real(), real()); };
-    switch (below(10)) {
+    switch (below(11)) {
+    case 10:
+        switch (below(3)) {
+        case 0:
+            return FitCage{real() > 0 ? 0.5 : 0.25};
+        case 1:
+            return LockPoints{};
+        default:
+            return UnlockPoints{};
+        }
     case 8:
         return below(2) == 0 ? Command(SetFrame{below(6)}) : Command(SetKey{below(6)});
     case 9:

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -13,6 +14,7 @@
 #include <vdbcage/core/detail/atomic_file.h>
 #include <vdbcage/core/detail/read_file.h>
 #include <vdbcage/core/error.h>
+#include <vdbcage/core/range.h>
 #include <vdbcage/core/version.h>
 #include <vdbcage/mesh/mesh_io.h>
 
@@ -71,6 +73,29 @@ OpenedMeshPtr editedCage(const fs::path& file)
     OpenedMesh edited;
     edited.mesh = readMesh(file);
     return std::make_shared<const OpenedMesh>(std::move(edited));
+}
+
+/// \throw InputError there is no cage to be fitted, or the tightness is out of range
+void readFit(const Json& tightness, Document& document)
+{
+    document.tightness = tightness.get<double>();
+    requireWithin(FitOptions::tightnesses, document.tightness, "fit");
+    if (!document.cage) throw InputError("fit", "the scene has no opened or edited cage");
+    document.isFitted = true;
+}
+
+/// \throw InputError it is no list of points of the cage
+void readLocked(const Json& points, Document& document)
+{
+    std::set<openvdb::Index32> locked;
+    for (const Json& point : points) {
+        const auto number = point.get<std::uint64_t>();
+        if (!document.cage || number >= document.cage->mesh.points.size()) {
+            throw InputError("locked_points", std::to_string(number) + " is no point of the cage");
+        }
+        locked.insert(static_cast<openvdb::Index32>(number));
+    }
+    document.locked.assign(locked.begin(), locked.end());
 }
 
 /// A reader of poses from files beside a scene. Poses of one cage at rest share its file.
@@ -161,6 +186,8 @@ void saveScene(const State& state, const CageResult* current, const fs::path& pa
                      {"opened_cage", document.cage && !isEdited ? fileOf(document.cage->path, path) : Json()},
                      {"made_cage", hasMade ? Json(nameOf(cageBeside(path))) : Json()},
                      {"edited_cage", isEdited ? Json(nameOf(cageBeside(path))) : Json()},
+                     {"fit", document.isFitted ? Json(document.tightness) : Json()},
+                     {"locked_points", document.locked},
                      {"poses", poses},
                      {"coordinates", coordinatesName(document.coordinates)},
                      {"weights", document.weights ? fileOf(document.weights->path, path) : Json()},
@@ -214,6 +241,8 @@ State openScene(const fs::path& given)
         if (scene.contains("edited_cage") && !scene["edited_cage"].is_null()) {
             state.document.cage = editedCage(path.parent_path() / scene["edited_cage"].get<std::string>());
         }
+        if (scene.contains("fit") && !scene["fit"].is_null()) readFit(scene["fit"], state.document);
+        if (scene.contains("locked_points")) readLocked(scene["locked_points"], state.document);
         PoseReader poses(path.parent_path());
         if (scene.contains("poses")) state.document.poses = poses.read(scene["poses"]);
         if (scene.contains("pose") && !scene["pose"].is_null()) { // an older scene with a single pose

@@ -3,9 +3,8 @@
 #include <utility>
 
 #include <tools/files/naming_files.h>
+#include <tools/view/jobs/opened_cages.h>
 #include <tools/view/jobs/runner.h>
-#include <vdbcage/check/check.h>
-#include <vdbcage/mesh/parts.h>
 
 namespace vdbcage::view {
 
@@ -80,35 +79,19 @@ class PipelineMaker : public CageMaker {
 public:
     CageResultPtr make(const Job& job, Interrupter& interrupter) override
     {
-        if (job.order.cage) return check(job, interrupter);
+        if (job.order.cage) return makeOpened(job, interrupter);
         OrderedPipeline& pipeline = job.order == previewOf(job.order) ? preview_ : full_;
         return files::namingFiles({{"model", job.order.model->path.string()}},
                                   [&] { return pipeline.make(job, tree_, interrupter); });
     }
 
 private:
-    CageResultPtr check(const Job& job, Interrupter& interrupter)
+    CageResultPtr makeOpened(const Job& job, Interrupter& interrupter)
     {
         const Order& order = job.order;
         const auto began = Clock::now();
         StageClock clock(&interrupter);
-        CageResult result;
-        result.order = order;
-        result.cage = order.cage->mesh;
-        const double leastPart = order.options.leastPart;
-        if (!checker_ || checked_ != order.model || checkedLeastPart_ != leastPart) {
-            checker_.reset();
-            const Stage stage(&clock, StageName::guard);
-            const Mesh& model = order.model->mesh;
-            checker_ =
-                leastPart > 0 ? CageChecker(largeParts(model, leastPart).mesh, &clock) : CageChecker(model, &clock);
-            checked_ = order.model;
-            checkedLeastPart_ = leastPart;
-        }
-        {
-            const Stage stage(&clock, StageName::certify);
-            result.report.check = checker_->check(result.cage, {}, &clock);
-        }
+        CageResult result = opened_.made(order, clock);
         if (job.intermediates) {
             Intermediates made;
             made.distance = measureDistances(result.cage, tree_.of(order.model, interrupter));
@@ -120,10 +103,8 @@ private:
     }
 
     OrderedPipeline preview_, full_;
+    OpenedCages opened_;
     ModelTree tree_;
-    OpenedMeshPtr checked_;
-    double checkedLeastPart_ = 0;
-    std::optional<CageChecker> checker_;
 };
 
 } // namespace

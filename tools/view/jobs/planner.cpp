@@ -6,10 +6,11 @@ namespace vdbcage::view {
 
 namespace {
 
-/// Returns whether cages by both orders can share the model's voxels and their closing.
+/// Returns whether cages by both orders can share the model's voxels and their closing, or are fits of one cage.
 bool shareStages(const Order& a, const Order& b)
 {
-    if (a.model != b.model || a.cage || b.cage) return false;
+    if (a.model != b.model || a.cage != b.cage) return false;
+    if (a.cage) return a.fit && b.fit;
     CageOptions early = b.options;
     early.faces = a.options.faces;
     early.smooth = a.options.smooth;
@@ -41,7 +42,14 @@ std::size_t bytesOf(const CageResult& result)
 
 bool operator==(const Order& a, const Order& b)
 {
-    return a.model == b.model && a.cage == b.cage && areEqual(a.options, b.options);
+    return a.model == b.model && a.cage == b.cage && a.fit == b.fit && areEqual(a.options, b.options);
+}
+
+Order orderOf(const Document& document)
+{
+    Order order{document.model, document.options, document.cage};
+    if (document.isFitted) order.fit = FitOrder{document.tightness, document.locked};
+    return order;
 }
 
 Order previewOf(Order order)
@@ -203,6 +211,7 @@ bool Planner::isUseful(const Job& job) const
     }
     if (job.order == *wanted_) return true;
     if (job.order != previewOf(job.order) || skipsPreview_ || kept(*wanted_)) return false;
+    if (job.order.cage && !isDragging_) return false;
     return job.order == preview || (!kept(preview) && shareStages(job.order, preview));
 }
 

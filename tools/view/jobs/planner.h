@@ -12,10 +12,10 @@ namespace vdbcage::view {
 /// offered. It has no thread and no clock: it is told about events, and asked.
 ///
 /// At most one job is under way, and at most one waits, for the wanted cage. While a value is dragged only previews are
-/// made. A preview under way is finished, unless it shares no stage with the wanted cage. A full run is stopped as soon
-/// as another cage is wanted. When a drag ends the full run begins at once; after any other change its preview comes
-/// first. Results are kept by their orders, so a cage that was made once is there at once. When nothing else is to do,
-/// previews of the neighbouring face counts are made ahead.
+/// made. A preview under way is finished, unless it shares no stage with the wanted cage; so is a fit while its
+/// tightness is dragged. A full run is stopped as soon as another cage is wanted. When a drag ends the full run begins
+/// at once; after any other change its preview comes first. Results are kept by their orders, so a cage that was made
+/// once is there at once. When nothing else is to do, previews of the neighbouring face counts are made ahead.
 class Planner {
 public:
     /// `mostBytes`: the most that kept results take; the oldest go first (two always stay).

@@ -247,6 +247,22 @@ std::string coordinateText(double value, double longest)
     return detail::lengthText(value, std::min(1e-6 * longest, 1e-5 * std::abs(value)));
 }
 
+/// Builds the buttons that lock and unlock what is selected.
+void buildLocks(const PanelContext& context)
+{
+    const std::size_t locked = context.content.session.state().document.locked.size();
+    const std::string now = " (" + std::to_string(locked) + " of the cage's points are locked now)";
+    if (ImGui::Button("Lock")) context.ask(LockPoints{});
+    context.name("lock");
+    help("the selected points stay in fits, and when others are moved" + now);
+    ImGui::SameLine(0, length(4));
+    ImGui::BeginDisabled(locked == 0);
+    if (ImGui::Button("Unlock")) context.ask(UnlockPoints{});
+    ImGui::EndDisabled();
+    context.name("unlock");
+    help("the selected points can move again" + now);
+}
+
 /// Builds fields for the mean of the selected points, which move so that it gets the typed place.
 void buildSelected(const PanelContext& context, std::map<std::string, std::string>& typed)
 {
@@ -282,6 +298,7 @@ void buildSelected(const PanelContext& context, std::map<std::string, std::strin
         context.askTyped<MoveSelected>(by);
     }
     ImGui::PopStyleVar();
+    if (view.mode == Mode::shape) buildLocks(context);
     ImGui::Dummy({0, length(4)});
 }
 

@@ -101,6 +101,10 @@ void buildMenu(const PanelContext& context)
             item(context, "Flip edges", EditCage{CageEdit::flip}, isShape);
             item(context, "Merge triangles to quads", EditCage{CageEdit::merge}, isShape);
             item(context, "Cut quads to triangles", EditCage{CageEdit::cut}, isShape);
+            ImGui::Separator();
+            item(context, "Lock points", LockPoints{}, isShape);
+            item(context, "Unlock points", UnlockPoints{}, isShape && !document.locked.empty());
+            item(context, "Fit to the model", FitCage{document.tightness}, hasCage);
         });
         item(context, "Reset the pose", ResetPose{false}, hasPoses);
         item(context, "Reset the pose of the selection", ResetPose{true}, hasPoses && hasSelected);

@@ -24,6 +24,18 @@ std::string differences(const CageOptions& made, const CageOptions& wanted)
     return text;
 }
 
+/// Returns a note on an opened cage or a fit that is not the wanted one.
+std::string openedText(const PanelContent& content)
+{
+    const Document& document = content.session.state().document;
+    if (content.planner.made()->order.cage != document.cage) return "Shown is the cage that was opened before";
+    if (!document.isFitted) return {}; // its fit was undone
+    const std::string shown = content.planner.made()->order.fit ? "shown is the fit before" : "shown is the drawn cage";
+    if (content.planner.isHalted()) return "The fit was cancelled; " + shown;
+    const int percent = content.progress ? content.progress->percent : -1;
+    return "Fitting" + (percent >= 0 ? ' ' + std::to_string(percent) + " %" : "") + "; " + shown;
+}
+
 /// Returns a note on the made cage; empty if it is the wanted one.
 std::string standingText(const PanelContent& content)
 {
@@ -34,10 +46,12 @@ std::string standingText(const PanelContent& content)
     case Planner::Standing::preview:
         return "Preview, made with least effort";
     case Planner::Standing::stale:
-        if (made->order.cage) return "Shown is the cage that was opened before";
+        if (made->order.cage) return openedText(content);
         return "Shown is the last good cage: " +
                differences(made->order.options, content.session.state().document.options);
     case Planner::Standing::current:
+        if (!made->fitProblem.empty()) return "The cage is not fitted: " + made->fitProblem;
+        break;
     case Planner::Standing::none:
         break;
     }
@@ -104,7 +118,7 @@ void drawLegend(ImDrawList& list, const Rectangle& place, double largest)
 }
 
 constexpr draw::Colour pointColour{0.10F, 0.22F, 0.48F}, selectedColour{0.95F, 0.50F, 0.05F},
-    hotColour{1.0F, 0.80F, 0.10F}, white{1, 1, 1};
+    hotColour{1.0F, 0.80F, 0.10F}, lockedColour{0.62F, 0.10F, 0.55F}, white{1, 1, 1};
 
 ImVec2 inWindow(const Rectangle& place, const Pixel& at)
 {
@@ -144,6 +158,15 @@ void drawEditing(ImDrawList& list, const Rectangle& place, const PictureOverlay&
     }
     for (const PictureOverlay::Point& point : overlay.points) {
         const ImVec2 at = inWindow(place, point.at);
+        if (point.isLocked) {
+            const auto square = [&](float half, const draw::Colour& colour) {
+                list.AddRectFilled({at.x - half, at.y - half}, {at.x + half, at.y + half}, packed(colour));
+            };
+            square(length(6), white);
+            square(length(5), lockedColour);
+            square(length(3), point.isSelected ? selectedColour : white);
+            continue;
+        }
         const float radius = length(point.isSelected ? 5 : 4);
         list.AddCircleFilled(at, radius, packed(white), 16);
         list.AddCircleFilled(at, radius - length(1), packed(point.isSelected ? selectedColour : pointColour), 16);
@@ -210,8 +233,9 @@ void buildOverlays(const PanelContext& context, const Rectangle& place)
     } else if (content.isPosedCoarsely) {
         drawPill(list, place, "Preview: a coarse model follows the cage until the model is bound", theme::accent);
     } else if (!standing.empty()) {
-        const bool isPreview = content.planner.standing() == Planner::Standing::preview;
-        drawPill(list, place, standing, isPreview ? theme::accent : theme::warning);
+        const bool isWorking = content.planner.standing() == Planner::Standing::preview ||
+                               (content.progress && content.session.state().document.isFitted);
+        drawPill(list, place, standing, isWorking ? theme::accent : theme::warning);
     }
     list.PopClipRect();
 }

@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 #include <tools/report/report.h>
@@ -76,6 +78,37 @@ void buildBinding(const PanelContext& context)
     ImGui::SameLine(0, length(18));
 }
 
+/// Builds the fit of a cage that was opened or edited, or that cuts the model, in the line of the verdict. `left`: its
+/// place, where no verdict comes to. A slider that moves while it is dragged would change its value.
+void buildFit(const PanelContext& context, bool cuts, float left)
+{
+    const Document& document = context.content.session.state().document;
+    if (!document.cage && !cuts) return;
+    const float pad = length(2), top = ImGui::GetCursorPosY();
+    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {length(8), pad});
+    ImGui::SetCursorPos({std::max(left, ImGui::GetCursorPosX()), top - pad});
+    const bool isFitted = document.isFitted && !context.content.planner.isHalted();
+    ImGui::BeginDisabled(isFitted);
+    if (cuts && !isFitted ? mainButton("Fit") : ImGui::Button("Fit")) {
+        context.ask(document.isFitted ? Action(MakeAgain{}) : FitCage{document.tightness});
+    }
+    ImGui::EndDisabled();
+    context.name("fit");
+    help("moves the cage's points until it bounds the model");
+    ImGui::SameLine(0, length(6));
+    ImGui::SetNextItemWidth(length(110));
+    float tightness = static_cast<float>(document.tightness);
+    if (ImGui::SliderFloat("##tight", &tightness, 0, 1, "Tight %.2f", ImGuiSliderFlags_AlwaysClamp)) {
+        context.ask(FitCage{std::round(100 * double{tightness}) / 100});
+    }
+    context.followDrag();
+    context.name("tight");
+    help("fits the cage. 0: only points move that have to; 1: as tight as a made cage; between them: near to what was "
+         "drawn");
+    ImGui::PopStyleVar();
+    ImGui::SameLine(0, length(18));
+}
+
 /// Builds the verdict on the pose.
 void buildPose(const PanelContext& context)
 {
@@ -108,7 +141,14 @@ void buildResult(const PanelContext& context)
     if (ImGui::BeginTable("result", 2)) {
         ImGui::TableSetupColumn("name", ImGuiTableColumnFlags_WidthFixed, length(92));
         ImGui::TableSetupColumn("value", ImGuiTableColumnFlags_WidthStretch);
-        row("Verdict", [&] { coloured(check.bounding() ? theme::good : theme::bad, verdictOf(check)); });
+        row("Verdict", [&] {
+            coloured(check.bounding() ? theme::good : theme::bad, verdictOf(check));
+            if (made->fitProblem.empty()) return;
+            ImGui::PushTextWrapPos(0);
+            coloured(theme::bad, made->fitProblem);
+            ImGui::PopTextWrapPos();
+            context.name("error.fit");
+        });
         row("Faces", facesOf(check));
         row("Volume", check.volumeRatio > 0 ? number("%.3f times the model's", check.volumeRatio)
                                             : std::string("model or cage is not closed"));
@@ -163,9 +203,11 @@ void buildStatusLine(const PanelContext& context)
     if (const CageResultPtr& made = planner.made()) {
         const CageCheck& check = made->report.check;
         part(facesOf(check));
+        const float verdict = ImGui::GetCursorPosX();
         if (check.volumeRatio > 0) part(number("volume x %.2f", check.volumeRatio));
         part(number("distance %.2f %%", 100 * check.meanDistance));
         part(verdictOf(check), check.bounding() ? theme::good : theme::bad);
+        buildFit(context, !check.bounding(), verdict + length(385));
         if (context.content.session.state().view.times) part(number("%.2f s", made->seconds), theme::mutedText);
     }
     buildBinding(context);

@@ -44,7 +44,8 @@ const edit::Elements& CagePicker::elements(const CageResultPtr& cage)
     return elements_.of(cage, [&] { return edit::Elements(cage->cage); });
 }
 
-void CagePicker::addElements(const Picture& picture, const ViewState& view, bool isMoved, PictureOverlay& overlay)
+void CagePicker::addElements(const Picture& picture, const ViewState& view, const std::vector<openvdb::Index32>& locked,
+                             bool isMoved, PictureOverlay& overlay)
 {
     const LayerShapes& shapes = picture.shapes;
     if (!shapes.cage() || !view.layer(LayerId::cage).shown) return;
@@ -54,7 +55,11 @@ void CagePicker::addElements(const Picture& picture, const ViewState& view, bool
         const Vec3d seen = draw::project(picture.eye, shapes.frame().toDrawing(shapes.cagePoints()[point]));
         return Pixel{(seen.x() + 1) / 2 * width, (1 - seen.y()) / 2 * height};
     };
-    if (selection.kind == edit::Element::point) {
+    const auto isIn = [](const std::vector<openvdb::Index32>& ascending, openvdb::Index32 point) {
+        return std::binary_search(ascending.begin(), ascending.end(), point);
+    };
+    const bool arePointsSelected = selection.kind == edit::Element::point;
+    if (arePointsSelected || !locked.empty()) {
         if (!isMoved || !lastPoints_) {
             if (!visiblePoints_) {
                 visiblePoints_ = picking(picture, view)
@@ -64,10 +69,12 @@ void CagePicker::addElements(const Picture& picture, const ViewState& view, bool
         }
         for (const openvdb::Index32 i : *lastPoints_) {
             if (i >= shapes.cagePoints().size()) break;
-            const bool isSelected = std::binary_search(selection.ids.begin(), selection.ids.end(), i);
-            overlay.points.push_back({pixelAt(i), isSelected});
+            const bool isLocked = isIn(locked, i);
+            if (!arePointsSelected && !isLocked) continue;
+            overlay.points.push_back({pixelAt(i), arePointsSelected && isIn(selection.ids, i), isLocked});
         }
-    } else if (selection.kind == edit::Element::edge && !selection.ids.empty()) {
+    }
+    if (selection.kind == edit::Element::edge && !selection.ids.empty()) {
         const auto& edges = elements(shapes.cage()).edges();
         for (const openvdb::Index32 edge : selection.ids) {
             if (edge >= edges.size()) break;

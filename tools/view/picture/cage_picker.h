@@ -27,9 +27,10 @@ public:
     /// Returns the elements in a polygon: points, edges with both ends in it, faces with their middle in it.
     std::vector<openvdb::Index32> within(const Picture& picture, const ViewState& view,
                                          const std::vector<Pixel>& border);
-    /// Adds the points or the selected edges to the overlay, whichever kind is selected. If `isMoved`, the points are
-    /// those that were visible before the motion.
-    void addElements(const Picture& picture, const ViewState& view, bool isMoved, PictureOverlay& overlay);
+    /// Adds the points or the selected edges to the overlay, whichever kind is selected, and locked points (ascending)
+    /// with each kind. If `isMoved`, the points are those that were visible before the motion.
+    void addElements(const Picture& picture, const ViewState& view, const std::vector<openvdb::Index32>& locked,
+                     bool isMoved, PictureOverlay& overlay);
 
     void forgetModel() { occluder_.reset(); }
     void forgetVisible() { visiblePoints_.reset(); }

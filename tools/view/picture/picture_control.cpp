@@ -208,12 +208,14 @@ void PictureControl::cancel()
     held_.reset();
     if (!grip_) return;
     grip_.reset();
+    refusal_.clear();
     host_.session.cancelDrag();
 }
 
 void PictureControl::finish()
 {
     grip_.reset();
+    refusal_.clear();
     host_.endDrag();
 }
 
@@ -235,22 +237,28 @@ void PictureControl::follow()
 {
     try {
         host_.session.replaceDragged(grip_->command());
-    } catch (const InputError&) { // too far away: it stays where it was
+        refusal_.clear();
+    } catch (const InputError& error) { // too far away, or locked: it stays where it was
+        refusal_ = error.what();
     }
 }
 
 PictureOverlay PictureControl::overlay() const
 {
     PictureOverlay overlay;
-    const ViewState& view = host_.session.state().view;
+    const State& state = host_.session.state();
+    const ViewState& view = state.view;
     if (!host_.session.cage() || !view.layer(LayerId::cage).shown) return overlay;
     overlay.band = band_.border();
     const auto frame = gizmoFrame();
     if (frame && !grip_) overlay.gizmo = gizmoParts(*frame, view.tool);
     overlay.hot = hot_;
-    host_.viewport.addElements(view, grip_.has_value(), overlay);
+    // Poses move locked points too.
+    const bool hasLocks = view.mode == Mode::shape;
+    host_.viewport.addElements(view, hasLocks ? state.document.locked : std::vector<openvdb::Index32>(),
+                               grip_.has_value(), overlay);
     if (isBoxArmed_) overlay.hint = "Drag a box; " + describeBands(mouse_) + ", Escape ends";
-    if (grip_) overlay.hint = grip_->describe(view.orientation);
+    if (grip_) overlay.hint = refusal_.empty() ? grip_->describe(view.orientation) : refusal_;
     return overlay;
 }
 

@@ -84,6 +84,7 @@ private:
     std::optional<CameraDrag> cameraDrag_; ///< of the held button; none: it does not move the camera
     bool isCameraDragged_ = false, isBoxArmed_ = false;
     Band band_;
+    std::string refusal_; ///< the reason why the grip holds nothing; empty: none
     std::optional<Grip> grip_;
     std::optional<Handle> hot_;
 };

@@ -13,9 +13,9 @@ namespace vdbcage::view {
 struct PictureOverlay {
     struct Point {
         Pixel at;
-        bool isSelected = false;
+        bool isSelected = false, isLocked = false;
     };
-    std::vector<Point> points;               ///< of the cage, if points are selected
+    std::vector<Point> points;               ///< of the cage: all if points are selected, else the locked ones
     std::vector<std::array<Pixel, 2>> edges; ///< the selected ones
     std::vector<GizmoPart> gizmo;
     std::optional<Handle> hot; ///< the handle under the pointer

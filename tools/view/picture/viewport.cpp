@@ -106,9 +106,10 @@ std::vector<openvdb::Index32> Viewport::elementsWithin(const ViewState& view, co
     return picker_.within(pickedPicture(), view, border);
 }
 
-void Viewport::addElements(const ViewState& view, bool isMoved, PictureOverlay& overlay)
+void Viewport::addElements(const ViewState& view, const std::vector<openvdb::Index32>& locked, bool isMoved,
+                           PictureOverlay& overlay)
 {
-    picker_.addElements(pickedPicture(), view, isMoved, overlay);
+    picker_.addElements(pickedPicture(), view, locked, isMoved, overlay);
 }
 
 } // namespace vdbcage::view

@@ -44,7 +44,8 @@ public:
     /// See CagePicker.
     std::optional<openvdb::Index32> elementAt(const ViewState& view, const Pixel& at, double pixels);
     std::vector<openvdb::Index32> elementsWithin(const ViewState& view, const std::vector<Pixel>& border);
-    void addElements(const ViewState& view, bool isMoved, PictureOverlay& overlay);
+    void addElements(const ViewState& view, const std::vector<openvdb::Index32>& locked, bool isMoved,
+                     PictureOverlay& overlay);
 
 private:
     /// Notes a change: the picture must be drawn again.

@@ -28,7 +28,8 @@ CageResultPtr Posing::cageOf(const State& state, const Planner& planner)
 CageResultPtr Posing::wantedCage(const Document& document, const Planner& planner)
 {
     const CageResultPtr& made = planner.made();
-    if (!document.cage || (made && made->order.cage == document.cage)) return made;
+    const bool isOfCage = made && made->order.cage == document.cage && (document.isFitted || !made->order.fit);
+    if (!document.cage || isOfCage) return made;
     return unchecked_.of(document.cage, [&] {
         CageResult result;
         result.order = {document.model, document.options, document.cage};

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 #include <openvdb/math/Mat3.h>
@@ -112,13 +113,20 @@ void requireNear(const std::vector<Vec3d>& points, const openvdb::BBoxd& cage)
     }
 }
 
-Document withRest(const State& state, Mesh cage)
+/// Returns the document with an edited cage and its locked points.
+Document withRest(const State& state, Mesh cage, std::vector<Index32> locked)
 {
     OpenedMesh edited;
     edited.mesh = std::move(cage);
     Document document = state.document;
-    document.cage = std::make_shared<const OpenedMesh>(std::move(edited));
+    document.setCage(std::make_shared<const OpenedMesh>(std::move(edited)));
+    document.locked = std::move(locked);
     return document;
+}
+
+bool isIn(const std::vector<Index32>& ascending, Index32 point)
+{
+    return std::binary_search(ascending.begin(), ascending.end(), point);
 }
 
 using Edge = std::pair<Index32, Index32>;
@@ -144,7 +152,8 @@ std::vector<Edge> selectedEdges(const edit::Elements& elements, const edit::Sele
     return edges;
 }
 
-Mesh withEditedEdges(Mesh cage, std::vector<Edge> edges, CageEdit edit)
+/// `locked` are points of the cage; they get their new numbers.
+Mesh withEditedEdges(Mesh cage, std::vector<Edge> edges, CageEdit edit, std::vector<Index32>& locked)
 {
     for (std::size_t i = 0; i < edges.size(); ++i) {
         // Earlier collapses may have turned it around.
@@ -156,8 +165,14 @@ Mesh withEditedEdges(Mesh cage, std::vector<Edge> edges, CageEdit edit)
         if (edit == CageEdit::flip) cage = edit::flipEdge(cage, edge);
         if (edit == CageEdit::merge) cage = edit::mergeFaces(cage, edge);
         if (edit != CageEdit::collapse) continue;
+        if (isIn(locked, a) || isIn(locked, b)) {
+            throw InputError("edge " + std::to_string(edge) + " has a locked point, which a collapse would move");
+        }
         cage = edit::collapseEdge(cage, edge);
         // The larger index was removed.
+        for (Index32& point : locked) {
+            if (point > b) --point;
+        }
         for (Edge& other : edges) {
             for (Index32* const end : {&other.first, &other.second}) {
                 if (*end == b) {
@@ -242,7 +257,13 @@ std::optional<SelectionFrame> selectionFrame(const State& state, const PosableCa
 Document withMotion(const State& state, const PosableCagePtr& cage, const edit::Motion& motion)
 {
     const Mesh& rest = *restOf(cage);
-    const std::vector<double> weights = weightsOf(state, rest, requiredPoints(state, rest));
+    const std::vector<Index32> selected = requiredPoints(state, rest);
+    const bool isPosing = state.view.mode == Mode::pose;
+    const std::vector<Index32> locked = isPosing ? std::vector<Index32>() : state.document.locked;
+    if (std::includes(locked.begin(), locked.end(), selected.begin(), selected.end())) {
+        throw InputError("all selected points are locked");
+    }
+    const std::vector<double> weights = weightsOf(state, rest, selected);
     const std::vector<Vec3d> before = cagePoints(state, cage);
     std::vector<Vec3d> after = edit::moved(before, weights, motion);
     if (const auto& plane = state.view.mirror) {
@@ -253,11 +274,41 @@ Document withMotion(const State& state, const PosableCagePtr& cage, const edit::
         const auto partners = edit::mirrorPartners(rest.points, plane->axis, plane->offset);
         after = edit::mirrored(before, after, ids, partners, plane->axis, plane->offset);
     }
+    for (const Index32 i : locked) {
+        if (i < after.size()) after[i] = before[i];
+    }
     requireNear(after, boundingBox(rest));
-    if (state.view.mode == Mode::pose) return withPose(state, cage, std::move(after));
+    if (isPosing) return withPose(state, cage, std::move(after));
     Mesh moved = rest;
     moved.points = std::move(after);
-    return withRest(state, std::move(moved));
+    return withRest(state, std::move(moved), locked);
+}
+
+Document withFit(const State& state, const PosableCagePtr& cage, double tightness)
+{
+    Document document = state.document.cage ? state.document : withRest(state, *restOf(cage), {});
+    document.isFitted = true;
+    document.tightness = tightness;
+    return document;
+}
+
+Document withLocks(const State& state, const PosableCagePtr& cage, bool locks)
+{
+    const Mesh& rest = *restOf(cage);
+    if (state.view.mode != Mode::shape) throw InputError("points of the cage are locked in mode shape");
+    const std::vector<Index32> selected = requiredPoints(state, rest), &before = state.document.locked;
+    std::vector<Index32> locked;
+    const auto end = std::back_inserter(locked);
+    if (locks) {
+        std::set_union(before.begin(), before.end(), selected.begin(), selected.end(), end);
+    } else {
+        std::set_difference(before.begin(), before.end(), selected.begin(), selected.end(), end);
+    }
+    if (locked == before) return state.document;
+    const bool isShown = state.document.cage && !state.document.isFitted;
+    Document document = isShown ? state.document : withRest(state, rest, {});
+    document.locked = std::move(locked);
+    return document;
 }
 
 Document withEdit(const State& state, const PosableCagePtr& cage, CageEdit edit)
@@ -267,12 +318,15 @@ Document withEdit(const State& state, const PosableCagePtr& cage, CageEdit edit)
     requiredPoints(state, rest);
     const edit::Elements elements(rest);
     const edit::Selection selection = withinCage(state.view.selection, elements);
+    std::vector<Index32> locked = state.document.locked;
     if (edit == CageEdit::cut) {
-        return withRest(state, withCutQuads(rest, edit::converted(elements, selection, edit::Element::face).ids));
+        return withRest(state, withCutQuads(rest, edit::converted(elements, selection, edit::Element::face).ids),
+                        std::move(locked));
     }
     std::vector<Edge> edges = selectedEdges(elements, selection);
     if (edges.empty()) throw InputError("no edge of the cage is selected, nor one between selected elements");
-    return withRest(state, withEditedEdges(rest, std::move(edges), edit));
+    Mesh edited = withEditedEdges(rest, std::move(edges), edit, locked);
+    return withRest(state, std::move(edited), std::move(locked));
 }
 
 Document withResetPose(const State& state, const PosableCagePtr& cage, bool onlySelected)

@@ -36,13 +36,24 @@ std::optional<SelectionFrame> selectionFrame(const State& state, const PosableCa
                                              const std::array<openvdb::Vec3d, 3>& view);
 
 /// Moves the selection, and the points that soft selection and the mirror add. In mode pose the pose changes, else the
-/// cage at rest.
-/// \throw InputError also if a point would not be finite, or farther away than 1e9 sizes of the cage
+/// cage at rest, of which locked points stay.
+/// \throw InputError also if a point would not be finite, or farther away than 1e9 sizes of the cage, or if all selected
+/// points are locked
 Document withMotion(const State& state, const PosableCagePtr& cage, const edit::Motion& motion);
+
+/// Fits the cage at rest: the opened or edited one, without an earlier fit of it, or else the shown one. Locked points
+/// stay.
+Document withFit(const State& state, const PosableCagePtr& cage, double tightness);
+
+/// Locks or unlocks the selected points of the cage at rest. A fitted or made cage is an edited one from then on: its
+/// points stay where they are seen.
+/// \throw InputError also if the mode is not shape
+Document withLocks(const State& state, const PosableCagePtr& cage, bool locks);
 
 /// Changes the faces of the cage at rest by edit::splitEdge and the others, one selected element after the other. Edges
 /// are the selected ones, or else those between selected points or faces.
-/// \throw InputError also if the mode is not shape, or an element cannot be changed so
+/// \throw InputError also if the mode is not shape, an element cannot be changed so, or an edge to collapse has a locked
+/// point
 Document withEdit(const State& state, const PosableCagePtr& cage, CageEdit edit);
 
 /// Undoes the pose of the view's frame: of all points, or of the selected ones.

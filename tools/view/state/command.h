@@ -8,6 +8,7 @@
 #include <tools/view/state/commands/cage_options.h>
 #include <tools/view/state/commands/coordinates.h>
 #include <tools/view/state/commands/editing.h>
+#include <tools/view/state/commands/fitting.h>
 #include <tools/view/state/commands/looks.h>
 #include <tools/view/state/commands/model_and_cage.h>
 #include <tools/view/state/commands/playing.h>
@@ -25,12 +26,13 @@
 namespace vdbcage::view {
 
 /// All commands, in the order of help.
-using Command = std::variant<OpenModel, OpenCage, CloseCage, SetOption, ResetOptions, ApplyPreset, SetCoordinates,
-                             OpenWeights, SetMaterial, MoveSelected, RotateSelected, ScaleSelected, EditCage, ResetPose,
-                             OpenPose, OpenPoses, SetKey, DeleteKey, MoveKey, MakeInBetweens, ClearPoses, SetCamera,
-                             ShowLayer, FadeLayer, ColourLayer, SetCageColours, SetModelColours, SetSection, ShowGround,
-                             ShowAxes, SetTurntable, ShowTimes, Select, SetMode, SetTool, SetOrientation, SetPivot,
-                             SetSeeThrough, SetSoft, SetMirror, Compare, SetFrame, Play, SetRate>;
+using Command =
+    std::variant<OpenModel, OpenCage, CloseCage, SetOption, ResetOptions, ApplyPreset, SetCoordinates, OpenWeights,
+                 SetMaterial, MoveSelected, RotateSelected, ScaleSelected, EditCage, FitCage, LockPoints, UnlockPoints,
+                 ResetPose, OpenPose, OpenPoses, SetKey, DeleteKey, MoveKey, MakeInBetweens, ClearPoses, SetCamera,
+                 ShowLayer, FadeLayer, ColourLayer, SetCageColours, SetModelColours, SetSection, ShowGround, ShowAxes,
+                 SetTurntable, ShowTimes, Select, SetMode, SetTool, SetOrientation, SetPivot, SetSeeThrough, SetSoft,
+                 SetMirror, Compare, SetFrame, Play, SetRate>;
 
 /// Whether a command of this type changes the view; else it changes the document.
 template <class T>

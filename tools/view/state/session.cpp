@@ -9,12 +9,12 @@ void Session::note(History<Value>& history, bool& hasDragged, const Value& befor
                    const Command& command)
 {
     if (before == after) return;
-    if (isDragging_ && hasDragged) {
+    if ((isDragging_ && hasDragged) || history.isContinuedBy(command)) {
         history.continued(command);
     } else {
         history.changed(before, command);
-        hasDragged = isDragging_;
     }
+    hasDragged = isDragging_;
 }
 
 void Session::execute(const Command& command, std::string* remark)

@@ -32,8 +32,19 @@ public:
         value = std::move(past_.back().value);
         past_.pop_back();
     }
-    /// Replaces the command of the last step, which goes on. \pre canUndo()
-    void continued(const Command& change) { past_.back().change = change; }
+    /// Returns whether the change is part of the last step: fits that follow each other are one.
+    bool isContinuedBy(const Command& change) const
+    {
+        return canUndo() && std::holds_alternative<FitCage>(past_.back().change) &&
+               std::holds_alternative<FitCage>(change);
+    }
+    /// Replaces the command of the last step, which goes on. Steps that were undone can no longer be redone.
+    /// \pre canUndo()
+    void continued(const Command& change)
+    {
+        past_.back().change = change;
+        future_.clear();
+    }
 
     /// Sets `value` to its state before the last change, or after it again. Does nothing if there is no such step.
     void undo(Value& value) { step(past_, future_, value); }

@@ -49,7 +49,8 @@ bool areEqual(const CageOptions& a, const CageOptions& b)
 
 bool operator==(const Document& a, const Document& b)
 {
-    return a.model == b.model && a.cage == b.cage && areEqual(a.options, b.options) && a.poses == b.poses &&
+    return a.model == b.model && a.cage == b.cage && a.locked == b.locked && a.isFitted == b.isFitted &&
+           a.tightness == b.tightness && areEqual(a.options, b.options) && a.poses == b.poses &&
            a.coordinates == b.coordinates && a.weights == b.weights && a.elasticity == b.elasticity;
 }
 

@@ -6,6 +6,8 @@
 #include <optional>
 #include <string>
 #include <tuple>
+#include <utility>
+#include <vector>
 
 #include <tools/draw/camera.h>
 #include <tools/draw/colour.h>
@@ -13,6 +15,7 @@
 #include <tools/view/state/opened_mesh.h>
 #include <tools/view/state/opened_weights.h>
 #include <tools/view/state/time_line.h>
+#include <vdbcage/bounding/fit.h>
 #include <vdbcage/deform/coordinates.h>
 #include <vdbcage/mesh/symmetry.h>
 #include <vdbcage/pipeline/options.h>
@@ -25,11 +28,22 @@ namespace vdbcage::view {
 struct Document {
     OpenedMeshPtr model; ///< null: none
     CageOptions options;
-    OpenedMeshPtr cage; ///< opened or edited; null: the cage is made, by the options
+    OpenedMeshPtr cage;                        ///< opened or edited; null: the cage is made, by the options
+    std::vector<openvdb::Index32> locked;      ///< points of `cage` that stay in fits and motions, ascending
+    bool isFitted = false;                     ///< shown is what fitCage() makes of `cage`
+    double tightness = FitOptions().tightness; ///< of the last fit, in FitOptions::tightnesses
     TimeLine poses;
     Coordinates coordinates = Coordinates::meanValue; ///< by which the model follows the pose
     WeightsPtr weights;                               ///< where the coordinates are given; else null
     Elasticity elasticity;                            ///< of Somigliana coordinates; weights do not depend on it
+
+    /// Sets `cage`, neither fitted nor with locked points.
+    void setCage(OpenedMeshPtr opened)
+    {
+        cage = std::move(opened);
+        locked.clear();
+        isFitted = false;
+    }
 };
 
 /// The layers of the picture.

@@ -19,7 +19,7 @@ struct SetOption {
     void apply(Document& document, const Situation& /*now*/) const
     {
         setOption(document.options, name, value);
-        document.cage.reset();
+        document.setCage(nullptr);
     }
 };
 
@@ -47,7 +47,7 @@ struct ResetOptions {
             // setOption lists the allowed names.
             setOption(document.options, name, known == defaults.end() ? std::string() : known->second);
         }
-        document.cage.reset();
+        document.setCage(nullptr);
     }
 };
 
@@ -64,7 +64,7 @@ struct ApplyPreset {
     void apply(Document& document, const Situation& /*now*/) const
     {
         document.options = presetOptions(name);
-        document.cage.reset();
+        document.setCage(nullptr);
     }
 };
 

@@ -17,7 +17,7 @@ struct OpenModel {
     void apply(Document& document, const Situation& /*now*/) const
     {
         document.model = openMesh(path);
-        document.cage.reset();
+        document.setCage(nullptr);
         document.poses = {};
         if (document.weights) document.coordinates = Coordinates::meanValue;
         document.weights.reset();
@@ -34,13 +34,13 @@ struct OpenCage {
     void apply(Document& document, const Situation& /*now*/) const
     {
         if (!document.model) throw InputError("open-cage", "there is no model yet that the cage could bound");
-        document.cage = openMesh(path);
+        document.setCage(openMesh(path));
     }
 };
 
 struct CloseCage {
     static LineInfo info() { return {"close-cage", "", 0, 0, "goes back to the cage that the options make"}; }
-    void apply(Document& document, const Situation& /*now*/) const { document.cage.reset(); }
+    void apply(Document& document, const Situation& /*now*/) const { document.setCage(nullptr); }
 };
 
 } // namespace vdbcage::view
