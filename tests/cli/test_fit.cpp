@@ -1,5 +1,6 @@
 #include <boost/test/unit_test.hpp>
 
+#include <algorithm>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -9,6 +10,7 @@
 #include <support/shapes.h>
 #include <vdbcage/check/check.h>
 #include <vdbcage/mesh/mesh_io.h>
+#include <vdbcage/mesh/symmetry.h>
 
 using namespace vdbcage;
 using test::readJson;
@@ -149,6 +151,23 @@ BOOST_AUTO_TEST_CASE(points_slide_along_axes_and_go_no_farther)
           std::pair(std::vector<std::string>{"--tight", "1", "--most", "0.2"}, 0.2 * 2.2)}) {
         const auto points = moved(words);
         for (std::size_t i = 0; i < points.size(); ++i) BOOST_TEST((points[i] - before[i]).length() <= most);
+    }
+}
+
+BOOST_AUTO_TEST_CASE(symmetric_cages_stay_so)
+{
+    const Scene scene;
+    writeMesh(test::sphere({0.201, 0, 0}, 1, 8), scene / "cage.obj");
+    const auto result = scene.fit({"--symmetry", "x"});
+    BOOST_TEST_REQUIRE(result.status == 0, result.err);
+    const Mesh cage = readMesh(scene / "new.obj"), model = readMesh(scene / "ball.obj");
+    BOOST_TEST(checkCage(cage, model).bounding());
+    const double plane = bestSymmetry(model, 0).plane.offset;
+    for (const openvdb::Vec3d& p : cage.points) {
+        const openvdb::Vec3d image(2 * plane - p[0], p[1], p[2]);
+        const bool hasImage = std::any_of(cage.points.begin(), cage.points.end(),
+                                          [&](const openvdb::Vec3d& q) { return (q - image).length() < 1e-5; });
+        BOOST_TEST(hasImage);
     }
 }
 

@@ -536,6 +536,13 @@ OTHERS = [
     Row("FILE: its extension must be that of the cage, WORD: all else in the file stays",
         "fit cage.obj model.obj -o new.ply"),
     fit("NAME: 'WORD' is not allowed; it must be numbers of points, as 1-20,35,40-44:yz", words="--keep points:all"),
+    fit("--symmetry: WORD is not allowed; it must be off, x, y or z", words="--symmetry auto"),
+    fit("FILE: it is not symmetric: a face has no mirror image", {"model.obj": BOX, "cage.obj": obj(
+        [(0.5, 9, 0.5), (0.5, -9, 0.5), (0.5, 0.5, 9), (0.5, 0.5, -9), (-9, 0.5, 0.5), (10, 0.5, 0.5)],
+        "f 5 3 1 4\nf 5 2 3\nf 5 4 2\nf 6 1 3\nf 6 4 1\nf 6 3 2\nf 6 2 4\n")}, "--symmetry x"),
+    fit("FILE: it is not symmetric: point N has no mirror image of its own",
+        {"model.obj": BOX, "cage.obj": TETRAHEDRON}, "--symmetry x"),
+    fit("FILE: face N lies across the plane of symmetry, where it needs edges", {"model.obj": BOX}, "--symmetry x"),
     fit("--place: WORD is not allowed; it must be turn, or nothing", words="--place=up"),
     Row("FILE: it is inside of FILE, which bounds it: give the cage first, then the model",
         "fit cage.obj model.obj -o new.obj",

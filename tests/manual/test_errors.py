@@ -76,7 +76,7 @@ LIBRARY_ONLY = {
         "a layer has … colours of points", "loose points: there is no point",
     ],
     "the command makes the surfaces, voxels and planes that it works on": [
-        "surface: ", "guard: it has a plane of symmetry", "the surface is not a 2-manifold", "has no length", "has two faces on the same side", "axis: …",
+        "surface: ", "the surface is not a 2-manifold", "has no length", "has two faces on the same side", "axis: …",
         "symmetry axis: …", "the mask has active voxels near", "convex hull: a mask of",
         "model: its bounding box is not within the box given for the voxels",
     ],

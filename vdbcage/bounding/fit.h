@@ -28,7 +28,7 @@ struct FitOptions {
     std::vector<std::size_t> keptPoints = {};
     /// A point of the cage that moves along some axes only: in a plane of symmetry, say.
     struct Rail {
-        std::size_t point;
+        std::size_t point;           ///< its index
         std::array<bool, 3> mayMove; ///< along x, y, z
     };
     std::vector<Rail> rails = {};   ///< in any order
@@ -58,6 +58,7 @@ struct Fit {
 /// \param precision of the fitted cage's coordinates
 [[nodiscard]] VDBCAGE_API GuardOptions fitGuardOptions(Precision precision = Precision::automatic);
 
+/// The turns that placeCage() may take.
 enum class PlaceTurns {
     none,    ///< it is not turned
     quarters ///< it may be turned by 90 or 180 degrees about the axes, in all 24 ways
@@ -80,12 +81,14 @@ VDBCAGE_API Mesh placeCage(Mesh cage, const BoundingGuard& guard, PlaceTurns tur
 /// it; \ref bounding tells how. Quads count under both diagonals and are never split. Points at one place of a seam,
 /// where edges have one face, move together.
 /// \param cage closed and 2-manifold once seams are closed; it may cut the model, lie inside of it, and cross itself
-/// \param guard of the model, without a plane of symmetry, best with fitGuardOptions()
+/// \param guard of the model, best with fitGuardOptions(). If it has a plane of symmetry, points that are within 1 % of
+/// the model's longest side of each other's mirror image stay pairs, and the cage becomes exactly symmetric
 /// \param options in the ranges of their members
 /// \param interrupter told of the progress; may be null
 /// \return the cage, and whether it bounds; a point that need not move keeps its bits
 /// \throw InputError when an option is out of range or no point of the cage; when the cage is not closed and
-/// 2-manifold, or faces inward; when the guard has a plane of symmetry
+/// 2-manifold, or faces inward; when the guard has a plane of symmetry, and the cage has points or faces without a
+/// mirror image, or no edges in the plane
 /// \throw Cancelled when asked to stop
 /// Cost: O(rounds * (n log m + s log n)) for n faces, m of the model and s <= m + 20,000 samples of it; up to 600
 /// rounds, mostly 5 to 40.

@@ -252,6 +252,39 @@ BOOST_AUTO_TEST_CASE(no_point_goes_farther_than_it_may)
     BOOST_CHECK_EXCEPTION(fitCage(cage, guard, still), InputError, test::says("most way"));
 }
 
+BOOST_AUTO_TEST_CASE(symmetric_cages_stay_symmetric)
+{
+    // A body with a limb on each side, of which one is longer.
+    Mesh model = test::sphere({0, 0, 0}, 0.5, 16);
+    for (Vec3d& p : model.points) p[0] *= std::abs(p[0]) > 0.35 ? (p[0] > 0 ? 2.1 : 2) : 1;
+    GuardOptions guardOptions = fitGuardOptions();
+    guardOptions.symmetry = SymmetryPlane{0, 0.0};
+    const BoundingGuard guard(model, guardOptions);
+    const Mesh even = test::sphere({0, 0, 0}, 0.45, 8);
+    for (const double tightness : {0.0, 0.5, 1.0}) {
+        Mesh cage = moved(even, 5, 0.002); // nearly symmetric
+        FitOptions options = tight(tightness);
+        options.rails = {{3, {true, true, false}}};
+        const Fit fit = fitCage(cage, guard, options);
+        BOOST_TEST(haveSameFaces(fit.cage, cage));
+        BOOST_TEST(checkCage(fit.cage, model).bounding());
+        std::size_t onPlane = 0;
+        for (std::size_t i = 0; i < even.points.size(); ++i) {
+            const Vec3d& p = fit.cage.points[i];
+            const Vec3d image(-p[0], p[1], p[2]);
+            BOOST_TEST((std::find(fit.cage.points.begin(), fit.cage.points.end(), image) != fit.cage.points.end()));
+            onPlane += p[0] == 0;
+        }
+        BOOST_TEST(onPlane == 16U);
+    }
+    Mesh lopsided = even;
+    const auto side = std::find_if(even.points.begin(), even.points.end(), [](const Vec3d& p) { return p[0] > 0.3; });
+    lopsided.points[static_cast<std::size_t>(side - even.points.begin())] *= 1.2;
+    BOOST_CHECK_EXCEPTION(fitCage(lopsided, guard), InputError, test::says("it is not symmetric: point "));
+    BOOST_CHECK_EXCEPTION(fitCage(test::box({-1, -1, -1}, {1, 1, 1}), guard), InputError,
+                          test::says("lies across the plane of symmetry, where it needs edges"));
+}
+
 BOOST_AUTO_TEST_CASE(cages_of_other_units_are_placed)
 {
     Mesh model = test::sphere({0, 0, 0}, 0.5, 8);
@@ -396,9 +429,6 @@ BOOST_AUTO_TEST_CASE(cages_that_are_none_are_refused)
     FitOptions options;
     options.keptPoints = {cage.points.size()};
     BOOST_CHECK_EXCEPTION(fitCage(cage, guard, options), InputError, test::says("kept points: 62 is not allowed"));
-    GuardOptions symmetric = fitGuardOptions();
-    symmetric.symmetry = SymmetryPlane{0, 0};
-    BOOST_CHECK_EXCEPTION(fitCage(cage, BoundingGuard(model, symmetric)), InputError, test::says("plane of symmetry"));
 }
 
 BOOST_AUTO_TEST_SUITE_END()

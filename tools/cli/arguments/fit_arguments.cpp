@@ -71,13 +71,20 @@ KeptPoints pointsOf(const std::string& list, const std::string& source)
 
 std::vector<CLI::Option*> addFitOptions(CLI::App& app, FitArguments& arguments)
 {
-    return {app.add_option("--tight", arguments.options.tightness, "0: least moves, 1: tightest, 0 to 1 [0.5]")
-                ->type_name("F"),
-            app.add_option("--keep", arguments.keep, "points that stay, or move along axes, from 0")
-                ->type_name("points:1-20,35:yz|FILE"),
-            app.add_option("--most", arguments.options.mostWay, "the farthest way, of the longest side [inf]")
-                ->type_name("F"),
-            app.add_option("--place", arguments.place, "first put the cage into the model's box")->type_name("[turn]")};
+    std::vector<CLI::Option*> options{
+        app.add_option("--tight", arguments.options.tightness, "0: least moves, 1: tightest, 0 to 1 [0.5]")
+            ->type_name("F"),
+        app.add_option("--keep", arguments.keep, "points that stay, or move along axes, from 0")
+            ->type_name("points:1-20,35:yz|FILE"),
+        app.add_option("--most", arguments.options.mostWay, "the farthest way, of the longest side [inf]")
+            ->type_name("F"),
+        app.add_option("--place", arguments.place, "first put the cage into the model's box")->type_name("[turn]")};
+    // The command `jobs` has the option of the same name for cages that are made.
+    if (!app.get_option_no_throw("--symmetry")) {
+        options.push_back(app.add_option("--symmetry", arguments.symmetry, "pairs across x, y or z stay pairs [off]")
+                              ->type_name("AXIS"));
+    }
+    return options;
 }
 
 std::vector<std::string> withPlaceValue(std::vector<std::string> words)
@@ -103,6 +110,9 @@ void requireValid(const FitArguments& arguments)
 {
     requireWithin(FitOptions::tightnesses, arguments.options.tightness, "--tight");
     requireWithin(FitOptions::ways, arguments.options.mostWay, "--most");
+    const std::string& symmetry = arguments.symmetry;
+    if (symmetry != "off" && symmetry != "x" && symmetry != "y" && symmetry != "z")
+        throw InputError("--symmetry", symmetry + " is not allowed; it must be off, x, y or z");
     if (!arguments.place.empty() && arguments.place != "box" && arguments.place != "turn")
         throw InputError("--place", arguments.place + " is not allowed; it must be turn, or nothing");
     if (isList(arguments.keep)) keptPoints(arguments);

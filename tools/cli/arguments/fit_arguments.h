@@ -14,8 +14,9 @@ namespace vdbcage::cli {
 /// The values of these options.
 struct FitArguments {
     FitOptions options;
-    std::string keep;  ///< "points:" and a list, or the name of a file that has one; empty: no point stays
-    std::string place; ///< "box" or "turn"; empty: the cage is where it is to be
+    std::string keep;             ///< "points:" and a list, or the name of a file that has one; empty: no point stays
+    std::string symmetry = "off"; ///< or the axis across which the plane is: x, y or z
+    std::string place;            ///< "box" or "turn"; empty: the cage is where it is to be
 };
 
 /// The points that --keep names.

@@ -16,6 +16,7 @@
 #include <vdbcage/core/error.h>
 #include <vdbcage/mesh/io/formats.h>
 #include <vdbcage/mesh/mesh_io.h>
+#include <vdbcage/mesh/symmetry.h>
 
 #include <tools/cli/arguments/fit_arguments.h>
 #include <tools/cli/arguments/talk_arguments.h>
@@ -185,9 +186,11 @@ int runFit(Call call)
     const CageCheck before = checker.check(cage.mesh, {}, &*progress);
     requireNotSwapped(cage.mesh, model, before, cagePath.string(), names, &*progress);
     const std::map<std::string, std::string> files{{"cage", cagePath.string()}, {"model", names}};
+    const bool isSymmetric = fitting.symmetry != "off";
     std::string note;
     const Fit fit = files::namingFiles(files, [&] {
-        const GuardOptions guardOptions = fitGuardOptions(movedPrecision(cagePath, outputPath));
+        GuardOptions guardOptions = fitGuardOptions(movedPrecision(cagePath, outputPath));
+        if (isSymmetric) guardOptions.symmetry = bestSymmetry(model, fitting.symmetry[0] - 'x', &*progress).plane;
         std::optional<Stage> examining(std::in_place, &*progress, StageName::guard);
         const BoundingGuard guard(model, guardOptions, &*progress);
         examining.reset();
@@ -196,7 +199,8 @@ int runFit(Call call)
         note = noteIfFarOff(drawn, check, model, fitting.place);
         if (!note.empty()) progress->say("vdbcage: " + cagePath.string() + ": " + note);
         // A cage that bounds has nothing that has to move, whatever its shape is.
-        if (options.tightness == 0 && check.bounding() && guard.facesTooNear(drawn).empty()) return Fit{drawn};
+        const bool mayStay = options.tightness == 0 && !isSymmetric && check.bounding();
+        if (mayStay && guard.facesTooNear(drawn).empty()) return Fit{drawn};
         return fitCage(drawn, guard, options, &*progress);
     });
     std::ostringstream out;

@@ -82,8 +82,6 @@ int runJobs(Call call)
     app.add_option("-o,--output", folder, "for cages and reports, made if need be")->required()->type_name("DIR");
     const CLI::Option* const fit =
         app.add_option("--fit", cage, "fit it to each, by the options of fit")->type_name("CAGE");
-    const std::vector<CLI::Option*> ofFit = addFitOptions(app, fitting);
-    for (CLI::Option* option : ofFit) option->group(rareOptions);
     CLI::Option* const ofFormat = app.add_option("--format", format, "of cages [obj]");
     ofFormat->type_name(
         detail::joined(meshExtensions(), "|", [](const std::string& extension) { return extension.substr(1); }));
@@ -91,6 +89,8 @@ int runJobs(Call call)
     app.add_option("--command", program, "how farms call vdbcage [vdbcage]")->type_name("WORD");
     std::vector<CLI::Option*> ofMake = addCageOptions(app, options);
     ofMake.push_back(addMemoryOption(app, memory));
+    const std::vector<CLI::Option*> ofFit = addFitOptions(app, fitting);
+    for (CLI::Option* option : ofFit) option->group(rareOptions);
     CLI::Option* const ofProgress =
         app.add_option("--progress", progress, "of each job: auto, or lines for farms [auto]")->type_name("auto|lines");
     app.set_help_all_flag("--help-all", "print this and the rarer options");

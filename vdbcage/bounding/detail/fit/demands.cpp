@@ -39,8 +39,8 @@ class DemandFinder::SplitSurface {
 public:
     /// `faces` are the numbers of the triangles that demands have.
     SplitSurface(const std::vector<Vec3d>& points, const std::vector<Vec3I>& triangles,
-                 std::vector<std::uint32_t> faces)
-        : faces_(std::move(faces)), vertexNormals_(points.size(), Vec3d(0.0)), tree_(points, triangles)
+                 std::vector<std::uint32_t> faces, const std::optional<SymmetryPlane>& plane)
+        : plane_(plane), faces_(std::move(faces)), vertexNormals_(points.size(), Vec3d(0.0)), tree_(points, triangles)
     {
         for (const Vec3I& ids : triangles) {
             const Corners t{points[ids[0]], points[ids[1]], points[ids[2]]};
@@ -58,6 +58,11 @@ public:
             }
         }
         std::sort(edges_.begin(), edges_.end());
+        // Where half of a symmetric surface ends, the other half has the mirror images of these normals.
+        for (std::size_t i = 0; plane && i < edges_.size(); ++i) {
+            if (isPaired(i)) continue;
+            for (const std::uint32_t v : {edges_[i].a, edges_[i].b}) vertexNormals_[v][plane->axis] = 0;
+        }
     }
     /// Returns a surface with its quads split in one of the two ways.
     static SplitSurface of(const std::vector<Vec3d>& points, const GuardedMesh& surface, bool alternates)
@@ -70,7 +75,7 @@ public:
             triangles.push_back(surface.face(f));
             faces.push_back(f);
         }
-        return {points, triangles, std::move(faces)};
+        return {points, triangles, std::move(faces), surface.guard().symmetry()};
     }
 
     struct Nearest {
@@ -118,13 +123,25 @@ private:
     {
         if (a > b) std::swap(a, b);
         Vec3d sum(0.0);
+        int count = 0;
         for (auto i = std::lower_bound(edges_.begin(), edges_.end(), Edge{a, b, 0});
              i != edges_.end() && i->a == a && i->b == b; ++i) {
             sum += normals_[i->triangle];
+            ++count;
         }
+        if (plane_ && count == 1) sum[plane_->axis] = 0;
         return sum;
     }
+    /// Returns whether another triangle has the same edge.
+    bool isPaired(std::size_t edge) const
+    {
+        const auto isSame = [&](std::size_t other) {
+            return other < edges_.size() && edges_[other].a == edges_[edge].a && edges_[other].b == edges_[edge].b;
+        };
+        return isSame(edge + 1) || (edge > 0 && isSame(edge - 1));
+    }
 
+    std::optional<SymmetryPlane> plane_;
     std::vector<std::uint32_t> faces_;
     std::vector<Vec3d> normals_, vertexNormals_;
     std::vector<Edge> edges_;
@@ -139,14 +156,22 @@ DemandFinder::DemandFinder(const GuardModel& model, Interrupter* interrupter)
     const Vec3d size = box.hi - box.lo;
     const double cell = std::max({size[0], size[1], size[2]}) / cells;
     std::unordered_set<std::uint64_t> taken;
+    // Of a symmetric model half is enough, the one that a guarded surface is around.
+    const auto isBehind = [&](const Vec3d& p) {
+        return model.symmetry() && p[model.symmetry()->axis] < model.symmetry()->offset;
+    };
     const auto take = [&](const Vec3d& p) {
+        if (isBehind(p)) return;
         std::uint64_t key = 0;
         for (int i = 0; i < 3; ++i) key = key << 20 | static_cast<std::uint64_t>((p[i] - box.lo[i]) / cell);
         if (taken.insert(key).second) samples_.push_back(p);
     };
     throwIfInterrupted(interrupter);
     // Once no face cuts the model, each part is inside if this point of it is.
-    for (const TriangleBvh::Item& item : model.parts().items()) samples_.push_back(model.parts().corners(item)[0]);
+    for (const TriangleBvh::Item& item : model.parts().items()) {
+        const Vec3d p = model.parts().corners(item)[0];
+        samples_.push_back(isBehind(p) ? model.mirrored(p) : p);
+    }
     for (const TriangleBvh::Item& item : model.tree().items()) {
         const Corners t = model.tree().corners(item);
         for (const Vec3d& p : t) take(p);
@@ -179,7 +204,7 @@ std::vector<Demand> DemandFinder::ofSamples(const std::vector<Vec3d>& points, co
 {
     std::vector<std::uint32_t> numbers(triangles.size());
     std::iota(numbers.begin(), numbers.end(), 0U);
-    return ofSamples(points, SplitSurface(points, triangles, std::move(numbers)), nullptr);
+    return ofSamples(points, SplitSurface(points, triangles, std::move(numbers), model_.symmetry()), nullptr);
 }
 
 std::vector<Demand> DemandFinder::ofSamples(const std::vector<Vec3d>& points, const SplitSurface& first,

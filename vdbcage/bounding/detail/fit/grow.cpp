@@ -321,6 +321,7 @@ std::optional<Vec3d> Growth::placeOf(std::uint32_t v, const StarChange& star, co
         change.curvature[i][i] += stiffness + damping;
         change.slope[i] += stiffness * (p - smooth)[i];
     }
+    if (star.onPlane) change.slope[surface_.guard().symmetry()->axis] = 0;
     const double way = demands.farthest(surface_, v), radius = radiusOf(surface_, star);
     Vec3d place = p;
     const bool found =
