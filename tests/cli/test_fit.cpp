@@ -190,6 +190,12 @@ BOOST_AUTO_TEST_CASE(cages_of_other_places_are_told_and_placed)
         BOOST_TEST(placed.err == "");
         BOOST_TEST(checkCage(readMesh(scene / "new.obj"), readMesh(scene / "ball.obj")).bounding());
     }
+    // The box is that of the whole model, also where half of it is fitted.
+    writeMesh(test::sphere({0, 0, 0}, 1, 8), scene / "cage.obj");
+    const auto symmetric = scene.fit({"--place", "--symmetry", "x", "--tight", "0", "--most", "0.2"});
+    BOOST_TEST_REQUIRE(symmetric.status == 0, symmetric.err);
+    const double width = boundingBox(readMesh(scene / "new.obj")).extents()[0];
+    BOOST_TEST(width < 260);
     // A file after --place is none of its values.
     BOOST_TEST(runCommand({command, "fit", scene / "cage.obj", "--place", scene / "ball.obj", "-o", scene / "new.obj"})
                    .status == 0);

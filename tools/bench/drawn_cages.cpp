@@ -6,6 +6,7 @@
 #include <map>
 #include <random>
 
+#include <vdbcage/core/detail/longest_side.h>
 #include <vdbcage/pipeline/pipeline.h>
 
 #include "bench.h"
@@ -16,31 +17,6 @@ namespace {
 
 using openvdb::Vec3d;
 using Counts = std::array<std::uint32_t, 3>;
-
-struct Bounds {
-    Vec3d lo, hi;
-
-    Vec3d middle() const { return 0.5 * (lo + hi); }
-    Vec3d half() const { return 0.5 * (hi - lo); }
-    double longestSide() const { return std::max({(hi - lo)[0], (hi - lo)[1], (hi - lo)[2]}); }
-    int longestAxis() const
-    {
-        const Vec3d size = hi - lo;
-        return size[0] >= size[1] && size[0] >= size[2] ? 0 : size[1] >= size[2] ? 1 : 2;
-    }
-};
-
-Bounds boundsOf(const Mesh& mesh)
-{
-    Bounds bounds{mesh.points.front(), mesh.points.front()};
-    for (const Vec3d& p : mesh.points) {
-        for (const int i : {0, 1, 2}) {
-            bounds.lo[i] = std::min(bounds.lo[i], p[i]);
-            bounds.hi[i] = std::max(bounds.hi[i], p[i]);
-        }
-    }
-    return bounds;
-}
 
 /// Returns the same numbers everywhere, which the distributions of the standard library do not promise.
 class Random {
@@ -69,7 +45,7 @@ Mesh withNoise(Mesh cage, double most, std::uint32_t seed)
 
 Mesh scaled(Mesh cage, double factor)
 {
-    const Vec3d middle = boundsOf(cage).middle();
+    const Vec3d middle = boundingBox(cage).getCenter();
     for (Vec3d& p : cage.points) p = middle + factor * (p - middle);
     return cage;
 }
@@ -78,10 +54,10 @@ Mesh scaled(Mesh cage, double factor)
 Mesh bent(Mesh cage, int axis)
 {
     constexpr double begin = 0.7, steepness = 2;
-    const Bounds bounds = boundsOf(cage);
-    const double length = bounds.hi[axis] - bounds.lo[axis];
+    const openvdb::BBoxd bounds = boundingBox(cage);
+    const double length = bounds.extents()[axis];
     for (Vec3d& p : cage.points) {
-        const double beyond = (p[axis] - bounds.lo[axis]) / length - begin;
+        const double beyond = (p[axis] - bounds.min()[axis]) / length - begin;
         if (beyond > 0) p[axis] -= steepness * beyond * length;
     }
     return cage;
@@ -166,7 +142,8 @@ std::vector<DrawnCage> drawnCages(const Mesh& model)
                                          {"loops", CageFaces::loops, 300, {2, 8}},
                                          {"quads", CageFaces::quads, 300, {1, 4}},
                                          {"triquad", CageFaces::triquad, 150, {2, 8}}}};
-    const Bounds bounds = boundsOf(model);
+    const openvdb::BBoxd bounds = boundingBox(model);
+    const int axis = static_cast<int>(bounds.maxExtent());
     std::vector<DrawnCage> cages;
     std::uint32_t seed = 0;
     for (const Kind& kind : kinds) {
@@ -176,15 +153,14 @@ std::vector<DrawnCage> drawnCages(const Mesh& model)
             cages.push_back({defect + ' ' + name, std::move(mesh), noise, made.cpuSeconds});
         };
         for (const int noise : kind.noises) {
-            add("noise" + std::to_string(noise), withNoise(made.cage, noise / 100.0 * bounds.longestSide(), ++seed),
-                noise);
+            add("noise" + std::to_string(noise),
+                withNoise(made.cage, noise / 100.0 * detail::longestSide(bounds), ++seed), noise);
         }
         if (kind.faces != CageFaces::triangles && kind.faces != CageFaces::loops) continue;
         add("scaled", scaled(made.cage, 0.9), 0);
-        if (kind.faces == CageFaces::loops) add("bent", bent(made.cage, bounds.longestAxis()), 0);
+        if (kind.faces == CageFaces::loops) add("bent", bent(made.cage, axis), 0);
     }
-    const Vec3d middle = bounds.middle(), half = bounds.half();
-    const int axis = bounds.longestAxis();
+    const Vec3d middle = bounds.getCenter(), half = 0.5 * bounds.extents();
     Vec3d thin = 0.12 * half, centroid(0.0);
     thin[axis] = 0.6 * half[axis];
     for (const Vec3d& p : model.points) centroid += p / static_cast<double>(model.points.size());

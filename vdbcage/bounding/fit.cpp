@@ -13,6 +13,7 @@
 #include <vdbcage/bounding/detail/triangles/relax.h>
 #include <vdbcage/bounding/detail/triangles/sweep.h>
 #include <vdbcage/bounding/detail/triangles/tightening.h>
+#include <vdbcage/core/detail/longest_side.h>
 #include <vdbcage/core/error.h>
 #include <vdbcage/mesh/topology.h>
 
@@ -138,14 +139,12 @@ private:
 /// \throw InputError for a point that the cage has not
 MoveLimits limitsOf(const WeldedCage& cage, const GuardModel& model, std::size_t points, const FitOptions& options)
 {
-    const Vec3d size = model.tree().box().hi - model.tree().box().lo;
-    const double longestSide = std::max({size[0], size[1], size[2]});
     MoveLimits limits(points);
     const auto limitAt = [&](std::size_t vertex) -> MoveLimit& {
         if (!limits[vertex]) {
             limits[vertex].emplace();
             limits[vertex]->home = cage.drawn()[vertex];
-            limits[vertex]->radius = options.mostWay * longestSide;
+            limits[vertex]->radius = options.mostWay * longestSide(model.box()) * model.scale();
         }
         return *limits[vertex];
     };
@@ -208,7 +207,8 @@ Mesh placeCage(Mesh cage, const BoundingGuard& guard, PlaceTurns turns, Interrup
     const GuardModel& model = modelOf(guard);
     for (Vec3d& p : cage.points) p = model.scaled(p);
     DemandFinder finder(model, interrupter);
-    place(cage.points, triangulate(cage), model.tree().box(), turns == PlaceTurns::quarters, finder, interrupter);
+    const Box box{model.scaled(model.box().min()), model.scaled(model.box().max())};
+    place(cage.points, triangulate(cage), box, turns == PlaceTurns::quarters, finder, interrupter);
     for (Vec3d& p : cage.points) p = model.unscaled(model.rounded(p));
     return cage;
 }

@@ -6,13 +6,13 @@
 #include <optional>
 #include <sstream>
 
-#include <openvdb/math/BBox.h>
 #include <tools/files/naming_files.h>
 #include <tools/report/fit_words.h>
 #include <tools/report/report.h>
 #include <tools/report/run_facts.h>
 #include <vdbcage/bounding/fit.h>
 #include <vdbcage/check/check.h>
+#include <vdbcage/core/detail/longest_side.h>
 #include <vdbcage/core/error.h>
 #include <vdbcage/mesh/io/formats.h>
 #include <vdbcage/mesh/mesh_io.h>
@@ -41,20 +41,13 @@ void requireNotSwapped(const Mesh& cage, const Mesh& model, const CageCheck& che
     throw InputError(cageFile, "it is inside of " + models + ", which bounds it: give the cage first, then the model");
 }
 
-double longestSideOf(const Mesh& mesh)
-{
-    openvdb::BBoxd box;
-    for (const openvdb::Vec3d& p : mesh.points) box.expand(p);
-    return std::max({box.extents()[0], box.extents()[1], box.extents()[2]});
-}
-
 /// Returns a note for a cage that may be that of another model; nothing for others.
 std::string noteIfFarOff(const Mesh& cage, const CageCheck& check, const Mesh& model, const std::string& place)
 {
     constexpr double most = 0.95, mostRatio = 2; // of the model's vertices; of the longest sides, either way
     const auto all = static_cast<double>(model.points.size() - check.loosePoints);
     const double outside = static_cast<double>(check.modelVerticesOutside) / all;
-    const double ratio = longestSideOf(cage) / check.longestSide;
+    const double ratio = detail::longestSide(boundingBox(cage)) / check.longestSide;
     if (outside <= most && ratio <= mostRatio && mostRatio * ratio >= 1) return {};
     std::ostringstream note;
     note << "its longest side is " << std::setprecision(3) << ratio << " times the model's, and "

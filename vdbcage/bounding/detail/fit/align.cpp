@@ -89,9 +89,12 @@ void align(std::vector<Vec3d>& points, const std::vector<Vec3I>& triangles, Dema
     std::vector<Vec3d> moving = points;
     std::vector<Demand> demands = finder.ofSamples(moving, triangles);
     const double before = misfit(points, demands, finder, medianOf);
-    for (int round = 0; round<rounds&& static_cast<double>(demands.size())> stiffness; ++round) {
+    for (int round = 0; round < rounds; ++round) {
         throwIfInterrupted(interrupter);
-        const Alignment map = alignmentFor(moving, demands, stiffness);
+        if (static_cast<double>(demands.size()) <= stiffness) break;
+        Alignment map = alignmentFor(moving, demands, stiffness);
+        // Demands are of one half, which would draw the cage to its side.
+        if (finder.symmetry()) map.shift[finder.symmetry()->axis] = 0;
         for (Vec3d& p : moving) p += map.stepOf(p);
         demands = finder.ofSamples(moving, triangles);
     }

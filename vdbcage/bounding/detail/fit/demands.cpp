@@ -157,9 +157,6 @@ DemandFinder::DemandFinder(const GuardModel& model, Interrupter* interrupter)
     const double cell = std::max({size[0], size[1], size[2]}) / cells;
     std::unordered_set<std::uint64_t> taken;
     // Of a symmetric model half is enough, the one that a guarded surface is around.
-    const auto isBehind = [&](const Vec3d& p) {
-        return model.symmetry() && p[model.symmetry()->axis] < model.symmetry()->offset;
-    };
     const auto take = [&](const Vec3d& p) {
         if (isBehind(p)) return;
         std::uint64_t key = 0;
@@ -185,6 +182,16 @@ DemandFinder::DemandFinder(const GuardModel& model, Interrupter* interrupter)
             }
         }
     }
+}
+
+bool DemandFinder::isBehind(const Vec3d& p) const
+{
+    return symmetry() && p[symmetry()->axis] < symmetry()->offset;
+}
+
+double DemandFinder::distanceToModel(const Vec3d& p) const
+{
+    return std::sqrt(model_.tree().closest(isBehind(p) ? model_.mirrored(p) : p).squaredDistance);
 }
 
 std::vector<Demand> DemandFinder::ofSamples(const GuardedMesh& surface)

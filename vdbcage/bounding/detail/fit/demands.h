@@ -1,7 +1,7 @@
 #pragma once
 
-#include <cmath>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include <vdbcage/bounding/detail/guard/guarded_mesh.h>
@@ -47,12 +47,16 @@ public:
     /// Returns the demands of faces and alternates that may cut the model and do: that all of it is beneath them.
     std::vector<Demand> ofContacts(const GuardedMesh& surface) const;
     std::size_t samples() const { return samples_.size(); }
-    double distanceToModel(const Vec3d& p) const { return std::sqrt(model_.tree().closest(p).squaredDistance); }
+    /// Returns the plane of symmetry. Samples are of the model's half beyond it.
+    const std::optional<SymmetryPlane>& symmetry() const { return model_.symmetry(); }
+    double distanceToModel(const Vec3d& p) const;
 
 private:
     class SplitSurface;
     std::vector<Demand> ofSamples(const std::vector<Vec3d>& points, const SplitSurface& first,
                                   const SplitSurface* second);
+
+    bool isBehind(const Vec3d& p) const;
 
     const GuardModel& model_;
     double margin_;

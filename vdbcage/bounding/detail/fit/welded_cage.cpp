@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include <vdbcage/bounding/detail/fit/mirror_pairs.h>
+#include <vdbcage/core/detail/longest_side.h>
 #include <vdbcage/core/error.h>
 #include <vdbcage/mesh/detail/half_edges.h>
 
@@ -92,8 +93,8 @@ WeldedCage::WeldedCage(const Mesh& cage, const GuardModel& guard, Splits splits)
         for (std::uint32_t v = 0; v < vertexOf_.size(); ++v) {
             if (vertexOf_[v] == v) vertices.push_back(v);
         }
-        const Vec3d size = guard.box().extents() * guard.scale();
-        partners_ = mirrorPairs(drawn_, vertices, *guard.symmetry(), tolerance * std::max({size[0], size[1], size[2]}));
+        partners_ =
+            mirrorPairs(drawn_, vertices, *guard.symmetry(), tolerance * longestSide(guard.box()) * guard.scale());
         for (const std::uint32_t v : vertices) {
             const std::uint32_t w = partners_[v];
             if (v < w) {
