@@ -79,7 +79,7 @@ class VDBCAGE_OT_fit_cage(CommandOperator, bpy.types.Operator):
 
     def failure(self, context, job, error):
         """Selects the faces that hold the cage back, if the command names any, and says so instead of their numbers:
-        the command counts faces in another way than Blender."""
+        the command counts faces in another way than Blender. Options of the command that it names go, too."""
         report = job.folder / "report.json"
         if not report.exists():
             return error
@@ -88,7 +88,7 @@ class VDBCAGE_OT_fit_cage(CommandOperator, bpy.types.Operator):
         if not held or cage is None or cage.mode == "EDIT" or not geometry.rest(cage).equals(self._drawn):
             return error
         geometry.select_faces(cage, files.polygons_of_faces(self._drawn)[held])
-        line = re.sub(r" \(faces? [^()]*\)$", "", str(error))
+        line = re.sub(r" \(faces? [^()]*\).*$", "", str(error))
         return CommandError(f"{line}. The faces that hold it back are selected: see them in Edit Mode")
 
 
